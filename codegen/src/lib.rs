@@ -1,0 +1,1 @@
+//! Compiles mechanism descriptions to specialised Rust.

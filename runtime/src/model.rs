@@ -1,0 +1,228 @@
+//! What generated code provides, and what the runtime asks of it.
+//!
+//! [`Mechanism`] carries the equations, [`Interface`] what a program that
+//! handles any mechanism needs besides (parameters, start, outputs, pictures),
+//! [`Structure`] what was known when the code was generated.
+//!
+//! The buffers ([`Terms`], [`Position`], [`Branch`]) begin as zeros. Generated
+//! code writes the entries that can differ from zero and no others, so a buffer
+//! must be a fresh one or one that the same mechanism filled before.
+
+use crate::{Real, State};
+use nalgebra::{SMatrix, SVector};
+
+/// The equations of motion of a mechanism with `N` coordinates and `R`
+/// constraint equations, at one state.
+///
+/// `M q̈ + r = p₁`, `A q̈ = p₂`, where `r` are the generalized reaction forces of
+/// ideal constraints. Source: Phong & Hoang (2012), eqs. 2.1–2.10.
+///
+/// A mechanism without constraints (`R = 0`) provides neither
+/// [`position`](Self::position) nor [`branch`](Self::branch); they then write
+/// nothing.
+pub trait Mechanism<T: Real, const N: usize, const R: usize> {
+    /// What was known when the code was generated.
+    fn structure(&self) -> &'static Structure;
+
+    /// Everything one acceleration needs: `M`, `p₁`, `A`, `p₂`.
+    fn terms(&self, state: &State<T, N>, out: &mut Terms<T, N, R>);
+
+    /// Everything a projection needs: `M`, `g`, `A`, `b`. Reads `t` and `q` only.
+    fn position(&self, _state: &State<T, N>, _out: &mut Position<T, N, R>) {}
+
+    /// The branch rows `K`, `κ`: the constraints differentiated once more.
+    fn branch(&self, _state: &State<T, N>, _out: &mut Branch<T, N, R>) {}
+
+    /// Energies and the power that is supplied from outside.
+    fn energy(&self, state: &State<T, N>) -> Energy<T>;
+}
+
+/// What a program needs to handle a mechanism it knows nothing about.
+pub trait Interface<T: Real, const N: usize> {
+    /// The value of a parameter, by its place in [`Structure::parameters`].
+    fn parameter(&self, index: usize) -> Option<T>;
+    /// Sets a parameter; `false` if there is none at this place.
+    fn set_parameter(&mut self, index: usize, value: T) -> bool;
+    /// Holds an input at a value, or returns it to its default law with `None`;
+    /// `false` if there is no input at this place of [`Structure::inputs`].
+    fn set_input(&mut self, index: usize, value: Option<T>) -> bool;
+    /// Held values and guesses of the initial state, from the `start` block.
+    fn start(&self) -> Start<T, N>;
+    /// Writes the outputs in the order of [`Structure::outputs`], as many as
+    /// `values` has room for.
+    fn outputs(&self, state: &State<T, N>, values: &mut [T]);
+    /// Writes the event functions in the order of [`Structure::events`], as many
+    /// as `values` has room for.
+    fn events(&self, state: &State<T, N>, values: &mut [T]);
+    /// Draws the mechanism at a state.
+    fn draw(&self, state: &State<T, N>, canvas: &mut dyn Canvas<T>);
+}
+
+/// One acceleration's worth of terms.
+#[derive(Clone, Debug)]
+pub struct Terms<T, const N: usize, const R: usize> {
+    /// `M`, `N × N`, symmetric; both triangles are filled.
+    pub mass: SMatrix<T, N, N>,
+    /// `p₁ = Q − C q̇ − h` (and the terms of moving frames), `N`.
+    pub force: SVector<T, N>,
+    /// `A`, `R × N`: `∂g/∂q`, and the rows of the velocity constraints.
+    pub jacobian: SMatrix<T, R, N>,
+    /// `p₂ = −(Ȧ q̇ + ḃ)`, `R`.
+    pub bias: SVector<T, R>,
+}
+
+/// What a projection at a position needs.
+#[derive(Clone, Debug)]
+pub struct Position<T, const N: usize, const R: usize> {
+    /// `M`, `N × N`: the metric of the projections.
+    pub mass: SMatrix<T, N, N>,
+    /// `g`, `R`; zero in the rows of velocity constraints.
+    pub residual: SVector<T, R>,
+    /// `A`, `R × N`.
+    pub jacobian: SMatrix<T, R, N>,
+    /// `b`, `R`: the velocity level reads `A q̇ + b = 0`.
+    pub drift: SVector<T, R>,
+}
+
+/// The constraints, differentiated a third time: `A q⃛ + K q̈ = κ`.
+#[derive(Clone, Debug)]
+pub struct Branch<T, const N: usize, const R: usize> {
+    /// `K = Ȧ + ∂γ/∂q̇`, `R × N`, with `γ = −p₂`.
+    pub slope: SMatrix<T, R, N>,
+    /// `κ = −(∂γ/∂t + ∂γ/∂q q̇)`, `R`.
+    pub bias: SVector<T, R>,
+}
+
+macro_rules! zeroed {
+    ($name:ident { $($field:ident),* }) => {
+        impl<T: Real, const N: usize, const R: usize> Default for $name<T, N, R> {
+            fn default() -> Self {
+                Self { $($field: SMatrix::zeros()),* }
+            }
+        }
+    };
+}
+zeroed!(Terms { mass, force, jacobian, bias });
+zeroed!(Position { mass, residual, jacobian, drift });
+zeroed!(Branch { slope, bias });
+
+/// Energies at a state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy<T> {
+    /// Kinetic energy `T` (J).
+    pub kinetic: T,
+    /// Potential energy `Π` (J).
+    pub potential: T,
+    /// `T₂ − T₀ + Π` (J), where `T₂` is the part of `T` quadratic in `q̇` and `T₀`
+    /// the part free of it: the energy whose balance is simple. Equal to
+    /// `T + Π` where `T` is purely quadratic.
+    pub balance: T,
+    /// `Q·q̇ + ∂Π/∂t − ∂T/∂t` (W): the rate of `balance`, but for the power
+    /// `r·q̇` of the reactions of moving constraints.
+    pub power: T,
+}
+
+/// One entry of the `start` block.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Initial<T> {
+    /// The value (SI).
+    pub value: T,
+    /// Held (`=`) or a guess (`~`). What `start` does not mention is a guess of
+    /// zero.
+    pub held: bool,
+}
+
+/// The initial state as the description gives it: not yet assembled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start<T, const N: usize> {
+    /// Coordinates.
+    pub q: [Initial<T>; N],
+    /// Velocities.
+    pub v: [Initial<T>; N],
+}
+
+/// Receives the picture of a mechanism, one shape at a time. Points are
+/// `(x, y, z)` in metres, `z = 0` in the plane.
+pub trait Canvas<T> {
+    /// An open polygon through the points.
+    fn line(&mut self, points: &[[T; 3]]);
+    /// A circle.
+    fn circle(&mut self, centre: [T; 3], radius: T);
+    /// A closed, filled polygon.
+    fn polygon(&mut self, points: &[[T; 3]]);
+    /// A point whose path is wanted.
+    fn trace(&mut self, point: [T; 3]);
+}
+
+/// A named quantity of a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quantity {
+    /// The name as the description writes it: `q1`, `theta[0]`.
+    pub name: &'static str,
+    /// The unit as written, empty if none was given.
+    pub unit: &'static str,
+    /// The doc comment, empty if there is none.
+    pub docs: &'static str,
+}
+
+/// One constraint equation (one row of `A`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ConstraintRow {
+    /// The equation as the description writes it, with its component if it is a
+    /// row of a vector equation.
+    pub text: &'static str,
+    /// The line of the description.
+    pub line: u32,
+    /// Holonomic rows restrict positions; velocity constraints do not.
+    pub holonomic: bool,
+}
+
+/// An event and the direction that counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Event {
+    /// Its name.
+    pub name: &'static str,
+    /// Which sign changes count.
+    pub direction: Direction,
+}
+
+/// Which sign changes of an event function count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// From negative to positive.
+    Rising,
+    /// From positive to negative.
+    Falling,
+    /// Both.
+    Crossing,
+}
+
+/// What was known about a mechanism when its code was generated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Structure {
+    /// The name after `mechanism`.
+    pub name: &'static str,
+    /// Its doc comment.
+    pub docs: &'static str,
+    /// The description's file, as it was given to the generator.
+    pub file: &'static str,
+    /// Generalized coordinates, in the order of `q`.
+    pub coordinates: &'static [Quantity],
+    /// Run-time parameters.
+    pub parameters: &'static [Quantity],
+    /// External signals.
+    pub inputs: &'static [Quantity],
+    /// Observables.
+    pub outputs: &'static [Quantity],
+    /// Events.
+    pub events: &'static [Event],
+    /// Constraint equations, in the order of the rows of `A`.
+    pub constraints: &'static [ConstraintRow],
+    /// `M` depends on neither `t` nor `q`.
+    pub constant_mass: bool,
+    /// `balance` is conserved: no dissipation, applied force, input, or explicit
+    /// time anywhere.
+    pub conservative: bool,
+    /// The description draws something.
+    pub drawn: bool,
+}

@@ -1,0 +1,144 @@
+//! The scalar that generated code and the runtime's kernels are generic over.
+//!
+//! In:  nothing.
+//! Out: [`Real`], implemented here for `f64` and `f32`.
+//!
+//! Not here: lanes, dual numbers and extended precision. A type joins by
+//! implementing this one trait; nothing else in the crate names a float type.
+
+use core::fmt::{Debug, Display};
+use core::ops::Neg;
+use nalgebra::Scalar;
+use num_traits::NumAssign;
+
+/// A real number: what the equations of motion are computed with.
+///
+/// The supertraits give the four operations, their assigning forms and what
+/// nalgebra wants of a matrix entry. The methods are the functions of the
+/// mechanism language and the two ways in from `f64`.
+pub trait Real:
+    Scalar + Copy + Default + PartialOrd + Debug + Display + NumAssign + Neg<Output = Self>
+{
+    /// The distance from 1 to the next larger number.
+    const EPSILON: Self;
+
+    /// The nearest number to an `f64`.
+    fn from_f64(value: f64) -> Self;
+    /// The number `high + low`, where `low` holds the bits of a constant that
+    /// do not fit into `high`. Types of 53 bits or fewer ignore `low`.
+    fn constant(high: f64, low: f64) -> Self;
+    /// The nearest `f64`.
+    fn to_f64(self) -> f64;
+    /// Neither infinite nor NaN.
+    fn is_finite(self) -> bool;
+
+    /// Sine and cosine of one angle (rad), computed together.
+    fn sin_cos(self) -> (Self, Self);
+    /// Tangent of an angle (rad).
+    fn tan(self) -> Self;
+    /// Angle in [−π/2, π/2] with this sine.
+    fn asin(self) -> Self;
+    /// Angle in [0, π] with this cosine.
+    fn acos(self) -> Self;
+    /// Angle in (−π/2, π/2) with this tangent.
+    fn atan(self) -> Self;
+    /// Angle of the point (`x`, `self`) from the x axis, in (−π, π].
+    fn atan2(self, x: Self) -> Self;
+    /// Hyperbolic sine.
+    fn sinh(self) -> Self;
+    /// Hyperbolic cosine.
+    fn cosh(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// Exponential function.
+    fn exp(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// Non-negative square root.
+    fn sqrt(self) -> Self;
+    /// `self` to a real power.
+    fn powf(self, exponent: Self) -> Self;
+    /// Absolute value.
+    fn abs(self) -> Self;
+    /// −1, 0 or 1: the sign, with 0 for 0 (unlike `f64::signum`).
+    fn sign(self) -> Self;
+    /// The smaller of two numbers.
+    fn min(self, other: Self) -> Self;
+    /// The larger of two numbers.
+    fn max(self, other: Self) -> Self;
+}
+
+macro_rules! real_for_float {
+    ($float:ident) => {
+        impl Real for $float {
+            const EPSILON: Self = $float::EPSILON;
+
+            #[inline(always)]
+            fn from_f64(value: f64) -> Self {
+                value as $float
+            }
+            #[inline(always)]
+            fn constant(high: f64, _low: f64) -> Self {
+                high as $float
+            }
+            #[inline(always)]
+            fn to_f64(self) -> f64 {
+                self as f64
+            }
+            #[inline(always)]
+            fn is_finite(self) -> bool {
+                $float::is_finite(self)
+            }
+            #[inline]
+            fn sin_cos(self) -> (Self, Self) {
+                real_for_float!(@call $float, sin_cos, self)
+            }
+            real_for_float!(@unary $float: tan asin acos atan sinh cosh tanh exp ln sqrt);
+            #[inline]
+            fn atan2(self, x: Self) -> Self {
+                real_for_float!(@call $float, atan2, self, x)
+            }
+            #[inline]
+            fn powf(self, exponent: Self) -> Self {
+                real_for_float!(@call $float, powf, self, exponent)
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $float::abs(self)
+            }
+            #[inline(always)]
+            fn sign(self) -> Self {
+                if self == 0.0 { 0.0 } else { $float::signum(self) }
+            }
+            #[inline(always)]
+            fn min(self, other: Self) -> Self {
+                $float::min(self, other)
+            }
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                $float::max(self, other)
+            }
+        }
+    };
+    (@unary $float:ident: $($name:ident)*) => {
+        $(
+            #[inline]
+            fn $name(self) -> Self {
+                real_for_float!(@call $float, $name, self)
+            }
+        )*
+    };
+    (@call $float:ident, $name:ident, $($argument:expr),*) => {{
+        #[cfg(feature = "std")]
+        {
+            $float::$name($($argument),*)
+        }
+        #[cfg(not(feature = "std"))]
+        {
+            num_traits::Float::$name($($argument),*)
+        }
+    }};
+}
+
+real_for_float!(f64);
+real_for_float!(f32);
