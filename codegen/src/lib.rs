@@ -1,1 +1,6 @@
-//! Compiles mechanism descriptions to specialised Rust.
+//! Compiles mechanism descriptions to specialised Rust, from a build script.
+
+mod diagnostic;
+mod expr;
+mod model;
+mod parse;

@@ -1,0 +1,202 @@
+//! Derivatives: partial ones, and total ones in time at frozen accelerations.
+//!
+//! Both are one forward pass over the shared graph (a seed for each symbol, the
+//! chain rule at each node), memoised node by node, so what the expression
+//! shares its derivative shares too.
+
+use super::{ExprId, Function, Function2, Graph, Node, Number, Symbol};
+use rustc_hash::FxHashMap;
+
+pub(super) type Memo = FxHashMap<ExprId, ExprId>;
+
+/// A derivative along given seeds `dsymbol`; reuse it to reuse its memory.
+#[derive(Debug, Default)]
+pub struct Direction {
+    seeds: Vec<(Symbol, ExprId)>,
+    memo: Memo,
+}
+
+impl Direction {
+    /// The direction in which each symbol changes at the rate beside it.
+    pub fn new(seeds: Vec<(Symbol, ExprId)>) -> Self {
+        Self { seeds, memo: Memo::default() }
+    }
+}
+
+impl Graph {
+    /// `∂e/∂symbol`.
+    pub fn differentiate(&mut self, e: ExprId, by: Symbol) -> ExprId {
+        let one = self.integer(1);
+        let memo = self.partials.remove(&by).unwrap_or_default();
+        let mut direction = Direction { seeds: vec![(by, one)], memo };
+        let derivative = self.derivative_along(e, &mut direction);
+        self.partials.insert(by, direction.memo);
+        derivative
+    }
+
+    /// `∂e/∂t + Σ ∂e/∂q_i q̇_i`, or the symbol that has no rate: a velocity (its
+    /// rate is an acceleration) or an input.
+    pub fn time_derivative(&mut self, e: ExprId) -> Result<ExprId, Symbol> {
+        let symbols = self.symbols(e);
+        let rateless = |s: &&Symbol| matches!(s, Symbol::Velocity(_) | Symbol::Input(_));
+        if let Some(&symbol) = symbols.iter().find(rateless) {
+            return Err(symbol);
+        }
+        let mut direction = self.frozen_flow(symbols);
+        Ok(self.derivative_along(e, &mut direction))
+    }
+
+    /// The direction of motion at frozen velocities: `ṫ = 1`, each coordinate
+    /// among the symbols at its velocity, all else at rest.
+    pub fn frozen_flow(&mut self, symbols: impl IntoIterator<Item = Symbol>) -> Direction {
+        let mut seeds = Vec::new();
+        for symbol in symbols {
+            match symbol {
+                Symbol::Time => seeds.push((symbol, self.integer(1))),
+                Symbol::Coordinate(i) => seeds.push((symbol, self.symbol(Symbol::Velocity(i)))),
+                _ => {}
+            }
+        }
+        Direction::new(seeds)
+    }
+
+    /// `Σ ∂e/∂symbol · dsymbol` over the seeds of a direction.
+    pub fn derivative_along(&mut self, e: ExprId, direction: &mut Direction) -> ExprId {
+        for node in self.unvisited(e, &direction.memo) {
+            let derivative = self.chain(node, direction);
+            direction.memo.insert(node, derivative);
+        }
+        direction.memo[&e]
+    }
+
+    /// What `e` is made of and has no derivative yet, children first.
+    fn unvisited(&self, e: ExprId, memo: &Memo) -> Vec<ExprId> {
+        let mut seen = std::collections::BTreeSet::new();
+        let mut pending = vec![e];
+        while let Some(e) = pending.pop() {
+            if !memo.contains_key(&e) && seen.insert(e) {
+                pending.extend(self.node(e).children());
+            }
+        }
+        seen.into_iter().collect()
+    }
+
+    /// The chain rule at one node whose children are done.
+    fn chain(&mut self, e: ExprId, direction: &Direction) -> ExprId {
+        let zero = self.integer(0);
+        let d = |x: &ExprId| direction.memo[x];
+        match self.node(e).clone() {
+            Node::Number(_) | Node::Pi => zero,
+            Node::Symbol(symbol) => {
+                let seed = direction.seeds.iter().find(|(s, _)| *s == symbol);
+                seed.map_or(zero, |(_, rate)| *rate)
+            }
+            Node::Sum(_, terms) => {
+                let terms: Vec<_> = terms.iter().map(|(x, weight)| (d(x), *weight)).collect();
+                self.weighted_sum(Number::ZERO, &terms)
+            }
+            Node::Product(factors) => self.product_rule(&factors, &d),
+            Node::Function(function, x) if self.is_zero(d(&x)) => {
+                let _ = function;
+                zero
+            }
+            Node::Function(function, x) => {
+                let outer = self.slope(function, x, e);
+                self.mul(outer, d(&x))
+            }
+            Node::Function2(function, x, y) => self.slope2(function, [x, y], e, [d(&x), d(&y)]),
+            Node::Select(comparison, [a, b, then, otherwise]) => {
+                let (then, otherwise) = (d(&then), d(&otherwise));
+                if then == otherwise { then } else { self.select(comparison, a, b, then, otherwise) }
+            }
+        }
+    }
+
+    fn product_rule(
+        &mut self,
+        factors: &[(ExprId, i32)],
+        d: &dyn Fn(&ExprId) -> ExprId,
+    ) -> ExprId {
+        let mut terms = Vec::new();
+        for (i, (base, exponent)) in factors.iter().enumerate() {
+            let rate = d(base);
+            if self.is_zero(rate) {
+                continue;
+            }
+            let mut rest = factors.to_vec();
+            rest[i].1 -= 1;
+            rest.push((rate, 1));
+            let term = self.power_product(&rest);
+            terms.push((term, Number::integer(i64::from(*exponent))));
+        }
+        self.weighted_sum(Number::ZERO, &terms)
+    }
+
+    /// `f'(x)`, where `value` is `f(x)`.
+    fn slope(&mut self, function: Function, x: ExprId, value: ExprId) -> ExprId {
+        let one = self.integer(1);
+        match function {
+            Function::Sin => self.function(Function::Cos, x),
+            Function::Cos => {
+                let sin = self.function(Function::Sin, x);
+                self.neg(sin)
+            }
+            Function::Tan | Function::Tanh => {
+                let square = self.powi(value, 2);
+                if function == Function::Tan { self.add(one, square) } else { self.sub(one, square) }
+            }
+            Function::Asin | Function::Acos => {
+                let square = self.powi(x, 2);
+                let inside = self.sub(one, square);
+                let root = self.function(Function::Sqrt, inside);
+                let slope = self.powi(root, -1);
+                if function == Function::Asin { slope } else { self.neg(slope) }
+            }
+            Function::Atan => {
+                let square = self.powi(x, 2);
+                let below = self.add(one, square);
+                self.powi(below, -1)
+            }
+            Function::Sinh => self.function(Function::Cosh, x),
+            Function::Cosh => self.function(Function::Sinh, x),
+            Function::Exp => value,
+            Function::Ln => self.powi(x, -1),
+            Function::Sqrt => {
+                let inverse = self.powi(value, -1);
+                self.scale(inverse, Number::Exact(1, 2))
+            }
+            Function::Abs => self.function(Function::Sign, x),
+            Function::Sign => self.integer(0),
+        }
+    }
+
+    fn slope2(
+        &mut self,
+        function: Function2,
+        [x, y]: [ExprId; 2],
+        value: ExprId,
+        [dx, dy]: [ExprId; 2],
+    ) -> ExprId {
+        match function {
+            Function2::Atan2 => {
+                let squares = [self.powi(x, 2), self.powi(y, 2)];
+                let below = self.sum(squares);
+                let (left, right) = (self.mul(y, dx), self.mul(x, dy));
+                let above = self.sub(left, right);
+                self.div(above, below)
+            }
+            Function2::Min => self.select(super::Comparison::Less, y, x, dy, dx),
+            Function2::Max => self.select(super::Comparison::Less, x, y, dy, dx),
+            Function2::Pow => {
+                let over = self.div(value, x);
+                let by_base = self.product([y, over, dx]);
+                if self.is_zero(dy) {
+                    return by_base;
+                }
+                let log = self.function(Function::Ln, x);
+                let by_exponent = self.product([log, value, dy]);
+                self.add(by_base, by_exponent)
+            }
+        }
+    }
+}

@@ -1,0 +1,415 @@
+//! Hash-consed expressions: equal expressions are one node.
+//!
+//! In:  symbols and numbers, combined by the constructors.
+//! Out: [`ExprId`]s. Children have smaller ids than their parents, so ascending
+//!      order is an order of evaluation.
+//!
+//! Canonical form: a sum is a constant and terms with numeric coefficients, like
+//! terms collected; a product is a list of bases with whole exponents, without a
+//! coefficient; both sorted by id. A sum inside a sum stays whole: what the
+//! description shares stays shared. Products are flattened, never expanded.
+
+use super::{Comparison, Function, Function2, Number};
+use rustc_hash::FxHashMap;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// An expression of a [`Graph`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ExprId(u32);
+
+impl ExprId {
+    /// Its place in the graph, in order of creation.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// What an expression may depend on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Symbol {
+    /// Time.
+    Time,
+    /// A coordinate, by index.
+    Coordinate(u32),
+    /// The velocity of a coordinate, by index.
+    Velocity(u32),
+    /// A run-time parameter, by index.
+    Parameter(u32),
+    /// An external signal, by index.
+    Input(u32),
+}
+
+/// One node of the graph.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// A number.
+    Number(Number),
+    /// The ratio of a circle's circumference to its diameter.
+    Pi,
+    /// A symbol.
+    Symbol(Symbol),
+    /// `constant + Σ coefficient · term`; at least one term, and not just `1 · x`.
+    Sum(Number, Box<[(ExprId, Number)]>),
+    /// `Π base ^ exponent`; exponents not zero, and not just `x ^ 1`.
+    Product(Box<[(ExprId, i32)]>),
+    /// A function of one argument.
+    Function(Function, ExprId),
+    /// A function of two arguments.
+    Function2(Function2, ExprId, ExprId),
+    /// `if left ⋈ right then … else …`.
+    Select(Comparison, [ExprId; 4]),
+}
+
+impl Node {
+    /// The expressions it is made of.
+    pub fn children(&self) -> Vec<ExprId> {
+        match self {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => Vec::new(),
+            Node::Sum(_, terms) => terms.iter().map(|(term, _)| *term).collect(),
+            Node::Product(factors) => factors.iter().map(|(base, _)| *base).collect(),
+            Node::Function(_, x) => vec![*x],
+            Node::Function2(_, x, y) => vec![*x, *y],
+            Node::Select(_, parts) => parts.to_vec(),
+        }
+    }
+}
+
+/// All expressions of one mechanism.
+#[derive(Debug, Default)]
+pub struct Graph {
+    nodes: Vec<Node>,
+    index: FxHashMap<Node, ExprId>,
+    pub(super) partials: FxHashMap<Symbol, super::diff::Memo>,
+}
+
+impl Graph {
+    /// An empty graph.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The node of an expression.
+    pub fn node(&self, e: ExprId) -> &Node {
+        &self.nodes[e.index()]
+    }
+
+    /// The number of distinct expressions.
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    fn intern(&mut self, node: Node) -> ExprId {
+        if let Some(&known) = self.index.get(&node) {
+            return known;
+        }
+        let id = ExprId(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
+        self.nodes.push(node.clone());
+        self.index.insert(node, id);
+        id
+    }
+
+    /// A number.
+    pub fn number(&mut self, value: Number) -> ExprId {
+        self.intern(Node::Number(value))
+    }
+
+    /// A whole number.
+    pub fn integer(&mut self, value: i64) -> ExprId {
+        self.number(Number::integer(value))
+    }
+
+    /// π.
+    pub fn pi(&mut self) -> ExprId {
+        self.intern(Node::Pi)
+    }
+
+    /// A symbol.
+    pub fn symbol(&mut self, symbol: Symbol) -> ExprId {
+        self.intern(Node::Symbol(symbol))
+    }
+
+    /// `Σ terms`, like terms collected.
+    pub fn sum(&mut self, terms: impl IntoIterator<Item = ExprId>) -> ExprId {
+        let weighted: Vec<_> = terms.into_iter().map(|term| (term, Number::ONE)).collect();
+        self.weighted_sum(Number::ZERO, &weighted)
+    }
+
+    /// `constant + Σ coefficient · term`, like terms collected.
+    pub fn weighted_sum(&mut self, constant: Number, terms: &[(ExprId, Number)]) -> ExprId {
+        let mut constant = constant;
+        let mut collected: BTreeMap<ExprId, Number> = BTreeMap::new();
+        for &(term, weight) in terms {
+            self.collect(term, weight, &mut constant, &mut collected);
+        }
+        collected.retain(|_, weight| !weight.is_zero());
+        let terms: Vec<_> = collected.into_iter().collect();
+        match terms[..] {
+            [] => self.number(constant),
+            [(term, weight)] if weight.is_one() && constant.is_zero() => term,
+            _ => self.intern(Node::Sum(constant, terms.into())),
+        }
+    }
+
+    /// Adds `weight · term` to a sum. A sum of one term is taken apart, a longer
+    /// one stays whole.
+    fn collect(
+        &self,
+        term: ExprId,
+        weight: Number,
+        constant: &mut Number,
+        terms: &mut BTreeMap<ExprId, Number>,
+    ) {
+        let mut add = |term, weight: Number| {
+            let entry = terms.entry(term).or_insert(Number::ZERO);
+            *entry = entry.add(weight);
+        };
+        match self.node(term) {
+            Node::Number(value) => *constant = constant.add(value.mul(weight)),
+            Node::Sum(inner, parts) if parts.len() == 1 => {
+                *constant = constant.add(inner.mul(weight));
+                add(parts[0].0, parts[0].1.mul(weight));
+            }
+            _ => add(term, weight),
+        }
+    }
+
+    /// `a + b`.
+    pub fn add(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.sum([a, b])
+    }
+
+    /// `a − b`.
+    pub fn sub(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.weighted_sum(Number::ZERO, &[(a, Number::ONE), (b, Number::MINUS_ONE)])
+    }
+
+    /// `−a`.
+    pub fn neg(&mut self, a: ExprId) -> ExprId {
+        self.scale(a, Number::MINUS_ONE)
+    }
+
+    /// `factor · a`.
+    pub fn scale(&mut self, a: ExprId, factor: Number) -> ExprId {
+        self.weighted_sum(Number::ZERO, &[(a, factor)])
+    }
+
+    /// `Π factors`, powers of equal bases collected.
+    pub fn product(&mut self, factors: impl IntoIterator<Item = ExprId>) -> ExprId {
+        let powers: Vec<_> = factors.into_iter().map(|factor| (factor, 1)).collect();
+        self.power_product(&powers)
+    }
+
+    /// `a · b`.
+    pub fn mul(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.product([a, b])
+    }
+
+    /// `a / b`. Where `b` is the number zero the result is not finite.
+    pub fn div(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.power_product(&[(a, 1), (b, -1)])
+    }
+
+    /// `base ^ exponent`, whole exponent.
+    pub fn powi(&mut self, base: ExprId, exponent: i32) -> ExprId {
+        self.power_product(&[(base, exponent)])
+    }
+
+    /// `Π base ^ exponent`, numeric coefficients moved in front.
+    pub fn power_product(&mut self, factors: &[(ExprId, i32)]) -> ExprId {
+        let mut coefficient = Number::ONE;
+        let mut powers: BTreeMap<ExprId, i32> = BTreeMap::new();
+        let mut pending: Vec<(ExprId, i32)> = factors.to_vec();
+        while let Some((base, exponent)) = pending.pop() {
+            if exponent != 0 {
+                self.multiply(base, exponent, &mut coefficient, &mut powers, &mut pending);
+            }
+        }
+        powers.retain(|_, exponent| *exponent != 0);
+        if coefficient.is_zero() {
+            return self.number(Number::ZERO);
+        }
+        let powers: Vec<_> = powers.into_iter().collect();
+        let product = match powers[..] {
+            [] => return self.number(coefficient),
+            [(base, 1)] => base,
+            _ => self.intern(Node::Product(powers.into())),
+        };
+        self.scale(product, coefficient)
+    }
+
+    /// Takes one power of a product apart, as far as its form allows.
+    fn multiply(
+        &mut self,
+        base: ExprId,
+        exponent: i32,
+        coefficient: &mut Number,
+        powers: &mut BTreeMap<ExprId, i32>,
+        pending: &mut Vec<(ExprId, i32)>,
+    ) {
+        let mut scale = |value: Number| {
+            let power = value.powi(exponent).unwrap_or(Number::float(f64::INFINITY));
+            *coefficient = coefficient.mul(power);
+        };
+        match self.node(base).clone() {
+            Node::Number(value) => scale(value),
+            Node::Product(inner) => {
+                pending.extend(inner.iter().map(|&(b, e)| (b, e.saturating_mul(exponent))));
+            }
+            Node::Sum(constant, terms) if constant.is_zero() && terms.len() == 1 => {
+                scale(terms[0].1);
+                pending.push((terms[0].0, exponent));
+            }
+            Node::Sum(constant, terms) if terms[0].1.is_negative() => {
+                scale(Number::MINUS_ONE);
+                let opposite: Vec<_> = terms.iter().map(|&(t, w)| (t, w.neg())).collect();
+                let positive = self.weighted_sum(constant.neg(), &opposite);
+                bump(powers, positive, exponent);
+            }
+            Node::Function(Function::Sqrt, inside) => {
+                let total = powers.remove(&base).unwrap_or(0).saturating_add(exponent);
+                pending.push((inside, total / 2));
+                bump(powers, base, total % 2);
+            }
+            _ => bump(powers, base, exponent),
+        }
+    }
+
+    /// `base ^ exponent` for any exponent: whole powers stay products, halves
+    /// become square roots, the rest is left to the power function.
+    pub fn pow(&mut self, base: ExprId, exponent: ExprId) -> ExprId {
+        let halves = self.as_number(exponent).map(|n| n.mul(Number::integer(2)));
+        match halves.and_then(Number::as_integer).and_then(|h| i32::try_from(h).ok()) {
+            Some(halves) if halves % 2 == 0 => self.powi(base, halves / 2),
+            Some(halves) => {
+                let root = self.function(Function::Sqrt, base);
+                self.powi(root, halves)
+            }
+            None => self.function2(Function2::Pow, base, exponent),
+        }
+    }
+
+    /// A function of one argument, folded where the value is exact and with the
+    /// sign of the argument moved out of even and odd functions.
+    pub fn function(&mut self, function: Function, x: ExprId) -> ExprId {
+        if let Some(value) = self.as_number(x).and_then(|n| exact_value(function, n)) {
+            return self.number(value);
+        }
+        let parity = match function {
+            Function::Cos | Function::Cosh | Function::Abs => 1,
+            Function::Exp | Function::Ln | Function::Sqrt | Function::Acos => 0,
+            _ => -1,
+        };
+        if parity == 0 || !self.leads_negative(x) {
+            return self.intern(Node::Function(function, x));
+        }
+        let opposite = self.negated_inside(x);
+        let value = self.intern(Node::Function(function, opposite));
+        if parity > 0 { value } else { self.neg(value) }
+    }
+
+    /// `−x` with the sign carried to every term of a sum.
+    fn negated_inside(&mut self, x: ExprId) -> ExprId {
+        match self.node(x).clone() {
+            Node::Sum(constant, terms) => {
+                let terms: Vec<_> = terms.iter().map(|&(t, w)| (t, w.neg())).collect();
+                self.weighted_sum(constant.neg(), &terms)
+            }
+            _ => self.neg(x),
+        }
+    }
+
+    fn leads_negative(&self, x: ExprId) -> bool {
+        match self.node(x) {
+            Node::Number(value) => value.is_negative(),
+            Node::Sum(_, terms) => terms[0].1.is_negative(),
+            _ => false,
+        }
+    }
+
+    /// A function of two arguments.
+    pub fn function2(&mut self, function: Function2, x: ExprId, y: ExprId) -> ExprId {
+        self.intern(Node::Function2(function, x, y))
+    }
+
+    /// `if left ⋈ right then … else …`.
+    pub fn select(
+        &mut self,
+        comparison: Comparison,
+        left: ExprId,
+        right: ExprId,
+        then: ExprId,
+        otherwise: ExprId,
+    ) -> ExprId {
+        self.intern(Node::Select(comparison, [left, right, then, otherwise]))
+    }
+
+    /// The number that an expression is, if it is one.
+    pub fn as_number(&self, e: ExprId) -> Option<Number> {
+        match self.node(e) {
+            Node::Number(value) => Some(*value),
+            _ => None,
+        }
+    }
+
+    /// Whether an expression is the number zero.
+    pub fn is_zero(&self, e: ExprId) -> bool {
+        self.as_number(e).is_some_and(Number::is_zero)
+    }
+
+    /// Every expression that some roots are made of, in an order of evaluation.
+    pub fn reachable(&self, roots: &[ExprId]) -> Vec<ExprId> {
+        let mut seen = BTreeSet::new();
+        let mut pending = roots.to_vec();
+        while let Some(e) = pending.pop() {
+            if seen.insert(e) {
+                pending.extend(self.node(e).children());
+            }
+        }
+        seen.into_iter().collect()
+    }
+
+    /// Every symbol an expression is made of.
+    pub fn symbols(&self, e: ExprId) -> BTreeSet<Symbol> {
+        let symbol = |e: ExprId| match self.node(e) {
+            Node::Symbol(symbol) => Some(*symbol),
+            _ => None,
+        };
+        self.reachable(&[e]).into_iter().filter_map(symbol).collect()
+    }
+
+    /// Whether an expression is made of a symbol among others.
+    pub fn depends_on(&self, e: ExprId, symbol: Symbol) -> bool {
+        self.symbols(e).contains(&symbol)
+    }
+
+    /// Whether an expression contains `abs`, `sign`, `min`, `max` or `if`.
+    pub fn contains_nondifferentiable(&self, e: ExprId) -> bool {
+        self.reachable(&[e]).into_iter().any(|e| match self.node(e) {
+            Node::Function(function, _) => !function.is_differentiable(),
+            Node::Function2(function, ..) => matches!(function, Function2::Min | Function2::Max),
+            Node::Select(..) => true,
+            _ => false,
+        })
+    }
+}
+
+fn bump(powers: &mut BTreeMap<ExprId, i32>, base: ExprId, exponent: i32) {
+    let entry = powers.entry(base).or_insert(0);
+    *entry = entry.saturating_add(exponent);
+}
+
+/// The value of a function at a number where it is rational.
+fn exact_value(function: Function, x: Number) -> Option<Number> {
+    match function {
+        Function::Abs => Some(if x.is_negative() { x.neg() } else { x }),
+        Function::Sign if x.is_negative() => Some(Number::MINUS_ONE),
+        Function::Sign if !x.is_zero() => Some(Number::ONE),
+        Function::Sqrt => x.exact_sqrt(),
+        Function::Ln if x.is_one() => Some(Number::ZERO),
+        Function::Acos if x.is_one() => Some(Number::ZERO),
+        _ if !x.is_zero() => None,
+        Function::Cos | Function::Cosh | Function::Exp => Some(Number::ONE),
+        Function::Ln | Function::Acos => None,
+        _ => Some(Number::ZERO),
+    }
+}

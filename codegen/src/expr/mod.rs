@@ -1,0 +1,18 @@
+//! The symbolic engine: hash-consed expressions over exact numbers.
+//!
+//! Knows no mechanics. An expression is an [`ExprId`] into a [`Graph`]; equal
+//! expressions have equal ids, ids are given in order of creation, and nothing
+//! depends on the order of a hash map.
+
+mod diff;
+mod eval;
+mod function;
+mod graph;
+mod number;
+mod print;
+
+pub use function::{Comparison, Function, Function2};
+pub use diff::Direction;
+pub use graph::{ExprId, Graph, Node, Symbol};
+pub use number::Number;
+pub use print::Notation;

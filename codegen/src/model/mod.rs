@@ -1,0 +1,187 @@
+//! A checked mechanism: what the description says, in expressions.
+//!
+//! In:  the syntax tree, from [`crate::parse`].
+//! Out: [`Mechanism`]: names resolved, arrays and loops unrolled, `der` carried
+//!      out, vectors split into scalar rows, everything legal.
+//!
+//! Not here: mechanics. Mass matrix and constraint Jacobian are `derive`'s.
+
+use crate::diagnostic::Span;
+use crate::expr::{ExprId, Graph};
+
+/// A mechanism whose every part has been checked.
+#[derive(Debug)]
+pub struct Mechanism {
+    /// The name after `mechanism`.
+    pub name: String,
+    /// Its doc comment.
+    pub docs: String,
+    /// The graph that all expressions below live in.
+    pub graph: Graph,
+    /// Generalized coordinates, arrays unrolled; their index is the one of
+    /// `Symbol::Coordinate` and `Symbol::Velocity`.
+    pub coordinates: Vec<Quantity>,
+    /// Run-time parameters, in order of declaration.
+    pub parameters: Vec<Parameter>,
+    /// Constants that were folded, for the documentation of the emitted code.
+    pub constants: Vec<Constant>,
+    /// External signals.
+    pub inputs: Vec<Input>,
+    /// Summands of the kinetic energy.
+    pub kinetic: Vec<Summand>,
+    /// Summands of the potential energy.
+    pub potential: Vec<Summand>,
+    /// Summands of the Rayleigh dissipation function.
+    pub dissipation: Vec<Summand>,
+    /// Applied forces.
+    pub forces: Vec<Force>,
+    /// Constraint equations, one for each scalar row.
+    pub constraints: Vec<Constraint>,
+    /// Entries of the `start` block.
+    pub starts: Vec<Start>,
+    /// Observables, vectors unrolled (`p.x`, `p.y`).
+    pub outputs: Vec<Output>,
+    /// Event functions.
+    pub events: Vec<Event>,
+    /// The picture.
+    pub shapes: Vec<Shape>,
+}
+
+/// A named quantity with the unit and the doc comment it was given.
+#[derive(Clone, Debug)]
+pub struct Quantity {
+    /// The name as written: `q1`, `theta[0]`.
+    pub name: String,
+    /// The unit as written, empty if there is none.
+    pub unit: String,
+    /// The doc comment, empty if there is none.
+    pub docs: String,
+    /// Where it was declared.
+    pub span: Span,
+}
+
+/// A run-time parameter and its default.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// Name, unit, docs.
+    pub quantity: Quantity,
+    /// The default: an expression of numbers alone.
+    pub default: ExprId,
+}
+
+/// A constant, folded.
+#[derive(Clone, Debug)]
+pub struct Constant {
+    /// Name, unit, docs.
+    pub quantity: Quantity,
+    /// Its value: an expression of numbers alone.
+    pub value: ExprId,
+}
+
+/// An external signal and its default law.
+#[derive(Clone, Debug)]
+pub struct Input {
+    /// Name, unit, docs.
+    pub quantity: Quantity,
+    /// The law, of time, coordinates, velocities and parameters.
+    pub law: ExprId,
+}
+
+/// A summand of an energy.
+#[derive(Clone, Copy, Debug)]
+pub struct Summand {
+    /// The expression.
+    pub value: ExprId,
+    /// Where it was written.
+    pub span: Span,
+}
+
+/// `force F on x`: virtual work `Σ F_k δx_k`.
+#[derive(Clone, Debug)]
+pub struct Force {
+    /// Components of the force.
+    pub force: Vec<ExprId>,
+    /// Components of the point, or the coordinate, angle or length.
+    pub on: Vec<ExprId>,
+    /// Where it was written.
+    pub span: Span,
+}
+
+/// One scalar constraint equation.
+#[derive(Clone, Debug)]
+pub struct Constraint {
+    /// Left side minus right side: `g` of a holonomic constraint; of a velocity
+    /// constraint an expression linear in the velocities.
+    pub residual: ExprId,
+    /// Whether it restricts positions (else velocities).
+    pub holonomic: bool,
+    /// The equation as written, with `[x]`, `[y]`, `[z]` behind it for a row of
+    /// a vector equation and the values of the loop indices, if any.
+    pub text: String,
+    /// Where it was written.
+    pub span: Span,
+}
+
+/// An entry of the `start` block.
+#[derive(Clone, Copy, Debug)]
+pub struct Start {
+    /// Index of the coordinate.
+    pub coordinate: usize,
+    /// Whether it is the velocity that is given.
+    pub velocity: bool,
+    /// The value, of parameters and numbers.
+    pub value: ExprId,
+    /// `=` (held) or `~` (a guess).
+    pub held: bool,
+    /// Where it was written.
+    pub span: Span,
+}
+
+/// An observable.
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// Name, unit, docs.
+    pub quantity: Quantity,
+    /// The value.
+    pub value: ExprId,
+}
+
+/// An event function.
+#[derive(Clone, Debug)]
+pub struct Event {
+    /// Its name.
+    pub name: String,
+    /// The function whose zeros are wanted.
+    pub value: ExprId,
+    /// Which sign changes count.
+    pub direction: Direction,
+    /// Where it was written.
+    pub span: Span,
+}
+
+/// Which sign changes of an event function count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// From negative to positive.
+    Rising,
+    /// From positive to negative.
+    Falling,
+    /// Both.
+    Crossing,
+}
+
+/// A point `(x, y, z)`, `z = 0` in the plane.
+pub type Point = [ExprId; 3];
+
+/// A part of the picture.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// An open polygon through the points.
+    Line(Vec<Point>),
+    /// A circle of a radius about a centre.
+    Circle(Point, ExprId),
+    /// A closed, filled polygon.
+    Polygon(Vec<Point>),
+    /// A point whose path is wanted.
+    Trace(Point),
+}
