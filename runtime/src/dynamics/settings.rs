@@ -1,0 +1,99 @@
+//! The choices a user has, and the counts of what was done.
+//!
+//! In:  nothing.
+//! Out: [`Form`], [`Stabilisation`], [`Settings`], [`Counters`].
+
+use core::fmt::{Display, Formatter};
+
+/// The form in which the equations of motion are solved. All give the same
+/// accelerations at regular positions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Form {
+    /// The null-space form that passes singular positions and takes a cheap path
+    /// away from them: what to use. Source: Phong & Hoang (2012), section 3.
+    #[default]
+    Reduced,
+    /// Least squares on `[M E; A 0; 0 Dᵀ]`, for accelerations and reactions at
+    /// once. Passes singular positions. Source: Phong & Hoang (2012), eqs.
+    /// 3.9–3.11.
+    Full,
+    /// Lagrange multipliers. Ends at a singular position. Source: Phong & Hoang
+    /// (2012), eq. 2.10.
+    Multipliers,
+    /// Independent and dependent coordinates. Ends at a singular position.
+    /// Source: Phong & Hoang (2012), eqs. 2.16–2.25.
+    Partitioning,
+}
+
+impl Display for Form {
+    fn fmt(&self, f: &mut Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::Reduced => "reduced",
+            Self::Full => "full",
+            Self::Multipliers => "multipliers",
+            Self::Partitioning => "partitioning",
+        })
+    }
+}
+
+/// How accepted states are kept on the constraints.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Stabilisation<T> {
+    /// Positions and velocities are projected after each step.
+    #[default]
+    Projection,
+    /// Nothing is projected; the constraints obey `g̈ + 2α ġ + β² g = 0` instead.
+    /// Source: Baumgarte (1972).
+    Baumgarte {
+        /// Gain of the velocity level (1/s).
+        alpha: T,
+        /// Gain of the position level (1/s).
+        beta: T,
+    },
+    /// Nothing keeps the state on the constraints: it drifts off.
+    None,
+}
+
+/// How the equations of motion are solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings<T> {
+    /// The form of the equations.
+    pub form: Form,
+    /// How the state is kept on the constraints.
+    pub stabilisation: Stabilisation<T>,
+    /// Whether the constraints differentiated once more take the place of the
+    /// rows that vanish near a singular position. `false` gives the method as it
+    /// was published, which passes singular positions with less accuracy.
+    pub branch_rows: bool,
+}
+
+impl<T> Default for Settings<T> {
+    fn default() -> Self {
+        Self { form: Form::Reduced, stabilisation: Stabilisation::Projection, branch_rows: true }
+    }
+}
+
+/// How often each kind of work was done.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Accelerations that no rank decision was needed for.
+    pub cheap_accelerations: u64,
+    /// Accelerations with a rank decision.
+    pub robust_accelerations: u64,
+    /// Singular value decompositions of the constraint Jacobian.
+    pub rank_decisions: u64,
+    /// Evaluations of the branch rows.
+    pub branch_evaluations: u64,
+    /// Factorisations of the mass matrix.
+    pub mass_factorisations: u64,
+    /// Factorisations of the constraints in the metric of the mass matrix.
+    pub constraint_factorisations: u64,
+    /// Choices of an independent subset of the constraint equations.
+    pub row_choices: u64,
+    /// Projected states.
+    pub projections: u64,
+    /// Corrections of positions in all projections.
+    pub projection_iterations: u64,
+    /// Projections that needed a rank decision.
+    pub robust_projections: u64,
+}

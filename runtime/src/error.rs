@@ -1,0 +1,86 @@
+//! What can go wrong at run time: when, what, and what to try.
+//!
+//! In:  nothing.
+//! Out: one enum per stage, with data and a message for people.
+
+use crate::{Form, Real};
+use core::fmt::{Display, Formatter, Result};
+
+/// Why an acceleration or a projection could not be computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DynamicsError<T> {
+    /// A state, a term of the equations or the result is infinite or NaN.
+    NotFinite {
+        /// Time of the state (s).
+        t: T,
+    },
+    /// The form of the equations has no solution here: the rows of the
+    /// constraint Jacobian are dependent, or nearly so.
+    SingularPosition {
+        /// Time of the state (s).
+        t: T,
+        /// The form that was asked for.
+        form: Form,
+        /// How many rows of the Jacobian are independent here.
+        rank: usize,
+    },
+    /// The mass matrix is singular in a direction that no constraint restricts,
+    /// or negative.
+    MassSingular {
+        /// Time of the state (s).
+        t: T,
+        /// The coordinate at which the factorisation failed.
+        coordinate: usize,
+    },
+    /// The position could not be brought back onto the constraints.
+    ProjectionFailed {
+        /// Time of the state (s).
+        t: T,
+        /// The largest remaining constraint error, in the unit of its row.
+        residual: T,
+        /// The row (constraint equation) that has it.
+        row: usize,
+    },
+}
+
+impl<T: Real> DynamicsError<T> {
+    /// The time at which it happened (s).
+    pub fn time(&self) -> T {
+        match *self {
+            Self::NotFinite { t }
+            | Self::SingularPosition { t, .. }
+            | Self::MassSingular { t, .. }
+            | Self::ProjectionFailed { t, .. } => t,
+        }
+    }
+}
+
+impl<T: Real> Display for DynamicsError<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self {
+            Self::NotFinite { t } => write!(
+                f,
+                "at t = {t} s the equations of motion gave a number that is infinite or NaN; \
+                 look for a force or an input that grows without bound, or take a smaller step"
+            ),
+            Self::SingularPosition { t, form, rank } => write!(
+                f,
+                "at t = {t} s only {rank} constraint equations are independent, and the form \
+                 `{form}` cannot pass a singular position; use the form `reduced` or `full`"
+            ),
+            Self::MassSingular { t, coordinate } => write!(
+                f,
+                "at t = {t} s coordinate {coordinate} can move without kinetic energy and no \
+                 constraint restricts it; give it inertia or a constraint"
+            ),
+            Self::ProjectionFailed { t, residual, row } => write!(
+                f,
+                "at t = {t} s constraint equation {row} is violated by {residual} and the \
+                 position could not be brought back onto it; take a smaller step, or check that \
+                 the constraints can be satisfied together"
+            ),
+        }
+    }
+}
+
+impl<T: Real> core::error::Error for DynamicsError<T> {}
