@@ -3,6 +3,8 @@
 
 mod dynamics;
 mod error;
+mod integrator;
+mod catalogue;
 mod model;
 mod real;
 mod state;
@@ -10,6 +12,8 @@ mod system;
 
 pub use dynamics::{Counters, Form, Settings, Stabilisation};
 pub use error::DynamicsError;
+pub use catalogue::Visitor;
+pub use integrator::{Dop853, Dp5, IntegrateError, Integrator, Rk4, Step, Tolerance};
 pub use model::{
     Branch, Canvas, ConstraintRow, Direction, Energy, Event, Initial, Interface, Mechanism,
     Position, Quantity, Start, Structure, Terms,
@@ -17,3 +21,4 @@ pub use model::{
 pub use real::Real;
 pub use state::State;
 pub use system::System;
+pub use nalgebra;

@@ -10,6 +10,7 @@ mod function;
 mod graph;
 mod number;
 mod print;
+mod substitute;
 
 pub use function::{Comparison, Function, Function2};
 pub use diff::Direction;

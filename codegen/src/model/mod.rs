@@ -7,7 +7,7 @@
 //! Not here: mechanics. Mass matrix and constraint Jacobian are `derive`'s.
 
 use crate::diagnostic::Span;
-use crate::expr::{ExprId, Graph};
+use crate::expr::{ExprId, Graph, Symbol};
 
 /// A mechanism whose every part has been checked.
 #[derive(Debug)]
@@ -184,4 +184,18 @@ pub enum Shape {
     Polygon(Vec<Point>),
     /// A point whose path is wanted.
     Trace(Point),
+}
+
+impl Mechanism {
+    /// A symbol as the description writes it: `q1`, `der(q1)`, `L1`, `t`.
+    pub fn symbol_text(&self, symbol: Symbol) -> String {
+        let coordinate = |i: u32| &self.coordinates[i as usize].name;
+        match symbol {
+            Symbol::Time => "t".to_string(),
+            Symbol::Coordinate(i) => coordinate(i).clone(),
+            Symbol::Velocity(i) => format!("der({})", coordinate(i)),
+            Symbol::Parameter(i) => self.parameters[i as usize].quantity.name.clone(),
+            Symbol::Input(i) => self.inputs[i as usize].quantity.name.clone(),
+        }
+    }
 }

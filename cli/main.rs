@@ -1,0 +1,3 @@
+//! The `bricard` command.
+
+fn main() {}

@@ -1,0 +1,216 @@
+//! What a build script calls.
+//!
+//! ```no_run
+//! // build.rs
+//! fn main() -> Result<(), bricard_codegen::BuildError> {
+//!     bricard_codegen::compile("mechanisms/four_bar.mech")
+//! }
+//! ```
+//!
+//! and in the crate `bricard_runtime::include_mechanism!("four_bar");`.
+
+use crate::compile::{Compiled, Settings, compile_source};
+use crate::emit;
+use std::path::{Path, PathBuf};
+use std::{env, fmt, fs, io};
+
+/// Compiles one description into `OUT_DIR`, tells cargo what to watch, and shows
+/// what is wrong as errors of the build.
+///
+/// # Errors
+///
+/// See [`BuildError`]; cargo has been told already.
+pub fn compile(description: impl AsRef<Path>) -> Result<(), BuildError> {
+    Builder::new().compile(description)
+}
+
+/// Compiles every `*.mech` of a folder into one file, `OUT_DIR/mechanisms.rs`, with
+/// a catalogue: `NAMES`, `visit`, `source`.
+///
+/// # Errors
+///
+/// See [`BuildError`]; cargo has been told already.
+pub fn compile_dir(folder: impl AsRef<Path>) -> Result<(), BuildError> {
+    Builder::new().compile_dir(folder)
+}
+
+/// Compilation with other than the default settings.
+#[derive(Clone, Debug, Default)]
+pub struct Builder {
+    settings: Settings,
+    out_dir: Option<PathBuf>,
+}
+
+/// Why nothing was generated.
+#[derive(Debug)]
+pub enum BuildError {
+    /// A file could not be read or written.
+    File(PathBuf, io::Error),
+    /// The output folder was neither given nor set by cargo.
+    NoOutDir,
+    /// The name of a description is no module name.
+    Name(PathBuf),
+    /// The description is wrong: the rendered messages.
+    Description(String),
+}
+
+impl Builder {
+    /// The default settings.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Gives a constant another value than the description does.
+    pub fn constant(mut self, name: &str, value: impl Into<f64>) -> Self {
+        self.settings.constants.push((name.to_string(), value.into()));
+        self
+    }
+
+    /// Makes a parameter a constant at its default value: it is folded, and the
+    /// documentation of the generated module lists it.
+    pub fn freeze(mut self, parameter: &str) -> Self {
+        self.settings.frozen.push(parameter.to_string());
+        self
+    }
+
+    /// Whether to generate the Coriolis matrix `C` as a function of its own. The
+    /// simulation needs only the product `C q̇`.
+    pub fn coriolis_matrix(mut self, wanted: bool) -> Self {
+        self.settings.options.coriolis_matrix = wanted;
+        self
+    }
+
+    /// Writes to another folder than `OUT_DIR`.
+    pub fn out_dir(mut self, folder: impl Into<PathBuf>) -> Self {
+        self.out_dir = Some(folder.into());
+        self
+    }
+
+    /// As [`compile`], with these settings.
+    ///
+    /// # Errors
+    ///
+    /// See [`BuildError`]; cargo has been told already.
+    pub fn compile(&self, description: impl AsRef<Path>) -> Result<(), BuildError> {
+        let description = description.as_ref();
+        println!("cargo::rerun-if-changed={}", description.display());
+        tell(self.try_compile(description))
+    }
+
+    /// As [`compile_dir`], with these settings.
+    ///
+    /// # Errors
+    ///
+    /// See [`BuildError`]; cargo has been told already.
+    pub fn compile_dir(&self, folder: impl AsRef<Path>) -> Result<(), BuildError> {
+        let folder = folder.as_ref();
+        println!("cargo::rerun-if-changed={}", folder.display());
+        tell(self.try_compile_dir(folder))
+    }
+
+    /// Compiles one description without a word to cargo; returns the rendered
+    /// warnings.
+    ///
+    /// # Errors
+    ///
+    /// See [`BuildError`].
+    pub fn try_compile(&self, description: &Path) -> Result<String, BuildError> {
+        let stem = stem(description)?;
+        let (compiled, warnings) = self.one(description, &stem)?;
+        self.write(&format!("{stem}.rs"), &compiled.code)?;
+        Ok(warnings)
+    }
+
+    /// Compiles a folder without a word to cargo; returns the rendered warnings.
+    ///
+    /// # Errors
+    ///
+    /// See [`BuildError`]; all wrong descriptions are reported.
+    pub fn try_compile_dir(&self, folder: &Path) -> Result<String, BuildError> {
+        let (mut code, mut names) = (String::new(), Vec::new());
+        let (mut warnings, mut errors) = (String::new(), String::new());
+        for description in descriptions(folder)? {
+            let stem = stem(&description)?;
+            match self.one(&description, &stem) {
+                Ok((compiled, warning)) => {
+                    code.push_str(&compiled.code);
+                    names.push((stem, compiled.name));
+                    warnings.push_str(&warning);
+                }
+                Err(BuildError::Description(message)) => errors.push_str(&message),
+                Err(error) => return Err(error),
+            }
+        }
+        if !errors.is_empty() {
+            return Err(BuildError::Description(errors));
+        }
+        code.push_str(&emit::render(&emit::catalogue(&names)));
+        self.write("mechanisms.rs", &code)?;
+        Ok(warnings)
+    }
+
+    fn one(&self, description: &Path, stem: &str) -> Result<(Compiled, String), BuildError> {
+        let shown = description.display().to_string();
+        let file_error = |error| BuildError::File(description.to_path_buf(), error);
+        let source = fs::read_to_string(description).map_err(file_error)?;
+        let compiled = compile_source(&source, stem, &shown, &self.settings)
+            .map_err(|errors| BuildError::Description(errors.render(&shown, &source)))?;
+        let warnings = compiled.warnings.render(&shown, &source);
+        Ok((compiled, warnings))
+    }
+
+    fn write(&self, name: &str, code: &str) -> Result<(), BuildError> {
+        let folder = self.out_dir.clone().or_else(|| env::var_os("OUT_DIR").map(PathBuf::from));
+        let path = folder.ok_or(BuildError::NoOutDir)?.join(name);
+        emit::write_if_changed(&path, code).map_err(|error| BuildError::File(path, error))
+    }
+}
+
+/// Tells cargo of warnings or errors: one line for each line of a rendered message,
+/// which is what cargo shows whole and aligned.
+fn tell(result: Result<String, BuildError>) -> Result<(), BuildError> {
+    match &result {
+        Ok(warnings) => warnings.lines().for_each(|line| println!("cargo::warning={line}")),
+        Err(error) => error.to_string().lines().for_each(|line| println!("cargo::error={line}")),
+    }
+    result.map(|_| ())
+}
+
+/// The `*.mech` files of a folder, in alphabetical order.
+fn descriptions(folder: &Path) -> Result<Vec<PathBuf>, BuildError> {
+    let failed = |error| BuildError::File(folder.to_path_buf(), error);
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).map_err(failed)? {
+        let path = entry.map_err(failed)?.path();
+        if path.extension().is_some_and(|extension| extension == "mech") {
+            found.push(path);
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+fn stem(description: &Path) -> Result<String, BuildError> {
+    let stem = description.file_stem().and_then(|stem| stem.to_str());
+    let name = stem.filter(|stem| syn::parse_str::<syn::Ident>(stem).is_ok());
+    name.map(str::to_string).ok_or_else(|| BuildError::Name(description.to_path_buf()))
+}
+
+impl fmt::Display for BuildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            BuildError::File(path, error) => write!(f, "{}: {error}", path.display()),
+            BuildError::NoOutDir => f.write_str(
+                "no output folder: call this from a build script, or name one with `out_dir`",
+            ),
+            BuildError::Name(path) => write!(
+                f,
+                "{}: the file's name becomes a module's: letters, digits and `_`, no keyword",
+                path.display()
+            ),
+            BuildError::Description(message) => f.write_str(message.trim_end()),
+        }
+    }
+}
+
+impl std::error::Error for BuildError {}

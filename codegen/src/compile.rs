@@ -1,0 +1,59 @@
+//! The whole pipeline on one screen.
+
+use crate::diagnostic::Diagnostics;
+use crate::emit::{self, Options, Origin};
+use crate::model::Mechanism;
+use crate::{derive, model, parse};
+
+/// What to do differently from the defaults.
+#[derive(Clone, Debug, Default)]
+pub struct Settings {
+    /// Constants with another value than the description gives them.
+    pub constants: Vec<(String, f64)>,
+    /// Parameters that become constants at their default.
+    pub frozen: Vec<String>,
+    /// What to emit besides the necessary.
+    pub options: Options,
+}
+
+/// One description, compiled.
+#[derive(Clone, Debug)]
+pub struct Compiled {
+    /// The name after `mechanism`.
+    pub name: String,
+    /// The module, as Rust text.
+    pub code: String,
+    /// What is doubtful in the description.
+    pub warnings: Diagnostics,
+}
+
+/// Compiles a description; `module` names the module, `file` the description in
+/// messages and documentation.
+///
+/// # Errors
+///
+/// Everything that is wrong in the description, as far as the first stage that
+/// found something could see.
+pub fn compile_source(
+    source: &str,
+    module: &str,
+    file: &str,
+    settings: &Settings,
+) -> Result<Compiled, Diagnostics> {
+    let (mut mechanism, warnings) = analyse(source, settings)?;
+    let equations = derive::derive(&mut mechanism);
+    let origin = Origin { module, file, source, frozen: &settings.frozen };
+    let tokens = emit::module(&mut mechanism, &equations, origin, settings.options);
+    let code = emit::render(&tokens);
+    Ok(Compiled { name: mechanism.name, code, warnings })
+}
+
+/// The front end alone: parses and checks a description.
+///
+/// # Errors
+///
+/// As [`compile_source`].
+pub fn analyse(source: &str, settings: &Settings) -> Result<(Mechanism, Diagnostics), Diagnostics> {
+    let tree = parse::parse(source)?;
+    model::lower(&tree, &settings.constants, &settings.frozen)
+}

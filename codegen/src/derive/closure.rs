@@ -1,0 +1,34 @@
+//! Constraints and their first two derivatives in time [PH 2.8].
+//!
+//! Holonomic rows: `g(q, t) = 0`, `φ = ġ = A q̇ + b`. Velocity rows: `φ = A q̇ + b`
+//! as written. From there both are alike: `φ̇ = A q̈ + γ`, `p₂ = −γ`.
+
+use super::{Matrix, gradient, rates, velocities};
+use crate::expr::{ExprId, Graph};
+use crate::model::Constraint;
+
+pub(super) struct Closure {
+    pub residual: Vec<ExprId>,
+    pub jacobian: Matrix,
+    pub drift: Vec<ExprId>,
+    /// `γ = Ȧ q̇ + ḃ`.
+    pub gamma: Vec<ExprId>,
+    pub bias: Vec<ExprId>,
+}
+
+pub(super) fn closure(graph: &mut Graph, constraints: &[Constraint], n: usize) -> Closure {
+    let residuals: Vec<ExprId> = constraints.iter().map(|c| c.residual).collect();
+    let speeds = rates(graph, &residuals, n);
+    let holonomic = |i: usize| constraints[i].holonomic;
+    let zero = graph.integer(0);
+    let level: Vec<ExprId> = (0..residuals.len())
+        .map(|i| if holonomic(i) { speeds[i] } else { residuals[i] })
+        .collect();
+    let jacobian: Matrix = level.iter().map(|&phi| gradient(graph, phi, velocities(n))).collect();
+    let drift = level.iter().map(|&phi| graph.at_rest(phi)).collect();
+    let gamma = rates(graph, &level, n);
+    let bias = gamma.iter().map(|&gamma| graph.neg(gamma)).collect();
+    let residual =
+        (0..residuals.len()).map(|i| if holonomic(i) { residuals[i] } else { zero }).collect();
+    Closure { residual, jacobian, drift, gamma, bias }
+}

@@ -1,0 +1,131 @@
+//! Mechanism to equations of motion.
+//!
+//! In:  a checked [`Mechanism`].
+//! Out: [`Equations`]: `M`, `C q̇`, `h`, `Q`, `p₁`, `g`, `A`, `b`, `p₂`, `K`, `κ` and
+//!      the energies, as expressions in the mechanism's graph. Source: Phong &
+//!      Hoang (2012), eqs. 2.1–2.10; `K`, `κ` by one more differentiation.
+//!
+//! Not here: simplification, and what is computed when. Equal terms meet in the
+//! graph, and `optimise` decides the rest.
+
+mod branch;
+mod christoffel;
+mod closure;
+mod energy;
+mod force;
+mod mass;
+
+pub use christoffel::coriolis_matrix;
+
+use crate::expr::{ExprId, Graph, Symbol};
+use crate::model::Mechanism;
+
+/// A matrix of expressions, row by row.
+pub type Matrix = Vec<Vec<ExprId>>;
+
+/// The equations of motion of a mechanism with `N` coordinates and `R`
+/// constraint equations: `M q̈ + r = p₁`, `A q̈ = p₂`, `g = 0`.
+#[derive(Clone, Debug)]
+pub struct Equations {
+    /// `M`, `N × N`.
+    pub mass: Matrix,
+    /// `C q̇` and the terms of moving frames: `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`.
+    pub coriolis: Vec<ExprId>,
+    /// `h = ∂Π/∂q`, `N`.
+    pub gravity: Vec<ExprId>,
+    /// `Q`: applied forces and dissipation, `N`.
+    pub applied: Vec<ExprId>,
+    /// `p₁ = Q − C q̇ − h`, `N`.
+    pub force: Vec<ExprId>,
+    /// The constraints `g`, `R`; zero for velocity constraints.
+    pub residual: Vec<ExprId>,
+    /// `A`, `R × N`.
+    pub jacobian: Matrix,
+    /// `b`, `R`, of the velocity level `A q̇ + b = 0`.
+    pub drift: Vec<ExprId>,
+    /// `p₂ = −(Ȧ q̇ + ḃ)`, `R`.
+    pub bias: Vec<ExprId>,
+    /// `K`, `R × N`.
+    pub branch_slope: Matrix,
+    /// `κ`, `R`.
+    pub branch_bias: Vec<ExprId>,
+    /// The energies.
+    pub energies: Energies,
+}
+
+/// Scalar quantities of a mechanism.
+#[derive(Clone, Copy, Debug)]
+pub struct Energies {
+    /// `T`.
+    pub kinetic: ExprId,
+    /// `Π`.
+    pub potential: ExprId,
+    /// `T₂ − T₀ + Π`.
+    pub balance: ExprId,
+    /// `Q·q̇ + ∂Π/∂t − ∂T/∂t`.
+    pub power: ExprId,
+}
+
+/// Derives the equations of motion from energies and constraints.
+pub fn derive(mechanism: &mut Mechanism) -> Equations {
+    let n = mechanism.coordinates.len();
+    let graph = &mut mechanism.graph;
+    let kinetic = graph.sum(mechanism.kinetic.iter().map(|summand| summand.value));
+    let potential = graph.sum(mechanism.potential.iter().map(|summand| summand.value));
+    let dissipation = graph.sum(mechanism.dissipation.iter().map(|summand| summand.value));
+
+    let momenta = mass::momenta(graph, kinetic, n);
+    let mass = mass::mass_matrix(graph, &momenta);
+    let coriolis = force::coriolis_product(graph, kinetic, &momenta);
+    let gravity = force::potential_force(graph, potential, n);
+    let applied = force::applied(graph, &mechanism.forces, dissipation, n);
+    let force = force::total(graph, &applied, &coriolis, &gravity);
+
+    let closure = closure::closure(graph, &mechanism.constraints, n);
+    let (branch_slope, branch_bias) = branch::branch_rows(graph, &closure, n);
+    let energies = energy::energies(graph, kinetic, potential, &applied, &momenta);
+    Equations {
+        mass,
+        coriolis,
+        gravity,
+        applied,
+        force,
+        residual: closure.residual,
+        jacobian: closure.jacobian,
+        drift: closure.drift,
+        bias: closure.bias,
+        branch_slope,
+        branch_bias,
+        energies,
+    }
+}
+
+/// The symbols of `n` velocities or coordinates.
+fn velocities(n: usize) -> impl Iterator<Item = Symbol> + Clone {
+    (0..u32::try_from(n).unwrap_or(u32::MAX)).map(Symbol::Velocity)
+}
+
+fn coordinates(n: usize) -> impl Iterator<Item = Symbol> + Clone {
+    (0..u32::try_from(n).unwrap_or(u32::MAX)).map(Symbol::Coordinate)
+}
+
+/// `∂e/∂symbol` for each symbol, in order.
+fn gradient(
+    graph: &mut Graph,
+    e: ExprId,
+    symbols: impl Iterator<Item = Symbol>,
+) -> Vec<ExprId> {
+    let present = graph.symbols(e);
+    let mut by = |symbol| match present.contains(&symbol) {
+        true => graph.differentiate(e, symbol),
+        false => graph.integer(0),
+    };
+    symbols.map(&mut by).collect()
+}
+
+/// The derivatives in time, at frozen velocities, of several expressions.
+fn rates(graph: &mut Graph, expressions: &[ExprId], n: usize) -> Vec<ExprId> {
+    let symbols = coordinates(n).chain([Symbol::Time]);
+    let mut flow = graph.frozen_flow(symbols);
+    expressions.iter().map(|&e| graph.derivative_along(e, &mut flow)).collect()
+}

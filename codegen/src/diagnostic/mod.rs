@@ -1,0 +1,179 @@
+//! What is wrong, where, and what to write instead.
+//!
+//! In:  findings of any stage, in any order.
+//! Out: [`Diagnostics`], the error of the front end: sorted by place, each
+//!      finding with its source line, labels and help.
+//!
+//! Not here: the decision to stop. A stage collects all it finds; the pipeline
+//! stops between stages.
+
+mod render;
+mod span;
+mod suggest;
+
+pub use span::{Position, Span};
+pub use suggest::nearest;
+
+use std::fmt;
+
+/// How bad a finding is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// No code can be generated.
+    Error,
+    /// Code is generated, but something is probably not as meant.
+    Warning,
+}
+
+/// A place and what there is to say about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Label {
+    /// The place.
+    pub span: Span,
+    /// What is there.
+    pub text: String,
+}
+
+/// One finding.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostic {
+    /// How bad it is.
+    pub severity: Severity,
+    /// What is wrong, in one sentence without a full stop.
+    pub message: String,
+    /// Where, with a word about that place (which may be empty).
+    pub primary: Label,
+    /// Other places that belong to it.
+    pub secondary: Vec<Label>,
+    /// What to write instead.
+    pub help: Option<String>,
+}
+
+impl Diagnostic {
+    /// A finding that stops the generator.
+    pub fn error(span: Span, message: impl Into<String>) -> Self {
+        Self::new(Severity::Error, span, message.into())
+    }
+
+    /// A finding that doesn't stop the generator.
+    pub fn warning(span: Span, message: impl Into<String>) -> Self {
+        Self::new(Severity::Warning, span, message.into())
+    }
+
+    fn new(severity: Severity, span: Span, message: String) -> Self {
+        let primary = Label { span, text: String::new() };
+        Self { severity, message, primary, secondary: Vec::new(), help: None }
+    }
+
+    /// Says what is at the place itself.
+    pub fn labelled(mut self, text: impl Into<String>) -> Self {
+        self.primary.text = text.into();
+        self
+    }
+
+    /// Points to another place.
+    pub fn also(mut self, span: Span, text: impl Into<String>) -> Self {
+        self.secondary.push(Label { span, text: text.into() });
+        self
+    }
+
+    /// Says what to write instead.
+    pub fn help(mut self, text: impl Into<String>) -> Self {
+        self.help = Some(text.into());
+        self
+    }
+
+    /// Says what to write instead, where there is something to say.
+    pub fn maybe_help(mut self, text: Option<String>) -> Self {
+        self.help = text.or(self.help);
+        self
+    }
+}
+
+/// The file that findings are about.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Origin {
+    file: String,
+    source: String,
+}
+
+/// Findings about one file.
+///
+/// Displayed with source lines once the file is known (see
+/// [`Diagnostics::in_file`]), otherwise as a list of places and messages.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Diagnostics {
+    list: Vec<Diagnostic>,
+    origin: Option<Origin>,
+}
+
+impl Diagnostics {
+    /// No findings.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Records a finding. The same words about the same place are recorded once:
+    /// the body of a loop is read many times.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        if !self.list.contains(&diagnostic) {
+            self.list.push(diagnostic);
+        }
+    }
+
+    /// Adds the findings of another collection.
+    pub fn append(&mut self, other: Diagnostics) {
+        self.list.extend(other.list);
+    }
+
+    /// Whether nothing was found.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// The number of findings that stop the generator.
+    pub fn error_count(&self) -> usize {
+        self.list.iter().filter(|d| d.severity == Severity::Error).count()
+    }
+
+    /// The findings in the order of their places.
+    pub fn sorted(&self) -> Vec<&Diagnostic> {
+        let mut sorted: Vec<_> = self.list.iter().collect();
+        sorted.sort_by_key(|d| (d.primary.span.start.offset, d.primary.span.end.offset));
+        sorted
+    }
+
+    /// The findings without the warnings among them.
+    pub fn into_errors(mut self) -> Self {
+        self.list.retain(|d| d.severity == Severity::Error);
+        self
+    }
+
+    /// Names the file and gives its text, so that source lines can be shown.
+    pub fn in_file(mut self, file: &str, source: &str) -> Self {
+        let source = without_mark(source).to_string();
+        self.origin = Some(Origin { file: file.to_string(), source });
+        self
+    }
+}
+
+/// The text behind a byte order mark. Offsets count from there.
+pub fn without_mark(source: &str) -> &str {
+    source.strip_prefix('\u{feff}').unwrap_or(source)
+}
+
+impl fmt::Display for Diagnostics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.origin {
+            Some(origin) => f.write_str(&render::render(self, &origin.file, &origin.source)),
+            None => {
+                for diagnostic in self.sorted() {
+                    writeln!(f, "{}: {}", diagnostic.primary.span, diagnostic.message)?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl std::error::Error for Diagnostics {}

@@ -1,0 +1,181 @@
+//! The equations of motion: the trait implementation, and the separate functions.
+
+use super::{Method, Subject};
+use crate::derive::coriolis_matrix;
+use crate::expr::ExprId;
+use crate::optimise::Slot;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// An entry wanted of an array.
+type Wanted = Vec<(Slot, ExprId)>;
+
+fn vector(array: &'static str, entries: &[ExprId]) -> Wanted {
+    let slot = |(row, &e)| (Slot { array, row, column: 0 }, e);
+    entries.iter().enumerate().map(slot).collect()
+}
+
+/// Column by column, as nalgebra stores it.
+fn matrix(array: &'static str, rows: &[Vec<ExprId>]) -> Wanted {
+    let columns = rows.first().map_or(0, Vec::len);
+    let entry = |column| rows.iter().enumerate().map(move |(row, entries)| (row, entries[column], column));
+    (0..columns)
+        .flat_map(entry)
+        .map(|(row, e, column)| (Slot { array, row, column }, e))
+        .collect()
+}
+
+/// `impl Mechanism`.
+pub(super) fn mechanism(subject: &mut Subject) -> TokenStream {
+    let (n, r) = subject.sizes();
+    let equations = subject.equations;
+    let mut wanted = matrix("mass", &equations.mass);
+    wanted.extend(vector("force", &equations.force));
+    wanted.extend(matrix("jacobian", &equations.jacobian));
+    wanted.extend(vector("bias", &equations.bias));
+    let terms = subject.method(Method {
+        docs: "Everything one acceleration needs: `M`, `p₁`, `A`, `p₂`.",
+        name: "terms",
+        buffer: quote!(Terms<T, #n, #r>),
+        wanted,
+    });
+    let closure = if equations.jacobian.is_empty() { TokenStream::new() } else { closure(subject) };
+    let energy = energy(subject);
+    let name = subject.type_name();
+    quote! {
+        impl<T: Real> Mechanism<T, #n, #r> for #name<T> {
+            fn structure(&self) -> &'static Structure {
+                &STRUCTURE
+            }
+            #terms
+            #closure
+            #energy
+        }
+    }
+}
+
+/// What a mechanism with constraints provides besides.
+fn closure(subject: &mut Subject) -> TokenStream {
+    let (n, r) = subject.sizes();
+    let equations = subject.equations;
+    let mut wanted = matrix("mass", &equations.mass);
+    wanted.extend(vector("residual", &equations.residual));
+    wanted.extend(matrix("jacobian", &equations.jacobian));
+    wanted.extend(vector("drift", &equations.drift));
+    let position = subject.method(Method {
+        docs: "Everything a projection needs: `M`, `g`, `A`, `b`.",
+        name: "position",
+        buffer: quote!(Position<T, #n, #r>),
+        wanted,
+    });
+    let mut wanted = matrix("slope", &equations.branch_slope);
+    wanted.extend(vector("bias", &equations.branch_bias));
+    let branch = subject.method(Method {
+        docs: "The branch rows `K`, `κ`: the constraints differentiated once more.",
+        name: "branch",
+        buffer: quote!(Branch<T, #n, #r>),
+        wanted,
+    });
+    quote!(#position #branch)
+}
+
+fn energy(subject: &mut Subject) -> TokenStream {
+    let energies = subject.equations.energies;
+    let fields = [energies.kinetic, energies.potential, energies.balance, energies.power];
+    let wanted = vector("energy", &fields);
+    let written = subject.body(&wanted);
+    let [kinetic, potential, balance, power] =
+        [0, 1, 2, 3].map(|row| written.body.output(Slot { array: "energy", row, column: 0 }));
+    let (statements, state, cost) = (&written.statements, &written.state, &written.cost);
+    let n = subject.sizes().0;
+    quote! {
+        /// Energies and the power supplied from outside.
+        ///
+        #[doc = #cost]
+        fn energy(&self, #state: &State<T, #n>) -> Energy<T> {
+            #statements
+            Energy { kinetic: #kinetic, potential: #potential, balance: #balance, power: #power }
+        }
+    }
+}
+
+/// One public function for each array, for those who want it by itself.
+pub(super) fn functions(subject: &mut Subject) -> TokenStream {
+    let (n, r) = subject.sizes();
+    let equations = subject.equations;
+    let mut functions = vec![
+        Method {
+            docs: "Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric.",
+            name: "mass_matrix",
+            buffer: quote!(SMatrix<T, #n, #n>),
+            wanted: matrix("", &equations.mass),
+        },
+        Method {
+            docs: "Potential forces `h = ∂Π/∂q`, `N`.",
+            name: "potential_force",
+            buffer: quote!(SVector<T, #n>),
+            wanted: vector("", &equations.gravity),
+        },
+        Method {
+            docs: "Applied and dissipative forces `Q`, `N`.",
+            name: "applied_force",
+            buffer: quote!(SVector<T, #n>),
+            wanted: vector("", &equations.applied),
+        },
+    ];
+    functions.extend(coriolis(subject));
+    if !equations.jacobian.is_empty() {
+        functions.extend([
+            Method {
+                docs: "Constraints `g`, `R`; zero for velocity constraints.",
+                name: "constraint_residual",
+                buffer: quote!(SVector<T, #r>),
+                wanted: vector("", &equations.residual),
+            },
+            Method {
+                docs: "Constraint Jacobian `A = ∂g/∂q`, `R × N`.",
+                name: "constraint_jacobian",
+                buffer: quote!(SMatrix<T, #r, #n>),
+                wanted: matrix("", &equations.jacobian),
+            },
+            Method {
+                docs: "`p₂ = −(Ȧ q̇ + ḃ)`, `R`: the constraints ask for `A q̈ = p₂`.",
+                name: "constraint_bias",
+                buffer: quote!(SVector<T, #r>),
+                wanted: vector("", &equations.bias),
+            },
+        ]);
+    }
+    let functions: TokenStream =
+        functions.into_iter().map(|function| subject.returning(function)).collect();
+    let name = subject.type_name();
+    quote!(impl<T: Real> #name<T> { #functions })
+}
+
+/// `C q̇`, and `C` if it is asked for; nothing where `M` is constant and `T` has no
+/// other term that brings one.
+fn coriolis(subject: &mut Subject) -> Vec<Method> {
+    let n = subject.sizes().0;
+    let equations = subject.equations;
+    let mut functions = Vec::new();
+    if equations.coriolis.iter().any(|e| !subject.mechanism.graph.is_zero(*e)) {
+        functions.push(Method {
+            docs: "`C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`.",
+            name: "coriolis_force",
+            buffer: quote!(SVector<T, #n>),
+            wanted: vector("", &equations.coriolis),
+        });
+    }
+    if subject.options.coriolis_matrix {
+        let rows = coriolis_matrix(&mut subject.mechanism.graph, &equations.mass);
+        if rows.iter().flatten().any(|e| !subject.mechanism.graph.is_zero(*e)) {
+            functions.push(Method {
+                docs: "Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric.",
+                name: "coriolis_matrix",
+                buffer: quote!(SMatrix<T, #n, #n>),
+                wanted: matrix("", &rows),
+            });
+        }
+    }
+    functions
+}

@@ -1,0 +1,265 @@
+//! A program to the body of a function.
+//!
+//! In:  a [`Program`] and names for its symbols.
+//! Out: `let` statements, and an expression for each output. A value that is read
+//!      once is written where it is read, as long as the line stays short; the
+//!      others get a name. Nothing is computed here.
+
+use super::literal;
+use super::name::Names;
+use crate::expr::{Comparison, Function, Function2, Symbol};
+use crate::optimise::{Operation, Program, Slot, Value};
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::quote;
+use rustc_hash::FxHashMap;
+
+/// The most operands that one emitted expression has.
+const OPERANDS_MAX: usize = 9;
+
+/// How tightly an emitted piece holds together.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Binding {
+    Sum,
+    Product,
+    Atom,
+}
+
+#[derive(Clone)]
+struct Piece {
+    tokens: TokenStream,
+    binding: Binding,
+    operands: usize,
+}
+
+/// The names of the symbols of a mechanism inside function bodies.
+pub(super) trait Symbols {
+    /// The local variable that holds a symbol.
+    fn local(&self, symbol: Symbol) -> Ident;
+    /// The expression for an input that has a law.
+    fn input(&self, index: u32, law: TokenStream) -> TokenStream;
+}
+
+/// The body of a function.
+pub(super) struct Body {
+    /// The statements.
+    pub statements: TokenStream,
+    outputs: FxHashMap<Slot, TokenStream>,
+}
+
+impl Body {
+    /// The expression for an output; zero where the program leaves it out.
+    pub fn output(&self, slot: Slot) -> TokenStream {
+        self.written(slot).unwrap_or_else(|| quote!(T::zero()))
+    }
+
+    /// The expression for an output, if the program computes it.
+    pub fn written(&self, slot: Slot) -> Option<TokenStream> {
+        self.outputs.get(&slot).cloned()
+    }
+
+    /// Writes a program; `names` are the names that are taken.
+    pub fn of(program: &Program, symbols: &dyn Symbols, names: Names) -> Self {
+        let uses = program.uses();
+        let mut writer = Writer {
+            program,
+            symbols,
+            names,
+            uses,
+            pieces: Vec::new(),
+            angles: FxHashMap::default(),
+            statements: TokenStream::new(),
+        };
+        for (value, operation) in program.operations() {
+            let piece = writer.place(value, operation);
+            writer.pieces.push(piece);
+        }
+        let outputs = program
+            .outputs
+            .iter()
+            .map(|(slot, value)| (*slot, writer.pieces[value.index()].tokens.clone()))
+            .collect();
+        Body { statements: writer.statements, outputs }
+    }
+}
+
+struct Writer<'a> {
+    program: &'a Program,
+    symbols: &'a dyn Symbols,
+    names: Names,
+    uses: Vec<usize>,
+    pieces: Vec<Piece>,
+    angles: FxHashMap<Value, (Ident, Ident)>,
+    statements: TokenStream,
+}
+
+impl Writer<'_> {
+    fn place(&mut self, value: Value, operation: &Operation) -> Piece {
+        let piece = match operation {
+            Operation::Number(number) => return atom(literal::number(*number)),
+            Operation::Pi => {
+                let (high, low) = (std::f64::consts::PI, PI_LOW);
+                return atom(quote!(T::constant(#high, #low)));
+            }
+            Operation::Symbol(symbol) => {
+                let name = self.symbols.local(*symbol);
+                return atom(quote!(#name));
+            }
+            Operation::Function(function @ (Function::Sin | Function::Cos), x) => {
+                let (sin, cos) = self.sine_and_cosine(*x);
+                let name = if *function == Function::Sin { sin } else { cos };
+                return atom(quote!(#name));
+            }
+            Operation::Input(index, law) => {
+                let law = self.pieces[law.index()].tokens.clone();
+                atom(self.symbols.input(*index, law))
+            }
+            Operation::Sum(terms) => self.sum(terms),
+            Operation::Product(factors) => self.product(factors),
+            Operation::Quotient(x, y) => self.quotient(*x, *y),
+            Operation::Function(function, x) => self.call(*function, *x),
+            Operation::Function2(function, x, y) => self.call2(*function, *x, *y),
+            Operation::Select(comparison, parts) => self.select(*comparison, parts),
+        };
+        let short = piece.operands <= OPERANDS_MAX;
+        let input = matches!(operation, Operation::Input(..));
+        if self.uses[value.index()] == 1 && short && !input {
+            return piece;
+        }
+        let name = self.names.unique(&self.wish(operation));
+        let tokens = piece.tokens;
+        self.statements.extend(quote!(let #name = #tokens;));
+        atom(quote!(#name))
+    }
+
+    /// The name that a value would like: its factors if they are few and plain.
+    fn wish(&self, operation: &Operation) -> String {
+        let plain = |value: &Value| match self.program.operation(*value) {
+            Operation::Symbol(_) | Operation::Function(Function::Sin | Function::Cos, _) => {
+                Some(self.pieces[value.index()].tokens.to_string())
+            }
+            _ => None,
+        };
+        match operation {
+            Operation::Input(index, _) => self.symbols.local(Symbol::Input(*index)).to_string(),
+            Operation::Product(factors) if factors.len() <= 3 => {
+                let names: Option<Vec<String>> = factors.iter().map(plain).collect();
+                names.map_or("product".into(), |names| names.join("_"))
+            }
+            Operation::Product(_) => "product".into(),
+            Operation::Sum(_) => "sum".into(),
+            Operation::Quotient(..) => "quotient".into(),
+            Operation::Select(..) => "choice".into(),
+            _ => "value".into(),
+        }
+    }
+
+    /// One call for both, wherever the first of them is met.
+    fn sine_and_cosine(&mut self, x: Value) -> (Ident, Ident) {
+        if let Some(names) = self.angles.get(&x) {
+            return names.clone();
+        }
+        let angle = self.bound(x, Binding::Atom);
+        let text = match self.program.operation(x) {
+            Operation::Symbol(_) => angle.to_string(),
+            _ => "angle".into(),
+        };
+        let read = |function| {
+            let wanted = Operation::Function(function, x);
+            self.program.operations().any(|(_, operation)| *operation == wanted)
+        };
+        let (has_sin, has_cos) = (read(Function::Sin), read(Function::Cos));
+        let mut name = |has: bool, prefix: &str| match has {
+            true => self.names.unique(&format!("{prefix}_{text}")),
+            false => Ident::new("_", Span::call_site()),
+        };
+        let names = (name(has_sin, "sin"), name(has_cos, "cos"));
+        let (sin, cos) = (pattern(&names.0), pattern(&names.1));
+        self.statements.extend(quote!(let (#sin, #cos) = #angle.sin_cos();));
+        self.angles.insert(x, names.clone());
+        names
+    }
+
+    fn bound(&self, value: Value, context: Binding) -> TokenStream {
+        let Piece { tokens, binding, .. } = &self.pieces[value.index()];
+        if *binding >= context { tokens.clone() } else { quote!((#tokens)) }
+    }
+
+    fn operands(&self, values: impl IntoIterator<Item = Value>) -> usize {
+        values.into_iter().map(|value| self.pieces[value.index()].operands).sum()
+    }
+
+    fn sum(&self, terms: &[(bool, Value)]) -> Piece {
+        let mut tokens = TokenStream::new();
+        for (i, (minus, value)) in terms.iter().enumerate() {
+            let term = self.bound(*value, Binding::Product);
+            tokens.extend(match (minus, i) {
+                (false, 0) => quote!(#term),
+                (false, _) => quote!(+ #term),
+                (true, _) => quote!(- #term),
+            });
+        }
+        let operands = self.operands(terms.iter().map(|(_, value)| *value));
+        Piece { tokens, binding: Binding::Sum, operands }
+    }
+
+    fn product(&self, factors: &[Value]) -> Piece {
+        let bound = factors.iter().enumerate().map(|(i, value)| {
+            let nested = matches!(self.pieces[value.index()].binding, Binding::Product);
+            self.bound(*value, if nested && i == 0 { Binding::Product } else { Binding::Atom })
+        });
+        let tokens = quote!(#(#bound)**);
+        let operands = self.operands(factors.iter().copied());
+        Piece { tokens, binding: Binding::Product, operands }
+    }
+
+    fn quotient(&self, x: Value, y: Value) -> Piece {
+        let (above, below) = (self.bound(x, Binding::Product), self.bound(y, Binding::Atom));
+        let operands = self.operands([x, y]);
+        Piece { tokens: quote!(#above / #below), binding: Binding::Product, operands }
+    }
+
+    fn call(&self, function: Function, x: Value) -> Piece {
+        let argument = self.bound(x, Binding::Atom);
+        let name = Ident::new(function.name(), Span::call_site());
+        Piece { operands: self.operands([x]), ..atom(quote!(#argument.#name())) }
+    }
+
+    fn call2(&self, function: Function2, x: Value, y: Value) -> Piece {
+        let first = self.bound(x, Binding::Atom);
+        let second = &self.pieces[y.index()].tokens;
+        let name = match function {
+            Function2::Pow => "powf",
+            _ => function.name(),
+        };
+        let name = Ident::new(name, Span::call_site());
+        let operands = self.operands([x, y]);
+        // Two traits give numbers a `min` and a `max`; name the one that is meant.
+        Piece { operands, ..atom(quote!(Real::#name(#first, #second))) }
+    }
+
+    fn select(&self, comparison: Comparison, parts: &[Value; 4]) -> Piece {
+        let [a, b] = [0, 1].map(|i| self.bound(parts[i], Binding::Sum));
+        let [then, otherwise] = [2, 3].map(|i| &self.pieces[parts[i].index()].tokens);
+        let sign: TokenStream = match comparison {
+            Comparison::Less => quote!(<),
+            Comparison::LessEqual => quote!(<=),
+            Comparison::Equal => quote!(==),
+            Comparison::NotEqual => quote!(!=),
+        };
+        let tokens = quote!(if #a #sign #b { #then } else { #otherwise });
+        // Named, since an `if` cannot stand at the start of a longer expression.
+        Piece { tokens, binding: Binding::Atom, operands: OPERANDS_MAX + 1 }
+    }
+}
+
+/// What is left of π behind its nearest `f64`.
+const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
+
+fn atom(tokens: TokenStream) -> Piece {
+    Piece { tokens, binding: Binding::Atom, operands: 1 }
+}
+
+/// A name in a pattern; `_` is not an identifier to the parser.
+fn pattern(name: &Ident) -> TokenStream {
+    if name == "_" { quote!(_) } else { quote!(#name) }
+}

@@ -1,0 +1,48 @@
+//! Numbers to tokens.
+
+use crate::expr::Number;
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+/// A number as a value of the scalar `T`: exact where an `f64` holds it, else in
+/// two parts, of which a 53-bit scalar ignores the second.
+pub(super) fn number(value: Number) -> TokenStream {
+    let (high, low) = value.parts();
+    if value.is_zero() {
+        quote!(T::zero())
+    } else if value.is_one() {
+        quote!(T::one())
+    } else if low == 0.0 {
+        let high = float(high);
+        quote!(T::from_f64(#high))
+    } else {
+        let (high, low) = (float(high), float(low));
+        quote!(T::constant(#high, #low))
+    }
+}
+
+/// A finite float in its shortest form; the sign is an operator, since a negative
+/// literal would print as two operators behind a minus.
+fn float(value: f64) -> TokenStream {
+    let text = format!("{:?}", value.abs());
+    let literal: Literal = text.parse().unwrap_or_else(|_| Literal::f64_unsuffixed(value.abs()));
+    if value < 0.0 { quote!(-#literal) } else { quote!(#literal) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn float_literals_read_back_to_the_same_bits() {
+        let mut bits: u64 = 0x9E37_79B9_7F4A_7C15;
+        for _ in 0..10_000 {
+            bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            let value = f64::from_bits(bits);
+            if value.is_finite() {
+                let text = float(value).to_string().replace(' ', "");
+                assert_eq!(text.parse::<f64>().map(f64::to_bits), Ok(bits), "{text}");
+            }
+        }
+    }
+}

@@ -1,0 +1,288 @@
+//! Programs to Rust: one module for each mechanism.
+//!
+//! In:  a mechanism and its equations.
+//! Out: a module that holds the mechanism's struct, its parameters and inputs, the
+//!      implementations of the runtime's traits, and a function for each array.
+//!
+//! Not here: mathematics. What is computed was decided by `optimise`.
+
+mod dynamics;
+mod function;
+mod interface;
+mod literal;
+mod name;
+mod structure;
+mod symbol;
+mod write;
+
+pub use write::{catalogue, render, write_if_changed};
+
+use crate::derive::Equations;
+use crate::expr::{ExprId, Symbol};
+use crate::model::Mechanism;
+use crate::optimise::{Slot, cost, optimise};
+use function::Body;
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::quote;
+use symbol::SymbolNames;
+
+/// What to emit besides the necessary.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Emit the Coriolis matrix `C` as a function of its own.
+    pub coriolis_matrix: bool,
+}
+
+/// A description in its own words, for the emitted documentation.
+#[derive(Clone, Copy, Debug)]
+pub struct Origin<'a> {
+    /// The module's name: the stem of the description's file.
+    pub module: &'a str,
+    /// The description's file, as given to the generator.
+    pub file: &'a str,
+    /// The description.
+    pub source: &'a str,
+    /// Parameters that were frozen, with their values.
+    pub frozen: &'a [String],
+}
+
+/// Everything the emitter looks at.
+struct Subject<'a> {
+    mechanism: &'a mut Mechanism,
+    equations: &'a Equations,
+    names: SymbolNames,
+    file: &'a str,
+    options: Options,
+}
+
+/// A method of an emitted struct that computes arrays.
+struct Method {
+    docs: &'static str,
+    name: &'static str,
+    /// The type of the buffer, or of the result.
+    buffer: TokenStream,
+    wanted: Vec<(Slot, ExprId)>,
+}
+
+/// A function body and what its signature needs to know.
+struct Written {
+    statements: TokenStream,
+    body: Body,
+    /// `state`, or `_state` where the body does not read it.
+    state: Ident,
+    /// What it costs, in words.
+    cost: String,
+}
+
+/// The module of a mechanism.
+pub fn module(
+    mechanism: &mut Mechanism,
+    equations: &Equations,
+    origin: Origin,
+    options: Options,
+) -> TokenStream {
+    let names = SymbolNames::of(mechanism);
+    let mut subject = Subject { mechanism, equations, names, file: origin.file, options };
+    let parameters = structure::parameters(&subject);
+    let inputs = structure::inputs(&subject);
+    let structure = structure::structure(&subject);
+    let holder = holder(&subject);
+    let dynamics = dynamics::mechanism(&mut subject);
+    let functions = dynamics::functions(&mut subject);
+    let interface = interface::interface(&mut subject);
+    let imports = imports(&subject);
+    let docs = module_docs(&subject, origin);
+    let module = Ident::new(&name::snake_case(origin.module), Span::call_site());
+    let source = origin.source;
+    quote! {
+        #(#[doc = #docs])*
+        pub mod #module {
+            #imports
+
+            /// The description that this module was generated from.
+            pub const SOURCE: &str = #source;
+
+            #structure
+            #parameters
+            #inputs
+            #holder
+            #dynamics
+            #functions
+            #interface
+        }
+    }
+}
+
+fn module_docs(subject: &Subject, origin: Origin) -> Vec<String> {
+    let Mechanism { name, docs, constants, .. } = &*subject.mechanism;
+    let docs = if docs.trim().is_empty() { name.as_str() } else { docs.trim() };
+    let mut lines: Vec<String> = docs.lines().map(|line| format!(" {}", line.trim())).collect();
+    let (n, r) = (subject.equations.mass.len(), subject.equations.jacobian.len());
+    lines.push(String::new());
+    lines.push(format!(
+        " Generated from `{}`: {n} coordinates, {r} constraint equations.",
+        origin.file
+    ));
+    if !constants.is_empty() {
+        let folded: Vec<String> = constants
+            .iter()
+            .map(|constant| {
+                let value = subject.mechanism.graph.text(constant.value, &|s| subject.text(s));
+                format!("`{} = {value}`", constant.quantity.name)
+            })
+            .collect();
+        lines.extend([String::new(), format!(" Folded constants: {}.", folded.join(", "))]);
+    }
+    if !origin.frozen.is_empty() {
+        lines.extend([
+            String::new(),
+            format!(" Parameters frozen at their defaults: `{}`.", origin.frozen.join("`, `")),
+        ]);
+    }
+    lines
+}
+
+/// The struct that stands for the mechanism.
+fn holder(subject: &Subject) -> TokenStream {
+    let name = subject.type_name();
+    let docs = subject.mechanism.docs.trim();
+    let docs = format!(" {}", if docs.is_empty() { &subject.mechanism.name } else { docs });
+    let parameters = (!subject.mechanism.parameters.is_empty())
+        .then(|| quote!(/** Run-time parameters. */ pub parameters: Parameters<T>,));
+    let inputs = (!subject.mechanism.inputs.is_empty())
+        .then(|| quote!(/** External signals. */ pub inputs: Inputs<T>,));
+    let scalar = (parameters.is_none() && inputs.is_none())
+        .then(|| quote!(scalar: core::marker::PhantomData<T>,));
+    quote! {
+        #[doc = #docs]
+        #[derive(Clone, Copy, Debug, Default, PartialEq)]
+        pub struct #name<T> { #parameters #inputs #scalar }
+    }
+}
+
+fn imports(subject: &Subject) -> TokenStream {
+    let mut names = vec![
+        "Canvas", "Energy", "Initial", "Interface", "Mechanism", "Quantity", "Real", "Start",
+        "State", "Structure", "Terms",
+    ];
+    if !subject.mechanism.constraints.is_empty() {
+        names.extend(["Branch", "ConstraintRow", "Position"]);
+    }
+    if !subject.mechanism.events.is_empty() {
+        names.extend(["Direction", "Event"]);
+    }
+    names.sort_unstable();
+    let names = names.into_iter().map(|name| Ident::new(name, Span::call_site()));
+    quote! {
+        use bricard_runtime::nalgebra::{SMatrix, SVector};
+        use bricard_runtime::{#(#names),*};
+    }
+}
+
+impl Subject<'_> {
+    /// `N` and `R` as literals.
+    fn sizes(&self) -> (Literal, Literal) {
+        let size = Literal::usize_unsuffixed;
+        (size(self.equations.mass.len()), size(self.equations.jacobian.len()))
+    }
+
+    fn type_name(&self) -> Ident {
+        Ident::new(&name::camel_case(&self.mechanism.name), Span::call_site())
+    }
+
+    /// A symbol as the description names it.
+    fn text(&self, symbol: Symbol) -> String {
+        self.mechanism.symbol_text(symbol)
+    }
+
+    /// Expressions of numbers alone, as values of `T`.
+    fn constants(&self, expressions: Vec<ExprId>) -> Vec<TokenStream> {
+        let slot = |row| Slot { array: "constant", row, column: 0 };
+        let write = |(row, e): (usize, ExprId)| {
+            let program = crate::optimise::plain(&self.mechanism.graph, &[(slot(row), e)]);
+            let body = Body::of(&program, &self.names, self.names.taken.clone());
+            let (statements, value) = (&body.statements, body.output(slot(row)));
+            if statements.is_empty() { value } else { quote!({ #statements #value }) }
+        };
+        expressions.into_iter().enumerate().map(write).collect()
+    }
+
+    fn body(&mut self, wanted: &[(Slot, ExprId)]) -> Written {
+        let laws: Vec<ExprId> = self.mechanism.inputs.iter().map(|input| input.law).collect();
+        let program = optimise(&mut self.mechanism.graph, &laws, wanted);
+        let body = Body::of(&program, &self.names, self.names.taken.clone());
+        let prelude = self.names.prelude(&program);
+        let written = &body.statements;
+        let state = if SymbolNames::reads_state(&program) { "state" } else { "_state" };
+        Written {
+            statements: quote!(#prelude #written),
+            state: Ident::new(state, Span::call_site()),
+            cost: format!(" Costs {}.", cost(&program)),
+            body,
+        }
+    }
+
+    /// A method that fills a buffer whose fields are the arrays wanted.
+    fn method(&mut self, method: Method) -> TokenStream {
+        let Method { docs, name, buffer, wanted } = method;
+        let Written { statements, body, state, cost } = self.body(&wanted);
+        let writes = self.writes(&wanted, &body, &|array| {
+            let field = Ident::new(array, Span::call_site());
+            quote!(out.#field)
+        });
+        let out = Ident::new(if writes.is_empty() { "_out" } else { "out" }, Span::call_site());
+        let (docs, name) = (format!(" {docs}"), Ident::new(name, Span::call_site()));
+        let n = self.sizes().0;
+        quote! {
+            #[doc = #docs]
+            ///
+            #[doc = #cost]
+            fn #name(&self, #state: &State<T, #n>, #out: &mut #buffer) {
+                #statements
+                #writes
+            }
+        }
+    }
+
+    /// A public function that returns an array.
+    fn returning(&mut self, method: Method) -> TokenStream {
+        let Method { docs, name, buffer, wanted } = method;
+        let Written { statements, body, state, cost } = self.body(&wanted);
+        let writes = self.writes(&wanted, &body, &|_| quote!(out));
+        let (docs, name) = (format!(" {docs}"), Ident::new(name, Span::call_site()));
+        let n = self.sizes().0;
+        let kind = if buffer.to_string().starts_with("SVector") { quote!(SVector) } else { quote!(SMatrix) };
+        let result = if writes.is_empty() {
+            quote!(#kind::zeros())
+        } else {
+            quote!(let mut out = #kind::zeros(); #writes out)
+        };
+        quote! {
+            #[doc = #docs]
+            ///
+            #[doc = #cost]
+            pub fn #name(&self, #state: &State<T, #n>) -> #buffer {
+                #statements
+                #result
+            }
+        }
+    }
+
+    /// Assignments of the entries that can differ from zero. Arrays are indexed by
+    /// literals below nalgebra's own indexing, so the compiler checks the bounds.
+    fn writes(
+        &self,
+        wanted: &[(Slot, ExprId)],
+        body: &Body,
+        place: &dyn Fn(&str) -> TokenStream,
+    ) -> TokenStream {
+        let graph = &self.mechanism.graph;
+        let written = wanted.iter().filter(|(_, e)| !graph.is_zero(*e)).filter_map(|(slot, _)| {
+            let (array, value) = (place(slot.array), body.written(*slot)?);
+            let row = Literal::usize_unsuffixed(slot.row);
+            let column = Literal::usize_unsuffixed(slot.column);
+            Some(quote!(#array.data.0[#column][#row] = #value;))
+        });
+        written.collect()
+    }
+}

@@ -1,0 +1,80 @@
+//! Readable Rust names for what a description names.
+
+use proc_macro2::{Ident, Span};
+use std::collections::BTreeSet;
+
+/// Gives each thing a name of its own.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Names {
+    taken: BTreeSet<String>,
+}
+
+impl Names {
+    /// Names that are already in use.
+    pub fn reserving(names: &[&str]) -> Self {
+        Self { taken: names.iter().map(|name| name.to_string()).collect() }
+    }
+
+    /// A new name close to a wish; `_2`, `_3`, … is added where it is taken.
+    pub fn unique(&mut self, wish: &str) -> Ident {
+        let base = snake_case(wish);
+        let mut name = base.clone();
+        let mut next = 2;
+        while !self.taken.insert(name.clone()) {
+            name = format!("{base}_{next}");
+            next += 1;
+        }
+        Ident::new(&name, Span::call_site())
+    }
+}
+
+/// `theta[0]` → `theta_0`, `rodLength` → `rod_length`, `L1` → `l1`; a keyword gets
+/// a trailing underscore.
+pub(super) fn snake_case(name: &str) -> String {
+    let mut snake = String::new();
+    let mut previous_lower = false;
+    for c in name.chars() {
+        if c.is_uppercase() && previous_lower {
+            snake.push('_');
+        }
+        previous_lower = c.is_lowercase();
+        match c {
+            '[' | '.' => snake.push('_'),
+            ']' => {}
+            _ => snake.extend(c.to_lowercase()),
+        }
+    }
+    if syn::parse_str::<Ident>(&snake).is_ok() { snake } else { format!("{snake}_") }
+}
+
+/// `slider_crank` → `SliderCrank`; what is in camel case stays so.
+pub(super) fn camel_case(name: &str) -> String {
+    let mut camel = String::new();
+    for word in name.split('_').filter(|word| !word.is_empty()) {
+        let mut letters = word.chars();
+        camel.extend(letters.next().into_iter().flat_map(char::to_uppercase));
+        camel.push_str(letters.as_str());
+    }
+    if syn::parse_str::<Ident>(&camel).is_ok() { camel } else { format!("Mechanism{camel}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_in_the_case_that_rust_expects() {
+        assert_eq!(snake_case("theta[0]"), "theta_0");
+        assert_eq!(snake_case("L01"), "l01");
+        assert_eq!(snake_case("type"), "type_");
+        assert_eq!(camel_case("double_four_bar"), "DoubleFourBar");
+        assert_eq!(camel_case("SliderCrank"), "SliderCrank");
+    }
+
+    #[test]
+    fn names_that_differ_in_case_alone_stay_different() {
+        let mut names = Names::default();
+        assert_eq!(names.unique("L1").to_string(), "l1");
+        assert_eq!(names.unique("l1").to_string(), "l1_2");
+    }
+}

@@ -1,0 +1,125 @@
+//! The static description of a mechanism, and the structs of its parameters and
+//! inputs.
+
+use super::Subject;
+use crate::expr::{ExprId, Symbol};
+use crate::model::{Direction, Quantity};
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// `static STRUCTURE`.
+pub(super) fn structure(subject: &Subject) -> TokenStream {
+    let Subject { mechanism, file, .. } = subject;
+    let (name, docs) = (&mechanism.name, &mechanism.docs);
+    let coordinates = quantities(&mechanism.coordinates);
+    let parameters = quantities(mechanism.parameters.iter().map(|p| &p.quantity));
+    let inputs = quantities(mechanism.inputs.iter().map(|i| &i.quantity));
+    let outputs = quantities(mechanism.outputs.iter().map(|o| &o.quantity));
+    let constraints = mechanism.constraints.iter().map(|row| {
+        let (text, holonomic) = (&row.text, row.holonomic);
+        let line = literal(row.span.line());
+        quote!(ConstraintRow { text: #text, line: #line, holonomic: #holonomic })
+    });
+    let events = mechanism.events.iter().map(|event| {
+        let name = &event.name;
+        let direction = match event.direction {
+            Direction::Rising => quote!(Rising),
+            Direction::Falling => quote!(Falling),
+            Direction::Crossing => quote!(Crossing),
+        };
+        quote!(Event { name: #name, direction: Direction::#direction })
+    });
+    let (constant_mass, conservative) = (constant_mass(subject), conservative(subject));
+    let drawn = !mechanism.shapes.is_empty();
+    quote! {
+        static STRUCTURE: Structure = Structure {
+            name: #name,
+            docs: #docs,
+            file: #file,
+            coordinates: &[#(#coordinates),*],
+            parameters: &[#(#parameters),*],
+            inputs: &[#(#inputs),*],
+            outputs: &[#(#outputs),*],
+            events: &[#(#events),*],
+            constraints: &[#(#constraints),*],
+            constant_mass: #constant_mass,
+            conservative: #conservative,
+            drawn: #drawn,
+        };
+    }
+}
+
+fn quantities<'a>(
+    quantities: impl IntoIterator<Item = &'a Quantity>,
+) -> impl Iterator<Item = TokenStream> {
+    quantities.into_iter().map(|Quantity { name, unit, docs, .. }| {
+        quote!(Quantity { name: #name, unit: #unit, docs: #docs })
+    })
+}
+
+fn literal(line: usize) -> proc_macro2::Literal {
+    proc_macro2::Literal::usize_unsuffixed(line)
+}
+
+fn constant_mass(subject: &Subject) -> bool {
+    let moves = |symbol: &Symbol| matches!(symbol, Symbol::Time | Symbol::Coordinate(_));
+    let graph = &subject.mechanism.graph;
+    let constant = |entry: &ExprId| !graph.symbols(*entry).iter().any(moves);
+    subject.equations.mass.iter().flatten().all(constant)
+}
+
+/// Nothing is supplied from outside: no power, and no moving constraint.
+fn conservative(subject: &Subject) -> bool {
+    let graph = &subject.mechanism.graph;
+    let still = |e: &ExprId| graph.is_zero(*e);
+    still(&subject.equations.energies.power) && subject.equations.drift.iter().all(still)
+}
+
+/// The struct of run-time parameters with its defaults; nothing if there are none.
+pub(super) fn parameters(subject: &Subject) -> TokenStream {
+    let parameters = &subject.mechanism.parameters;
+    if parameters.is_empty() {
+        return TokenStream::new();
+    }
+    let fields = &subject.names.parameter_fields;
+    let docs = parameters.iter().map(|p| quantity_docs(&p.quantity));
+    let defaults: Vec<TokenStream> =
+        subject.constants(parameters.iter().map(|p| p.default).collect());
+    quote! {
+        /// Run-time parameters, in SI units.
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct Parameters<T> { #(#[doc = #docs] pub #fields: T),* }
+
+        impl<T: Real> Default for Parameters<T> {
+            fn default() -> Self {
+                Parameters { #(#fields: #defaults),* }
+            }
+        }
+    }
+}
+
+/// The struct of inputs, each at its law by default; nothing if there are none.
+pub(super) fn inputs(subject: &Subject) -> TokenStream {
+    let inputs = &subject.mechanism.inputs;
+    if inputs.is_empty() {
+        return TokenStream::new();
+    }
+    let fields = &subject.names.input_fields;
+    let docs = inputs.iter().map(|input| {
+        let law = subject.mechanism.graph.text(input.law, &|symbol| subject.text(symbol));
+        format!("{}\n\n Default law: `{law}`.", quantity_docs(&input.quantity))
+    });
+    quote! {
+        /// External signals, in SI units: `None` is the default law.
+        #[derive(Clone, Copy, Debug, Default, PartialEq)]
+        pub struct Inputs<T> { #(#[doc = #docs] pub #fields: Option<T>),* }
+    }
+}
+
+fn quantity_docs(quantity: &Quantity) -> String {
+    let Quantity { name, unit, docs, .. } = quantity;
+    let unit = if unit.is_empty() { String::new() } else { format!(" ({unit})") };
+    let docs = docs.trim();
+    let stop = if docs.is_empty() { String::new() } else { format!(": {docs}") };
+    format!(" `{name}`{unit}{stop}")
+}

@@ -1,0 +1,134 @@
+//! The names of a mechanism's symbols in emitted code, and the statements that
+//! bring them into scope.
+
+use super::function::Symbols;
+use super::name::Names;
+use crate::expr::Symbol;
+use crate::model::Mechanism;
+use crate::optimise::{Operation, Program};
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+use std::collections::BTreeSet;
+
+/// Names that emitted bodies use for themselves.
+const RESERVED: [&str; 6] = ["state", "out", "values", "canvas", "index", "value"];
+
+/// Names of fields and of local variables.
+pub(super) struct SymbolNames {
+    /// Fields of the struct of parameters.
+    pub parameter_fields: Vec<Ident>,
+    /// Fields of the struct of inputs.
+    pub input_fields: Vec<Ident>,
+    time: Ident,
+    coordinates: Vec<Ident>,
+    velocities: Vec<Ident>,
+    parameters: Vec<Ident>,
+    /// The local names that are taken.
+    pub taken: Names,
+}
+
+impl SymbolNames {
+    /// Names for everything a mechanism declares.
+    pub fn of(mechanism: &Mechanism) -> Self {
+        let mut fields = Names::default();
+        let mut input_names = Names::default();
+        let mut taken = Names::reserving(&RESERVED);
+        let time = taken.unique("t");
+        let coordinates: Vec<Ident> =
+            mechanism.coordinates.iter().map(|q| taken.unique(&q.name)).collect();
+        let velocities =
+            mechanism.coordinates.iter().map(|q| taken.unique(&format!("{}_dot", q.name))).collect();
+        let parameters: Vec<&str> =
+            mechanism.parameters.iter().map(|p| p.quantity.name.as_str()).collect();
+        let inputs = mechanism.inputs.iter().map(|input| input_names.unique(&input.quantity.name));
+        SymbolNames {
+            parameter_fields: parameters.iter().map(|name| fields.unique(name)).collect(),
+            input_fields: inputs.collect(),
+            time,
+            coordinates,
+            velocities,
+            parameters: parameters.iter().map(|name| taken.unique(name)).collect(),
+            taken,
+        }
+    }
+
+    /// Statements that bring into scope what a program reads.
+    pub fn prelude(&self, program: &Program) -> TokenStream {
+        let used: BTreeSet<Symbol> = program
+            .operations()
+            .filter_map(|(_, operation)| match operation {
+                Operation::Symbol(symbol) => Some(*symbol),
+                _ => None,
+            })
+            .collect();
+        let time = &self.time;
+        let mut statements = TokenStream::new();
+        if used.contains(&Symbol::Time) {
+            statements.extend(quote!(let #time = state.t;));
+        }
+        let chosen = |names: &[Ident], symbol: fn(u32) -> Symbol| -> Option<Vec<TokenStream>> {
+            let uses = |i: usize| u32::try_from(i).is_ok_and(|i| used.contains(&symbol(i)));
+            let any = (0..names.len()).any(uses);
+            any.then(|| {
+                let entry = |(i, name)| if uses(i) { quote!(#name) } else { quote!(_) };
+                names.iter().enumerate().map(entry).collect()
+            })
+        };
+        if let Some(names) = chosen(&self.coordinates, Symbol::Coordinate) {
+            statements.extend(quote!(let [#(#names),*] = state.q.data.0[0];));
+        }
+        if let Some(names) = chosen(&self.velocities, Symbol::Velocity) {
+            statements.extend(quote!(let [#(#names),*] = state.v.data.0[0];));
+        }
+        statements.extend(self.parameter_prelude(&used));
+        statements
+    }
+
+    fn parameter_prelude(&self, used: &BTreeSet<Symbol>) -> TokenStream {
+        let bindings: Vec<TokenStream> = used
+            .iter()
+            .filter_map(|symbol| match symbol {
+                Symbol::Parameter(i) => Some(*i as usize),
+                _ => None,
+            })
+            .map(|i| {
+                let (field, local) = (&self.parameter_fields[i], &self.parameters[i]);
+                if field == local { quote!(#field) } else { quote!(#field: #local) }
+            })
+            .collect();
+        match (bindings.len(), self.parameters.len()) {
+            (0, _) => TokenStream::new(),
+            (some, all) if some == all => {
+                quote!(let Parameters { #(#bindings),* } = self.parameters;)
+            }
+            _ => quote!(let Parameters { #(#bindings,)* .. } = self.parameters;),
+        }
+    }
+
+    /// Whether a program reads the state.
+    pub fn reads_state(program: &Program) -> bool {
+        program.operations().any(|(_, operation)| {
+            matches!(
+                operation,
+                Operation::Symbol(Symbol::Time | Symbol::Coordinate(_) | Symbol::Velocity(_))
+            )
+        })
+    }
+}
+
+impl Symbols for SymbolNames {
+    fn local(&self, symbol: Symbol) -> Ident {
+        match symbol {
+            Symbol::Time => self.time.clone(),
+            Symbol::Coordinate(i) => self.coordinates[i as usize].clone(),
+            Symbol::Velocity(i) => self.velocities[i as usize].clone(),
+            Symbol::Parameter(i) => self.parameters[i as usize].clone(),
+            Symbol::Input(i) => self.input_fields[i as usize].clone(),
+        }
+    }
+
+    fn input(&self, index: u32, law: TokenStream) -> TokenStream {
+        let field = &self.input_fields[index as usize];
+        quote!(self.inputs.#field.unwrap_or(#law))
+    }
+}

@@ -1,0 +1,53 @@
+//! Equations to straight-line programs.
+//!
+//! In:  expressions of the mechanism's graph and the slots they are wanted in.
+//! Out: a [`Program`] that computes them, checked by [`verify`].
+//!
+//! The passes, in order:
+//! 1. [`trig`]: each expression in the ring of the sines and cosines it has, where
+//!    that is cheaper. Works on expressions.
+//! 2. [`schedule`]: to a program, each shared expression once.
+//! 3. [`factor`]: pairs of factors and of terms that several operations share.
+//! 4. [`dead`]: what nobody reads.
+
+mod count;
+mod dead;
+mod factor;
+mod interpret;
+mod program;
+mod schedule;
+mod trig;
+mod verify;
+
+pub use count::{Cost, cost};
+pub use interpret::interpret;
+pub use program::{Operation, Program, Slot, Value};
+pub use trig::in_trig_ring;
+pub use verify::verify;
+
+use crate::expr::{ExprId, Graph};
+
+/// The program for the wanted expressions; `laws` are the default laws of the
+/// inputs.
+///
+/// # Panics
+///
+/// If a pass leaves a program that breaks an invariant: a bug of this crate, with
+/// the program in the message.
+pub fn optimise(graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -> Program {
+    let plain = factor::factor(&schedule::schedule(graph, laws, wanted));
+    let reduced: Vec<_> =
+        wanted.iter().map(|(slot, e)| (*slot, in_trig_ring(graph, *e))).collect();
+    let reduced = factor::factor(&schedule::schedule(graph, laws, &reduced));
+    let best = if cost(&reduced).weight() < cost(&plain).weight() { reduced } else { plain };
+    if let Err(broken) = verify(&best) {
+        panic!("internal error, please report: {broken} in {best:?}");
+    }
+    best
+}
+
+/// The program for expressions without rewriting: for defaults and the like, where
+/// speed does not count.
+pub fn plain(graph: &Graph, wanted: &[(Slot, ExprId)]) -> Program {
+    schedule::schedule(graph, &[], wanted)
+}

@@ -1,0 +1,138 @@
+//! Straight-line programs: what an emitted function computes, in order.
+//!
+//! A [`Program`] is single-assignment. Each [`Value`] is an index into its
+//! operations; operands come before their users. It knows no mechanics: an
+//! output is an entry of a named array.
+
+use crate::expr::{Comparison, Function, Function2, Number, Symbol};
+use rustc_hash::FxHashMap;
+
+/// The result of an operation of a [`Program`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Value(u32);
+
+impl Value {
+    /// The value at a place of a program.
+    pub(super) fn at(index: usize) -> Self {
+        Value(u32::try_from(index).unwrap_or(u32::MAX))
+    }
+
+    /// Its place in the program.
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// One operation.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Operation {
+    /// A number.
+    Number(Number),
+    /// π.
+    Pi,
+    /// A symbol other than an input.
+    Symbol(Symbol),
+    /// An input: held at a value from outside, or else its default law.
+    Input(u32, Value),
+    /// A sum of terms, each added or (`true`) subtracted. One subtracted term is a
+    /// change of sign.
+    Sum(Vec<(bool, Value)>),
+    /// A product of two or more factors.
+    Product(Vec<Value>),
+    /// The first divided by the second.
+    Quotient(Value, Value),
+    /// A function of one argument.
+    Function(Function, Value),
+    /// A function of two arguments.
+    Function2(Function2, Value, Value),
+    /// `if left ⋈ right then … else …`.
+    Select(Comparison, [Value; 4]),
+}
+
+impl Operation {
+    /// The values it reads.
+    pub fn operands(&self) -> Vec<Value> {
+        match self {
+            Operation::Number(_) | Operation::Pi | Operation::Symbol(_) => Vec::new(),
+            Operation::Input(_, law) => vec![*law],
+            Operation::Sum(terms) => terms.iter().map(|(_, value)| *value).collect(),
+            Operation::Product(factors) => factors.clone(),
+            Operation::Function(_, x) => vec![*x],
+            Operation::Quotient(x, y) | Operation::Function2(_, x, y) => vec![*x, *y],
+            Operation::Select(_, parts) => parts.to_vec(),
+        }
+    }
+}
+
+/// An entry of a named output array; `column` is zero for a vector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Slot {
+    /// The array.
+    pub array: &'static str,
+    /// The row.
+    pub row: usize,
+    /// The column.
+    pub column: usize,
+}
+
+/// A straight-line program.
+#[derive(Clone, Debug, Default)]
+pub struct Program {
+    operations: Vec<Operation>,
+    index: FxHashMap<Operation, Value>,
+    /// What is written, in order.
+    pub outputs: Vec<(Slot, Value)>,
+}
+
+impl Program {
+    /// Adds an operation, or finds the equal one that is there already. Factors are
+    /// put in order; so are terms, those that are added before those that are not.
+    pub fn push(&mut self, mut operation: Operation) -> Value {
+        match &mut operation {
+            Operation::Product(factors) => factors.sort_unstable(),
+            Operation::Sum(terms) => terms.sort_unstable(),
+            _ => {}
+        }
+        if let Some(&known) = self.index.get(&operation) {
+            return known;
+        }
+        let value = Value::at(self.operations.len());
+        self.operations.push(operation.clone());
+        self.index.insert(operation, value);
+        value
+    }
+
+    /// The operation that a value is the result of.
+    pub fn operation(&self, value: Value) -> &Operation {
+        &self.operations[value.index()]
+    }
+
+    /// All operations in order.
+    pub fn operations(&self) -> impl Iterator<Item = (Value, &Operation)> {
+        self.operations.iter().enumerate().map(|(i, operation)| (Value::at(i), operation))
+    }
+
+    /// The number of operations.
+    pub fn len(&self) -> usize {
+        self.operations.len()
+    }
+
+    /// Whether it computes nothing.
+    pub fn is_empty(&self) -> bool {
+        self.operations.is_empty()
+    }
+
+    /// How often each value is read, outputs included.
+    pub fn uses(&self) -> Vec<usize> {
+        let mut uses = vec![0; self.len()];
+        for (_, operation) in self.operations() {
+            for operand in operation.operands() {
+                uses[operand.index()] += 1;
+            }
+        }
+        for (_, value) in &self.outputs {
+            uses[value.index()] += 1;
+        }
+        uses
+    }
+}

@@ -1,0 +1,38 @@
+//! What every program satisfies; checked after each pass.
+//!
+//! - Operands come before their users.
+//! - A sum has a term, and one positive term alone is no sum.
+//! - A product has at least two factors.
+//! - A number is finite and not negative (signs belong to sums).
+//! - Each slot is written once.
+//! - Every operation is read.
+
+use super::program::{Operation, Program};
+use std::collections::HashSet;
+
+/// The first broken invariant, if any. A broken invariant is a bug of this crate,
+/// never of a description.
+pub fn verify(program: &Program) -> Result<(), String> {
+    for (value, operation) in program.operations() {
+        if operation.operands().iter().any(|operand| *operand >= value) {
+            return Err(format!("{value:?} reads a later value: {operation:?}"));
+        }
+        let sound = match operation {
+            Operation::Sum(terms) => !terms.is_empty() && (terms.len() > 1 || terms[0].0),
+            Operation::Product(factors) => factors.len() > 1,
+            Operation::Number(number) => number.is_finite() && !number.is_negative(),
+            _ => true,
+        };
+        if !sound {
+            return Err(format!("{value:?} is malformed: {operation:?}"));
+        }
+    }
+    let mut written = HashSet::new();
+    if let Some((slot, _)) = program.outputs.iter().find(|(slot, _)| !written.insert(*slot)) {
+        return Err(format!("{slot:?} is written twice"));
+    }
+    match program.uses().iter().position(|uses| *uses == 0) {
+        Some(unused) => Err(format!("operation {unused} is never read")),
+        None => Ok(()),
+    }
+}
