@@ -202,12 +202,18 @@ impl Writer<'_> {
         Piece { tokens, binding: Binding::Sum, operands }
     }
 
+    /// Numbers stand in front, as people write them.
     fn product(&self, factors: &[Value]) -> Piece {
-        let bound = factors.iter().enumerate().map(|(i, value)| {
-            let nested = matches!(self.pieces[value.index()].binding, Binding::Product);
-            self.bound(*value, if nested && i == 0 { Binding::Product } else { Binding::Atom })
-        });
-        let tokens = quote!(#(#bound)**);
+        let is_number = |x: &Value| matches!(self.program.operation(*x), Operation::Number(_));
+        let (mut ordered, others): (Vec<Value>, Vec<Value>) =
+            factors.iter().copied().partition(is_number);
+        ordered.extend(others);
+        let mut tokens = TokenStream::new();
+        for (i, value) in ordered.into_iter().enumerate() {
+            let first = i == 0;
+            let factor = self.bound(value, if first { Binding::Product } else { Binding::Atom });
+            tokens.extend(if first { quote!(#factor) } else { quote!(* #factor) });
+        }
         let operands = self.operands(factors.iter().copied());
         Piece { tokens, binding: Binding::Product, operands }
     }

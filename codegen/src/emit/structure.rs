@@ -4,7 +4,7 @@
 use super::Subject;
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Direction, Quantity};
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 /// `static STRUCTURE`.
@@ -17,7 +17,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
     let outputs = quantities(mechanism.outputs.iter().map(|o| &o.quantity));
     let constraints = mechanism.constraints.iter().map(|row| {
         let (text, holonomic) = (&row.text, row.holonomic);
-        let line = literal(row.span.line());
+        let line = Literal::u32_unsuffixed(row.span.start.line);
         quote!(ConstraintRow { text: #text, line: #line, holonomic: #holonomic })
     });
     let events = mechanism.events.iter().map(|event| {
@@ -55,10 +55,6 @@ fn quantities<'a>(
     quantities.into_iter().map(|Quantity { name, unit, docs, .. }| {
         quote!(Quantity { name: #name, unit: #unit, docs: #docs })
     })
-}
-
-fn literal(line: usize) -> proc_macro2::Literal {
-    proc_macro2::Literal::usize_unsuffixed(line)
 }
 
 fn constant_mass(subject: &Subject) -> bool {

@@ -67,15 +67,12 @@ impl Ring<'_> {
             }
             // What stands inside a function is reduced on its own.
             _ => {
-                let known: FxHashMap<ExprId, ExprId> = self
-                    .graph
-                    .node(e)
-                    .children()
-                    .into_iter()
-                    .map(|child| (child, self.known[&child].clone()))
-                    .map(|(child, polynomial)| (child, self.expression(&polynomial)))
-                    .collect();
-                let atom = self.graph.rebuild(e, &|child| known[&child]);
+                let mut reduced: FxHashMap<ExprId, ExprId> = FxHashMap::default();
+                for child in self.graph.node(e).children() {
+                    let polynomial = self.known[&child].clone();
+                    reduced.insert(child, self.expression(&polynomial));
+                }
+                let atom = self.graph.rebuild(e, &|child| reduced[&child]);
                 self.atomic(atom)
             }
         }
