@@ -16,6 +16,9 @@ pub use suggest::nearest;
 
 use std::fmt;
 
+/// More findings than this about one file help nobody; the rest is dropped.
+const KEPT: usize = 500;
+
 /// How bad a finding is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
@@ -90,21 +93,13 @@ impl Diagnostic {
     }
 }
 
-/// The file that findings are about.
-#[derive(Clone, Debug, PartialEq, Eq)]
-struct Origin {
-    file: String,
-    source: String,
-}
-
 /// Findings about one file.
 ///
-/// Displayed with source lines once the file is known (see
-/// [`Diagnostics::in_file`]), otherwise as a list of places and messages.
+/// Displayed as a list of places and messages; [`Diagnostics::render`] shows the
+/// source lines too.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
-    origin: Option<Origin>,
 }
 
 impl Diagnostics {
@@ -116,14 +111,14 @@ impl Diagnostics {
     /// Records a finding. The same words about the same place are recorded once:
     /// the body of a loop is read many times.
     pub fn push(&mut self, diagnostic: Diagnostic) {
-        if !self.list.contains(&diagnostic) {
+        if self.list.len() < KEPT && !self.list.contains(&diagnostic) {
             self.list.push(diagnostic);
         }
     }
 
     /// Adds the findings of another collection.
     pub fn append(&mut self, other: Diagnostics) {
-        self.list.extend(other.list);
+        other.list.into_iter().for_each(|diagnostic| self.push(diagnostic));
     }
 
     /// Whether nothing was found.
@@ -149,11 +144,10 @@ impl Diagnostics {
         self
     }
 
-    /// Names the file and gives its text, so that source lines can be shown.
-    pub fn in_file(mut self, file: &str, source: &str) -> Self {
-        let source = without_mark(source).to_string();
-        self.origin = Some(Origin { file: file.to_string(), source });
-        self
+    /// The findings with their source lines; empty if there are none. The first
+    /// line of each begins with `file:line:column`.
+    pub fn render(&self, file: &str, source: &str) -> String {
+        render::render(&self.sorted(), file, without_mark(source))
     }
 }
 
@@ -164,15 +158,10 @@ pub fn without_mark(source: &str) -> &str {
 
 impl fmt::Display for Diagnostics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.origin {
-            Some(origin) => f.write_str(&render::render(self, &origin.file, &origin.source)),
-            None => {
-                for diagnostic in self.sorted() {
-                    writeln!(f, "{}: {}", diagnostic.primary.span, diagnostic.message)?;
-                }
-                Ok(())
-            }
+        for diagnostic in self.sorted() {
+            writeln!(f, "{}: {}", diagnostic.primary.span, diagnostic.message)?;
         }
+        Ok(())
     }
 }
 

@@ -3,7 +3,7 @@
 //! In:  findings, the name of the file and its text.
 //! Out: plain text without colour, one block for each finding.
 
-use super::{Diagnostic, Diagnostics, Severity, Span};
+use super::{Diagnostic, Severity, Span};
 use ariadne::{CharSet, Config, IndexType, Label, Report, ReportKind, Source};
 use std::ops::Range;
 
@@ -13,32 +13,30 @@ const SHOWN: usize = 40;
 
 type Place<'a> = (&'a str, Range<usize>);
 
-/// Renders all findings, sorted by place.
-pub fn render(diagnostics: &Diagnostics, file: &str, source: &str) -> String {
+/// Renders findings in the order given.
+pub fn render(diagnostics: &[&Diagnostic], file: &str, source: &str) -> String {
     let mut cache = (file, Source::from(source));
-    let sorted = diagnostics.sorted();
     let mut text = String::new();
-    for diagnostic in sorted.iter().take(SHOWN) {
+    for diagnostic in diagnostics.iter().take(SHOWN) {
         let mut bytes = Vec::new();
-        let written = report(diagnostic, file, source).write(&mut cache, &mut bytes);
+        let kind = kind(diagnostic, file);
+        let written = report(diagnostic, &kind, file, source).write(&mut cache, &mut bytes);
         let block = match written {
             Ok(()) => String::from_utf8_lossy(&bytes).into_owned(),
-            Err(_) => headline(diagnostic, file),
+            Err(_) => format!("{kind}: {}", diagnostic.message),
         };
         let lines: Vec<_> = block.lines().map(str::trim_end).collect();
         text.push_str(lines.join("\n").trim_end());
         text.push_str("\n\n");
     }
-    if sorted.len() > SHOWN {
-        text.push_str(&format!("… and {} more\n", sorted.len() - SHOWN));
+    if diagnostics.len() > SHOWN {
+        text.push_str(&format!("… and {} more\n", diagnostics.len() - SHOWN));
     }
     text.truncate(text.trim_end().len());
-    text.push('\n');
+    if !text.is_empty() {
+        text.push('\n');
+    }
     text
-}
-
-fn headline(diagnostic: &Diagnostic, file: &str) -> String {
-    format!("{}: {}", kind(diagnostic, file), diagnostic.message)
 }
 
 /// `file:line:column: error`, which editors turn into a link.
@@ -50,19 +48,24 @@ fn kind(diagnostic: &Diagnostic, file: &str) -> String {
     format!("{file}:{}: {severity}", diagnostic.primary.span)
 }
 
-fn report<'a>(diagnostic: &Diagnostic, file: &'a str, source: &str) -> Report<'a, Place<'a>> {
+fn report<'k, 'a>(
+    diagnostic: &Diagnostic,
+    kind: &'k str,
+    file: &'a str,
+    source: &str,
+) -> Report<'k, Place<'a>> {
     let place = |span: Span| (file, visible(span, source));
     let config = Config::new()
         .with_color(false)
         .with_char_set(CharSet::Unicode)
         .with_index_type(IndexType::Byte);
-    // The renderer keeps only a static name of the kind, so it goes into the message.
-    let kind = ReportKind::Custom("", ariadne::Color::Primary);
+    let kind = ReportKind::Custom(kind, ariadne::Color::Primary);
     let mut builder = Report::build(kind, place(diagnostic.primary.span))
         .with_config(config)
-        .with_message(headline(diagnostic, file));
-    for (order, label) in std::iter::once(&diagnostic.primary).chain(&diagnostic.secondary).enumerate() {
-        let mut drawn = Label::new(place(label.span)).with_order(i32::try_from(order).unwrap_or(0));
+        .with_message(&diagnostic.message);
+    let labels = std::iter::once(&diagnostic.primary).chain(&diagnostic.secondary);
+    for label in labels {
+        let mut drawn = Label::new(place(label.span));
         if !label.text.is_empty() {
             drawn = drawn.with_message(&label.text);
         }

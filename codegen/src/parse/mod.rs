@@ -1,0 +1,43 @@
+//! Text to syntax tree, every node with its place.
+//!
+//! In:  the text of a description.
+//! Out: [`ast::Ast`]: what is written, nothing resolved.
+//!
+//! Four steps: `scan` looks at the characters (so that the lexer cannot fail and
+//! no nesting is too deep for a recursive reader), `token` has proc-macro2 lex
+//! them, `item`, `start` and `unit` read statements, `expression` reads formulas.
+//! A mistake inside a statement is reported and reading goes on behind it.
+//!
+//! Not here: the meaning of names, shapes and units.
+
+pub mod ast;
+mod cursor;
+mod expression;
+mod item;
+mod scan;
+mod start;
+mod token;
+mod unit;
+
+use crate::diagnostic::{Diagnostics, without_mark};
+
+/// Levels of brackets, of `if`, of powers and of signs inside one another. People
+/// need about ten; the recursive reader has room for these.
+pub const NESTING: usize = 100;
+
+/// Reads a description.
+///
+/// # Errors
+///
+/// Everything that breaks the grammar, with its place.
+pub fn parse(source: &str) -> Result<ast::Ast, Diagnostics> {
+    let source = without_mark(source);
+    scan::scan(source)?;
+    let tokens = token::tokenize(source)?;
+    let mut cursor = cursor::Cursor::new(source, tokens);
+    let ast = cursor.file();
+    match ast {
+        Ok(ast) if cursor.diagnostics.is_empty() => Ok(ast),
+        _ => Err(cursor.diagnostics),
+    }
+}

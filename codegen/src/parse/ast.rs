@@ -1,0 +1,252 @@
+//! The syntax tree: what is written, with its places.
+
+use crate::diagnostic::Span;
+use crate::expr::{Comparison, Number};
+
+/// A file: one mechanism.
+#[derive(Clone, Debug)]
+pub struct Ast {
+    /// The name after `mechanism`.
+    pub name: Name,
+    /// Its doc comment.
+    pub docs: String,
+    /// What stands between its braces.
+    pub items: Vec<Item>,
+}
+
+/// A name and where it stands.
+#[derive(Clone, Debug)]
+pub struct Name {
+    /// The name.
+    pub text: String,
+    /// Its place.
+    pub span: Span,
+}
+
+/// A statement.
+#[derive(Clone, Debug)]
+pub struct Item {
+    /// Its doc comment.
+    pub docs: String,
+    /// Its place, from the first word to the end.
+    pub span: Span,
+    /// What it says.
+    pub kind: ItemKind,
+}
+
+/// What a statement says.
+#[derive(Clone, Debug)]
+pub enum ItemKind {
+    /// `const`, `param`, `input` or `output`.
+    Declaration(Declaration),
+    /// `coord n[size]: unit;`
+    Coordinate {
+        /// Its name.
+        name: Name,
+        /// The number of coordinates, for an array.
+        size: Option<Expr>,
+        /// The unit, if it is given.
+        unit: Option<UnitExpr>,
+    },
+    /// `let n[range] = value;`
+    Let(Let),
+    /// `kinetic`, `potential` or `dissipation`.
+    Energy(Energy, Expr),
+    /// `force F on x;`
+    Force {
+        /// The force.
+        force: Expr,
+        /// What it works on.
+        on: Expr,
+    },
+    /// `constraint left = right;`
+    Constraint {
+        /// The left side.
+        left: Expr,
+        /// The right side.
+        right: Expr,
+        /// The equation as written, on one line.
+        text: String,
+    },
+    /// `start { … }`
+    Start(Vec<StartItem>),
+    /// `event n: value rising;`
+    Event {
+        /// Its name.
+        name: Name,
+        /// The function whose zeros are wanted.
+        value: Expr,
+        /// The sign change that counts.
+        direction: Crossing,
+    },
+    /// `draw shape(arguments);`
+    Draw {
+        /// The shape.
+        shape: Drawing,
+        /// Its arguments.
+        arguments: Vec<Expr>,
+    },
+    /// `for range { items }`
+    For(Range, Vec<Item>),
+}
+
+/// `const`, `param`, `input` or `output`.
+#[derive(Clone, Debug)]
+pub struct Declaration {
+    /// Which of the four.
+    pub kind: Declared,
+    /// Its name.
+    pub name: Name,
+    /// The unit, if it is given.
+    pub unit: Option<UnitExpr>,
+    /// The value, default or law.
+    pub value: Expr,
+}
+
+/// The kinds of declaration with a unit and a value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Declared {
+    /// `const`
+    Constant,
+    /// `param`
+    Parameter,
+    /// `input`
+    Input,
+    /// `output`
+    Output,
+}
+
+/// `let n = value;` or `let n[i in 0..K] = value;`
+#[derive(Clone, Debug)]
+pub struct Let {
+    /// Its name.
+    pub name: Name,
+    /// The index and its values, for an array.
+    pub range: Option<Range>,
+    /// The value.
+    pub value: Expr,
+}
+
+/// The three scalar functions that forces come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Energy {
+    /// `kinetic`
+    Kinetic,
+    /// `potential`
+    Potential,
+    /// `dissipation`
+    Dissipation,
+}
+
+/// The direction of an event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Crossing {
+    /// `rising`
+    Rising,
+    /// `falling`
+    Falling,
+    /// `crossing`
+    Crossing,
+}
+
+/// The shapes of `draw`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Drawing {
+    /// `line`
+    Line,
+    /// `circle`
+    Circle,
+    /// `polygon`
+    Polygon,
+    /// `trace`
+    Trace,
+}
+
+/// An entry of `start`.
+#[derive(Clone, Debug)]
+pub enum StartItem {
+    /// `target = value;` or `target ~ value;`
+    Entry {
+        /// A coordinate or `der(coordinate)`.
+        target: Expr,
+        /// `=` (held) or `~` (a guess).
+        held: bool,
+        /// The value.
+        value: Expr,
+    },
+    /// `for range { … }`
+    For(Range, Vec<StartItem>),
+}
+
+/// `index in from..to`
+#[derive(Clone, Debug)]
+pub struct Range {
+    /// The index.
+    pub index: Name,
+    /// The first value.
+    pub from: Expr,
+    /// The value behind the last.
+    pub to: Expr,
+}
+
+/// A formula.
+#[derive(Clone, Debug)]
+pub struct Expr {
+    /// Its place.
+    pub span: Span,
+    /// What it says.
+    pub kind: ExprKind,
+}
+
+/// What a formula says. Sums and products are lists, so that long ones are not
+/// deep.
+#[derive(Clone, Debug)]
+pub enum ExprKind {
+    /// A number.
+    Number(Number),
+    /// A name.
+    Name(String),
+    /// `-x`
+    Negative(Box<Expr>),
+    /// `a + b - c`; the flag says that the term is subtracted.
+    Sum(Vec<(bool, Expr)>),
+    /// `a * b / c`; the flag says that the factor divides.
+    Product(Vec<(bool, Expr)>),
+    /// `base ^ exponent`
+    Power(Box<Expr>, Box<Expr>),
+    /// `function(arguments)`
+    Call(Name, Vec<Expr>),
+    /// `sum(range, term)`
+    Repeat(Box<Range>, Box<Expr>),
+    /// `[a, b, c]`
+    Vector(Vec<Expr>),
+    /// `.x`, `.y` or `.z`, by number.
+    Component(Box<Expr>, usize),
+    /// `array[index]`
+    Index(Box<Expr>, Box<Expr>),
+    /// `if condition then a else b`
+    If(Box<Condition>, Box<Expr>, Box<Expr>),
+}
+
+/// `left ⋈ right`; `a > b` is kept as `b < a`.
+#[derive(Clone, Debug)]
+pub struct Condition {
+    /// The comparison.
+    pub comparison: Comparison,
+    /// Its left side.
+    pub left: Expr,
+    /// Its right side.
+    pub right: Expr,
+}
+
+/// A unit as it is written.
+#[derive(Clone, Debug)]
+pub struct UnitExpr {
+    /// Its place.
+    pub span: Span,
+    /// Its text without blanks.
+    pub text: String,
+    /// The unit names with their exponents; parentheses and quotients multiplied
+    /// out.
+    pub factors: Vec<(Name, i32)>,
+}

@@ -1,0 +1,214 @@
+//! A reader of tokens that says what it expected, and goes on after a mistake.
+
+use super::NESTING;
+use super::ast::Name;
+use super::token::{Token, TokenKind, Tokens};
+use crate::diagnostic::{Diagnostic, Diagnostics, Span};
+
+/// The mistake has been reported; go on behind the statement.
+#[derive(Debug)]
+pub struct Reported;
+
+/// What a reader gives.
+pub type Parsed<T> = Result<T, Reported>;
+
+/// Words that begin a statement, with an example of each.
+pub const STATEMENTS: [(&str, &str); 14] = [
+    ("const", "const g: m/s^2 = 9.81;"),
+    ("param", "param L1: m = 0.5;"),
+    ("coord", "coord q1: rad;"),
+    ("input", "input u: N*m = 0;"),
+    ("let", "let c = [L1*cos(q1), L1*sin(q1)];"),
+    ("kinetic", "kinetic 1/2*m1*norm2(der(c));"),
+    ("potential", "potential m1*g*c.y;"),
+    ("dissipation", "dissipation 1/2*d*der(q1)^2;"),
+    ("force", "force u on q1;"),
+    ("constraint", "constraint L1*sin(q1) = L2*sin(q2);"),
+    ("start", "start { q1 = 45*deg; q2 ~ 0.7; }"),
+    ("output", "output x: m = c.x;"),
+    ("event", "event top: q1 - pi/2 rising;"),
+    ("draw", "draw line([0, 0], c);"),
+];
+
+/// Words that can't be names of quantities: they are part of formulas and
+/// statements, or have no raw form in Rust.
+const RESERVED: [&str; 11] =
+    ["if", "then", "else", "in", "on", "for", "_", "self", "Self", "super", "crate"];
+
+/// A place in the list of tokens.
+#[derive(Debug)]
+pub struct Cursor<'a> {
+    pub source: &'a str,
+    pub diagnostics: Diagnostics,
+    tokens: Tokens,
+    at: usize,
+    nesting: usize,
+}
+
+impl<'a> Cursor<'a> {
+    /// At the first token.
+    pub fn new(source: &'a str, tokens: Tokens) -> Self {
+        Self { source, diagnostics: Diagnostics::new(), tokens, at: 0, nesting: 0 }
+    }
+
+    /// The next token. Behind the last one is the last one again.
+    pub fn peek(&self) -> &Token {
+        self.peek_at(0)
+    }
+
+    /// The token some places ahead.
+    pub fn peek_at(&self, ahead: usize) -> &Token {
+        let last = self.tokens.list.len() - 1;
+        &self.tokens.list[(self.at + ahead).min(last)]
+    }
+
+    /// The place of the next token.
+    pub fn span(&self) -> Span {
+        self.peek().span
+    }
+
+    /// The place of the token that was read last.
+    pub fn last_span(&self) -> Span {
+        self.tokens.list[self.at.saturating_sub(1)].span
+    }
+
+    /// Reads a token.
+    pub fn advance(&mut self) -> Token {
+        let token = self.peek().clone();
+        self.at = (self.at + 1).min(self.tokens.list.len() - 1);
+        token
+    }
+
+    /// Whether a word comes next.
+    pub fn at_word(&self, word: &str) -> bool {
+        matches!(&self.peek().kind, TokenKind::Word(text) if text == word)
+    }
+
+    /// Whether a sign comes next.
+    pub fn at_symbol(&self, symbol: &str) -> bool {
+        matches!(&self.peek().kind, TokenKind::Symbol(text) if *text == symbol)
+    }
+
+    /// Reads a word if it comes next.
+    pub fn take_word(&mut self, word: &str) -> bool {
+        let there = self.at_word(word);
+        if there {
+            self.advance();
+        }
+        there
+    }
+
+    /// Reads a sign if it comes next.
+    pub fn take_symbol(&mut self, symbol: &str) -> bool {
+        let there = self.at_symbol(symbol);
+        if there {
+            self.advance();
+        }
+        there
+    }
+
+    /// Reads a sign that has to come next.
+    pub fn expect_symbol(&mut self, symbol: &str, help: &str) -> Parsed<()> {
+        if self.take_symbol(symbol) {
+            return Ok(());
+        }
+        Err(self.unexpected(&format!("`{symbol}`"), help))
+    }
+
+    /// Reads the name of something new.
+    pub fn expect_name(&mut self, what: &str, help: &str) -> Parsed<Name> {
+        let token = self.peek().clone();
+        let TokenKind::Word(text) = token.kind else {
+            return Err(self.unexpected(what, help));
+        };
+        if RESERVED.contains(&text.as_str()) {
+            let message = format!("`{text}` can't be a name: it is a word of the language");
+            let message = match text.as_str() {
+                "self" | "Self" | "super" | "crate" | "_" => format!("`{text}` can't be a name"),
+                _ => message,
+            };
+            return Err(self.fail(Diagnostic::error(token.span, message).help("choose another name")));
+        }
+        self.advance();
+        Ok(Name { text, span: token.span })
+    }
+
+    /// Records a mistake.
+    pub fn fail(&mut self, diagnostic: Diagnostic) -> Reported {
+        self.diagnostics.push(diagnostic);
+        Reported
+    }
+
+    /// Records that something else was expected. Where it is missing at the end
+    /// of a line, that end is the place.
+    pub fn unexpected(&mut self, expected: &str, help: &str) -> Reported {
+        let next = self.peek();
+        let new_line = self.at > 0 && next.span.start.line > self.last_span().end.line;
+        let (span, found) = if new_line || next.kind == TokenKind::End {
+            let span = if self.at > 0 { self.last_span().after() } else { next.span };
+            (span, String::new())
+        } else {
+            (next.span, format!(", found `{}`", next.span.text(self.source)))
+        };
+        let mut diagnostic = Diagnostic::error(span, format!("expected {expected}{found}"));
+        if !help.is_empty() {
+            diagnostic = diagnostic.help(help);
+        }
+        self.fail(diagnostic)
+    }
+
+    /// Reads something one level deeper.
+    pub fn deeper<T>(&mut self, read: impl FnOnce(&mut Self) -> Parsed<T>) -> Parsed<T> {
+        if self.nesting >= NESTING {
+            let message = format!("more than {NESTING} levels inside one another");
+            let error = Diagnostic::error(self.span(), message);
+            return Err(self.fail(error.help("give inner parts names of their own with `let`")));
+        }
+        self.nesting += 1;
+        let result = read(self);
+        self.nesting -= 1;
+        result
+    }
+
+    /// The doc comment in front of the next token.
+    pub fn docs(&self) -> String {
+        let docs = &self.tokens.docs;
+        let first = docs.partition_point(|(index, _)| *index < self.at);
+        let lines = docs[first..].iter().take_while(|(index, _)| *index == self.at);
+        let lines: Vec<_> = lines.map(|(_, line)| line.as_str()).collect();
+        lines.join("\n").trim().to_string()
+    }
+
+    /// The number of brackets open around the next token.
+    pub fn depth(&self) -> usize {
+        self.peek().depth
+    }
+
+    /// Goes on behind the statement that began at a token: behind its `;` or
+    /// `}`, or in front of a word that begins another one on a new line, or at
+    /// the end of the block.
+    pub fn recover(&mut self, depth: usize) {
+        loop {
+            let token = self.peek();
+            let same = token.depth == depth;
+            let closing = |bracket: &'static str| token.kind == TokenKind::Symbol(bracket);
+            if token.kind == TokenKind::End || (closing("}") && token.depth < depth) {
+                return;
+            }
+            if same && (closing(";") || closing("}")) {
+                self.advance();
+                return;
+            }
+            let new_line = self.at > 0 && token.span.start.line > self.last_span().end.line;
+            if new_line && same && self.at_statement() {
+                return;
+            }
+            self.advance();
+        }
+    }
+
+    /// Whether a word that begins a statement comes next.
+    pub fn at_statement(&self) -> bool {
+        STATEMENTS.iter().any(|(word, _)| self.at_word(word)) || self.at_word("for")
+    }
+}

@@ -1,0 +1,300 @@
+//! Formulas, by climbing the precedence of operators.
+//!
+//! From loose to tight: `if … then … else …`; `+ -`; `* /`; the sign; `^`, from
+//! right to left; `.x`, `[i]`. A sign binds less tightly than a power and more
+//! tightly than a product: `-x^2 = -(x^2)`, `2^-1 = 1/2`.
+
+use super::ast::{Condition, Expr, ExprKind, Name, Range};
+use super::cursor::{Cursor, Parsed};
+use super::token::TokenKind;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::expr::{Comparison, Number};
+
+impl Cursor<'_> {
+    /// Reads a formula.
+    pub fn expression(&mut self) -> Parsed<Expr> {
+        self.deeper(Self::sum)
+    }
+
+    fn sum(&mut self) -> Parsed<Expr> {
+        let first = self.product()?;
+        let mut terms = vec![(false, first)];
+        while self.at_symbol("+") || self.at_symbol("-") {
+            let minus = self.advance().kind == TokenKind::Symbol("-");
+            terms.push((minus, self.product()?));
+        }
+        Ok(list(terms, ExprKind::Sum))
+    }
+
+    fn product(&mut self) -> Parsed<Expr> {
+        let first = self.signed()?;
+        let mut factors = vec![(false, first)];
+        loop {
+            if self.at_symbol("**") {
+                let error = Diagnostic::error(self.span(), "`**` is not an operator");
+                return Err(self.fail(error.help("a power is written `x^2`")));
+            }
+            if !self.at_symbol("*") && !self.at_symbol("/") {
+                return Ok(list(factors, ExprKind::Product));
+            }
+            let over = self.advance().kind == TokenKind::Symbol("/");
+            factors.push((over, self.signed()?));
+        }
+    }
+
+    fn signed(&mut self) -> Parsed<Expr> {
+        let start = self.span();
+        if self.take_symbol("-") {
+            let inside = self.deeper(Self::signed)?;
+            let span = start.to(inside.span);
+            return Ok(Expr { span, kind: ExprKind::Negative(Box::new(inside)) });
+        }
+        if self.take_symbol("+") {
+            return self.deeper(Self::signed);
+        }
+        self.power()
+    }
+
+    fn power(&mut self) -> Parsed<Expr> {
+        let base = self.postfix()?;
+        if !self.take_symbol("^") {
+            return Ok(base);
+        }
+        let exponent = self.deeper(Self::signed)?;
+        let span = base.span.to(exponent.span);
+        Ok(Expr { span, kind: ExprKind::Power(Box::new(base), Box::new(exponent)) })
+    }
+
+    /// Reads a formula without operators: a name, a component, a call.
+    pub fn postfix(&mut self) -> Parsed<Expr> {
+        let mut value = self.atom()?;
+        for _ in 0..super::NESTING {
+            if self.take_symbol(".") {
+                let axis = self.axis()?;
+                let span = value.span.to(self.last_span());
+                value = Expr { span, kind: ExprKind::Component(Box::new(value), axis) };
+            } else if self.take_symbol("[") {
+                let index = self.expression()?;
+                self.expect_symbol("]", "an index is written `theta[0]` or `R[0][1]`")?;
+                let span = value.span.to(self.last_span());
+                value = Expr { span, kind: ExprKind::Index(Box::new(value), Box::new(index)) };
+            } else {
+                return Ok(value);
+            }
+        }
+        let error = Diagnostic::error(self.span(), "too many components and indices in a row");
+        Err(self.fail(error.help("give a part a name of its own with `let`")))
+    }
+
+    fn axis(&mut self) -> Parsed<usize> {
+        let help = "a component is written `.x`, `.y` or `.z`, or with an index: `[0]`";
+        let axis = ["x", "y", "z"].iter().position(|axis| self.at_word(axis));
+        let Some(axis) = axis else {
+            return Err(self.unexpected("`x`, `y` or `z` behind the dot", help));
+        };
+        self.advance();
+        Ok(axis)
+    }
+
+    fn atom(&mut self) -> Parsed<Expr> {
+        let token = self.peek().clone();
+        match token.kind {
+            TokenKind::Number(text) => self.number(&text, token.span),
+            TokenKind::Word(word) if word == "if" => self.deeper(Self::choice),
+            TokenKind::Word(word) if ["then", "else", "in", "on", "for"].contains(&word.as_str()) => {
+                Err(self.unexpected("a formula", ""))
+            }
+            TokenKind::Word(word) => self.name_or_call(word, token.span),
+            TokenKind::Symbol("(") => self.parenthesis(),
+            TokenKind::Symbol("[") => self.vector(),
+            TokenKind::Symbol("." | "..") if self.number_follows() => {
+                let error = Diagnostic::error(token.span, "a number can't begin with a dot");
+                Err(self.fail(error.help("write `0.5`")))
+            }
+            _ => Err(self.unexpected("a formula", "")),
+        }
+    }
+
+    fn number_follows(&self) -> bool {
+        matches!(self.peek_at(1).kind, TokenKind::Number(_))
+    }
+
+    fn number(&mut self, text: &str, span: Span) -> Parsed<Expr> {
+        match read_number(text, span) {
+            Ok(number) => {
+                self.advance();
+                Ok(Expr { span, kind: ExprKind::Number(number) })
+            }
+            Err(diagnostic) => Err(self.fail(*diagnostic)),
+        }
+    }
+
+    fn name_or_call(&mut self, word: String, span: Span) -> Parsed<Expr> {
+        self.advance();
+        if !self.take_symbol("(") {
+            return Ok(Expr { span, kind: ExprKind::Name(word) });
+        }
+        if word == "sum" {
+            return self.repeated_sum(span);
+        }
+        let arguments = self.arguments(")")?;
+        let name = Name { text: word, span };
+        Ok(Expr { span: span.to(self.last_span()), kind: ExprKind::Call(name, arguments) })
+    }
+
+    fn repeated_sum(&mut self, start: Span) -> Parsed<Expr> {
+        let help = "a sum is written `sum(i in 0..K, x[i])`";
+        let range = self.range(help)?;
+        self.expect_symbol(",", help)?;
+        let term = self.expression()?;
+        self.expect_symbol(")", help)?;
+        let span = start.to(self.last_span());
+        Ok(Expr { span, kind: ExprKind::Repeat(Box::new(range), Box::new(term)) })
+    }
+
+    /// Reads `index in from..to`.
+    pub fn range(&mut self, help: &str) -> Parsed<Range> {
+        let index = self.expect_name("the name of an index", help)?;
+        if !self.take_word("in") {
+            return Err(self.unexpected("`in`", help));
+        }
+        let from = self.expression()?;
+        self.expect_symbol("..", help)?;
+        if self.at_symbol("=") {
+            let error = Diagnostic::error(self.span(), "`..=` is not used here");
+            let help = "a range `0..K` ends before K; write `0..K+1` to include it";
+            return Err(self.fail(error.help(help)));
+        }
+        let to = self.expression()?;
+        Ok(Range { index, from, to })
+    }
+
+    /// Reads formulas with commas between them, up to a closing bracket.
+    pub fn arguments(&mut self, close: &'static str) -> Parsed<Vec<Expr>> {
+        let mut arguments = Vec::new();
+        while !self.take_symbol(close) {
+            arguments.push(self.expression()?);
+            if !self.at_symbol(close) {
+                self.comparison_stands_after_if()?;
+                self.expect_symbol(",", &format!("between parts stands `,`, at the end `{close}`"))?;
+            }
+        }
+        Ok(arguments)
+    }
+
+    fn parenthesis(&mut self) -> Parsed<Expr> {
+        let start = self.span();
+        self.advance();
+        let inside = self.expression()?;
+        if self.at_symbol(",") {
+            let error = Diagnostic::error(self.span(), "parentheses hold one formula");
+            return Err(self.fail(error.help("a point or vector is written `[x, y]`")));
+        }
+        self.comparison_stands_after_if()?;
+        self.expect_symbol(")", "")?;
+        Ok(Expr { span: start.to(self.last_span()), kind: inside.kind })
+    }
+
+    fn vector(&mut self) -> Parsed<Expr> {
+        let start = self.span();
+        self.advance();
+        let parts = self.arguments("]")?;
+        Ok(Expr { span: start.to(self.last_span()), kind: ExprKind::Vector(parts) })
+    }
+
+    fn choice(&mut self) -> Parsed<Expr> {
+        let help = "a choice is written `if a < b then x else y`";
+        let start = self.span();
+        self.advance();
+        let condition = self.condition(help)?;
+        if !self.take_word("then") {
+            return Err(self.unexpected("`then`", help));
+        }
+        let then = self.expression()?;
+        if !self.take_word("else") {
+            return Err(self.unexpected("`else`", help));
+        }
+        let otherwise = self.expression()?;
+        let span = start.to(otherwise.span);
+        let parts = (Box::new(condition), Box::new(then), Box::new(otherwise));
+        Ok(Expr { span, kind: ExprKind::If(parts.0, parts.1, parts.2) })
+    }
+
+    fn condition(&mut self, help: &str) -> Parsed<Condition> {
+        let left = self.expression()?;
+        let operator = self.peek().clone();
+        let (comparison, exchanged) = match operator.kind {
+            TokenKind::Symbol("<") => (Comparison::Less, false),
+            TokenKind::Symbol("<=") => (Comparison::LessEqual, false),
+            TokenKind::Symbol(">") => (Comparison::Less, true),
+            TokenKind::Symbol(">=") => (Comparison::LessEqual, true),
+            TokenKind::Symbol("==") => (Comparison::Equal, false),
+            TokenKind::Symbol("!=") => (Comparison::NotEqual, false),
+            TokenKind::Symbol("=") => {
+                let error = Diagnostic::error(operator.span, "`=` does not compare");
+                return Err(self.fail(error.help("write `==`")));
+            }
+            _ => return Err(self.unexpected("a comparison: `<`, `<=`, `>`, `>=`, `==` or `!=`", help)),
+        };
+        self.advance();
+        let right = self.expression()?;
+        if self.at_symbol("&&") || self.at_symbol("||") {
+            let error = Diagnostic::error(self.span(), "conditions can't be joined");
+            let help = "put one choice inside the other: `if a < b then (if c < d then x else y) else y`";
+            return Err(self.fail(error.help(help)));
+        }
+        let (left, right) = if exchanged { (right, left) } else { (left, right) };
+        Ok(Condition { comparison, left, right })
+    }
+
+    /// Refuses a comparison where a formula has ended.
+    pub fn comparison_stands_after_if(&mut self) -> Parsed<()> {
+        let there = ["<", "<=", ">", ">=", "==", "!="].iter().any(|sign| self.at_symbol(sign));
+        if !there {
+            return Ok(());
+        }
+        let error = Diagnostic::error(self.span(), "a comparison stands only behind `if`");
+        Err(self.fail(error.help("write `if a < b then x else y`, or `=` for an equation")))
+    }
+}
+
+/// Makes a sum or product, unless it has one part.
+fn list(mut parts: Vec<(bool, Expr)>, kind: fn(Vec<(bool, Expr)>) -> ExprKind) -> Expr {
+    if parts.len() == 1
+        && let Some((_, only)) = parts.pop()
+    {
+        return only;
+    }
+    let first = parts.first().map(|(_, part)| part.span).unwrap_or_default();
+    let last = parts.last().map(|(_, part)| part.span).unwrap_or_default();
+    Expr { span: first.to(last), kind: kind(parts) }
+}
+
+/// Reads a decimal literal exactly.
+fn read_number(text: &str, span: Span) -> Result<Number, Box<Diagnostic>> {
+    let refuse = |message: String, help: String| Box::new(Diagnostic::error(span, message).help(help));
+    if text.len() > 2 && ["0x", "0b", "0o"].iter().any(|prefix| text.starts_with(prefix)) {
+        return Err(refuse(format!("`{text}` is not a decimal number"), "write it in decimals".into()));
+    }
+    let end = text.find(|c: char| c.is_ascii_alphabetic() && c != 'e' && c != 'E');
+    let bare_exponent = text.ends_with(['e', 'E']).then(|| text.len() - 1);
+    if let Some(end) = end.or(bare_exponent) {
+        let (number, name) = text.split_at(end);
+        let message = format!("`{text}` is neither a number nor a name");
+        return Err(refuse(message, format!("write `{number}*{name}`, or give the unit behind `:`")));
+    }
+    let number = Number::parse_literal(text);
+    let digits = text.split(['e', 'E']).next().unwrap_or("");
+    let vanished = |n: &Number| n.is_zero() && digits.contains(|c: char| ('1'..='9').contains(&c));
+    match number.filter(|n| n.is_finite() && !vanished(n)) {
+        Some(number) => Ok(number),
+        None => Err(refuse(
+            format!("`{}` is too large or too small", shorten(text)),
+            "numbers lie between 1e-308 and 1e308".into(),
+        )),
+    }
+}
+
+fn shorten(text: &str) -> String {
+    if text.len() <= 24 { text.to_string() } else { format!("{}…", &text[..20]) }
+}

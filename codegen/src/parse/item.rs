@@ -1,0 +1,246 @@
+//! Statements: the words that begin them, and the file around them.
+
+use super::ast::{
+    Ast, Crossing, Declaration, Declared, Drawing, Energy, Item, ItemKind, Let, Name,
+};
+use super::cursor::{Cursor, Parsed, STATEMENTS};
+use super::token::TokenKind;
+use crate::diagnostic::{Diagnostic, nearest};
+
+const FILE: &str = "a description is written `mechanism Name { … }`";
+const FOR: &str = "repetition is written `for i in 0..K { … }`";
+
+impl Cursor<'_> {
+    /// Reads a whole file.
+    pub fn file(&mut self) -> Parsed<Ast> {
+        let docs = self.docs();
+        if !self.take_word("mechanism") {
+            return Err(self.unexpected("`mechanism`", FILE));
+        }
+        let name = self.expect_name("the name of the mechanism", FILE)?;
+        let items = self.block(FILE)?;
+        if self.peek().kind != TokenKind::End {
+            let message = "nothing can follow the mechanism";
+            let error = Diagnostic::error(self.span(), message);
+            return Err(self.fail(error.help("a file holds one mechanism; write another file")));
+        }
+        Ok(Ast { name, docs, items })
+    }
+
+    fn block(&mut self, help: &str) -> Parsed<Vec<Item>> {
+        self.expect_symbol("{", help)?;
+        let depth = self.block_depth();
+        let mut items = Vec::new();
+        while !self.at_block_end(depth) {
+            if self.take_symbol(";") {
+                continue;
+            }
+            match self.item() {
+                Ok(item) => items.push(item),
+                Err(_) => self.recover(depth),
+            }
+        }
+        self.expect_symbol("}", "")?;
+        Ok(items)
+    }
+
+    /// The nesting inside the bracket that was read last.
+    pub fn block_depth(&self) -> usize {
+        if self.at_symbol("}") { self.depth() + 1 } else { self.depth() }
+    }
+
+    /// Whether the bracket that closes a block comes next.
+    pub fn at_block_end(&self, depth: usize) -> bool {
+        self.peek().kind == TokenKind::End || (self.at_symbol("}") && self.depth() < depth)
+    }
+
+    fn item(&mut self) -> Parsed<Item> {
+        let docs = self.docs();
+        let start = self.span();
+        let TokenKind::Word(word) = self.peek().kind.clone() else {
+            return Err(self.unexpected("a statement", &statement_help("")));
+        };
+        if !self.at_statement() {
+            let error = Diagnostic::error(start, format!("`{word}` does not begin a statement"));
+            return Err(self.fail(error.help(statement_help(&word))));
+        }
+        self.advance();
+        let kind = self.item_kind(&word)?;
+        Ok(Item { docs, span: start.to(self.last_span()), kind })
+    }
+
+    fn item_kind(&mut self, word: &str) -> Parsed<ItemKind> {
+        let kind = match word {
+            "for" => {
+                let range = self.range(FOR)?;
+                return Ok(ItemKind::For(range, self.deeper(|cursor| cursor.block(FOR))?));
+            }
+            "start" => return Ok(ItemKind::Start(self.start_block()?)),
+            "const" => self.declaration(Declared::Constant, word)?,
+            "param" => self.declaration(Declared::Parameter, word)?,
+            "input" => self.declaration(Declared::Input, word)?,
+            "output" => self.declaration(Declared::Output, word)?,
+            "coord" => self.coordinate()?,
+            "let" => self.let_item()?,
+            "kinetic" => ItemKind::Energy(Energy::Kinetic, self.expression()?),
+            "potential" => ItemKind::Energy(Energy::Potential, self.expression()?),
+            "dissipation" => ItemKind::Energy(Energy::Dissipation, self.expression()?),
+            "force" => self.force()?,
+            "constraint" => self.constraint()?,
+            "event" => self.event()?,
+            _ => self.draw()?,
+        };
+        self.end_of_statement(word)?;
+        Ok(kind)
+    }
+
+    /// Reads the `;`. What is missing is rather an operator if a formula goes on.
+    fn end_of_statement(&mut self, word: &str) -> Parsed<()> {
+        if self.take_symbol(";") {
+            return Ok(());
+        }
+        self.comparison_stands_after_if()?;
+        let next = self.peek();
+        let same_line = next.span.start.line == self.last_span().end.line;
+        let goes_on = match &next.kind {
+            TokenKind::Word(_) | TokenKind::Number(_) => true,
+            TokenKind::Symbol(symbol) => *symbol == "(",
+            TokenKind::End => false,
+        };
+        if same_line && goes_on {
+            return Err(self.unexpected("an operator or `;`", "a product is written with `*`"));
+        }
+        Err(self.unexpected("`;`", &example(word)))
+    }
+
+    fn name(&mut self, what: &str, word: &str) -> Parsed<Name> {
+        self.expect_name(&format!("the name of {what}"), &example(word))
+    }
+
+    fn declaration(&mut self, kind: Declared, word: &str) -> Parsed<ItemKind> {
+        let what = match kind {
+            Declared::Constant => "the constant",
+            Declared::Parameter => "the parameter",
+            Declared::Input => "the input",
+            Declared::Output => "the output",
+        };
+        let name = self.name(what, word)?;
+        if self.at_symbol("[") {
+            let error = Diagnostic::error(self.span(), format!("`{word}` has no arrays"));
+            let help = "arrays are declared with `coord n[K]` and `let n[i in 0..K] = …`";
+            return Err(self.fail(error.help(help)));
+        }
+        let unit = self.optional_unit()?;
+        self.expect_symbol("=", &example(word))?;
+        let value = self.expression()?;
+        Ok(ItemKind::Declaration(Declaration { kind, name, unit, value }))
+    }
+
+    fn coordinate(&mut self) -> Parsed<ItemKind> {
+        let name = self.name("the coordinate", "coord")?;
+        let mut size = None;
+        if self.take_symbol("[") {
+            size = Some(self.expression()?);
+            self.expect_symbol("]", "an array of coordinates is written `coord theta[3]: rad;`")?;
+        }
+        let unit = self.optional_unit()?;
+        if self.at_symbol("=") {
+            let error = Diagnostic::error(self.span(), "a coordinate has no value of its own");
+            let help = format!("its value at the start is written `start {{ {} = …; }}`", name.text);
+            return Err(self.fail(error.help(help)));
+        }
+        Ok(ItemKind::Coordinate { name, size, unit })
+    }
+
+    fn let_item(&mut self) -> Parsed<ItemKind> {
+        let name = self.name("the quantity", "let")?;
+        let mut range = None;
+        if self.take_symbol("[") {
+            let help = "an array is written `let n[i in 0..K] = …;`";
+            range = Some(self.range(help)?);
+            self.expect_symbol("]", help)?;
+        }
+        if self.at_symbol(":") {
+            let error = Diagnostic::error(self.span(), "`let` takes no unit: it has that of its value");
+            return Err(self.fail(error.help(example("let"))));
+        }
+        self.expect_symbol("=", &example("let"))?;
+        let value = self.expression()?;
+        Ok(ItemKind::Let(Let { name, range, value }))
+    }
+
+    fn force(&mut self) -> Parsed<ItemKind> {
+        let force = self.expression()?;
+        if !self.take_word("on") {
+            return Err(self.unexpected("`on` and what the force works on", &example("force")));
+        }
+        let on = self.expression()?;
+        Ok(ItemKind::Force { force, on })
+    }
+
+    fn constraint(&mut self) -> Parsed<ItemKind> {
+        let left = self.expression()?;
+        if self.at_symbol("==") {
+            let error = Diagnostic::error(self.span(), "an equation is written with one `=`");
+            return Err(self.fail(error.help(example("constraint"))));
+        }
+        self.comparison_stands_after_if()?;
+        self.expect_symbol("=", &example("constraint"))?;
+        let right = self.expression()?;
+        let text = one_line(left.span.to(right.span).text(self.source));
+        Ok(ItemKind::Constraint { left, right, text })
+    }
+
+    fn event(&mut self) -> Parsed<ItemKind> {
+        let name = self.name("the event", "event")?;
+        self.expect_symbol(":", &example("event"))?;
+        let value = self.expression()?;
+        let direction = match &self.peek().kind {
+            TokenKind::Word(word) if word == "rising" => Crossing::Rising,
+            TokenKind::Word(word) if word == "falling" => Crossing::Falling,
+            TokenKind::Word(word) if word == "crossing" => Crossing::Crossing,
+            _ => return Err(self.unexpected("`rising`, `falling` or `crossing`", &example("event"))),
+        };
+        self.advance();
+        Ok(ItemKind::Event { name, value, direction })
+    }
+
+    fn draw(&mut self) -> Parsed<ItemKind> {
+        let help = "write `draw line(p, q);`, `draw circle(p, r);`, `draw polygon(p, q, s);` or `draw trace(p);`";
+        let shape = match &self.peek().kind {
+            TokenKind::Word(word) if word == "line" => Drawing::Line,
+            TokenKind::Word(word) if word == "circle" => Drawing::Circle,
+            TokenKind::Word(word) if word == "polygon" => Drawing::Polygon,
+            TokenKind::Word(word) if word == "trace" => Drawing::Trace,
+            _ => return Err(self.unexpected("`line`, `circle`, `polygon` or `trace`", help)),
+        };
+        self.advance();
+        self.expect_symbol("(", help)?;
+        let arguments = self.arguments(")")?;
+        Ok(ItemKind::Draw { shape, arguments })
+    }
+}
+
+/// How a statement is written.
+fn example(word: &str) -> String {
+    let example = STATEMENTS.iter().find(|(statement, _)| *statement == word);
+    example.map_or(String::new(), |(_, text)| format!("write for example `{text}`"))
+}
+
+/// What may begin a statement, or the word that was probably meant.
+fn statement_help(word: &str) -> String {
+    let words = STATEMENTS.iter().map(|(word, _)| *word).chain(["for"]);
+    match nearest(word, words.clone()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => {
+            let list: Vec<_> = words.collect();
+            format!("a statement begins with one of: {}", list.join(", "))
+        }
+    }
+}
+
+/// A piece of source without comments and line breaks.
+fn one_line(text: &str) -> String {
+    let lines = text.lines().map(|line| line.split("//").next().unwrap_or(""));
+    lines.flat_map(str::split_whitespace).collect::<Vec<_>>().join(" ")
+}

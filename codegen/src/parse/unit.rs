@@ -1,0 +1,97 @@
+//! Units: products and quotients of names with whole exponents.
+
+use super::ast::{Name, UnitExpr};
+use super::cursor::{Cursor, Parsed};
+use super::token::TokenKind;
+use crate::diagnostic::Diagnostic;
+
+/// The largest exponent of a unit.
+const LARGEST: i32 = 30;
+
+const HELP: &str = "a unit is written like `m`, `rad`, `kg*m^2/s^2` or `1/s`";
+
+type Factors = Vec<(Name, i32)>;
+
+impl Cursor<'_> {
+    /// Reads `: unit` if it comes next.
+    pub fn optional_unit(&mut self) -> Parsed<Option<UnitExpr>> {
+        if !self.take_symbol(":") {
+            return Ok(None);
+        }
+        let start = self.span();
+        let factors = self.unit_product()?;
+        let span = start.to(self.last_span());
+        let text = span.text(self.source).chars().filter(|c| !c.is_whitespace()).collect();
+        Ok(Some(UnitExpr { span, text, factors }))
+    }
+
+    fn unit_product(&mut self) -> Parsed<Factors> {
+        let mut factors = self.unit_power()?;
+        loop {
+            let over = self.at_symbol("/");
+            if !over && !self.at_symbol("*") {
+                return Ok(factors);
+            }
+            self.advance();
+            let sign = if over { -1 } else { 1 };
+            let more = self.unit_power()?;
+            factors.extend(more.into_iter().map(|(name, exponent)| (name, sign * exponent)));
+        }
+    }
+
+    fn unit_power(&mut self) -> Parsed<Factors> {
+        let factors = self.deeper(Self::unit_atom)?;
+        if !self.take_symbol("^") {
+            return Ok(factors);
+        }
+        let start = self.span();
+        let exponent = self.unit_exponent()?;
+        let raised: Option<Factors> = factors
+            .into_iter()
+            .map(|(name, e)| Some((name, e.checked_mul(exponent).filter(|e| e.abs() <= LARGEST)?)))
+            .collect();
+        raised.ok_or_else(|| {
+            let span = start.to(self.last_span());
+            let message = format!("the exponent of a unit lies between -{LARGEST} and {LARGEST}");
+            self.fail(Diagnostic::error(span, message))
+        })
+    }
+
+    fn unit_exponent(&mut self) -> Parsed<i32> {
+        let parenthesis = self.take_symbol("(");
+        let sign = if self.take_symbol("-") { -1 } else { 1 };
+        let exponent = match &self.peek().kind {
+            TokenKind::Number(text) => text.parse::<i32>().ok(),
+            _ => None,
+        };
+        let Some(exponent) = exponent else {
+            return Err(self.unexpected("a whole exponent", HELP));
+        };
+        self.advance();
+        if parenthesis {
+            self.expect_symbol(")", HELP)?;
+        }
+        Ok(sign * exponent)
+    }
+
+    fn unit_atom(&mut self) -> Parsed<Factors> {
+        let token = self.peek().clone();
+        match token.kind {
+            TokenKind::Word(text) => {
+                self.advance();
+                Ok(vec![(Name { text, span: token.span }, 1)])
+            }
+            TokenKind::Number(text) if text == "1" => {
+                self.advance();
+                Ok(Vec::new())
+            }
+            TokenKind::Symbol("(") => {
+                self.advance();
+                let factors = self.unit_product()?;
+                self.expect_symbol(")", HELP)?;
+                Ok(factors)
+            }
+            _ => Err(self.unexpected("a unit", HELP)),
+        }
+    }
+}
