@@ -1,0 +1,194 @@
+//! How long a step may be.
+//!
+//! In:  error estimates, tolerances.
+//! Out: the error norm, the next step, the first step.
+//!
+//! Source: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I
+//! (1993), section II.4; PI control: Gustafsson, ACM TOMS 17 (1991) 533–554.
+
+use super::IntegrateError;
+use crate::{Real, State};
+use nalgebra::SVector;
+
+/// Relative tolerances below this multiple of the round-off of 1 are refused.
+const SMALLEST_TOLERANCE: f64 = 10.0;
+/// Steps below this multiple of the round-off of time are refused.
+const SMALLEST_STEP: f64 = 4.0;
+/// The next step aims at this fraction of the step that would just pass.
+const SAFETY: f64 = 0.9;
+/// Exponent of the previous error in the PI control.
+const MEMORY: f64 = 0.04;
+/// Errors below this are not remembered: they would promise too much.
+const REMEMBERED_ERROR: f64 = 1e-4;
+/// A step whose error can't be told is followed by one this much shorter.
+const RETREAT: f64 = 0.25;
+/// A step that would leave less than this fraction of itself is stretched to
+/// the bound.
+const STRETCH: f64 = 0.01;
+
+/// Accepted error per step: `absolute + relative · |value|`, per component.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance<T, const N: usize> {
+    relative: T,
+    q: SVector<T, N>,
+    v: SVector<T, N>,
+}
+
+impl<T: Real, const N: usize> Tolerance<T, N> {
+    /// The same absolute tolerance for every coordinate (m, rad) and every
+    /// velocity (m/s, rad/s).
+    ///
+    /// # Errors
+    ///
+    /// - [`IntegrateError::ToleranceNotPositive`]
+    /// - [`IntegrateError::ToleranceTooSmall`] if `relative` is below round-off.
+    pub fn uniform(relative: T, absolute: T) -> Result<Self, IntegrateError<T>> {
+        Self::per_component(
+            relative,
+            SVector::repeat(absolute),
+            SVector::repeat(absolute),
+        )
+    }
+
+    /// An absolute tolerance for each coordinate and each velocity.
+    ///
+    /// # Errors
+    ///
+    /// As [`uniform`](Self::uniform).
+    pub fn per_component(
+        relative: T,
+        q: SVector<T, N>,
+        v: SVector<T, N>,
+    ) -> Result<Self, IntegrateError<T>> {
+        let good = |x: &T| x.is_finite() && *x > T::zero();
+        let all = core::iter::once(&relative).chain(q.iter()).chain(v.iter());
+        for value in all {
+            if !good(value) {
+                return Err(IntegrateError::ToleranceNotPositive { value: *value });
+            }
+        }
+        let smallest = T::EPSILON * T::from_f64(SMALLEST_TOLERANCE);
+        if relative < smallest {
+            return Err(IntegrateError::ToleranceTooSmall { relative, smallest });
+        }
+        Ok(Self { relative, q, v })
+    }
+
+    /// Root mean square of an error in units of the tolerance; the values at
+    /// both ends of the step, whichever is larger, set the scale.
+    pub(crate) fn norm(
+        &self,
+        error: (&SVector<T, N>, &SVector<T, N>),
+        start: &State<T, N>,
+        end: &State<T, N>,
+    ) -> T {
+        let mut sum = T::zero();
+        for i in 0..N {
+            let q = self.q[i] + self.relative * start.q[i].abs().max(end.q[i].abs());
+            let v = self.v[i] + self.relative * start.v[i].abs().max(end.v[i].abs());
+            let (q, v) = (error.0[i] / q, error.1[i] / v);
+            sum += q * q + v * v;
+        }
+        (sum / T::from_f64(2.0 * N.max(1) as f64)).sqrt()
+    }
+}
+
+/// Refuses a bound that is not ahead.
+pub(crate) fn check_bound<T: Real>(t: T, bound: T) -> Result<(), IntegrateError<T>> {
+    if bound.is_finite() && bound > t {
+        Ok(())
+    } else {
+        Err(IntegrateError::BadBound { t, bound })
+    }
+}
+
+/// PI control of the step size.
+#[derive(Clone, Debug)]
+pub(crate) struct Control<T> {
+    /// The step to try next; zero before the first.
+    pub(crate) h: T,
+    exponent: T,
+    longest_jump: T,
+    shortest_jump: T,
+    last_error: T,
+    rejected: bool,
+}
+
+impl<T: Real> Control<T> {
+    /// Control of a method whose estimate is `O(h^order)`; a step may grow by
+    /// `longest_jump` and shrink by `shortest_jump` at once.
+    pub(crate) fn new(order: u8, shortest_jump: f64, longest_jump: f64) -> Self {
+        Self {
+            h: T::zero(),
+            exponent: T::from_f64(1.0 / f64::from(order)),
+            longest_jump: T::from_f64(longest_jump),
+            shortest_jump: T::from_f64(shortest_jump),
+            last_error: T::from_f64(REMEMBERED_ERROR),
+            rejected: false,
+        }
+    }
+
+    /// Where the next trial step ends: at the bound if it is near, half-way
+    /// there if it is less than two steps away, so that no tiny step remains.
+    pub(crate) fn end(&self, t: T, bound: T) -> Result<T, IntegrateError<T>> {
+        let left = bound - t;
+        if self.h * T::from_f64(1.0 + STRETCH) >= left {
+            return Ok(bound);
+        }
+        let two = T::from_f64(2.0);
+        let h = if self.h * two > left {
+            left / two
+        } else {
+            self.h
+        };
+        let resolution = T::EPSILON * t.abs().max(bound.abs());
+        if h > resolution * T::from_f64(SMALLEST_STEP) {
+            Ok(t + h)
+        } else {
+            Err(IntegrateError::StepUnderflow { t, h })
+        }
+    }
+
+    /// Judges a trial step of length `h` by its error in units of the tolerance,
+    /// and sets the next.
+    pub(crate) fn judge(&mut self, h: T, error: T) -> bool {
+        if !error.is_finite() {
+            self.h = h * T::from_f64(RETREAT);
+            self.rejected = true;
+            return false;
+        }
+        let memory = T::from_f64(MEMORY);
+        let plain = error.powf(self.exponent - T::from_f64(0.75) * memory);
+        if error > T::one() {
+            let jump = (T::from_f64(SAFETY) / plain).max(self.shortest_jump);
+            self.h = h * jump;
+            self.rejected = true;
+            return false;
+        }
+        let wished = T::from_f64(SAFETY) * self.last_error.powf(memory) / plain;
+        let most = if self.rejected {
+            T::one()
+        } else {
+            self.longest_jump
+        };
+        // An error of zero makes `wished` infinite, which `most` bounds.
+        let next = h * wished.max(self.shortest_jump).min(most);
+        // A step that was cut to end at the bound says nothing against the
+        // longer one that was planned.
+        self.h = if self.rejected || h >= self.h {
+            next
+        } else {
+            next.max(self.h)
+        };
+        self.last_error = error.max(T::from_f64(REMEMBERED_ERROR));
+        self.rejected = false;
+        true
+    }
+
+    /// Begins anew: the first step is to be chosen again.
+    pub(crate) fn restart(&mut self) {
+        self.h = T::zero();
+        self.last_error = T::from_f64(REMEMBERED_ERROR);
+        self.rejected = false;
+    }
+}

@@ -1,0 +1,53 @@
+//! Steps through time.
+//!
+//! In:  a [`System`], a state.
+//! Out: [`Step`]: the state one accepted step later, and the motion between.
+//!
+//! | method | order | interpolant | step |
+//! |---|---|---|---|
+//! | [`Rk4`] | 4 | quintic Hermite | fixed |
+//! | [`Dp5`] | 5(4) | order 4 | adaptive |
+//! | [`Dop853`] | 8(5,3) | order 7 | adaptive |
+//!
+//! Not here: what is done with the steps ([`crate::simulate`]).
+
+mod adaptive;
+mod control;
+mod dop853;
+mod error;
+mod explicit;
+mod fixed;
+mod interpolant;
+mod step;
+mod tableau;
+
+pub use adaptive::{Dop853, Dp5};
+pub use control::Tolerance;
+pub use error::IntegrateError;
+pub(crate) use explicit::Inside;
+pub use fixed::Rk4;
+pub use step::Step;
+
+use crate::{Real, State, System};
+
+/// A method that makes steps.
+pub trait Integrator<T: Real, const N: usize> {
+    /// Makes one accepted step from `state` towards the time `bound` (s), and
+    /// never beyond it. Methods of fixed step go there at once, adaptive ones as
+    /// far as their tolerance allows. The end of the step is projected.
+    ///
+    /// If `state` is the end of the previous step, the acceleration there is
+    /// taken from it; a system whose inputs or parameters changed in between
+    /// needs a `forget` first.
+    ///
+    /// # Errors
+    ///
+    /// An [`IntegrateError`] that carries the time; the integrator may be used
+    /// again from any state.
+    fn step<Y: System<T, N> + ?Sized>(
+        &mut self,
+        system: &mut Y,
+        state: &State<T, N>,
+        bound: T,
+    ) -> Result<&Step<T, N>, IntegrateError<T>>;
+}

@@ -1,0 +1,83 @@
+//! One accepted step, and the state at any time within it.
+//!
+//! In:  what an integrator did.
+//! Out: [`Step`].
+
+use super::interpolant::Interpolant;
+use crate::{Real, State};
+
+/// An accepted step of an integrator.
+///
+/// Both ends satisfy the constraints to round-off if the system projects.
+#[derive(Clone, Debug)]
+pub struct Step<T, const N: usize> {
+    pub(crate) start: State<T, N>,
+    pub(crate) end: State<T, N>,
+    pub(crate) rejected: u32,
+    pub(crate) evaluations: u32,
+    pub(crate) looks: u8,
+    pub(crate) interpolant: Interpolant<T, N>,
+}
+
+impl<T: Real, const N: usize> Step<T, N> {
+    pub(crate) fn new(looks: u8) -> Self {
+        let (start, end) = (State::default(), State::default());
+        Self {
+            start,
+            end,
+            rejected: 0,
+            evaluations: 0,
+            looks,
+            interpolant: Interpolant::default(),
+        }
+    }
+
+    /// The state from which the step was made.
+    pub fn start(&self) -> &State<T, N> {
+        &self.start
+    }
+
+    /// The state to which it led, back on the constraints.
+    pub fn end(&self) -> &State<T, N> {
+        &self.end
+    }
+
+    /// Its length (s).
+    pub fn length(&self) -> T {
+        self.end.t - self.start.t
+    }
+
+    /// Trial steps that were thrown away before this one was accepted.
+    pub fn rejected(&self) -> u32 {
+        self.rejected
+    }
+
+    /// Accelerations that were computed for it, those of rejected trials
+    /// included.
+    pub fn evaluations(&self) -> u32 {
+        self.evaluations
+    }
+
+    /// How many times within the step one should look at a quantity so as not
+    /// to miss what comes and goes.
+    pub fn looks(&self) -> u8 {
+        self.looks
+    }
+
+    /// The state at a time within the step, from the method's interpolant; the
+    /// ends themselves at and beyond the ends.
+    ///
+    /// The interpolated state satisfies the constraints as accurately as the
+    /// interpolant follows the motion; project it where that isn't enough.
+    pub fn at(&self, t: T) -> State<T, N> {
+        let h = self.length();
+        if t <= self.start.t || h <= T::zero() {
+            return self.start;
+        }
+        if t >= self.end.t {
+            return self.end;
+        }
+        let (q, v) = self.interpolant.at((t - self.start.t) / h);
+        State { t, q, v }
+    }
+}
