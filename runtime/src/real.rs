@@ -6,6 +6,7 @@
 //! Not here: lanes, dual numbers and extended precision. A type joins by
 //! implementing this one trait; nothing else in the crate names a float type.
 
+use crate::sincos;
 use core::fmt::{Debug, Display};
 use core::ops::Neg;
 use nalgebra::Scalar;
@@ -89,9 +90,10 @@ macro_rules! real_for_float {
             fn is_finite(self) -> bool {
                 $float::is_finite(self)
             }
-            #[inline]
+            #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
-                real_for_float!(@call $float, sin_cos, self)
+                let (sin, cos) = sin_cos(f64::from(self));
+                (sin as $float, cos as $float)
             }
             real_for_float!(@unary $float: tan asin acos atan sinh cosh tanh exp ln sqrt);
             #[inline]
@@ -138,6 +140,18 @@ macro_rules! real_for_float {
             num_traits::Float::$name($($argument),*)
         }
     }};
+}
+
+/// Inlined where the reduction is exact enough, the library's elsewhere.
+#[inline(always)]
+fn sin_cos(x: f64) -> (f64, f64) {
+    if x.abs() <= sincos::LARGEST { sincos::sin_cos(x) } else { library_sin_cos(x) }
+}
+
+#[cold]
+#[inline(never)]
+fn library_sin_cos(x: f64) -> (f64, f64) {
+    real_for_float!(@call f64, sin_cos, x)
 }
 
 real_for_float!(f64);
