@@ -41,3 +41,23 @@ pub fn parse(source: &str) -> Result<ast::Ast, Diagnostics> {
         _ => Err(cursor.diagnostics),
     }
 }
+
+/// Reads one formula that stands by itself, as it would stand in a description.
+///
+/// # Errors
+///
+/// Everything that breaks the grammar, with its place.
+pub fn formula(source: &str) -> Result<ast::Expr, Diagnostics> {
+    scan::scan(source)?;
+    let tokens = token::tokenize(source)?;
+    let mut cursor = cursor::Cursor::new(source, tokens);
+    let read = cursor.expression();
+    let ended = matches!(cursor.peek().kind, token::TokenKind::End);
+    if read.is_ok() && !ended {
+        let _reported = cursor.unexpected("the end of the formula", "");
+    }
+    match read {
+        Ok(expression) if cursor.diagnostics.is_empty() => Ok(expression),
+        _ => Err(cursor.diagnostics),
+    }
+}
