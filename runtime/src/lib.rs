@@ -5,19 +5,23 @@ mod catalogue;
 mod dynamics;
 mod error;
 mod integrator;
+mod linalg;
 mod model;
+mod projection;
 mod real;
 mod sincos;
 mod state;
 mod system;
 
 pub use catalogue::Visitor;
-pub use dynamics::{Counters, Form, Settings, Stabilisation};
+pub use dynamics::{
+    ConstrainedSystem, ConstraintError, Counters, Form, Rank, Settings, Solver, Stabilisation,
+};
 pub use error::DynamicsError;
 pub use integrator::{Dop853, Dp5, IntegrateError, Integrator, Rk4, Step, Tolerance};
 pub use model::{
     Branch, Canvas, ConstraintRow, Direction, Energy, Event, Initial, Interface, Mechanism,
-    Position, Quantity, Start, Structure, Terms,
+    Position, Quantity, Regular, Start, Structure, Terms,
 };
 pub use nalgebra;
 pub use real::Real;

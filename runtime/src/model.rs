@@ -27,6 +27,14 @@ pub trait Mechanism<T: Real, const N: usize, const R: usize> {
     /// Everything one acceleration needs: `M`, `p₁`, `A`, `p₂`.
     fn terms(&self, state: &State<T, N>, out: &mut Terms<T, N, R>);
 
+    /// The acceleration where the constraints are regular, as straight-line code
+    /// with this mechanism's sparsity; `false` if it is not provided.
+    ///
+    /// Not to be used where [`Regular::pivot`] or [`Regular::mass_pivot`] is small.
+    fn regular(&self, _state: &State<T, N>, _out: &mut Regular<T, N>) -> bool {
+        false
+    }
+
     /// Everything a projection needs: `M`, `g`, `A`, `b`. Reads `t` and `q` only.
     fn position(&self, _state: &State<T, N>, _out: &mut Position<T, N, R>) {}
 
@@ -71,6 +79,25 @@ pub struct Terms<T, const N: usize, const R: usize> {
     pub bias: SVector<T, R>,
 }
 
+/// The acceleration by the regular path, and how far it can be trusted.
+#[derive(Clone, Debug)]
+pub struct Regular<T, const N: usize> {
+    /// `q̈`, `N`.
+    pub acceleration: SVector<T, N>,
+    /// The smallest `d_i / m_ii` of `M = L D Lᵀ`: how far `M` is from singular.
+    pub mass_pivot: T,
+    /// The smallest `e_i / s_ii` of `S = A M⁻¹ Aᵀ = L E Lᵀ`: the squared sine of the
+    /// angle between a constraint row and the rows before it, in the kinetic metric.
+    /// One without constraints.
+    pub pivot: T,
+}
+
+impl<T: Real, const N: usize> Default for Regular<T, N> {
+    fn default() -> Self {
+        Self { acceleration: SVector::zeros(), mass_pivot: T::zero(), pivot: T::zero() }
+    }
+}
+
 /// What a projection at a position needs.
 #[derive(Clone, Debug)]
 pub struct Position<T, const N: usize, const R: usize> {
@@ -102,8 +129,18 @@ macro_rules! zeroed {
         }
     };
 }
-zeroed!(Terms { mass, force, jacobian, bias });
-zeroed!(Position { mass, residual, jacobian, drift });
+zeroed!(Terms {
+    mass,
+    force,
+    jacobian,
+    bias
+});
+zeroed!(Position {
+    mass,
+    residual,
+    jacobian,
+    drift
+});
 zeroed!(Branch { slope, bias });
 
 /// Energies at a state.

@@ -1,24 +1,37 @@
 //! The equations of motion: the trait implementation, and the separate functions.
 
-use super::{Method, Subject};
+use super::{Method, Subject, Written};
 use crate::derive::coriolis_matrix;
 use crate::expr::ExprId;
-use crate::optimise::Slot;
-use proc_macro2::TokenStream;
+use crate::optimise::{Slot, regular_solve};
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 /// An entry wanted of an array.
 type Wanted = Vec<(Slot, ExprId)>;
 
 fn vector(array: &'static str, entries: &[ExprId]) -> Wanted {
-    let slot = |(row, &e)| (Slot { array, row, column: 0 }, e);
+    let slot = |(row, &e)| {
+        (
+            Slot {
+                array,
+                row,
+                column: 0,
+            },
+            e,
+        )
+    };
     entries.iter().enumerate().map(slot).collect()
 }
 
 /// Column by column, as nalgebra stores it.
 fn matrix(array: &'static str, rows: &[Vec<ExprId>]) -> Wanted {
     let columns = rows.first().map_or(0, Vec::len);
-    let entry = |column| rows.iter().enumerate().map(move |(row, entries)| (row, entries[column], column));
+    let entry = |column| {
+        rows.iter()
+            .enumerate()
+            .map(move |(row, entries)| (row, entries[column], column))
+    };
     (0..columns)
         .flat_map(entry)
         .map(|(row, e, column)| (Slot { array, row, column }, e))
@@ -33,13 +46,18 @@ pub(super) fn mechanism(subject: &mut Subject) -> TokenStream {
     wanted.extend(vector("force", &equations.force));
     wanted.extend(matrix("jacobian", &equations.jacobian));
     wanted.extend(vector("bias", &equations.bias));
+    let regular = regular(subject, &wanted);
     let terms = subject.method(Method {
         docs: "Everything one acceleration needs: `M`, `p₁`, `A`, `p₂`.",
         name: "terms",
         buffer: quote!(Terms<T, #n, #r>),
         wanted,
     });
-    let closure = if equations.jacobian.is_empty() { TokenStream::new() } else { closure(subject) };
+    let closure = if equations.jacobian.is_empty() {
+        TokenStream::new()
+    } else {
+        closure(subject)
+    };
     let energy = energy(subject);
     let name = subject.type_name();
     quote! {
@@ -48,8 +66,53 @@ pub(super) fn mechanism(subject: &mut Subject) -> TokenStream {
                 &STRUCTURE
             }
             #terms
+            #regular
             #closure
             #energy
+        }
+    }
+}
+
+/// The acceleration by the regular path.
+fn regular(subject: &mut Subject, terms: &Wanted) -> TokenStream {
+    let (n, r) = (
+        subject.equations.mass.len(),
+        subject.equations.jacobian.len(),
+    );
+    let program = regular_solve(&subject.program(terms), n, r);
+    let Written {
+        statements,
+        body,
+        state,
+        cost,
+    } = subject.written(&program);
+    let slot = |array, row| Slot {
+        array,
+        row,
+        column: 0,
+    };
+    let writes = (0..n).filter_map(|row| {
+        let value = body.written(slot("acceleration", row))?;
+        let row = Literal::usize_unsuffixed(row);
+        Some(quote!(out.acceleration.data.0[0][#row] = #value;))
+    });
+    let pivot = |array| {
+        body.written(slot(array, 0))
+            .unwrap_or_else(|| quote!(T::one()))
+    };
+    let (mass_pivot, pivot) = (pivot("mass_pivot"), pivot("pivot"));
+    let n = Literal::usize_unsuffixed(n);
+    quote! {
+        /// The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
+        /// Schur complement `A M⁻¹ Aᵀ`.
+        ///
+        #[doc = #cost]
+        fn regular(&self, #state: &State<T, #n>, out: &mut Regular<T, #n>) -> bool {
+            #statements
+            #(#writes)*
+            out.mass_pivot = #mass_pivot;
+            out.pivot = #pivot;
+            true
         }
     }
 }
@@ -81,11 +144,21 @@ fn closure(subject: &mut Subject) -> TokenStream {
 
 fn energy(subject: &mut Subject) -> TokenStream {
     let energies = subject.equations.energies;
-    let fields = [energies.kinetic, energies.potential, energies.balance, energies.power];
+    let fields = [
+        energies.kinetic,
+        energies.potential,
+        energies.balance,
+        energies.power,
+    ];
     let wanted = vector("energy", &fields);
     let written = subject.body(&wanted);
-    let [kinetic, potential, balance, power] =
-        [0, 1, 2, 3].map(|row| written.body.output(Slot { array: "energy", row, column: 0 }));
+    let [kinetic, potential, balance, power] = [0, 1, 2, 3].map(|row| {
+        written.body.output(Slot {
+            array: "energy",
+            row,
+            column: 0,
+        })
+    });
     let (statements, state, cost) = (&written.statements, &written.state, &written.cost);
     let n = subject.sizes().0;
     quote! {
@@ -146,8 +219,10 @@ pub(super) fn functions(subject: &mut Subject) -> TokenStream {
             },
         ]);
     }
-    let functions: TokenStream =
-        functions.into_iter().map(|function| subject.returning(function)).collect();
+    let functions: TokenStream = functions
+        .into_iter()
+        .map(|function| subject.returning(function))
+        .collect();
     let name = subject.type_name();
     quote!(impl<T: Real> #name<T> { #functions })
 }
@@ -158,7 +233,11 @@ fn coriolis(subject: &mut Subject) -> Vec<Method> {
     let n = subject.sizes().0;
     let equations = subject.equations;
     let mut functions = Vec::new();
-    if equations.coriolis.iter().any(|e| !subject.mechanism.graph.is_zero(*e)) {
+    if equations
+        .coriolis
+        .iter()
+        .any(|e| !subject.mechanism.graph.is_zero(*e))
+    {
         functions.push(Method {
             docs: "`C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`.",
             name: "coriolis_force",
@@ -168,7 +247,11 @@ fn coriolis(subject: &mut Subject) -> Vec<Method> {
     }
     if subject.options.coriolis_matrix {
         let rows = coriolis_matrix(&mut subject.mechanism.graph, &equations.mass);
-        if rows.iter().flatten().any(|e| !subject.mechanism.graph.is_zero(*e)) {
+        if rows
+            .iter()
+            .flatten()
+            .any(|e| !subject.mechanism.graph.is_zero(*e))
+        {
             functions.push(Method {
                 docs: "Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric.",
                 name: "coriolis_matrix",

@@ -78,7 +78,10 @@ impl Body {
             .iter()
             .map(|(slot, value)| (*slot, writer.pieces[value.index()].tokens.clone()))
             .collect();
-        Body { statements: writer.statements, outputs }
+        Body {
+            statements: writer.statements,
+            outputs,
+        }
     }
 }
 
@@ -165,7 +168,9 @@ impl Writer<'_> {
         };
         let read = |function| {
             let wanted = Operation::Function(function, x);
-            self.program.operations().any(|(_, operation)| *operation == wanted)
+            self.program
+                .operations()
+                .any(|(_, operation)| *operation == wanted)
         };
         let (has_sin, has_cos) = (read(Function::Sin), read(Function::Cos));
         let mut name = |has: bool, prefix: &str| match has {
@@ -174,18 +179,28 @@ impl Writer<'_> {
         };
         let names = (name(has_sin, "sin"), name(has_cos, "cos"));
         let (sin, cos) = (pattern(&names.0), pattern(&names.1));
-        self.statements.extend(quote!(let (#sin, #cos) = #angle.sin_cos();));
+        self.statements
+            .extend(quote!(let (#sin, #cos) = #angle.sin_cos();));
         self.angles.insert(x, names.clone());
         names
     }
 
     fn bound(&self, value: Value, context: Binding) -> TokenStream {
-        let Piece { tokens, binding, .. } = &self.pieces[value.index()];
-        if *binding >= context { tokens.clone() } else { quote!((#tokens)) }
+        let Piece {
+            tokens, binding, ..
+        } = &self.pieces[value.index()];
+        if *binding >= context {
+            tokens.clone()
+        } else {
+            quote!((#tokens))
+        }
     }
 
     fn operands(&self, values: impl IntoIterator<Item = Value>) -> usize {
-        values.into_iter().map(|value| self.pieces[value.index()].operands).sum()
+        values
+            .into_iter()
+            .map(|value| self.pieces[value.index()].operands)
+            .sum()
     }
 
     fn sum(&self, terms: &[(bool, Value)]) -> Piece {
@@ -199,7 +214,11 @@ impl Writer<'_> {
             });
         }
         let operands = self.operands(terms.iter().map(|(_, value)| *value));
-        Piece { tokens, binding: Binding::Sum, operands }
+        Piece {
+            tokens,
+            binding: Binding::Sum,
+            operands,
+        }
     }
 
     /// Numbers stand in front, as people write them.
@@ -211,23 +230,48 @@ impl Writer<'_> {
         let mut tokens = TokenStream::new();
         for (i, value) in ordered.into_iter().enumerate() {
             let first = i == 0;
-            let factor = self.bound(value, if first { Binding::Product } else { Binding::Atom });
-            tokens.extend(if first { quote!(#factor) } else { quote!(* #factor) });
+            let factor = self.bound(
+                value,
+                if first {
+                    Binding::Product
+                } else {
+                    Binding::Atom
+                },
+            );
+            tokens.extend(if first {
+                quote!(#factor)
+            } else {
+                quote!(* #factor)
+            });
         }
         let operands = self.operands(factors.iter().copied());
-        Piece { tokens, binding: Binding::Product, operands }
+        Piece {
+            tokens,
+            binding: Binding::Product,
+            operands,
+        }
     }
 
     fn quotient(&self, x: Value, y: Value) -> Piece {
-        let (above, below) = (self.bound(x, Binding::Product), self.bound(y, Binding::Atom));
+        let (above, below) = (
+            self.bound(x, Binding::Product),
+            self.bound(y, Binding::Atom),
+        );
         let operands = self.operands([x, y]);
-        Piece { tokens: quote!(#above / #below), binding: Binding::Product, operands }
+        Piece {
+            tokens: quote!(#above / #below),
+            binding: Binding::Product,
+            operands,
+        }
     }
 
     fn call(&self, function: Function, x: Value) -> Piece {
         let argument = self.bound(x, Binding::Atom);
         let name = Ident::new(function.name(), Span::call_site());
-        Piece { operands: self.operands([x]), ..atom(quote!(#argument.#name())) }
+        Piece {
+            operands: self.operands([x]),
+            ..atom(quote!(#argument.#name()))
+        }
     }
 
     fn call2(&self, function: Function2, x: Value, y: Value) -> Piece {
@@ -240,7 +284,10 @@ impl Writer<'_> {
         let name = Ident::new(name, Span::call_site());
         let operands = self.operands([x, y]);
         // Two traits give numbers a `min` and a `max`; name the one that is meant.
-        Piece { operands, ..atom(quote!(Real::#name(#first, #second))) }
+        Piece {
+            operands,
+            ..atom(quote!(Real::#name(#first, #second)))
+        }
     }
 
     fn select(&self, comparison: Comparison, parts: &[Value; 4]) -> Piece {
@@ -254,7 +301,11 @@ impl Writer<'_> {
         };
         let tokens = quote!(if #a #sign #b { #then } else { #otherwise });
         // Named, since an `if` cannot stand at the start of a longer expression.
-        Piece { tokens, binding: Binding::Atom, operands: OPERANDS_MAX + 1 }
+        Piece {
+            tokens,
+            binding: Binding::Atom,
+            operands: OPERANDS_MAX + 1,
+        }
     }
 }
 
@@ -262,10 +313,18 @@ impl Writer<'_> {
 const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 
 fn atom(tokens: TokenStream) -> Piece {
-    Piece { tokens, binding: Binding::Atom, operands: 1 }
+    Piece {
+        tokens,
+        binding: Binding::Atom,
+        operands: 1,
+    }
 }
 
 /// A name in a pattern; `_` is not an identifier to the parser.
 fn pattern(name: &Ident) -> TokenStream {
-    if name == "_" { quote!(_) } else { quote!(#name) }
+    if name == "_" {
+        quote!(_)
+    } else {
+        quote!(#name)
+    }
 }

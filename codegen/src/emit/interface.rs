@@ -36,8 +36,16 @@ fn parameters(subject: &Subject) -> (TokenStream, TokenStream) {
     let fields = &subject.names.parameter_fields;
     if fields.is_empty() {
         return (
-            quote!(fn parameter(&self, _index: usize) -> Option<T> { None }),
-            quote!(fn set_parameter(&mut self, _index: usize, _value: T) -> bool { false }),
+            quote!(
+                fn parameter(&self, _index: usize) -> Option<T> {
+                    None
+                }
+            ),
+            quote!(
+                fn set_parameter(&mut self, _index: usize, _value: T) -> bool {
+                    false
+                }
+            ),
         );
     }
     let places: Vec<Literal> = (0..fields.len()).map(Literal::usize_unsuffixed).collect();
@@ -64,7 +72,11 @@ fn parameters(subject: &Subject) -> (TokenStream, TokenStream) {
 fn set_input(subject: &Subject) -> TokenStream {
     let fields = &subject.names.input_fields;
     if fields.is_empty() {
-        return quote!(fn set_input(&mut self, _index: usize, _value: Option<T>) -> bool { false });
+        return quote!(
+            fn set_input(&mut self, _index: usize, _value: Option<T>) -> bool {
+                false
+            }
+        );
     }
     let places: Vec<Literal> = (0..fields.len()).map(Literal::usize_unsuffixed).collect();
     quote! {
@@ -82,15 +94,39 @@ fn set_input(subject: &Subject) -> TokenStream {
 fn start(subject: &mut Subject) -> TokenStream {
     let n = subject.sizes().0;
     let entry = |(row, start): (usize, &crate::model::Start)| {
-        (Slot { array: "start", row, column: 0 }, start.value)
+        (
+            Slot {
+                array: "start",
+                row,
+                column: 0,
+            },
+            start.value,
+        )
     };
-    let wanted: Vec<_> = subject.mechanism.starts.iter().enumerate().map(entry).collect();
-    let Written { statements, body, .. } = subject.body(&wanted);
+    let wanted: Vec<_> = subject
+        .mechanism
+        .starts
+        .iter()
+        .enumerate()
+        .map(entry)
+        .collect();
+    let Written {
+        statements, body, ..
+    } = subject.body(&wanted);
     let initial = |coordinate: usize, velocity: bool| {
         let given = subject.mechanism.starts.iter().enumerate();
-        let found = given.rev().find(|(_, s)| s.coordinate == coordinate && s.velocity == velocity);
+        let found = given
+            .rev()
+            .find(|(_, s)| s.coordinate == coordinate && s.velocity == velocity);
         let (value, held) = match found {
-            Some((row, start)) => (body.output(Slot { array: "start", row, column: 0 }), start.held),
+            Some((row, start)) => (
+                body.output(Slot {
+                    array: "start",
+                    row,
+                    column: 0,
+                }),
+                start.held,
+            ),
             None => (quote!(T::zero()), false),
         };
         quote!(Initial { value: #value, held: #held })
@@ -113,9 +149,22 @@ fn list(subject: &mut Subject, name: &'static str, entries: &[ExprId]) -> TokenS
     if entries.is_empty() {
         return quote!(fn #name_token(&self, _state: &State<T, #n>, _values: &mut [T]) {});
     }
-    let slot = |row| Slot { array: name, row, column: 0 };
-    let wanted: Vec<_> = entries.iter().enumerate().map(|(row, &e)| (slot(row), e)).collect();
-    let Written { statements, body, state, cost } = subject.body(&wanted);
+    let slot = |row| Slot {
+        array: name,
+        row,
+        column: 0,
+    };
+    let wanted: Vec<_> = entries
+        .iter()
+        .enumerate()
+        .map(|(row, &e)| (slot(row), e))
+        .collect();
+    let Written {
+        statements,
+        body,
+        state,
+        cost,
+    } = subject.body(&wanted);
     let computed = (0..entries.len()).map(|row| body.output(slot(row)));
     quote! {
         #[doc = #cost]
@@ -136,9 +185,22 @@ fn draw(subject: &mut Subject) -> TokenStream {
     }
     let shapes = subject.mechanism.shapes.clone();
     let numbers: Vec<ExprId> = shapes.iter().flat_map(coordinates).collect();
-    let slot = |row| Slot { array: "draw", row, column: 0 };
-    let wanted: Vec<_> = numbers.iter().enumerate().map(|(row, &e)| (slot(row), e)).collect();
-    let Written { statements, body, state, .. } = subject.body(&wanted);
+    let slot = |row| Slot {
+        array: "draw",
+        row,
+        column: 0,
+    };
+    let wanted: Vec<_> = numbers
+        .iter()
+        .enumerate()
+        .map(|(row, &e)| (slot(row), e))
+        .collect();
+    let Written {
+        statements,
+        body,
+        state,
+        ..
+    } = subject.body(&wanted);
     let mut next = 0..;
     let mut take = || body.output(slot(next.next().unwrap_or(usize::MAX)));
     let calls: TokenStream = shapes.iter().map(|shape| call(shape, &mut take)).collect();

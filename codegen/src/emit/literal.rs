@@ -25,8 +25,14 @@ pub(super) fn number(value: Number) -> TokenStream {
 /// literal would print as two operators behind a minus.
 fn float(value: f64) -> TokenStream {
     let text = format!("{:?}", value.abs());
-    let literal: Literal = text.parse().unwrap_or_else(|_| Literal::f64_unsuffixed(value.abs()));
-    if value < 0.0 { quote!(-#literal) } else { quote!(#literal) }
+    let literal: Literal = text
+        .parse()
+        .unwrap_or_else(|_| Literal::f64_unsuffixed(value.abs()));
+    if value < 0.0 {
+        quote!(-#literal)
+    } else {
+        quote!(#literal)
+    }
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@ pub use write::{catalogue, render, write_if_changed};
 use crate::derive::Equations;
 use crate::expr::{ExprId, Symbol};
 use crate::model::Mechanism;
-use crate::optimise::{Slot, cost, optimise};
+use crate::optimise::{Program, Slot, cost, optimise};
 use function::Body;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
@@ -82,7 +82,13 @@ pub fn module(
     options: Options,
 ) -> TokenStream {
     let names = SymbolNames::of(mechanism);
-    let mut subject = Subject { mechanism, equations, names, file: origin.file, options };
+    let mut subject = Subject {
+        mechanism,
+        equations,
+        names,
+        file: origin.file,
+        options,
+    };
     let parameters = structure::parameters(&subject);
     let inputs = structure::inputs(&subject);
     let structure = structure::structure(&subject);
@@ -114,10 +120,25 @@ pub fn module(
 }
 
 fn module_docs(subject: &Subject, origin: Origin) -> Vec<String> {
-    let Mechanism { name, docs, constants, .. } = &*subject.mechanism;
-    let docs = if docs.trim().is_empty() { name.as_str() } else { docs.trim() };
-    let mut lines: Vec<String> = docs.lines().map(|line| format!(" {}", line.trim())).collect();
-    let (n, r) = (subject.equations.mass.len(), subject.equations.jacobian.len());
+    let Mechanism {
+        name,
+        docs,
+        constants,
+        ..
+    } = &*subject.mechanism;
+    let docs = if docs.trim().is_empty() {
+        name.as_str()
+    } else {
+        docs.trim()
+    };
+    let mut lines: Vec<String> = docs
+        .lines()
+        .map(|line| format!(" {}", line.trim()))
+        .collect();
+    let (n, r) = (
+        subject.equations.mass.len(),
+        subject.equations.jacobian.len(),
+    );
     lines.push(String::new());
     lines.push(format!(
         " Generated from `{}`: {n} coordinates, {r} constraint equations.",
@@ -127,16 +148,25 @@ fn module_docs(subject: &Subject, origin: Origin) -> Vec<String> {
         let folded: Vec<String> = constants
             .iter()
             .map(|constant| {
-                let value = subject.mechanism.graph.text(constant.value, &|s| subject.text(s));
+                let value = subject
+                    .mechanism
+                    .graph
+                    .text(constant.value, &|s| subject.text(s));
                 format!("`{} = {value}`", constant.quantity.name)
             })
             .collect();
-        lines.extend([String::new(), format!(" Folded constants: {}.", folded.join(", "))]);
+        lines.extend([
+            String::new(),
+            format!(" Folded constants: {}.", folded.join(", ")),
+        ]);
     }
     if !origin.frozen.is_empty() {
         lines.extend([
             String::new(),
-            format!(" Parameters frozen at their defaults: `{}`.", origin.frozen.join("`, `")),
+            format!(
+                " Parameters frozen at their defaults: `{}`.",
+                origin.frozen.join("`, `")
+            ),
         ]);
     }
     lines
@@ -146,7 +176,14 @@ fn module_docs(subject: &Subject, origin: Origin) -> Vec<String> {
 fn holder(subject: &Subject) -> TokenStream {
     let name = subject.type_name();
     let docs = subject.mechanism.docs.trim();
-    let docs = format!(" {}", if docs.is_empty() { &subject.mechanism.name } else { docs });
+    let docs = format!(
+        " {}",
+        if docs.is_empty() {
+            &subject.mechanism.name
+        } else {
+            docs
+        }
+    );
     let parameters = (!subject.mechanism.parameters.is_empty())
         .then(|| quote!(/** Run-time parameters. */ pub parameters: Parameters<T>,));
     let inputs = (!subject.mechanism.inputs.is_empty())
@@ -162,8 +199,18 @@ fn holder(subject: &Subject) -> TokenStream {
 
 fn imports(subject: &Subject) -> TokenStream {
     let mut names = vec![
-        "Canvas", "Energy", "Initial", "Interface", "Mechanism", "Quantity", "Real", "Start",
-        "State", "Structure", "Terms",
+        "Canvas",
+        "Energy",
+        "Initial",
+        "Interface",
+        "Mechanism",
+        "Quantity",
+        "Real",
+        "Regular",
+        "Start",
+        "State",
+        "Structure",
+        "Terms",
     ];
     if !subject.mechanism.constraints.is_empty() {
         names.extend(["Branch", "ConstraintRow", "Position"]);
@@ -172,7 +219,9 @@ fn imports(subject: &Subject) -> TokenStream {
         names.extend(["Direction", "Event"]);
     }
     names.sort_unstable();
-    let names = names.into_iter().map(|name| Ident::new(name, Span::call_site()));
+    let names = names
+        .into_iter()
+        .map(|name| Ident::new(name, Span::call_site()));
     quote! {
         use bricard_runtime::nalgebra::{SMatrix, SVector};
         use bricard_runtime::{#(#names),*};
@@ -183,7 +232,10 @@ impl Subject<'_> {
     /// `N` and `R` as literals.
     fn sizes(&self) -> (Literal, Literal) {
         let size = Literal::usize_unsuffixed;
-        (size(self.equations.mass.len()), size(self.equations.jacobian.len()))
+        (
+            size(self.equations.mass.len()),
+            size(self.equations.jacobian.len()),
+        )
     }
 
     fn type_name(&self) -> Ident {
@@ -197,40 +249,78 @@ impl Subject<'_> {
 
     /// Expressions of numbers alone, as values of `T`.
     fn constants(&self, expressions: Vec<ExprId>) -> Vec<TokenStream> {
-        let slot = |row| Slot { array: "constant", row, column: 0 };
+        let slot = |row| Slot {
+            array: "constant",
+            row,
+            column: 0,
+        };
         let write = |(row, e): (usize, ExprId)| {
             let program = crate::optimise::plain(&self.mechanism.graph, &[(slot(row), e)]);
             let body = Body::of(&program, &self.names, self.names.taken.clone());
             let (statements, value) = (&body.statements, body.output(slot(row)));
-            if statements.is_empty() { value } else { quote!({ #statements #value }) }
+            if statements.is_empty() {
+                value
+            } else {
+                quote!({ #statements #value })
+            }
         };
         expressions.into_iter().enumerate().map(write).collect()
     }
 
+    fn program(&mut self, wanted: &[(Slot, ExprId)]) -> Program {
+        let laws: Vec<ExprId> = self
+            .mechanism
+            .inputs
+            .iter()
+            .map(|input| input.law)
+            .collect();
+        optimise(&mut self.mechanism.graph, &laws, wanted)
+    }
+
     fn body(&mut self, wanted: &[(Slot, ExprId)]) -> Written {
-        let laws: Vec<ExprId> = self.mechanism.inputs.iter().map(|input| input.law).collect();
-        let program = optimise(&mut self.mechanism.graph, &laws, wanted);
-        let body = Body::of(&program, &self.names, self.names.taken.clone());
-        let prelude = self.names.prelude(&program);
+        let program = self.program(wanted);
+        self.written(&program)
+    }
+
+    fn written(&self, program: &Program) -> Written {
+        let body = Body::of(program, &self.names, self.names.taken.clone());
+        let prelude = self.names.prelude(program);
         let written = &body.statements;
-        let state = if SymbolNames::reads_state(&program) { "state" } else { "_state" };
+        let state = if SymbolNames::reads_state(program) {
+            "state"
+        } else {
+            "_state"
+        };
         Written {
             statements: quote!(#prelude #written),
             state: Ident::new(state, Span::call_site()),
-            cost: format!(" Costs {}.", cost(&program)),
+            cost: format!(" Costs {}.", cost(program)),
             body,
         }
     }
 
     /// A method that fills a buffer whose fields are the arrays wanted.
     fn method(&mut self, method: Method) -> TokenStream {
-        let Method { docs, name, buffer, wanted } = method;
-        let Written { statements, body, state, cost } = self.body(&wanted);
+        let Method {
+            docs,
+            name,
+            buffer,
+            wanted,
+        } = method;
+        let Written {
+            statements,
+            body,
+            state,
+            cost,
+        } = self.body(&wanted);
         let writes = self.writes(&wanted, &body, &|array| {
             let field = Ident::new(array, Span::call_site());
             quote!(out.#field)
         });
-        let out = Ident::new(if writes.is_empty() { "_out" } else { "out" }, Span::call_site());
+        let out = Ident::new(
+            if writes.is_empty() { "_out" } else { "out" },
+            Span::call_site(),
+        );
         let (docs, name) = (format!(" {docs}"), Ident::new(name, Span::call_site()));
         let n = self.sizes().0;
         quote! {
@@ -246,12 +336,26 @@ impl Subject<'_> {
 
     /// A public function that returns an array.
     fn returning(&mut self, method: Method) -> TokenStream {
-        let Method { docs, name, buffer, wanted } = method;
-        let Written { statements, body, state, cost } = self.body(&wanted);
+        let Method {
+            docs,
+            name,
+            buffer,
+            wanted,
+        } = method;
+        let Written {
+            statements,
+            body,
+            state,
+            cost,
+        } = self.body(&wanted);
         let writes = self.writes(&wanted, &body, &|_| quote!(out));
         let (docs, name) = (format!(" {docs}"), Ident::new(name, Span::call_site()));
         let n = self.sizes().0;
-        let kind = if buffer.to_string().starts_with("SVector") { quote!(SVector) } else { quote!(SMatrix) };
+        let kind = if buffer.to_string().starts_with("SVector") {
+            quote!(SVector)
+        } else {
+            quote!(SMatrix)
+        };
         let result = if writes.is_empty() {
             quote!(#kind::zeros())
         } else {
@@ -277,12 +381,15 @@ impl Subject<'_> {
         place: &dyn Fn(&str) -> TokenStream,
     ) -> TokenStream {
         let graph = &self.mechanism.graph;
-        let written = wanted.iter().filter(|(_, e)| !graph.is_zero(*e)).filter_map(|(slot, _)| {
-            let (array, value) = (place(slot.array), body.written(*slot)?);
-            let row = Literal::usize_unsuffixed(slot.row);
-            let column = Literal::usize_unsuffixed(slot.column);
-            Some(quote!(#array.data.0[#column][#row] = #value;))
-        });
+        let written = wanted
+            .iter()
+            .filter(|(_, e)| !graph.is_zero(*e))
+            .filter_map(|(slot, _)| {
+                let (array, value) = (place(slot.array), body.written(*slot)?);
+                let row = Literal::usize_unsuffixed(slot.row);
+                let column = Literal::usize_unsuffixed(slot.column);
+                Some(quote!(#array.data.0[#column][#row] = #value;))
+            });
         written.collect()
     }
 }

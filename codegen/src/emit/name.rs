@@ -12,7 +12,9 @@ pub(super) struct Names {
 impl Names {
     /// Names that are already in use.
     pub fn reserving(names: &[&str]) -> Self {
-        Self { taken: names.iter().map(|name| name.to_string()).collect() }
+        Self {
+            taken: names.iter().map(|name| name.to_string()).collect(),
+        }
     }
 
     /// A new name close to a wish; `_2`, `_3`, … is added where it is taken.
@@ -44,7 +46,11 @@ pub(super) fn snake_case(name: &str) -> String {
             _ => snake.extend(c.to_lowercase()),
         }
     }
-    if syn::parse_str::<Ident>(&snake).is_ok() { snake } else { format!("{snake}_") }
+    if syn::parse_str::<Ident>(&snake).is_ok() {
+        snake
+    } else {
+        format!("{snake}_")
+    }
 }
 
 /// `slider_crank` → `SliderCrank`; what is in camel case stays so.
@@ -55,7 +61,11 @@ pub(super) fn camel_case(name: &str) -> String {
         camel.extend(letters.next().into_iter().flat_map(char::to_uppercase));
         camel.push_str(letters.as_str());
     }
-    if syn::parse_str::<Ident>(&camel).is_ok() { camel } else { format!("Mechanism{camel}") }
+    if syn::parse_str::<Ident>(&camel).is_ok() {
+        camel
+    } else {
+        format!("Mechanism{camel}")
+    }
 }
 
 #[cfg(test)]

@@ -9,7 +9,9 @@ use quote::quote;
 
 /// `static STRUCTURE`.
 pub(super) fn structure(subject: &Subject) -> TokenStream {
-    let Subject { mechanism, file, .. } = subject;
+    let Subject {
+        mechanism, file, ..
+    } = subject;
     let (name, docs) = (&mechanism.name, &mechanism.docs);
     let coordinates = quantities(&mechanism.coordinates);
     let parameters = quantities(mechanism.parameters.iter().map(|p| &p.quantity));
@@ -52,9 +54,11 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
 fn quantities<'a>(
     quantities: impl IntoIterator<Item = &'a Quantity>,
 ) -> impl Iterator<Item = TokenStream> {
-    quantities.into_iter().map(|Quantity { name, unit, docs, .. }| {
-        quote!(Quantity { name: #name, unit: #unit, docs: #docs })
-    })
+    quantities.into_iter().map(
+        |Quantity {
+             name, unit, docs, ..
+         }| { quote!(Quantity { name: #name, unit: #unit, docs: #docs }) },
+    )
 }
 
 fn constant_mass(subject: &Subject) -> bool {
@@ -102,8 +106,14 @@ pub(super) fn inputs(subject: &Subject) -> TokenStream {
     }
     let fields = &subject.names.input_fields;
     let docs = inputs.iter().map(|input| {
-        let law = subject.mechanism.graph.text(input.law, &|symbol| subject.text(symbol));
-        format!("{}\n\n Default law: `{law}`.", quantity_docs(&input.quantity))
+        let law = subject
+            .mechanism
+            .graph
+            .text(input.law, &|symbol| subject.text(symbol));
+        format!(
+            "{}\n\n Default law: `{law}`.",
+            quantity_docs(&input.quantity)
+        )
     });
     quote! {
         /// External signals, in SI units: `None` is the default law.
@@ -113,9 +123,19 @@ pub(super) fn inputs(subject: &Subject) -> TokenStream {
 }
 
 fn quantity_docs(quantity: &Quantity) -> String {
-    let Quantity { name, unit, docs, .. } = quantity;
-    let unit = if unit.is_empty() { String::new() } else { format!(" ({unit})") };
+    let Quantity {
+        name, unit, docs, ..
+    } = quantity;
+    let unit = if unit.is_empty() {
+        String::new()
+    } else {
+        format!(" ({unit})")
+    };
     let docs = docs.trim();
-    let stop = if docs.is_empty() { String::new() } else { format!(": {docs}") };
+    let stop = if docs.is_empty() {
+        String::new()
+    } else {
+        format!(": {docs}")
+    };
     format!(" `{name}`{unit}{stop}")
 }

@@ -34,13 +34,25 @@ impl SymbolNames {
         let mut input_names = Names::default();
         let mut taken = Names::reserving(&RESERVED);
         let time = taken.unique("t");
-        let coordinates: Vec<Ident> =
-            mechanism.coordinates.iter().map(|q| taken.unique(&q.name)).collect();
-        let velocities =
-            mechanism.coordinates.iter().map(|q| taken.unique(&format!("{}_dot", q.name))).collect();
-        let parameters: Vec<&str> =
-            mechanism.parameters.iter().map(|p| p.quantity.name.as_str()).collect();
-        let inputs = mechanism.inputs.iter().map(|input| input_names.unique(&input.quantity.name));
+        let coordinates: Vec<Ident> = mechanism
+            .coordinates
+            .iter()
+            .map(|q| taken.unique(&q.name))
+            .collect();
+        let velocities = mechanism
+            .coordinates
+            .iter()
+            .map(|q| taken.unique(&format!("{}_dot", q.name)))
+            .collect();
+        let parameters: Vec<&str> = mechanism
+            .parameters
+            .iter()
+            .map(|p| p.quantity.name.as_str())
+            .collect();
+        let inputs = mechanism
+            .inputs
+            .iter()
+            .map(|input| input_names.unique(&input.quantity.name));
         SymbolNames {
             parameter_fields: parameters.iter().map(|name| fields.unique(name)).collect(),
             input_fields: inputs.collect(),
@@ -93,7 +105,11 @@ impl SymbolNames {
             })
             .map(|i| {
                 let (field, local) = (&self.parameter_fields[i], &self.parameters[i]);
-                if field == local { quote!(#field) } else { quote!(#field: #local) }
+                if field == local {
+                    quote!(#field)
+                } else {
+                    quote!(#field: #local)
+                }
             })
             .collect();
         match (bindings.len(), self.parameters.len()) {

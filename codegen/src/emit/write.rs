@@ -30,7 +30,9 @@ pub fn catalogue(mechanisms: &[(String, String)]) -> TokenStream {
         let name = Ident::new(&camel_case(name), Span::call_site());
         quote!(#module::#name)
     });
-    let modules = mechanisms.iter().map(|(stem, _)| Ident::new(&snake_case(stem), Span::call_site()));
+    let modules = mechanisms
+        .iter()
+        .map(|(stem, _)| Ident::new(&snake_case(stem), Span::call_site()));
     let (stems, stems_again) = (names.clone(), names.clone());
     quote! {
         /// The names of all mechanisms, in alphabetical order.

@@ -18,7 +18,11 @@ pub(super) fn factor(program: &Program) -> Program {
     let candidates = [shared, collected, program.clone()];
     let [first, rest @ ..] = candidates;
     rest.into_iter().fold(first, |best, other| {
-        if cost(&other).weight() < cost(&best).weight() { other } else { best }
+        if cost(&other).weight() < cost(&best).weight() {
+            other
+        } else {
+            best
+        }
     })
 }
 
@@ -33,10 +37,14 @@ type Term = (bool, Vec<Value>);
 /// `a·x + a·y + z` becomes `a·(x + y) + z`, the commonest factor first.
 fn collect_factors(program: &Program) -> Program {
     let uses = program.uses();
-    let mut builder = Builder { program: program.clone() };
+    let mut builder = Builder {
+        program: program.clone(),
+    };
     let mut moved: BTreeMap<Value, Value> = BTreeMap::new();
     for (value, operation) in program.operations() {
-        let Operation::Sum(terms) = operation else { continue };
+        let Operation::Sum(terms) = operation else {
+            continue;
+        };
         let parts: Vec<Term> = terms
             .iter()
             .map(|(minus, x)| match program.operation(*x) {
@@ -56,9 +64,13 @@ impl Builder {
     /// Takes factors out of terms until no factor is common to two.
     fn collected(&mut self, mut terms: Vec<Term>) -> Vec<Term> {
         while let Some(common) = commonest(&terms) {
-            let (having, mut rest): (Vec<Term>, Vec<Term>) =
-                terms.into_iter().partition(|(_, factors)| factors.contains(&common));
-            let mut inner: Vec<Term> = having.into_iter().map(|t| self.without(t, common)).collect();
+            let (having, mut rest): (Vec<Term>, Vec<Term>) = terms
+                .into_iter()
+                .partition(|(_, factors)| factors.contains(&common));
+            let mut inner: Vec<Term> = having
+                .into_iter()
+                .map(|t| self.without(t, common))
+                .collect();
             let minus = inner.iter().all(|(minus, _)| *minus);
             if minus {
                 inner.iter_mut().for_each(|term| term.0 = false);
@@ -88,8 +100,10 @@ impl Builder {
     }
 
     fn sum(&mut self, terms: Vec<Term>) -> Value {
-        let mut values: Vec<(bool, Value)> =
-            terms.into_iter().map(|(minus, factors)| (minus, self.product(factors))).collect();
+        let mut values: Vec<(bool, Value)> = terms
+            .into_iter()
+            .map(|(minus, factors)| (minus, self.product(factors)))
+            .collect();
         values.sort_by_key(|(minus, _)| *minus);
         match values[..] {
             [(false, only)] => only,
@@ -110,10 +124,15 @@ fn commonest(terms: &[Term]) -> Option<Value> {
     let mut counts: BTreeMap<Value, usize> = BTreeMap::new();
     for (_, factors) in terms {
         let distinct: BTreeSet<Value> = factors.iter().copied().collect();
-        distinct.into_iter().for_each(|f| *counts.entry(f).or_insert(0) += 1);
+        distinct
+            .into_iter()
+            .for_each(|f| *counts.entry(f).or_insert(0) += 1);
     }
     let most = counts.values().copied().max().filter(|most| *most > 1)?;
-    counts.into_iter().find(|(_, count)| *count == most).map(|(factor, _)| factor)
+    counts
+        .into_iter()
+        .find(|(_, count)| *count == most)
+        .map(|(factor, _)| factor)
 }
 
 /// The program with some of its first `n` values replaced everywhere.
@@ -137,7 +156,11 @@ fn redirected(grown: Program, n: usize, moved: &BTreeMap<Value, Value>) -> Progr
             Operation::Number(_) | Operation::Pi | Operation::Symbol(_) => operation.clone(),
         })
         .collect();
-    let outputs: Vec<_> = grown.outputs.iter().map(|(slot, value)| (*slot, target(value))).collect();
+    let outputs: Vec<_> = grown
+        .outputs
+        .iter()
+        .map(|(slot, value)| (*slot, target(value)))
+        .collect();
     ordered(&operations, &outputs)
 }
 
@@ -149,7 +172,10 @@ struct Pairs {
 
 impl Pairs {
     fn of(operations: &[Operation]) -> Self {
-        let mut pairs = Pairs { products: BTreeMap::new(), having: BTreeMap::new() };
+        let mut pairs = Pairs {
+            products: BTreeMap::new(),
+            having: BTreeMap::new(),
+        };
         for (i, operation) in operations.iter().enumerate() {
             if let Operation::Product(factors) = operation {
                 pairs.insert(i, factors.clone());
@@ -181,8 +207,16 @@ impl Pairs {
 
     /// The pair that most products have, if two have it; the first of equals.
     fn commonest(&self) -> Option<(Value, Value)> {
-        let most = self.having.values().map(BTreeSet::len).max().filter(|most| *most > 1)?;
-        self.having.iter().find(|(_, products)| products.len() == most).map(|(pair, _)| *pair)
+        let most = self
+            .having
+            .values()
+            .map(BTreeSet::len)
+            .max()
+            .filter(|most| *most > 1)?;
+        self.having
+            .iter()
+            .find(|(_, products)| products.len() == most)
+            .map(|(pair, _)| *pair)
     }
 }
 
@@ -200,7 +234,11 @@ fn share_pairs(program: &Program) -> Program {
     while let Some(pair @ (a, b)) = pairs.commonest() {
         let products: Vec<usize> = pairs.having[&pair].iter().copied().collect();
         let is_pair = |product: &&usize| pairs.products[product] == [a, b];
-        let shared = products.iter().find(is_pair).copied().unwrap_or(operations.len());
+        let shared = products
+            .iter()
+            .find(is_pair)
+            .copied()
+            .unwrap_or(operations.len());
         if shared == operations.len() {
             operations.push(Operation::Product(vec![a, b]));
         }

@@ -11,7 +11,11 @@ pub fn interpret(program: &Program, values: &dyn Fn(Symbol) -> Option<f64>) -> V
         let value = step(operation, &known, values);
         known.push(value);
     }
-    program.outputs.iter().map(|(slot, value)| (*slot, known[value.index()])).collect()
+    program
+        .outputs
+        .iter()
+        .map(|(slot, value)| (*slot, known[value.index()]))
+        .collect()
 }
 
 fn step(operation: &Operation, known: &[f64], values: &dyn Fn(Symbol) -> Option<f64>) -> f64 {
@@ -22,14 +26,21 @@ fn step(operation: &Operation, known: &[f64], values: &dyn Fn(Symbol) -> Option<
         Operation::Symbol(symbol) => values(*symbol).unwrap_or(f64::NAN),
         Operation::Input(i, law) => values(Symbol::Input(*i)).unwrap_or(of(law)),
         Operation::Sum(terms) => {
-            terms.iter().fold(0.0, |sum, (minus, x)| if *minus { sum - of(x) } else { sum + of(x) })
+            terms.iter().fold(
+                0.0,
+                |sum, (minus, x)| if *minus { sum - of(x) } else { sum + of(x) },
+            )
         }
         Operation::Product(factors) => factors.iter().map(of).product(),
         Operation::Quotient(x, y) => of(x) / of(y),
         Operation::Function(function, x) => function.apply(of(x)),
         Operation::Function2(function, x, y) => function.apply(of(x), of(y)),
         Operation::Select(comparison, [a, b, then, otherwise]) => {
-            of(if comparison.holds(of(a), of(b)) { then } else { otherwise })
+            of(if comparison.holds(of(a), of(b)) {
+                then
+            } else {
+                otherwise
+            })
         }
     }
 }

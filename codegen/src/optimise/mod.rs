@@ -9,6 +9,8 @@
 //! 2. [`schedule`]: to a program, each shared expression once.
 //! 3. [`factor`]: pairs of factors and of terms that several operations share.
 //! 4. [`dead`]: what nobody reads.
+//!
+//! [`solve`] appends the solve for the accelerations to a program.
 
 mod count;
 mod dead;
@@ -16,6 +18,7 @@ mod factor;
 mod interpret;
 mod program;
 mod schedule;
+mod solve;
 mod trig;
 mod verify;
 
@@ -36,14 +39,33 @@ use crate::expr::{ExprId, Graph};
 /// the program in the message.
 pub fn optimise(graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -> Program {
     let plain = factor::factor(&schedule::schedule(graph, laws, wanted));
-    let reduced: Vec<_> =
-        wanted.iter().map(|(slot, e)| (*slot, in_trig_ring(graph, *e))).collect();
+    let reduced: Vec<_> = wanted
+        .iter()
+        .map(|(slot, e)| (*slot, in_trig_ring(graph, *e)))
+        .collect();
     let reduced = factor::factor(&schedule::schedule(graph, laws, &reduced));
-    let best = if cost(&reduced).weight() < cost(&plain).weight() { reduced } else { plain };
-    if let Err(broken) = verify(&best) {
-        panic!("internal error, please report: {broken} in {best:?}");
+    checked(if cost(&reduced).weight() < cost(&plain).weight() {
+        reduced
+    } else {
+        plain
+    })
+}
+
+/// The program for the accelerations by the regular path, from the program for
+/// `mass`, `force`, `jacobian`, `bias` of `n` coordinates and `r` constraint rows.
+///
+/// # Panics
+///
+/// As [`optimise`].
+pub fn regular_solve(terms: &Program, n: usize, r: usize) -> Program {
+    checked(solve::with_solve(terms, n, r))
+}
+
+fn checked(program: Program) -> Program {
+    if let Err(broken) = verify(&program) {
+        panic!("internal error, please report: {broken} in {program:?}");
     }
-    best
+    program
 }
 
 /// The program for expressions without rewriting: for defaults and the like, where

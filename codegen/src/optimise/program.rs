@@ -109,7 +109,10 @@ impl Program {
 
     /// All operations in order.
     pub fn operations(&self) -> impl Iterator<Item = (Value, &Operation)> {
-        self.operations.iter().enumerate().map(|(i, operation)| (Value::at(i), operation))
+        self.operations
+            .iter()
+            .enumerate()
+            .map(|(i, operation)| (Value::at(i), operation))
     }
 
     /// The number of operations.

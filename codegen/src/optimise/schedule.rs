@@ -30,8 +30,13 @@ pub fn schedule(graph: &Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -> Pr
     scheduler.place_all(&used);
     roots.sort_unstable();
     scheduler.place_all(&roots);
-    let Scheduler { mut program, known, .. } = scheduler;
-    program.outputs = wanted.into_iter().map(|(slot, e)| (*slot, known[e])).collect();
+    let Scheduler {
+        mut program, known, ..
+    } = scheduler;
+    program.outputs = wanted
+        .into_iter()
+        .map(|(slot, e)| (*slot, known[e]))
+        .collect();
     super::dead::without_dead(&program)
 }
 
@@ -72,7 +77,10 @@ impl Scheduler<'_> {
     }
 
     fn law(&mut self, input: u32) -> Value {
-        let law = self.laws.get(input as usize).and_then(|law| self.known.get(law));
+        let law = self
+            .laws
+            .get(input as usize)
+            .and_then(|law| self.known.get(law));
         match law {
             Some(&law) => law,
             None => self.number(Number::ZERO),
@@ -96,7 +104,11 @@ impl Scheduler<'_> {
             signed.push((negative, self.weighted(*x, size)));
         }
         if !constant.is_zero() {
-            let size = if constant.is_negative() { constant.neg() } else { constant };
+            let size = if constant.is_negative() {
+                constant.neg()
+            } else {
+                constant
+            };
             signed.push((constant.is_negative(), self.number(size)));
         }
         // A leading minus costs an operation that any positive term in front saves.
@@ -124,7 +136,11 @@ impl Scheduler<'_> {
     fn product(&mut self, powers: &[(ExprId, i32)]) -> Value {
         let (mut above, mut below) = (Vec::new(), Vec::new());
         for (base, exponent) in powers {
-            let side = if *exponent > 0 { &mut above } else { &mut below };
+            let side = if *exponent > 0 {
+                &mut above
+            } else {
+                &mut below
+            };
             side.extend(self.repeated(self.known[base], exponent.unsigned_abs()));
         }
         let numerator = self.multiplied(above);
@@ -132,7 +148,8 @@ impl Scheduler<'_> {
             return numerator;
         }
         let denominator = self.multiplied(below);
-        self.program.push(Operation::Quotient(numerator, denominator))
+        self.program
+            .push(Operation::Quotient(numerator, denominator))
     }
 
     /// The factors of `base ^ exponent`: up to three times the base, else by

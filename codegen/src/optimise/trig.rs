@@ -25,7 +25,10 @@ type Polynomial = BTreeMap<Monomial, Number>;
 
 /// The expression as a reduced polynomial, or unchanged where that is too long.
 pub fn in_trig_ring(graph: &mut Graph, e: ExprId) -> ExprId {
-    let mut ring = Ring { graph, known: FxHashMap::default() };
+    let mut ring = Ring {
+        graph,
+        known: FxHashMap::default(),
+    };
     match ring.expand(e) {
         Some(polynomial) => ring.expression(&polynomial),
         None => e,
@@ -108,7 +111,10 @@ impl Ring<'_> {
         // The inverse of one term is a term; the inverse of a sum is an atom.
         let inverse = match factor.iter().next() {
             Some((monomial, coefficient)) if factor.len() == 1 => {
-                let powers = monomial.iter().map(|(atom, n)| (*atom, n * exponent)).collect();
+                let powers = monomial
+                    .iter()
+                    .map(|(atom, n)| (*atom, n * exponent))
+                    .collect();
                 Polynomial::from([(powers, coefficient.powi(exponent)?)])
             }
             _ => {
@@ -141,7 +147,9 @@ impl Ring<'_> {
             accumulate(sum, monomial, coefficient);
             return;
         };
-        let &Node::Function(_, angle) = self.graph.node(monomial[i].0) else { return };
+        let &Node::Function(_, angle) = self.graph.node(monomial[i].0) else {
+            return;
+        };
         let cos = self.graph.function(Function::Cos, angle);
         let mut lowered = monomial;
         lowered[i].1 -= 2;
@@ -166,11 +174,17 @@ impl Ring<'_> {
 }
 
 fn constant(value: Number) -> Polynomial {
-    if value.is_zero() { Polynomial::new() } else { Polynomial::from([(Vec::new(), value)]) }
+    if value.is_zero() {
+        Polynomial::new()
+    } else {
+        Polynomial::from([(Vec::new(), value)])
+    }
 }
 
 fn accumulate(sum: &mut Polynomial, monomial: Monomial, coefficient: Number) {
-    let total = sum.get(&monomial).map_or(coefficient, |known| known.add(coefficient));
+    let total = sum
+        .get(&monomial)
+        .map_or(coefficient, |known| known.add(coefficient));
     if total.is_zero() {
         sum.remove(&monomial);
     } else {

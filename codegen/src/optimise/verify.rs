@@ -28,7 +28,11 @@ pub fn verify(program: &Program) -> Result<(), String> {
         }
     }
     let mut written = HashSet::new();
-    if let Some((slot, _)) = program.outputs.iter().find(|(slot, _)| !written.insert(*slot)) {
+    if let Some((slot, _)) = program
+        .outputs
+        .iter()
+        .find(|(slot, _)| !written.insert(*slot))
+    {
         return Err(format!("{slot:?} is written twice"));
     }
     match program.uses().iter().position(|uses| *uses == 0) {
