@@ -35,6 +35,15 @@ pub trait Real:
 
     /// Sine and cosine of one angle (rad), computed together.
     fn sin_cos(self) -> (Self, Self);
+    /// Sines and cosines of several angles (rad): the first array holds the sines.
+    #[inline(always)]
+    fn sin_cos_all<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
+        let mut both = ([Self::zero(); K], [Self::zero(); K]);
+        for (i, angle) in angles.into_iter().enumerate() {
+            (both.0[i], both.1[i]) = angle.sin_cos();
+        }
+        both
+    }
     /// Tangent of an angle (rad).
     fn tan(self) -> Self;
     /// Angle in [−π/2, π/2] with this sine.
@@ -95,6 +104,11 @@ macro_rules! real_for_float {
                 let (sin, cos) = sin_cos(f64::from(self));
                 (sin as $float, cos as $float)
             }
+            #[inline(always)]
+            fn sin_cos_all<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
+                let (sines, cosines) = sin_cos_all(angles.map(f64::from));
+                (sines.map(|x| x as $float), cosines.map(|x| x as $float))
+            }
             real_for_float!(@unary $float: tan asin acos atan sinh cosh tanh exp ln sqrt);
             #[inline]
             fn atan2(self, x: Self) -> Self {
@@ -145,7 +159,26 @@ macro_rules! real_for_float {
 /// Inlined where the reduction is exact enough, the library's elsewhere.
 #[inline(always)]
 fn sin_cos(x: f64) -> (f64, f64) {
-    if x.abs() <= sincos::LARGEST { sincos::sin_cos(x) } else { library_sin_cos(x) }
+    if x.abs() <= sincos::LARGEST {
+        sincos::sin_cos(x)
+    } else {
+        library_sin_cos(x)
+    }
+}
+
+/// All inlined, or, if one of them is too large for that, one by one: so that the
+/// usual case is a loop without branches, which runs in the processor's lanes.
+#[inline(always)]
+fn sin_cos_all<const K: usize>(angles: [f64; K]) -> ([f64; K], [f64; K]) {
+    let largest = angles.iter().fold(
+        0.0,
+        |largest: f64, x| if x.abs() <= largest { largest } else { x.abs() },
+    );
+    if largest <= sincos::LARGEST {
+        return sincos::sin_cos_all(angles);
+    }
+    let both = angles.map(sin_cos);
+    (both.map(|(sin, _)| sin), both.map(|(_, cos)| cos))
 }
 
 #[cold]

@@ -14,8 +14,11 @@ pub(crate) const LARGEST: f64 = 1.0e5;
 
 const TWO_OVER_PI: f64 = 6.366_197_723_675_814e-1;
 /// The first 33 bits of π/2, the next 33, and the rest.
-const HALF_PI: [f64; 3] =
-    [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21];
+const HALF_PI: [f64; 3] = [
+    1.570_796_326_734_125_6,
+    6.077_100_506_303_966e-11,
+    2.022_266_248_795_950_6e-21,
+];
 /// 1.5 · 2⁵²: adding it rounds to a whole number, whose low bits are then the
 /// number's.
 const ROUND: f64 = 6_755_399_441_055_744.0;
@@ -57,7 +60,20 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     let (s, c) = if swap { (c, s) } else { (s, c) };
     let sine_sign = (quarter & 2) << 62;
     let cosine_sign = (quarter.wrapping_add(1) & 2) << 62;
-    (f64::from_bits(s.to_bits() ^ sine_sign), f64::from_bits(c.to_bits() ^ cosine_sign))
+    (
+        f64::from_bits(s.to_bits() ^ sine_sign),
+        f64::from_bits(c.to_bits() ^ cosine_sign),
+    )
+}
+
+/// Sines and cosines of several angles, each `|x| ≤` [`LARGEST`].
+#[inline(always)]
+pub(crate) fn sin_cos_all<const K: usize>(angles: [f64; K]) -> ([f64; K], [f64; K]) {
+    let mut both = ([0.0; K], [0.0; K]);
+    for i in 0..K {
+        (both.0[i], both.1[i]) = sin_cos(angles[i]);
+    }
+    both
 }
 
 /// Both functions on [−π/4, π/4], at `r + tail`.

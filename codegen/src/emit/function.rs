@@ -65,18 +65,19 @@ impl Body {
             symbols,
             names,
             uses,
-            pieces: Vec::new(),
+            pieces: vec![None; program.len()],
+            nothing: atom(quote!(T::zero())),
             angles: FxHashMap::default(),
             statements: TokenStream::new(),
         };
-        for (value, operation) in program.operations() {
-            let piece = writer.place(value, operation);
-            writer.pieces.push(piece);
+        writer.place_angles();
+        for (value, _) in program.operations() {
+            writer.place(value);
         }
         let outputs = program
             .outputs
             .iter()
-            .map(|(slot, value)| (*slot, writer.pieces[value.index()].tokens.clone()))
+            .map(|(slot, value)| (*slot, writer.piece(*value).tokens.clone()))
             .collect();
         Body {
             statements: writer.statements,
@@ -90,13 +91,28 @@ struct Writer<'a> {
     symbols: &'a dyn Symbols,
     names: Names,
     uses: Vec<usize>,
-    pieces: Vec<Piece>,
+    pieces: Vec<Option<Piece>>,
+    nothing: Piece,
     angles: FxHashMap<Value, (Ident, Ident)>,
     statements: TokenStream,
 }
 
 impl Writer<'_> {
-    fn place(&mut self, value: Value, operation: &Operation) -> Piece {
+    /// Writes a value whose operands are written, unless it is written already.
+    fn place(&mut self, value: Value) {
+        if self.pieces[value.index()].is_none() {
+            let piece = self.written(value);
+            self.pieces[value.index()] = Some(piece);
+        }
+    }
+
+    fn piece(&self, value: Value) -> &Piece {
+        // Operands come before their users, so the piece is there.
+        self.pieces[value.index()].as_ref().unwrap_or(&self.nothing)
+    }
+
+    fn written(&mut self, value: Value) -> Piece {
+        let operation = self.program.operation(value);
         let piece = match operation {
             Operation::Number(number) => return atom(literal::number(*number)),
             Operation::Pi => {
@@ -113,7 +129,7 @@ impl Writer<'_> {
                 return atom(quote!(#name));
             }
             Operation::Input(index, law) => {
-                let law = self.pieces[law.index()].tokens.clone();
+                let law = self.piece(*law).tokens.clone();
                 atom(self.symbols.input(*index, law))
             }
             Operation::Sum(terms) => self.sum(terms),
@@ -138,7 +154,7 @@ impl Writer<'_> {
     fn wish(&self, operation: &Operation) -> String {
         let plain = |value: &Value| match self.program.operation(*value) {
             Operation::Symbol(_) | Operation::Function(Function::Sin | Function::Cos, _) => {
-                Some(self.pieces[value.index()].tokens.to_string())
+                Some(self.piece(*value).tokens.to_string())
             }
             _ => None,
         };
@@ -156,14 +172,74 @@ impl Writer<'_> {
         }
     }
 
+    /// One call for all angles that are known from the start: a batch runs in the
+    /// lanes of the processor.
+    fn place_angles(&mut self) {
+        let mut early = vec![false; self.program.len()];
+        let mut angles: Vec<Value> = Vec::new();
+        for (value, operation) in self.program.operations() {
+            early[value.index()] = match operation {
+                Operation::Function(Function::Sin | Function::Cos, x) => {
+                    if early[x.index()] && !angles.contains(x) {
+                        angles.push(*x);
+                    }
+                    false
+                }
+                Operation::Function(..)
+                | Operation::Function2(..)
+                | Operation::Select(..)
+                | Operation::Input(..) => false,
+                _ => operation
+                    .operands()
+                    .iter()
+                    .all(|operand| early[operand.index()]),
+            };
+        }
+        if angles.len() < 2 {
+            return;
+        }
+        for angle in &angles {
+            self.place_with_operands(*angle);
+        }
+        let arguments: Vec<TokenStream> = angles
+            .iter()
+            .map(|angle| self.piece(*angle).tokens.clone())
+            .collect();
+        let names: Vec<(Ident, Ident)> =
+            angles.iter().map(|angle| self.pair_names(*angle)).collect();
+        let sines = names.iter().map(|(sin, _)| pattern(sin));
+        let cosines = names.iter().map(|(_, cos)| pattern(cos));
+        self.statements.extend(quote! {
+            let ([#(#sines),*], [#(#cosines),*]) = T::sin_cos_all([#(#arguments),*]);
+        });
+        self.angles.extend(angles.into_iter().zip(names));
+    }
+
+    fn place_with_operands(&mut self, value: Value) {
+        for operand in self.program.operation(value).operands() {
+            self.place_with_operands(operand);
+        }
+        self.place(value);
+    }
+
     /// One call for both, wherever the first of them is met.
     fn sine_and_cosine(&mut self, x: Value) -> (Ident, Ident) {
         if let Some(names) = self.angles.get(&x) {
             return names.clone();
         }
         let angle = self.bound(x, Binding::Atom);
+        let names = self.pair_names(x);
+        let (sin, cos) = (pattern(&names.0), pattern(&names.1));
+        self.statements
+            .extend(quote!(let (#sin, #cos) = #angle.sin_cos();));
+        self.angles.insert(x, names.clone());
+        names
+    }
+
+    /// Names for the sine and cosine of an angle; `_` for the one nobody reads.
+    fn pair_names(&mut self, x: Value) -> (Ident, Ident) {
         let text = match self.program.operation(x) {
-            Operation::Symbol(_) => angle.to_string(),
+            Operation::Symbol(_) => self.piece(x).tokens.to_string(),
             _ => "angle".into(),
         };
         let read = |function| {
@@ -177,18 +253,13 @@ impl Writer<'_> {
             true => self.names.unique(&format!("{prefix}_{text}")),
             false => Ident::new("_", Span::call_site()),
         };
-        let names = (name(has_sin, "sin"), name(has_cos, "cos"));
-        let (sin, cos) = (pattern(&names.0), pattern(&names.1));
-        self.statements
-            .extend(quote!(let (#sin, #cos) = #angle.sin_cos();));
-        self.angles.insert(x, names.clone());
-        names
+        (name(has_sin, "sin"), name(has_cos, "cos"))
     }
 
     fn bound(&self, value: Value, context: Binding) -> TokenStream {
         let Piece {
             tokens, binding, ..
-        } = &self.pieces[value.index()];
+        } = self.piece(value);
         if *binding >= context {
             tokens.clone()
         } else {
@@ -199,7 +270,7 @@ impl Writer<'_> {
     fn operands(&self, values: impl IntoIterator<Item = Value>) -> usize {
         values
             .into_iter()
-            .map(|value| self.pieces[value.index()].operands)
+            .map(|value| self.piece(value).operands)
             .sum()
     }
 
@@ -276,7 +347,7 @@ impl Writer<'_> {
 
     fn call2(&self, function: Function2, x: Value, y: Value) -> Piece {
         let first = self.bound(x, Binding::Atom);
-        let second = &self.pieces[y.index()].tokens;
+        let second = &self.piece(y).tokens;
         let name = match function {
             Function2::Pow => "powf",
             _ => function.name(),
@@ -292,7 +363,7 @@ impl Writer<'_> {
 
     fn select(&self, comparison: Comparison, parts: &[Value; 4]) -> Piece {
         let [a, b] = [0, 1].map(|i| self.bound(parts[i], Binding::Sum));
-        let [then, otherwise] = [2, 3].map(|i| &self.pieces[parts[i].index()].tokens);
+        let [then, otherwise] = [2, 3].map(|i| &self.piece(parts[i]).tokens);
         let sign: TokenStream = match comparison {
             Comparison::Less => quote!(<),
             Comparison::LessEqual => quote!(<=),

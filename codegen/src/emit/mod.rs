@@ -184,16 +184,31 @@ fn holder(subject: &Subject) -> TokenStream {
             docs
         }
     );
-    let parameters = (!subject.mechanism.parameters.is_empty())
-        .then(|| quote!(/** Run-time parameters. */ pub parameters: Parameters<T>,));
-    let inputs = (!subject.mechanism.inputs.is_empty())
-        .then(|| quote!(/** External signals. */ pub inputs: Inputs<T>,));
-    let scalar = (parameters.is_none() && inputs.is_none())
-        .then(|| quote!(scalar: core::marker::PhantomData<T>,));
+    let parameters = !subject.mechanism.parameters.is_empty();
+    let inputs = !subject.mechanism.inputs.is_empty();
+    let (mut fields, mut defaults) = (TokenStream::new(), TokenStream::new());
+    if parameters {
+        fields.extend(quote!(/** Run-time parameters. */ pub parameters: Parameters<T>,));
+        defaults.extend(quote!(parameters: Parameters::default(),));
+    }
+    if inputs {
+        fields.extend(quote!(/** External signals. */ pub inputs: Inputs<T>,));
+        defaults.extend(quote!(inputs: Inputs::default(),));
+    }
+    if !parameters && !inputs {
+        fields.extend(quote!(scalar: core::marker::PhantomData<T>,));
+        defaults.extend(quote!(scalar: core::marker::PhantomData,));
+    }
     quote! {
         #[doc = #docs]
-        #[derive(Clone, Copy, Debug, Default, PartialEq)]
-        pub struct #name<T> { #parameters #inputs #scalar }
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub struct #name<T> { #fields }
+
+        impl<T: Real> Default for #name<T> {
+            fn default() -> Self {
+                #name { #defaults }
+            }
+        }
     }
 }
 
