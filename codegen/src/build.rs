@@ -62,7 +62,9 @@ impl Builder {
 
     /// Gives a constant another value than the description does.
     pub fn constant(mut self, name: &str, value: impl Into<f64>) -> Self {
-        self.settings.constants.push((name.to_string(), value.into()));
+        self.settings
+            .constants
+            .push((name.to_string(), value.into()));
         self
     }
 
@@ -160,7 +162,10 @@ impl Builder {
     }
 
     fn write(&self, name: &str, code: &str) -> Result<(), BuildError> {
-        let folder = self.out_dir.clone().or_else(|| env::var_os("OUT_DIR").map(PathBuf::from));
+        let folder = self
+            .out_dir
+            .clone()
+            .or_else(|| env::var_os("OUT_DIR").map(PathBuf::from));
         let path = folder.ok_or(BuildError::NoOutDir)?.join(name);
         emit::write_if_changed(&path, code).map_err(|error| BuildError::File(path, error))
     }
@@ -170,8 +175,13 @@ impl Builder {
 /// which is what cargo shows whole and aligned.
 fn tell(result: Result<String, BuildError>) -> Result<(), BuildError> {
     match &result {
-        Ok(warnings) => warnings.lines().for_each(|line| println!("cargo::warning={line}")),
-        Err(error) => error.to_string().lines().for_each(|line| println!("cargo::error={line}")),
+        Ok(warnings) => warnings
+            .lines()
+            .for_each(|line| println!("cargo::warning={line}")),
+        Err(error) => error
+            .to_string()
+            .lines()
+            .for_each(|line| println!("cargo::error={line}")),
     }
     result.map(|_| ())
 }
@@ -182,7 +192,10 @@ fn descriptions(folder: &Path) -> Result<Vec<PathBuf>, BuildError> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).map_err(failed)? {
         let path = entry.map_err(failed)?.path();
-        if path.extension().is_some_and(|extension| extension == "mech") {
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "mech")
+        {
             found.push(path);
         }
     }
@@ -193,7 +206,8 @@ fn descriptions(folder: &Path) -> Result<Vec<PathBuf>, BuildError> {
 fn stem(description: &Path) -> Result<String, BuildError> {
     let stem = description.file_stem().and_then(|stem| stem.to_str());
     let name = stem.filter(|stem| syn::parse_str::<syn::Ident>(stem).is_ok());
-    name.map(str::to_string).ok_or_else(|| BuildError::Name(description.to_path_buf()))
+    name.map(str::to_string)
+        .ok_or_else(|| BuildError::Name(description.to_path_buf()))
 }
 
 impl fmt::Display for BuildError {

@@ -42,10 +42,19 @@ pub fn compile_source(
 ) -> Result<Compiled, Diagnostics> {
     let (mut mechanism, warnings) = analyse(source, settings)?;
     let equations = derive::derive(&mut mechanism);
-    let origin = Origin { module, file, source, frozen: &settings.frozen };
+    let origin = Origin {
+        module,
+        file,
+        source,
+        frozen: &settings.frozen,
+    };
     let tokens = emit::module(&mut mechanism, &equations, origin, settings.options);
     let code = emit::render(&tokens);
-    Ok(Compiled { name: mechanism.name, code, warnings })
+    Ok(Compiled {
+        name: mechanism.name,
+        code,
+        warnings,
+    })
 }
 
 /// The front end alone: parses and checks a description.

@@ -9,11 +9,7 @@ use super::{Matrix, gradient, rates, velocities};
 use crate::expr::{ExprId, Graph};
 
 /// `K`, `R × N`, and `κ`, `R`.
-pub(super) fn branch_rows(
-    graph: &mut Graph,
-    closure: &Closure,
-    n: usize,
-) -> (Matrix, Vec<ExprId>) {
+pub(super) fn branch_rows(graph: &mut Graph, closure: &Closure, n: usize) -> (Matrix, Vec<ExprId>) {
     let mut slope = Matrix::new();
     for (row, &gamma) in closure.jacobian.iter().zip(&closure.gamma) {
         let turning = rates(graph, row, n);

@@ -12,21 +12,32 @@ pub fn coriolis_matrix(graph: &mut Graph, mass: &Matrix) -> Matrix {
     let n = mass.len();
     let slopes: Vec<Vec<Vec<ExprId>>> = mass
         .iter()
-        .map(|row| row.iter().map(|&m| gradient(graph, m, coordinates(n))).collect())
+        .map(|row| {
+            row.iter()
+                .map(|&m| gradient(graph, m, coordinates(n)))
+                .collect()
+        })
         .collect();
-    let velocity: Vec<ExprId> =
-        super::velocities(n).map(|symbol: Symbol| graph.symbol(symbol)).collect();
+    let velocity: Vec<ExprId> = super::velocities(n)
+        .map(|symbol: Symbol| graph.symbol(symbol))
+        .collect();
     let mut entry = |i: usize, j: usize| {
         let mut terms = Vec::new();
         for k in 0..n {
             let half = Number::Exact(1, 2);
             let symbol = graph.weighted_sum(
                 Number::ZERO,
-                &[(slopes[i][j][k], half), (slopes[i][k][j], half), (slopes[j][k][i], half.neg())],
+                &[
+                    (slopes[i][j][k], half),
+                    (slopes[i][k][j], half),
+                    (slopes[j][k][i], half.neg()),
+                ],
             );
             terms.push(graph.mul(symbol, velocity[k]));
         }
         graph.sum(terms)
     };
-    (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+    (0..n)
+        .map(|i| (0..n).map(|j| entry(i, j)).collect())
+        .collect()
 }

@@ -22,13 +22,29 @@ pub(super) fn closure(graph: &mut Graph, constraints: &[Constraint], n: usize) -
     let holonomic = |i: usize| constraints[i].holonomic;
     let zero = graph.integer(0);
     let level: Vec<ExprId> = (0..residuals.len())
-        .map(|i| if holonomic(i) { speeds[i] } else { residuals[i] })
+        .map(|i| {
+            if holonomic(i) {
+                speeds[i]
+            } else {
+                residuals[i]
+            }
+        })
         .collect();
-    let jacobian: Matrix = level.iter().map(|&phi| gradient(graph, phi, velocities(n))).collect();
+    let jacobian: Matrix = level
+        .iter()
+        .map(|&phi| gradient(graph, phi, velocities(n)))
+        .collect();
     let drift = level.iter().map(|&phi| graph.at_rest(phi)).collect();
     let gamma = rates(graph, &level, n);
     let bias = gamma.iter().map(|&gamma| graph.neg(gamma)).collect();
-    let residual =
-        (0..residuals.len()).map(|i| if holonomic(i) { residuals[i] } else { zero }).collect();
-    Closure { residual, jacobian, drift, gamma, bias }
+    let residual = (0..residuals.len())
+        .map(|i| if holonomic(i) { residuals[i] } else { zero })
+        .collect();
+    Closure {
+        residual,
+        jacobian,
+        drift,
+        gamma,
+        bias,
+    }
 }

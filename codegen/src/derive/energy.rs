@@ -20,15 +20,28 @@ pub(super) fn energies(
     let one = Number::ONE;
     let balance = graph.weighted_sum(
         Number::ZERO,
-        &[(action, one), (kinetic, Number::MINUS_ONE), (potential, one)],
+        &[
+            (action, one),
+            (kinetic, Number::MINUS_ONE),
+            (potential, one),
+        ],
     );
     let kinetic_rate = graph.differentiate(kinetic, Symbol::Time);
     let potential_rate = graph.differentiate(potential, Symbol::Time);
     let power = graph.weighted_sum(
         Number::ZERO,
-        &[(work_rate, one), (potential_rate, one), (kinetic_rate, Number::MINUS_ONE)],
+        &[
+            (work_rate, one),
+            (potential_rate, one),
+            (kinetic_rate, Number::MINUS_ONE),
+        ],
     );
-    Energies { kinetic, potential, balance, power }
+    Energies {
+        kinetic,
+        potential,
+        balance,
+        power,
+    }
 }
 
 fn dot(graph: &mut Graph, a: &[ExprId], b: &[ExprId]) -> ExprId {

@@ -16,7 +16,11 @@ pub(super) fn coriolis_product(
     let n = momenta.len();
     let carried = rates(graph, momenta, n);
     let slope = gradient(graph, kinetic, coordinates(n));
-    carried.into_iter().zip(slope).map(|(rate, slope)| graph.sub(rate, slope)).collect()
+    carried
+        .into_iter()
+        .zip(slope)
+        .map(|(rate, slope)| graph.sub(rate, slope))
+        .collect()
 }
 
 /// `h = ∂Π/∂q`.
@@ -56,5 +60,10 @@ pub(super) fn total(
         let minus = Number::MINUS_ONE;
         graph.weighted_sum(Number::ZERO, &[(q, Number::ONE), (c, minus), (h, minus)])
     };
-    applied.iter().zip(coriolis).zip(gravity).map(&mut force).collect()
+    applied
+        .iter()
+        .zip(coriolis)
+        .zip(gravity)
+        .map(&mut force)
+        .collect()
 }

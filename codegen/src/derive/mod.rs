@@ -110,11 +110,7 @@ fn coordinates(n: usize) -> impl Iterator<Item = Symbol> + Clone {
 }
 
 /// `∂e/∂symbol` for each symbol, in order.
-fn gradient(
-    graph: &mut Graph,
-    e: ExprId,
-    symbols: impl Iterator<Item = Symbol>,
-) -> Vec<ExprId> {
+fn gradient(graph: &mut Graph, e: ExprId, symbols: impl Iterator<Item = Symbol>) -> Vec<ExprId> {
     let present = graph.symbols(e);
     let mut by = |symbol| match present.contains(&symbol) {
         true => graph.differentiate(e, symbol),
@@ -127,5 +123,8 @@ fn gradient(
 fn rates(graph: &mut Graph, expressions: &[ExprId], n: usize) -> Vec<ExprId> {
     let symbols = coordinates(n).chain([Symbol::Time]);
     let mut flow = graph.frozen_flow(symbols);
-    expressions.iter().map(|&e| graph.derivative_along(e, &mut flow)).collect()
+    expressions
+        .iter()
+        .map(|&e| graph.derivative_along(e, &mut flow))
+        .collect()
 }

@@ -64,8 +64,17 @@ impl Diagnostic {
     }
 
     fn new(severity: Severity, span: Span, message: String) -> Self {
-        let primary = Label { span, text: String::new() };
-        Self { severity, message, primary, secondary: Vec::new(), help: None }
+        let primary = Label {
+            span,
+            text: String::new(),
+        };
+        Self {
+            severity,
+            message,
+            primary,
+            secondary: Vec::new(),
+            help: None,
+        }
     }
 
     /// Says what is at the place itself.
@@ -76,7 +85,10 @@ impl Diagnostic {
 
     /// Points to another place.
     pub fn also(mut self, span: Span, text: impl Into<String>) -> Self {
-        self.secondary.push(Label { span, text: text.into() });
+        self.secondary.push(Label {
+            span,
+            text: text.into(),
+        });
         self
     }
 
@@ -118,7 +130,10 @@ impl Diagnostics {
 
     /// Adds the findings of another collection.
     pub fn append(&mut self, other: Diagnostics) {
-        other.list.into_iter().for_each(|diagnostic| self.push(diagnostic));
+        other
+            .list
+            .into_iter()
+            .for_each(|diagnostic| self.push(diagnostic));
     }
 
     /// Whether nothing was found.
@@ -128,7 +143,10 @@ impl Diagnostics {
 
     /// The number of findings that stop the generator.
     pub fn error_count(&self) -> usize {
-        self.list.iter().filter(|d| d.severity == Severity::Error).count()
+        self.list
+            .iter()
+            .filter(|d| d.severity == Severity::Error)
+            .count()
     }
 
     /// The findings in the order of their places.

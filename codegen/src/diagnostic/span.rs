@@ -25,12 +25,18 @@ pub struct Span {
 impl Span {
     /// The piece from the start of this one to the end of another.
     pub fn to(self, other: Span) -> Span {
-        Span { start: self.start, end: other.end.max(self.end) }
+        Span {
+            start: self.start,
+            end: other.end.max(self.end),
+        }
     }
 
     /// The empty piece behind this one.
     pub fn after(self) -> Span {
-        Span { start: self.end, end: self.end }
+        Span {
+            start: self.end,
+            end: self.end,
+        }
     }
 
     /// The bytes of the file that it covers.

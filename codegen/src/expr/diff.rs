@@ -19,7 +19,10 @@ pub struct Direction {
 impl Direction {
     /// The direction in which each symbol changes at the rate beside it.
     pub fn new(seeds: Vec<(Symbol, ExprId)>) -> Self {
-        Self { seeds, memo: Memo::default() }
+        Self {
+            seeds,
+            memo: Memo::default(),
+        }
     }
 }
 
@@ -28,7 +31,10 @@ impl Graph {
     pub fn differentiate(&mut self, e: ExprId, by: Symbol) -> ExprId {
         let one = self.integer(1);
         let memo = self.partials.remove(&by).unwrap_or_default();
-        let mut direction = Direction { seeds: vec![(by, one)], memo };
+        let mut direction = Direction {
+            seeds: vec![(by, one)],
+            memo,
+        };
         let derivative = self.derivative_along(e, &mut direction);
         self.partials.insert(by, direction.memo);
         derivative
@@ -107,16 +113,16 @@ impl Graph {
             Node::Function2(function, x, y) => self.slope2(function, [x, y], e, [d(&x), d(&y)]),
             Node::Select(comparison, [a, b, then, otherwise]) => {
                 let (then, otherwise) = (d(&then), d(&otherwise));
-                if then == otherwise { then } else { self.select(comparison, a, b, then, otherwise) }
+                if then == otherwise {
+                    then
+                } else {
+                    self.select(comparison, a, b, then, otherwise)
+                }
             }
         }
     }
 
-    fn product_rule(
-        &mut self,
-        factors: &[(ExprId, i32)],
-        d: &dyn Fn(&ExprId) -> ExprId,
-    ) -> ExprId {
+    fn product_rule(&mut self, factors: &[(ExprId, i32)], d: &dyn Fn(&ExprId) -> ExprId) -> ExprId {
         let mut terms = Vec::new();
         for (i, (base, exponent)) in factors.iter().enumerate() {
             let rate = d(base);
@@ -143,14 +149,22 @@ impl Graph {
             }
             Function::Tan | Function::Tanh => {
                 let square = self.powi(value, 2);
-                if function == Function::Tan { self.add(one, square) } else { self.sub(one, square) }
+                if function == Function::Tan {
+                    self.add(one, square)
+                } else {
+                    self.sub(one, square)
+                }
             }
             Function::Asin | Function::Acos => {
                 let square = self.powi(x, 2);
                 let inside = self.sub(one, square);
                 let root = self.function(Function::Sqrt, inside);
                 let slope = self.powi(root, -1);
-                if function == Function::Asin { slope } else { self.neg(slope) }
+                if function == Function::Asin {
+                    slope
+                } else {
+                    self.neg(slope)
+                }
             }
             Function::Atan => {
                 let square = self.powi(x, 2);

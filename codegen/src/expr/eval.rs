@@ -39,7 +39,10 @@ impl Graph {
             Node::Symbol(symbol) => values(*symbol),
             Node::Sum(constant, terms) => {
                 let term = |(x, weight): &(ExprId, super::Number)| weight.to_f64() * known[x];
-                terms.iter().map(term).fold(constant.to_f64(), |sum, term| sum + term)
+                terms
+                    .iter()
+                    .map(term)
+                    .fold(constant.to_f64(), |sum, term| sum + term)
             }
             Node::Product(factors) => {
                 let power = |(x, exponent): &(ExprId, i32)| known[x].powi(*exponent);
@@ -48,7 +51,11 @@ impl Graph {
             Node::Function(function, x) => function.apply(known[x]),
             Node::Function2(function, x, y) => function.apply(known[x], known[y]),
             Node::Select(comparison, [a, b, then, otherwise]) => {
-                known[if comparison.holds(known[a], known[b]) { then } else { otherwise }]
+                known[if comparison.holds(known[a], known[b]) {
+                    then
+                } else {
+                    otherwise
+                }]
             }
         }
     }

@@ -64,7 +64,10 @@ impl Function {
 
     /// The name it has in a description.
     pub fn name(self) -> &'static str {
-        Self::ALL.iter().find(|(function, _)| *function == self).map_or("", |(_, name)| name)
+        Self::ALL
+            .iter()
+            .find(|(function, _)| *function == self)
+            .map_or("", |(_, name)| name)
     }
 
     /// Its value.

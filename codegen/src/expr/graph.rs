@@ -278,7 +278,10 @@ impl Graph {
     /// become square roots, the rest is left to the power function.
     pub fn pow(&mut self, base: ExprId, exponent: ExprId) -> ExprId {
         let halves = self.as_number(exponent).map(|n| n.mul(Number::integer(2)));
-        match halves.and_then(Number::as_integer).and_then(|h| i32::try_from(h).ok()) {
+        match halves
+            .and_then(Number::as_integer)
+            .and_then(|h| i32::try_from(h).ok())
+        {
             Some(halves) if halves % 2 == 0 => self.powi(base, halves / 2),
             Some(halves) => {
                 let root = self.function(Function::Sqrt, base);
@@ -374,7 +377,10 @@ impl Graph {
             Node::Symbol(symbol) => Some(*symbol),
             _ => None,
         };
-        self.reachable(&[e]).into_iter().filter_map(symbol).collect()
+        self.reachable(&[e])
+            .into_iter()
+            .filter_map(symbol)
+            .collect()
     }
 
     /// Whether an expression is made of a symbol among others.
@@ -384,12 +390,16 @@ impl Graph {
 
     /// Whether an expression contains `abs`, `sign`, `min`, `max` or `if`.
     pub fn contains_nondifferentiable(&self, e: ExprId) -> bool {
-        self.reachable(&[e]).into_iter().any(|e| match self.node(e) {
-            Node::Function(function, _) => !function.is_differentiable(),
-            Node::Function2(function, ..) => matches!(function, Function2::Min | Function2::Max),
-            Node::Select(..) => true,
-            _ => false,
-        })
+        self.reachable(&[e])
+            .into_iter()
+            .any(|e| match self.node(e) {
+                Node::Function(function, _) => !function.is_differentiable(),
+                Node::Function2(function, ..) => {
+                    matches!(function, Function2::Min | Function2::Max)
+                }
+                Node::Select(..) => true,
+                _ => false,
+            })
     }
 }
 

@@ -12,8 +12,8 @@ mod number;
 mod print;
 mod substitute;
 
-pub use function::{Comparison, Function, Function2};
 pub use diff::Direction;
+pub use function::{Comparison, Function, Function2};
 pub use graph::{ExprId, Graph, Node, Symbol};
 pub use number::Number;
 pub use print::Notation;

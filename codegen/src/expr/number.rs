@@ -63,7 +63,11 @@ impl Number {
         let scale = exponent.checked_sub(i32::try_from(fraction.len()).ok()?)?;
         let exact = digits.and_then(|digits| {
             let power = 10_i128.checked_pow(scale.unsigned_abs())?;
-            if scale >= 0 { Number::ratio(digits.checked_mul(power)?, 1) } else { Number::ratio(digits, power) }
+            if scale >= 0 {
+                Number::ratio(digits.checked_mul(power)?, 1)
+            } else {
+                Number::ratio(digits, power)
+            }
         });
         Some(exact.unwrap_or_else(|| Number::float(value)))
     }
@@ -132,9 +136,9 @@ impl Number {
 
     /// The product.
     pub fn mul(self, other: Number) -> Number {
-        let exact = self.exact_with(other).and_then(|((a, b), (c, d))| {
-            Number::ratio(a.checked_mul(c)?, b.checked_mul(d)?)
-        });
+        let exact = self
+            .exact_with(other)
+            .and_then(|((a, b), (c, d))| Number::ratio(a.checked_mul(c)?, b.checked_mul(d)?));
         exact.unwrap_or_else(|| Number::float(self.to_f64() * other.to_f64()))
     }
 
@@ -153,7 +157,11 @@ impl Number {
                 let size = exponent.unsigned_abs();
                 let power = |x: i128| x.checked_pow(size);
                 power(n).zip(power(d)).and_then(|(n, d)| {
-                    if exponent >= 0 { Number::ratio(n, d) } else { Number::ratio(d, n) }
+                    if exponent >= 0 {
+                        Number::ratio(n, d)
+                    } else {
+                        Number::ratio(d, n)
+                    }
                 })
             }
             Number::Float(_) => None,
@@ -190,12 +198,21 @@ fn remainder(n: i128, d: i128, high: f64) -> Option<f64> {
     let exponent = i32::try_from(bits >> 52).ok()? - 1075;
     let mantissa = i128::from((bits & ((1 << 52) - 1)) | (1 << 52));
     let mantissa = if high < 0.0 { -mantissa } else { mantissa };
-    let shift = u32::try_from(exponent.unsigned_abs()).ok().filter(|s| *s < 127)?;
+    let shift = u32::try_from(exponent.unsigned_abs())
+        .ok()
+        .filter(|s| *s < 127)?;
     let scale = 1_i128.checked_shl(shift).filter(|s| *s > 0)?;
     let (rest, unit) = if exponent >= 0 {
-        (n.checked_sub(mantissa.checked_mul(scale)?.checked_mul(d)?)?, d as f64)
+        (
+            n.checked_sub(mantissa.checked_mul(scale)?.checked_mul(d)?)?,
+            d as f64,
+        )
     } else {
-        (n.checked_mul(scale)?.checked_sub(mantissa.checked_mul(d)?)?, d as f64 * scale as f64)
+        (
+            n.checked_mul(scale)?
+                .checked_sub(mantissa.checked_mul(d)?)?,
+            d as f64 * scale as f64,
+        )
     };
     Some(rest as f64 / unit)
 }
@@ -209,9 +226,9 @@ fn gcd(mut a: u128, mut b: u128) -> u128 {
 
 impl Ord for Number {
     fn cmp(&self, other: &Self) -> Ordering {
-        let exact = self.exact_with(*other).and_then(|((a, b), (c, d))| {
-            Some(a.checked_mul(d)?.cmp(&c.checked_mul(b)?))
-        });
+        let exact = self
+            .exact_with(*other)
+            .and_then(|((a, b), (c, d))| Some(a.checked_mul(d)?.cmp(&c.checked_mul(b)?)));
         let rounded = || self.to_f64().total_cmp(&other.to_f64());
         let tie = || format!("{self:?}").cmp(&format!("{other:?}"));
         exact.unwrap_or_else(|| rounded().then_with(tie))
@@ -265,7 +282,9 @@ mod tests {
     fn a_rational_that_overflows_becomes_the_nearest_float() {
         let tiny = Number::parse_literal("1e-300").expect("a literal");
         assert_eq!(tiny.to_f64(), 1e-300);
-        let huge = Number::integer(i64::MAX).powi(5).expect("not a power of zero");
+        let huge = Number::integer(i64::MAX)
+            .powi(5)
+            .expect("not a power of zero");
         assert_eq!(huge.to_f64(), (i64::MAX as f64).powi(5));
     }
 

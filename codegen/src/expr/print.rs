@@ -32,13 +32,14 @@ struct Printer<'a> {
 
 impl Graph {
     /// Prints an expression.
-    pub fn print(
-        &self,
-        e: ExprId,
-        notation: Notation,
-        names: &dyn Fn(Symbol) -> String,
-    ) -> String {
-        Printer { graph: self, notation, names }.piece(e).0
+    pub fn print(&self, e: ExprId, notation: Notation, names: &dyn Fn(Symbol) -> String) -> String {
+        Printer {
+            graph: self,
+            notation,
+            names,
+        }
+        .piece(e)
+        .0
     }
 
     /// Prints an expression in the notation of the description.
@@ -124,7 +125,14 @@ impl Printer<'_> {
             text.push_str(&self.number(size).0);
         }
         let single = terms.len() == 1 && constant.is_zero() && !terms[0].1.is_negative();
-        (text, if single { Binding::Product } else { Binding::Sum })
+        (
+            text,
+            if single {
+                Binding::Product
+            } else {
+                Binding::Sum
+            },
+        )
     }
 
     fn scaled(&self, weight: Number, x: ExprId) -> String {
@@ -132,17 +140,29 @@ impl Printer<'_> {
             return self.within(x, Binding::Product);
         }
         let dot = if self.latex() { "\\," } else { "*" };
-        format!("{}{dot}{}", self.number(weight).0, self.within(x, Binding::Product))
+        format!(
+            "{}{dot}{}",
+            self.number(weight).0,
+            self.within(x, Binding::Product)
+        )
     }
 
     fn product(&self, factors: &[(ExprId, i32)]) -> (String, Binding) {
         let side = |below: bool| -> Vec<String> {
-            let chosen = factors.iter().filter(|(_, exponent)| (*exponent < 0) == below);
-            chosen.map(|(base, exponent)| self.power(*base, exponent.unsigned_abs())).collect()
+            let chosen = factors
+                .iter()
+                .filter(|(_, exponent)| (*exponent < 0) == below);
+            chosen
+                .map(|(base, exponent)| self.power(*base, exponent.unsigned_abs()))
+                .collect()
         };
         let dot = if self.latex() { "\\," } else { "*" };
         let (above, below) = (side(false), side(true));
-        let numerator = if above.is_empty() { "1".to_string() } else { above.join(dot) };
+        let numerator = if above.is_empty() {
+            "1".to_string()
+        } else {
+            above.join(dot)
+        };
         let text = match (below.len(), self.latex()) {
             (0, _) => numerator,
             (_, true) => format!("\\frac{{{numerator}}}{{{}}}", below.join(dot)),
@@ -150,7 +170,14 @@ impl Printer<'_> {
             (_, false) => format!("{numerator}/({})", below.join(dot)),
         };
         let power = factors.len() == 1 && factors[0].1 > 0;
-        (text, if power { Binding::Power } else { Binding::Product })
+        (
+            text,
+            if power {
+                Binding::Power
+            } else {
+                Binding::Product
+            },
+        )
     }
 
     fn power(&self, base: ExprId, exponent: u32) -> String {
@@ -172,7 +199,10 @@ impl Printer<'_> {
 
     fn function(&self, function: Function, x: ExprId) -> (String, Binding) {
         if !self.latex() {
-            return (format!("{}({})", function.name(), self.piece(x).0), Binding::Atom);
+            return (
+                format!("{}({})", function.name(), self.piece(x).0),
+                Binding::Atom,
+            );
         }
         let text = match function {
             Function::Sqrt => format!("\\sqrt{{{}}}", self.piece(x).0),

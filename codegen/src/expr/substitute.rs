@@ -7,7 +7,9 @@ impl Graph {
     /// The expression with every velocity set to zero.
     pub fn at_rest(&mut self, e: ExprId) -> ExprId {
         let zero = self.integer(0);
-        self.substitute(e, &|symbol| matches!(symbol, Symbol::Velocity(_)).then_some(zero))
+        self.substitute(e, &|symbol| {
+            matches!(symbol, Symbol::Velocity(_)).then_some(zero)
+        })
     }
 
     /// The expression with symbols replaced; `None` leaves a symbol as it is.
@@ -41,9 +43,13 @@ impl Graph {
             }
             Node::Function(function, x) => self.function(function, child(x)),
             Node::Function2(function, x, y) => self.function2(function, child(x), child(y)),
-            Node::Select(comparison, [a, b, then, otherwise]) => {
-                self.select(comparison, child(a), child(b), child(then), child(otherwise))
-            }
+            Node::Select(comparison, [a, b, then, otherwise]) => self.select(
+                comparison,
+                child(a),
+                child(b),
+                child(then),
+                child(otherwise),
+            ),
         }
     }
 }
