@@ -69,7 +69,11 @@ pub struct Settings<T> {
 
 impl<T> Default for Settings<T> {
     fn default() -> Self {
-        Self { form: Form::Reduced, stabilisation: Stabilisation::Projection, branch_rows: true }
+        Self {
+            form: Form::Reduced,
+            stabilisation: Stabilisation::Projection,
+            branch_rows: true,
+        }
     }
 }
 

@@ -1,0 +1,94 @@
+//! From a state to its acceleration: what all forms have in common.
+//!
+//! In:  a mechanism and a state.
+//! Out: `q̈`, finite or an error.
+//!
+//! Not here: the forms, which have a file each.
+
+use super::{Solver, Source};
+use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
+use nalgebra::SVector;
+
+impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+    /// The acceleration in the form of the settings.
+    pub(crate) fn acceleration<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        self.prepare(mechanism, state)?;
+        mechanism.terms(state, &mut self.terms);
+        let acceleration = if R == 0 {
+            self.unconstrained(mechanism, state)?
+        } else {
+            let bias = self.stabilised_bias(mechanism, state);
+            match self.settings.form {
+                Form::Reduced => self.reduced(mechanism, state, &bias)?,
+                Form::Full => self.full(mechanism, state, &bias)?,
+                Form::Multipliers => self.multipliers(mechanism, state, &bias)?,
+                Form::Partitioning => self.partitioning(mechanism, state, &bias)?,
+            }
+        };
+        if acceleration.iter().all(|x| x.is_finite()) {
+            Ok(acceleration)
+        } else {
+            Err(DynamicsError::NotFinite { t: state.t })
+        }
+    }
+
+    /// `M q̈ = p₁`, for a mechanism without constraints.
+    fn unconstrained<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        self.factorise_metric(mechanism, Source::Terms, state.t)?;
+        self.counters.cheap_accelerations += 1;
+        let mut acceleration = self.terms.force;
+        let column = &mut acceleration.data.0[0];
+        self.metric.factor.forward(column);
+        self.metric.factor.backward(column);
+        Ok(acceleration)
+    }
+
+    /// `p₂`, or `p₂ − 2α(A q̇ + b) − β²g` after Baumgarte (1972).
+    fn stabilised_bias<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> SVector<T, R> {
+        let Stabilisation::Baumgarte { alpha, beta } = self.settings.stabilisation else {
+            return self.terms.bias;
+        };
+        mechanism.position(state, &mut self.position);
+        let velocity = self.position.jacobian * state.v + self.position.drift;
+        self.terms.bias - velocity * (alpha + alpha) - self.position.residual * (beta * beta)
+    }
+
+    /// `w = L⁻¹p₁`: the acceleration that the forces alone would give, in
+    /// coordinates in which the kinetic energy is half the square of the velocity.
+    #[inline]
+    pub(super) fn free_acceleration(&self, bias: &SVector<T, R>) -> [T; N] {
+        let mut w = self.metric.force(&self.terms, bias, &self.rows);
+        self.metric.factor.forward(&mut w);
+        w
+    }
+
+    /// `L⁻ᵀw`: back to the mechanism's own coordinates.
+    #[inline]
+    pub(crate) fn lower(&self, mut w: [T; N]) -> SVector<T, N> {
+        self.metric.factor.backward(&mut w);
+        SVector::from(w)
+    }
+
+    /// The right-hand sides of rows scaled to size one.
+    pub(crate) fn scaled(&self, right: &SVector<T, R>) -> [T; R] {
+        core::array::from_fn(|row| self.rows.scale(row) * right[row])
+    }
+
+    /// Whether the factors at hand belong to this position.
+    #[inline]
+    pub(crate) fn is_factored_at(&self, state: &State<T, N>) -> bool {
+        self.factored.is_some_and(|(t, q)| t == state.t && q == state.q)
+    }
+}

@@ -1,0 +1,99 @@
+//! The full form: least squares on `B y = f` for `y = (q̈, r)`.
+//!
+//! In:  the terms of a state.
+//! Out: the `q̈` of `[M E; A 0; 0 Dᵀ] y = [p₁; p₂; 0]`.
+//!
+//! Source: Phong & Hoang (2012), eqs. 3.9–3.11. They solve the normal equations;
+//! here the rows go into a triangular factor one by one, because `BᵀB` squares the
+//! condition number. Accelerations and forces are scaled by the diagonal of the
+//! mass matrix, so that the result does not depend on units.
+
+use super::{Limit, Solver, Source, Tangent, Which};
+use crate::linalg::Triangle;
+use crate::{DynamicsError, Mechanism, Real, State};
+use nalgebra::SVector;
+
+impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+    /// The acceleration by least squares.
+    pub(super) fn full<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        bias: &SVector<T, R>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        self.factored = None;
+        self.factorise_metric(mechanism, Source::Terms, state.t)?;
+        self.counters.robust_accelerations += 1;
+        let (all, regular) = (Which::All, Limit::Regular);
+        let tangent = self.tangent(mechanism, state, Source::Terms, all, regular)?;
+        let unit = self.units();
+        let mut triangle = Triangle::default();
+        self.insert_motion(&mut triangle, &unit);
+        self.insert_constraints(&mut triangle, &unit, &tangent, bias);
+        self.insert_ideality(&mut triangle, &unit, &tangent);
+        let (scaled, _reaction) = triangle.solve();
+        Ok(scaled.component_mul(&unit))
+    }
+
+    /// What one unit of each scaled acceleration is worth: `1/√mⱼⱼ`, or one for a
+    /// coordinate without inertia.
+    fn units(&self) -> SVector<T, N> {
+        SVector::from_fn(|j, _| {
+            let mass = self.terms.mass[(j, j)];
+            if mass > T::zero() { T::one() / mass.sqrt() } else { T::one() }
+        })
+    }
+
+    /// `M q̈ + r = p₁`.
+    fn insert_motion(&self, triangle: &mut Triangle<T, N>, unit: &SVector<T, N>) {
+        for i in 0..N {
+            let row = core::array::from_fn(|j| unit[i] * self.terms.mass[(i, j)] * unit[j]);
+            let mut identity = [T::zero(); N];
+            identity[i] = T::one();
+            triangle.insert(row, identity, unit[i] * self.terms.force[i]);
+        }
+    }
+
+    /// `A q̈ = p₂`: the rows themselves where all count, else those combinations of
+    /// rows and branch rows that decide a direction.
+    fn insert_constraints(
+        &self,
+        triangle: &mut Triangle<T, N>,
+        unit: &SVector<T, N>,
+        tangent: &Tangent<T, N, R>,
+        bias: &SVector<T, R>,
+    ) {
+        let none = [T::zero(); N];
+        let right = self.scaled(bias);
+        if tangent.strong == self.rows.regular(Which::All) {
+            for (row, value) in right.into_iter().enumerate() {
+                let scale = self.rows.scale(row);
+                let entry = |j| scale * self.terms.jacobian[(row, j)] * unit[j];
+                triangle.insert(core::array::from_fn(entry), none, value);
+            }
+            return;
+        }
+        let w = tangent.solve(&right, &none);
+        for (direction, share) in tangent.decided(&w) {
+            let mut row = self.metric.raise(direction);
+            for j in 0..N {
+                row[j] *= unit[j];
+            }
+            triangle.insert(row, none, share);
+        }
+    }
+
+    /// `Dᵀr = 0`: ideal constraints do no work in the free directions.
+    fn insert_ideality(
+        &self,
+        triangle: &mut Triangle<T, N>,
+        unit: &SVector<T, N>,
+        tangent: &Tangent<T, N, R>,
+    ) {
+        for direction in tangent.free() {
+            let motion = self.lower(*direction);
+            let row = core::array::from_fn(|j| motion[j] / unit[j]);
+            triangle.insert([T::zero(); N], row, T::zero());
+        }
+    }
+}

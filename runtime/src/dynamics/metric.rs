@@ -1,0 +1,115 @@
+//! The metric of the kinetic energy, in which all lengths and angles are taken.
+//!
+//! In:  `M` (`N × N`), and `A`, `p₁`, `p₂` where `M` alone is not definite.
+//! Out: its Cholesky factor `L`; `p₁` to go with it.
+//!
+//! A mass matrix may be semi-definite (Euler parameters, coordinates without
+//! inertia) as long as `M` and `A` have no common null direction. `M + AᵀWA` with
+//! `p₁ + AᵀWp₂` has the same solutions and is definite; the weights `W` are made
+//! of diagonals, so that neither part drowns the other.
+
+use super::Rows;
+use crate::linalg::{Cholesky, NotDefinite};
+use crate::{Counters, Real, Terms};
+use nalgebra::{SMatrix, SVector};
+
+/// The factorised metric.
+#[derive(Clone, Debug)]
+pub(crate) struct Metric<T, const N: usize> {
+    pub(crate) factor: Cholesky<T, N>,
+    /// Whether the constraints take part. Once they had to, they always do: the
+    /// metric must not change back and forth along a motion.
+    augmented: bool,
+    /// Whether `factor` belongs to the mass matrix of this binding.
+    current: bool,
+}
+
+impl<T: Real, const N: usize> Default for Metric<T, N> {
+    fn default() -> Self {
+        Self {
+            factor: Cholesky::default(),
+            augmented: false,
+            current: false,
+        }
+    }
+}
+
+impl<T: Real, const N: usize> Metric<T, N> {
+    /// Forgets a constant mass matrix, whose parameters may have changed.
+    pub(crate) fn forget(&mut self) {
+        self.current = false;
+    }
+
+    /// Factorises the metric; once only if `constant` says that `M` never changes.
+    pub(crate) fn factorise<const R: usize>(
+        &mut self,
+        mass: &SMatrix<T, N, N>,
+        jacobian: &SMatrix<T, R, N>,
+        rows: &mut Rows<T, R>,
+        constant: bool,
+        counters: &mut Counters,
+    ) -> Result<(), NotDefinite> {
+        if constant && self.current && !self.augmented {
+            return Ok(());
+        }
+        counters.mass_factorisations += 1;
+        if !self.augmented {
+            match self.factor.factorise(mass) {
+                Ok(()) => {
+                    self.current = true;
+                    return Ok(());
+                }
+                Err(error) if R == 0 => return Err(error),
+                Err(_) => self.augmented = true,
+            }
+        }
+        rows.weigh(mass, jacobian);
+        let mut sum = *mass;
+        for row in 0..R {
+            for j in 0..N {
+                let share = rows.weight(row) * jacobian[(row, j)];
+                for i in 0..N {
+                    sum[(i, j)] += share * jacobian[(row, i)];
+                }
+            }
+        }
+        self.factor.factorise(&sum)
+    }
+
+    /// `p₁`, or `p₁ + AᵀWp₂` where the constraints take part in the metric.
+    #[inline]
+    pub(crate) fn force<const R: usize>(
+        &self,
+        terms: &Terms<T, N, R>,
+        bias: &SVector<T, R>,
+        rows: &Rows<T, R>,
+    ) -> [T; N] {
+        let mut force = terms.force.data.0[0];
+        if self.augmented {
+            for row in 0..R {
+                let share = rows.weight(row) * bias[row];
+                for (j, entry) in force.iter_mut().enumerate() {
+                    *entry += share * terms.jacobian[(row, j)];
+                }
+            }
+        }
+        force
+    }
+
+    /// `L d`: the row `a = dᵀLᵀ` for which `a q̈ = dᵀw`.
+    pub(crate) fn raise(&self, direction: [T; N]) -> [T; N] {
+        self.factor.product(&direction)
+    }
+
+    /// `L⁻¹aᵀ` for one row `a` of a matrix: its components in coordinates in which
+    /// the kinetic energy is half the square of the velocity.
+    #[inline]
+    pub(crate) fn lift<const R: usize>(&self, matrix: &SMatrix<T, R, N>, row: usize) -> [T; N] {
+        let mut lifted = [T::zero(); N];
+        for (j, entry) in lifted.iter_mut().enumerate() {
+            *entry = matrix[(row, j)];
+        }
+        self.factor.forward(&mut lifted);
+        lifted
+    }
+}

@@ -1,0 +1,49 @@
+//! The form with Lagrange multipliers: `[M Aᵀ; A 0] [q̈; λ] = [p₁; p₂]`.
+//!
+//! In:  the terms of a state.
+//! Out: `q̈`, or an error at a singular position and near it.
+//!
+//! Source: Phong & Hoang (2012), eq. 2.10. The matrix is singular where rows of
+//! `A` are dependent; a Schur complement of all rows shows how near that is.
+
+use super::{Limit, Solver, Source, Which};
+use crate::linalg::passes;
+use crate::{DynamicsError, Mechanism, Real, State};
+use nalgebra::SVector;
+
+impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+    /// The acceleration, by elimination of `q̈` and then of the multipliers.
+    pub(super) fn multipliers<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        bias: &SVector<T, R>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        self.require_independent_rows(mechanism, state)?;
+        self.counters.cheap_accelerations += 1;
+        let mut w = self.free_acceleration(bias);
+        self.lifted.correct(&mut w, bias);
+        Ok(self.lower(w))
+    }
+
+    /// Factorises all rows; an error with the rank if they are not safely
+    /// independent. For the forms that need them to be.
+    pub(super) fn require_independent_rows<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        self.factored = None;
+        self.factorise_metric(mechanism, Source::Terms, state.t)?;
+        self.counters.constraint_factorisations += 1;
+        let every_row = (core::array::from_fn(|row| row), R);
+        let (jacobian, rows) = (&self.terms.jacobian, &mut self.rows);
+        if passes(self.lifted.factorise(&self.metric, jacobian, rows, every_row)) {
+            return Ok(());
+        }
+        let (all, regular) = (Which::All, Limit::Regular);
+        let tangent = self.tangent(mechanism, state, Source::Terms, all, regular)?;
+        let rank = tangent.strong;
+        Err(DynamicsError::SingularPosition { t: state.t, form: self.settings.form, rank })
+    }
+}

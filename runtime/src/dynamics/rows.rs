@@ -1,0 +1,177 @@
+//! What is known about the constraint equations as rows of `A`.
+//!
+//! In:  `A` at the states that were visited, in the metric of the kinetic energy.
+//! Out: a reference size for each row, how many rows are independent at regular
+//!      positions, and a subset that is.
+//!
+//! The reference size makes a rank decision free of units: a row of a planar loop
+//! vanishes at a singular position, so comparing it with itself would show
+//! nothing, and comparing it with other rows would compare metres with radians.
+//! It is compared with the largest size it had so far.
+
+use crate::Real;
+use crate::linalg::{independent_rows, weak};
+use nalgebra::SMatrix;
+
+/// Sizes, weights and choice of rows.
+#[derive(Clone, Debug)]
+pub(crate) struct Rows<T, const R: usize> {
+    /// Squared reference sizes.
+    size: [T; R],
+    /// Weights `W` of the rows in an augmented metric; zero until known.
+    weight: [T; R],
+    holonomic: [bool; R],
+    active: [usize; R],
+    active_count: usize,
+    holonomic_count: usize,
+    /// Rank of `A` at regular positions, as far as it is known.
+    regular: usize,
+    holonomic_regular: usize,
+}
+
+impl<T: Real, const R: usize> Rows<T, R> {
+    /// Rows of which nothing is known but which of them restrict positions.
+    pub(crate) fn new(holonomic: impl Fn(usize) -> bool) -> Self {
+        Self {
+            size: [T::zero(); R],
+            weight: [T::zero(); R],
+            holonomic: core::array::from_fn(holonomic),
+            active: core::array::from_fn(|row| row),
+            active_count: 0,
+            holonomic_count: 0,
+            regular: 0,
+            holonomic_regular: 0,
+        }
+    }
+
+    /// Takes note of the squared size of a row.
+    #[inline]
+    pub(crate) fn observe(&mut self, row: usize, size: T) {
+        if size > self.size[row] && size.is_finite() {
+            self.size[row] = size;
+        }
+    }
+
+    /// Squared reference size of a row.
+    #[inline]
+    pub(crate) fn size(&self, row: usize) -> T {
+        self.size[row]
+    }
+
+    /// What a row is multiplied by to have size one; zero for a row that was
+    /// never anything but zero.
+    pub(crate) fn scale(&self, row: usize) -> T {
+        if self.size[row] > T::zero() {
+            T::one() / self.size[row].sqrt()
+        } else {
+            T::zero()
+        }
+    }
+
+    /// Whether a row is among those that are meant.
+    #[inline]
+    pub(crate) fn takes_part(&self, row: usize, which: Which) -> bool {
+        which == Which::All || self.holonomic[row]
+    }
+
+    /// Rank at regular positions.
+    pub(crate) fn regular(&self, which: Which) -> usize {
+        match which {
+            Which::All => self.regular,
+            Which::Holonomic => self.holonomic_regular,
+        }
+    }
+
+    /// An independent subset that spans all rows at regular positions, if one is
+    /// known.
+    #[inline]
+    pub(crate) fn active(&self, which: Which) -> Option<([usize; R], usize)> {
+        let count = match which {
+            Which::All => self.active_count,
+            Which::Holonomic => self.holonomic_count,
+        };
+        (self.active_count == self.regular && self.regular > 0).then_some((self.active, count))
+    }
+
+    /// Takes note that this many rows are independent.
+    pub(crate) fn observe_rank(&mut self, rank: usize, which: Which) {
+        match which {
+            Which::All => self.regular = rank,
+            Which::Holonomic => self.holonomic_regular = rank,
+        }
+        if self.regular == R {
+            self.active = core::array::from_fn(|row| row);
+            self.active.sort_unstable_by_key(|&row| !self.holonomic[row]);
+            self.active_count = R;
+            self.count_holonomic();
+        }
+    }
+
+    /// Chooses the active subset from `vectors`, the rows in the metric and scaled
+    /// to size one, at a regular position. Holonomic rows come first, so that the
+    /// first of the active rows span the holonomic ones.
+    pub(crate) fn choose<const N: usize>(&mut self, mut vectors: SMatrix<T, N, R>) {
+        let holonomic = self.holonomic;
+        self.active_count = independent_rows(
+            &mut vectors,
+            self.regular,
+            |row| holonomic[row],
+            weak(),
+            &mut self.active,
+        );
+        self.count_holonomic();
+    }
+
+    fn count_holonomic(&mut self) {
+        let active = &self.active[..self.active_count];
+        self.holonomic_count = active.iter().filter(|&&row| self.holonomic[row]).count();
+        self.holonomic_regular = self.holonomic_regular.max(self.holonomic_count);
+    }
+
+    /// The weight of a row in an augmented metric.
+    #[inline]
+    pub(crate) fn weight(&self, row: usize) -> T {
+        self.weight[row]
+    }
+
+    /// Takes note of weights: `1 / Σ aⱼ²/mⱼⱼ` over the coordinates with inertia, so
+    /// that the row weighs as much as the masses it connects. Where a row vanishes
+    /// the weight stays what it was.
+    pub(crate) fn weigh<const N: usize>(
+        &mut self,
+        mass: &SMatrix<T, N, N>,
+        jacobian: &SMatrix<T, R, N>,
+    ) {
+        for row in 0..R {
+            let (mut with, mut without, mut heaviest) = (T::zero(), T::zero(), T::zero());
+            for j in 0..N {
+                let square = jacobian[(row, j)] * jacobian[(row, j)];
+                without += square;
+                heaviest = heaviest.max(mass[(j, j)]);
+                if mass[(j, j)] > T::zero() {
+                    with += square / mass[(j, j)];
+                }
+            }
+            let weight = if with > T::zero() {
+                T::one() / with
+            } else if heaviest > T::zero() {
+                heaviest / without
+            } else {
+                T::one() / without
+            };
+            let known = self.weight[row] > T::zero();
+            if weight.is_finite() && !(known && self.weight[row] < weight) {
+                self.weight[row] = weight;
+            }
+        }
+    }
+}
+
+/// Which rows are meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Which {
+    /// All rows of `A`.
+    All,
+    /// The rows that restrict positions.
+    Holonomic,
+}

@@ -1,0 +1,88 @@
+//! How large the rows of `A` are away from singular positions.
+//!
+//! In:  the first state of a motion.
+//! Out: reference sizes, also if the motion begins exactly in a singular position,
+//!      where rows of `A` vanish.
+//!
+//! The rows are evaluated with all angles turned to other values. Angles are
+//! known by their unit. A coordinate whose unit is not given may be an angle; then
+//! its turning is evidence only for rows that vanish at the first state.
+
+use super::solver::Source;
+use super::{Metric, Solver};
+use crate::linalg::{dot, independent};
+use crate::{Mechanism, Quantity, Real, State};
+
+/// How many times the angles are turned.
+const SAMPLES: usize = 8;
+/// Fractional parts of the square and cube root of 2 and such numbers spread
+/// evenly when multiplied by integers.
+const STRIDES: [f64; 2] = [0.618_033_988_749_894_9, 0.414_213_562_373_095];
+
+impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+    /// Takes note of the mean sizes of the rows over some turned positions.
+    pub(super) fn sample_sizes<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) {
+        let coordinates = mechanism.structure().coordinates;
+        let sure = coordinates.iter().all(|c| !c.unit.is_empty());
+        let here = self.sizes(mechanism, state);
+        let mut sums = [T::zero(); R];
+        for sample in 1..=SAMPLES {
+            let turned = self.sizes(mechanism, &turned(state, coordinates, sample));
+            for (sum, size) in sums.iter_mut().zip(turned) {
+                *sum += size;
+            }
+        }
+        self.metric = Metric::default();
+        for row in 0..R {
+            let mean = sums[row] / T::from_f64(SAMPLES as f64);
+            let vanishes = here[row] <= independent::<T>() * independent::<T>() * mean;
+            self.rows.observe(row, here[row]);
+            if sure || vanishes {
+                self.rows.observe(row, mean);
+            }
+        }
+    }
+
+    /// Squared sizes of all rows at a position; zero where they are not finite or
+    /// have no metric.
+    fn sizes<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> [T; R] {
+        let mut sizes = [T::zero(); R];
+        mechanism.position(state, &mut self.position);
+        self.metric.forget();
+        let t = state.t;
+        if self.factorise_metric(mechanism, Source::Position, t).is_ok() {
+            for (row, size) in sizes.iter_mut().enumerate() {
+                let vector = self.metric.lift(&self.position.jacobian, row);
+                let square = dot(&vector, &vector);
+                if square.is_finite() {
+                    *size = square;
+                }
+            }
+        }
+        sizes
+    }
+}
+
+/// The state with every angle turned by a different amount.
+fn turned<T: Real, const N: usize>(
+    state: &State<T, N>,
+    coordinates: &[Quantity],
+    sample: usize,
+) -> State<T, N> {
+    let mut turned = *state;
+    for (j, coordinate) in coordinates.iter().enumerate().take(N) {
+        if matches!(coordinate.unit, "rad" | "deg" | "") {
+            let share = STRIDES[0] * sample as f64 + STRIDES[1] * (j * sample) as f64;
+            turned.q[j] += T::from_f64(core::f64::consts::TAU * (share % 1.0));
+        }
+    }
+    turned
+}

@@ -1,0 +1,214 @@
+//! The solver of one mechanism's equations: buffers, what it learned, counts.
+//!
+//! In:  a mechanism and [`Settings`].
+//! Out: a [`ConstrainedSystem`], by [`Solver::on`].
+//!
+//! Nothing allocates: all buffers have the sizes of the mechanism and live here
+//! or on the stack.
+
+use super::{ConstrainedSystem, Lifted, Metric, Rows, Tangent, Which};
+use crate::linalg::{Breakdown, NotDefinite, independent, passes, truncation, weak};
+use crate::{Branch, Counters, DynamicsError, Mechanism, Position, Real, Settings, State, Terms};
+use nalgebra::{SMatrix, SVector};
+
+/// Solves the equations of motion of a mechanism with `N` coordinates and `R`
+/// constraint equations.
+///
+/// It owns the buffers and remembers what it learned about the constraints (their
+/// size and rank at regular positions), but not the mechanism: a program may
+/// change inputs and parameters between steps and bind it again with
+/// [`on`](Self::on).
+#[derive(Clone, Debug)]
+pub struct Solver<T, const N: usize, const R: usize> {
+    /// The form of the equations and how the constraints are kept.
+    pub settings: Settings<T>,
+    pub(crate) counters: Counters,
+    pub(crate) terms: Terms<T, N, R>,
+    pub(crate) position: Position<T, N, R>,
+    pub(crate) branch: Branch<T, N, R>,
+    pub(crate) metric: Metric<T, N>,
+    pub(crate) rows: Rows<T, R>,
+    pub(crate) lifted: Lifted<T, N, R>,
+    /// The time and position that `metric` and `lifted` belong to, if both are
+    /// safe to use there.
+    pub(crate) factored: Option<(T, SVector<T, N>)>,
+    /// The largest length of the coordinates in the metric so far: what their
+    /// round-off is measured by.
+    pub(crate) reach: T,
+    prepared: bool,
+}
+
+/// Which buffer the terms of a rank decision are in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Source {
+    Terms,
+    Position,
+}
+
+impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+    /// A solver that knows nothing yet.
+    pub fn new(settings: Settings<T>) -> Self {
+        Self {
+            settings,
+            counters: Counters::default(),
+            terms: Terms::default(),
+            position: Position::default(),
+            branch: Branch::default(),
+            metric: Metric::default(),
+            rows: Rows::new(|_| true),
+            lifted: Lifted::default(),
+            factored: None,
+            reach: T::zero(),
+            prepared: false,
+        }
+    }
+
+    /// The system that an integrator sees, for as long as the mechanism does not
+    /// change.
+    pub fn on<'a, M>(&'a mut self, mechanism: &'a M) -> ConstrainedSystem<'a, M, T, N, R>
+    where
+        M: Mechanism<T, N, R> + ?Sized,
+    {
+        self.metric.forget();
+        self.factored = None;
+        ConstrainedSystem::new(mechanism, self)
+    }
+
+    /// What was done so far.
+    pub fn counters(&self) -> Counters {
+        self.counters
+    }
+
+    /// Factorises the metric at the state whose terms are in a buffer.
+    pub(crate) fn factorise_metric<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        source: Source,
+        t: T,
+    ) -> Result<(), DynamicsError<T>> {
+        let constant = mechanism.structure().constant_mass;
+        let (mass, jacobian) = match source {
+            Source::Terms => (&self.terms.mass, &self.terms.jacobian),
+            Source::Position => (&self.position.mass, &self.position.jacobian),
+        };
+        let (rows, counters) = (&mut self.rows, &mut self.counters);
+        let result = self.metric.factorise(mass, jacobian, rows, constant, counters);
+        result.map_err(|NotDefinite { row }| {
+            if mass.iter().chain(jacobian.iter()).all(|x| x.is_finite()) {
+                DynamicsError::MassSingular { t, coordinate: row }
+            } else {
+                DynamicsError::NotFinite { t }
+            }
+        })
+    }
+
+    /// Factorises independent constraints in the metric; whether the result may be
+    /// used here.
+    pub(crate) fn factorise_constraints(&mut self, source: Source, which: Which) -> bool {
+        let Some(list) = self.rows.active(which) else {
+            return false;
+        };
+        let jacobian = match source {
+            Source::Terms => &self.terms.jacobian,
+            Source::Position => &self.position.jacobian,
+        };
+        self.counters.constraint_factorisations += 1;
+        let rows = &mut self.rows;
+        passes(self.lifted.factorise(&self.metric, jacobian, rows, list))
+    }
+
+    /// Decides which directions the constraints leave free at the state whose
+    /// terms are in a buffer and whose metric is factorised.
+    pub(crate) fn tangent<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        source: Source,
+        which: Which,
+        limit: Limit,
+    ) -> Result<Tangent<T, N, R>, DynamicsError<T>> {
+        let jacobian = match source {
+            Source::Terms => &self.terms.jacobian,
+            Source::Position => &self.position.jacobian,
+        };
+        self.counters.rank_decisions += 1;
+        let not_finite = |Breakdown| DynamicsError::NotFinite { t: state.t };
+        let mut tangent = Tangent::new(&self.metric, &mut self.rows, jacobian, which);
+        let (limit, floor) = match limit {
+            Limit::Regular => (self.rows.regular(which), truncation()),
+            Limit::Unknown => (N.min(R), independent()),
+        };
+        if !self.settings.branch_rows {
+            tangent.take_strong(floor, limit).map_err(not_finite)?;
+            return Ok(tangent);
+        }
+        tangent.take_strong(weak(), limit).map_err(not_finite)?;
+        if tangent.used < limit {
+            self.counters.branch_evaluations += 1;
+            mechanism.branch(state, &mut self.branch);
+            let (metric, rows) = (&self.metric, &self.rows);
+            let result = tangent.take_branch(metric, rows, &self.branch, limit);
+            result.map_err(not_finite)?;
+        }
+        if tangent.used < limit {
+            tangent.take_rest(floor, limit).map_err(not_finite)?;
+        }
+        Ok(tangent)
+    }
+
+    /// Learns the sizes and the rank of the rows at the first state there is.
+    pub(crate) fn prepare<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        if self.prepared || R == 0 {
+            return Ok(());
+        }
+        let constraints = mechanism.structure().constraints;
+        self.rows = Rows::new(|row| constraints.get(row).is_none_or(|c| c.holonomic));
+        self.sample_sizes(mechanism, state);
+        mechanism.position(state, &mut self.position);
+        self.factorise_metric(mechanism, Source::Position, state.t)?;
+        self.reach = self.metric.factor.length(&state.q.data.0[0]);
+        self.learn(mechanism, state)?;
+        self.prepared = true;
+        Ok(())
+    }
+
+    /// Learns the rank at a state on the constraints whose position terms are in
+    /// the buffer and factorised.
+    pub(crate) fn learn<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        for which in [Which::Holonomic, Which::All] {
+            let tangent = self.tangent(mechanism, state, Source::Position, which, Limit::Unknown)?;
+            if tangent.used > self.rows.regular(which) {
+                self.rows.observe_rank(tangent.used, which);
+            }
+            if which == Which::All && tangent.strong == self.rows.regular(which) {
+                self.choose_rows(tangent.rows());
+            }
+        }
+        Ok(())
+    }
+
+    /// Chooses an independent subset of the rows, where that is a choice.
+    pub(crate) fn choose_rows(&mut self, rows: &SMatrix<T, N, R>) {
+        if self.rows.regular(Which::All) < R {
+            self.counters.row_choices += 1;
+            self.rows.choose(*rows);
+        }
+    }
+}
+
+/// How many directions a rank decision may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Limit {
+    /// As many as are independent at regular positions.
+    Regular,
+    /// As many as there are: the state is on the constraints to round-off.
+    Unknown,
+}

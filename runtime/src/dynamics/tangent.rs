@@ -1,0 +1,239 @@
+//! The robust path: which directions the constraints leave free, at any position.
+//!
+//! In:  rows `Â` of the constraints in the metric and scaled to size one, and
+//!      branch rows `K̂`, scaled likewise.
+//! Out: an orthonormal basis of the metric space: strong directions, which the
+//!      rows decide; branch directions, which the rows differentiated once more
+//!      decide where the rows themselves vanish; what the vanishing rows still
+//!      decide; and the free rest, the tangent space of the motion.
+//!
+//! Rows that are redundant everywhere decide nothing in either and drop out. At
+//! rest in a singular position there are no branch rows (they are linear in the
+//! velocities), and the tangent space is the whole null space of `A`, as in
+//! Phong & Hoang (2012).
+
+use super::{Metric, Rows, Which};
+use crate::linalg::{Breakdown, add_scaled, branch_rank, dot, norm, orthogonalise};
+use crate::{Branch, Real};
+use nalgebra::{SMatrix, SVector};
+
+/// The basis and what was decided about it.
+///
+/// Columns `0..strong` of `basis` are strong directions, `strong..branch` branch
+/// directions, `branch..used` what else is decided, `used..N` free. Each decided
+/// column has a left vector and a singular value.
+pub(crate) struct Tangent<T, const N: usize, const R: usize> {
+    basis: SMatrix<T, N, N>,
+    left: SMatrix<T, R, R>,
+    values: SVector<T, N>,
+    /// `Â` and `K̂`, a row in each column.
+    rows: SMatrix<T, N, R>,
+    slopes: SMatrix<T, N, R>,
+    slope_bias: [T; R],
+    which: Which,
+    pub(crate) strong: usize,
+    pub(crate) branch: usize,
+    pub(crate) used: usize,
+}
+
+impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
+    /// Lifts and scales the rows; decides nothing yet.
+    pub(crate) fn new(
+        metric: &Metric<T, N>,
+        rows: &mut Rows<T, R>,
+        jacobian: &SMatrix<T, R, N>,
+        which: Which,
+    ) -> Self {
+        let mut lifted = SMatrix::zeros();
+        for row in 0..R {
+            if !rows.takes_part(row, which) {
+                continue;
+            }
+            let vector = metric.lift(jacobian, row);
+            rows.observe(row, dot(&vector, &vector));
+            add_scaled(&mut lifted.data.0[row], rows.scale(row), &vector);
+        }
+        let mut basis: SMatrix<T, N, N> = SMatrix::zeros();
+        basis.fill_diagonal(T::one());
+        Self {
+            basis,
+            left: SMatrix::zeros(),
+            values: SVector::zeros(),
+            rows: lifted,
+            slopes: SMatrix::zeros(),
+            slope_bias: [T::zero(); R],
+            which,
+            strong: 0,
+            branch: 0,
+            used: 0,
+        }
+    }
+
+    /// Takes the directions that the rows decide with singular values above
+    /// `threshold`, at most `limit`.
+    pub(crate) fn take_strong(&mut self, threshold: T, limit: usize) -> Result<(), Breakdown> {
+        let rows = self.rows;
+        self.take(&rows, 0, N, threshold, limit)?;
+        self.strong = self.used;
+        self.branch = self.used;
+        Ok(())
+    }
+
+    /// Takes the directions that branch rows decide among those left free.
+    pub(crate) fn take_branch(
+        &mut self,
+        metric: &Metric<T, N>,
+        rows: &Rows<T, R>,
+        branch: &Branch<T, N, R>,
+        limit: usize,
+    ) -> Result<(), Breakdown> {
+        let mut largest = T::zero();
+        for row in (0..R).filter(|&row| rows.takes_part(row, self.which)) {
+            let vector = metric.lift(&branch.slope, row);
+            add_scaled(&mut self.slopes.data.0[row], rows.scale(row), &vector);
+            self.slope_bias[row] = rows.scale(row) * branch.bias[row];
+            largest = largest.max(norm(&self.slopes.data.0[row]));
+        }
+        let slopes = self.slopes;
+        self.take(&slopes, self.used, N, branch_rank::<T>() * largest, limit)?;
+        self.branch = self.used;
+        Ok(())
+    }
+
+    /// Takes what the vanishing rows still decide above `threshold`.
+    pub(crate) fn take_rest(&mut self, threshold: T, limit: usize) -> Result<(), Breakdown> {
+        let rows = self.rows;
+        self.take(&rows, self.used, N, threshold, limit)
+    }
+
+    /// Decides the weak directions anew by the rows alone, without turning them
+    /// into the free ones: along the branch a vanishing row says nothing, across it
+    /// it does.
+    pub(crate) fn refine(&mut self) -> Result<(), Breakdown> {
+        let (rows, end) = (self.rows, self.used);
+        self.used = self.strong;
+        self.take(&rows, self.strong, end, -T::one(), end)
+    }
+
+    /// Orthogonalises `matrix · basis` in the columns `from..to` after removing
+    /// the left vectors already used, and takes the columns above `threshold`.
+    fn take(
+        &mut self,
+        matrix: &SMatrix<T, N, R>,
+        from: usize,
+        to: usize,
+        threshold: T,
+        limit: usize,
+    ) -> Result<(), Breakdown> {
+        let mut images: SMatrix<T, R, N> = SMatrix::zeros();
+        for j in from..to {
+            let image = &mut images.data.0[j];
+            for (entry, row) in image.iter_mut().zip(&matrix.data.0) {
+                *entry = dot(row, &self.basis.data.0[j]);
+            }
+            for left in &self.left.data.0[..self.used.min(R)] {
+                add_scaled(image, -dot(left, image), left);
+            }
+        }
+        orthogonalise(&mut images.data.0[from..to], &mut self.basis.data.0[from..to])?;
+        for image in &images.data.0[from..to] {
+            let size = norm(image);
+            if !(size > threshold) || self.used >= limit.min(R) {
+                break;
+            }
+            let mut left = [T::zero(); R];
+            if size > T::zero() {
+                add_scaled(&mut left, T::one() / size, image);
+            }
+            self.left.data.0[self.used] = left;
+            self.values[self.used] = size;
+            self.used += 1;
+        }
+        Ok(())
+    }
+
+    /// The `w` nearest to `free` that satisfies what was decided: `Â w = right` in
+    /// the strong directions, `K̂ w = κ̂` in the branch directions.
+    pub(crate) fn solve(&self, right: &[T; R], free: &[T; N]) -> [T; N] {
+        let mut w = [T::zero(); N];
+        self.advance(&mut w, &self.rows, right, 0..self.strong);
+        self.advance(&mut w, &self.slopes, &self.slope_bias, self.strong..self.branch);
+        self.advance(&mut w, &self.rows, right, self.branch..self.used);
+        for direction in &self.basis.data.0[self.used..] {
+            add_scaled(&mut w, dot(direction, free), direction);
+        }
+        w
+    }
+
+    /// Moves `w` along some decided directions until their rows are satisfied.
+    fn advance(
+        &self,
+        w: &mut [T; N],
+        matrix: &SMatrix<T, N, R>,
+        right: &[T; R],
+        range: core::ops::Range<usize>,
+    ) {
+        let mut gap = *right;
+        for (entry, row) in gap.iter_mut().zip(&matrix.data.0) {
+            *entry -= dot(row, w);
+        }
+        for j in range {
+            let share = dot(&self.left.data.0[j], &gap) / self.values[j];
+            add_scaled(w, share, &self.basis.data.0[j]);
+        }
+    }
+
+    /// The shortest change of `w` that closes `gap`, after [`refine`](Self::refine).
+    /// In a weak direction of singular value `σ` it is made only if `worth(σ, size)`
+    /// says that a gap of this size means something.
+    pub(crate) fn close(&self, gap: &[T; R], worth: impl Fn(T, T) -> bool) -> [T; N] {
+        let mut w = [T::zero(); N];
+        self.advance(&mut w, &self.rows, gap, 0..self.strong);
+        let mut rest = *gap;
+        for (entry, row) in rest.iter_mut().zip(&self.rows.data.0) {
+            *entry -= dot(row, &w);
+        }
+        for j in self.strong..self.used {
+            let size = dot(&self.left.data.0[j], &rest);
+            if worth(self.values[j], size.abs()) {
+                add_scaled(&mut w, size / self.values[j], &self.basis.data.0[j]);
+            }
+        }
+        w
+    }
+
+    /// The scaled rows in the metric.
+    pub(crate) fn rows(&self) -> &SMatrix<T, N, R> {
+        &self.rows
+    }
+
+    /// The decided directions, each with its component of a `w`.
+    pub(crate) fn decided(&self, w: &[T; N]) -> impl Iterator<Item = ([T; N], T)> {
+        let w = *w;
+        self.basis.data.0[..self.used]
+            .iter()
+            .map(move |direction| (*direction, dot(direction, &w)))
+    }
+
+    /// The free directions.
+    pub(crate) fn free(&self) -> impl Iterator<Item = &[T; N]> {
+        self.basis.data.0[self.used..].iter()
+    }
+
+    /// Singular values of the decided directions, in falling order within each
+    /// kind.
+    pub(crate) fn values(&self) -> &[T] {
+        &self.values.data.0[0][..self.used]
+    }
+
+    /// How fast the weak rows change along the motion: the size of `K̂` across the
+    /// branch (1/s).
+    pub(crate) fn rate(&self) -> T {
+        self.slopes
+            .data
+            .0
+            .iter()
+            .map(norm)
+            .fold(T::zero(), |most, x| most.max(x))
+    }
+}

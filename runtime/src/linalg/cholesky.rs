@@ -1,0 +1,115 @@
+//! Cholesky factor of a symmetric positive definite matrix.
+//!
+//! In:  `M`, `N × N`.
+//! Out: `L` with `M = L Lᵀ`, or the pivot that is not safely positive; products
+//!      with `L⁻¹`, `L⁻ᵀ` and `Lᵀ`.
+//!
+//! Not here: what to do with a matrix that is only semi-definite.
+
+use super::definite;
+use crate::Real;
+use nalgebra::SMatrix;
+
+/// The lower factor `L`; entries above the diagonal are not used.
+#[derive(Clone, Debug)]
+pub(crate) struct Cholesky<T, const N: usize> {
+    lower: SMatrix<T, N, N>,
+}
+
+/// The first row whose pivot is not safely positive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct NotDefinite {
+    pub(crate) row: usize,
+}
+
+impl<T: Real, const N: usize> Default for Cholesky<T, N> {
+    fn default() -> Self {
+        Self {
+            lower: SMatrix::zeros(),
+        }
+    }
+}
+
+impl<T: Real, const N: usize> Cholesky<T, N> {
+    /// Factorises `matrix`, of which the lower triangle is read.
+    ///
+    /// A pivot is compared with its diagonal entry, so the decision does not
+    /// depend on the units of the rows. NaN and infinity are not definite.
+    pub(crate) fn factorise(&mut self, matrix: &SMatrix<T, N, N>) -> Result<(), NotDefinite> {
+        let lower = &mut self.lower.data.0;
+        let source = &matrix.data.0;
+        for j in 0..N {
+            let (done, rest) = lower.split_at_mut(j);
+            let column = &mut rest[0];
+            column[j..].copy_from_slice(&source[j][j..]);
+            for earlier in done.iter() {
+                let factor = earlier[j];
+                for i in j..N {
+                    column[i] -= factor * earlier[i];
+                }
+            }
+            let pivot = column[j];
+            if !(pivot > definite::<T>() * source[j][j] && pivot.is_finite()) {
+                return Err(NotDefinite { row: j });
+            }
+            let root = pivot.sqrt();
+            let inverse = T::one() / root;
+            column[j] = root;
+            for entry in &mut column[j + 1..] {
+                *entry *= inverse;
+            }
+        }
+        Ok(())
+    }
+
+    /// `x := L⁻¹ x`.
+    #[inline]
+    pub(crate) fn forward(&self, x: &mut [T; N]) {
+        let lower = &self.lower.data.0;
+        for j in 0..N {
+            let value = x[j] / lower[j][j];
+            x[j] = value;
+            for i in j + 1..N {
+                x[i] -= value * lower[j][i];
+            }
+        }
+    }
+
+    /// `x := L⁻ᵀ x`.
+    #[inline]
+    pub(crate) fn backward(&self, x: &mut [T; N]) {
+        let lower = &self.lower.data.0;
+        for j in (0..N).rev() {
+            let mut value = x[j];
+            for i in j + 1..N {
+                value -= lower[j][i] * x[i];
+            }
+            x[j] = value / lower[j][j];
+        }
+    }
+
+    /// `L x`.
+    pub(crate) fn product(&self, x: &[T; N]) -> [T; N] {
+        let mut product = [T::zero(); N];
+        for (j, column) in self.lower.data.0.iter().enumerate() {
+            for i in j..N {
+                product[i] += x[j] * column[i];
+            }
+        }
+        product
+    }
+
+    /// `√(xᵀ M x)`, the length of `x` in the metric of the matrix.
+    pub(crate) fn length(&self, x: &[T; N]) -> T {
+        let lower = &self.lower.data.0;
+        let mut sum = T::zero();
+        for j in 0..N {
+            let mut entry = T::zero();
+            for i in j..N {
+                entry += lower[j][i] * x[i];
+            }
+            sum += entry * entry;
+        }
+        sum.sqrt()
+    }
+}

@@ -1,0 +1,94 @@
+//! Fixed-size factorisations that know about rank, and every tolerance.
+//!
+//! In:  nalgebra matrices of const sizes, over any [`Real`].
+//! Out: Cholesky and pivot ratios, orthogonal bases by one-sided Jacobi
+//!      rotations, least squares row by row, elimination with complete pivoting.
+//!      Nothing allocates, panics or runs without a bound; what is not finite is
+//!      reported.
+//!
+//! Not here: mechanics. No routine knows what its matrix stands for. The
+//! tolerances do: this is the one place where they are defined, all of them free
+//! of units, so that a change of units or of the scale of a constraint changes no
+//! decision.
+
+mod cholesky;
+mod column;
+mod elimination;
+mod gram;
+mod jacobi;
+mod subset;
+mod triangle;
+
+pub(crate) use cholesky::{Cholesky, NotDefinite};
+pub(crate) use column::{add_scaled, dot, norm};
+pub(crate) use elimination::Elimination;
+pub(crate) use gram::Gram;
+pub(crate) use jacobi::{Breakdown, orthogonalise};
+pub(crate) use subset::independent_rows;
+pub(crate) use triangle::Triangle;
+
+use crate::Real;
+
+/// Sine of the angle between a constraint row and the others below which the row
+/// is called weak: the cheap path ends here and branch rows take over.
+///
+/// Rows are measured in the metric of the kinetic energy and relative to the size
+/// they have away from singular positions.
+pub(crate) fn weak<T: Real>() -> T {
+    T::from_f64(1e-2)
+}
+
+/// Smallest singular value, relative to the branch rows' norm, at which a branch
+/// row decides a direction. Rows that are redundant everywhere stay below.
+pub(crate) fn branch_rank<T: Real>() -> T {
+    T::from_f64(1e-3)
+}
+
+/// Singular value above which a row counts as independent where a state is on the
+/// constraints to round-off (1e-6 for `f64`): well above the error of assembly,
+/// well below the window of weak rows.
+pub(crate) fn independent<T: Real>() -> T {
+    T::EPSILON.sqrt() * T::from_f64(64.0)
+}
+
+/// Singular value below which a row does not count in the rank that is reported
+/// for a position.
+pub(crate) fn reported_rank<T: Real>() -> T {
+    T::from_f64(1e-3)
+}
+
+/// Singular value below which a row carries nothing but round-off (1e-9 for
+/// `f64`): the quotient of two such numbers has no digit left.
+pub(crate) fn truncation<T: Real>() -> T {
+    T::EPSILON.sqrt() / T::from_f64(16.0)
+}
+
+/// Pivot of the mass matrix, relative to its diagonal entry, at or below which
+/// the matrix is not safely positive definite (1e-12 for `f64`).
+pub(crate) fn definite<T: Real>() -> T {
+    T::EPSILON * T::from_f64(4096.0)
+}
+
+/// Constraint error, in units of the round-off of the coordinates, at which a
+/// position is on the constraints.
+pub(crate) fn on_constraint<T: Real>() -> T {
+    T::from_f64(2.0)
+}
+
+/// Constraint error, in units of the size of the coordinates, that is accepted
+/// where iteration no longer makes it smaller.
+pub(crate) fn acceptable<T: Real>() -> T {
+    truncation()
+}
+
+/// How many times its own uncertainty a residual must be before a weak direction
+/// is corrected for it. Less, and the correction would be noise.
+pub(crate) fn significant<T: Real>() -> T {
+    T::from_f64(16.0)
+}
+
+/// Whether the smallest squared sine of the constraint rows lets the cheap path be
+/// taken. NaN does not.
+pub(crate) fn passes<T: Real>(squared_sine: T) -> bool {
+    squared_sine > weak::<T>() * weak()
+}
