@@ -1,6 +1,7 @@
 //! Integrates closed-loop mechanisms straight through their singular positions.
 #![cfg_attr(not(feature = "std"), no_std)]
 
+mod assembly;
 mod catalogue;
 mod dynamics;
 mod error;
@@ -13,6 +14,7 @@ mod sincos;
 mod state;
 mod system;
 
+pub use assembly::{AssemblyError, assemble};
 pub use catalogue::Visitor;
 pub use dynamics::{
     ConstrainedSystem, ConstraintError, Counters, Form, Rank, Settings, Solver, Stabilisation,
@@ -20,8 +22,8 @@ pub use dynamics::{
 pub use error::DynamicsError;
 pub use integrator::{Dop853, Dp5, IntegrateError, Integrator, Rk4, Step, Tolerance};
 pub use model::{
-    Branch, Canvas, ConstraintRow, Direction, Energy, Event, Initial, Interface, Mechanism,
-    Position, Quantity, Regular, Start, Structure, Terms,
+    Branch, Canvas, ConstraintRow, Correction, Direction, Energy, Event, Initial, Interface,
+    Mechanism, Position, Quantity, Regular, Start, Structure, Terms,
 };
 pub use nalgebra;
 pub use real::Real;

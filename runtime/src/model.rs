@@ -38,6 +38,16 @@ pub trait Mechanism<T: Real, const N: usize, const R: usize> {
     /// Everything a projection needs: `M`, `g`, `A`, `b`. Reads `t` and `q` only.
     fn position(&self, _state: &State<T, N>, _out: &mut Position<T, N, R>) {}
 
+    /// The corrections that a projection makes where the constraints are regular,
+    /// as straight-line code with this mechanism's sparsity; `false` if they are
+    /// not provided.
+    ///
+    /// Not to be used where [`Correction::pivot`] or [`Correction::mass_pivot`] is
+    /// small.
+    fn correction(&self, _state: &State<T, N>, _out: &mut Correction<T, N, R>) -> bool {
+        false
+    }
+
     /// The branch rows `K`, `κ`: the constraints differentiated once more.
     fn branch(&self, _state: &State<T, N>, _out: &mut Branch<T, N, R>) {}
 
@@ -94,7 +104,38 @@ pub struct Regular<T, const N: usize> {
 
 impl<T: Real, const N: usize> Default for Regular<T, N> {
     fn default() -> Self {
-        Self { acceleration: SVector::zeros(), mass_pivot: T::zero(), pivot: T::zero() }
+        Self {
+            acceleration: SVector::zeros(),
+            mass_pivot: T::zero(),
+            pivot: T::zero(),
+        }
+    }
+}
+
+/// One step of a projection by the regular path, and how far it can be trusted.
+#[derive(Clone, Debug)]
+pub struct Correction<T, const N: usize, const R: usize> {
+    /// `g`, `R`; zero in the rows of velocity constraints.
+    pub residual: SVector<T, R>,
+    /// The least `Δq` in the kinetic metric with `A Δq = −g`, `N`.
+    pub position: SVector<T, N>,
+    /// The least `Δq̇` in the kinetic metric with `A Δq̇ = −(A q̇ + b)`, `N`.
+    pub velocity: SVector<T, N>,
+    /// As [`Regular::mass_pivot`].
+    pub mass_pivot: T,
+    /// As [`Regular::pivot`].
+    pub pivot: T,
+}
+
+impl<T: Real, const N: usize, const R: usize> Default for Correction<T, N, R> {
+    fn default() -> Self {
+        Self {
+            residual: SVector::zeros(),
+            position: SVector::zeros(),
+            velocity: SVector::zeros(),
+            mass_pivot: T::zero(),
+            pivot: T::zero(),
+        }
     }
 }
 

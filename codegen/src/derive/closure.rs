@@ -9,6 +9,8 @@ use crate::model::Constraint;
 
 pub(super) struct Closure {
     pub residual: Vec<ExprId>,
+    /// `φ = A q̇ + b`.
+    pub speed: Vec<ExprId>,
     pub jacobian: Matrix,
     pub drift: Vec<ExprId>,
     /// `γ = Ȧ q̇ + ḃ`.
@@ -18,30 +20,31 @@ pub(super) struct Closure {
 
 pub(super) fn closure(graph: &mut Graph, constraints: &[Constraint], n: usize) -> Closure {
     let residuals: Vec<ExprId> = constraints.iter().map(|c| c.residual).collect();
-    let speeds = rates(graph, &residuals, n);
+    let carried = rates(graph, &residuals, n);
     let holonomic = |i: usize| constraints[i].holonomic;
     let zero = graph.integer(0);
-    let level: Vec<ExprId> = (0..residuals.len())
+    let speed: Vec<ExprId> = (0..residuals.len())
         .map(|i| {
             if holonomic(i) {
-                speeds[i]
+                carried[i]
             } else {
                 residuals[i]
             }
         })
         .collect();
-    let jacobian: Matrix = level
+    let jacobian: Matrix = speed
         .iter()
         .map(|&phi| gradient(graph, phi, velocities(n)))
         .collect();
-    let drift = level.iter().map(|&phi| graph.at_rest(phi)).collect();
-    let gamma = rates(graph, &level, n);
+    let drift = speed.iter().map(|&phi| graph.at_rest(phi)).collect();
+    let gamma = rates(graph, &speed, n);
     let bias = gamma.iter().map(|&gamma| graph.neg(gamma)).collect();
     let residual = (0..residuals.len())
         .map(|i| if holonomic(i) { residuals[i] } else { zero })
         .collect();
     Closure {
         residual,
+        speed,
         jacobian,
         drift,
         gamma,

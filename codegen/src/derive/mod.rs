@@ -39,6 +39,8 @@ pub struct Equations {
     pub force: Vec<ExprId>,
     /// The constraints `g`, `R`; zero for velocity constraints.
     pub residual: Vec<ExprId>,
+    /// `A q̇ + b`, `R`.
+    pub speed: Vec<ExprId>,
     /// `A`, `R × N`.
     pub jacobian: Matrix,
     /// `b`, `R`, of the velocity level `A q̇ + b = 0`.
@@ -91,6 +93,7 @@ pub fn derive(mechanism: &mut Mechanism) -> Equations {
         applied,
         force,
         residual: closure.residual,
+        speed: closure.speed,
         jacobian: closure.jacobian,
         drift: closure.drift,
         bias: closure.bias,

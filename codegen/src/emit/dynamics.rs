@@ -3,8 +3,8 @@
 use super::{Method, Subject, Written};
 use crate::derive::coriolis_matrix;
 use crate::expr::ExprId;
-use crate::optimise::{Slot, regular_solve};
-use proc_macro2::{Literal, TokenStream};
+use crate::optimise::{Slot, regular_acceleration, regular_correction};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
 /// An entry wanted of an array.
@@ -75,32 +75,16 @@ pub(super) fn mechanism(subject: &mut Subject) -> TokenStream {
 
 /// The acceleration by the regular path.
 fn regular(subject: &mut Subject, terms: &Wanted) -> TokenStream {
-    let (n, r) = (
-        subject.equations.mass.len(),
-        subject.equations.jacobian.len(),
-    );
-    let program = regular_solve(&subject.program(terms), n, r);
+    let (n, r) = subject.counts();
+    let program = regular_acceleration(&subject.program(terms), n, r);
+    let written = subject.written(&program);
+    let writes = solved(&written, &["acceleration"], n.max(r));
     let Written {
         statements,
-        body,
         state,
         cost,
-    } = subject.written(&program);
-    let slot = |array, row| Slot {
-        array,
-        row,
-        column: 0,
-    };
-    let writes = (0..n).filter_map(|row| {
-        let value = body.written(slot("acceleration", row))?;
-        let row = Literal::usize_unsuffixed(row);
-        Some(quote!(out.acceleration.data.0[0][#row] = #value;))
-    });
-    let pivot = |array| {
-        body.written(slot(array, 0))
-            .unwrap_or_else(|| quote!(T::one()))
-    };
-    let (mass_pivot, pivot) = (pivot("mass_pivot"), pivot("pivot"));
+        ..
+    } = &written;
     let n = Literal::usize_unsuffixed(n);
     quote! {
         /// The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
@@ -109,12 +93,69 @@ fn regular(subject: &mut Subject, terms: &Wanted) -> TokenStream {
         #[doc = #cost]
         fn regular(&self, #state: &State<T, #n>, out: &mut Regular<T, #n>) -> bool {
             #statements
-            #(#writes)*
-            out.mass_pivot = #mass_pivot;
-            out.pivot = #pivot;
+            #writes
             true
         }
     }
+}
+
+/// The projection step by the regular path.
+fn correction(subject: &mut Subject) -> TokenStream {
+    let (n, r) = subject.counts();
+    let equations = subject.equations;
+    let mut wanted = matrix("mass", &equations.mass);
+    wanted.extend(matrix("jacobian", &equations.jacobian));
+    wanted.extend(vector("residual", &equations.residual));
+    wanted.extend(vector("speed", &equations.speed));
+    let program = regular_correction(&subject.program(&wanted), n, r);
+    let written = subject.written(&program);
+    let writes = solved(&written, &["residual", "position", "velocity"], n.max(r));
+    let Written {
+        statements,
+        state,
+        cost,
+        ..
+    } = &written;
+    let (n, r) = subject.sizes();
+    quote! {
+        /// The least corrections of position and velocity in the kinetic metric, where
+        /// the constraints are regular.
+        ///
+        #[doc = #cost]
+        fn correction(&self, #state: &State<T, #n>, out: &mut Correction<T, #n, #r>) -> bool {
+            #statements
+            #writes
+            true
+        }
+    }
+}
+
+/// Assignments of solved vectors and of the pivot ratios.
+fn solved(written: &Written, vectors: &[&'static str], size: usize) -> TokenStream {
+    let slot = |array, row| Slot {
+        array,
+        row,
+        column: 0,
+    };
+    let mut writes = TokenStream::new();
+    for &array in vectors {
+        let field = Ident::new(array, Span::call_site());
+        for row in 0..size {
+            if let Some(value) = written.body.written(slot(array, row)) {
+                let row = Literal::usize_unsuffixed(row);
+                writes.extend(quote!(out.#field.data.0[0][#row] = #value;));
+            }
+        }
+    }
+    let ratio = |array| {
+        written
+            .body
+            .written(slot(array, 0))
+            .unwrap_or_else(|| quote!(T::one()))
+    };
+    let (mass_pivot, pivot) = (ratio("mass_pivot"), ratio("pivot"));
+    writes.extend(quote!(out.mass_pivot = #mass_pivot; out.pivot = #pivot;));
+    writes
 }
 
 /// What a mechanism with constraints provides besides.
@@ -139,7 +180,8 @@ fn closure(subject: &mut Subject) -> TokenStream {
         buffer: quote!(Branch<T, #n, #r>),
         wanted,
     });
-    quote!(#position #branch)
+    let correction = correction(subject);
+    quote!(#position #correction #branch)
 }
 
 fn energy(subject: &mut Subject) -> TokenStream {

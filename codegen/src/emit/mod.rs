@@ -228,7 +228,7 @@ fn imports(subject: &Subject) -> TokenStream {
         "Terms",
     ];
     if !subject.mechanism.constraints.is_empty() {
-        names.extend(["Branch", "ConstraintRow", "Position"]);
+        names.extend(["Branch", "ConstraintRow", "Correction", "Position"]);
     }
     if !subject.mechanism.events.is_empty() {
         names.extend(["Direction", "Event"]);
@@ -244,13 +244,15 @@ fn imports(subject: &Subject) -> TokenStream {
 }
 
 impl Subject<'_> {
+    /// `N` and `R`.
+    fn counts(&self) -> (usize, usize) {
+        (self.equations.mass.len(), self.equations.jacobian.len())
+    }
+
     /// `N` and `R` as literals.
     fn sizes(&self) -> (Literal, Literal) {
-        let size = Literal::usize_unsuffixed;
-        (
-            size(self.equations.mass.len()),
-            size(self.equations.jacobian.len()),
-        )
+        let (n, r) = self.counts();
+        (Literal::usize_unsuffixed(n), Literal::usize_unsuffixed(r))
     }
 
     fn type_name(&self) -> Ident {

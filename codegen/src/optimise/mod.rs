@@ -57,8 +57,18 @@ pub fn optimise(graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -
 /// # Panics
 ///
 /// As [`optimise`].
-pub fn regular_solve(terms: &Program, n: usize, r: usize) -> Program {
-    checked(solve::with_solve(terms, n, r))
+pub fn regular_acceleration(terms: &Program, n: usize, r: usize) -> Program {
+    checked(solve::with_acceleration(terms, n, r))
+}
+
+/// The program for the least corrections of position and velocity, from the
+/// program for `mass`, `jacobian`, `residual`, `speed`.
+///
+/// # Panics
+///
+/// As [`optimise`].
+pub fn regular_correction(terms: &Program, n: usize, r: usize) -> Program {
+    checked(solve::with_correction(terms, n, r))
 }
 
 fn checked(program: Program) -> Program {

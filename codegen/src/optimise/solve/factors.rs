@@ -1,0 +1,122 @@
+//! Sparse `L D Lᵀ` in a fill-reducing order, and solves with it.
+
+use super::algebra::{Algebra, Entry, Signed, Sparse};
+use crate::expr::Number;
+use crate::optimise::program::{Operation, Value};
+use std::collections::BTreeSet;
+
+/// `L D Lᵀ` in an order of elimination.
+pub(super) struct Factors {
+    order: Vec<usize>,
+    /// Below the unit diagonal of `L`: by pivot, the rows and their entries.
+    columns: Vec<Vec<(usize, Signed)>>,
+    /// `1 / d`, by pivot.
+    inverse: Vec<Signed>,
+    /// The smallest `d_i / m_ii`; absent if there is no row.
+    pub ratio: Option<Value>,
+}
+
+/// An order of elimination by minimum degree; of equals the first.
+fn elimination_order(matrix: &Sparse, n: usize) -> Vec<usize> {
+    let mut neighbours: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); n];
+    for &(i, j) in matrix.keys().filter(|(i, j)| i != j) {
+        neighbours[i].insert(j);
+        neighbours[j].insert(i);
+    }
+    let mut left: BTreeSet<usize> = (0..n).collect();
+    let mut order = Vec::with_capacity(n);
+    while let Some(&next) = left.iter().min_by_key(|&&i| (neighbours[i].len(), i)) {
+        left.remove(&next);
+        order.push(next);
+        let around = std::mem::take(&mut neighbours[next]);
+        for &i in &around {
+            neighbours[i].remove(&next);
+            neighbours[i].extend(around.iter().copied().filter(|&j| j != i));
+        }
+    }
+    order
+}
+
+impl Algebra {
+    /// `M = L D Lᵀ` of a symmetric matrix.
+    pub fn factorise(&mut self, matrix: &Sparse, n: usize) -> Factors {
+        let order = elimination_order(matrix, n);
+        let mut rest = matrix.clone();
+        let one = self.program.push(Operation::Number(Number::ONE));
+        let mut inverse = vec![(false, one); n];
+        let mut columns = vec![Vec::new(); n];
+        let mut ratio: Option<Value> = None;
+        for (step, &k) in order.iter().enumerate() {
+            // A pivot that is zero by structure makes the ratio zero.
+            let zero = (false, self.number(Number::ZERO));
+            let pivot = rest.get(&(k, k)).copied().unwrap_or(zero);
+            inverse[k] = self.inverse(pivot);
+            ratio = Some(self.smaller(ratio, pivot, matrix.get(&(k, k)).copied()));
+            let below: Vec<(usize, Signed)> = order[step + 1..]
+                .iter()
+                .filter_map(|&i| rest.get(&(i, k)).map(|entry| (i, *entry)))
+                .collect();
+            for &(i, entry) in &below {
+                let factor = self.product(Some(entry), Some(inverse[k]));
+                columns[k].extend(factor.map(|factor| (i, factor)));
+            }
+            self.eliminate(&mut rest, &columns[k], &below);
+        }
+        Factors {
+            order,
+            columns,
+            inverse,
+            ratio,
+        }
+    }
+
+    /// `m_ij −= l_ik m_jk` for all pairs of rows below a pivot `k`.
+    fn eliminate(
+        &mut self,
+        rest: &mut Sparse,
+        factors: &[(usize, Signed)],
+        below: &[(usize, Signed)],
+    ) {
+        for (a, &(i, factor)) in factors.iter().enumerate() {
+            for &(j, entry) in &below[..=a] {
+                let whole = rest.get(&(i, j)).copied();
+                let reduced = self.minus_product(whole, Some(factor), Some(entry));
+                for place in [(i, j), (j, i)] {
+                    match reduced {
+                        Some(value) => rest.insert(place, value),
+                        None => rest.remove(&place),
+                    };
+                }
+            }
+        }
+    }
+
+    /// `L⁻¹ x`.
+    pub fn forward(&mut self, factors: &Factors, mut x: Vec<Entry>) -> Vec<Entry> {
+        for &k in &factors.order {
+            for &(i, factor) in &factors.columns[k] {
+                x[i] = self.minus_product(x[i], Some(factor), x[k]);
+            }
+        }
+        x
+    }
+
+    /// `L⁻ᵀ x`.
+    pub fn backward(&mut self, factors: &Factors, mut x: Vec<Entry>) -> Vec<Entry> {
+        for &k in factors.order.iter().rev() {
+            for &(i, factor) in &factors.columns[k] {
+                x[k] = self.minus_product(x[k], Some(factor), x[i]);
+            }
+        }
+        x
+    }
+
+    /// `D⁻¹ x`.
+    pub fn scaled(&mut self, factors: &Factors, x: &[Entry]) -> Vec<Entry> {
+        let inverse = factors.inverse.iter();
+        x.iter()
+            .zip(inverse)
+            .map(|(x, inverse)| self.product(*x, Some(*inverse)))
+            .collect()
+    }
+}
