@@ -83,13 +83,13 @@ fn rk4_converges_with_order_4() {
 
 #[test]
 fn dp5_converges_with_order_5() {
-    let observed = order(|| warm(Dp5::new(lax())), 64, 4);
+    let observed = order(|| warm(Dp5::adaptive(lax())), 64, 4);
     assert!((observed - 5.0).abs() < 0.2, "{observed}");
 }
 
 #[test]
 fn dop853_converges_with_order_8() {
-    let observed = order(|| warm(Dop853::new(lax())), 48, 1);
+    let observed = order(|| warm(Dop853::adaptive(lax())), 48, 1);
     assert!((observed - 8.0).abs() < 0.3, "{observed}");
 }
 
@@ -97,9 +97,9 @@ fn dop853_converges_with_order_8() {
 fn interpolants_have_the_order_of_their_method_or_one_less() {
     let rk4 = inside_order(Rk4::new, 0.1);
     assert!((rk4 - 4.0).abs() < 0.3, "{rk4}");
-    let dp5 = inside_order(|| warm(Dp5::new(lax())), 0.1);
+    let dp5 = inside_order(|| warm(Dp5::adaptive(lax())), 0.1);
     assert!((dp5 - 5.0).abs() < 0.3, "{dp5}");
-    let dop853 = inside_order(|| warm(Dop853::new(lax())), 0.4);
+    let dop853 = inside_order(|| warm(Dop853::adaptive(lax())), 0.4);
     assert!((dop853 - 8.0).abs() < 0.5, "{dop853}");
 }
 
@@ -128,8 +128,8 @@ fn errors_follow_the_tolerance_with_few_rejected_steps() {
     for exponent in [-6, -8, -10, -12] {
         let tolerance = Tolerance::uniform(10_f64.powi(exponent), 10_f64.powi(exponent)).unwrap();
         for (error, steps, rejected, evaluations) in [
-            adaptive(Dp5::new(tolerance)),
-            adaptive(Dop853::new(tolerance)),
+            adaptive(Dp5::adaptive(tolerance)),
+            adaptive(Dop853::adaptive(tolerance)),
         ] {
             println!("1e{exponent}: {error:e} {steps} {rejected} {evaluations}");
             assert!(
@@ -147,7 +147,7 @@ fn errors_follow_the_tolerance_with_few_rejected_steps() {
 #[test]
 fn a_shorter_bound_does_not_shorten_the_steps_after_it() {
     let tolerance = Tolerance::uniform(1e-8, 1e-8).unwrap();
-    let mut method = Dp5::new(tolerance);
+    let mut method = Dp5::adaptive(tolerance);
     let mut state = kepler_start(E);
     for _ in 0..20 {
         state = *method.step(&mut Free(kepler), &state, 100.0).unwrap().end();
@@ -166,7 +166,7 @@ fn a_shorter_bound_does_not_shorten_the_steps_after_it() {
 
 #[test]
 fn the_last_step_ends_at_the_bound_exactly() {
-    let mut method = Dop853::new(Tolerance::uniform(1e-9, 1e-9).unwrap());
+    let mut method = Dop853::adaptive(Tolerance::uniform(1e-9, 1e-9).unwrap());
     let mut state = kepler_start(E);
     let bound = 7.123_456_789;
     let mut shortest = f64::INFINITY;
@@ -184,7 +184,7 @@ fn a_force_that_blows_up_ends_in_a_typed_error_at_its_time() {
     // v' = v² from v = 1 goes to infinity at t = 1.
     let blow = |state: &State<f64, 1>| state.v.component_mul(&state.v);
     let start = State::new(0.0, SVector::from([0.0]), SVector::from([1.0]));
-    let mut method = Dp5::new(Tolerance::uniform(1e-8, 1e-8).unwrap());
+    let mut method = Dp5::adaptive(Tolerance::uniform(1e-8, 1e-8).unwrap());
     let mut state = start;
     let error = loop {
         match method.step(&mut Free(blow), &state, 2.0) {
@@ -206,7 +206,7 @@ fn a_force_that_blows_up_ends_in_a_typed_error_at_its_time() {
 fn a_force_that_turns_nan_is_an_error_at_its_time() {
     let sick = |state: &State<f64, 1>| SVector::from([if state.t > 0.5 { f64::NAN } else { 0.0 }]);
     let start = State::new(0.0, SVector::from([0.0]), SVector::from([1.0]));
-    let mut method = Dop853::new(Tolerance::uniform(1e-8, 1e-8).unwrap());
+    let mut method = Dop853::adaptive(Tolerance::uniform(1e-8, 1e-8).unwrap());
     let mut state = start;
     let error = loop {
         match method.step(&mut Free(sick), &state, 2.0) {
@@ -276,7 +276,7 @@ fn projection_costs_no_acceleration_and_leaves_no_kink() {
         evaluations: 0,
         off: 0.0,
     };
-    let mut method = Dp5::new(Tolerance::uniform(1e-7, 1e-7).unwrap());
+    let mut method = Dp5::adaptive(Tolerance::uniform(1e-7, 1e-7).unwrap());
     let mut state = State::new(0.0, SVector::from([1.0, 0.0]), SVector::from([0.0, 1.0]));
     let mut last_slope = SVector::from([0.0, 1.0]);
     let (mut steps, mut trials) = (0, 0);

@@ -16,6 +16,7 @@ pub(crate) static DOP853: Tableau = Tableau {
     order: 8,
     error_order: 8,
     looks: 4,
+    jumps: (1.0 / 3.0, 6.0),
     nodes: &[
         (0.0, 0.0),
         (0.05260015195876773, 2.2355514829149388e-18),

@@ -10,7 +10,7 @@
 //! the estimate changes by one order of `h` less than itself), and to join the
 //! interpolants of consecutive steps without a kink.
 //!
-//! Not here: how long a step is ([`super::adaptive`], [`super::fixed`]).
+//! Not here: how long a step is ([`super::methods`]).
 
 use super::step::Step;
 use super::tableau::{Tableau, Term};
@@ -162,10 +162,12 @@ impl<T: Real, const N: usize, const S: usize> Explicit<T, N, S> {
             start,
             end,
             interpolant,
+            span,
             ..
         } = &mut self.step;
         interpolant.set_ends((&*start, &self.a[0]), (&*end, &self.a[stages]));
         let h = end.t - start.t;
+        *span = h;
         if self.inside == Inside::Hermite || self.tableau.dense.is_empty() {
             interpolant.complete_hermite(h, &self.a[0], &self.a[stages]);
             return Ok(());

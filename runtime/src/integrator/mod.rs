@@ -5,27 +5,25 @@
 //!
 //! | method | order | interpolant | step |
 //! |---|---|---|---|
-//! | [`Rk4`] | 4 | quintic Hermite | fixed |
-//! | [`Dp5`] | 5(4) | order 4 | adaptive |
-//! | [`Dop853`] | 8(5,3) | order 7 | adaptive |
+//! | [`Rk4`] | 4 | Hermite | fixed |
+//! | [`Dp5`] | 5(4) | order 4 | fixed or adaptive |
+//! | [`Dop853`] | 8(5,3) | order 7 | fixed or adaptive |
 //!
 //! Not here: what is done with the steps ([`crate::simulate`]).
 
-mod adaptive;
 mod control;
 mod dop853;
 mod error;
 mod explicit;
-mod fixed;
 mod interpolant;
+mod methods;
 mod step;
 mod tableau;
 
-pub use adaptive::{Dop853, Dp5};
 pub use control::Tolerance;
 pub use error::IntegrateError;
 pub(crate) use explicit::Inside;
-pub use fixed::Rk4;
+pub use methods::{Dop853, Dp5, Rk4};
 pub use step::Step;
 
 use crate::{Real, State, System};

@@ -16,6 +16,9 @@ pub struct Step<T, const N: usize> {
     pub(crate) rejected: u32,
     pub(crate) evaluations: u32,
     pub(crate) looks: u8,
+    /// The length of the step as it was integrated: longer than from start to
+    /// end if it was cut.
+    pub(crate) span: T,
     pub(crate) interpolant: Interpolant<T, N>,
 }
 
@@ -28,6 +31,7 @@ impl<T: Real, const N: usize> Step<T, N> {
             rejected: 0,
             evaluations: 0,
             looks,
+            span: T::zero(),
             interpolant: Interpolant::default(),
         }
     }
@@ -64,20 +68,24 @@ impl<T: Real, const N: usize> Step<T, N> {
         self.looks
     }
 
+    /// Makes an earlier state the end of the step.
+    pub(crate) fn cut(&mut self, end: State<T, N>) {
+        self.end = end;
+    }
+
     /// The state at a time within the step, from the method's interpolant; the
     /// ends themselves at and beyond the ends.
     ///
     /// The interpolated state satisfies the constraints as accurately as the
     /// interpolant follows the motion; project it where that isn't enough.
     pub fn at(&self, t: T) -> State<T, N> {
-        let h = self.length();
-        if t <= self.start.t || h <= T::zero() {
+        if t <= self.start.t || self.span <= T::zero() {
             return self.start;
         }
         if t >= self.end.t {
             return self.end;
         }
-        let (q, v) = self.interpolant.at((t - self.start.t) / h);
+        let (q, v) = self.interpolant.at((t - self.start.t) / self.span);
         State { t, q, v }
     }
 }

@@ -28,6 +28,8 @@ pub(crate) struct Tableau {
     /// How many times within a step an observer should look, so as not to miss
     /// what comes and goes: methods of high order take long steps.
     pub(crate) looks: u8,
+    /// By how much a step may shrink and grow at once.
+    pub(crate) jumps: (f64, f64),
     /// Abscissae of the stages, as `(high, low)`.
     pub(crate) nodes: &'static [(f64, f64)],
     /// Rows `a_ij`, one per stage.
@@ -63,6 +65,7 @@ pub(crate) static RK4: Tableau = Tableau {
     order: 4,
     error_order: 5,
     looks: 1,
+    jumps: (1.0, 1.0),
     nodes: &[(0.0, 0.0), (0.5, 0.0), (0.5, 0.0), (1.0, 0.0)],
     rows: &[&[], &[(0, 0.5, 0.0)], &[(1, 0.5, 0.0)], &[(2, 1.0, 0.0)]],
     weights: &[
@@ -87,6 +90,7 @@ pub(crate) static DP5: Tableau = Tableau {
     order: 5,
     error_order: 5,
     looks: 2,
+    jumps: (0.2, 10.0),
     nodes: &[
         (0.0, 0.0),
         (0.2, -1.1102230246251566e-17),

@@ -1,0 +1,133 @@
+//! Why no consistent initial state could be found.
+//!
+//! In:  nothing.
+//! Out: [`AssemblyError`].
+
+use crate::{Quantity, Real, Structure};
+use core::fmt::{Display, Formatter, Result};
+use nalgebra::SVector;
+
+/// Why no consistent initial state could be found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AssemblyError<T, const N: usize, const R: usize> {
+    /// A value of the start, or a constraint at the guess, is infinite or NaN.
+    NotFinite {
+        /// Time of the start (s).
+        t: T,
+    },
+    /// No position near the guesses satisfies the constraints.
+    Positions {
+        /// The mechanism, for the names.
+        structure: &'static Structure,
+        /// The error of each constraint equation where it came closest, in the
+        /// unit of the equation; zero where it is satisfied.
+        residual: SVector<T, R>,
+        /// Which held coordinates stand in the way.
+        conflicting: [bool; N],
+    },
+    /// No velocity satisfies the constraints at the assembled position.
+    Velocities {
+        /// The mechanism, for the names.
+        structure: &'static Structure,
+        /// The error of each constraint equation at velocity level where it came
+        /// closest, in the unit of the equation per second; zero where it is
+        /// satisfied.
+        residual: SVector<T, R>,
+        /// Which held velocities stand in the way.
+        conflicting: [bool; N],
+    },
+    /// The assembled position is singular, and no branch through it has the held
+    /// velocities.
+    NoBranch {
+        /// The mechanism, for the names.
+        structure: &'static Structure,
+        /// Which velocities are held.
+        held: [bool; N],
+    },
+}
+
+impl<T: Real, const N: usize, const R: usize> Display for AssemblyError<T, N, R> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self {
+            Self::NotFinite { t } => write!(
+                f,
+                "the start at t = {t} s, or a constraint evaluated there, is infinite or NaN; \
+                 check the values in `start` and the parameters"
+            ),
+            Self::Positions {
+                structure,
+                residual,
+                conflicting,
+            } => {
+                f.write_str("no position near the start satisfies the constraints:")?;
+                rows(f, structure, residual, "")?;
+                advice(f, structure.coordinates, conflicting, ("", ""))
+            }
+            Self::Velocities {
+                structure,
+                residual,
+                conflicting,
+            } => {
+                f.write_str("no velocities near the start satisfy the constraints:")?;
+                rows(f, structure, residual, " per second")?;
+                advice(f, structure.coordinates, conflicting, ("der(", ")"))
+            }
+            Self::NoBranch { structure, held } => {
+                f.write_str(
+                    "the start is a singular position, and no branch of the motion through it \
+                     has the held velocities",
+                )?;
+                advice(f, structure.coordinates, held, ("der(", ")"))
+            }
+        }
+    }
+}
+
+/// One clause per constraint equation that is not satisfied.
+fn rows<T: Real, const R: usize>(
+    f: &mut Formatter<'_>,
+    structure: &Structure,
+    residual: &SVector<T, R>,
+    per: &str,
+) -> Result {
+    let mut separator = " ";
+    for (i, error) in residual.iter().enumerate() {
+        if *error == T::zero() {
+            continue;
+        }
+        f.write_str(separator)?;
+        match structure.constraints.get(i) {
+            Some(row) => write!(f, "`{}` (line {})", row.text, row.line)?,
+            None => write!(f, "equation {i}")?,
+        }
+        write!(f, " is off by {error}{per}")?;
+        separator = ", ";
+    }
+    Ok(())
+}
+
+/// What to write instead.
+fn advice<const N: usize>(
+    f: &mut Formatter<'_>,
+    coordinates: &[Quantity],
+    conflicting: &[bool; N],
+    (before, after): (&str, &str),
+) -> Result {
+    if conflicting.iter().all(|x| !x) {
+        return f.write_str("; check the parameters, or give guesses (`~`) that are nearer");
+    }
+    f.write_str("; these held values contradict each other or the parameters:")?;
+    let mut separator = " ";
+    for (i, _) in conflicting
+        .iter()
+        .enumerate()
+        .filter(|(_, conflicts)| **conflicts)
+    {
+        let name = coordinates.get(i).map_or("?", |coordinate| coordinate.name);
+        write!(f, "{separator}{before}{name}{after}")?;
+        separator = ", ";
+    }
+    f.write_str("; turn one of them into a guess (`~`)")
+}
+
+impl<T: Real, const N: usize, const R: usize> core::error::Error for AssemblyError<T, N, R> {}

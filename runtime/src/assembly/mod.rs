@@ -1,0 +1,59 @@
+//! Consistent initial states from held values and guesses.
+//!
+//! In:  a mechanism, the [`Start`] of its description, the time.
+//! Out: a state on the constraints, positions and velocities, to round-off.
+//!
+//! Held values stay as they are. The others change as little as they can, each
+//! weighed with the square root of its inertia, so that the answer does not
+//! depend on units: the branch nearest to the guesses is found. Where the
+//! guesses are no help at all (they lie where every direction looks the same,
+//! such as the fulcrum of a pendulum) a fixed small disturbance decides.
+//!
+//! Not here: keeping a state on the constraints during a run
+//! ([`crate::projection`]).
+
+mod decomposition;
+mod error;
+mod position;
+mod scales;
+mod velocity;
+
+pub use error::AssemblyError;
+
+use crate::{Mechanism, Real, Start, State};
+use nalgebra::SVector;
+
+/// Finds the state at time `t` (s) that keeps the held values of `start` and is
+/// near its guesses.
+///
+/// At a singular position the velocities of the branches do not mix: the
+/// velocity found belongs to one branch, the nearest to the guesses and held
+/// values. At rest there no branch is chosen.
+///
+/// # Errors
+///
+/// - [`AssemblyError::NotFinite`] if a value of `start`, or a constraint at the
+///   guess, is infinite or NaN.
+/// - [`AssemblyError::Positions`] and [`AssemblyError::Velocities`] if the held
+///   values contradict the constraints; with the error of each constraint.
+pub fn assemble<T, M, const N: usize, const R: usize>(
+    mechanism: &M,
+    start: &Start<T, N>,
+    t: T,
+) -> Result<State<T, N>, AssemblyError<T, N, R>>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    let q = SVector::from_fn(|i, _| start.q[i].value);
+    let v = SVector::from_fn(|i, _| start.v[i].value);
+    let mut state = State { t, q, v };
+    if !state.is_finite() {
+        return Err(AssemblyError::NotFinite { t });
+    }
+    if R > 0 {
+        position::assemble(mechanism, &mut state, &start.q.map(|initial| initial.held))?;
+        velocity::assemble(mechanism, &mut state, &start.v.map(|initial| initial.held))?;
+    }
+    Ok(state)
+}

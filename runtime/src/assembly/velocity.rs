@@ -1,0 +1,203 @@
+//! Velocities that satisfy the constraints.
+//!
+//! In:  a position on the constraints, guesses, which velocities are held.
+//! Out: the velocities, to round-off.
+//!
+//! At a regular position `A q̇ + b = 0` decides. At a singular one some
+//! combinations `w` of the rows vanish, and `wᵀ p₂(q, q̇) = 0` remains: without it
+//! no acceleration would satisfy the constraints. It is quadratic in `q̇`; its
+//! solutions are the velocities along the branches that meet there.
+
+use super::AssemblyError;
+use super::decomposition::Decomposition;
+use super::scales::Scales;
+use crate::linalg::{Breakdown, independent, norm};
+use crate::{Mechanism, Position, Real, State, Terms};
+use nalgebra::{SMatrix, SVector};
+
+/// Velocity errors up to this multiple of the round-off of an equation's terms
+/// are no contradiction.
+const CONTRADICTION: f64 = 4096.0;
+/// Newton steps towards a branch.
+const MOST_STEPS: usize = 60;
+/// The rest of `p₂` that the rows can't produce is accepted below this part of
+/// the quadratic terms that it is the sum of.
+const ON_BRANCH: f64 = 1e-9;
+/// A direction towards a branch counts if it changes that rest by this part of
+/// what the most effective one does.
+const EFFECTIVE: f64 = 1e-6;
+
+/// Moves the velocities that are not held onto the constraints.
+pub(super) fn assemble<T, M, const N: usize, const R: usize>(
+    mechanism: &M,
+    state: &mut State<T, N>,
+    held: &[bool; N],
+) -> Result<(), AssemblyError<T, N, R>>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    let failure = AssemblyError::NotFinite { t: state.t };
+    let mut at = Position::default();
+    mechanism.position(state, &mut at);
+    let measured = Scales::measure(mechanism, state);
+    let mut scales = measured.clone();
+    scales.hold(held);
+    let free = Decomposition::new(&at.jacobian, &scales).map_err(|_| failure)?;
+    // Twice: the second correction takes the round-off of the first.
+    for _ in 0..2 {
+        let error = (at.jacobian * state.v + at.drift).component_mul(&scales.rows);
+        let (step, _) = free.solve(&-error, independent(), T::zero());
+        state.v += step.component_mul(&scales.columns);
+    }
+    if !state.is_finite() {
+        return Err(failure);
+    }
+    check(mechanism, state, &at, &measured, held)?;
+    let whole = Decomposition::new(&at.jacobian, &measured).map_err(|_| failure)?;
+    if whole.rank(independent()) == R {
+        return Ok(());
+    }
+    let branch = Branches {
+        mechanism,
+        measured: &measured,
+        scales: &scales,
+        free,
+        whole,
+    };
+    match branch.choose(state) {
+        Ok(true) => Ok(()),
+        Ok(false) => Err(AssemblyError::NoBranch {
+            structure: mechanism.structure(),
+            held: *held,
+        }),
+        Err(Breakdown) => Err(failure),
+    }
+}
+
+/// Refuses velocities that contradict the constraints.
+fn check<T, M, const N: usize, const R: usize>(
+    mechanism: &M,
+    state: &State<T, N>,
+    at: &Position<T, N, R>,
+    measured: &Scales<T, N, R>,
+    held: &[bool; N],
+) -> Result<(), AssemblyError<T, N, R>>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    let error = at.jacobian * state.v + at.drift;
+    // In the kinetic metric, where a row of norm one turns a speed of one into
+    // an error of one.
+    let speed = (0..N).fold(T::zero(), |sum, j| {
+        let x = state.v[j] / measured.columns[j];
+        sum + x * x
+    });
+    // Rows that count as dependent may be off by what they are.
+    let slack = T::EPSILON * T::from_f64(CONTRADICTION) + independent();
+    let residual = SVector::<T, R>::from_fn(|k, _| {
+        let most = slack * (speed.sqrt() / measured.rows[k] + at.drift[k].abs());
+        if error[k].abs() <= most {
+            T::zero()
+        } else {
+            error[k]
+        }
+    });
+    if residual.iter().all(|x| *x == T::zero()) {
+        return Ok(());
+    }
+    let conflicting = measured.influential(&at.jacobian, &residual, held);
+    Err(AssemblyError::Velocities {
+        structure: mechanism.structure(),
+        residual,
+        conflicting,
+    })
+}
+
+/// The branches that meet at a singular position.
+struct Branches<'a, M: ?Sized, T, const N: usize, const R: usize> {
+    mechanism: &'a M,
+    measured: &'a Scales<T, N, R>,
+    /// The same, with what is held taken out.
+    scales: &'a Scales<T, N, R>,
+    /// What the velocities that aren't held can do.
+    free: Decomposition<T, N, R>,
+    /// What all velocities can do.
+    whole: Decomposition<T, N, R>,
+}
+
+impl<M, T, const N: usize, const R: usize> Branches<'_, M, T, N, R>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    /// Newton's method towards the nearest branch, along the directions that
+    /// the constraints leave free; whether one was reached.
+    fn choose(&self, state: &mut State<T, N>) -> Result<bool, Breakdown> {
+        for _ in 0..MOST_STEPS {
+            let bias = self.bias(state, state.v);
+            let rest = self.whole.unreachable(&bias, independent());
+            let slopes = self.slopes(state);
+            let size = self.size(&bias, &state.v, &slopes);
+            if norm(&rest.data.0[0]) <= size * T::from_f64(ON_BRANCH) {
+                return Ok(true);
+            }
+            let step = self.step(&slopes, &rest)?;
+            state.v += step.component_mul(&self.scales.columns);
+            if !state.is_finite() {
+                return Ok(false);
+            }
+        }
+        Ok(false)
+    }
+
+    /// `p₂` at a velocity, scaled.
+    fn bias(&self, state: &State<T, N>, v: SVector<T, N>) -> SVector<T, R> {
+        let mut terms = Terms::default();
+        self.mechanism.terms(&State { v, ..*state }, &mut terms);
+        terms.bias.component_mul(&self.measured.rows)
+    }
+
+    /// How `p₂` changes with each scaled velocity, held or not. `p₂` is quadratic
+    /// in the velocities, so that central differences are exact.
+    fn slopes(&self, state: &State<T, N>) -> SMatrix<T, R, N> {
+        let mut slopes = SMatrix::<T, R, N>::zeros();
+        let two = T::from_f64(2.0);
+        for j in 0..N {
+            let (mut more, mut less) = (state.v, state.v);
+            more[j] += self.measured.columns[j];
+            less[j] -= self.measured.columns[j];
+            let slope = (self.bias(state, more) - self.bias(state, less)) / two;
+            slopes.set_column(j, &slope);
+        }
+        slopes
+    }
+
+    /// How large the terms are whose sum `p₂` is.
+    fn size(&self, bias: &SVector<T, R>, v: &SVector<T, N>, slopes: &SMatrix<T, R, N>) -> T {
+        let scaled = v.component_div(&self.measured.columns);
+        (0..N).fold(norm(&bias.data.0[0]), |sum, j| {
+            sum + norm(&slopes.data.0[j]) * scaled[j].abs()
+        })
+    }
+
+    /// The step that removes the rest, in scaled velocities: of least norm,
+    /// along what the constraints leave free.
+    fn step(
+        &self,
+        slopes: &SMatrix<T, R, N>,
+        rest: &SVector<T, R>,
+    ) -> Result<SVector<T, N>, Breakdown> {
+        let basis = self.free.null_space(independent());
+        let mut along = slopes * basis;
+        for column in along.data.0.iter_mut() {
+            let reached = SVector::from(*column);
+            *column = self.whole.unreachable(&reached, independent()).data.0[0];
+        }
+        let towards = Decomposition::of(along)?;
+        let cut = towards.largest() * T::from_f64(EFFECTIVE);
+        let (step, _) = towards.solve(&-rest, cut, T::zero());
+        Ok(basis * step)
+    }
+}
