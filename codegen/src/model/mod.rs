@@ -6,6 +6,25 @@
 //!
 //! Not here: mechanics. Mass matrix and constraint Jacobian are `derive`'s.
 
+mod arithmetic;
+mod call;
+mod check;
+mod declare;
+mod element;
+mod evaluate;
+mod facts;
+mod linear;
+mod lower;
+mod order;
+mod rotation;
+mod scope;
+mod start;
+mod statement;
+mod unit;
+mod value;
+
+pub use lower::lower;
+
 use crate::diagnostic::Span;
 use crate::expr::{ExprId, Graph, Symbol};
 
@@ -187,6 +206,28 @@ pub enum Shape {
 }
 
 impl Mechanism {
+    /// A mechanism with nothing in it but its name.
+    fn named(name: &str, docs: &str) -> Self {
+        Self {
+            name: name.to_string(),
+            docs: docs.to_string(),
+            graph: Graph::new(),
+            coordinates: Vec::new(),
+            parameters: Vec::new(),
+            constants: Vec::new(),
+            inputs: Vec::new(),
+            kinetic: Vec::new(),
+            potential: Vec::new(),
+            dissipation: Vec::new(),
+            forces: Vec::new(),
+            constraints: Vec::new(),
+            starts: Vec::new(),
+            outputs: Vec::new(),
+            events: Vec::new(),
+            shapes: Vec::new(),
+        }
+    }
+
     /// A symbol as the description writes it: `q1`, `der(q1)`, `L1`, `t`.
     pub fn symbol_text(&self, symbol: Symbol) -> String {
         let coordinate = |i: u32| &self.coordinates[i as usize].name;

@@ -32,8 +32,9 @@ pub const STATEMENTS: [(&str, &str); 14] = [
 
 /// Words that can't be names of quantities: they are part of formulas and
 /// statements, or have no raw form in Rust.
-const RESERVED: [&str; 11] =
-    ["if", "then", "else", "in", "on", "for", "_", "self", "Self", "super", "crate"];
+const RESERVED: [&str; 11] = [
+    "if", "then", "else", "in", "on", "for", "_", "self", "Self", "super", "crate",
+];
 
 /// A place in the list of tokens.
 #[derive(Debug)]
@@ -48,7 +49,13 @@ pub struct Cursor<'a> {
 impl<'a> Cursor<'a> {
     /// At the first token.
     pub fn new(source: &'a str, tokens: Tokens) -> Self {
-        Self { source, diagnostics: Diagnostics::new(), tokens, at: 0, nesting: 0 }
+        Self {
+            source,
+            diagnostics: Diagnostics::new(),
+            tokens,
+            at: 0,
+            nesting: 0,
+        }
     }
 
     /// The next token. Behind the last one is the last one again.
@@ -127,10 +134,15 @@ impl<'a> Cursor<'a> {
                 "self" | "Self" | "super" | "crate" | "_" => format!("`{text}` can't be a name"),
                 _ => message,
             };
-            return Err(self.fail(Diagnostic::error(token.span, message).help("choose another name")));
+            return Err(
+                self.fail(Diagnostic::error(token.span, message).help("choose another name"))
+            );
         }
         self.advance();
-        Ok(Name { text, span: token.span })
+        Ok(Name {
+            text,
+            span: token.span,
+        })
     }
 
     /// Records a mistake.
@@ -145,10 +157,17 @@ impl<'a> Cursor<'a> {
         let next = self.peek();
         let new_line = self.at > 0 && next.span.start.line > self.last_span().end.line;
         let (span, found) = if new_line || next.kind == TokenKind::End {
-            let span = if self.at > 0 { self.last_span().after() } else { next.span };
+            let span = if self.at > 0 {
+                self.last_span().after()
+            } else {
+                next.span
+            };
             (span, String::new())
         } else {
-            (next.span, format!(", found `{}`", next.span.text(self.source)))
+            (
+                next.span,
+                format!(", found `{}`", next.span.text(self.source)),
+            )
         };
         let mut diagnostic = Diagnostic::error(span, format!("expected {expected}{found}"));
         if !help.is_empty() {
@@ -174,7 +193,9 @@ impl<'a> Cursor<'a> {
     pub fn docs(&self) -> String {
         let docs = &self.tokens.docs;
         let first = docs.partition_point(|(index, _)| *index < self.at);
-        let lines = docs[first..].iter().take_while(|(index, _)| *index == self.at);
+        let lines = docs[first..]
+            .iter()
+            .take_while(|(index, _)| *index == self.at);
         let lines: Vec<_> = lines.map(|(_, line)| line.as_str()).collect();
         lines.join("\n").trim().to_string()
     }

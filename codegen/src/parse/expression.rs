@@ -47,7 +47,10 @@ impl Cursor<'_> {
         if self.take_symbol("-") {
             let inside = self.deeper(Self::signed)?;
             let span = start.to(inside.span);
-            return Ok(Expr { span, kind: ExprKind::Negative(Box::new(inside)) });
+            return Ok(Expr {
+                span,
+                kind: ExprKind::Negative(Box::new(inside)),
+            });
         }
         if self.take_symbol("+") {
             return self.deeper(Self::signed);
@@ -62,7 +65,10 @@ impl Cursor<'_> {
         }
         let exponent = self.deeper(Self::signed)?;
         let span = base.span.to(exponent.span);
-        Ok(Expr { span, kind: ExprKind::Power(Box::new(base), Box::new(exponent)) })
+        Ok(Expr {
+            span,
+            kind: ExprKind::Power(Box::new(base), Box::new(exponent)),
+        })
     }
 
     /// Reads a formula without operators: a name, a component, a call.
@@ -72,12 +78,18 @@ impl Cursor<'_> {
             if self.take_symbol(".") {
                 let axis = self.axis()?;
                 let span = value.span.to(self.last_span());
-                value = Expr { span, kind: ExprKind::Component(Box::new(value), axis) };
+                value = Expr {
+                    span,
+                    kind: ExprKind::Component(Box::new(value), axis),
+                };
             } else if self.take_symbol("[") {
                 let index = self.expression()?;
                 self.expect_symbol("]", "an index is written `theta[0]` or `R[0][1]`")?;
                 let span = value.span.to(self.last_span());
-                value = Expr { span, kind: ExprKind::Index(Box::new(value), Box::new(index)) };
+                value = Expr {
+                    span,
+                    kind: ExprKind::Index(Box::new(value), Box::new(index)),
+                };
             } else {
                 return Ok(value);
             }
@@ -101,7 +113,9 @@ impl Cursor<'_> {
         match token.kind {
             TokenKind::Number(text) => self.number(&text, token.span),
             TokenKind::Word(word) if word == "if" => self.deeper(Self::choice),
-            TokenKind::Word(word) if ["then", "else", "in", "on", "for"].contains(&word.as_str()) => {
+            TokenKind::Word(word)
+                if ["then", "else", "in", "on", "for"].contains(&word.as_str()) =>
+            {
                 Err(self.unexpected("a formula", ""))
             }
             TokenKind::Word(word) => self.name_or_call(word, token.span),
@@ -123,7 +137,10 @@ impl Cursor<'_> {
         match read_number(text, span) {
             Ok(number) => {
                 self.advance();
-                Ok(Expr { span, kind: ExprKind::Number(number) })
+                Ok(Expr {
+                    span,
+                    kind: ExprKind::Number(number),
+                })
             }
             Err(diagnostic) => Err(self.fail(*diagnostic)),
         }
@@ -132,14 +149,20 @@ impl Cursor<'_> {
     fn name_or_call(&mut self, word: String, span: Span) -> Parsed<Expr> {
         self.advance();
         if !self.take_symbol("(") {
-            return Ok(Expr { span, kind: ExprKind::Name(word) });
+            return Ok(Expr {
+                span,
+                kind: ExprKind::Name(word),
+            });
         }
         if word == "sum" {
             return self.repeated_sum(span);
         }
         let arguments = self.arguments(")")?;
         let name = Name { text: word, span };
-        Ok(Expr { span: span.to(self.last_span()), kind: ExprKind::Call(name, arguments) })
+        Ok(Expr {
+            span: span.to(self.last_span()),
+            kind: ExprKind::Call(name, arguments),
+        })
     }
 
     fn repeated_sum(&mut self, start: Span) -> Parsed<Expr> {
@@ -149,7 +172,10 @@ impl Cursor<'_> {
         let term = self.expression()?;
         self.expect_symbol(")", help)?;
         let span = start.to(self.last_span());
-        Ok(Expr { span, kind: ExprKind::Repeat(Box::new(range), Box::new(term)) })
+        Ok(Expr {
+            span,
+            kind: ExprKind::Repeat(Box::new(range), Box::new(term)),
+        })
     }
 
     /// Reads `index in from..to`.
@@ -176,7 +202,10 @@ impl Cursor<'_> {
             arguments.push(self.expression()?);
             if !self.at_symbol(close) {
                 self.comparison_stands_after_if()?;
-                self.expect_symbol(",", &format!("between parts stands `,`, at the end `{close}`"))?;
+                self.expect_symbol(
+                    ",",
+                    &format!("between parts stands `,`, at the end `{close}`"),
+                )?;
             }
         }
         Ok(arguments)
@@ -192,14 +221,20 @@ impl Cursor<'_> {
         }
         self.comparison_stands_after_if()?;
         self.expect_symbol(")", "")?;
-        Ok(Expr { span: start.to(self.last_span()), kind: inside.kind })
+        Ok(Expr {
+            span: start.to(self.last_span()),
+            kind: inside.kind,
+        })
     }
 
     fn vector(&mut self) -> Parsed<Expr> {
         let start = self.span();
         self.advance();
         let parts = self.arguments("]")?;
-        Ok(Expr { span: start.to(self.last_span()), kind: ExprKind::Vector(parts) })
+        Ok(Expr {
+            span: start.to(self.last_span()),
+            kind: ExprKind::Vector(parts),
+        })
     }
 
     fn choice(&mut self) -> Parsed<Expr> {
@@ -217,7 +252,10 @@ impl Cursor<'_> {
         let otherwise = self.expression()?;
         let span = start.to(otherwise.span);
         let parts = (Box::new(condition), Box::new(then), Box::new(otherwise));
-        Ok(Expr { span, kind: ExprKind::If(parts.0, parts.1, parts.2) })
+        Ok(Expr {
+            span,
+            kind: ExprKind::If(parts.0, parts.1, parts.2),
+        })
     }
 
     fn condition(&mut self, help: &str) -> Parsed<Condition> {
@@ -234,22 +272,37 @@ impl Cursor<'_> {
                 let error = Diagnostic::error(operator.span, "`=` does not compare");
                 return Err(self.fail(error.help("write `==`")));
             }
-            _ => return Err(self.unexpected("a comparison: `<`, `<=`, `>`, `>=`, `==` or `!=`", help)),
+            _ => {
+                return Err(
+                    self.unexpected("a comparison: `<`, `<=`, `>`, `>=`, `==` or `!=`", help)
+                );
+            }
         };
         self.advance();
         let right = self.expression()?;
         if self.at_symbol("&&") || self.at_symbol("||") {
             let error = Diagnostic::error(self.span(), "conditions can't be joined");
-            let help = "put one choice inside the other: `if a < b then (if c < d then x else y) else y`";
+            let help =
+                "put one choice inside the other: `if a < b then (if c < d then x else y) else y`";
             return Err(self.fail(error.help(help)));
         }
-        let (left, right) = if exchanged { (right, left) } else { (left, right) };
-        Ok(Condition { comparison, left, right })
+        let (left, right) = if exchanged {
+            (right, left)
+        } else {
+            (left, right)
+        };
+        Ok(Condition {
+            comparison,
+            left,
+            right,
+        })
     }
 
     /// Refuses a comparison where a formula has ended.
     pub fn comparison_stands_after_if(&mut self) -> Parsed<()> {
-        let there = ["<", "<=", ">", ">=", "==", "!="].iter().any(|sign| self.at_symbol(sign));
+        let there = ["<", "<=", ">", ">=", "==", "!="]
+            .iter()
+            .any(|sign| self.at_symbol(sign));
         if !there {
             return Ok(());
         }
@@ -267,21 +320,35 @@ fn list(mut parts: Vec<(bool, Expr)>, kind: fn(Vec<(bool, Expr)>) -> ExprKind) -
     }
     let first = parts.first().map(|(_, part)| part.span).unwrap_or_default();
     let last = parts.last().map(|(_, part)| part.span).unwrap_or_default();
-    Expr { span: first.to(last), kind: kind(parts) }
+    Expr {
+        span: first.to(last),
+        kind: kind(parts),
+    }
 }
 
 /// Reads a decimal literal exactly.
 fn read_number(text: &str, span: Span) -> Result<Number, Box<Diagnostic>> {
-    let refuse = |message: String, help: String| Box::new(Diagnostic::error(span, message).help(help));
-    if text.len() > 2 && ["0x", "0b", "0o"].iter().any(|prefix| text.starts_with(prefix)) {
-        return Err(refuse(format!("`{text}` is not a decimal number"), "write it in decimals".into()));
+    let refuse =
+        |message: String, help: String| Box::new(Diagnostic::error(span, message).help(help));
+    if text.len() > 2
+        && ["0x", "0b", "0o"]
+            .iter()
+            .any(|prefix| text.starts_with(prefix))
+    {
+        return Err(refuse(
+            format!("`{text}` is not a decimal number"),
+            "write it in decimals".into(),
+        ));
     }
     let end = text.find(|c: char| c.is_ascii_alphabetic() && c != 'e' && c != 'E');
     let bare_exponent = text.ends_with(['e', 'E']).then(|| text.len() - 1);
     if let Some(end) = end.or(bare_exponent) {
         let (number, name) = text.split_at(end);
         let message = format!("`{text}` is neither a number nor a name");
-        return Err(refuse(message, format!("write `{number}*{name}`, or give the unit behind `:`")));
+        return Err(refuse(
+            message,
+            format!("write `{number}*{name}`, or give the unit behind `:`"),
+        ));
     }
     let number = Number::parse_literal(text);
     let digits = text.split(['e', 'E']).next().unwrap_or("");
@@ -296,5 +363,9 @@ fn read_number(text: &str, span: Span) -> Result<Number, Box<Diagnostic>> {
 }
 
 fn shorten(text: &str) -> String {
-    if text.len() <= 24 { text.to_string() } else { format!("{}…", &text[..20]) }
+    if text.len() <= 24 {
+        text.to_string()
+    } else {
+        format!("{}…", &text[..20])
+    }
 }

@@ -46,7 +46,11 @@ impl Cursor<'_> {
 
     /// The nesting inside the bracket that was read last.
     pub fn block_depth(&self) -> usize {
-        if self.at_symbol("}") { self.depth() + 1 } else { self.depth() }
+        if self.at_symbol("}") {
+            self.depth() + 1
+        } else {
+            self.depth()
+        }
     }
 
     /// Whether the bracket that closes a block comes next.
@@ -66,14 +70,21 @@ impl Cursor<'_> {
         }
         self.advance();
         let kind = self.item_kind(&word)?;
-        Ok(Item { docs, span: start.to(self.last_span()), kind })
+        Ok(Item {
+            docs,
+            span: start.to(self.last_span()),
+            kind,
+        })
     }
 
     fn item_kind(&mut self, word: &str) -> Parsed<ItemKind> {
         let kind = match word {
             "for" => {
                 let range = self.range(FOR)?;
-                return Ok(ItemKind::For(range, self.deeper(|cursor| cursor.block(FOR))?));
+                return Ok(ItemKind::For(
+                    range,
+                    self.deeper(|cursor| cursor.block(FOR))?,
+                ));
             }
             "start" => return Ok(ItemKind::Start(self.start_block()?)),
             "const" => self.declaration(Declared::Constant, word)?,
@@ -133,7 +144,12 @@ impl Cursor<'_> {
         let unit = self.optional_unit()?;
         self.expect_symbol("=", &example(word))?;
         let value = self.expression()?;
-        Ok(ItemKind::Declaration(Declaration { kind, name, unit, value }))
+        Ok(ItemKind::Declaration(Declaration {
+            kind,
+            name,
+            unit,
+            value,
+        }))
     }
 
     fn coordinate(&mut self) -> Parsed<ItemKind> {
@@ -141,12 +157,18 @@ impl Cursor<'_> {
         let mut size = None;
         if self.take_symbol("[") {
             size = Some(self.expression()?);
-            self.expect_symbol("]", "an array of coordinates is written `coord theta[3]: rad;`")?;
+            self.expect_symbol(
+                "]",
+                "an array of coordinates is written `coord theta[3]: rad;`",
+            )?;
         }
         let unit = self.optional_unit()?;
         if self.at_symbol("=") {
             let error = Diagnostic::error(self.span(), "a coordinate has no value of its own");
-            let help = format!("its value at the start is written `start {{ {} = …; }}`", name.text);
+            let help = format!(
+                "its value at the start is written `start {{ {} = …; }}`",
+                name.text
+            );
             return Err(self.fail(error.help(help)));
         }
         Ok(ItemKind::Coordinate { name, size, unit })
@@ -161,7 +183,8 @@ impl Cursor<'_> {
             self.expect_symbol("]", help)?;
         }
         if self.at_symbol(":") {
-            let error = Diagnostic::error(self.span(), "`let` takes no unit: it has that of its value");
+            let error =
+                Diagnostic::error(self.span(), "`let` takes no unit: it has that of its value");
             return Err(self.fail(error.help(example("let"))));
         }
         self.expect_symbol("=", &example("let"))?;
@@ -199,10 +222,16 @@ impl Cursor<'_> {
             TokenKind::Word(word) if word == "rising" => Crossing::Rising,
             TokenKind::Word(word) if word == "falling" => Crossing::Falling,
             TokenKind::Word(word) if word == "crossing" => Crossing::Crossing,
-            _ => return Err(self.unexpected("`rising`, `falling` or `crossing`", &example("event"))),
+            _ => {
+                return Err(self.unexpected("`rising`, `falling` or `crossing`", &example("event")));
+            }
         };
         self.advance();
-        Ok(ItemKind::Event { name, value, direction })
+        Ok(ItemKind::Event {
+            name,
+            value,
+            direction,
+        })
     }
 
     fn draw(&mut self) -> Parsed<ItemKind> {
@@ -224,7 +253,9 @@ impl Cursor<'_> {
 /// How a statement is written.
 fn example(word: &str) -> String {
     let example = STATEMENTS.iter().find(|(statement, _)| *statement == word);
-    example.map_or(String::new(), |(_, text)| format!("write for example `{text}`"))
+    example.map_or(String::new(), |(_, text)| {
+        format!("write for example `{text}`")
+    })
 }
 
 /// What may begin a statement, or the word that was probably meant.
@@ -241,6 +272,11 @@ fn statement_help(word: &str) -> String {
 
 /// A piece of source without comments and line breaks.
 fn one_line(text: &str) -> String {
-    let lines = text.lines().map(|line| line.split("//").next().unwrap_or(""));
-    lines.flat_map(str::split_whitespace).collect::<Vec<_>>().join(" ")
+    let lines = text
+        .lines()
+        .map(|line| line.split("//").next().unwrap_or(""));
+    lines
+        .flat_map(str::split_whitespace)
+        .collect::<Vec<_>>()
+        .join(" ")
 }

@@ -42,7 +42,11 @@ pub fn scan(text: &str) -> Result<(), Diagnostics> {
         diagnostics,
     };
     scanner.run();
-    if scanner.diagnostics.is_empty() { Ok(()) } else { Err(scanner.diagnostics) }
+    if scanner.diagnostics.is_empty() {
+        Ok(())
+    } else {
+        Err(scanner.diagnostics)
+    }
 }
 
 impl Scanner<'_> {
@@ -59,14 +63,22 @@ impl Scanner<'_> {
         for (bracket, span) in std::mem::take(&mut self.open).into_iter().take(3) {
             let message = format!("this `{bracket}` is never closed");
             let help = format!("write the matching `{}`", partner(bracket));
-            self.diagnostics.push(Diagnostic::error(span, message).help(help));
+            self.diagnostics
+                .push(Diagnostic::error(span, message).help(help));
         }
     }
 
     fn position(&mut self) -> Position {
-        let offset = self.characters.peek().map_or(self.text.len(), |(offset, _)| *offset);
+        let offset = self
+            .characters
+            .peek()
+            .map_or(self.text.len(), |(offset, _)| *offset);
         let offset = u32::try_from(offset).unwrap_or(u32::MAX);
-        Position { line: self.line, column: self.column, offset }
+        Position {
+            line: self.line,
+            column: self.column,
+            offset,
+        }
     }
 
     fn next(&mut self) -> Option<char> {
@@ -85,7 +97,10 @@ impl Scanner<'_> {
     }
 
     fn span_from(&mut self, start: Position) -> Span {
-        Span { start, end: self.position() }
+        Span {
+            start,
+            end: self.position(),
+        }
     }
 
     /// A comment or a division.
@@ -137,7 +152,8 @@ impl Scanner<'_> {
             self.too_deep = true;
             let message = format!("more than {NESTING} brackets inside one another");
             let help = "give inner parts names of their own with `let`";
-            self.diagnostics.push(Diagnostic::error(span, message).help(help));
+            self.diagnostics
+                .push(Diagnostic::error(span, message).help(help));
         }
     }
 
@@ -149,11 +165,13 @@ impl Scanner<'_> {
             Some((open, place)) => {
                 let message = format!("`{open}` is closed by `{bracket}`");
                 let error = Diagnostic::error(span, message).also(place, "opened here");
-                self.diagnostics.push(error.help(format!("write `{}` here", partner(open))));
+                self.diagnostics
+                    .push(error.help(format!("write `{}` here", partner(open))));
             }
             None => {
                 let message = format!("this `{bracket}` closes nothing");
-                self.diagnostics.push(Diagnostic::error(span, message).help("remove it"));
+                self.diagnostics
+                    .push(Diagnostic::error(span, message).help("remove it"));
             }
         }
     }
@@ -175,11 +193,14 @@ impl Scanner<'_> {
         let shown = match character {
             '\r' => "a carriage return without a line feed".to_string(),
             '\u{a0}' => "a no-break space".to_string(),
-            c if c.is_control() || c.is_whitespace() => format!("the character U+{:04X}", u32::from(c)),
+            c if c.is_control() || c.is_whitespace() => {
+                format!("the character U+{:04X}", u32::from(c))
+            }
             c => format!("`{c}`"),
         };
         let message = format!("{shown} has no meaning here");
-        self.diagnostics.push(Diagnostic::error(span, message).help(instead(character)));
+        self.diagnostics
+            .push(Diagnostic::error(span, message).help(instead(character)));
     }
 }
 
@@ -212,7 +233,9 @@ fn instead(character: char) -> String {
         '≠' => write("!="),
         '√' => write("sqrt(…)"),
         c if greek(c).is_some() => write(greek(c).unwrap_or_default()),
-        c if c.is_alphabetic() => "names are made of the letters a–z and A–Z, digits and `_`".into(),
+        c if c.is_alphabetic() => {
+            "names are made of the letters a–z and A–Z, digits and `_`".into()
+        }
         '\r' => "save the file with line feeds".into(),
         c if c.is_whitespace() => "write an ordinary blank".into(),
         _ => "remove it".into(),
@@ -240,5 +263,8 @@ fn greek(character: char) -> Option<&'static str> {
         ('ψ', "psi"),
         ('ω', "omega"),
     ];
-    NAMES.iter().find(|(letter, _)| *letter == character).map(|(_, name)| *name)
+    NAMES
+        .iter()
+        .find(|(letter, _)| *letter == character)
+        .map(|(_, name)| *name)
 }

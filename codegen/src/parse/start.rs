@@ -37,6 +37,10 @@ impl Cursor<'_> {
         if !self.at_symbol("}") {
             self.expect_symbol(";", HELP)?;
         }
-        Ok(StartItem::Entry { target, held, value })
+        Ok(StartItem::Entry {
+            target,
+            held,
+            value,
+        })
     }
 }

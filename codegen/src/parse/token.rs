@@ -37,8 +37,9 @@ pub struct Tokens {
 /// Signs of two characters, which have to stand together.
 const PAIRS: [&str; 8] = ["..", "<=", ">=", "==", "!=", "&&", "||", "**"];
 /// Signs of one character.
-const SINGLES: [&str; 17] =
-    ["+", "-", "*", "/", "^", "=", "<", ">", "!", "&", "|", "%", "~", ".", ",", ":", ";"];
+const SINGLES: [&str; 17] = [
+    "+", "-", "*", "/", "^", "=", "<", ">", "!", "&", "|", "%", "~", ".", ",", ":", ";",
+];
 
 struct Flattener<'a> {
     source: &'a str,
@@ -54,8 +55,15 @@ pub fn tokenize(source: &str) -> Result<Tokens, Diagnostics> {
         diagnostics.push(Diagnostic::error(span, "this can't be read").help(UNREADABLE));
         diagnostics
     })?;
-    let tokens = Tokens { list: Vec::new(), docs: Vec::new() };
-    let mut flattener = Flattener { source, tokens, frames: Vec::new() };
+    let tokens = Tokens {
+        list: Vec::new(),
+        docs: Vec::new(),
+    };
+    let mut flattener = Flattener {
+        source,
+        tokens,
+        frames: Vec::new(),
+    };
     flattener.run(stream);
     flattener.end();
     Ok(flattener.tokens)
@@ -71,7 +79,8 @@ impl Flattener<'_> {
                 Some(TokenTree::Group(group)) => {
                     self.push(bracket(group.delimiter(), true), place(group.span_open()));
                     let inside = group.stream().into_iter().peekable();
-                    self.frames.push((std::mem::replace(&mut current, inside), group));
+                    self.frames
+                        .push((std::mem::replace(&mut current, inside), group));
                 }
                 Some(TokenTree::Punct(punct)) if punct.as_char() == '#' => {
                     self.doc_comment(place(punct.span()), &mut current);
@@ -90,7 +99,11 @@ impl Flattener<'_> {
 
     fn push(&mut self, kind: TokenKind, span: Span) {
         if kind != TokenKind::Symbol("") {
-            self.tokens.list.push(Token { kind, depth: self.frames.len(), span });
+            self.tokens.list.push(Token {
+                kind,
+                depth: self.frames.len(),
+                span,
+            });
         }
     }
 
@@ -107,7 +120,8 @@ impl Flattener<'_> {
                     }
                     _ => None,
                 };
-                if let Some((pair, end)) = second.and_then(|(c, end)| Some((pair(first, c)?, end))) {
+                if let Some((pair, end)) = second.and_then(|(c, end)| Some((pair(first, c)?, end)))
+                {
                     rest.next();
                     self.push(TokenKind::Symbol(pair), span.to(place(end)));
                 } else {
@@ -128,7 +142,9 @@ impl Flattener<'_> {
         rest.next();
         let text = span.text(self.source);
         if !inner {
-            self.tokens.docs.push((self.tokens.list.len(), doc_text(text)));
+            self.tokens
+                .docs
+                .push((self.tokens.list.len(), doc_text(text)));
         }
     }
 
@@ -147,7 +163,12 @@ impl Flattener<'_> {
 
 /// The words of a doc comment.
 fn doc_text(comment: &str) -> String {
-    let line = |text: &str| text.strip_prefix(' ').unwrap_or(text).trim_end().to_string();
+    let line = |text: &str| {
+        text.strip_prefix(' ')
+            .unwrap_or(text)
+            .trim_end()
+            .to_string()
+    };
     if let Some(text) = comment.strip_prefix("///") {
         return line(text);
     }
@@ -171,11 +192,16 @@ fn bracket(delimiter: Delimiter, open: bool) -> TokenKind {
 }
 
 fn pair(first: char, second: char) -> Option<&'static str> {
-    PAIRS.into_iter().find(|pair| pair.chars().eq([first, second]))
+    PAIRS
+        .into_iter()
+        .find(|pair| pair.chars().eq([first, second]))
 }
 
 fn single(character: char) -> &'static str {
-    SINGLES.into_iter().find(|sign| sign.starts_with(character)).unwrap_or("?")
+    SINGLES
+        .into_iter()
+        .find(|sign| sign.starts_with(character))
+        .unwrap_or("?")
 }
 
 fn place(span: proc_macro2::Span) -> Span {
@@ -186,5 +212,8 @@ fn place(span: proc_macro2::Span) -> Span {
         column: number(at.column + 1),
         offset: number(offset),
     };
-    Span { start: position(span.start(), bytes.start), end: position(span.end(), bytes.end) }
+    Span {
+        start: position(span.start(), bytes.start),
+        end: position(span.end(), bytes.end),
+    }
 }

@@ -21,8 +21,16 @@ impl Cursor<'_> {
         let start = self.span();
         let factors = self.unit_product()?;
         let span = start.to(self.last_span());
-        let text = span.text(self.source).chars().filter(|c| !c.is_whitespace()).collect();
-        Ok(Some(UnitExpr { span, text, factors }))
+        let text = span
+            .text(self.source)
+            .chars()
+            .filter(|c| !c.is_whitespace())
+            .collect();
+        Ok(Some(UnitExpr {
+            span,
+            text,
+            factors,
+        }))
     }
 
     fn unit_product(&mut self) -> Parsed<Factors> {
@@ -35,7 +43,10 @@ impl Cursor<'_> {
             self.advance();
             let sign = if over { -1 } else { 1 };
             let more = self.unit_power()?;
-            factors.extend(more.into_iter().map(|(name, exponent)| (name, sign * exponent)));
+            factors.extend(
+                more.into_iter()
+                    .map(|(name, exponent)| (name, sign * exponent)),
+            );
         }
     }
 
@@ -48,7 +59,12 @@ impl Cursor<'_> {
         let exponent = self.unit_exponent()?;
         let raised: Option<Factors> = factors
             .into_iter()
-            .map(|(name, e)| Some((name, e.checked_mul(exponent).filter(|e| e.abs() <= LARGEST)?)))
+            .map(|(name, e)| {
+                Some((
+                    name,
+                    e.checked_mul(exponent).filter(|e| e.abs() <= LARGEST)?,
+                ))
+            })
             .collect();
         raised.ok_or_else(|| {
             let span = start.to(self.last_span());
@@ -79,7 +95,13 @@ impl Cursor<'_> {
         match token.kind {
             TokenKind::Word(text) => {
                 self.advance();
-                Ok(vec![(Name { text, span: token.span }, 1)])
+                Ok(vec![(
+                    Name {
+                        text,
+                        span: token.span,
+                    },
+                    1,
+                )])
             }
             TokenKind::Number(text) if text == "1" => {
                 self.advance();

@@ -1,0 +1,251 @@
+//! Sums, products and powers: scalars, vectors and matrices together.
+
+use super::evaluate::Evaluator;
+use super::scope::Kind;
+use super::unit::Unit;
+use super::value::{Scalar, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::expr::Number;
+use crate::parse::ast::{Expr, Range};
+
+/// The largest exponent that can be written.
+const EXPONENT: f64 = 1000.0;
+
+/// A term that may be subtracted, or a factor that may divide.
+pub type Part = (bool, Scalar, Span);
+
+impl Evaluator {
+    /// `-x`
+    pub fn negative(&mut self, inside: &Expr) -> Option<Value> {
+        let value = self.evaluate(inside)?;
+        if let Value::Array(_) = value {
+            return self.no_array(inside.span);
+        }
+        let scalars = value.scalars().into_iter();
+        let opposite = scalars
+            .map(|s| Scalar {
+                id: self.graph.neg(s.id),
+                ..s
+            })
+            .collect();
+        Some(value.with_scalars(opposite))
+    }
+
+    /// Refuses a whole array in a calculation.
+    pub fn no_array<T>(&mut self, span: Span) -> Option<T> {
+        let error = Diagnostic::error(span, "a whole array can't be calculated with");
+        self.report(error.help("write one element, such as `theta[0]`, or use `for` or `sum`"))
+    }
+
+    fn parts(&mut self, parts: &[(bool, Expr)]) -> Option<Vec<(bool, Value, Span)>> {
+        let values: Vec<_> = parts
+            .iter()
+            .map(|(flag, part)| Some((*flag, self.evaluate(part)?, part.span)))
+            .collect();
+        values.into_iter().collect()
+    }
+
+    /// `a + b - c`
+    pub fn sum(&mut self, terms: &[(bool, Expr)]) -> Option<Value> {
+        let values = self.parts(terms)?;
+        self.sum_values(&values)
+    }
+
+    fn sum_values(&mut self, values: &[(bool, Value, Span)]) -> Option<Value> {
+        let (_, first, place) = values.first()?;
+        for (_, value, span) in values {
+            if let Value::Array(_) = value {
+                return self.no_array(*span);
+            }
+            if !first.same_shape(value) {
+                let message = format!("a sum of {} and {}", first.shape(), value.shape());
+                let error = Diagnostic::error(*span, message)
+                    .labelled(format!("this is {}", value.shape()));
+                let error = error.also(*place, format!("this is {}", first.shape()));
+                return self.report(error.help("the terms of a sum have one shape"));
+            }
+        }
+        let columns: Vec<_> = values
+            .iter()
+            .map(|(minus, v, span)| (*minus, v.scalars(), *span))
+            .collect();
+        let component = |k: usize| {
+            columns
+                .iter()
+                .map(move |(minus, s, span)| (*minus, s[k], *span))
+        };
+        let sums: Vec<_> = (0..first.scalars().len())
+            .map(|k| self.sum_scalars(&component(k).collect::<Vec<_>>()))
+            .collect();
+        Some(first.with_scalars(sums.into_iter().collect::<Option<_>>()?))
+    }
+
+    /// The sum of scalars, if they have one unit.
+    pub fn sum_scalars(&mut self, terms: &[Part]) -> Option<Scalar> {
+        let mut unit = Unit::Number;
+        for (_, term, span) in terms {
+            unit = match unit.meet(term.unit) {
+                Ok(unit) => unit,
+                Err((left, right)) => {
+                    let known = |(_, s, _): &&Part| matches!(s.unit, Unit::Known(_));
+                    let first = terms.iter().find(known).map_or(*span, |(_, _, span)| *span);
+                    let (left, right) = (left.text(), right.text());
+                    let message = format!("a sum of {left} and {right}");
+                    let error =
+                        Diagnostic::error(*span, message).labelled(format!("this has {right}"));
+                    return self.report(error.also(first, format!("this has {left}")));
+                }
+            };
+        }
+        let weight = |minus: bool| {
+            if minus {
+                Number::MINUS_ONE
+            } else {
+                Number::ONE
+            }
+        };
+        let weighted: Vec<_> = terms
+            .iter()
+            .map(|(minus, s, _)| (s.id, weight(*minus)))
+            .collect();
+        let id = self.graph.weighted_sum(Number::ZERO, &weighted);
+        let last = terms.last().map(|(_, _, span)| *span).unwrap_or_default();
+        let span = terms
+            .first()
+            .map(|(_, _, span)| span.to(last))
+            .unwrap_or_default();
+        Some(Scalar {
+            id: self.sound(id, span)?,
+            unit,
+        })
+    }
+
+    /// `a * b / c`
+    pub fn product(&mut self, factors: &[(bool, Expr)]) -> Option<Value> {
+        let values = self.parts(factors)?;
+        let scalar = |(over, value, span): &(bool, Value, Span)| match value {
+            Value::Scalar(scalar) => Some((*over, *scalar, *span)),
+            _ => None,
+        };
+        if let Some(scalars) = values.iter().map(scalar).collect::<Option<Vec<_>>>() {
+            return self.product_scalars(&scalars).map(Value::Scalar);
+        }
+        let mut values = values.into_iter();
+        let (_, mut product, mut span) = values.next()?;
+        for (over, value, place) in values {
+            product = self.multiply(&product, span, over, &value, place)?;
+            span = span.to(place);
+        }
+        Some(product)
+    }
+
+    /// The product of scalars, if no divisor is zero.
+    pub fn product_scalars(&mut self, factors: &[Part]) -> Option<Scalar> {
+        let mut unit = Unit::Number;
+        let mut powers = Vec::new();
+        for (over, factor, span) in factors {
+            if *over && self.graph.is_zero(factor.id) {
+                let error = Diagnostic::error(*span, "division by zero").labelled("this is zero");
+                return self.report(error);
+            }
+            let power = if *over { -1 } else { 1 };
+            unit = unit.times(factor.unit.power(f64::from(power)));
+            powers.push((factor.id, power));
+        }
+        let id = self.graph.power_product(&powers);
+        let last = factors.last().map(|(_, _, span)| *span).unwrap_or_default();
+        let span = factors
+            .first()
+            .map(|(_, _, span)| span.to(last))
+            .unwrap_or_default();
+        Some(Scalar {
+            id: self.sound(id, span)?,
+            unit,
+        })
+    }
+
+    /// `base ^ exponent`
+    pub fn power(&mut self, base: &Expr, exponent: &Expr, span: Span) -> Option<Value> {
+        let value = match self.evaluate(base)? {
+            Value::Scalar(scalar) => scalar,
+            other => {
+                let error = Diagnostic::error(span, format!("a power of {}", other.shape()));
+                return self
+                    .report(error.help("the square of the length of a vector is `norm2(v)`"));
+            }
+        };
+        let raised = self.scalar(exponent, "an exponent")?;
+        if !raised.unit.is_pure() {
+            let error = Diagnostic::error(exponent.span, "an exponent has no unit");
+            return self.report(error);
+        }
+        let number = self.graph.as_number(raised.id).map(Number::to_f64);
+        if number.is_some_and(|n| n.abs() > EXPONENT) {
+            let message = format!("an exponent above {EXPONENT}");
+            return self.report(Diagnostic::error(exponent.span, message).help("write `exp(…)`"));
+        }
+        if number.is_some_and(|n| n < 0.0) && self.graph.is_zero(value.id) {
+            return self.report(Diagnostic::error(span, "a negative power of zero"));
+        }
+        let unit = match number {
+            None if raised.unit == Unit::Unchecked => Unit::Unchecked,
+            Some(number) => value.unit.power(number),
+            None if value.unit.is_pure() => value.unit,
+            None => {
+                let error =
+                    Diagnostic::error(exponent.span, "the exponent of what has a unit is a number");
+                return self.report(error.labelled("this is not known when the code is generated"));
+            }
+        };
+        let id = self.graph.pow(value.id, raised.id);
+        Some(Value::Scalar(Scalar {
+            id: self.sound(id, span)?,
+            unit,
+        }))
+    }
+
+    /// `sum(i in a..b, term)`
+    pub fn repeated_sum(&mut self, range: &Range, term: &Expr, span: Span) -> Option<Value> {
+        let bounds = self.bounds(range)?;
+        let mut values = Vec::new();
+        for i in bounds {
+            let value = self.with_index(range, i, |this| this.evaluate(term))?;
+            values.push((false, value, term.span));
+        }
+        if values.is_empty() {
+            let id = self.graph.integer(0);
+            return Some(Value::Scalar(Scalar {
+                id,
+                unit: Unit::Number,
+            }));
+        }
+        let sum = self.sum_values(&values);
+        if sum.is_none() {
+            self.spend(span)?;
+        }
+        sum
+    }
+
+    /// Evaluates something while an index has a value.
+    pub fn with_index<T>(
+        &mut self,
+        range: &Range,
+        value: i64,
+        work: impl FnOnce(&mut Self) -> Option<T>,
+    ) -> Option<T> {
+        self.spend(range.index.span)?;
+        let mark = self.scope.open();
+        if let Err(diagnostic) = self.scope.declare(&range.index, Kind::Index) {
+            return self.report(diagnostic);
+        }
+        let id = self.graph.integer(value);
+        let index = Value::Scalar(Scalar {
+            id,
+            unit: Unit::Number,
+        });
+        self.scope.set(&range.index.text, Some(index));
+        let result = work(self);
+        self.scope.close(mark);
+        result
+    }
+}

@@ -1,0 +1,291 @@
+//! Functions by name.
+
+use super::evaluate::Evaluator;
+use super::linear::transposed;
+use super::unit::{PER_SECOND, Unit};
+use super::value::{Matrix, Scalar, Value};
+use crate::diagnostic::{Diagnostic, Span, nearest};
+use crate::expr::{Function, Function2};
+use crate::parse::ast::{Expr, Name};
+
+/// Functions of more than one number or of something else than a number: name,
+/// number of arguments, how they are written.
+const OTHERS: [(&str, usize, &str); 14] = [
+    ("atan2", 2, "atan2(y, x)"),
+    ("min", 2, "min(a, b)"),
+    ("max", 2, "max(a, b)"),
+    ("der", 1, "der(x)"),
+    ("dot", 2, "dot(a, b)"),
+    ("cross", 2, "cross(a, b)"),
+    ("norm", 1, "norm(v)"),
+    ("norm2", 1, "norm2(v)"),
+    ("transpose", 1, "transpose(R)"),
+    ("rotx", 1, "rotx(angle)"),
+    ("roty", 1, "roty(angle)"),
+    ("rotz", 1, "rotz(angle)"),
+    ("quat", 4, "quat(e0, e1, e2, e3)"),
+    ("omega", 1, "omega(R)"),
+];
+
+/// Names that other languages have for the same.
+const ELSEWHERE: [(&str, &str); 14] = [
+    ("arcsin", "asin(x)"),
+    ("arccos", "acos(x)"),
+    ("arctan", "atan(x)"),
+    ("arctan2", "atan2(y, x)"),
+    ("log", "ln(x)"),
+    ("pow", "x^n"),
+    ("sgn", "sign(x)"),
+    ("diff", "der(x)"),
+    ("ddt", "der(x)"),
+    ("d", "der(x)"),
+    ("length", "norm(v)"),
+    ("hypot", "norm([x, y])"),
+    ("cot", "1/tan(x)"),
+    ("cbrt", "x^(1/3)"),
+];
+
+/// Whether a name is that of a function (those of one number aside).
+pub fn known(name: &str) -> bool {
+    name == "sum" || OTHERS.iter().any(|(known, ..)| *known == name)
+}
+
+impl Evaluator {
+    /// `function(arguments)`
+    pub fn call(&mut self, name: &Name, arguments: &[Expr], span: Span) -> Option<Value> {
+        let unary = Function::ALL.iter().find(|(_, known)| *known == name.text);
+        let other = OTHERS.iter().find(|(known, ..)| *known == name.text);
+        let (arity, form) = match (unary, other) {
+            (Some((_, name)), _) => (1, format!("{name}(x)")),
+            (None, Some((_, arity, form))) => (*arity, (*form).to_string()),
+            (None, None) => return self.unknown_function(name),
+        };
+        if arguments.len() != arity {
+            let message = format!(
+                "`{}` takes {}, here {}",
+                name.text,
+                count(arity),
+                are(arguments.len())
+            );
+            return self.report(Diagnostic::error(span, message).help(format!("write `{form}`")));
+        }
+        if let Some((function, _)) = unary {
+            return self.unary(*function, &arguments[0]).map(Value::Scalar);
+        }
+        match name.text.as_str() {
+            "atan2" => self.binary(Function2::Atan2, arguments, span),
+            "min" => self.binary(Function2::Min, arguments, span),
+            "max" => self.binary(Function2::Max, arguments, span),
+            _ => self.geometric(&name.text, arguments, span),
+        }
+    }
+
+    fn geometric(&mut self, name: &str, arguments: &[Expr], span: Span) -> Option<Value> {
+        match name {
+            "rotx" => return self.rotation(0, &arguments[0]),
+            "roty" => return self.rotation(1, &arguments[0]),
+            "rotz" => return self.rotation(2, &arguments[0]),
+            "quat" => return self.quaternion(arguments, span),
+            _ => {}
+        }
+        let values: Vec<_> = arguments
+            .iter()
+            .map(|argument| self.evaluate(argument))
+            .collect();
+        let values = values.into_iter().collect::<Option<Vec<_>>>()?;
+        match (name, values.as_slice()) {
+            ("der", [value]) => self.derivative(value, span),
+            ("dot", [Value::Vector(a), Value::Vector(b)]) if a.len() == b.len() => {
+                self.inner(a, b, span).map(Value::Scalar)
+            }
+            ("cross", [Value::Vector(a), Value::Vector(b)]) if a.len() == b.len() => {
+                self.cross(a, b, span)
+            }
+            ("norm2", [Value::Vector(v)]) => self.inner(v, v, span).map(Value::Scalar),
+            ("norm", [Value::Vector(v)]) => {
+                let square = self.inner(v, v, span)?;
+                let id = self.graph.function(Function::Sqrt, square.id);
+                Some(Value::Scalar(Scalar {
+                    id,
+                    unit: square.unit.power(0.5),
+                }))
+            }
+            ("transpose", [Value::Matrix(m)]) => self.transpose(m, span).map(Value::Matrix),
+            ("omega", [Value::Matrix(m)]) if m.rows.len() == 3 && m.rows[0].len() == 3 => {
+                self.angular_velocity(m, span)
+            }
+            _ => self.wrong_shape(name, &values, span),
+        }
+    }
+
+    fn wrong_shape(&mut self, name: &str, values: &[Value], span: Span) -> Option<Value> {
+        let wants = match name {
+            "dot" | "cross" => "two vectors of one size",
+            "norm" | "norm2" => "a vector",
+            "transpose" => "a matrix",
+            _ => "a 3 × 3 matrix",
+        };
+        let shapes: Vec<_> = values.iter().map(Value::shape).collect();
+        let message = format!("`{name}` takes {wants}, this is {}", shapes.join(" and "));
+        self.report(Diagnostic::error(span, message))
+    }
+
+    fn unary(&mut self, function: Function, argument: &Expr) -> Option<Scalar> {
+        let x = self.scalar(argument, &format!("the argument of `{}`", function.name()))?;
+        let unit = match function {
+            Function::Sqrt => x.unit.power(0.5),
+            Function::Abs => x.unit,
+            Function::Sign => x.unit.power(0.0),
+            _ => {
+                self.pure(
+                    x.unit,
+                    &format!("the argument of `{}`", function.name()),
+                    argument.span,
+                )?;
+                x.unit
+            }
+        };
+        let id = self.graph.function(function, x.id);
+        Some(Scalar {
+            id: self.sound(id, argument.span)?,
+            unit,
+        })
+    }
+
+    /// Refuses a unit where an angle or ratio belongs.
+    pub fn pure(&mut self, unit: Unit, what: &str, span: Span) -> Option<()> {
+        match unit {
+            Unit::Known(dimension) if !unit.is_pure() => {
+                let message = format!("{what} is in {}", dimension.text());
+                let error = Diagnostic::error(span, message);
+                self.report(error.help("it has to be an angle (rad) or a ratio without unit"))
+            }
+            _ => Some(()),
+        }
+    }
+
+    fn binary(&mut self, function: Function2, arguments: &[Expr], span: Span) -> Option<Value> {
+        let what = format!("an argument of `{}`", function.name());
+        let (x, y) = (
+            self.scalar(&arguments[0], &what),
+            self.scalar(&arguments[1], &what),
+        );
+        let (x, y) = (x?, y?);
+        let sides = [(x, arguments[0].span), (y, arguments[1].span)];
+        let common = self.same_unit(sides, &format!("`{}`", function.name()))?;
+        let unit = match (function, common) {
+            (Function2::Atan2, Unit::Known(_)) => Unit::PURE,
+            _ => common,
+        };
+        let id = self.graph.function2(function, x.id, y.id);
+        Some(Value::Scalar(Scalar {
+            id: self.sound(id, span)?,
+            unit,
+        }))
+    }
+
+    fn cross(&mut self, a: &[Scalar], b: &[Scalar], span: Span) -> Option<Value> {
+        let mut minor = |i: usize, j: usize| {
+            let (left, right) = (self.times(a[i], b[j], span)?, self.times(a[j], b[i], span)?);
+            self.subtract(left, right, span)
+        };
+        if a.len() == 2 {
+            return minor(0, 1).map(Value::Scalar);
+        }
+        let parts = [minor(1, 2), minor(2, 0), minor(0, 1)];
+        parts.into_iter().collect::<Option<_>>().map(Value::Vector)
+    }
+
+    /// The transpose; of a rotation, the angular velocity −R ω comes along.
+    fn transpose(&mut self, m: &Matrix, span: Span) -> Option<Matrix> {
+        let rows = transposed(&m.rows);
+        let Some(spin) = m.spin else {
+            return Some(Matrix { rows, spin: None });
+        };
+        let turned = self.transform(m, &spin, span)?.into_iter();
+        let opposite: Vec<_> = turned
+            .map(|s| Scalar {
+                id: self.graph.neg(s.id),
+                ..s
+            })
+            .collect();
+        Some(Matrix {
+            rows,
+            spin: opposite.try_into().ok(),
+        })
+    }
+
+    /// `der(x)`: the total derivative in time.
+    pub fn derivative(&mut self, value: &Value, span: Span) -> Option<Value> {
+        let rates: Vec<_> = value
+            .scalars()
+            .into_iter()
+            .map(|s| self.rate(s, span))
+            .collect();
+        Some(value.with_scalars(rates.into_iter().collect::<Option<_>>()?))
+    }
+
+    /// The total derivative of a scalar in time.
+    pub fn rate(&mut self, scalar: Scalar, span: Span) -> Option<Scalar> {
+        let facts = self.facts(scalar.id);
+        if facts.velocity() {
+            let error = Diagnostic::error(span, "the derivative of a velocity");
+            let help = "accelerations follow from the equations of motion and can't stand in a description";
+            return self.report(error.labelled("this contains `der` already").help(help));
+        }
+        if facts.input {
+            let error = Diagnostic::error(span, "the derivative of an input is not known");
+            return self.report(error.help("declare another input for it"));
+        }
+        let mut flow = std::mem::take(&mut self.flow);
+        let id = self.graph.derivative_along(scalar.id, &mut flow);
+        self.flow = flow;
+        let unit = scalar.unit.times(Unit::Known(PER_SECOND));
+        let unit = if scalar.unit == Unit::Number {
+            Unit::Number
+        } else {
+            unit
+        };
+        Some(Scalar {
+            id: self.sound(id, span)?,
+            unit,
+        })
+    }
+
+    fn unknown_function(&mut self, name: &Name) -> Option<Value> {
+        let text = name.text.as_str();
+        let functions = Function::ALL.iter().map(|(_, name)| *name);
+        let functions = functions
+            .chain(OTHERS.iter().map(|(name, ..)| *name))
+            .chain(["sum"]);
+        let help = if self.scope.get(text).is_some() || text == "t" || text == "pi" {
+            format!("`{text}` is no function; a product is written `{text}*(…)`")
+        } else if let Some((_, form)) = ELSEWHERE.iter().find(|(other, _)| *other == text) {
+            format!("write `{form}`")
+        } else if let Some(near) = nearest(text, functions.clone()) {
+            format!("did you mean `{near}`?")
+        } else {
+            format!(
+                "the functions are {}",
+                functions.collect::<Vec<_>>().join(", ")
+            )
+        };
+        self.report(Diagnostic::error(name.span, format!("unknown function `{text}`")).help(help))
+    }
+}
+
+fn count(arguments: usize) -> String {
+    match arguments {
+        1 => "one argument".into(),
+        2 => "two arguments".into(),
+        n => format!("{n} arguments"),
+    }
+}
+
+fn are(arguments: usize) -> String {
+    match arguments {
+        0 => "is none".into(),
+        1 => "is one".into(),
+        n => format!("are {n}"),
+    }
+}

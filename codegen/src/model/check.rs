@@ -1,0 +1,182 @@
+//! What a formula may contain where it stands.
+//!
+//! Energies and constraints are differentiated, so they have no kinks; the
+//! kinetic energy is a polynomial of degree two or less in the velocities, a
+//! velocity constraint one of degree one; potentials know no velocities; signals
+//! act through forces alone.
+
+use super::facts::{Facts, NOT_POLYNOMIAL};
+use super::lower::Lowering;
+use super::unit::{ENERGY, POWER, Unit};
+use super::value::{Scalar, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::expr::ExprId;
+use crate::parse::ast::{Energy, Expr, ExprKind};
+
+const SMOOTH: &str =
+    "`abs`, `sign`, `min`, `max` and `if` may stand in forces, inputs, outputs and events";
+
+impl Lowering<'_> {
+    /// Checks a summand of an energy.
+    pub fn legal_energy(&mut self, kind: Energy, e: &Expr, value: Scalar) -> Option<()> {
+        let (what, unit, unit_name) = match kind {
+            Energy::Kinetic => ("the kinetic energy", ENERGY, "J"),
+            Energy::Potential => ("the potential energy", ENERGY, "J"),
+            Energy::Dissipation => ("the dissipation function", POWER, "W"),
+        };
+        let facts = self.evaluator.facts(value.id);
+        if facts.kinked {
+            let span = self.culprit(e, |facts| facts.kinked);
+            let message = format!("{what} has to be differentiable, this has a kink");
+            return self.report(Diagnostic::error(span, message).help(SMOOTH));
+        }
+        if facts.input && kind != Energy::Dissipation {
+            let span = self.culprit(e, |facts| facts.input);
+            let message = format!("{what} can't contain an input");
+            return self
+                .report(Diagnostic::error(span, message).help("an input acts by `force u on x`"));
+        }
+        self.legal_velocities(kind, e, facts)?;
+        match value.unit {
+            Unit::Known(found) if found != unit => {
+                let message = format!("{what} is in {unit_name}, this is in {}", found.text());
+                self.report(Diagnostic::error(e.span, message))
+            }
+            _ => Some(()),
+        }
+    }
+
+    fn legal_velocities(&mut self, kind: Energy, e: &Expr, facts: Facts) -> Option<()> {
+        match kind {
+            Energy::Kinetic if facts.degree >= NOT_POLYNOMIAL => {
+                let span = self.culprit(e, |facts| facts.degree >= NOT_POLYNOMIAL);
+                let error = Diagnostic::error(span, "this is not quadratic in the velocities");
+                let help = "the kinetic energy is a polynomial of degree two or less in `der(…)`";
+                self.report(error.help(help))
+            }
+            Energy::Potential if facts.velocity() => {
+                let span = self.culprit(e, Facts::velocity);
+                let error =
+                    Diagnostic::error(span, "the potential energy can't contain a velocity");
+                let help = "terms with `der(…)` belong in `kinetic`, losses in `dissipation`";
+                self.report(error.help(help))
+            }
+            Energy::Dissipation if !facts.velocity() => {
+                let error = Diagnostic::error(e.span, "the dissipation function needs a velocity");
+                self.report(error.help("write for example `dissipation 1/2*d*der(q1)^2;`"))
+            }
+            _ => Some(()),
+        }
+    }
+
+    /// Checks what a force works on.
+    pub fn legal_target(&mut self, on: &Expr, point: &Value) -> Option<()> {
+        let facts: Vec<Facts> = point
+            .scalars()
+            .iter()
+            .map(|s| self.evaluator.facts(s.id))
+            .collect();
+        let any = |has: fn(&Facts) -> bool| facts.iter().any(has);
+        let (message, help) = if any(Facts::velocity) {
+            (
+                "a force can't work on a velocity",
+                "write the coordinate, angle, length or point",
+            )
+        } else if any(|facts| facts.input) {
+            (
+                "a force can't work on an input",
+                "write the coordinate, angle, length or point",
+            )
+        } else if any(|facts| facts.kinked) {
+            ("what a force works on has to be differentiable", SMOOTH)
+        } else if !any(|facts| facts.coordinate) {
+            (
+                "this force does no work: there is no coordinate in what it works on",
+                "write what it moves",
+            )
+        } else {
+            return Some(());
+        };
+        self.report(Diagnostic::error(on.span, message).help(help))
+    }
+
+    /// Checks one row of a constraint: whether it is holonomic, `None` inside if
+    /// it says nothing.
+    pub fn legal_constraint(
+        &mut self,
+        residual: ExprId,
+        sides: [&Expr; 2],
+    ) -> Option<Option<bool>> {
+        let facts = self.evaluator.facts(residual);
+        let whole = sides[0].span.to(sides[1].span);
+        if facts.kinked {
+            let span = self.culprit_of(sides, |facts| facts.kinked);
+            let error = Diagnostic::error(
+                span,
+                "a constraint has to be differentiable, this has a kink",
+            );
+            return self.report(error.help(SMOOTH));
+        }
+        if facts.input {
+            let span = self.culprit_of(sides, |facts| facts.input);
+            let error = Diagnostic::error(span, "a constraint can't contain an input");
+            return self.report(
+                error.help("what is prescribed is written with `t`; an input acts by `force`"),
+            );
+        }
+        if facts.degree > 1 {
+            let span = self.culprit_of(sides, |facts| facts.degree > 1);
+            let error = Diagnostic::error(span, "a constraint has to be linear in the velocities");
+            return self
+                .report(error.help("write it with `der(…)` of first degree, or for positions"));
+        }
+        if facts.coordinate || facts.velocity() {
+            return Some(Some(!facts.velocity()));
+        }
+        match facts.value {
+            Some(0.0) => Some(None),
+            Some(value) => {
+                let error = Diagnostic::error(whole, "this equation never holds");
+                self.report(error.labelled(format!("left minus right is {value}")))
+            }
+            None => {
+                let error = Diagnostic::error(whole, "this equation contains no coordinate");
+                self.report(error.help("a constraint restricts how coordinates move"))
+            }
+        }
+    }
+
+    /// The term of a sum that has some property, else the whole.
+    fn culprit(&mut self, e: &Expr, bad: impl Fn(&Facts) -> bool) -> Span {
+        self.culprit_in(e, &bad).unwrap_or(e.span)
+    }
+
+    fn culprit_of(&mut self, sides: [&Expr; 2], bad: impl Fn(&Facts) -> bool) -> Span {
+        let found = sides
+            .into_iter()
+            .find_map(|side| self.culprit_in(side, &bad));
+        found.unwrap_or(sides[0].span.to(sides[1].span))
+    }
+
+    fn culprit_in(&mut self, e: &Expr, bad: &impl Fn(&Facts) -> bool) -> Option<Span> {
+        let only = [(false, e.clone())];
+        let terms: &[(bool, Expr)] = match &e.kind {
+            ExprKind::Sum(terms) => terms,
+            _ => &only,
+        };
+        terms
+            .iter()
+            .find(|(_, term)| self.has(term, bad))
+            .map(|(_, term)| term.span)
+    }
+
+    fn has(&mut self, e: &Expr, bad: &impl Fn(&Facts) -> bool) -> bool {
+        let value = self.evaluator.evaluate(e);
+        value.is_some_and(|value| {
+            value
+                .scalars()
+                .iter()
+                .any(|scalar| bad(&self.evaluator.facts(scalar.id)))
+        })
+    }
+}

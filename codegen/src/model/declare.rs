@@ -1,0 +1,418 @@
+//! Declarations: names, then constants, parameters and coordinates, then
+//! quantities and the laws of inputs.
+
+use super::lower::Lowering;
+use super::order::{Definition, order};
+use super::scope::Kind;
+use super::unit::{self, Unit};
+use super::value::{Array, Scalar, Value};
+use super::{Constant, Input, Parameter, Quantity};
+use crate::diagnostic::{Diagnostic, Span, nearest};
+use crate::expr::{ExprId, Number, Symbol};
+use crate::parse::ast::{Ast, Declaration, Declared, Expr, Item, ItemKind, Let, Name, UnitExpr};
+use std::rc::Rc;
+
+/// The most coordinates of a mechanism.
+const COORDINATES: i64 = 10_000;
+
+impl Lowering<'_> {
+    /// Checks that the build script changes what there is.
+    pub fn changes_fit(&mut self, ast: &Ast) {
+        let names = |kind: Declared| -> Vec<&str> {
+            let declared = ast.items.iter().filter_map(|item| match &item.kind {
+                ItemKind::Declaration(d) if d.kind == kind => Some(d.name.text.as_str()),
+                _ => None,
+            });
+            declared.collect()
+        };
+        let constants = self
+            .constants
+            .iter()
+            .map(|(name, _)| (name, "constant", Declared::Constant));
+        let frozen = self
+            .frozen
+            .iter()
+            .map(|name| (name, "parameter", Declared::Parameter));
+        for (name, kind, declared) in constants.chain(frozen) {
+            let known = names(declared);
+            if known.contains(&name.as_str()) {
+                continue;
+            }
+            let near = nearest(name, known.iter().copied());
+            let help = match near {
+                Some(near) => format!("did you mean `{near}`?"),
+                None if known.is_empty() => format!("the description declares no {kind}"),
+                None => format!("the description declares {}", known.join(", ")),
+            };
+            let message =
+                format!("the build script sets the {kind} `{name}`, which is not declared");
+            self.report::<()>(Diagnostic::error(ast.name.span, message).help(help));
+        }
+    }
+
+    /// Reads all declarations outside loops.
+    pub fn declare(&mut self, items: &[Item]) {
+        let fresh: Vec<&Item> = items
+            .iter()
+            .filter(|item| self.declare_name(item))
+            .collect();
+        let declarations = || {
+            fresh.iter().filter_map(|item| match &item.kind {
+                ItemKind::Declaration(declaration) => Some((*item, declaration)),
+                _ => None,
+            })
+        };
+        let of = |kind| declarations().filter(move |(_, d)| d.kind == kind);
+        self.constants(&of(Declared::Constant).collect::<Vec<_>>());
+        for (item, declaration) in of(Declared::Parameter) {
+            self.parameter(item, declaration);
+        }
+        for item in &fresh {
+            if let ItemKind::Coordinate { name, size, unit } = &item.kind {
+                self.coordinates(item, name, size.as_ref(), unit.as_ref());
+            }
+        }
+        self.set_flow();
+        let inputs: Vec<_> = of(Declared::Input).collect();
+        for (index, (_, declaration)) in inputs.iter().enumerate() {
+            self.input_symbol(index, declaration);
+        }
+        let lets: Vec<&Let> = fresh.iter().filter_map(|item| as_let(item)).collect();
+        self.quantities(&lets);
+        for (item, declaration) in inputs {
+            self.input_law(item, declaration);
+        }
+    }
+
+    /// Declares the name of a statement; false if it is taken or there is none.
+    fn declare_name(&mut self, item: &Item) -> bool {
+        let (name, kind) = match &item.kind {
+            ItemKind::Declaration(declaration) => {
+                let kind = match declaration.kind {
+                    Declared::Constant => Kind::Constant,
+                    Declared::Parameter => Kind::Parameter,
+                    Declared::Input => Kind::Input,
+                    Declared::Output => return false,
+                };
+                (&declaration.name, kind)
+            }
+            ItemKind::Coordinate { name, .. } => (name, Kind::Coordinate),
+            ItemKind::Let(quantity) => (&quantity.name, Kind::Quantity),
+            _ => return false,
+        };
+        self.declare_as(name, kind)
+    }
+
+    fn declare_as(&mut self, name: &Name, kind: Kind) -> bool {
+        match self.evaluator.scope.declare(name, kind) {
+            Ok(()) => true,
+            Err(diagnostic) => {
+                self.report::<()>(diagnostic);
+                false
+            }
+        }
+    }
+
+    fn constants(&mut self, items: &[(&Item, &Declaration)]) {
+        let definition = |(_, d): &(&'_ Item, &'_ Declaration)| -> bool {
+            self.constants.iter().any(|(name, _)| *name == d.name.text)
+        };
+        let overridden: Vec<bool> = items.iter().map(definition).collect();
+        let definitions: Vec<_> = items
+            .iter()
+            .zip(&overridden)
+            .map(|((_, d), overridden)| Definition {
+                name: &d.name,
+                formulas: if *overridden {
+                    Vec::new()
+                } else {
+                    vec![&d.value]
+                },
+                recursive: false,
+            })
+            .collect();
+        for i in order(&definitions, &mut self.evaluator.diagnostics) {
+            self.constant(items[i].0, items[i].1);
+        }
+        let place = |constant: &Constant| constant.quantity.span.start.offset;
+        self.mechanism.constants.sort_by_key(place);
+    }
+
+    fn constant(&mut self, item: &Item, declaration: &Declaration) {
+        let changed = self
+            .constants
+            .iter()
+            .rev()
+            .find(|(name, _)| *name == declaration.name.text);
+        let changed = changed.map(|(_, value)| *value);
+        let Some((unit, id)) = (match changed {
+            Some(value) => self.changed_constant(declaration, value),
+            None => self.constant_value(declaration, "a constant"),
+        }) else {
+            return;
+        };
+        self.evaluator.scope.set(
+            &declaration.name.text,
+            Some(Value::Scalar(Scalar { id, unit })),
+        );
+        let quantity = quantity(item, &declaration.name, declaration.unit.as_ref());
+        self.mechanism.constants.push(Constant {
+            quantity,
+            value: id,
+        });
+    }
+
+    /// The value that the build script gives, as exact as it is written there.
+    fn changed_constant(
+        &mut self,
+        declaration: &Declaration,
+        value: f64,
+    ) -> Option<(Unit, ExprId)> {
+        let unit = self.unit(declaration.unit.as_ref());
+        let size = Number::parse_literal(&format!("{:?}", value.abs()));
+        let Some(size) = size.filter(|_| value.is_finite()) else {
+            let name = &declaration.name;
+            let message = format!(
+                "the build script sets `{}` to {value}, which is not finite",
+                name.text
+            );
+            return self.report(Diagnostic::error(name.span, message));
+        };
+        let number = if value < 0.0 { size.neg() } else { size };
+        Some((unit, self.evaluator.graph.number(number)))
+    }
+
+    /// The declared unit and the value of a formula of numbers and constants.
+    fn constant_value(
+        &mut self,
+        declaration: &Declaration,
+        what: &'static str,
+    ) -> Option<(Unit, ExprId)> {
+        let unit = self.unit(declaration.unit.as_ref());
+        self.evaluator.constant = Some(what);
+        let value = self.evaluator.scalar(&declaration.value, what);
+        self.evaluator.constant = None;
+        let value = value?;
+        self.fits(declaration, unit, value)?;
+        Some((unit, value.id))
+    }
+
+    /// Refuses a value in another unit than the declared one.
+    pub fn fits(&mut self, declaration: &Declaration, unit: Unit, value: Scalar) -> Option<()> {
+        match unit.meet(value.unit) {
+            Ok(_) => Some(()),
+            Err((declared, found)) => {
+                let (name, found) = (&declaration.name.text, found.text());
+                let message = format!(
+                    "`{name}` is declared in {}, its value has {found}",
+                    declared.text()
+                );
+                let place = declaration
+                    .unit
+                    .as_ref()
+                    .map_or(declaration.name.span, |unit| unit.span);
+                let error = Diagnostic::error(declaration.value.span, message);
+                self.report(
+                    error
+                        .labelled(format!("this has {found}"))
+                        .also(place, "declared here"),
+                )
+            }
+        }
+    }
+
+    fn parameter(&mut self, item: &Item, declaration: &Declaration) {
+        let Some((unit, default)) = self.constant_value(declaration, "the default of a parameter")
+        else {
+            return;
+        };
+        let quantity = quantity(item, &declaration.name, declaration.unit.as_ref());
+        let id = if self.frozen.contains(&declaration.name.text) {
+            self.mechanism.constants.push(Constant {
+                quantity,
+                value: default,
+            });
+            default
+        } else {
+            let index = self.mechanism.parameters.len() as u32;
+            self.mechanism
+                .parameters
+                .push(Parameter { quantity, default });
+            self.evaluator.graph.symbol(Symbol::Parameter(index))
+        };
+        self.evaluator.scope.set(
+            &declaration.name.text,
+            Some(Value::Scalar(Scalar { id, unit })),
+        );
+    }
+
+    fn coordinates(
+        &mut self,
+        item: &Item,
+        name: &Name,
+        size: Option<&Expr>,
+        unit: Option<&UnitExpr>,
+    ) {
+        let checked = self.unit(unit);
+        let Some(size_expr) = size else {
+            let whole = quantity(item, name, unit);
+            let scalar = self.coordinate(whole, checked);
+            self.evaluator
+                .scope
+                .set(&name.text, Some(Value::Scalar(scalar)));
+            return;
+        };
+        self.evaluator.constant = Some("the size of an array");
+        let size = self.evaluator.integer(size_expr, "the size of an array");
+        self.evaluator.constant = None;
+        let Some(size) = size.and_then(|size| self.size_fits(size, size_expr.span)) else {
+            return;
+        };
+        let element = |i| {
+            let mut part = quantity(item, name, unit);
+            part.name = format!("{}[{i}]", name.text);
+            Value::Scalar(self.coordinate(part, checked))
+        };
+        let items = (0..size).map(element).collect();
+        let array = Value::Array(Rc::new(Array {
+            first: 0,
+            items,
+            end: size,
+        }));
+        self.evaluator.scope.set(&name.text, Some(array));
+    }
+
+    fn size_fits(&mut self, size: i64, span: Span) -> Option<i64> {
+        let room = COORDINATES - self.mechanism.coordinates.len() as i64;
+        if size < 1 {
+            let error = Diagnostic::error(span, format!("an array of {size} coordinates"));
+            return self.report(error.help("the size of an array is 1 or more"));
+        }
+        if size > room {
+            let message = format!("more than {COORDINATES} coordinates");
+            return self.report(Diagnostic::error(span, message));
+        }
+        Some(size)
+    }
+
+    fn coordinate(&mut self, quantity: Quantity, unit: Unit) -> Scalar {
+        let index = self.mechanism.coordinates.len() as u32;
+        self.mechanism.coordinates.push(quantity);
+        Scalar {
+            id: self.evaluator.graph.symbol(Symbol::Coordinate(index)),
+            unit,
+        }
+    }
+
+    /// From here on `der` knows what moves.
+    fn set_flow(&mut self) {
+        let count = self.mechanism.coordinates.len() as u32;
+        let moving = (0..count).map(Symbol::Coordinate);
+        let flow = self
+            .evaluator
+            .graph
+            .frozen_flow(moving.chain([Symbol::Time]));
+        self.evaluator.flow = flow;
+    }
+
+    fn input_symbol(&mut self, index: usize, declaration: &Declaration) {
+        let unit = self.unit(declaration.unit.as_ref());
+        let id = self.evaluator.graph.symbol(Symbol::Input(index as u32));
+        self.evaluator.scope.set(
+            &declaration.name.text,
+            Some(Value::Scalar(Scalar { id, unit })),
+        );
+    }
+
+    /// The law of an input. Its numbers are gains in units of their own: with
+    /// them, `10 - 2*der(q1)` is a moment.
+    fn input_law(&mut self, item: &Item, declaration: &Declaration) {
+        let unit = self.unit(declaration.unit.as_ref());
+        self.evaluator.gains = true;
+        let law = self
+            .evaluator
+            .scalar(&declaration.value, "the law of an input");
+        self.evaluator.gains = false;
+        let quantity = quantity(item, &declaration.name, declaration.unit.as_ref());
+        let law = law.and_then(|law| {
+            self.fits(declaration, unit, law)?;
+            if self.evaluator.facts(law.id).input {
+                let error = Diagnostic::error(
+                    declaration.value.span,
+                    "the law of an input contains an input",
+                );
+                return self.report(error.help("write the other law here, or make it a `let`"));
+            }
+            Some(law.id)
+        });
+        if let Some(law) = law {
+            self.mechanism.inputs.push(Input { quantity, law });
+        }
+    }
+
+    /// Declares and evaluates the quantities of the body of a loop.
+    pub fn local_quantities(&mut self, items: &[Item]) {
+        let lets: Vec<&Let> = items.iter().filter_map(as_let).collect();
+        let fresh = lets
+            .into_iter()
+            .filter(|l| self.declare_as(&l.name, Kind::Quantity));
+        let fresh: Vec<&Let> = fresh.collect();
+        self.quantities(&fresh);
+    }
+
+    /// Evaluates quantities in an order of their own.
+    fn quantities(&mut self, lets: &[&Let]) {
+        let definitions: Vec<_> = lets
+            .iter()
+            .map(|quantity| {
+                let range = quantity
+                    .range
+                    .iter()
+                    .flat_map(|range| [&range.from, &range.to]);
+                let formulas = range.chain([&quantity.value]).collect();
+                Definition {
+                    name: &quantity.name,
+                    formulas,
+                    recursive: quantity.range.is_some(),
+                }
+            })
+            .collect();
+        for i in order(&definitions, &mut self.evaluator.diagnostics) {
+            let value = match &lets[i].range {
+                None => self.evaluator.evaluate(&lets[i].value),
+                Some(range) => self.evaluator.array(&lets[i].name, range, &lets[i].value),
+            };
+            self.evaluator.scope.set(&lets[i].name.text, value);
+        }
+    }
+
+    /// The declared unit; [`Unit::Unchecked`] if there is none.
+    pub fn unit(&mut self, unit: Option<&UnitExpr>) -> Unit {
+        match unit.map(unit::resolve) {
+            None => Unit::Unchecked,
+            Some(Ok(dimension)) => Unit::Known(dimension),
+            Some(Err(diagnostic)) => {
+                self.report::<()>(diagnostic);
+                Unit::Unchecked
+            }
+        }
+    }
+}
+
+fn as_let(item: &Item) -> Option<&Let> {
+    match &item.kind {
+        ItemKind::Let(quantity) => Some(quantity),
+        _ => None,
+    }
+}
+
+/// A quantity as it is declared.
+pub fn quantity(item: &Item, name: &Name, unit: Option<&UnitExpr>) -> Quantity {
+    let unit = unit.map(|unit| unit.text.clone()).unwrap_or_default();
+    Quantity {
+        name: name.text.clone(),
+        unit,
+        docs: item.docs.clone(),
+        span: name.span,
+    }
+}

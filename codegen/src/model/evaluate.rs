@@ -1,0 +1,295 @@
+//! Formulas to values.
+//!
+//! In:  formulas of the syntax tree, names with their values.
+//! Out: [`Value`]s whose expressions are sound: finite, no division by zero, no
+//!      exponent beyond reason. `None` stands for a mistake that was reported.
+//!
+//! Not here: what a formula may contain where it stands; that is `check`'s.
+
+use super::facts::{FactTable, Facts};
+use super::scope::{BUILT_IN, Kind, Scope};
+use super::unit::Unit;
+use super::value::{Scalar, Value};
+use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest};
+use crate::expr::{Comparison, Direction, ExprId, Function, Graph, Node, Number, Symbol};
+use crate::parse::ast::{Condition, Expr, ExprKind, Range};
+
+/// The most formulas that are evaluated for one description, loops unrolled.
+const WORK: u64 = 10_000_000;
+
+/// The largest exponent that is kept as a product.
+const LARGEST_EXPONENT: i32 = 1_000_000;
+
+/// Evaluates formulas.
+#[derive(Debug, Default)]
+pub struct Evaluator {
+    /// The expressions.
+    pub graph: Graph,
+    /// The names in force.
+    pub scope: Scope,
+    /// What was found.
+    pub diagnostics: Diagnostics,
+    /// What is being evaluated, where only numbers and constants may occur.
+    pub constant: Option<&'static str>,
+    /// Whether numbers are gains whose units nobody wrote.
+    pub gains: bool,
+    /// The direction of motion at frozen velocities.
+    pub flow: Direction,
+    facts: FactTable,
+    work: u64,
+}
+
+impl Evaluator {
+    /// Records a finding.
+    pub fn report<T>(&mut self, diagnostic: Diagnostic) -> Option<T> {
+        self.diagnostics.push(diagnostic);
+        None
+    }
+
+    /// What an expression is made of.
+    pub fn facts(&mut self, e: ExprId) -> Facts {
+        self.facts.of(&self.graph, e)
+    }
+
+    /// Counts one piece of work; `None` if there was too much.
+    pub fn spend(&mut self, span: Span) -> Option<()> {
+        self.work += 1;
+        if self.work == WORK {
+            let message = format!("unrolled, this description has more than {WORK} formulas");
+            let error = Diagnostic::error(span, message);
+            self.diagnostics
+                .push(error.help("make the ranges of `for` and `sum` smaller"));
+        }
+        (self.work < WORK).then_some(())
+    }
+
+    /// The value of a formula.
+    pub fn evaluate(&mut self, e: &Expr) -> Option<Value> {
+        self.spend(e.span)?;
+        match &e.kind {
+            ExprKind::Number(number) => {
+                let id = self.graph.number(*number);
+                let unit = if self.gains {
+                    Unit::Unchecked
+                } else {
+                    Unit::Number
+                };
+                Some(Value::Scalar(Scalar { id, unit }))
+            }
+            ExprKind::Name(name) => self.look_up(name, e.span),
+            ExprKind::Negative(inside) => self.negative(inside),
+            ExprKind::Sum(terms) => self.sum(terms),
+            ExprKind::Product(factors) => self.product(factors),
+            ExprKind::Power(base, exponent) => self.power(base, exponent, e.span),
+            ExprKind::Call(name, arguments) => self.call(name, arguments, e.span),
+            ExprKind::Repeat(range, term) => self.repeated_sum(range, term, e.span),
+            ExprKind::Vector(parts) => self.vector(parts, e.span),
+            ExprKind::Component(inside, axis) => self.component(inside, *axis, e.span),
+            ExprKind::Index(inside, index) => self.element(inside, index, e.span),
+            ExprKind::If(condition, then, otherwise) => {
+                self.choice(condition, then, otherwise, e.span)
+            }
+        }
+    }
+
+    /// The value of a formula that has to be a number.
+    pub fn scalar(&mut self, e: &Expr, what: &str) -> Option<Scalar> {
+        match self.evaluate(e)? {
+            Value::Scalar(scalar) => Some(scalar),
+            other => {
+                let message = format!("{what} has to be a number, this is {}", other.shape());
+                let help = match other {
+                    Value::Array(_) => "write one element: `[0]` behind the name",
+                    _ => "write one component, such as `.x`, or `norm(…)`",
+                };
+                self.report(Diagnostic::error(e.span, message).help(help))
+            }
+        }
+    }
+
+    /// The value of a formula that has to be a whole number known now.
+    pub fn integer(&mut self, e: &Expr, what: &str) -> Option<i64> {
+        let scalar = self.scalar(e, what)?;
+        if let Some(value) = self.graph.as_number(scalar.id).and_then(Number::as_integer) {
+            return Some(value);
+        }
+        let found = match self.facts(scalar.id).value {
+            Some(value) => format!("this is {value}"),
+            None => "this is not".into(),
+        };
+        let message =
+            format!("{what} has to be a whole number known when the code is generated, {found}");
+        self.report(Diagnostic::error(e.span, message).help("build it of integers and constants"))
+    }
+
+    /// The bounds of a range.
+    pub fn bounds(&mut self, range: &Range) -> Option<std::ops::Range<i64>> {
+        let from = self.integer(&range.from, "the bound of a range");
+        let to = self.integer(&range.to, "the bound of a range");
+        let (from, to) = (from?, to?);
+        if to.saturating_sub(from) > WORK as i64 {
+            let span = range.from.span.to(range.to.span);
+            let message = format!(
+                "a range of {} indices is too large",
+                to.saturating_sub(from)
+            );
+            return self
+                .report(Diagnostic::error(span, message).help(format!("the limit is {WORK}")));
+        }
+        Some(from..to)
+    }
+
+    fn look_up(&mut self, name: &str, span: Span) -> Option<Value> {
+        if let Some(value) = self.built_in(name, span) {
+            return value;
+        }
+        let Some(entry) = self.scope.look_up(name) else {
+            return self.undeclared(name, span);
+        };
+        let (kind, place) = (entry.kind, entry.name.span);
+        let value = entry.value.clone();
+        match self.constant {
+            Some(what) if !matches!(kind, Kind::Constant | Kind::Index) => {
+                let message = format!(
+                    "{what} is built of numbers and constants; `{name}` is {}",
+                    kind.words()
+                );
+                let error = Diagnostic::error(span, message).also(place, "declared here");
+                self.report(error.help("what depends on parameters is written with `let`"))
+            }
+            _ => value,
+        }
+    }
+
+    fn built_in(&mut self, name: &str, span: Span) -> Option<Option<Value>> {
+        let (id, unit) = match name {
+            "t" => match self.constant {
+                Some(what) => {
+                    let message = format!("{what} can't depend on the time `t`");
+                    return Some(self.report(Diagnostic::error(span, message)));
+                }
+                None => (self.graph.symbol(Symbol::Time), Unit::Unchecked),
+            },
+            "pi" => (self.graph.pi(), Unit::Number),
+            "deg" => {
+                let pi = self.graph.pi();
+                let half_turn = self.graph.integer(180);
+                (self.graph.div(pi, half_turn), Unit::PURE)
+            }
+            _ => return None,
+        };
+        Some(Some(Value::Scalar(Scalar { id, unit })))
+    }
+
+    fn undeclared(&mut self, name: &str, span: Span) -> Option<Value> {
+        let built_in = BUILT_IN.iter().map(|(name, _)| *name);
+        let near = nearest(name, self.scope.names().chain(built_in)).map(str::to_string);
+        let help = if let Some(near) = near {
+            format!("did you mean `{near}`?")
+        } else if Function::ALL.iter().any(|(_, known)| *known == name) || super::call::known(name)
+        {
+            format!("`{name}` is a function: write `{name}(…)`")
+        } else {
+            format!("declare it, for example `param {name} = 1;`")
+        };
+        self.report(Diagnostic::error(span, format!("`{name}` is not declared")).help(help))
+    }
+
+    /// `if … then … else …`. Where the condition is known now only one side is
+    /// looked at: `if i == 0 then a else p[i-1]` is no real choice.
+    fn choice(
+        &mut self,
+        condition: &Condition,
+        then: &Expr,
+        otherwise: &Expr,
+        span: Span,
+    ) -> Option<Value> {
+        let left = self.scalar(&condition.left, "the side of a comparison")?;
+        let right = self.scalar(&condition.right, "the side of a comparison")?;
+        let sides = [(left, condition.left.span), (right, condition.right.span)];
+        self.same_unit(sides, "a comparison")?;
+        let numbers = (
+            self.graph.as_number(left.id),
+            self.graph.as_number(right.id),
+        );
+        if let (Some(a), Some(b)) = numbers {
+            let holds = condition.comparison.holds(a.to_f64(), b.to_f64());
+            return self.evaluate(if holds { then } else { otherwise });
+        }
+        let (yes, no) = (self.evaluate(then), self.evaluate(otherwise));
+        let (yes, no) = (yes?, no?);
+        if !yes.same_shape(&no) {
+            let message = format!(
+                "one side of this choice is {}, the other {}",
+                yes.shape(),
+                no.shape()
+            );
+            return self.report(Diagnostic::error(span, message));
+        }
+        self.select(
+            condition.comparison,
+            [left, right],
+            [&yes, &no],
+            [then.span, otherwise.span],
+        )
+    }
+
+    fn select(
+        &mut self,
+        comparison: Comparison,
+        sides: [Scalar; 2],
+        values: [&Value; 2],
+        spans: [Span; 2],
+    ) -> Option<Value> {
+        let mut chosen = Vec::new();
+        for (yes, no) in values[0].scalars().into_iter().zip(values[1].scalars()) {
+            let unit = self.same_unit([(yes, spans[0]), (no, spans[1])], "a choice")?;
+            let id = self
+                .graph
+                .select(comparison, sides[0].id, sides[1].id, yes.id, no.id);
+            chosen.push(Scalar { id, unit });
+        }
+        Some(values[0].with_scalars(chosen))
+    }
+
+    /// The unit that two sides have in common.
+    pub fn same_unit(&mut self, sides: [(Scalar, Span); 2], what: &str) -> Option<Unit> {
+        match sides[0].0.unit.meet(sides[1].0.unit) {
+            Ok(unit) => Some(unit),
+            Err((left, right)) => {
+                let (left, right) = (left.text(), right.text());
+                let message = format!("{what} between {left} and {right}");
+                let error =
+                    Diagnostic::error(sides[1].1, message).labelled(format!("this has {right}"));
+                self.report(error.also(sides[0].1, format!("this has {left}")))
+            }
+        }
+    }
+
+    /// Refuses an expression that is no number of this world.
+    pub fn sound(&mut self, id: ExprId, span: Span) -> Option<ExprId> {
+        let (finite, tame) = match self.graph.node(id) {
+            Node::Number(value) => (value.is_finite(), true),
+            Node::Sum(constant, terms) => {
+                let weights = terms.iter().all(|(_, weight)| weight.is_finite());
+                (weights && constant.is_finite(), true)
+            }
+            Node::Product(factors) => (
+                true,
+                factors
+                    .iter()
+                    .all(|(_, exponent)| exponent.abs() <= LARGEST_EXPONENT),
+            ),
+            _ => (self.facts(id).value.is_none_or(f64::is_finite), true),
+        };
+        if !finite {
+            let message = "this is not a finite number";
+            return self.report(Diagnostic::error(span, message));
+        }
+        if !tame {
+            let message = format!("this contains a power above {LARGEST_EXPONENT}");
+            return self.report(Diagnostic::error(span, message));
+        }
+        Some(id)
+    }
+}

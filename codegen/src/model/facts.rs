@@ -1,0 +1,151 @@
+//! What an expression is made of, found once for each node of the graph.
+
+use crate::expr::{ExprId, Function2, Graph, Node, Number, Symbol};
+
+/// What an expression is made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Facts {
+    /// Time occurs.
+    pub time: bool,
+    /// A coordinate occurs.
+    pub coordinate: bool,
+    /// An external signal occurs.
+    pub input: bool,
+    /// `abs`, `sign`, `min`, `max` or `if` occurs.
+    pub kinked: bool,
+    /// The degree in the velocities; [`NOT_POLYNOMIAL`] stands for more than two
+    /// and for everything that isn't a polynomial in them.
+    pub degree: u8,
+    /// The value, if no symbol occurs; NaN where it is not defined.
+    pub value: Option<f64>,
+}
+
+/// The degree of what is no polynomial of degree two or less.
+pub const NOT_POLYNOMIAL: u8 = 3;
+
+impl Facts {
+    /// Whether a velocity occurs.
+    pub fn velocity(&self) -> bool {
+        self.degree > 0
+    }
+}
+
+/// Facts of the nodes that were asked for, by index.
+#[derive(Debug, Default)]
+pub struct FactTable {
+    known: Vec<Option<Facts>>,
+}
+
+impl FactTable {
+    /// The facts of an expression. What it shares with earlier ones is not
+    /// visited again.
+    pub fn of(&mut self, graph: &Graph, e: ExprId) -> Facts {
+        self.known.resize(self.known.len().max(graph.len()), None);
+        let mut pending = vec![e];
+        while let Some(&node) = pending.last() {
+            if self.known[node.index()].is_some() {
+                pending.pop();
+                continue;
+            }
+            let before = pending.len();
+            let children = graph.node(node).children();
+            pending.extend(
+                children
+                    .into_iter()
+                    .filter(|c| self.known[c.index()].is_none()),
+            );
+            if pending.len() == before {
+                self.known[node.index()] = Some(self.derive(graph.node(node)));
+                pending.pop();
+            }
+        }
+        self.get(e)
+    }
+
+    fn get(&self, e: ExprId) -> Facts {
+        self.known
+            .get(e.index())
+            .copied()
+            .flatten()
+            .unwrap_or_default()
+    }
+
+    fn derive(&self, node: &Node) -> Facts {
+        let mut facts = self.merge(node);
+        match node {
+            Node::Symbol(Symbol::Time) => facts.time = true,
+            Node::Symbol(Symbol::Coordinate(_)) => facts.coordinate = true,
+            Node::Symbol(Symbol::Velocity(_)) => facts.degree = 1,
+            Node::Symbol(Symbol::Input(_)) => facts.input = true,
+            Node::Product(factors) => facts.degree = self.product_degree(factors),
+            Node::Function(function, _) => {
+                facts.kinked |= !function.is_differentiable();
+                facts.degree = opaque(facts.degree);
+            }
+            Node::Function2(function, ..) => {
+                facts.kinked |= matches!(function, Function2::Min | Function2::Max);
+                facts.degree = opaque(facts.degree);
+            }
+            Node::Select(..) => {
+                facts.kinked = true;
+                facts.degree = opaque(facts.degree);
+            }
+            Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Sum(..) => {}
+        }
+        facts.value = self.value(node);
+        facts
+    }
+
+    fn merge(&self, node: &Node) -> Facts {
+        let mut all = Facts::default();
+        for child in node.children() {
+            let facts = self.get(child);
+            all.time |= facts.time;
+            all.coordinate |= facts.coordinate;
+            all.input |= facts.input;
+            all.kinked |= facts.kinked;
+            all.degree = all.degree.max(facts.degree);
+        }
+        all
+    }
+
+    fn product_degree(&self, factors: &[(ExprId, i32)]) -> u8 {
+        let mut degree = 0_i64;
+        for (base, exponent) in factors {
+            match self.get(*base).degree {
+                0 => {}
+                _ if *exponent < 0 => return NOT_POLYNOMIAL,
+                inner => degree += i64::from(inner) * i64::from(*exponent),
+            }
+        }
+        u8::try_from(degree.min(i64::from(NOT_POLYNOMIAL))).unwrap_or(NOT_POLYNOMIAL)
+    }
+
+    fn value(&self, node: &Node) -> Option<f64> {
+        let of = |e: &ExprId| self.get(*e).value;
+        match node {
+            Node::Number(number) => Some(number.to_f64()),
+            Node::Pi => Some(std::f64::consts::PI),
+            Node::Symbol(_) => None,
+            Node::Sum(constant, terms) => {
+                let add = |sum, term: &(ExprId, Number)| Some(sum + term.1.to_f64() * of(&term.0)?);
+                terms.iter().try_fold(constant.to_f64(), add)
+            }
+            Node::Product(factors) => {
+                let multiply =
+                    |product, (base, power): &(ExprId, i32)| Some(product * of(base)?.powi(*power));
+                factors.iter().try_fold(1.0, multiply)
+            }
+            Node::Function(function, x) => Some(function.apply(of(x)?)),
+            Node::Function2(function, x, y) => Some(function.apply(of(x)?, of(y)?)),
+            Node::Select(comparison, [a, b, then, otherwise]) => {
+                let holds = comparison.holds(of(a)?, of(b)?);
+                if holds { of(then) } else { of(otherwise) }
+            }
+        }
+    }
+}
+
+fn opaque(degree: u8) -> u8 {
+    if degree == 0 { 0 } else { NOT_POLYNOMIAL }
+}

@@ -1,0 +1,132 @@
+//! Syntax tree to mechanism: the order of the work.
+//!
+//! In:  the tree, and what a build script changes.
+//! Out: a [`Mechanism`] and warnings, or everything that is wrong.
+
+use super::evaluate::Evaluator;
+use super::scope::{Entry, Kind};
+use super::{Mechanism, statement::Named};
+use crate::diagnostic::{Diagnostic, Diagnostics, Span};
+use crate::expr::{ExprId, Graph, Symbol};
+use crate::parse::ast::{Ast, Name};
+
+/// The work in progress.
+pub struct Lowering<'a> {
+    /// Formulas and names.
+    pub evaluator: Evaluator,
+    /// What is done. Its graph is with the evaluator until the end.
+    pub mechanism: Mechanism,
+    /// Constants with another value.
+    pub constants: &'a [(String, f64)],
+    /// Parameters that become constants.
+    pub frozen: &'a [String],
+    /// The loops around, with the value of each index.
+    pub indices: Vec<(String, i64)>,
+    /// The names of outputs and events and the places of start entries so far.
+    pub named: Named,
+}
+
+/// Checks a description and puts it into expressions.
+///
+/// `constants` replaces the values of constants, `frozen` makes parameters
+/// constants at their default.
+///
+/// # Errors
+///
+/// Everything that is wrong; warnings come with the mechanism.
+pub fn lower(
+    ast: &Ast,
+    constants: &[(String, f64)],
+    frozen: &[String],
+) -> Result<(Mechanism, Diagnostics), Diagnostics> {
+    let mut lowering = Lowering {
+        evaluator: Evaluator::default(),
+        mechanism: Mechanism::named(&ast.name.text, &ast.docs),
+        constants,
+        frozen,
+        indices: Vec::new(),
+        named: Named::default(),
+    };
+    lowering.changes_fit(ast);
+    lowering.declare(&ast.items);
+    lowering.statements(&ast.items);
+    lowering.whole(&ast.name);
+    let Lowering {
+        mut evaluator,
+        mut mechanism,
+        ..
+    } = lowering;
+    if evaluator.diagnostics.error_count() > 0 {
+        return Err(evaluator.diagnostics.into_errors());
+    }
+    mechanism.graph = std::mem::replace(&mut evaluator.graph, Graph::new());
+    Ok((mechanism, evaluator.diagnostics))
+}
+
+impl Lowering<'_> {
+    /// Records a finding.
+    pub fn report<T>(&mut self, diagnostic: Diagnostic) -> Option<T> {
+        self.evaluator.report(diagnostic)
+    }
+
+    /// What concerns the mechanism as a whole.
+    fn whole(&mut self, name: &Name) {
+        let at = name.span;
+        if self.mechanism.coordinates.is_empty() {
+            let error = Diagnostic::error(at, format!("`{}` has no coordinates", name.text));
+            self.report::<()>(error.help("declare what moves, for example `coord q1: rad;`"));
+        }
+        if self.evaluator.diagnostics.error_count() > 0 {
+            return;
+        }
+        if self.mechanism.kinetic.is_empty() {
+            let error = Diagnostic::error(at, format!("`{}` has no kinetic energy", name.text));
+            self.report::<()>(error.help("write for example `kinetic 1/2*J*der(q1)^2;`"));
+            return;
+        }
+        let entries = self.evaluator.scope.close(0);
+        self.unused(&entries);
+        self.idle_coordinates();
+    }
+
+    /// Warns of names that no formula mentions. A name that begins with `_` says
+    /// that this is meant.
+    pub fn unused(&mut self, entries: &[Entry]) {
+        for entry in entries {
+            let counts = !matches!(entry.kind, Kind::Coordinate | Kind::Index);
+            if counts && !entry.used && !entry.name.text.starts_with('_') {
+                let message = format!("`{}` is never used", entry.name.text);
+                let warning = Diagnostic::warning(entry.name.span, message);
+                self.report::<()>(warning.help("remove it"));
+            }
+        }
+    }
+
+    /// Warns of coordinates that neither energies nor forces nor constraints
+    /// contain.
+    fn idle_coordinates(&mut self) {
+        let m = &self.mechanism;
+        let summands = m.kinetic.iter().chain(&m.potential).chain(&m.dissipation);
+        let mut roots: Vec<ExprId> = summands.map(|summand| summand.value).collect();
+        roots.extend(m.constraints.iter().map(|constraint| constraint.residual));
+        roots.extend(m.forces.iter().flat_map(|force| force.on.iter().copied()));
+        let graph = &mut self.evaluator.graph;
+        let mut busy = vec![false; m.coordinates.len()];
+        for e in graph.reachable(&roots) {
+            if let crate::expr::Node::Symbol(Symbol::Coordinate(i) | Symbol::Velocity(i)) =
+                graph.node(e)
+            {
+                busy[*i as usize] = true;
+            }
+        }
+        let idle = m.coordinates.iter().zip(&busy).filter(|(_, busy)| !**busy);
+        let idle: Vec<(String, Span)> = idle.map(|(q, _)| (q.name.clone(), q.span)).collect();
+        for (name, span) in idle {
+            let message = format!("`{name}` takes part in no energy, force or constraint");
+            let warning = Diagnostic::warning(span, message);
+            self.report::<()>(
+                warning.help("give it a kinetic energy or a constraint, or remove it"),
+            );
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! The order in which declarations can be evaluated.
+//!
+//! In:  formulas and the names they define.
+//! Out: an order in which every formula comes behind those it mentions; cycles
+//!      are reported.
+
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::parse::ast::{Expr, ExprKind, Name};
+use rustc_hash::FxHashMap;
+
+/// A definition: a name, the formulas behind it, and whether it may mention
+/// itself (the elements of an array may use those before them).
+pub struct Definition<'a> {
+    /// The name.
+    pub name: &'a Name,
+    /// The formulas.
+    pub formulas: Vec<&'a Expr>,
+    /// Whether it may mention itself.
+    pub recursive: bool,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum State {
+    New,
+    Open,
+    Done,
+}
+
+/// The indices of definitions in an order of evaluation. What takes part in a
+/// cycle, or needs what does, is left out.
+pub fn order(definitions: &[Definition], diagnostics: &mut Diagnostics) -> Vec<usize> {
+    let place = |(i, definition): (usize, &Definition)| (definition.name.text.clone(), i);
+    let places: FxHashMap<String, usize> = definitions.iter().enumerate().map(place).collect();
+    let needs: Vec<Vec<usize>> = definitions.iter().map(|d| mentioned(d, &places)).collect();
+    let mut states = vec![State::New; definitions.len()];
+    let mut sorted = Vec::new();
+    for start in 0..definitions.len() {
+        if states[start] == State::New {
+            visit(start, &needs, &mut states, &mut sorted, &mut |cycle| {
+                diagnostics.push(report(cycle, definitions));
+            });
+        }
+    }
+    sorted
+}
+
+/// Depth-first from one definition, with a stack of its own: chains are long.
+fn visit(
+    start: usize,
+    needs: &[Vec<usize>],
+    states: &mut [State],
+    sorted: &mut Vec<usize>,
+    cycle: &mut dyn FnMut(&[usize]),
+) {
+    let mut path = vec![start];
+    let mut next = vec![0_usize];
+    states[start] = State::Open;
+    while let (Some(&node), Some(at)) = (path.last(), next.last_mut()) {
+        let Some(&need) = needs[node].get(*at) else {
+            states[node] = State::Done;
+            sorted.push(node);
+            path.pop();
+            next.pop();
+            continue;
+        };
+        *at += 1;
+        match states[need] {
+            State::New => {
+                states[need] = State::Open;
+                path.push(need);
+                next.push(0);
+            }
+            State::Open => {
+                let from = path.iter().position(|&p| p == need).unwrap_or(0);
+                cycle(&path[from..]);
+            }
+            State::Done => {}
+        }
+    }
+}
+
+fn report(cycle: &[usize], definitions: &[Definition]) -> Diagnostic {
+    let name = |i: &usize| format!("`{}`", definitions[*i].name.text);
+    let first = cycle.iter().min().copied().unwrap_or(0);
+    let span = definitions[first].name.span;
+    let help = "a quantity must come from others in the end; the unknowns are the coordinates";
+    if cycle.len() == 1 {
+        let message = format!("{} is defined by itself", name(&first));
+        return Diagnostic::error(span, message).help(help);
+    }
+    let names: Vec<_> = cycle.iter().take(8).map(name).collect();
+    let message = format!("{} are defined by one another", names.join(", "));
+    let mut diagnostic = Diagnostic::error(span, message).help(help);
+    for other in cycle.iter().filter(|i| **i != first).take(3) {
+        diagnostic = diagnostic.also(definitions[*other].name.span, "part of the circle");
+    }
+    diagnostic
+}
+
+fn mentioned(definition: &Definition, places: &FxHashMap<String, usize>) -> Vec<usize> {
+    let mut names = Vec::new();
+    definition
+        .formulas
+        .iter()
+        .for_each(|formula| collect(formula, &mut names));
+    let own = definition.name.text.as_str();
+    let others = names
+        .into_iter()
+        .filter(|name| !(definition.recursive && *name == own));
+    let mut needs: Vec<usize> = others
+        .filter_map(|name| places.get(name).copied())
+        .collect();
+    needs.sort_unstable();
+    needs.dedup();
+    needs
+}
+
+/// The names in a formula.
+fn collect<'a>(formula: &'a Expr, names: &mut Vec<&'a str>) {
+    match &formula.kind {
+        ExprKind::Number(_) => {}
+        ExprKind::Name(name) => names.push(name),
+        ExprKind::Negative(x) | ExprKind::Component(x, _) => collect(x, names),
+        ExprKind::Sum(parts) | ExprKind::Product(parts) => {
+            parts.iter().for_each(|(_, part)| collect(part, names));
+        }
+        ExprKind::Power(a, b) | ExprKind::Index(a, b) => {
+            collect(a, names);
+            collect(b, names);
+        }
+        ExprKind::Call(_, parts) | ExprKind::Vector(parts) => {
+            parts.iter().for_each(|part| collect(part, names));
+        }
+        ExprKind::Repeat(range, term) => {
+            [&range.from, &range.to, &**term]
+                .into_iter()
+                .for_each(|part| collect(part, names));
+        }
+        ExprKind::If(condition, then, otherwise) => {
+            let parts = [&condition.left, &condition.right, then, otherwise];
+            parts.into_iter().for_each(|part| collect(part, names));
+        }
+    }
+}

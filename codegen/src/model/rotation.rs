@@ -1,0 +1,184 @@
+//! Rotation matrices and their angular velocity, in the body frame.
+//!
+//! A matrix R takes components in the body frame to components in space. Its
+//! angular velocity ω is that of ω̃ = RᵀṘ. For rotations about axes, Euler
+//! parameters, and their products and transposes it is known without that
+//! product and carried along.
+
+use super::evaluate::Evaluator;
+use super::linear::transposed;
+use super::unit::{PER_SECOND, Unit};
+use super::value::{Matrix, Scalar, Value};
+use crate::diagnostic::Span;
+use crate::expr::{Function, Number};
+use crate::parse::ast::Expr;
+
+impl Evaluator {
+    /// `rotx(angle)`, `roty(angle)`, `rotz(angle)`: the rotation about an axis.
+    pub fn rotation(&mut self, axis: usize, argument: &Expr) -> Option<Value> {
+        let angle = self.scalar(argument, "the angle of a rotation")?;
+        self.pure(angle.unit, "the angle of a rotation", argument.span)?;
+        let unit = angle.unit.power(0.0);
+        let scalar = |id| Scalar { id, unit };
+        let (sin, cos) = (
+            self.graph.function(Function::Sin, angle.id),
+            self.graph.function(Function::Cos, angle.id),
+        );
+        let (zero, one, opposite) = (
+            self.graph.integer(0),
+            self.graph.integer(1),
+            self.graph.neg(sin),
+        );
+        let mut rows = vec![vec![scalar(zero); 3]; 3];
+        let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+        rows[axis][axis] = scalar(one);
+        rows[next][next] = scalar(cos);
+        rows[last][last] = scalar(cos);
+        rows[next][last] = scalar(opposite);
+        rows[last][next] = scalar(sin);
+        Some(Value::Matrix(Matrix {
+            rows,
+            spin: self.axis_spin(axis, angle, argument.span),
+        }))
+    }
+
+    fn axis_spin(&mut self, axis: usize, angle: Scalar, span: Span) -> Option<[Scalar; 3]> {
+        let facts = self.facts(angle.id);
+        if facts.velocity() || facts.input {
+            return None;
+        }
+        let rate = self.rate(angle, span)?;
+        let none = Scalar {
+            id: self.graph.integer(0),
+            unit: rate.unit,
+        };
+        let mut spin = [none; 3];
+        spin[axis] = rate;
+        Some(spin)
+    }
+
+    /// `quat(e0, e1, e2, e3)`: the rotation with given Euler parameters, valid on
+    /// the unit sphere; quadratic and homogeneous in them.
+    pub fn quaternion(&mut self, arguments: &[Expr], span: Span) -> Option<Value> {
+        let mut e = Vec::new();
+        for argument in arguments {
+            let part = self.scalar(argument, "an Euler parameter");
+            e.push(part.map(|part| (part, argument.span)));
+        }
+        let e = e.into_iter().collect::<Option<Vec<_>>>()?;
+        for (part, place) in &e {
+            self.pure(part.unit, "an Euler parameter", *place)?;
+        }
+        let e: Vec<Scalar> = e.into_iter().map(|(part, _)| part).collect();
+        let (vector, real) = ([e[1], e[2], e[3]], e[0]);
+        let mut rows = vec![Vec::new(); 3];
+        for (i, row) in rows.iter_mut().enumerate() {
+            for j in 0..3 {
+                row.push(self.quaternion_entry(real, &vector, i, j, span)?);
+            }
+        }
+        Some(Value::Matrix(Matrix {
+            rows,
+            spin: self.quaternion_spin(real, &vector, span),
+        }))
+    }
+
+    /// The entry of (e₀² − eᵀe) E + 2 e eᵀ + 2 e₀ ẽ.
+    fn quaternion_entry(
+        &mut self,
+        real: Scalar,
+        vector: &[Scalar; 3],
+        i: usize,
+        j: usize,
+        span: Span,
+    ) -> Option<Scalar> {
+        let product = self.times(vector[i], vector[j], span)?;
+        let mut terms = Vec::new();
+        if i == j {
+            terms.push((self.times(real, real, span)?, 1));
+            for (k, part) in vector.iter().enumerate() {
+                terms.push((self.times(*part, *part, span)?, if k == i { 1 } else { -1 }));
+            }
+        } else {
+            let other = self.times(real, vector[3 - i - j], span)?;
+            let cyclic = (i + 1) % 3 == j;
+            terms.push((product, 2));
+            terms.push((other, if cyclic { -2 } else { 2 }));
+        }
+        let unit = product.unit;
+        let terms: Vec<_> = terms
+            .iter()
+            .map(|(s, weight)| (s.id, Number::integer(*weight)))
+            .collect();
+        Some(Scalar {
+            id: self.graph.weighted_sum(Number::ZERO, &terms),
+            unit,
+        })
+    }
+
+    /// 2 Ē(e) ė = 2 (e₀ ė − ė₀ e − e × ė), bilinear.
+    fn quaternion_spin(
+        &mut self,
+        real: Scalar,
+        vector: &[Scalar; 3],
+        span: Span,
+    ) -> Option<[Scalar; 3]> {
+        for part in [real, vector[0], vector[1], vector[2]] {
+            let facts = self.facts(part.id);
+            if facts.velocity() || facts.input {
+                return None;
+            }
+        }
+        let real_rate = self.rate(real, span)?;
+        let rates = vector
+            .iter()
+            .map(|part| self.rate(*part, span))
+            .collect::<Option<Vec<_>>>()?;
+        let mut spin = Vec::new();
+        for i in 0..3 {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let terms = [
+                (self.times(real, rates[i], span)?, 2),
+                (self.times(vector[i], real_rate, span)?, -2),
+                (self.times(vector[j], rates[k], span)?, -2),
+                (self.times(vector[k], rates[j], span)?, 2),
+            ];
+            let unit = terms.iter().fold(Unit::Number, |unit, (s, _)| {
+                unit.meet(s.unit).unwrap_or(unit)
+            });
+            let weighted: Vec<_> = terms
+                .iter()
+                .map(|(s, w)| (s.id, Number::integer(*w)))
+                .collect();
+            spin.push(Scalar {
+                id: self.graph.weighted_sum(Number::ZERO, &weighted),
+                unit,
+            });
+        }
+        spin.try_into().ok()
+    }
+
+    /// `omega(R)`: what was carried along, or the vector of RᵀṘ.
+    pub fn angular_velocity(&mut self, m: &Matrix, span: Span) -> Option<Value> {
+        for entry in m.rows.iter().flatten() {
+            self.pure(entry.unit, "an entry of a rotation", span)?;
+        }
+        if let Some(spin) = m.spin {
+            return Some(Value::Vector(spin.to_vec()));
+        }
+        let Value::Matrix(rate) = self.derivative(&Value::Matrix(m.clone()), span)? else {
+            return None;
+        };
+        let (columns, rates) = (transposed(&m.rows), transposed(&rate.rows));
+        let parts = [(2, 1), (0, 2), (1, 0)];
+        let parts = parts.map(|(i, j)| {
+            let entry = self.inner(&columns[i], &rates[j], span)?;
+            let unit = entry
+                .unit
+                .meet(Unit::Known(PER_SECOND))
+                .unwrap_or(entry.unit);
+            Some(Scalar { unit, ..entry })
+        });
+        parts.into_iter().collect::<Option<_>>().map(Value::Vector)
+    }
+}

@@ -1,0 +1,133 @@
+//! Names and what they mean.
+//!
+//! All symbols share one namespace, without shadowing: a name that is in use
+//! can't be declared again. Functions and units have namespaces of their own.
+
+use super::value::Value;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::parse::ast::Name;
+use rustc_hash::FxHashMap;
+
+/// What a name stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// `const`
+    Constant,
+    /// `param`
+    Parameter,
+    /// `coord`
+    Coordinate,
+    /// `input`
+    Input,
+    /// `let`
+    Quantity,
+    /// The index of a repetition.
+    Index,
+}
+
+impl Kind {
+    /// The kind in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Kind::Constant => "a constant",
+            Kind::Parameter => "a parameter",
+            Kind::Coordinate => "a coordinate",
+            Kind::Input => "an input",
+            Kind::Quantity => "a quantity",
+            Kind::Index => "an index",
+        }
+    }
+}
+
+/// A declared name.
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// The name and where it is declared.
+    pub name: Name,
+    /// What it stands for.
+    pub kind: Kind,
+    /// Its value, once it is known and if it is right.
+    pub value: Option<Value>,
+    /// Whether a formula mentions it.
+    pub used: bool,
+}
+
+/// Names that mean something everywhere.
+pub const BUILT_IN: [(&str, &str); 3] = [
+    ("t", "the time"),
+    ("pi", "the number π"),
+    ("deg", "the factor π/180"),
+];
+
+/// The names in force.
+#[derive(Debug, Default)]
+pub struct Scope {
+    entries: Vec<Entry>,
+    index: FxHashMap<String, usize>,
+}
+
+impl Scope {
+    /// Declares a name without a value.
+    pub fn declare(&mut self, name: &Name, kind: Kind) -> Result<(), Diagnostic> {
+        if let Some((_, meaning)) = BUILT_IN.iter().find(|(known, _)| *known == name.text) {
+            let message = format!("`{}` is {meaning} already", name.text);
+            return Err(Diagnostic::error(name.span, message).help("choose another name"));
+        }
+        if let Some(first) = self.index.get(&name.text).map(|&i| &self.entries[i]) {
+            return Err(twice(name, first.name.span).labelled("declared again here"));
+        }
+        self.index.insert(name.text.clone(), self.entries.len());
+        self.entries.push(Entry {
+            name: name.clone(),
+            kind,
+            value: None,
+            used: false,
+        });
+        Ok(())
+    }
+
+    /// What a name stands for.
+    pub fn get(&self, name: &str) -> Option<&Entry> {
+        self.index.get(name).map(|&i| &self.entries[i])
+    }
+
+    /// What a name stands for, noting that it is used.
+    pub fn look_up(&mut self, name: &str) -> Option<&Entry> {
+        let entry = &mut self.entries[*self.index.get(name)?];
+        entry.used = true;
+        Some(entry)
+    }
+
+    /// Gives a declared name its value.
+    pub fn set(&mut self, name: &str, value: Option<Value>) {
+        if let Some(&i) = self.index.get(name) {
+            self.entries[i].value = value;
+        }
+    }
+
+    /// A mark to return to with [`Scope::close`].
+    pub fn open(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Forgets the names declared since a mark and returns them.
+    pub fn close(&mut self, mark: usize) -> Vec<Entry> {
+        let gone = self.entries.split_off(mark);
+        for entry in &gone {
+            self.index.remove(&entry.name.text);
+        }
+        gone
+    }
+
+    /// The declared names, in order.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.entries.iter().map(|entry| entry.name.text.as_str())
+    }
+}
+
+/// The finding that a name is declared twice.
+pub fn twice(name: &Name, first: Span) -> Diagnostic {
+    Diagnostic::error(name.span, format!("`{}` is declared twice", name.text))
+        .also(first, "declared here")
+        .help("choose another name for one of them")
+}

@@ -1,0 +1,304 @@
+//! Statements: energies, forces, constraints, outputs, events, loops.
+
+use super::lower::Lowering;
+use super::scope::{Kind, twice};
+use super::unit::{ENERGY, Unit};
+use super::value::{Scalar, Value};
+use super::{Constraint, Direction, Event, Force, Output, Summand};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::parse::ast::{
+    Crossing, Declaration, Declared, Energy, Expr, Item, ItemKind, Name, Range,
+};
+use rustc_hash::FxHashMap;
+
+/// Names and targets that are taken, each with its place.
+#[derive(Debug, Default)]
+pub struct Named {
+    outputs: FxHashMap<String, Span>,
+    events: FxHashMap<String, Span>,
+    /// Start entries: coordinate, whether the velocity is meant.
+    pub starts: FxHashMap<(u32, bool), Span>,
+}
+
+impl Lowering<'_> {
+    /// Reads statements that aren't declarations.
+    pub fn statements(&mut self, items: &[Item]) {
+        for item in items {
+            // What is wrong has been reported; the next statement is read anyway.
+            let _ = self.statement(item);
+        }
+    }
+
+    fn statement(&mut self, item: &Item) -> Option<()> {
+        match &item.kind {
+            ItemKind::Declaration(d) if d.kind == Declared::Output => self.output(item, d),
+            ItemKind::Declaration(d) => self.outermost(&d.name),
+            ItemKind::Coordinate { name, .. } => self.outermost(name),
+            ItemKind::Let(_) => Some(()),
+            ItemKind::Energy(kind, value) => self.energy(*kind, value),
+            ItemKind::Force { force, on } => self.force(force, on, item.span),
+            ItemKind::Constraint { left, right, text } => {
+                self.constraint(left, right, text, item.span)
+            }
+            ItemKind::Start(entries) => self.start(entries),
+            ItemKind::Event {
+                name,
+                value,
+                direction,
+            } => self.event(name, value, *direction, item.span),
+            ItemKind::Draw { shape, arguments } => self.draw(*shape, arguments, item.span),
+            ItemKind::For(range, body) => self.repeat(range, |this| {
+                let mark = this.evaluator.scope.open();
+                this.local_quantities(body);
+                this.statements(body);
+                let local = this.evaluator.scope.close(mark);
+                this.unused(&local);
+            }),
+        }
+    }
+
+    /// Refuses a declaration inside a loop.
+    fn outermost(&mut self, name: &Name) -> Option<()> {
+        if self.indices.is_empty() {
+            return Some(());
+        }
+        let message = format!("`{}` is declared inside a loop", name.text);
+        let help = "declare it in front of the loop; `coord` takes a size: `coord theta[K]: rad;`";
+        self.report(Diagnostic::error(name.span, message).help(help))
+    }
+
+    /// Does something for each index of a range, until something is wrong: the
+    /// next round would only say the same.
+    pub fn repeat(&mut self, range: &Range, mut body: impl FnMut(&mut Self)) -> Option<()> {
+        let bounds = self.evaluator.bounds(range)?;
+        let errors = self.evaluator.diagnostics.error_count();
+        for i in bounds {
+            self.evaluator.spend(range.index.span)?;
+            let mark = self.evaluator.scope.open();
+            if let Err(diagnostic) = self.evaluator.scope.declare(&range.index, Kind::Index) {
+                return self.report(diagnostic);
+            }
+            let id = self.evaluator.graph.integer(i);
+            let index = Value::Scalar(Scalar {
+                id,
+                unit: Unit::Number,
+            });
+            self.evaluator.scope.set(&range.index.text, Some(index));
+            self.indices.push((range.index.text.clone(), i));
+            body(self);
+            self.indices.pop();
+            self.evaluator.scope.close(mark);
+            if self.evaluator.diagnostics.error_count() > errors {
+                return None;
+            }
+        }
+        Some(())
+    }
+
+    fn energy(&mut self, kind: Energy, e: &Expr) -> Option<()> {
+        let value = self.evaluator.scalar(e, "an energy")?;
+        self.legal_energy(kind, e, value)?;
+        let summand = Summand {
+            value: value.id,
+            span: e.span,
+        };
+        match kind {
+            Energy::Kinetic => self.mechanism.kinetic.push(summand),
+            Energy::Potential => self.mechanism.potential.push(summand),
+            Energy::Dissipation => self.mechanism.dissipation.push(summand),
+        }
+        Some(())
+    }
+
+    fn force(&mut self, force: &Expr, on: &Expr, span: Span) -> Option<()> {
+        let (strength, point) = (self.evaluator.evaluate(force), self.evaluator.evaluate(on));
+        let (strength, point) = (strength?, point?);
+        let fits =
+            matches!(point, Value::Scalar(_) | Value::Vector(_)) && strength.same_shape(&point);
+        if !fits {
+            let message = format!(
+                "the force is {}, it works on {}",
+                strength.shape(),
+                point.shape()
+            );
+            let error = Diagnostic::error(force.span, message)
+                .labelled(format!("this is {}", strength.shape()));
+            let error = error.also(on.span, format!("this is {}", point.shape()));
+            return self.report(error.help(
+                "a number works on a coordinate, an angle or a length, a vector on a point",
+            ));
+        }
+        self.legal_target(on, &point)?;
+        for (f, x) in strength.scalars().into_iter().zip(point.scalars()) {
+            self.force_unit(force, f.unit, on, x.unit)?;
+        }
+        let ids = |value: Value| {
+            value
+                .scalars()
+                .into_iter()
+                .map(|scalar| scalar.id)
+                .collect()
+        };
+        self.mechanism.forces.push(Force {
+            force: ids(strength),
+            on: ids(point),
+            span,
+        });
+        Some(())
+    }
+
+    fn force_unit(&mut self, force: &Expr, strength: Unit, on: &Expr, point: Unit) -> Option<()> {
+        let Unit::Known(place) = point.power(-1.0) else {
+            return Some(());
+        };
+        let wanted = ENERGY.times(place);
+        match strength {
+            Unit::Known(found) if found != wanted => {
+                let message = format!(
+                    "this force is in {}, here it has to be in {}",
+                    found.text(),
+                    wanted.text()
+                );
+                let error = Diagnostic::error(force.span, message);
+                let target = Unit::Known(place).power(-1.0);
+                let what = match target {
+                    Unit::Known(target) if target == super::unit::NONE => "an angle".to_string(),
+                    Unit::Known(target) => format!("this is in {}", target.text()),
+                    _ => "it works on this".to_string(),
+                };
+                self.report(error.also(on.span, what))
+            }
+            _ => Some(()),
+        }
+    }
+
+    fn constraint(&mut self, left: &Expr, right: &Expr, text: &str, span: Span) -> Option<()> {
+        let (a, b) = (
+            self.evaluator.evaluate(left),
+            self.evaluator.evaluate(right),
+        );
+        let (a, b) = (a?, b?);
+        let (a, b) = (self.spread(&a, &b), self.spread(&b, &a));
+        let vectors = matches!(a, Value::Scalar(_) | Value::Vector(_)) && a.same_shape(&b);
+        if !vectors {
+            let message = format!("an equation between {} and {}", a.shape(), b.shape());
+            let error = Diagnostic::error(left.span.to(right.span), message);
+            return self.report(error.help("both sides are numbers, or vectors of one size"));
+        }
+        let suffixes = a.suffixes();
+        let mut active = false;
+        for ((a, b), suffix) in a.scalars().into_iter().zip(b.scalars()).zip(suffixes) {
+            self.evaluator
+                .same_unit([(a, left.span), (b, right.span)], "an equation")?;
+            let residual = self.evaluator.graph.sub(a.id, b.id);
+            let residual = self.evaluator.sound(residual, span)?;
+            let Some(holonomic) = self.legal_constraint(residual, [left, right])? else {
+                continue;
+            };
+            active = true;
+            let text = self.row_text(text, &suffix);
+            self.mechanism.constraints.push(Constraint {
+                residual,
+                holonomic,
+                text,
+                span,
+            });
+        }
+        if !active {
+            let warning = Diagnostic::warning(span, "this equation always holds");
+            return self.report(warning.help("remove it"));
+        }
+        Some(())
+    }
+
+    /// A literal zero stands for a zero vector where the other side is a vector.
+    fn spread(&self, value: &Value, other: &Value) -> Value {
+        match (value, other) {
+            (Value::Scalar(zero), Value::Vector(parts))
+                if self.evaluator.graph.is_zero(zero.id) =>
+            {
+                Value::Vector(vec![*zero; parts.len()])
+            }
+            _ => value.clone(),
+        }
+    }
+
+    /// An equation as written, with the component and the indices it is for.
+    fn row_text(&self, text: &str, suffix: &str) -> String {
+        let row = suffix
+            .strip_prefix('.')
+            .map_or(String::new(), |axis| format!(" [{axis}]"));
+        let indices: Vec<_> = self
+            .indices
+            .iter()
+            .map(|(name, i)| format!("{name}={i}"))
+            .collect();
+        let indices = if indices.is_empty() {
+            String::new()
+        } else {
+            format!(" [{}]", indices.join(", "))
+        };
+        format!("{text}{row}{indices}")
+    }
+
+    /// The name of what is declared inside loops: `hit[0]`, `hit[1]`.
+    fn indexed(&self, name: &str) -> String {
+        let indices: String = self.indices.iter().map(|(_, i)| format!("[{i}]")).collect();
+        format!("{name}{indices}")
+    }
+
+    fn output(&mut self, item: &Item, declaration: &Declaration) -> Option<()> {
+        let unit = self.unit(declaration.unit.as_ref());
+        let value = self.evaluator.evaluate(&declaration.value)?;
+        let name = self.indexed(&declaration.name.text);
+        for (scalar, suffix) in value.scalars().into_iter().zip(value.suffixes()) {
+            self.fits(declaration, unit, scalar)?;
+            let mut quantity =
+                super::declare::quantity(item, &declaration.name, declaration.unit.as_ref());
+            quantity.name = format!("{name}{suffix}");
+            self.column_is_free(&quantity.name, &declaration.name)?;
+            self.mechanism.outputs.push(Output {
+                quantity,
+                value: scalar.id,
+            });
+        }
+        Some(())
+    }
+
+    /// Refuses an output whose column has the name of another column.
+    fn column_is_free(&mut self, column: &str, name: &Name) -> Option<()> {
+        if column == "t" {
+            let error = Diagnostic::error(name.span, "`t` is the time already");
+            return self.report(error.help("choose another name"));
+        }
+        let coordinate = self.mechanism.coordinates.iter().find(|q| q.name == column);
+        let taken = coordinate
+            .map(|q| q.span)
+            .or_else(|| self.named.outputs.get(column).copied());
+        if let Some(first) = taken {
+            return self.report(twice(name, first));
+        }
+        self.named.outputs.insert(column.to_string(), name.span);
+        Some(())
+    }
+
+    fn event(&mut self, name: &Name, value: &Expr, direction: Crossing, span: Span) -> Option<()> {
+        let scalar = self.evaluator.scalar(value, "an event function")?;
+        let full = self.indexed(&name.text);
+        if let Some(first) = self.named.events.insert(full.clone(), name.span) {
+            return self.report(twice(name, first));
+        }
+        let direction = match direction {
+            Crossing::Rising => Direction::Rising,
+            Crossing::Falling => Direction::Falling,
+            Crossing::Crossing => Direction::Crossing,
+        };
+        self.mechanism.events.push(Event {
+            name: full,
+            value: scalar.id,
+            direction,
+            span,
+        });
+        Some(())
+    }
+}

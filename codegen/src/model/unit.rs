@@ -1,0 +1,297 @@
+//! Units: dimensions as exponents of SI base units.
+//!
+//! In:  units as written behind `:`.
+//! Out: [`Unit`]s that formulas are checked with, and their names in messages.
+//!
+//! A number has no unit: as a factor it is dimensionless, as a term, default or
+//! start value it takes the unit of what it stands beside (`x - 0.1`, `param L: m =
+//! 0.5`). A symbol declared without unit, and `t` (so that `sin(2*t)` can be
+//! written), switch the check off for every formula they take part in.
+//!
+//! Not here: units other than SI. A factor hidden in a unit would be a wrong
+//! program, so `mm`, `deg` and the like are refused with the SI unit to write.
+
+use crate::diagnostic::{Diagnostic, nearest};
+use crate::parse::ast::UnitExpr;
+
+/// Exponents are counted in twelfths, so that roots have a unit.
+const PARTS: i32 = 12;
+
+/// The base units, in the order of the exponents of a [`Dimension`].
+const BASE: [&str; 5] = ["kg", "m", "s", "A", "K"];
+
+/// Exponents of the base units, in twelfths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Dimension([i32; 5]);
+
+/// What is known of the unit of a formula.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unit {
+    /// A pure number, which takes the unit of what it stands beside.
+    Number,
+    /// A dimension.
+    Known(Dimension),
+    /// A symbol without unit takes part.
+    Unchecked,
+}
+
+const fn whole(kg: i32, m: i32, s: i32) -> Dimension {
+    Dimension([kg * PARTS, m * PARTS, s * PARTS, 0, 0])
+}
+
+/// No dimension: angles, ratios.
+pub const NONE: Dimension = whole(0, 0, 0);
+/// `1/s`.
+pub const PER_SECOND: Dimension = whole(0, 0, -1);
+/// `J = N*m`.
+pub const ENERGY: Dimension = whole(1, 2, -2);
+/// `W`.
+pub const POWER: Dimension = whole(1, 2, -3);
+
+/// SI units with their exponents of kg, m, s, A, K.
+const NAMED: [(&str, [i32; 5]); 21] = [
+    ("kg", [1, 0, 0, 0, 0]),
+    ("m", [0, 1, 0, 0, 0]),
+    ("s", [0, 0, 1, 0, 0]),
+    ("A", [0, 0, 0, 1, 0]),
+    ("K", [0, 0, 0, 0, 1]),
+    ("rad", [0, 0, 0, 0, 0]),
+    ("sr", [0, 0, 0, 0, 0]),
+    ("N", [1, 1, -2, 0, 0]),
+    ("J", [1, 2, -2, 0, 0]),
+    ("W", [1, 2, -3, 0, 0]),
+    ("Pa", [1, -1, -2, 0, 0]),
+    ("Hz", [0, 0, -1, 0, 0]),
+    ("V", [1, 2, -3, -1, 0]),
+    ("C", [0, 0, 1, 1, 0]),
+    ("F", [-1, -2, 4, 2, 0]),
+    ("H", [1, 2, -2, -2, 0]),
+    ("T", [1, 0, -2, -1, 0]),
+    ("Wb", [1, 2, -2, -1, 0]),
+    ("ohm", [1, 2, -3, -2, 0]),
+    ("Ohm", [1, 2, -3, -2, 0]),
+    ("S", [-1, -2, 3, 2, 0]),
+];
+
+/// Units that hide a factor, with the SI unit and the factor.
+const SCALED: [(&str, &str, &str); 37] = [
+    ("mm", "m", "1e-3"),
+    ("cm", "m", "1e-2"),
+    ("dm", "m", "1e-1"),
+    ("um", "m", "1e-6"),
+    ("nm", "m", "1e-9"),
+    ("km", "m", "1e3"),
+    ("inch", "m", "0.0254"),
+    ("ft", "m", "0.3048"),
+    ("g", "kg", "1e-3"),
+    ("mg", "kg", "1e-6"),
+    ("t", "kg", "1e3"),
+    ("lb", "kg", "0.45359237"),
+    ("ms", "s", "1e-3"),
+    ("us", "s", "1e-6"),
+    ("ns", "s", "1e-9"),
+    ("min", "s", "60"),
+    ("h", "s", "3600"),
+    ("deg", "rad", "pi/180"),
+    ("rev", "rad", "2*pi"),
+    ("rpm", "rad/s", "2*pi/60"),
+    ("mN", "N", "1e-3"),
+    ("kN", "N", "1e3"),
+    ("MN", "N", "1e6"),
+    ("Nm", "N*m", "1"),
+    ("mJ", "J", "1e-3"),
+    ("kJ", "J", "1e3"),
+    ("MJ", "J", "1e6"),
+    ("mW", "W", "1e-3"),
+    ("kW", "W", "1e3"),
+    ("MW", "W", "1e6"),
+    ("kPa", "Pa", "1e3"),
+    ("MPa", "Pa", "1e6"),
+    ("GPa", "Pa", "1e9"),
+    ("bar", "Pa", "1e5"),
+    ("kHz", "Hz", "1e3"),
+    ("mA", "A", "1e-3"),
+    ("mV", "V", "1e-3"),
+];
+
+/// The dimension of a unit as written.
+pub fn resolve(unit: &UnitExpr) -> Result<Dimension, Diagnostic> {
+    let mut total = NONE;
+    for (name, exponent) in &unit.factors {
+        let Some((_, powers)) = NAMED.iter().find(|(known, _)| *known == name.text) else {
+            let error = Diagnostic::error(name.span, unknown(&name.text));
+            return Err(error.help(instead(&name.text)));
+        };
+        let mut factor = Dimension(*powers);
+        factor
+            .0
+            .iter_mut()
+            .for_each(|power| *power *= PARTS * exponent);
+        total = total.times(factor);
+    }
+    Ok(total)
+}
+
+fn unknown(name: &str) -> String {
+    match SCALED.iter().find(|(known, ..)| *known == name) {
+        Some((_, "N*m", _)) => format!("`{name}` is written `N*m`"),
+        Some(_) => format!("`{name}` is not an SI unit"),
+        None => format!("unknown unit `{name}`"),
+    }
+}
+
+fn instead(name: &str) -> String {
+    if let Some((_, si, factor)) = SCALED.iter().find(|(known, ..)| *known == name) {
+        return match *factor {
+            "1" => format!("write `{si}`"),
+            _ => format!("write SI: `{si}`, and multiply the value by {factor}"),
+        };
+    }
+    let known = NAMED.iter().map(|(known, _)| *known);
+    match nearest(name, known) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => {
+            "units are products of m, kg, s, rad, N, J, W, Pa, Hz, A, V, K and their powers".into()
+        }
+    }
+}
+
+impl Dimension {
+    /// The dimension of a product.
+    pub fn times(self, other: Dimension) -> Dimension {
+        let mut powers = self.0;
+        powers
+            .iter_mut()
+            .zip(other.0)
+            .for_each(|(a, b)| *a = a.saturating_add(b));
+        Dimension(powers)
+    }
+
+    /// The dimension of a power; `None` if its exponents are no twelfths.
+    pub fn power(self, exponent: f64) -> Option<Dimension> {
+        let mut powers = [0; 5];
+        for (power, old) in powers.iter_mut().zip(self.0) {
+            let scaled = f64::from(old) * exponent;
+            let rounded = scaled.round();
+            if (scaled - rounded).abs() > 1e-9 || rounded.abs() > 1e6 {
+                return None;
+            }
+            *power = rounded as i32;
+        }
+        Some(Dimension(powers))
+    }
+
+    /// Its name in a message.
+    pub fn text(self) -> String {
+        if self == NONE {
+            return "no unit".into();
+        }
+        if self == ENERGY {
+            return "N*m".into();
+        }
+        let exact = |powers: &[i32; 5]| powers.map(|power| power * PARTS) == self.0;
+        let spoken = ["N", "W", "Pa", "V"];
+        if let Some((name, _)) = NAMED.iter().find(|(n, p)| spoken.contains(n) && exact(p)) {
+            return (*name).into();
+        }
+        let side = |below: bool| -> Vec<String> {
+            let powers = BASE
+                .iter()
+                .zip(self.0)
+                .filter(|(_, p)| (*p < 0) == below && *p != 0);
+            powers
+                .map(|(name, p)| format!("{name}{}", exponent_text(p.abs())))
+                .collect()
+        };
+        let (above, below) = (side(false), side(true));
+        let numerator = if above.is_empty() {
+            "1".to_string()
+        } else {
+            above.join("*")
+        };
+        match below.len() {
+            0 => numerator,
+            1 => format!("{numerator}/{}", below[0]),
+            _ => format!("{numerator}/({})", below.join("*")),
+        }
+    }
+}
+
+fn exponent_text(twelfths: i32) -> String {
+    if twelfths == PARTS {
+        String::new()
+    } else if twelfths % PARTS == 0 {
+        format!("^{}", twelfths / PARTS)
+    } else {
+        let divisor = (1..=PARTS)
+            .rev()
+            .find(|d| twelfths % d == 0 && PARTS % d == 0)
+            .unwrap_or(1);
+        format!("^({}/{})", twelfths / divisor, PARTS / divisor)
+    }
+}
+
+impl Unit {
+    /// A pure number, an angle, a ratio.
+    pub const PURE: Unit = Unit::Known(NONE);
+
+    /// The unit of a product.
+    pub fn times(self, other: Unit) -> Unit {
+        match (self, other) {
+            (Unit::Unchecked, _) | (_, Unit::Unchecked) => Unit::Unchecked,
+            (Unit::Number, unit) | (unit, Unit::Number) => unit,
+            (Unit::Known(a), Unit::Known(b)) => Unit::Known(a.times(b)),
+        }
+    }
+
+    /// The unit of a power with a numeric exponent.
+    pub fn power(self, exponent: f64) -> Unit {
+        match self {
+            Unit::Known(dimension) => dimension
+                .power(exponent)
+                .map_or(Unit::Unchecked, Unit::Known),
+            unit => unit,
+        }
+    }
+
+    /// The unit of a sum or of two sides of an equation, or the two that differ.
+    pub fn meet(self, other: Unit) -> Result<Unit, (Dimension, Dimension)> {
+        match (self, other) {
+            (Unit::Known(a), Unit::Known(b)) if a != b => Err((a, b)),
+            (Unit::Unchecked, _) | (_, Unit::Unchecked) => Ok(Unit::Unchecked),
+            (Unit::Number, unit) | (unit, _) => Ok(unit),
+        }
+    }
+
+    /// Whether it can be an angle or ratio.
+    pub fn is_pure(self) -> bool {
+        !matches!(self, Unit::Known(dimension) if dimension != NONE)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dimensions_are_named_as_people_write_them() {
+        assert_eq!(whole(1, 1, -2).text(), "N");
+        assert_eq!(whole(0, 1, -2).text(), "m/s^2");
+        assert_eq!(whole(0, 0, -1).text(), "1/s");
+        assert_eq!(whole(1, 0, 0).times(whole(0, -1, -1)).text(), "kg/(m*s)");
+        assert_eq!(
+            whole(0, 1, 0).power(0.5).map(Dimension::text),
+            Some("m^(1/2)".into())
+        );
+        assert_eq!(NONE.text(), "no unit");
+    }
+
+    #[test]
+    fn a_number_takes_the_unit_it_stands_beside() {
+        let metre = Unit::Known(whole(0, 1, 0));
+        assert_eq!(Unit::Number.meet(metre), Ok(metre));
+        assert_eq!(Unit::Number.times(metre), metre);
+        assert!(metre.meet(Unit::PURE).is_err());
+        assert_eq!(metre.times(Unit::Unchecked), Unit::Unchecked);
+    }
+}

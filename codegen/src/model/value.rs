@@ -1,0 +1,145 @@
+//! What a formula can be: a scalar, a vector, a matrix, an array of these.
+
+use super::unit::Unit;
+use crate::expr::ExprId;
+use std::rc::Rc;
+
+/// A scalar expression and its unit.
+#[derive(Clone, Copy, Debug)]
+pub struct Scalar {
+    /// The expression.
+    pub id: ExprId,
+    /// What is known of its unit.
+    pub unit: Unit,
+}
+
+/// A matrix of two or three rows of two or three entries.
+#[derive(Clone, Debug)]
+pub struct Matrix {
+    /// The entries, row by row.
+    pub rows: Vec<Vec<Scalar>>,
+    /// The angular velocity in the body frame, where the matrix is known to be a
+    /// rotation: far shorter than what comes out of RᵀṘ.
+    pub spin: Option<[Scalar; 3]>,
+}
+
+/// An array: `coord n[K]` or `let n[i in 0..K]`.
+#[derive(Clone, Debug)]
+pub struct Array {
+    /// The index of the first element.
+    pub first: i64,
+    /// The elements known so far.
+    pub items: Vec<Value>,
+    /// The index behind the last element.
+    pub end: i64,
+}
+
+/// What a formula means.
+#[derive(Clone, Debug)]
+pub enum Value {
+    /// A scalar.
+    Scalar(Scalar),
+    /// A vector of two or three components.
+    Vector(Vec<Scalar>),
+    /// A matrix.
+    Matrix(Matrix),
+    /// An array.
+    Array(Rc<Array>),
+}
+
+impl Value {
+    /// Its shape in words.
+    pub fn shape(&self) -> String {
+        match self {
+            Value::Scalar(_) => "a number".into(),
+            Value::Vector(parts) => format!("a vector of {} components", parts.len()),
+            Value::Matrix(m) => format!("a {} × {} matrix", m.rows.len(), m.rows[0].len()),
+            Value::Array(array) => format!("an array of {}", array.end - array.first),
+        }
+    }
+
+    /// Whether sums, equations and choices of the two make sense.
+    pub fn same_shape(&self, other: &Value) -> bool {
+        match (self, other) {
+            (Value::Array(_), _) | (_, Value::Array(_)) => false,
+            _ => self.shape() == other.shape(),
+        }
+    }
+
+    /// Its scalars in order; those of a matrix row by row.
+    pub fn scalars(&self) -> Vec<Scalar> {
+        match self {
+            Value::Scalar(scalar) => vec![*scalar],
+            Value::Vector(parts) => parts.clone(),
+            Value::Matrix(matrix) => matrix.rows.concat(),
+            Value::Array(array) => array.items.iter().flat_map(Value::scalars).collect(),
+        }
+    }
+
+    /// A value of the same shape with other scalars, given in order.
+    pub fn with_scalars(&self, scalars: Vec<Scalar>) -> Value {
+        let mut scalars = scalars.into_iter();
+        self.refill(&mut scalars)
+    }
+
+    fn refill(&self, scalars: &mut impl Iterator<Item = Scalar>) -> Value {
+        let mut take = |old: &Scalar| scalars.next().unwrap_or(*old);
+        match self {
+            Value::Scalar(old) => Value::Scalar(take(old)),
+            Value::Vector(parts) => Value::Vector(parts.iter().map(take).collect()),
+            Value::Matrix(matrix) => {
+                let rows = matrix
+                    .rows
+                    .iter()
+                    .map(|row| row.iter().map(&mut take).collect());
+                Value::Matrix(Matrix {
+                    rows: rows.collect(),
+                    spin: None,
+                })
+            }
+            Value::Array(array) => {
+                let items = array
+                    .items
+                    .iter()
+                    .map(|item| item.refill(scalars))
+                    .collect();
+                Value::Array(Rc::new(Array {
+                    first: array.first,
+                    items,
+                    end: array.end,
+                }))
+            }
+        }
+    }
+
+    /// The suffix of the name of each scalar: `.x` of a vector, `[0][1]` of a
+    /// matrix, `[2]` of an array.
+    pub fn suffixes(&self) -> Vec<String> {
+        match self {
+            Value::Scalar(_) => vec![String::new()],
+            Value::Vector(parts) => AXES[..parts.len()]
+                .iter()
+                .map(|axis| format!(".{axis}"))
+                .collect(),
+            Value::Matrix(matrix) => {
+                let row = |i: usize, n: usize| (0..n).map(move |j| format!("[{i}][{j}]"));
+                let rows = matrix.rows.iter().enumerate();
+                rows.flat_map(|(i, entries)| row(i, entries.len()))
+                    .collect()
+            }
+            Value::Array(array) => {
+                let named = |(i, item): (usize, &Value)| {
+                    let index = array.first + i as i64;
+                    let suffixes = item.suffixes().into_iter();
+                    suffixes
+                        .map(move |suffix| format!("[{index}]{suffix}"))
+                        .collect::<Vec<_>>()
+                };
+                array.items.iter().enumerate().flat_map(named).collect()
+            }
+        }
+    }
+}
+
+/// The names of the components of a vector.
+pub const AXES: [&str; 3] = ["x", "y", "z"];
