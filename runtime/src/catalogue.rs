@@ -13,7 +13,7 @@ pub trait Visitor<T: Real> {
     /// Is called with the mechanism, its parameters at their defaults.
     fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
     where
-        M: Mechanism<T, N, R> + Interface<T, N> + Clone;
+        M: Mechanism<T, N, R> + Interface<T, N> + Clone + 'static;
 }
 
 /// Includes the module that the build script generated from a description:
