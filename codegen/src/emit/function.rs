@@ -346,7 +346,7 @@ impl Writer<'_> {
     }
 
     fn call2(&self, function: Function2, x: Value, y: Value) -> Piece {
-        let first = self.bound(x, Binding::Atom);
+        let first = &self.piece(x).tokens;
         let second = &self.piece(y).tokens;
         let name = match function {
             Function2::Pow => "powf",
