@@ -66,12 +66,21 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     )
 }
 
+/// As many angles as go through the processor's lanes at once.
+const LANES: usize = 4;
+
 /// Sines and cosines of several angles, each `|x| ≤` [`LARGEST`].
 #[inline(always)]
 pub(crate) fn sin_cos_all<const K: usize>(angles: [f64; K]) -> ([f64; K], [f64; K]) {
     let mut both = ([0.0; K], [0.0; K]);
-    for i in 0..K {
-        (both.0[i], both.1[i]) = sin_cos(angles[i]);
+    for first in (0..K).step_by(LANES) {
+        let block: [f64; LANES] =
+            core::array::from_fn(|i| angles.get(first + i).copied().unwrap_or(0.0));
+        let block = block.map(sin_cos);
+        for (i, (sin, cos)) in block.into_iter().take(K - first).enumerate() {
+            both.0[first + i] = sin;
+            both.1[first + i] = cos;
+        }
     }
     both
 }
