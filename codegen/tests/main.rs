@@ -1,0 +1,3 @@
+//! The tests of the compiler, one binary.
+
+mod symbolic;

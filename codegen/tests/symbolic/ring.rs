@@ -1,0 +1,101 @@
+//! The ring of sines and cosines: reduction keeps the value and brings no angle.
+
+use super::recipe::{self, evaluated};
+use super::{agree, config};
+use bricard_codegen::expr::{ExprId, Function, Graph, Node, Number, Symbol};
+use bricard_codegen::optimise::in_trig_ring;
+use proptest::prelude::*;
+
+/// The arguments of all sines and cosines.
+fn angles(graph: &Graph, e: ExprId) -> Vec<ExprId> {
+    let angle = |e: ExprId| match graph.node(e) {
+        Node::Function(Function::Sin | Function::Cos, angle) => Some(*angle),
+        _ => None,
+    };
+    graph
+        .reachable(&[e])
+        .into_iter()
+        .filter_map(angle)
+        .collect()
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn reduction_keeps_the_value(recipe in recipe::any(), values in recipe::values()) {
+        let mut graph = Graph::new();
+        let e = recipe.build(&mut graph);
+        prop_assume!(recipe::is_finite(&graph, e));
+        let reduced = in_trig_ring(&mut graph, e);
+        let exact = recipe.jet(&values, 0);
+        let [reduced, plain] = [reduced, e].map(|e| evaluated(&graph, e, &values));
+        if exact.is_sound() && reduced.is_sound() {
+            let round_off = reduced.value_error + plain.value_error;
+            agree(reduced.value, plain.value, round_off)?;
+        }
+    }
+
+    #[test]
+    fn reduction_brings_no_new_angle(
+        recipe in recipe::trigonometric(),
+        values in recipe::values(),
+    ) {
+        let mut graph = Graph::new();
+        let e = recipe.build(&mut graph);
+        prop_assume!(recipe::is_finite(&graph, e));
+        let reduced = in_trig_ring(&mut graph, e);
+        let had = angles(&graph, e);
+        for angle in angles(&graph, reduced) {
+            let angle = evaluated(&graph, angle, &values);
+            let known = had.iter().any(|&other| {
+                let other = evaluated(&graph, other, &values);
+                let slack = 16.0 * (angle.value_error + other.value_error) + f64::MIN_POSITIVE;
+                !angle.is_sound() || (angle.value.abs() - other.value.abs()).abs() <= slack
+            });
+            prop_assert!(known, "the angle of value {} is new", angle.value);
+        }
+    }
+
+    #[test]
+    fn reduction_has_nothing_left_to_do_the_second_time(recipe in recipe::trigonometric()) {
+        let mut graph = Graph::new();
+        let e = recipe.build(&mut graph);
+        prop_assume!(recipe::is_finite(&graph, e));
+        let once = in_trig_ring(&mut graph, e);
+        prop_assert_eq!(in_trig_ring(&mut graph, once), once);
+    }
+}
+
+#[test]
+fn the_squares_of_sine_and_cosine_add_up_to_one() {
+    let mut graph = Graph::new();
+    let [x, y] = [Symbol::Coordinate(0), Symbol::Coordinate(1)].map(|s| graph.symbol(s));
+    let angle = graph.sub(x, y);
+    let (sin, cos) = (
+        graph.function(Function::Sin, angle),
+        graph.function(Function::Cos, angle),
+    );
+    let squares = [graph.powi(sin, 2), graph.powi(cos, 2)];
+    let sum = graph.sum(squares);
+    let reduced = in_trig_ring(&mut graph, sum);
+    assert_eq!(graph.as_number(reduced), Some(Number::ONE));
+}
+
+#[test]
+fn the_squared_length_of_a_turned_vector_is_that_of_the_vector() {
+    let mut graph = Graph::new();
+    let [angle, a, b] = [Symbol::Time, Symbol::Parameter(0), Symbol::Parameter(1)]
+        .map(|symbol| graph.symbol(symbol));
+    let (sin, cos) = (
+        graph.function(Function::Sin, angle),
+        graph.function(Function::Cos, angle),
+    );
+    let [ac, bs, sa, bc] = [[a, cos], [b, sin], [sin, a], [b, cos]].map(|p| graph.product(p));
+    let (x, y) = (graph.sub(ac, bs), graph.add(sa, bc));
+    let squares = [graph.powi(x, 2), graph.powi(y, 2)];
+    let turned = graph.sum(squares);
+    let squares = [graph.powi(a, 2), graph.powi(b, 2)];
+    let still = graph.sum(squares);
+    assert_eq!(in_trig_ring(&mut graph, turned), still);
+}
