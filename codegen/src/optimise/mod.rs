@@ -38,17 +38,25 @@ use crate::expr::{ExprId, Graph};
 /// If a pass leaves a program that breaks an invariant: a bug of this crate, with
 /// the program in the message.
 pub fn optimise(graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -> Program {
-    let plain = factor::factor(&schedule::schedule(graph, laws, wanted));
-    let reduced: Vec<_> = wanted
-        .iter()
-        .map(|(slot, e)| (*slot, in_trig_ring(graph, *e)))
-        .collect();
-    let reduced = factor::factor(&schedule::schedule(graph, laws, &reduced));
-    checked(if cost(&reduced).weight() < cost(&plain).weight() {
-        reduced
-    } else {
-        plain
-    })
+    let mut arrays: Vec<&str> = wanted.iter().map(|(slot, _)| slot.array).collect();
+    arrays.dedup();
+    let mut chosen = wanted.to_vec();
+    let mut best = factor::factor(&schedule::schedule(graph, laws, &chosen));
+    // Arrays share work, so each is judged by what the whole then costs.
+    for array in arrays {
+        let mut candidate = chosen.clone();
+        for (_, e) in candidate.iter_mut().filter(|(slot, _)| slot.array == array) {
+            *e = in_trig_ring(graph, *e);
+        }
+        if candidate == chosen {
+            continue;
+        }
+        let program = factor::factor(&schedule::schedule(graph, laws, &candidate));
+        if cost(&program).weight() < cost(&best).weight() {
+            (chosen, best) = (candidate, program);
+        }
+    }
+    checked(best)
 }
 
 /// The program for the accelerations by the regular path, from the program for
