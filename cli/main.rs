@@ -1,3 +1,52 @@
 //! The `bricard` command.
+//!
+//! In:  a command line.
+//! Out: tables, equations, rows of numbers and pictures; exit status 0, 1 for a
+//!      run that failed, 2 for a command line that is wrong.
+//!
+//! Not here: mechanics. This is a host program like any other, which happens to
+//! know every mechanism of the library by its name.
 
-fn main() {}
+mod arguments;
+mod check;
+mod column;
+mod error;
+mod figure;
+mod formula;
+mod list;
+mod mechanism;
+mod output;
+mod plot;
+mod reproduce;
+mod run;
+mod show;
+mod simulate;
+mod table;
+
+use arguments::{Arguments, Command};
+use clap::Parser;
+use error::CommandError;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    match perform(&arguments.command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            if !error.is_silent() {
+                output::say(&format!("error: {error}"));
+            }
+            ExitCode::from(error.status())
+        }
+    }
+}
+
+fn perform(command: &Command) -> Result<(), CommandError> {
+    match command {
+        Command::List => list::list(),
+        Command::Show(arguments) => show::show(arguments),
+        Command::Simulate(arguments) => simulate::simulate(arguments),
+        Command::Reproduce(arguments) => reproduce::reproduce(arguments),
+        Command::Check(arguments) => check::check(arguments),
+    }
+}

@@ -1,0 +1,179 @@
+//! The command line.
+//!
+//! In:  words.
+//! Out: [`Arguments`], each value read, none checked against a mechanism yet.
+
+use crate::formula::{self, Assignment};
+use bricard_runtime::{Form, Stabilisation};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Simulates closed-loop mechanisms straight through their singular positions.
+#[derive(Debug, Parser)]
+#[command(name = "bricard", version)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// List the mechanisms of the library
+    List,
+    /// Print the equations of motion derived from a description
+    Show(Show),
+    /// Simulate a mechanism: rows of numbers to a file, a summary to the terminal
+    Simulate(Simulate),
+    /// Run the experiments of Phong & Hoang (2012): figures, and numbers beside
+    /// exact ones
+    Reproduce(Reproduce),
+    /// Check a description without compiling it
+    Check(Check),
+}
+
+/// Arguments of `show`.
+#[derive(Args, Debug)]
+pub struct Show {
+    /// A mechanism of the library, or the file of a description (FILE.mech)
+    #[arg(value_name = "NAME|FILE.mech")]
+    pub subject: String,
+    /// Print LaTeX instead of the notation of descriptions
+    #[arg(long)]
+    pub latex: bool,
+}
+
+/// Arguments of `check`.
+#[derive(Args, Debug)]
+pub struct Check {
+    /// The description
+    #[arg(value_name = "FILE.mech")]
+    pub file: PathBuf,
+}
+
+/// Arguments of `reproduce`.
+#[derive(Args, Debug)]
+pub struct Reproduce {
+    /// Where the figures go
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+}
+
+/// Arguments of `simulate`.
+#[derive(Args, Debug)]
+#[command(allow_negative_numbers = true)]
+#[command(after_help = "\
+Values are in SI units and may be formulas of constants: 80*deg, pi/4, 1/100.
+
+Columns of the CSV: t, the coordinates by name, their velocities as der(NAME), then \
+what --columns asks for. Numbers read back to the same bits.
+
+Exit status: 0; 1 if the run failed (the rows computed so far are kept); 2 if the \
+command line is wrong.")]
+pub struct Simulate {
+    /// The mechanism: a name of `bricard list`
+    pub name: String,
+    /// Time at which to stop, in seconds
+    #[arg(long, value_name = "T", default_value = "10", value_parser = formula::number)]
+    pub until: f64,
+    /// Fixed step, in seconds [default of rk4: 0.01]
+    #[arg(long, value_name = "h", value_parser = formula::number, conflicts_with_all = ["rtol", "atol"])]
+    pub step: Option<f64>,
+    /// Relative error per step that dp5 and dop853 may make [default: 1e-9]
+    #[arg(long, value_name = "r", value_parser = formula::number)]
+    pub rtol: Option<f64>,
+    /// Absolute error per step that they may make [default: the value of --rtol]
+    #[arg(long, value_name = "a", value_parser = formula::number)]
+    pub atol: Option<f64>,
+    /// Integrator [default: rk4 with --step, else dop853]
+    #[arg(long, value_enum)]
+    pub method: Option<MethodName>,
+    /// Form of the equations of motion
+    #[arg(long, value_enum, default_value_t = FormName::Reduced)]
+    pub form: FormName,
+    /// What keeps the state on the constraints: projection, none, or
+    /// baumgarte:ALPHA:BETA (1/s)
+    #[arg(long, value_name = "WAY", default_value = "projection", value_parser = stabilisation)]
+    pub stabilisation: Stabilisation<f64>,
+    /// Pass singular positions as published, without the constraints
+    /// differentiated once more (less accurate; for comparison)
+    #[arg(long)]
+    pub no_branch_rows: bool,
+    /// Distance of the rows in time, in seconds [default: a row after each step]
+    #[arg(long, value_name = "dt", value_parser = formula::number)]
+    pub every: Option<f64>,
+    /// Change a parameter, or hold an input at a value
+    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::assignment)]
+    pub set: Vec<Assignment>,
+    /// Hold a coordinate, or a velocity der(NAME), at a value at the start
+    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::assignment)]
+    pub start: Vec<Assignment>,
+    /// Columns to add, with commas between them: energy, kinetic, potential,
+    /// constraint_error, velocity_error, rank, reactions, or outputs by name
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    pub columns: Vec<String>,
+    /// Where the rows go [default: standard output, or nowhere with --plot]
+    #[arg(long, value_name = "FILE.csv")]
+    pub out: Option<PathBuf>,
+    /// Draw coordinates and added columns over time
+    #[arg(long, value_name = "FILE.svg")]
+    pub plot: Option<PathBuf>,
+}
+
+/// The integrators by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MethodName {
+    /// Classical Runge–Kutta of order 4, always of fixed step
+    Rk4,
+    /// Dormand–Prince 5(4)
+    Dp5,
+    /// Dormand–Prince 8(5,3)
+    Dop853,
+}
+
+/// The forms of the equations of motion by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum FormName {
+    /// Null space; passes singular positions
+    Reduced,
+    /// Least squares for accelerations and reactions at once; passes singular
+    /// positions
+    Full,
+    /// Lagrange multipliers; ends at a singular position
+    Multipliers,
+    /// Independent and dependent coordinates; ends at a singular position
+    Partitioning,
+}
+
+impl From<FormName> for Form {
+    fn from(name: FormName) -> Self {
+        match name {
+            FormName::Reduced => Form::Reduced,
+            FormName::Full => Form::Full,
+            FormName::Multipliers => Form::Multipliers,
+            FormName::Partitioning => Form::Partitioning,
+        }
+    }
+}
+
+/// Reads `projection`, `none` or `baumgarte:ALPHA:BETA`.
+fn stabilisation(text: &str) -> Result<Stabilisation<f64>, String> {
+    let gain = |text: &str| match formula::number(text)? {
+        gain if gain > 0.0 => Ok(gain),
+        gain => Err(format!("a gain must be positive, not {gain}")),
+    };
+    match text.split(':').collect::<Vec<_>>()[..] {
+        ["projection"] => Ok(Stabilisation::Projection),
+        ["none"] => Ok(Stabilisation::None),
+        ["baumgarte", alpha, beta] => Ok(Stabilisation::Baumgarte {
+            alpha: gain(alpha)?,
+            beta: gain(beta)?,
+        }),
+        _ => Err(
+            "write `projection`, `none` or `baumgarte:ALPHA:BETA`, such as \
+                  `baumgarte:10:10`"
+                .to_string(),
+        ),
+    }
+}

@@ -1,0 +1,191 @@
+//! Why a command could not do what it was asked to, in the user's words.
+//!
+//! In:  nothing.
+//! Out: [`CommandError`]: a message and an exit status.
+
+use bricard_codegen::diagnostic::nearest;
+use std::fmt::{self, Display, Formatter};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Exit status of a command line that is wrong.
+const WRONG_COMMAND_LINE: u8 = 2;
+/// Exit status of a run that failed.
+const FAILED: u8 = 1;
+
+/// Why a command could not do what it was asked to.
+#[derive(Debug)]
+pub enum CommandError {
+    /// A name that nothing has.
+    UnknownName {
+        /// What the name should be of: `mechanism`, `parameter`, …
+        kind: &'static str,
+        /// Whose it should be; empty for the library's own.
+        owner: String,
+        /// The name as given.
+        name: String,
+        /// What there is.
+        known: Vec<String>,
+    },
+    /// A number that makes no sense.
+    OutOfRange {
+        /// The option.
+        option: &'static str,
+        /// Its value.
+        value: f64,
+        /// What would make sense.
+        wanted: &'static str,
+    },
+    /// An option that the chosen method has no use for.
+    UselessOption {
+        /// The option.
+        option: &'static str,
+        /// The method.
+        method: &'static str,
+        /// What to write instead.
+        instead: &'static str,
+    },
+    /// A kind of file that can't be written.
+    FileKind {
+        /// The file.
+        path: PathBuf,
+        /// What to write instead.
+        instead: &'static str,
+    },
+    /// A file that could not be read.
+    Read(PathBuf, io::Error),
+    /// A file or folder that could not be written.
+    Write(PathBuf, io::Error),
+    /// A file of rows that could not be written to its end.
+    WriteRows {
+        /// The file.
+        path: PathBuf,
+        /// Rows handed over before.
+        rows: usize,
+        /// What the system says.
+        error: io::Error,
+    },
+    /// A picture that could not be drawn, with the drawing library's words.
+    Draw(PathBuf, String),
+    /// A description that is wrong: the rendered messages.
+    Description(String),
+    /// A run that could not begin or ended early.
+    Run {
+        /// Why.
+        reason: String,
+        /// What became of the rows computed before.
+        kept: String,
+    },
+    /// Bounds that a reproduced experiment does not keep.
+    OutOfBounds(Vec<String>),
+    /// The reader of standard output has gone.
+    NobodyReads,
+}
+
+impl CommandError {
+    /// A failure to write a file; a reader that has gone is a case of its own.
+    pub fn write(path: &Path, error: io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::BrokenPipe => Self::NobodyReads,
+            _ => Self::Write(path.to_path_buf(), error),
+        }
+    }
+
+    /// A failure to write rows.
+    pub fn write_rows(path: &Path, rows: usize, error: io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::BrokenPipe => Self::NobodyReads,
+            _ => Self::WriteRows {
+                path: path.to_path_buf(),
+                rows,
+                error,
+            },
+        }
+    }
+
+    /// The exit status.
+    pub fn status(&self) -> u8 {
+        match self {
+            Self::UnknownName { .. }
+            | Self::OutOfRange { .. }
+            | Self::UselessOption { .. }
+            | Self::FileKind { .. } => WRONG_COMMAND_LINE,
+            Self::NobodyReads => 0,
+            _ => FAILED,
+        }
+    }
+
+    /// Whether there is nobody to tell.
+    pub fn is_silent(&self) -> bool {
+        matches!(self, Self::NobodyReads)
+    }
+}
+
+impl Display for CommandError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnknownName {
+                kind,
+                owner,
+                name,
+                known,
+            } => unknown_name(f, kind, owner, name, known),
+            Self::OutOfRange {
+                option,
+                value,
+                wanted,
+            } => {
+                write!(f, "{option} must be {wanted}, not {value}")
+            }
+            Self::UselessOption {
+                option,
+                method,
+                instead,
+            } => {
+                write!(f, "{method} has no use for {option}; {instead}")
+            }
+            Self::FileKind { path, instead } => {
+                write!(f, "{} can't be written: {instead}", path.display())
+            }
+            Self::Read(path, error) => write!(f, "could not read {}: {error}", path.display()),
+            Self::Write(path, error) => write!(f, "could not write {}: {error}", path.display()),
+            Self::WriteRows { path, rows, error } => write!(
+                f,
+                "could not write {} to its end: {error}; it holds at most the first {rows} rows",
+                path.display()
+            ),
+            Self::Draw(path, error) => write!(f, "could not draw {}: {error}", path.display()),
+            Self::Description(rendered) => write!(f, "the description is wrong\n\n{rendered}"),
+            Self::Run { reason, kept } => write!(f, "{reason}{kept}"),
+            Self::OutOfBounds(broken) => {
+                f.write_str("these bounds are not kept:")?;
+                broken.iter().try_for_each(|bound| write!(f, "\n  {bound}"))
+            }
+            Self::NobodyReads => f.write_str("nobody reads standard output any more"),
+        }
+    }
+}
+
+fn unknown_name(
+    f: &mut Formatter<'_>,
+    kind: &str,
+    owner: &str,
+    name: &str,
+    known: &[String],
+) -> fmt::Result {
+    let of = if owner.is_empty() {
+        String::new()
+    } else {
+        format!(" in `{owner}`")
+    };
+    write!(f, "there is no {kind} `{name}`{of}")?;
+    if let Some(meant) = nearest(name, known.iter().map(String::as_str)) {
+        write!(f, "; did you mean `{meant}`?")?;
+    }
+    match known {
+        [] => write!(f, "\nthere are none"),
+        _ => write!(f, "\nthere are: {}", known.join(", ")),
+    }
+}
+
+impl std::error::Error for CommandError {}

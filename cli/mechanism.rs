@@ -1,0 +1,201 @@
+//! A mechanism of the library, its type and sizes forgotten.
+//!
+//! In:  a name.
+//! Out: [`AnyMechanism`], on which the commands work.
+//!
+//! The type of a mechanism is forgotten before anything is done with it, so that
+//! the simulation is compiled once for each pair of sizes, not for each mechanism.
+
+use crate::error::CommandError;
+use crate::plot::Shape;
+use crate::run::{Plan, Report, RowSink, Stopped, run};
+use bricard_runtime::{
+    Canvas, Initial, Interface, Mechanism, Settings, Solver, Start, State, Structure, Visitor,
+    assemble,
+};
+
+/// What the commands do with a mechanism.
+pub trait AnyMechanism {
+    /// What was known when its code was generated.
+    fn structure(&self) -> &'static Structure;
+    /// Sets a parameter, by its place.
+    fn set_parameter(&mut self, index: usize, value: f64);
+    /// Holds an input at a value, by its place.
+    fn hold_input(&mut self, index: usize, value: f64);
+    /// Holds a coordinate or a velocity at the start.
+    fn hold(&mut self, held: Held);
+    /// In words: rank of the constraints at the start, and what is left free.
+    fn freedom(&self) -> String;
+    /// Simulates.
+    fn run(&self, plan: &Plan, sink: &mut dyn RowSink) -> Result<Report, Stopped>;
+    /// The picture at a state: time, coordinates, velocities.
+    fn shapes(&self, row: &[f64]) -> Vec<Shape>;
+}
+
+/// A value held at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Held {
+    /// The coordinate, by its place.
+    pub coordinate: usize,
+    /// Whether it is its velocity that is held.
+    pub velocity: bool,
+    /// The value (SI).
+    pub value: f64,
+}
+
+/// Finds a mechanism of the library.
+///
+/// # Errors
+///
+/// [`CommandError::UnknownName`].
+pub fn find(name: &str) -> Result<Box<dyn AnyMechanism>, CommandError> {
+    bricard::visit(name, Forget).ok_or_else(|| CommandError::UnknownName {
+        kind: "mechanism",
+        owner: String::new(),
+        name: name.to_string(),
+        known: bricard::NAMES.iter().map(|name| name.to_string()).collect(),
+    })
+}
+
+/// Everything a mechanism can do, in one object.
+pub trait Whole<const N: usize, const R: usize>: Mechanism<f64, N, R> + Interface<f64, N> {}
+
+impl<M, const N: usize, const R: usize> Whole<N, R> for M where
+    M: Mechanism<f64, N, R> + Interface<f64, N>
+{
+}
+
+struct Forget;
+
+impl Visitor<f64> for Forget {
+    type Output = Box<dyn AnyMechanism>;
+
+    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
+    where
+        M: Mechanism<f64, N, R> + Interface<f64, N> + Clone + 'static,
+    {
+        let mechanism: Box<dyn Whole<N, R>> = Box::new(mechanism);
+        Box::new(Sized {
+            mechanism,
+            held: Vec::new(),
+        })
+    }
+}
+
+/// A mechanism of `N` coordinates and `R` constraint equations, and what is held
+/// at its start.
+struct Sized<const N: usize, const R: usize> {
+    mechanism: Box<dyn Whole<N, R>>,
+    held: Vec<Held>,
+}
+
+impl<const N: usize, const R: usize> Sized<N, R> {
+    /// The `start` block of the description, with what is held instead.
+    fn start(&self) -> Start<f64, N> {
+        let mut start = self.mechanism.start();
+        for held in &self.held {
+            let entries = if held.velocity {
+                &mut start.v
+            } else {
+                &mut start.q
+            };
+            if let Some(entry) = entries.get_mut(held.coordinate) {
+                *entry = Initial {
+                    value: held.value,
+                    held: true,
+                };
+            }
+        }
+        start
+    }
+}
+
+impl<const N: usize, const R: usize> AnyMechanism for Sized<N, R> {
+    fn structure(&self) -> &'static Structure {
+        self.mechanism.structure()
+    }
+
+    fn set_parameter(&mut self, index: usize, value: f64) {
+        self.mechanism.set_parameter(index, value);
+    }
+
+    fn hold_input(&mut self, index: usize, value: f64) {
+        self.mechanism.set_input(index, Some(value));
+    }
+
+    fn hold(&mut self, held: Held) {
+        self.held.push(held);
+    }
+
+    fn freedom(&self) -> String {
+        if R == 0 {
+            return format!("{N} degrees of freedom");
+        }
+        let mechanism: &dyn Whole<N, R> = &*self.mechanism;
+        let state = match assemble(mechanism, &self.start(), 0.0) {
+            Ok(state) => state,
+            Err(error) => return format!("the start can't be assembled: {error}"),
+        };
+        match Solver::new(Settings::default()).on(mechanism).rank(&state) {
+            Ok(rank) => format!(
+                "at the start {} of {R} constraint equations are independent: {} degrees of freedom",
+                rank.rank,
+                N - rank.rank
+            ),
+            Err(error) => format!("the rank at the start can't be decided: {error}"),
+        }
+    }
+
+    fn run(&self, plan: &Plan, sink: &mut dyn RowSink) -> Result<Report, Stopped> {
+        run(&*self.mechanism, &self.start(), plan, sink)
+    }
+
+    fn shapes(&self, row: &[f64]) -> Vec<Shape> {
+        let mut state = State::default();
+        state.t = row.first().copied().unwrap_or(0.0);
+        for (i, x) in row.iter().skip(1).take(2 * N).enumerate() {
+            if i < N {
+                state.q[i] = *x;
+            } else {
+                state.v[i - N] = *x;
+            }
+        }
+        let mut sheet = Sheet::default();
+        self.mechanism.draw(&state, &mut sheet);
+        sheet.shapes
+    }
+}
+
+/// Collects the shapes of a picture. What lies in space is seen from the front,
+/// a little from the right and from above.
+#[derive(Default)]
+struct Sheet {
+    shapes: Vec<Shape>,
+}
+
+/// How far a metre of depth moves a point to the left and down (m).
+const DEPTH: [f64; 2] = [-0.35, -0.25];
+
+fn seen([x, y, z]: [f64; 3]) -> [f64; 2] {
+    [x + DEPTH[0] * z, y + DEPTH[1] * z]
+}
+
+impl Canvas<f64> for Sheet {
+    fn line(&mut self, points: &[[f64; 3]]) {
+        self.shapes
+            .push(Shape::Line(points.iter().copied().map(seen).collect()));
+    }
+
+    fn circle(&mut self, centre: [f64; 3], radius: f64) {
+        self.shapes.push(Shape::Circle(seen(centre), radius));
+    }
+
+    fn polygon(&mut self, points: &[[f64; 3]]) {
+        self.shapes
+            .push(Shape::Polygon(points.iter().copied().map(seen).collect()));
+    }
+
+    fn trace(&mut self, point: [f64; 3]) {
+        self.shapes.push(Shape::Trace(seen(point)));
+    }
+}

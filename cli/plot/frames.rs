@@ -1,0 +1,201 @@
+//! Configurations of a mechanism, side by side.
+
+use super::style::{DETAIL, FONT, GHOST, GRID, HEADING, INK, TEXT, colour};
+use super::svg::{self, Area, Drawn};
+use crate::error::CommandError;
+use plotters::prelude::*;
+use std::path::Path;
+
+/// A part of the picture of a mechanism, in metres.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// An open polygon.
+    Line(Vec<[f64; 2]>),
+    /// A closed, filled polygon.
+    Polygon(Vec<[f64; 2]>),
+    /// A circle.
+    Circle([f64; 2], f64),
+    /// A point whose path is wanted.
+    Trace([f64; 2]),
+}
+
+/// A configuration and those shortly before it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// What stands above it.
+    pub caption: String,
+    /// The configuration.
+    pub now: Vec<Shape>,
+    /// Earlier configurations, drawn faintly.
+    pub before: Vec<Vec<Shape>>,
+}
+
+/// Frames in a row.
+const COLUMNS: usize = 3;
+/// Width of a frame (pixels).
+const WIDTH: u32 = 300;
+/// Height of the title (pixels).
+const TITLE: u32 = 36;
+/// Height of a caption (pixels).
+const CAPTION: u32 = 26;
+/// Empty border around what is drawn, as a fraction of its size.
+const BORDER: f64 = 0.08;
+
+/// Draws configurations in one scale, equal in both directions.
+///
+/// # Errors
+///
+/// As [`svg::write`].
+pub fn frames(path: &Path, title: &str, frames: &[Frame]) -> Result<(), CommandError> {
+    let bounds = bounds(frames);
+    let (across, up) = (bounds.1[0] - bounds.0[0], bounds.1[1] - bounds.0[1]);
+    let picture = (f64::from(WIDTH) * (up / across).clamp(0.3, 2.0)) as u32;
+    let columns = u32::try_from(frames.len().clamp(1, COLUMNS)).unwrap_or(1);
+    let rows = u32::try_from(frames.len().div_ceil(COLUMNS)).unwrap_or(1);
+    let size = (
+        columns * WIDTH + 24,
+        TITLE + rows * (CAPTION + picture + 8) + 8,
+    );
+    svg::write(path, size, |root| {
+        let style = TextStyle::from((FONT, HEADING).into_font()).color(&INK);
+        let head = i32::try_from(12 * DETAIL).unwrap_or(0);
+        root.draw(&Text::new(title.to_string(), (head, head * 5 / 6), style))?;
+        for (i, frame) in (0u32..).zip(frames) {
+            let corner = (
+                12 + (i % columns) * WIDTH,
+                TITLE + (i / columns) * (CAPTION + picture + 8),
+            );
+            let place = |v: u32| i32::try_from(v * DETAIL).unwrap_or(0);
+            let area = root.clone().shrink(
+                (place(corner.0), place(corner.1)),
+                (WIDTH * DETAIL, (CAPTION + picture) * DETAIL),
+            );
+            draw(&area, frame, &Projection::new(bounds, picture))?;
+        }
+        Ok(())
+    })
+}
+
+/// Metres to pixels of a frame.
+struct Projection {
+    corner: [f64; 2],
+    scale: f64,
+    height: f64,
+}
+
+impl Projection {
+    fn new(bounds: ([f64; 2], [f64; 2]), height: u32) -> Self {
+        let detail = f64::from(DETAIL);
+        let (width, height) = (f64::from(WIDTH - 10) * detail, f64::from(height) * detail);
+        let size = [bounds.1[0] - bounds.0[0], bounds.1[1] - bounds.0[1]];
+        let scale = (width / size[0]).min(height / size[1]);
+        let spare = [width / scale - size[0], height / scale - size[1]];
+        let corner = [bounds.0[0] - spare[0] / 2.0, bounds.0[1] - spare[1] / 2.0];
+        Self {
+            corner,
+            scale,
+            height: height + f64::from(CAPTION) * detail,
+        }
+    }
+
+    fn pixel(&self, point: [f64; 2]) -> (i32, i32) {
+        let x = (point[0] - self.corner[0]) * self.scale;
+        let y = self.height - (point[1] - self.corner[1]) * self.scale;
+        (x.round() as i32, y.round() as i32)
+    }
+}
+
+/// The corners of what is drawn, with a border.
+fn bounds(frames: &[Frame]) -> ([f64; 2], [f64; 2]) {
+    let mut corners = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    let mut include = |point: [f64; 2], radius: f64| {
+        for axis in 0..2 {
+            corners.0[axis] = corners.0[axis].min(point[axis] - radius);
+            corners.1[axis] = corners.1[axis].max(point[axis] + radius);
+        }
+    };
+    let all = frames
+        .iter()
+        .flat_map(|frame| frame.before.iter().flatten().chain(&frame.now));
+    for shape in all {
+        match shape {
+            Shape::Line(points) | Shape::Polygon(points) => {
+                points.iter().for_each(|point| include(*point, 0.0));
+            }
+            Shape::Circle(centre, radius) => include(*centre, radius.abs()),
+            Shape::Trace(point) => include(*point, 0.0),
+        }
+    }
+    if !corners.0.iter().chain(&corners.1).all(|x| x.is_finite()) {
+        return ([-1.0; 2], [1.0; 2]);
+    }
+    let longest = (corners.1[0] - corners.0[0])
+        .max(corners.1[1] - corners.0[1])
+        .max(1e-9);
+    let border = BORDER * longest;
+    (corners.0.map(|x| x - border), corners.1.map(|x| x + border))
+}
+
+fn draw(area: &Area, frame: &Frame, projection: &Projection) -> Drawn {
+    let (width, height) = area.dim_in_pixel();
+    let edge = |v: u32| i32::try_from(v).unwrap_or(0);
+    let right = edge(width) - 10 * edge(DETAIL);
+    let top = edge(CAPTION * DETAIL);
+    area.draw(&Rectangle::new(
+        [(0, top), (right, edge(height))],
+        GRID.stroke_width(DETAIL),
+    ))?;
+    let style = TextStyle::from((FONT, TEXT).into_font()).color(&INK);
+    area.draw(&Text::new(
+        frame.caption.clone(),
+        (0, 6 * edge(DETAIL)),
+        style,
+    ))?;
+    for shape in frame.before.iter().flatten() {
+        draw_shape(area, shape, projection, GHOST, 1)?;
+    }
+    let mut lines = 0;
+    for shape in &frame.now {
+        let ink = colour(lines);
+        lines += usize::from(matches!(shape, Shape::Line(_)));
+        draw_shape(area, shape, projection, ink, 3)?;
+    }
+    Ok(())
+}
+
+fn draw_shape(
+    area: &Area,
+    shape: &Shape,
+    projection: &Projection,
+    ink: RGBColor,
+    width: u32,
+) -> Drawn {
+    let pixels = |points: &[[f64; 2]]| -> Vec<(i32, i32)> {
+        points
+            .iter()
+            .map(|point| projection.pixel(*point))
+            .collect()
+    };
+    match shape {
+        Shape::Line(points) => {
+            let path = pixels(points);
+            area.draw(&PathElement::new(
+                path.clone(),
+                ink.stroke_width(width * DETAIL),
+            ))?;
+            let joint = |at| Circle::new(at, (width + 1) * DETAIL, ink.filled());
+            path.into_iter().try_for_each(|at| area.draw(&joint(at)))
+        }
+        Shape::Polygon(points) => area.draw(&Polygon::new(pixels(points), ink.mix(0.4).filled())),
+        Shape::Circle(centre, radius) => {
+            let radius = (radius.abs() * projection.scale).round() as u32;
+            let style = ink.stroke_width(width * DETAIL);
+            area.draw(&Circle::new(projection.pixel(*centre), radius, style))
+        }
+        Shape::Trace(point) => area.draw(&Circle::new(
+            projection.pixel(*point),
+            2 * DETAIL,
+            ink.filled(),
+        )),
+    }
+}

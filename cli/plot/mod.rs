@@ -1,0 +1,50 @@
+//! Pictures: curves over time in panels, and configurations of a mechanism.
+//!
+//! In:  series of numbers with names and units, shapes.
+//! Out: SVG files.
+//!
+//! Not here: what is worth drawing ([`crate::figure`]).
+
+mod curve;
+mod frames;
+mod panel;
+mod style;
+mod svg;
+
+pub use frames::{Frame, Shape, frames};
+pub use panel::panels;
+
+/// One diagram over time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel {
+    /// What the vertical axis shows, with its unit.
+    pub axis: String,
+    /// How it is divided.
+    pub scale: Scale,
+    /// The curves.
+    pub series: Vec<Series>,
+}
+
+/// How a vertical axis is divided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    /// Evenly, over the range of the values.
+    Linear,
+    /// By powers of ten, from `10^low` to `10^high` or further up if values lie
+    /// there. Smaller values, zero among them, are drawn at the lower edge.
+    Logarithmic {
+        /// Exponent at the lower edge.
+        low: i32,
+        /// Exponent at the upper edge, unless values are larger.
+        high: i32,
+    },
+}
+
+/// One curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Its name in the legend.
+    pub name: String,
+    /// Its values, one for each time.
+    pub values: Vec<f64>,
+}

@@ -1,0 +1,210 @@
+//! Panels of curves over time, one below the other.
+
+use super::curve::{Curve, curves};
+use super::style::{DETAIL, FONT, GRID, HEADING, INK, STROKE, TEXT, colour};
+use super::svg::{self, Area, Drawn};
+use super::{Panel, Scale};
+use crate::error::CommandError;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use std::path::Path;
+
+/// Width of a picture (pixels).
+const WIDTH: u32 = 860;
+/// Height of a panel (pixels).
+const PANEL: u32 = 190;
+/// Height of the title (pixels).
+const TITLE: u32 = 36;
+/// Height that the axis of time adds to the last panel (pixels).
+const TIME_AXIS: u32 = 44;
+/// Width of the vertical axis with its labels (pixels).
+const LABELS: u32 = 78;
+/// Width of a letter of the legend (pixels), generously.
+const LETTER: u32 = 9;
+/// Lines of the grid, about.
+const TICKS: usize = 5;
+
+/// Draws panels with a common axis of time (s).
+///
+/// # Errors
+///
+/// As [`svg::write`].
+pub fn panels(
+    path: &Path,
+    title: &str,
+    times: &[f64],
+    panels: &[Panel],
+) -> Result<(), CommandError> {
+    let prepared: Vec<_> = panels
+        .iter()
+        .map(|panel| curves(times, &panel.series, panel.scale))
+        .collect();
+    let names = prepared
+        .iter()
+        .flat_map(|(curves, _)| curves)
+        .map(|c| c.name.chars().count());
+    let longest = u32::try_from(names.max().unwrap_or(0)).unwrap_or(0);
+    let legend = 56 + LETTER * longest.min(30);
+    let count = u32::try_from(panels.len()).unwrap_or(1);
+    let size = (WIDTH + legend, TITLE + PANEL * count + TIME_AXIS);
+    let time = (
+        times.first().copied().unwrap_or(0.0),
+        times.last().copied().unwrap_or(1.0),
+    );
+    svg::write(path, size, |root| {
+        let (head, mut rest) = root.split_vertically(TITLE * DETAIL);
+        heading(&head, title)?;
+        for (i, (panel, (curves, range))) in panels.iter().zip(&prepared).enumerate() {
+            let last = i + 1 == panels.len();
+            let height = if last { PANEL + TIME_AXIS } else { PANEL };
+            let (area, below) = rest.split_vertically(height * DETAIL);
+            let (left, right) = area.split_horizontally(WIDTH * DETAIL);
+            diagram(&left, panel, curves, (time, *range), last)?;
+            explain(&right, curves)?;
+            rest = below;
+        }
+        Ok(())
+    })
+}
+
+fn heading(area: &Area, title: &str) -> Drawn {
+    let style = TextStyle::from((FONT, HEADING).into_font()).color(&INK);
+    area.draw(&Text::new(title.to_string(), px(LABELS, 10), style))
+}
+
+/// A place in pixels of the picture as it is shown.
+fn px(x: u32, y: u32) -> (i32, i32) {
+    let scaled = |v: u32| i32::try_from(v * DETAIL).unwrap_or(i32::MAX);
+    (scaled(x), scaled(y))
+}
+
+type Range = (f64, f64);
+
+fn diagram(
+    area: &Area,
+    panel: &Panel,
+    curves: &[Curve],
+    (time, range): (Range, Range),
+    last: bool,
+) -> Drawn {
+    let time = (
+        time.0,
+        if time.1 > time.0 {
+            time.1
+        } else {
+            time.0 + 1.0
+        },
+    );
+    let mut chart = ChartBuilder::on(area)
+        .margin_top(10 * DETAIL)
+        .margin_bottom(6 * DETAIL)
+        .margin_left(14 * DETAIL)
+        .margin_right(8 * DETAIL)
+        .set_label_area_size(LabelAreaPosition::Left, LABELS * DETAIL)
+        .set_label_area_size(
+            LabelAreaPosition::Bottom,
+            if last { TIME_AXIS * DETAIL } else { 0 },
+        )
+        .build_cartesian_2d(time.0..time.1, range.0..range.1)?;
+    let label = |y: &f64| match panel.scale {
+        Scale::Linear => short(*y, range.1 - range.0),
+        Scale::Logarithmic { .. } => power_of_ten(*y),
+    };
+    let ticks = match panel.scale {
+        Scale::Linear => TICKS,
+        Scale::Logarithmic { .. } => ((range.1 - range.0) / 2.0).ceil() as usize + 1,
+    };
+    chart
+        .configure_mesh()
+        .disable_x_mesh()
+        .max_light_lines(0)
+        .bold_line_style(GRID.stroke_width(DETAIL))
+        .axis_style(INK.stroke_width(DETAIL))
+        .label_style(TextStyle::from((FONT, TEXT).into_font()).color(&INK))
+        .axis_desc_style(TextStyle::from((FONT, TEXT).into_font()).color(&INK))
+        .set_tick_mark_size(LabelAreaPosition::Left, 5 * DETAIL)
+        .set_tick_mark_size(LabelAreaPosition::Bottom, 5 * DETAIL)
+        .y_labels(ticks)
+        .x_labels(9)
+        .y_desc(panel.axis.as_str())
+        .x_desc("time t [s]")
+        .y_label_formatter(&label)
+        .x_label_formatter(&|t| short(*t, time.1 - time.0))
+        .draw()?;
+    for (i, curve) in curves.iter().enumerate() {
+        let points = curve.points.iter().copied();
+        chart.draw_series(LineSeries::new(points, colour(i).stroke_width(STROKE)))?;
+    }
+    Ok(())
+}
+
+/// The legend, beside the diagram so that it hides nothing.
+fn explain(area: &Area, curves: &[Curve]) -> Drawn {
+    let anchor = Pos::new(HPos::Left, VPos::Center);
+    let style = TextStyle::from((FONT, TEXT).into_font())
+        .color(&INK)
+        .pos(anchor);
+    for (i, curve) in (0u32..).zip(curves) {
+        let y = 22 + 18 * i;
+        if y + 10 > PANEL {
+            break;
+        }
+        let sample = colour(i as usize).stroke_width(STROKE + 2);
+        area.draw(&PathElement::new(vec![px(8, y), px(32, y)], sample))?;
+        area.draw(&Text::new(curve.name.clone(), px(40, y), style.clone()))?;
+    }
+    Ok(())
+}
+
+/// A number of an axis that spans a range, in as few digits as tell neighbours
+/// apart.
+fn short(value: f64, range: f64) -> String {
+    let digits = (2.0 - range.log10()).floor().clamp(0.0, 12.0) as usize;
+    if range > 1e5 || range < 1e-9 {
+        return format!("{value:.1e}");
+    }
+    let text = format!("{value:.digits$}");
+    let text = if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        &text
+    };
+    let text = if text == "-0" { "0" } else { text };
+    text.replace('-', "−")
+}
+
+/// `10^exponent`, for whole exponents.
+fn power_of_ten(exponent: f64) -> String {
+    let raised = |c: char| match c {
+        '-' => '⁻',
+        '0' => '⁰',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        '4' => '⁴',
+        '5' => '⁵',
+        '6' => '⁶',
+        '7' => '⁷',
+        '8' => '⁸',
+        _ => '⁹',
+    };
+    let whole = exponent.round();
+    if (exponent - whole).abs() > 1e-9 {
+        return String::new();
+    }
+    let digits: String = format!("{whole:.0}").chars().map(raised).collect();
+    format!("10{digits}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{power_of_ten, short};
+
+    #[test]
+    fn numbers_of_an_axis_are_short() {
+        assert_eq!(short(-0.5, 2.0), "−0.5");
+        assert_eq!(short(0.0, 2.0), "0");
+        assert_eq!(short(100.0, 90.0), "100");
+        assert_eq!(power_of_ten(-14.0), "10⁻¹⁴");
+    }
+}

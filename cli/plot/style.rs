@@ -1,0 +1,38 @@
+//! Sizes and colours of all pictures.
+
+use plotters::prelude::RGBColor;
+
+/// Pictures are drawn this many times as large and shown reduced, because the
+/// drawing library places points on whole pixels.
+pub const DETAIL: u32 = 4;
+/// Size of plain text (pixels).
+pub const TEXT: u32 = 15 * DETAIL;
+/// Size of headings (pixels).
+pub const HEADING: u32 = 18 * DETAIL;
+/// Width of curves.
+pub const STROKE: u32 = 6;
+/// The family of all text.
+pub const FONT: &str = "sans-serif";
+/// Text and axes.
+pub const INK: RGBColor = RGBColor(38, 38, 38);
+/// Lines of the grid.
+pub const GRID: RGBColor = RGBColor(224, 224, 224);
+/// What has been.
+pub const GHOST: RGBColor = RGBColor(196, 204, 212);
+
+/// Colours that people of any colour vision can tell apart. Source: Okabe & Ito,
+/// Color Universal Design (2008).
+const COLOURS: [RGBColor; 7] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(90, 90, 90),
+];
+
+/// The colour of a curve by its place.
+pub fn colour(place: usize) -> RGBColor {
+    COLOURS[place % COLOURS.len()]
+}

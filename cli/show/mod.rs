@@ -1,0 +1,144 @@
+//! `bricard show`: the equations of motion, as derived from a description.
+//!
+//! In:  a mechanism of the library, or the file of a description.
+//! Out: every entry of M, C, C q̇, h, Q, g, G, b and p₂ on a line of its own, zeros
+//!      included; what a program for them costs; degrees of freedom.
+//!
+//! The text can be read by a computer algebra system once `^` is replaced by its
+//! power and `der(q1)` by a symbol.
+
+mod cost;
+mod names;
+mod sections;
+
+use crate::arguments::Show;
+use crate::check::read;
+use crate::error::CommandError;
+use crate::list::first_line;
+use crate::mechanism::find;
+use crate::output::print;
+use bricard_codegen::expr::{Notation, Symbol};
+use bricard_codegen::model::Mechanism;
+use bricard_codegen::{Settings, analyse, derive};
+use std::path::Path;
+
+/// Prints the equations of motion.
+pub fn show(arguments: &Show) -> Result<(), CommandError> {
+    let subject = Subject::of(&arguments.subject)?;
+    let rendered = |errors: bricard_codegen::Diagnostics| {
+        CommandError::Description(errors.render(&subject.file, &subject.source))
+    };
+    let (mut mechanism, _warnings) =
+        analyse(&subject.source, &Settings::default()).map_err(rendered)?;
+    let equations = derive::derive(&mut mechanism);
+    let sections = sections::sections(&mut mechanism, &equations);
+    let costs = cost::costs(&mut mechanism, &equations);
+    let heading = heading(&mechanism, &subject);
+    // The names are the mechanism's, so its graph has to stand apart to be added to.
+    let mut graph = std::mem::take(&mut mechanism.graph);
+    print(&if arguments.latex {
+        let names = |symbol: Symbol| names::latex(&mechanism.symbol_text(symbol));
+        let comment = heading
+            .lines()
+            .chain(costs.lines())
+            .map(|line| format!("% {line}\n"));
+        let body = sections::latex(&mut graph, &sections, &names);
+        format!("{}\n{body}", comment.collect::<String>())
+    } else {
+        let names = |symbol: Symbol| mechanism.symbol_text(symbol);
+        let body = sections::text(&mut graph, &sections, &names);
+        format!("{heading}\n{body}{costs}")
+    })
+}
+
+/// Whose equations are wanted.
+struct Subject {
+    file: String,
+    source: String,
+    /// Rank of the constraints and number of degrees of freedom at the start, as
+    /// far as it is known.
+    start: Option<String>,
+}
+
+impl Subject {
+    /// The subject of a name of the library or of a path.
+    fn of(name: &str) -> Result<Self, CommandError> {
+        let path = Path::new(name);
+        if path
+            .extension()
+            .is_some_and(|extension| extension == "mech")
+        {
+            return Ok(Self {
+                file: name.to_string(),
+                source: read(path)?,
+                start: None,
+            });
+        }
+        let mechanism = find(name)?;
+        let structure = mechanism.structure();
+        let source = bricard::source(name).unwrap_or("").to_string();
+        Ok(Self {
+            file: structure.file.to_string(),
+            source,
+            start: Some(mechanism.freedom()),
+        })
+    }
+}
+
+fn heading(mechanism: &Mechanism, subject: &Subject) -> String {
+    let (n, r) = (mechanism.coordinates.len(), mechanism.constraints.len());
+    let mut lines = vec![
+        format!("{}: {}", mechanism.name, first_line(&mechanism.docs)),
+        format!("from {}", subject.file),
+        format!("{n} coordinates, {r} constraint equations"),
+    ];
+    lines.push(match &subject.start {
+        Some(start) => start.clone(),
+        None if r == 0 => format!("{n} degrees of freedom"),
+        None => format!(
+            "{} degrees of freedom, if the constraint equations are independent",
+            n.saturating_sub(r)
+        ),
+    });
+    lines.push(String::new());
+    for (i, coordinate) in mechanism.coordinates.iter().enumerate() {
+        let unit = if coordinate.unit.is_empty() {
+            ""
+        } else {
+            &format!(" ({})", coordinate.unit)
+        };
+        let docs = first_line(&coordinate.docs);
+        lines.push(
+            format!("q[{}] is {}{unit}  {docs}", i + 1, coordinate.name)
+                .trim_end()
+                .into(),
+        );
+    }
+    for (i, constraint) in mechanism.constraints.iter().enumerate() {
+        lines.push(format!(
+            "g[{}] is line {}: {}",
+            i + 1,
+            constraint.span.start.line,
+            constraint.text
+        ));
+    }
+    lines.join("\n") + "\n"
+}
+
+/// The entry as it is, or as a reduced polynomial in sines and cosines:
+/// whichever is shorter.
+fn shortest(
+    graph: &mut bricard_codegen::expr::Graph,
+    e: bricard_codegen::expr::ExprId,
+    notation: Notation,
+    names: &dyn Fn(Symbol) -> String,
+) -> String {
+    let plain = graph.print(e, notation, names);
+    let reduced = bricard_codegen::optimise::in_trig_ring(graph, e);
+    let reduced = graph.print(reduced, notation, names);
+    if reduced.chars().count() < plain.chars().count() {
+        reduced
+    } else {
+        plain
+    }
+}

@@ -1,0 +1,142 @@
+//! The arrays of the equations of motion, entry by entry.
+
+use super::shortest;
+use bricard_codegen::derive::{Equations, Matrix, coriolis_matrix};
+use bricard_codegen::expr::{ExprId, Graph, Notation, Symbol};
+use bricard_codegen::model::Mechanism;
+
+/// One array.
+pub struct Section {
+    title: &'static str,
+    symbol: &'static str,
+    latex: &'static str,
+    entries: Entries,
+}
+
+enum Entries {
+    Matrix(Matrix),
+    Vector(Vec<ExprId>),
+}
+
+/// The arrays in the order of their derivation. Those of constraints are left
+/// out where there are none.
+pub fn sections(mechanism: &mut Mechanism, equations: &Equations) -> Vec<Section> {
+    let coriolis = coriolis_matrix(&mut mechanism.graph, &equations.mass);
+    let matrix = |title, symbol, latex, entries: &Matrix| Section {
+        title,
+        symbol,
+        latex,
+        entries: Entries::Matrix(entries.clone()),
+    };
+    let vector = |title, symbol, latex, entries: &[ExprId]| Section {
+        title,
+        symbol,
+        latex,
+        entries: Entries::Vector(entries.to_vec()),
+    };
+    let mut sections = vec![
+        matrix("mass matrix M = ∂²T/∂q̇²", "M", "M", &equations.mass),
+        matrix(
+            "Coriolis matrix C by Christoffel symbols",
+            "C",
+            "C",
+            &coriolis,
+        ),
+        vector(
+            "product C q̇, with the terms of moving frames",
+            "Cv",
+            "(C\\dot q)",
+            &equations.coriolis,
+        ),
+        vector("potential forces h = ∂Π/∂q", "h", "h", &equations.gravity),
+        vector(
+            "applied and dissipative forces Q",
+            "Q",
+            "Q",
+            &equations.applied,
+        ),
+    ];
+    if !equations.jacobian.is_empty() {
+        sections.extend([
+            vector("constraints g", "g", "g", &equations.residual),
+            matrix(
+                "constraint Jacobian G = ∂g/∂q",
+                "G",
+                "G",
+                &equations.jacobian,
+            ),
+            vector(
+                "drift b of the velocity level G q̇ + b = 0",
+                "b",
+                "b",
+                &equations.drift,
+            ),
+            vector(
+                "bias p2 of the acceleration level G q̈ = p2",
+                "p2",
+                "p_2",
+                &equations.bias,
+            ),
+        ]);
+    }
+    sections
+}
+
+/// The entries in the notation of descriptions.
+pub fn text(graph: &mut Graph, sections: &[Section], names: &dyn Fn(Symbol) -> String) -> String {
+    let mut text = String::new();
+    for Section {
+        title,
+        symbol,
+        entries,
+        ..
+    } in sections
+    {
+        text.push_str(&format!("{title}\n"));
+        for (place, e) in places(entries) {
+            let value = shortest(graph, e, Notation::Text, names);
+            text.push_str(&format!("{symbol}[{place}] = {value}\n"));
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// The entries as LaTeX, one `align*` for each array.
+pub fn latex(graph: &mut Graph, sections: &[Section], names: &dyn Fn(Symbol) -> String) -> String {
+    let mut text = String::new();
+    for Section {
+        title,
+        latex,
+        entries,
+        ..
+    } in sections
+    {
+        text.push_str(&format!("% {title}\n\\begin{{align*}}\n"));
+        let lines: Vec<String> = places(entries)
+            .map(|(place, e)| {
+                let value = shortest(graph, e, Notation::Latex, names);
+                format!("{latex}_{{{place}}} &= {value}")
+            })
+            .collect();
+        text.push_str(&lines.join(" \\\\\n"));
+        text.push_str("\n\\end{align*}\n\n");
+    }
+    text
+}
+
+/// Each entry with its place, counted from 1.
+fn places(entries: &Entries) -> Box<dyn Iterator<Item = (String, ExprId)> + '_> {
+    match entries {
+        Entries::Matrix(rows) => Box::new(rows.iter().enumerate().flat_map(|(i, row)| {
+            let place = move |j: usize| format!("{},{}", i + 1, j + 1);
+            row.iter().enumerate().map(move |(j, e)| (place(j), *e))
+        })),
+        Entries::Vector(entries) => Box::new(
+            entries
+                .iter()
+                .enumerate()
+                .map(|(i, e)| ((i + 1).to_string(), *e)),
+        ),
+    }
+}

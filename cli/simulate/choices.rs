@@ -1,0 +1,113 @@
+//! How to integrate, from the options of the command line.
+
+use crate::arguments::{MethodName, Simulate};
+use crate::column::Column;
+use crate::error::CommandError;
+use crate::run::Plan;
+use bricard_runtime::{Options, Pace, Scheme, Settings};
+use std::path::Path;
+
+/// Step of RK4, unless one is given (s).
+const STEP: f64 = 0.01;
+/// Relative tolerance of an adaptive method, unless one is given.
+const TOLERANCE: f64 = 1e-9;
+
+/// The plan of a run.
+///
+/// # Errors
+///
+/// [`CommandError::OutOfRange`], [`CommandError::UselessOption`].
+pub fn plan(arguments: &Simulate, columns: Vec<Column>) -> Result<Plan, CommandError> {
+    if arguments.until < 0.0 {
+        let (option, value) = ("--until", arguments.until);
+        return Err(CommandError::OutOfRange {
+            option,
+            value,
+            wanted: "zero or positive",
+        });
+    }
+    let every = positive("--every", arguments.every)?;
+    let fixed = arguments.step.is_some();
+    let method = arguments.method.unwrap_or(if fixed {
+        MethodName::Rk4
+    } else {
+        MethodName::Dop853
+    });
+    let scheme = match method {
+        MethodName::Rk4 => Scheme::Rk4,
+        MethodName::Dp5 => Scheme::Dp5,
+        MethodName::Dop853 => Scheme::Dop853,
+    };
+    let mut options = Options::new(arguments.until, scheme, pace(arguments, method)?);
+    options.settings = Settings {
+        form: arguments.form.into(),
+        stabilisation: arguments.stabilisation,
+        branch_rows: !arguments.no_branch_rows,
+    };
+    Ok(Plan {
+        options,
+        every,
+        columns,
+    })
+}
+
+fn pace(arguments: &Simulate, method: MethodName) -> Result<Pace<f64>, CommandError> {
+    let step = positive("--step", arguments.step)?;
+    let relative = positive("--rtol", arguments.rtol)?;
+    let absolute = positive("--atol", arguments.atol)?;
+    let fixed = step.or((method == MethodName::Rk4).then_some(STEP));
+    let useless = |option| CommandError::UselessOption {
+        option,
+        method: "rk4",
+        instead: "give --step, or take --method dp5 or dop853",
+    };
+    match (fixed, relative, absolute) {
+        (Some(_), Some(_), _) => Err(useless("--rtol")),
+        (Some(_), _, Some(_)) => Err(useless("--atol")),
+        (Some(step), None, None) => Ok(Pace::Fixed { step }),
+        (None, relative, absolute) => {
+            let relative = relative.unwrap_or(TOLERANCE);
+            Ok(Pace::Adaptive {
+                relative,
+                absolute: absolute.unwrap_or(relative),
+            })
+        }
+    }
+}
+
+fn positive(option: &'static str, value: Option<f64>) -> Result<Option<f64>, CommandError> {
+    match value {
+        Some(value) if value <= 0.0 => Err(CommandError::OutOfRange {
+            option,
+            value,
+            wanted: "a positive number",
+        }),
+        _ => Ok(value),
+    }
+}
+
+/// Refuses kinds of file that can't be written, before anything is computed.
+///
+/// # Errors
+///
+/// [`CommandError::FileKind`].
+pub fn check_files(arguments: &Simulate) -> Result<(), CommandError> {
+    let kind = |path: &Path| path.extension().map(|kind| kind.to_ascii_lowercase());
+    let refuse = |path: &Path, instead| {
+        Err(CommandError::FileKind {
+            path: path.to_path_buf(),
+            instead,
+        })
+    };
+    if let Some(out) = &arguments.out
+        && kind(out).is_some_and(|kind| kind == "parquet")
+    {
+        return refuse(out, "rows are written as CSV; write `--out run.csv`");
+    }
+    if let Some(plot) = &arguments.plot
+        && kind(plot).is_none_or(|kind| kind != "svg")
+    {
+        return refuse(plot, "plots are drawn as SVG; write `--plot run.svg`");
+    }
+    Ok(())
+}

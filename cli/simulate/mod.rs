@@ -1,0 +1,128 @@
+//! `bricard simulate`: rows of numbers, a summary, a plot.
+//!
+//! In:  a mechanism's name and what to change, how to integrate, what to record.
+//! Out: CSV, a summary on standard error, SVG.
+
+mod changes;
+mod choices;
+pub mod summary;
+
+use crate::arguments::Simulate;
+use crate::column::{Column, columns, header};
+use crate::error::CommandError;
+use crate::figure::overview;
+use crate::mechanism::find;
+use crate::output::{CsvWriter, probe, say};
+use crate::plot::panels;
+use crate::run::{RowSink, Stopped};
+use bricard_runtime::Structure;
+use std::path::Path;
+
+/// Simulates a mechanism.
+pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
+    let mut mechanism = find(&arguments.name)?;
+    let structure = mechanism.structure();
+    changes::apply(mechanism.as_mut(), arguments)?;
+    let columns = columns(&arguments.columns, structure, &arguments.name)?;
+    let plan = choices::plan(arguments, columns.clone())?;
+    choices::check_files(arguments)?;
+    let mut record = Record::open(arguments, structure, &columns)?;
+    let result = mechanism.run(&plan, &mut record);
+    let report = match &result {
+        Ok(report) => Some(report),
+        Err(stopped) => stopped.report.as_deref(),
+    };
+    let kept = record.close(arguments, structure, &columns)?;
+    if let Some(report) = report {
+        say(summary::summary(report, structure).trim_end());
+    }
+    match result {
+        Ok(_) => Ok(()),
+        Err(Stopped { error, .. }) => match error {
+            CommandError::Run { reason, .. } => Err(CommandError::Run { reason, kept }),
+            error => Err(error),
+        },
+    }
+}
+
+/// Where the rows go.
+struct Record {
+    csv: Option<CsvWriter>,
+    rows: Option<Vec<Vec<f64>>>,
+    count: usize,
+    last: f64,
+}
+
+impl Record {
+    fn open(
+        arguments: &Simulate,
+        structure: &Structure,
+        columns: &[Column],
+    ) -> Result<Self, CommandError> {
+        if let Some(plot) = &arguments.plot {
+            probe(plot)?;
+        }
+        let wanted = arguments.out.is_some() || arguments.plot.is_none();
+        let open = || CsvWriter::create(arguments.out.as_deref(), &header(structure, columns));
+        let csv = wanted.then(open).transpose()?;
+        let rows = arguments.plot.is_some().then(Vec::new);
+        Ok(Self {
+            csv,
+            rows,
+            count: 0,
+            last: 0.0,
+        })
+    }
+
+    /// Writes what is still to be written. Returns what to say of the rows if
+    /// the run failed.
+    fn close(
+        &mut self,
+        arguments: &Simulate,
+        structure: &Structure,
+        columns: &[Column],
+    ) -> Result<String, CommandError> {
+        let mut places = Vec::new();
+        if let Some(csv) = &mut self.csv {
+            csv.finish()?;
+            places.push(csv.destination());
+        }
+        if let (Some(path), Some(rows)) = (&arguments.plot, &self.rows) {
+            draw(path, &arguments.name, structure, columns, rows)?;
+            places.push(path.display().to_string());
+        }
+        Ok(match self.count {
+            0 => "\nno rows were computed".to_string(),
+            count => format!(
+                "\nthe {count} rows computed before, up to t = {} s, are kept: {}",
+                self.last,
+                places.join(", ")
+            ),
+        })
+    }
+}
+
+impl RowSink for Record {
+    fn row(&mut self, values: &[f64]) -> Result<(), CommandError> {
+        if let Some(csv) = &mut self.csv {
+            csv.row(values)?;
+        }
+        if let Some(rows) = &mut self.rows {
+            rows.push(values.to_vec());
+        }
+        self.count += 1;
+        self.last = values.first().copied().unwrap_or(0.0);
+        Ok(())
+    }
+}
+
+fn draw(
+    path: &Path,
+    name: &str,
+    structure: &Structure,
+    columns: &[Column],
+    rows: &[Vec<f64>],
+) -> Result<(), CommandError> {
+    let times: Vec<f64> = rows.iter().filter_map(|row| row.first().copied()).collect();
+    panels(path, name, &times, &overview(structure, columns, rows))
+}

@@ -1,0 +1,100 @@
+//! A run in a few lines.
+
+use crate::run::Report;
+use crate::table::{Align, aligned};
+use bricard_runtime::{Counters, Structure};
+
+/// Passages whose times are listed.
+const LISTED: usize = 20;
+
+/// What was done and how well, one quantity in a line.
+pub fn summary(report: &Report, structure: &Structure) -> String {
+    let mut rows = vec![
+        ["steps".to_string(), report.steps.to_string()],
+        ["rejected steps".to_string(), report.rejected.to_string()],
+        [
+            "wall time".to_string(),
+            format!("{:.3} s", report.wall.as_secs_f64()),
+        ],
+        energy(report, structure),
+    ];
+    if structure.constraints.is_empty() {
+        rows.push([
+            "accelerations".into(),
+            report.counters.cheap_accelerations.to_string(),
+        ]);
+    } else {
+        rows.push([
+            "largest constraint error".into(),
+            format!("{:.1e}", report.constraint_error),
+        ]);
+        rows.push([
+            "passages through singular positions".into(),
+            passages(report),
+        ]);
+        rows.extend(work(&report.counters));
+    }
+    let rows: Vec<Vec<String>> = rows.into_iter().map(Vec::from).collect();
+    aligned(&rows, &[Align::Left, Align::Left])
+}
+
+fn energy(report: &Report, structure: &Structure) -> [String; 2] {
+    let what = if structure.conservative {
+        "energy drift"
+    } else {
+        "error of the power balance"
+    };
+    [what.to_string(), format!("{:.1e} J", report.energy_error)]
+}
+
+fn passages(report: &Report) -> String {
+    let times: Vec<String> = report
+        .passages
+        .iter()
+        .take(LISTED)
+        .map(|passage| format!("{:.3}", passage.t))
+        .collect();
+    let count = report.passages.len();
+    match count {
+        0 => "none".to_string(),
+        _ if count > LISTED => format!("{count}, at t = {}, … s", times.join(", ")),
+        _ => format!("{count}, at t = {} s", times.join(", ")),
+    }
+}
+
+fn work(counters: &Counters) -> Vec<[String; 2]> {
+    let Counters {
+        cheap_accelerations: cheap,
+        robust_accelerations: robust,
+        ..
+    } = *counters;
+    let total = (cheap + robust).max(1);
+    let share = 100.0 * cheap as f64 / total as f64;
+    vec![
+        [
+            "accelerations".to_string(),
+            format!("{cheap} by the cheap path ({share:.1} %), {robust} by the robust path"),
+        ],
+        [
+            "rank decisions".to_string(),
+            format!(
+                "{}, branch rows {} times",
+                counters.rank_decisions, counters.branch_evaluations
+            ),
+        ],
+        [
+            "factorisations".to_string(),
+            format!(
+                "{} of the mass matrix, {} of the constraints",
+                counters.mass_factorisations, counters.constraint_factorisations
+            ),
+        ],
+        [
+            "projections".to_string(),
+            format!(
+                "{} with {} corrections of positions, {} with a rank decision",
+                counters.projections, counters.projection_iterations, counters.robust_projections
+            ),
+        ],
+    ]
+}
