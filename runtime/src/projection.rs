@@ -11,7 +11,9 @@
 //! constraint equations can show.
 
 use crate::dynamics::{Limit, Solver, Source, Tangent, Which};
-use crate::linalg::{acceptable, on_constraint, significant, truncation};
+use crate::linalg::{
+    acceptable, on_constraint, passes, same_branch, significant, truncation, weak,
+};
 use crate::{DynamicsError, Mechanism, Real, Stabilisation, State};
 use nalgebra::SVector;
 
@@ -34,15 +36,40 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         }
         self.prepare(mechanism, state)?;
         self.counters.projections += 1;
-        self.factored = None;
         self.reach = self.reach.max(self.metric.factor.length(&state.q.data.0[0]));
+        self.unsure = false;
         self.project_position(mechanism, state)?;
-        self.project_velocity(mechanism, state)?;
+        if !self.project_velocity(mechanism, state)? {
+            self.counters.robust_projections += 1;
+            self.learn(mechanism, state)?;
+        }
         if state.is_finite() {
             Ok(())
         } else {
             Err(DynamicsError::NotFinite { t: state.t })
         }
+    }
+
+    /// The nearest state on the constraints, for an acceleration near a singular
+    /// position, and whether it is one: a state too far across its branch stays
+    /// where it is.
+    pub(crate) fn land<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<(State<T, N>, Limit), DynamicsError<T>> {
+        if !self.settings.branch_rows {
+            return Ok((*state, Limit::Regular));
+        }
+        let mut landed = *state;
+        self.unsure = false;
+        match self.project_position(mechanism, &mut landed) {
+            Err(DynamicsError::ProjectionFailed { .. }) => return Ok((*state, Limit::Regular)),
+            other => other?,
+        }
+        self.project_velocity(mechanism, &mut landed)?;
+        let limit = if self.unsure { Limit::Regular } else { Limit::Landed };
+        Ok((landed, limit))
     }
 
     /// Newton's iteration on `g = 0`; leaves the terms of the final position in
@@ -68,11 +95,16 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             }
             if iteration == MAX_ITERATIONS {
                 let residual = self.position.residual[row].abs();
-                return Err(DynamicsError::ProjectionFailed { t: state.t, residual, row });
+                return Err(DynamicsError::ProjectionFailed {
+                    t: state.t,
+                    residual,
+                    row,
+                });
             }
             if before.is_none_or(|before| worst > before * T::from_f64(SLOW)) {
                 self.factorise_metric(mechanism, Source::Position, state.t)?;
-                cheap = self.factorise_constraints(Source::Position, Which::Holonomic);
+                let squared = self.factorise_constraints(Source::Position, Which::Holonomic);
+                cheap = passes(squared, weak());
             }
             self.counters.projection_iterations += 1;
             state.q += if cheap {
@@ -87,15 +119,18 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         Ok(())
     }
 
-    /// One linear solve for `A q̇ + b = 0` at the position in the buffer. Its
-    /// factors are kept for the acceleration at the same position.
+    /// One linear solve for `A q̇ + b = 0` at the position in the buffer; whether it
+    /// took the cheap path. Then its factors are kept for the acceleration at the
+    /// same position.
     fn project_velocity<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &mut State<T, N>,
-    ) -> Result<(), DynamicsError<T>> {
+) -> Result<bool, DynamicsError<T>> {
+        self.factored = None;
         self.factorise_metric(mechanism, Source::Position, state.t)?;
-        let cheap = self.factorise_constraints(Source::Position, Which::All);
+        let squared = self.factorise_constraints(Source::Position, Which::All);
+        let cheap = passes(squared, weak());
         let gap = -(self.position.jacobian * state.v + self.position.drift);
         if cheap {
             let mut w = [T::zero(); N];
@@ -103,11 +138,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             state.v += self.lower(w);
             self.factored = Some((state.t, state.q));
         } else {
-            self.counters.robust_projections += 1;
-            self.learn(mechanism, state)?;
             state.v += self.singular_velocity_correction(mechanism, state, &gap)?;
         }
-        Ok(())
+        Ok(cheap)
     }
 
     /// The change of position across the branch that closes the residual, as far
@@ -120,9 +153,18 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.factorise_metric(mechanism, Source::Position, state.t)?;
         let tangent = self.refined_tangent(mechanism, state, Which::Holonomic)?;
         let uncertainty = significant::<T>() * self.round_off();
+        let speed = self.metric.factor.length(&state.v.data.0[0]) * T::from_f64(3.0);
+        let (rate, mut unsure) = (tangent.rate(), false);
+        let worth = |value: T, size: T| {
+            let means_something = value > truncation() && size > uncertainty;
+            let near = size * rate <= same_branch::<T>() * value * value * speed;
+            unsure |= means_something && !near;
+            means_something && near
+        };
         let gap = self.scaled(&-self.position.residual);
-        let worth = |value: T, size: T| value > truncation() && size > uncertainty;
-        Ok(self.lower(tangent.close(&gap, worth)))
+        let w = tangent.close(&gap, worth);
+        self.unsure |= unsure;
+        Ok(self.lower(w))
     }
 
     /// The change of velocity across the branch that closes the velocity level.
@@ -138,10 +180,10 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         let tangent = self.refined_tangent(mechanism, state, Which::All)?;
         let speed = T::EPSILON * self.metric.factor.length(&state.v.data.0[0]);
-        let (round_off, rate) = (self.round_off(), tangent.rate());
+        let off = self.round_off().max(self.residual().0);
+        let rate = tangent.rate();
         let worth = |value: T, size: T| {
-            value > truncation()
-                && size > significant::<T>() * (speed + rate * round_off / value)
+            value > truncation() && size > significant::<T>() * (speed + rate * off / value)
         };
         Ok(self.lower(tangent.close(&self.scaled(gap), worth)))
     }

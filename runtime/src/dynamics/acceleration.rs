@@ -52,7 +52,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// `p₂`, or `p₂ − 2α(A q̇ + b) − β²g` after Baumgarte (1972).
-    fn stabilised_bias<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn stabilised_bias<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
@@ -89,6 +89,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// Whether the factors at hand belong to this position.
     #[inline]
     pub(crate) fn is_factored_at(&self, state: &State<T, N>) -> bool {
-        self.factored.is_some_and(|(t, q)| t == state.t && q == state.q)
+        self.factored
+            .is_some_and(|(t, q)| t == state.t && q == state.q)
     }
 }

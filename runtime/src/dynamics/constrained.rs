@@ -5,7 +5,7 @@
 
 use super::solver::{Limit, Source};
 use super::{Solver, Which};
-use crate::linalg::{passes, reported_rank};
+use crate::linalg::{passes, reported_rank, weak};
 use crate::{Counters, DynamicsError, Mechanism, Real, State, System};
 use nalgebra::SVector;
 
@@ -83,7 +83,11 @@ where
     pub fn rank(&mut self, state: &State<T, N>) -> Result<Rank<T>, DynamicsError<T>> {
         let solver = &mut *self.solver;
         if R == 0 {
-            return Ok(Rank { rank: 0, regular: 0, sine: T::one() });
+            return Ok(Rank {
+                rank: 0,
+                regular: 0,
+                sine: T::one(),
+            });
         }
         solver.prepare(self.mechanism, state)?;
         self.mechanism.position(state, &mut solver.position);
@@ -94,25 +98,43 @@ where
         let squared = list.map(|list| {
             let jacobian = &solver.position.jacobian;
             let rows = &mut solver.rows;
-            solver.lifted.factorise(&solver.metric, jacobian, rows, list)
+            solver
+                .lifted
+                .factorise(&solver.metric, jacobian, rows, list)
         });
-        if let Some(squared) = squared.filter(|squared| passes(*squared)) {
-            return Ok(Rank { rank: regular, regular, sine: squared.sqrt() });
+        if let Some(squared) = squared.filter(|squared| passes(*squared, weak())) {
+            return Ok(Rank {
+                rank: regular,
+                regular,
+                sine: squared.sqrt(),
+            });
         }
-        let mut tangent =
-            solver.tangent(self.mechanism, state, Source::Position, Which::All, Limit::Regular)?;
+        let mut tangent = solver.tangent(
+            self.mechanism,
+            state,
+            Source::Position,
+            Which::All,
+            Limit::Regular,
+        )?;
         let not_finite = |_| DynamicsError::NotFinite { t: state.t };
         tangent.refine().map_err(not_finite)?;
         let values = tangent.values();
         let rank = values.iter().filter(|&&x| x > reported_rank()).count();
         let weakest = values.iter().fold(T::one(), |least, &x| least.min(x));
         let sine = squared.map_or(weakest, |squared| squared.sqrt());
-        Ok(Rank { rank, regular, sine })
+        Ok(Rank {
+            rank,
+            regular,
+            sine,
+        })
     }
 
     /// How far a state is off the constraints.
     pub fn constraint_error(&mut self, state: &State<T, N>) -> ConstraintError<T> {
-        let mut error = ConstraintError { position: T::zero(), velocity: T::zero() };
+        let mut error = ConstraintError {
+            position: T::zero(),
+            velocity: T::zero(),
+        };
         if R == 0 {
             return error;
         }

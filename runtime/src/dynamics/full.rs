@@ -40,7 +40,11 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     fn units(&self) -> SVector<T, N> {
         SVector::from_fn(|j, _| {
             let mass = self.terms.mass[(j, j)];
-            if mass > T::zero() { T::one() / mass.sqrt() } else { T::one() }
+            if mass > T::zero() {
+                T::one() / mass.sqrt()
+            } else {
+                T::one()
+            }
         })
     }
 

@@ -7,7 +7,7 @@
 //! `A` are dependent; a Schur complement of all rows shows how near that is.
 
 use super::{Limit, Solver, Source, Which};
-use crate::linalg::passes;
+use crate::linalg::{passes, weak};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
 
@@ -38,12 +38,17 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.counters.constraint_factorisations += 1;
         let every_row = (core::array::from_fn(|row| row), R);
         let (jacobian, rows) = (&self.terms.jacobian, &mut self.rows);
-        if passes(self.lifted.factorise(&self.metric, jacobian, rows, every_row)) {
+        let squared = self.lifted.factorise(&self.metric, jacobian, rows, every_row);
+        if passes(squared, weak()) {
             return Ok(());
         }
         let (all, regular) = (Which::All, Limit::Regular);
         let tangent = self.tangent(mechanism, state, Source::Terms, all, regular)?;
         let rank = tangent.strong;
-        Err(DynamicsError::SingularPosition { t: state.t, form: self.settings.form, rank })
+        Err(DynamicsError::SingularPosition {
+            t: state.t,
+            form: self.settings.form,
+            rank,
+        })
     }
 }

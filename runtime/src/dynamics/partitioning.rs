@@ -25,7 +25,11 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.counters.cheap_accelerations += 1;
         let weight = SVector::from_fn(|j, _| {
             let mass = self.terms.mass[(j, j)];
-            if mass > T::zero() { T::one() / mass.sqrt() } else { T::one() }
+            if mass > T::zero() {
+                T::one() / mass.sqrt()
+            } else {
+                T::one()
+            }
         });
         let mut jacobian = self.terms.jacobian;
         for row in 0..R {

@@ -9,6 +9,7 @@
 //! that directly; elsewhere it is built from the tangent space.
 
 use super::{Limit, Solver, Source, Which};
+use crate::linalg::{guard, passes};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
 
@@ -20,24 +21,47 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         state: &State<T, N>,
         bias: &SVector<T, R>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        let shared = self.is_factored_at(state);
-        let cheap = shared || {
+        if !self.is_factored_at(state) {
             self.factored = None;
             self.factorise_metric(mechanism, Source::Terms, state.t)?;
-            self.factorise_constraints(Source::Terms, Which::All)
-        };
+            let squared = self.factorise_constraints(Source::Terms, Which::All);
+            if !passes(squared, guard()) {
+                return self.near_singular(mechanism, state);
+            }
+        }
+        self.counters.cheap_accelerations += 1;
+        Ok(self.regular_acceleration(bias))
+    }
+
+    /// The acceleration by the factors at hand.
+    #[inline]
+    fn regular_acceleration(&self, bias: &SVector<T, R>) -> SVector<T, N> {
         let mut w = self.free_acceleration(bias);
-        if cheap {
-            self.counters.cheap_accelerations += 1;
-            self.lifted.correct(&mut w, bias);
-            return Ok(self.lower(w));
+        self.lifted.correct(&mut w, bias);
+        self.lower(w)
+    }
+
+    /// The acceleration at the nearest state on the constraints; on the branch that
+    /// the velocity follows if the rows are too weak to tell.
+    fn near_singular<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        let (landed, limit) = self.land(mechanism, state)?;
+        mechanism.terms(&landed, &mut self.terms);
+        let bias = self.stabilised_bias(mechanism, &landed);
+        if self.is_factored_at(&landed) {
+            self.counters.landed_accelerations += 1;
+            return Ok(self.regular_acceleration(&bias));
         }
         self.counters.robust_accelerations += 1;
-        let (all, regular) = (Which::All, Limit::Regular);
-        let tangent = self.tangent(mechanism, state, Source::Terms, all, regular)?;
+        self.factorise_metric(mechanism, Source::Terms, landed.t)?;
+        let tangent = self.tangent(mechanism, &landed, Source::Terms, Which::All, limit)?;
         if tangent.strong == self.rows.regular(Which::All) {
             self.choose_rows(tangent.rows());
         }
-        Ok(self.lower(tangent.solve(&self.scaled(bias), &w)))
+        let w = self.free_acceleration(&bias);
+        Ok(self.lower(tangent.solve(&self.scaled(&bias), &w)))
     }
 }

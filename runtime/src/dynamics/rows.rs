@@ -101,7 +101,8 @@ impl<T: Real, const R: usize> Rows<T, R> {
         }
         if self.regular == R {
             self.active = core::array::from_fn(|row| row);
-            self.active.sort_unstable_by_key(|&row| !self.holonomic[row]);
+            self.active
+                .sort_unstable_by_key(|&row| !self.holonomic[row]);
             self.active_count = R;
             self.count_holonomic();
         }

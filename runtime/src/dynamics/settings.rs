@@ -82,6 +82,9 @@ impl<T> Default for Settings<T> {
 pub struct Counters {
     /// Accelerations that no rank decision was needed for.
     pub cheap_accelerations: u64,
+    /// Accelerations at the nearest state on the constraints, without a rank
+    /// decision.
+    pub landed_accelerations: u64,
     /// Accelerations with a rank decision.
     pub robust_accelerations: u64,
     /// Singular value decompositions of the constraint Jacobian.

@@ -58,7 +58,10 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         mechanism.position(state, &mut self.position);
         self.metric.forget();
         let t = state.t;
-        if self.factorise_metric(mechanism, Source::Position, t).is_ok() {
+        if self
+            .factorise_metric(mechanism, Source::Position, t)
+            .is_ok()
+        {
             for (row, size) in sizes.iter_mut().enumerate() {
                 let vector = self.metric.lift(&self.position.jacobian, row);
                 let square = dot(&vector, &vector);

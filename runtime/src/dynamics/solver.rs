@@ -7,7 +7,7 @@
 //! or on the stack.
 
 use super::{ConstrainedSystem, Lifted, Metric, Rows, Tangent, Which};
-use crate::linalg::{Breakdown, NotDefinite, independent, passes, truncation, weak};
+use crate::linalg::{Breakdown, NotDefinite, independent, truncation, useless, weak};
 use crate::{Branch, Counters, DynamicsError, Mechanism, Position, Real, Settings, State, Terms};
 use nalgebra::{SMatrix, SVector};
 
@@ -35,6 +35,9 @@ pub struct Solver<T, const N: usize, const R: usize> {
     /// The largest length of the coordinates in the metric so far: what their
     /// round-off is measured by.
     pub(crate) reach: T,
+    /// Whether a projection left a state where it was in some direction because it
+    /// could not tell the branch.
+    pub(crate) unsure: bool,
     prepared: bool,
 }
 
@@ -59,6 +62,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             lifted: Lifted::default(),
             factored: None,
             reach: T::zero(),
+            unsure: false,
             prepared: false,
         }
     }
@@ -92,7 +96,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             Source::Position => (&self.position.mass, &self.position.jacobian),
         };
         let (rows, counters) = (&mut self.rows, &mut self.counters);
-        let result = self.metric.factorise(mass, jacobian, rows, constant, counters);
+        let result = self
+            .metric
+            .factorise(mass, jacobian, rows, constant, counters);
         result.map_err(|NotDefinite { row }| {
             if mass.iter().chain(jacobian.iter()).all(|x| x.is_finite()) {
                 DynamicsError::MassSingular { t, coordinate: row }
@@ -102,11 +108,11 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         })
     }
 
-    /// Factorises independent constraints in the metric; whether the result may be
-    /// used here.
-    pub(crate) fn factorise_constraints(&mut self, source: Source, which: Which) -> bool {
+    /// Factorises independent constraints in the metric and returns the smallest
+    /// squared sine of a row; zero if none are known to be independent.
+    pub(crate) fn factorise_constraints(&mut self, source: Source, which: Which) -> T {
         let Some(list) = self.rows.active(which) else {
-            return false;
+            return T::zero();
         };
         let jacobian = match source {
             Source::Terms => &self.terms.jacobian,
@@ -114,7 +120,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         };
         self.counters.constraint_factorisations += 1;
         let rows = &mut self.rows;
-        passes(self.lifted.factorise(&self.metric, jacobian, rows, list))
+        self.lifted.factorise(&self.metric, jacobian, rows, list)
     }
 
     /// Decides which directions the constraints leave free at the state whose
@@ -134,15 +140,17 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.counters.rank_decisions += 1;
         let not_finite = |Breakdown| DynamicsError::NotFinite { t: state.t };
         let mut tangent = Tangent::new(&self.metric, &mut self.rows, jacobian, which);
-        let (limit, floor) = match limit {
-            Limit::Regular => (self.rows.regular(which), truncation()),
-            Limit::Unknown => (N.min(R), independent()),
+        let regular = self.rows.regular(which);
+        let (limit, strong, floor) = match limit {
+            Limit::Regular => (regular, weak(), truncation()),
+            Limit::Landed => (regular, useless(), truncation()),
+            Limit::Unknown => (N.min(R), weak(), independent()),
         };
         if !self.settings.branch_rows {
             tangent.take_strong(floor, limit).map_err(not_finite)?;
             return Ok(tangent);
         }
-        tangent.take_strong(weak(), limit).map_err(not_finite)?;
+        tangent.take_strong(strong, limit).map_err(not_finite)?;
         if tangent.used < limit {
             self.counters.branch_evaluations += 1;
             mechanism.branch(state, &mut self.branch);
@@ -184,7 +192,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         for which in [Which::Holonomic, Which::All] {
-            let tangent = self.tangent(mechanism, state, Source::Position, which, Limit::Unknown)?;
+            let tangent =
+                self.tangent(mechanism, state, Source::Position, which, Limit::Unknown)?;
             if tangent.used > self.rows.regular(which) {
                 self.rows.observe_rank(tangent.used, which);
             }
@@ -204,11 +213,16 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 }
 
-/// How many directions a rank decision may take.
+/// What is known about the state of a rank decision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Limit {
-    /// As many as are independent at regular positions.
+    /// It may be off the constraints; as many rows are independent as at regular
+    /// positions.
     Regular,
-    /// As many as there are: the state is on the constraints to round-off.
+    /// As above, and it is on the constraints to round-off, so that even small
+    /// rows tell the truth.
+    Landed,
+    /// It is on the constraints to round-off; how many rows are independent is the
+    /// question.
     Unknown,
 }

@@ -135,7 +135,10 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
                 add_scaled(image, -dot(left, image), left);
             }
         }
-        orthogonalise(&mut images.data.0[from..to], &mut self.basis.data.0[from..to])?;
+        orthogonalise(
+            &mut images.data.0[from..to],
+            &mut self.basis.data.0[from..to],
+        )?;
         for image in &images.data.0[from..to] {
             let size = norm(image);
             if !(size > threshold) || self.used >= limit.min(R) {
@@ -157,7 +160,12 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
     pub(crate) fn solve(&self, right: &[T; R], free: &[T; N]) -> [T; N] {
         let mut w = [T::zero(); N];
         self.advance(&mut w, &self.rows, right, 0..self.strong);
-        self.advance(&mut w, &self.slopes, &self.slope_bias, self.strong..self.branch);
+        self.advance(
+            &mut w,
+            &self.slopes,
+            &self.slope_bias,
+            self.strong..self.branch,
+        );
         self.advance(&mut w, &self.rows, right, self.branch..self.used);
         for direction in &self.basis.data.0[self.used..] {
             add_scaled(&mut w, dot(direction, free), direction);
@@ -186,7 +194,7 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
     /// The shortest change of `w` that closes `gap`, after [`refine`](Self::refine).
     /// In a weak direction of singular value `σ` it is made only if `worth(σ, size)`
     /// says that a gap of this size means something.
-    pub(crate) fn close(&self, gap: &[T; R], worth: impl Fn(T, T) -> bool) -> [T; N] {
+    pub(crate) fn close(&self, gap: &[T; R], mut worth: impl FnMut(T, T) -> bool) -> [T; N] {
         let mut w = [T::zero(); N];
         self.advance(&mut w, &self.rows, gap, 0..self.strong);
         let mut rest = *gap;

@@ -38,6 +38,26 @@ pub(crate) fn weak<T: Real>() -> T {
     T::from_f64(1e-2)
 }
 
+/// Sine of the same angle below which an acceleration is taken at the nearest state
+/// on the constraints, and not at the state itself: the stages of a step are off
+/// the constraints by `δ`, which changes the acceleration there by `δ` over sine.
+pub(crate) fn guard<T: Real>() -> T {
+    T::from_f64(5e-2)
+}
+
+/// Singular value below which a row is useless even on the constraints: round-off
+/// `ε` of the position changes the acceleration by `ε/σ³`, leaving the row out by
+/// about `σ`. The two meet here (1e-4 for `f64`).
+pub(crate) fn useless<T: Real>() -> T {
+    T::EPSILON.sqrt().sqrt()
+}
+
+/// Distance across a branch, in units of the distance to the singular position
+/// along it, up to which a state belongs to this branch and not to another.
+pub(crate) fn same_branch<T: Real>() -> T {
+    T::from_f64(0.25)
+}
+
 /// Smallest singular value, relative to the branch rows' norm, at which a branch
 /// row decides a direction. Rows that are redundant everywhere stay below.
 pub(crate) fn branch_rank<T: Real>() -> T {
@@ -87,8 +107,8 @@ pub(crate) fn significant<T: Real>() -> T {
     T::from_f64(16.0)
 }
 
-/// Whether the smallest squared sine of the constraint rows lets the cheap path be
-/// taken. NaN does not.
-pub(crate) fn passes<T: Real>(squared_sine: T) -> bool {
-    squared_sine > weak::<T>() * weak()
+/// Whether the smallest squared sine of the constraint rows is above a bound. NaN
+/// is not.
+pub(crate) fn passes<T: Real>(squared_sine: T, bound: T) -> bool {
+    squared_sine > bound * bound
 }

@@ -1,0 +1,68 @@
+//! Mechanisms written by hand, with exact solutions: what the runtime is tested
+//! on before any code is generated.
+//!
+//! Parameters and end values: Phong & Hoang (2012), section 4, and the exact
+//! one-degree-of-freedom reductions of its examples.
+
+mod four_bars;
+mod parallelogram;
+mod reference;
+mod slider_crank;
+mod twice;
+
+pub use four_bars::FourBars;
+pub use parallelogram::Parallelogram;
+pub use reference::{Passage, Reduction};
+pub use slider_crank::SliderCrank;
+pub use twice::Twice;
+
+use bricard_runtime::{ConstraintRow, Mechanism, Quantity, State, Structure};
+
+/// Gravitational acceleration (m/s²).
+pub const GRAVITY: f64 = 9.81;
+
+/// A mechanism of one degree of freedom that passes a singular position, and the
+/// exact motion to compare with.
+pub trait Passing<const N: usize, const R: usize>: Mechanism<f64, N, R> {
+    /// Its motion as a function of one angle.
+    fn reduction(&self) -> Reduction;
+    /// The full state that belongs to an angle and its rate.
+    fn state(&self, t: f64, angle: f64, rate: f64) -> State<f64, N>;
+    /// A singular angle, and the rate with which the paper's motion passes it.
+    fn singular(&self) -> (f64, f64);
+}
+
+/// A structure with nothing but coordinates and constraints.
+pub const fn structure(
+    coordinates: &'static [Quantity],
+    constraints: &'static [ConstraintRow],
+) -> Structure {
+    Structure {
+        name: "ByHand",
+        docs: "",
+        file: "",
+        coordinates,
+        parameters: &[],
+        inputs: &[],
+        outputs: &[],
+        events: &[],
+        constraints,
+        constant_mass: false,
+        conservative: true,
+        drawn: false,
+    }
+}
+
+/// A coordinate that is an angle.
+pub const ANGLE: Quantity = Quantity {
+    name: "",
+    unit: "rad",
+    docs: "",
+};
+
+/// A coordinate that is a length.
+pub const LENGTH: Quantity = Quantity {
+    name: "",
+    unit: "m",
+    docs: "",
+};
