@@ -8,8 +8,10 @@ mod error;
 mod integrator;
 mod linalg;
 mod model;
+mod observer;
 mod projection;
 mod real;
+mod simulate;
 mod sincos;
 mod state;
 mod system;
@@ -26,6 +28,15 @@ pub use model::{
     Mechanism, Position, Quantity, Regular, Start, Structure, Terms,
 };
 pub use nalgebra;
+pub use observer::{
+    BadInterval, ConstraintAudit, EnergyAudit, Observer, Occurrence, Passage, Probe, RankAudit,
+    Sampler,
+};
+#[cfg(feature = "std")]
+pub use observer::Recorder;
 pub use real::Real;
+pub use simulate::{
+    Audit, Failure, Options, Pace, Scheme, SimulateError, Stepper, Summary, simulate,
+};
 pub use state::State;
 pub use system::System;

@@ -184,11 +184,4 @@ impl<T: Real> Control<T> {
         self.rejected = false;
         true
     }
-
-    /// Begins anew: the first step is to be chosen again.
-    pub(crate) fn restart(&mut self) {
-        self.h = T::zero();
-        self.last_error = T::from_f64(REMEMBERED_ERROR);
-        self.rejected = false;
-    }
 }

@@ -15,7 +15,6 @@ use super::step::Step;
 use super::tableau::{DOP853, DP5, RK4, Tableau};
 use super::{IntegrateError, Integrator};
 use crate::{DynamicsError, Real, State, System};
-use nalgebra::SVector;
 
 /// Slots of RK4: four stages and the slope at the end.
 const SLOTS_RK4: usize = 5;

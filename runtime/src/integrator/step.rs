@@ -62,15 +62,27 @@ impl<T: Real, const N: usize> Step<T, N> {
         self.evaluations
     }
 
-    /// How many times within the step one should look at a quantity so as not
-    /// to miss what comes and goes.
-    pub fn looks(&self) -> u8 {
-        self.looks
+    /// Times at which to look at a quantity so as not to miss what comes and goes
+    /// within the step: equally spaced, the last is its end. Methods of high order
+    /// take long steps and more looks.
+    pub fn look_times(&self) -> impl Iterator<Item = T> + use<T, N> {
+        let (start, end, length, looks) = (self.start.t, self.end.t, self.length(), self.looks);
+        (1..=looks).map(move |i| {
+            let part = f64::from(i) / f64::from(looks);
+            if i == looks {
+                end
+            } else {
+                start + length * T::from_f64(part)
+            }
+        })
     }
 
-    /// Makes an earlier state the end of the step.
-    pub(crate) fn cut(&mut self, end: State<T, N>) {
-        self.end = end;
+    /// The same step, ended earlier.
+    pub(crate) fn cut(&self, end: State<T, N>) -> Self {
+        Self {
+            end,
+            ..self.clone()
+        }
     }
 
     /// The state at a time within the step, from the method's interpolant; the

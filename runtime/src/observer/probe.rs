@@ -1,0 +1,102 @@
+//! What an observer may ask about a mechanism, whatever its sizes.
+//!
+//! In:  a state.
+//! Out: energies, constraint errors, rank, reactions.
+
+use crate::dynamics::ConstrainedSystem;
+use crate::{
+    ConstraintError, DynamicsError, Energy, Interface, Mechanism, Position, Rank, Real, State,
+    Structure, System,
+};
+use nalgebra::SVector;
+
+/// Answers questions about a mechanism at a state.
+pub trait Probe<T: Real, const N: usize> {
+    /// What was known when the mechanism's code was generated.
+    fn structure(&self) -> &'static Structure;
+
+    /// Energies (J).
+    fn energy(&self, state: &State<T, N>) -> Energy<T>;
+
+    /// The rate of [`Energy::balance`] (W): [`Energy::power`] and the power of
+    /// the reactions of moving constraints.
+    ///
+    /// # Errors
+    ///
+    /// A [`DynamicsError`] if the reactions are needed and can't be computed.
+    fn power(&mut self, state: &State<T, N>) -> Result<T, DynamicsError<T>>;
+
+    /// How far the state is off the constraints.
+    fn constraint_error(&mut self, state: &State<T, N>) -> ConstraintError<T>;
+
+    /// The rank of the constraints.
+    ///
+    /// # Errors
+    ///
+    /// A [`DynamicsError`] if it can't be decided.
+    fn rank(&mut self, state: &State<T, N>) -> Result<Rank<T>, DynamicsError<T>>;
+
+    /// The generalized reaction forces `r` (N or N·m).
+    ///
+    /// # Errors
+    ///
+    /// A [`DynamicsError`] if the acceleration can't be computed.
+    fn reaction(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>>;
+
+    /// Brings a state back onto the constraints.
+    ///
+    /// # Errors
+    ///
+    /// A [`DynamicsError`] if that fails.
+    fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>>;
+
+    /// Writes the outputs, as many as `values` has room for.
+    fn outputs(&self, state: &State<T, N>, values: &mut [T]);
+}
+
+impl<M, T, const N: usize, const R: usize> Probe<T, N> for ConstrainedSystem<'_, M, T, N, R>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + Interface<T, N> + ?Sized,
+{
+    fn structure(&self) -> &'static Structure {
+        self.mechanism().structure()
+    }
+
+    fn energy(&self, state: &State<T, N>) -> Energy<T> {
+        self.mechanism().energy(state)
+    }
+
+    fn power(&mut self, state: &State<T, N>) -> Result<T, DynamicsError<T>> {
+        let supplied = self.mechanism().energy(state).power;
+        let mut position = Position::<T, N, R>::default();
+        self.mechanism().position(state, &mut position);
+        if position.drift.iter().all(|b| *b == T::zero()) {
+            // Constraints at rest do no work.
+            return Ok(supplied);
+        }
+        let reaction = Probe::reaction(self, state)?;
+        // The reactions stand on the left: M q̈ + r = p₁.
+        Ok(supplied - reaction.dot(&state.v))
+    }
+
+    fn constraint_error(&mut self, state: &State<T, N>) -> ConstraintError<T> {
+        ConstrainedSystem::constraint_error(self, state)
+    }
+
+    fn rank(&mut self, state: &State<T, N>) -> Result<Rank<T>, DynamicsError<T>> {
+        ConstrainedSystem::rank(self, state)
+    }
+
+    fn reaction(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>> {
+        ConstrainedSystem::reaction(self, state).map(|(_, reaction)| reaction)
+    }
+
+    fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
+        System::project(self, state)
+    }
+
+    fn outputs(&self, state: &State<T, N>, values: &mut [T]) {
+        self.mechanism().outputs(state, values);
+    }
+}

@@ -1,0 +1,129 @@
+//! Why a run could not begin or go on.
+//!
+//! In:  nothing.
+//! Out: [`SimulateError`], and [`Failure`] with what was reached before it.
+
+use super::{Scheme, Summary};
+use crate::{DynamicsError, IntegrateError, Real};
+use core::fmt::{Display, Formatter, Result};
+
+/// Why a run could not begin or go on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SimulateError<T> {
+    /// A step could not be made.
+    Integrate(IntegrateError<T>),
+    /// What an observer asked could not be answered.
+    Observe(DynamicsError<T>),
+    /// The fixed step is zero, negative, infinite or NaN.
+    StepNotPositive {
+        /// The offending value (s).
+        step: T,
+    },
+    /// The fixed step is lost in the round-off of time.
+    StepLost {
+        /// The offending value (s).
+        step: T,
+        /// The smallest that could be told from zero (s).
+        smallest: T,
+    },
+    /// The method has no error estimate, so it can't follow a tolerance.
+    NoErrorEstimate {
+        /// The method.
+        scheme: Scheme,
+    },
+    /// The run would end before it begins, or never.
+    BadEnd {
+        /// Time of the initial state (s).
+        start: T,
+        /// Time at which the run should end (s).
+        until: T,
+    },
+    /// The initial state is infinite or NaN.
+    StartNotFinite {
+        /// Time of the initial state (s).
+        t: T,
+    },
+    /// More steps were made than the run was allowed.
+    TooManySteps {
+        /// Time that was reached (s).
+        t: T,
+        /// The number of steps.
+        steps: u64,
+    },
+    /// The mechanism has more events than the runtime has room for.
+    TooManyEvents {
+        /// How many it has.
+        events: usize,
+        /// How many there is room for.
+        room: usize,
+    },
+}
+
+impl<T> From<IntegrateError<T>> for SimulateError<T> {
+    fn from(error: IntegrateError<T>) -> Self {
+        Self::Integrate(error)
+    }
+}
+
+impl<T: Real> Display for SimulateError<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self {
+            Self::Integrate(error) => error.fmt(f),
+            Self::Observe(error) => error.fmt(f),
+            Self::StepNotPositive { step } => {
+                write!(
+                    f,
+                    "the step must be a positive number of seconds, not {step}"
+                )
+            }
+            Self::StepLost { step, smallest } => write!(
+                f,
+                "a step of {step} s is lost in the round-off of time; the smallest that could be \
+                 told from zero here is {smallest} s"
+            ),
+            Self::NoErrorEstimate { scheme } => write!(
+                f,
+                "the method {scheme} has no error estimate and can't follow a tolerance; give it \
+                 a fixed step, or take dp5 or dop853"
+            ),
+            Self::BadEnd { start, until } => write!(
+                f,
+                "the run begins at t = {start} s and can't end at t = {until} s: the end must be \
+                 a number and not come earlier"
+            ),
+            Self::StartNotFinite { t } => {
+                write!(f, "the initial state at t = {t} s is infinite or NaN")
+            }
+            Self::TooManySteps { t, steps } => write!(
+                f,
+                "after {steps} steps the run had only come to t = {t} s; allow more steps or a \
+                 larger tolerance"
+            ),
+            Self::TooManyEvents { events, room } => {
+                write!(
+                    f,
+                    "the mechanism has {events} events, and there is room for {room}"
+                )
+            }
+        }
+    }
+}
+
+impl<T: Real> core::error::Error for SimulateError<T> {}
+
+/// A run that failed: why, and what it reached.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Failure<T, const N: usize> {
+    /// Why.
+    pub error: SimulateError<T>,
+    /// What was reached before: its `end` is the last good state.
+    pub summary: Summary<T, N>,
+}
+
+impl<T: Real, const N: usize> Display for Failure<T, N> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        self.error.fmt(f)
+    }
+}
+
+impl<T: Real, const N: usize> core::error::Error for Failure<T, N> {}

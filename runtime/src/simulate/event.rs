@@ -1,0 +1,216 @@
+//! Events, located within steps.
+//!
+//! In:  the event functions at several times of a step.
+//! Out: [`Occurrence`]s in the order of time.
+//!
+//! The function of an event is evaluated on states that are back on the
+//! constraints, and its zero is found by Brent's method to the round-off of
+//! time. An event whose function is zero at the start of a run has not happened;
+//! one that reaches zero has, even if it turns back.
+//!
+//! Source: Brent, Algorithms for Minimization without Derivatives (1973),
+//! chapter 4.
+
+use super::SimulateError;
+use crate::{Direction, DynamicsError, Event, Interface, Occurrence, Probe, Real, State, Step};
+
+/// Events a mechanism may have.
+pub(super) const ROOM: usize = 64;
+/// Steps of Brent's method. Bisection alone would need fewer than this for any
+/// pair of numbers of a float type; it never takes three times as many.
+const MOST_STEPS: usize = 400;
+
+/// Watches the event functions of a mechanism.
+#[derive(Clone, Debug)]
+pub(super) struct Events<T> {
+    events: &'static [Event],
+    values: [T; ROOM],
+}
+
+/// Occurrences within a part of a step, in the order of time.
+#[derive(Clone, Debug)]
+pub(super) struct Found<T, const N: usize> {
+    list: [Option<Occurrence<T, N>>; ROOM],
+    count: usize,
+}
+
+impl<T: Real, const N: usize> Found<T, N> {
+    /// The occurrences, the earliest first.
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Occurrence<T, N>> {
+        self.list[..self.count].iter().flatten()
+    }
+
+    fn insert(&mut self, occurrence: Occurrence<T, N>) {
+        let later = |other: &Option<Occurrence<T, N>>| {
+            other
+                .as_ref()
+                .is_some_and(|other| other.state.t > occurrence.state.t)
+        };
+        let place = self.list[..self.count]
+            .iter()
+            .position(later)
+            .unwrap_or(self.count);
+        if self.count < ROOM {
+            self.list[place..=self.count].rotate_right(1);
+            self.list[place] = Some(occurrence);
+            self.count += 1;
+        }
+    }
+}
+
+impl<T: Real> Default for Events<T> {
+    fn default() -> Self {
+        Self {
+            events: &[],
+            values: [T::zero(); ROOM],
+        }
+    }
+}
+
+impl<T: Real> Events<T> {
+    /// Begins at the initial state.
+    pub(super) fn new<I, const N: usize>(
+        mechanism: &I,
+        events: &'static [Event],
+        state: &State<T, N>,
+    ) -> Result<Self, SimulateError<T>>
+    where
+        I: Interface<T, N> + ?Sized,
+    {
+        if events.len() > ROOM {
+            return Err(SimulateError::TooManyEvents {
+                events: events.len(),
+                room: ROOM,
+            });
+        }
+        let values = evaluate(mechanism, state);
+        Ok(Self { events, values })
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.events.is_empty()
+    }
+
+    /// Looks at the step up to the time `to`, where it has looked up to `from`.
+    pub(super) fn look<I, const N: usize>(
+        &mut self,
+        mechanism: &I,
+        probe: &mut dyn Probe<T, N>,
+        step: &Step<T, N>,
+        (from, to): (T, T),
+    ) -> Result<Found<T, N>, DynamicsError<T>>
+    where
+        I: Interface<T, N> + ?Sized,
+    {
+        let mut found = Found {
+            list: [None; ROOM],
+            count: 0,
+        };
+        let state = on_constraints(probe, step, to)?;
+        let before = core::mem::replace(&mut self.values, evaluate(mechanism, &state));
+        for (index, event) in self.events.iter().enumerate() {
+            let (low, high) = (before[index], self.values[index]);
+            let rising = low < T::zero() && high >= T::zero();
+            let falling = low > T::zero() && high <= T::zero();
+            let happened = match event.direction {
+                Direction::Rising => rising,
+                Direction::Falling => falling,
+                Direction::Crossing => rising || falling,
+            };
+            if happened {
+                let mut function = |t: T| {
+                    let state = on_constraints(probe, step, t)?;
+                    Ok(evaluate(mechanism, &state)[index])
+                };
+                let t = zero(&mut function, (from, low), (to, high))?;
+                let state = on_constraints(probe, step, t)?;
+                found.insert(Occurrence {
+                    index,
+                    event,
+                    rising,
+                    state,
+                });
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// The event functions at a state.
+fn evaluate<T, I, const N: usize>(mechanism: &I, state: &State<T, N>) -> [T; ROOM]
+where
+    T: Real,
+    I: Interface<T, N> + ?Sized,
+{
+    let mut values = [T::zero(); ROOM];
+    mechanism.events(state, &mut values);
+    values
+}
+
+/// The state at a time within a step; the ends are on the constraints already.
+fn on_constraints<T: Real, const N: usize>(
+    probe: &mut dyn Probe<T, N>,
+    step: &Step<T, N>,
+    t: T,
+) -> Result<State<T, N>, DynamicsError<T>> {
+    let mut state = step.at(t);
+    if t > step.start().t && t < step.end().t {
+        probe.project(&mut state)?;
+    }
+    Ok(state)
+}
+
+/// A zero of a function between two times at which it has opposite signs.
+fn zero<T: Real>(
+    function: &mut dyn FnMut(T) -> Result<T, DynamicsError<T>>,
+    (mut a, mut fa): (T, T),
+    (mut b, mut fb): (T, T),
+) -> Result<T, DynamicsError<T>> {
+    let two = T::from_f64(2.0);
+    // `b` is the best so far, `a` the one before, `c` on the other side of zero.
+    let (mut c, mut fc) = (a, fa);
+    let mut last = b - a;
+    let mut before_last = last;
+    for _ in 0..MOST_STEPS {
+        if fc.abs() < fb.abs() {
+            (a, b, c) = (b, c, b);
+            (fa, fb, fc) = (fb, fc, fb);
+        }
+        let half = (c - b) / two;
+        let resolution = T::EPSILON * b.abs();
+        if fb == T::zero() || half.abs() <= resolution {
+            break;
+        }
+        let guess = interpolate((a, fa), (b, fb), (c, fc));
+        let step = guess - b;
+        let inside = (step / half) > T::zero() && (step / half) < T::from_f64(1.5);
+        if inside && step.abs() < (before_last / two).abs() {
+            (before_last, last) = (last, step);
+        } else {
+            (before_last, last) = (half, half);
+        }
+        (a, fa) = (b, fb);
+        b += if last.abs() > resolution {
+            last
+        } else {
+            resolution * half.sign()
+        };
+        fb = function(b)?;
+        if fb.sign() == fc.sign() {
+            (c, fc) = (a, fa);
+            last = b - a;
+            before_last = last;
+        }
+    }
+    Ok(b)
+}
+
+/// Inverse quadratic interpolation, or the secant where two points are one.
+fn interpolate<T: Real>((a, fa): (T, T), (b, fb): (T, T), (c, fc): (T, T)) -> T {
+    if a == c || fa == fc || fa == fb {
+        return b - fb * (c - b) / (fc - fb);
+    }
+    a * fb * fc / ((fa - fb) * (fa - fc))
+        + b * fa * fc / ((fb - fa) * (fb - fc))
+        + c * fa * fb / ((fc - fa) * (fc - fb))
+}

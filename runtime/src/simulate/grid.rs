@@ -1,0 +1,69 @@
+//! Where the steps of a run must end.
+//!
+//! In:  start, end, pace.
+//! Out: the times `t₀ + i·h`, and the end.
+
+use super::SimulateError;
+use super::options::Pace;
+use crate::Real;
+
+/// A last step shorter than this part of the others is made one with the step
+/// before it.
+const SLIVER: f64 = 1e-6;
+/// Fixed steps below this multiple of the round-off of time are refused.
+const SMALLEST_STEP: f64 = 4.0;
+
+/// The times at which steps must end. Each is computed from its number: nothing
+/// accumulates.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Grid<T> {
+    start: T,
+    until: T,
+    step: T,
+    intervals: u64,
+}
+
+impl<T: Real> Grid<T> {
+    pub(super) fn new(start: T, until: T, pace: Pace<T>) -> Result<Self, SimulateError<T>> {
+        if !(until.is_finite() && start.is_finite() && until >= start) {
+            return Err(SimulateError::BadEnd { start, until });
+        }
+        let span = until - start;
+        let step = match pace {
+            Pace::Adaptive { .. } => span,
+            Pace::Fixed { step } => step,
+        };
+        let smallest = T::EPSILON * T::from_f64(SMALLEST_STEP) * start.abs().max(until.abs());
+        if span > T::zero() && step < smallest {
+            return Err(SimulateError::StepLost { step, smallest });
+        }
+        let intervals = if span > T::zero() {
+            let steps = (span / step).to_f64() - SLIVER;
+            // Rounds up; a number of steps too large for the type is one that no
+            // run will reach.
+            (steps as u64 + u64::from(steps.fract() > 0.0)).max(1)
+        } else {
+            0
+        };
+        Ok(Self {
+            start,
+            until,
+            step,
+            intervals,
+        })
+    }
+
+    /// How many intervals there are.
+    pub(super) fn intervals(&self) -> u64 {
+        self.intervals
+    }
+
+    /// The end of the interval with a number, from 1.
+    pub(super) fn time(&self, number: u64) -> T {
+        if number >= self.intervals {
+            self.until
+        } else {
+            self.start + self.step * T::from_f64(number as f64)
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! The loop: integrate, project, observe.
+//!
+//! In:  a mechanism, a state on its constraints, [`Options`], observers.
+//! Out: a [`Summary`], or a [`Failure`] with what was reached before.
+//!
+//! [`Stepper`] is the same without observers, one step at a time.
+
+mod error;
+mod event;
+mod grid;
+mod options;
+mod stepper;
+mod summary;
+mod watch;
+
+pub use error::{Failure, SimulateError};
+pub use options::{Audit, Options, Pace, Scheme};
+pub use stepper::Stepper;
+pub use summary::Summary;
+
+use grid::Grid;
+use options::Driver;
+use watch::Watchers;
+
+use crate::{
+    ConstrainedSystem, IntegrateError, Integrator, Interface, Mechanism, Observer, Real, Solver,
+    State, System,
+};
+use core::ops::ControlFlow;
+
+/// Runs a mechanism from a state to a time.
+///
+/// The start is projected onto the constraints first, which changes a state from
+/// [`assemble`](crate::assemble) by no more than round-off.
+///
+/// # Errors
+///
+/// A [`Failure`] that carries the reason with its time, the last good state, and
+/// the summary of what was done until then. Observers keep what they have.
+#[expect(
+    clippy::result_large_err,
+    reason = "the failure of a run is returned once, and there is no allocator to box it with"
+)]
+pub fn simulate<T, M, const N: usize, const R: usize>(
+    mechanism: &M,
+    start: &State<T, N>,
+    options: &Options<T>,
+    observers: &mut [&mut dyn Observer<T, N>],
+) -> Result<Summary<T, N>, Failure<T, N>>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + Interface<T, N> + ?Sized,
+{
+    let mut solver = Solver::new(options.settings);
+    let mut inquiry = Solver::new(options.settings);
+    let mut watchers = Watchers::new(options, R, observers);
+    let mut done = Summary::at(*start);
+    let mut run = Run {
+        mechanism,
+        options,
+        system: solver.on(mechanism),
+        probe: inquiry.on(mechanism),
+        watchers: &mut watchers,
+        done: &mut done,
+    };
+    let result = run.all();
+    done.counters = solver.counters();
+    let summary = watchers.report(done);
+    match result {
+        Ok(()) => Ok(summary),
+        Err(error) => Err(Failure { error, summary }),
+    }
+}
+
+/// A run in progress.
+struct Run<'a, 'b, 'c, M: ?Sized, T, const N: usize, const R: usize> {
+    mechanism: &'a M,
+    options: &'a Options<T>,
+    system: ConstrainedSystem<'a, M, T, N, R>,
+    /// Answers what observers ask, apart from the run.
+    probe: ConstrainedSystem<'a, M, T, N, R>,
+    watchers: &'a mut Watchers<'b, 'c, T, N>,
+    done: &'a mut Summary<T, N>,
+}
+
+impl<M, T, const N: usize, const R: usize> Run<'_, '_, '_, M, T, N, R>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + Interface<T, N> + ?Sized,
+{
+    /// From the start to the end.
+    fn all(&mut self) -> Result<(), SimulateError<T>> {
+        let Options {
+            until,
+            scheme,
+            pace,
+            ..
+        } = *self.options;
+        let mut state = self.done.end;
+        if !state.is_finite() {
+            return Err(SimulateError::StartNotFinite { t: state.t });
+        }
+        let grid = Grid::new(state.t, until, pace)?;
+        let mut driver = Driver::new(scheme, pace)?;
+        self.system
+            .project(&mut state)
+            .map_err(IntegrateError::Dynamics)?;
+        self.done.end = state;
+        if self
+            .watchers
+            .begin(self.mechanism, &state, &mut self.probe)?
+            .is_break()
+        {
+            self.done.stopped = true;
+            return Ok(());
+        }
+        driver.keep(self.watchers.inside());
+        for interval in 1..=grid.intervals() {
+            let bound = grid.time(interval);
+            while self.done.end.t < bound {
+                if self.step(&mut driver, bound)?.is_break() {
+                    self.done.stopped = true;
+                    return Ok(());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// One step, shown to everyone who watches.
+    fn step(
+        &mut self,
+        driver: &mut Driver<T, N>,
+        bound: T,
+    ) -> Result<ControlFlow<()>, SimulateError<T>> {
+        let state = self.done.end;
+        if self
+            .options
+            .most_steps
+            .is_some_and(|most| self.done.steps >= most)
+        {
+            let steps = self.done.steps;
+            return Err(SimulateError::TooManySteps { t: state.t, steps });
+        }
+        let step = driver.step(&mut self.system, &state, bound)?;
+        self.done.count(step);
+        self.watchers
+            .show(self.mechanism, step, &mut self.probe, self.done)
+    }
+}

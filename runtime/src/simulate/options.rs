@@ -1,0 +1,196 @@
+//! What a user chooses about a run.
+//!
+//! In:  nothing.
+//! Out: [`Options`], and the method they choose.
+
+use super::SimulateError;
+use crate::integrator::Inside;
+use crate::{
+    Dop853, Dp5, IntegrateError, Integrator, Real, Rk4, Settings, State, Step, System, Tolerance,
+};
+use core::fmt::{Display, Formatter};
+
+/// Which method makes the steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scheme {
+    /// [`Rk4`], of order 4.
+    Rk4,
+    /// [`Dp5`], of order 5.
+    Dp5,
+    /// [`Dop853`], of order 8.
+    Dop853,
+}
+
+impl Display for Scheme {
+    fn fmt(&self, f: &mut Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::Rk4 => "rk4",
+            Self::Dp5 => "dp5",
+            Self::Dop853 => "dop853",
+        })
+    }
+}
+
+/// How long the steps are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pace<T> {
+    /// All of one length; the last one ends where the run ends.
+    Fixed {
+        /// The length (s).
+        step: T,
+    },
+    /// As long as the error per step allows.
+    Adaptive {
+        /// Accepted error relative to each coordinate and velocity.
+        relative: T,
+        /// Accepted error of each coordinate (m, rad) and velocity (m/s, rad/s).
+        absolute: T,
+    },
+}
+
+/// What is checked along the way, for the summary. Each check costs a little.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Audit {
+    /// The largest constraint errors.
+    pub constraints: bool,
+    /// The energy balance.
+    pub energy: bool,
+    /// Passages through singular positions. Always looked for with the forms
+    /// that can't pass them.
+    pub passages: bool,
+}
+
+impl Audit {
+    /// Everything.
+    pub const ALL: Self = Self {
+        constraints: true,
+        energy: true,
+        passages: true,
+    };
+    /// Nothing: the fastest run.
+    pub const NONE: Self = Self {
+        constraints: false,
+        energy: false,
+        passages: false,
+    };
+}
+
+/// What a user chooses about a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options<T> {
+    /// Time at which the run ends (s).
+    pub until: T,
+    /// The method.
+    pub scheme: Scheme,
+    /// The length of its steps.
+    pub pace: Pace<T>,
+    /// The form of the equations and how the constraints are kept.
+    pub settings: Settings<T>,
+    /// What is checked along the way.
+    pub audit: Audit,
+    /// Accepted steps after which the run is given up; `None`: never.
+    pub most_steps: Option<u64>,
+}
+
+impl<T: Real> Options<T> {
+    /// RK4 with a fixed step, everything else by default.
+    pub fn rk4(until: T, step: T) -> Self {
+        Self::new(until, Scheme::Rk4, Pace::Fixed { step })
+    }
+
+    /// DP5 with the same relative and absolute tolerance, everything else by
+    /// default.
+    pub fn dp5(until: T, tolerance: T) -> Self {
+        Self::new(
+            until,
+            Scheme::Dp5,
+            Pace::Adaptive {
+                relative: tolerance,
+                absolute: tolerance,
+            },
+        )
+    }
+
+    /// DOP853 with the same relative and absolute tolerance, everything else by
+    /// default.
+    pub fn dop853(until: T, tolerance: T) -> Self {
+        let pace = Pace::Adaptive {
+            relative: tolerance,
+            absolute: tolerance,
+        };
+        Self::new(until, Scheme::Dop853, pace)
+    }
+
+    /// A method at a pace, everything else by default: the reduced form with
+    /// projection, all audits.
+    pub fn new(until: T, scheme: Scheme, pace: Pace<T>) -> Self {
+        let settings = Settings::default();
+        Self {
+            until,
+            scheme,
+            pace,
+            settings,
+            audit: Audit::ALL,
+            most_steps: None,
+        }
+    }
+}
+
+/// The chosen method, whichever it is.
+#[derive(Clone, Debug)]
+pub(super) enum Driver<T, const N: usize> {
+    Rk4(Rk4<T, N>),
+    Dp5(Dp5<T, N>),
+    Dop853(Dop853<T, N>),
+}
+
+impl<T: Real, const N: usize> Driver<T, N> {
+    pub(super) fn new(scheme: Scheme, pace: Pace<T>) -> Result<Self, SimulateError<T>> {
+        let tolerance = match pace {
+            Pace::Fixed { step } if step.is_finite() && step > T::zero() => None,
+            Pace::Fixed { step } => return Err(SimulateError::StepNotPositive { step }),
+            Pace::Adaptive { relative, absolute } => Some(Tolerance::uniform(relative, absolute)?),
+        };
+        Ok(match (scheme, tolerance) {
+            (Scheme::Rk4, None) => Self::Rk4(Rk4::new()),
+            (Scheme::Rk4, Some(_)) => return Err(SimulateError::NoErrorEstimate { scheme }),
+            (Scheme::Dp5, None) => Self::Dp5(Dp5::fixed()),
+            (Scheme::Dp5, Some(tolerance)) => Self::Dp5(Dp5::adaptive(tolerance)),
+            (Scheme::Dop853, None) => Self::Dop853(Dop853::fixed()),
+            (Scheme::Dop853, Some(tolerance)) => Self::Dop853(Dop853::adaptive(tolerance)),
+        })
+    }
+
+    /// Chooses what is kept of the inside of steps.
+    pub(super) fn keep(&mut self, inside: Inside) {
+        match self {
+            Self::Rk4(method) => method.keep(inside),
+            Self::Dp5(method) => method.keep(inside),
+            Self::Dop853(method) => method.keep(inside),
+        }
+    }
+
+    /// Forgets the last step, because the system has changed since.
+    pub(super) fn forget(&mut self) {
+        match self {
+            Self::Rk4(method) => method.forget(),
+            Self::Dp5(method) => method.forget(),
+            Self::Dop853(method) => method.forget(),
+        }
+    }
+}
+
+impl<T: Real, const N: usize> Integrator<T, N> for Driver<T, N> {
+    fn step<Y: System<T, N> + ?Sized>(
+        &mut self,
+        system: &mut Y,
+        state: &State<T, N>,
+        bound: T,
+    ) -> Result<&Step<T, N>, IntegrateError<T>> {
+        match self {
+            Self::Rk4(method) => method.step(system, state, bound),
+            Self::Dp5(method) => method.step(system, state, bound),
+            Self::Dop853(method) => method.step(system, state, bound),
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Steps on demand, for programs that act between them.
+//!
+//! In:  a mechanism, a state, how far to go.
+//! Out: the state there.
+//!
+//! Not here: observers and audits ([`super::simulate`]).
+
+use super::options::{Driver, Pace, Scheme};
+use super::{Grid, SimulateError};
+use crate::integrator::Inside;
+use crate::{Counters, Integrator, Mechanism, Real, Settings, Solver, State};
+
+/// Makes steps on demand and does not hold the mechanism in between, so that a
+/// program can set its inputs.
+///
+/// Nothing is allocated, ever.
+#[derive(Clone, Debug)]
+pub struct Stepper<T, const N: usize, const R: usize> {
+    solver: Solver<T, N, R>,
+    driver: Driver<T, N>,
+    pace: Pace<T>,
+}
+
+impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
+    /// A stepper that has made no step yet.
+    ///
+    /// # Errors
+    ///
+    /// [`SimulateError`] if the pace is not usable: a step that isn't positive, a
+    /// tolerance that isn't or that is below round-off, or a tolerance for a
+    /// method without error estimate.
+    pub fn new(
+        scheme: Scheme,
+        pace: Pace<T>,
+        settings: Settings<T>,
+    ) -> Result<Self, SimulateError<T>> {
+        let mut driver = Driver::new(scheme, pace)?;
+        driver.keep(Inside::Nothing);
+        Ok(Self {
+            solver: Solver::new(settings),
+            driver,
+            pace,
+        })
+    }
+
+    /// Moves `state` on by `span` seconds, in as many steps as the pace wants.
+    /// Inputs keep their values meanwhile, unless they follow a law.
+    ///
+    /// # Errors
+    ///
+    /// [`SimulateError`] with the time; `state` is then the last good one.
+    pub fn step<M>(
+        &mut self,
+        mechanism: &M,
+        state: &mut State<T, N>,
+        span: T,
+    ) -> Result<(), SimulateError<T>>
+    where
+        M: Mechanism<T, N, R> + ?Sized,
+    {
+        let grid = Grid::new(state.t, state.t + span, self.pace)?;
+        self.driver.forget();
+        let mut system = self.solver.on(mechanism);
+        for i in 1..=grid.intervals() {
+            let bound = grid.time(i);
+            while state.t < bound {
+                *state = *self.driver.step(&mut system, state, bound)?.end();
+            }
+        }
+        Ok(())
+    }
+
+    /// What the solver did so far.
+    pub fn counters(&self) -> Counters {
+        self.solver.counters()
+    }
+
+    /// The solver, to ask for reactions, rank and constraint errors.
+    pub fn solver(&mut self) -> &mut Solver<T, N, R> {
+        &mut self.solver
+    }
+}
