@@ -89,11 +89,9 @@ impl Evaluator {
                 Err((left, right)) => {
                     let known = |(_, s, _): &&Part| matches!(s.unit, Unit::Known(_));
                     let first = terms.iter().find(known).map_or(*span, |(_, _, span)| *span);
-                    let (left, right) = (left.text(), right.text());
-                    let message = format!("a sum of {left} and {right}");
-                    let error =
-                        Diagnostic::error(*span, message).labelled(format!("this has {right}"));
-                    return self.report(error.also(first, format!("this has {left}")));
+                    let message = format!("this sum mixes {} and {}", left.text(), right.text());
+                    let error = Diagnostic::error(*span, message).labelled(right.said());
+                    return self.report(error.also(first, left.said()));
                 }
             };
         }

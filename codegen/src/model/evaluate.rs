@@ -207,7 +207,7 @@ impl Evaluator {
         let left = self.scalar(&condition.left, "the side of a comparison")?;
         let right = self.scalar(&condition.right, "the side of a comparison")?;
         let sides = [(left, condition.left.span), (right, condition.right.span)];
-        self.same_unit(sides, "a comparison")?;
+        self.same_unit(sides, "this comparison")?;
         let numbers = (
             self.graph.as_number(left.id),
             self.graph.as_number(right.id),
@@ -243,7 +243,7 @@ impl Evaluator {
     ) -> Option<Value> {
         let mut chosen = Vec::new();
         for (yes, no) in values[0].scalars().into_iter().zip(values[1].scalars()) {
-            let unit = self.same_unit([(yes, spans[0]), (no, spans[1])], "a choice")?;
+            let unit = self.same_unit([(yes, spans[0]), (no, spans[1])], "this choice")?;
             let id = self
                 .graph
                 .select(comparison, sides[0].id, sides[1].id, yes.id, no.id);
@@ -257,11 +257,9 @@ impl Evaluator {
         match sides[0].0.unit.meet(sides[1].0.unit) {
             Ok(unit) => Some(unit),
             Err((left, right)) => {
-                let (left, right) = (left.text(), right.text());
-                let message = format!("{what} between {left} and {right}");
-                let error =
-                    Diagnostic::error(sides[1].1, message).labelled(format!("this has {right}"));
-                self.report(error.also(sides[0].1, format!("this has {left}")))
+                let message = format!("{what} mixes {} and {}", left.text(), right.text());
+                let error = Diagnostic::error(sides[1].1, message).labelled(right.said());
+                self.report(error.also(sides[0].1, left.said()))
             }
         }
     }

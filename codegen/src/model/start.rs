@@ -43,7 +43,7 @@ impl Lowering<'_> {
             return self.report(error.help(help));
         }
         self.evaluator
-            .same_unit([(scalar, target.span), (given, value.span)], "an equation")?;
+            .same_unit([(scalar, target.span), (given, value.span)], "this equation")?;
         if let Some(first) = self
             .named
             .starts

@@ -2,7 +2,7 @@
 
 use super::lower::Lowering;
 use super::scope::{Kind, twice};
-use super::unit::{ENERGY, Unit};
+use super::unit::{Dimension, ENERGY, Unit};
 use super::value::{Scalar, Value};
 use super::{Constraint, Direction, Event, Force, Output, Summand};
 use crate::diagnostic::{Diagnostic, Span};
@@ -154,19 +154,10 @@ impl Lowering<'_> {
         let wanted = ENERGY.times(place);
         match strength {
             Unit::Known(found) if found != wanted => {
-                let message = format!(
-                    "this force is in {}, here it has to be in {}",
-                    found.text(),
-                    wanted.text()
-                );
-                let error = Diagnostic::error(force.span, message);
-                let target = Unit::Known(place).power(-1.0);
-                let what = match target {
-                    Unit::Known(target) if target == super::unit::NONE => "an angle".to_string(),
-                    Unit::Known(target) => format!("this is in {}", target.text()),
-                    _ => "it works on this".to_string(),
-                };
-                self.report(error.also(on.span, what))
+                let (found, wanted) = (found.text(), wanted.text());
+                let message = format!("this force is in {found}, here it has to be in {wanted}");
+                let target = place.power(-1.0).map_or(String::new(), Dimension::said);
+                self.report(Diagnostic::error(force.span, message).also(on.span, target))
             }
             _ => Some(()),
         }
@@ -189,7 +180,7 @@ impl Lowering<'_> {
         let mut active = false;
         for ((a, b), suffix) in a.scalars().into_iter().zip(b.scalars()).zip(suffixes) {
             self.evaluator
-                .same_unit([(a, left.span), (b, right.span)], "an equation")?;
+                .same_unit([(a, left.span), (b, right.span)], "this equation")?;
             let residual = self.evaluator.graph.sub(a.id, b.id);
             let residual = self.evaluator.sound(residual, span)?;
             let Some(holonomic) = self.legal_constraint(residual, [left, right])? else {

@@ -181,6 +181,11 @@ impl Dimension {
         Some(Dimension(powers))
     }
 
+    /// What has this dimension, in words.
+    pub fn said(self) -> String {
+        if self == NONE { "this has no unit".into() } else { format!("this is in {}", self.text()) }
+    }
+
     /// Its name in a message.
     pub fn text(self) -> String {
         if self == NONE {
