@@ -1,0 +1,128 @@
+//! The descriptions that are tested: those of the library, and odd ones that hold
+//! what no mechanism of the library has.
+
+use crate::random::Random;
+use bricard_codegen::derive::{Equations, derive};
+use bricard_codegen::expr::{ExprId, Symbol};
+use bricard_codegen::model::Mechanism;
+use bricard_codegen::{Settings, analyse};
+
+/// Descriptions with terms that no mechanism of the library has.
+const ODD: [(&str, &str); 3] = [
+    ("turntable", include_str!("descriptions/turntable.mech")),
+    ("moving_rail", include_str!("descriptions/moving_rail.mech")),
+    ("knife_edge", include_str!("descriptions/knife_edge.mech")),
+];
+
+/// A description, checked and derived.
+pub struct Derived {
+    pub name: String,
+    pub mechanism: Mechanism,
+    pub equations: Equations,
+}
+
+/// Values of every symbol of a mechanism.
+#[derive(Clone, Debug)]
+pub struct Point {
+    pub t: f64,
+    pub q: Vec<f64>,
+    pub v: Vec<f64>,
+    pub parameters: Vec<f64>,
+    pub inputs: Vec<f64>,
+}
+
+/// Checks and derives a description.
+pub fn derived(name: &str, source: &str) -> Derived {
+    let analysed = analyse(source, &Settings::default());
+    let (mut mechanism, _) =
+        analysed.unwrap_or_else(|errors| panic!("{}", errors.render(name, source)));
+    let equations = derive(&mut mechanism);
+    Derived {
+        name: name.to_string(),
+        mechanism,
+        equations,
+    }
+}
+
+/// The mechanisms of the library.
+pub fn library() -> impl Iterator<Item = Derived> {
+    bricard::NAMES.iter().map(|name| {
+        let source = bricard::source(name).expect("a name of the catalogue has a source");
+        derived(name, source)
+    })
+}
+
+/// The mechanisms of the library and the odd ones.
+pub fn everything() -> impl Iterator<Item = Derived> {
+    library().chain(ODD.iter().map(|(name, source)| derived(name, source)))
+}
+
+impl Derived {
+    /// `N`, the number of coordinates.
+    pub fn n(&self) -> usize {
+        self.mechanism.coordinates.len()
+    }
+
+    /// The values of parameters that the description gives.
+    pub fn defaults(&self) -> Vec<f64> {
+        let value = |e: ExprId| self.mechanism.graph.constant_value(e).unwrap_or(f64::NAN);
+        self.mechanism
+            .parameters
+            .iter()
+            .map(|p| value(p.default))
+            .collect()
+    }
+
+    /// Random values of everything; parameters near their defaults.
+    pub fn point(&self, random: &mut Random) -> Point {
+        let defaults = self.defaults();
+        Point {
+            t: random.between(-2.0, 2.0),
+            q: random.vector(self.n(), -3.0, 3.0),
+            v: random.vector(self.n(), -3.0, 3.0),
+            parameters: defaults
+                .iter()
+                .map(|x| x * random.between(0.5, 1.5))
+                .collect(),
+            inputs: random.vector(self.mechanism.inputs.len(), -3.0, 3.0),
+        }
+    }
+
+    /// The value of an expression.
+    pub fn value(&self, e: ExprId, point: &Point) -> f64 {
+        self.mechanism
+            .graph
+            .evaluate(e, &|symbol| point.value(symbol))
+    }
+
+    pub fn vector(&self, entries: &[ExprId], point: &Point) -> Vec<f64> {
+        self.mechanism
+            .graph
+            .evaluate_all(entries, &|symbol| point.value(symbol))
+    }
+
+    pub fn matrix(&self, rows: &[Vec<ExprId>], point: &Point) -> Vec<Vec<f64>> {
+        rows.iter().map(|row| self.vector(row, point)).collect()
+    }
+
+    /// Whether time itself occurs in the mass matrix.
+    pub fn mass_knows_time(&self) -> bool {
+        let graph = &self.mechanism.graph;
+        let entries = self.equations.mass.iter().flatten();
+        entries
+            .into_iter()
+            .any(|e| graph.depends_on(*e, Symbol::Time))
+    }
+}
+
+impl Point {
+    pub fn value(&self, symbol: Symbol) -> f64 {
+        match symbol {
+            Symbol::Time => self.t,
+            Symbol::Coordinate(i) => self.q[i as usize],
+            Symbol::Velocity(i) => self.v[i as usize],
+            Symbol::Parameter(i) => self.parameters[i as usize],
+            Symbol::Input(i) => self.inputs[i as usize],
+        }
+    }
+}
