@@ -44,12 +44,7 @@ where
     let mut scales = measured.clone();
     scales.hold(held);
     let free = Decomposition::new(&at.jacobian, &scales).map_err(|_| failure)?;
-    // Twice: the second correction takes the round-off of the first.
-    for _ in 0..2 {
-        let error = (at.jacobian * state.v + at.drift).component_mul(&scales.rows);
-        let (step, _) = free.solve(&-error, independent(), T::zero());
-        state.v += step.component_mul(&scales.columns);
-    }
+    correct(state, &at, &scales, &free);
     if !state.is_finite() {
         return Err(failure);
     }
@@ -66,12 +61,30 @@ where
         whole,
     };
     match branch.choose(state) {
-        Ok(true) => Ok(()),
+        Ok(true) => {
+            correct(state, &at, &scales, &branch.free);
+            Ok(())
+        }
         Ok(false) => Err(AssemblyError::NoBranch {
             structure: mechanism.structure(),
             held: *held,
         }),
         Err(Breakdown) => Err(failure),
+    }
+}
+
+/// Moves the free velocities to `A q̇ + b = 0`, as little as they can. Twice: the
+/// second correction takes the round-off of the first.
+fn correct<T: Real, const N: usize, const R: usize>(
+    state: &mut State<T, N>,
+    at: &Position<T, N, R>,
+    scales: &Scales<T, N, R>,
+    free: &Decomposition<T, N, R>,
+) {
+    for _ in 0..2 {
+        let error = (at.jacobian * state.v + at.drift).component_mul(&scales.rows);
+        let (step, _) = free.solve(&-error, independent(), T::zero());
+        state.v += step.component_mul(&scales.columns);
     }
 }
 
@@ -140,13 +153,15 @@ where
             let rest = self.whole.unreachable(&bias, independent());
             let slopes = self.slopes(state);
             let size = self.size(&bias, &state.v, &slopes);
-            if norm(&rest.data.0[0]) <= size * T::from_f64(ON_BRANCH) {
-                return Ok(true);
+            let reached = norm(&rest.data.0[0]) <= size * T::from_f64(ON_BRANCH);
+            if norm(&rest.data.0[0]) > T::zero() {
+                // Also where the branch is reached: the last step squares the
+                // error.
+                let step = self.step(&slopes, &rest)?;
+                state.v += step.component_mul(&self.scales.columns);
             }
-            let step = self.step(&slopes, &rest)?;
-            state.v += step.component_mul(&self.scales.columns);
-            if !state.is_finite() {
-                return Ok(false);
+            if reached || !state.is_finite() {
+                return Ok(reached && state.is_finite());
             }
         }
         Ok(false)
@@ -189,7 +204,13 @@ where
         slopes: &SMatrix<T, R, N>,
         rest: &SVector<T, R>,
     ) -> Result<SVector<T, N>, Breakdown> {
-        let basis = self.free.null_space(independent());
+        let mut basis = self.free.null_space(independent());
+        for (j, scale) in self.scales.columns.iter().enumerate() {
+            if *scale == T::zero() {
+                // Held: free of the constraints, but not free.
+                basis.row_mut(j).fill(T::zero());
+            }
+        }
         let mut along = slopes * basis;
         for column in along.data.0.iter_mut() {
             let reached = SVector::from(*column);

@@ -41,7 +41,8 @@ impl<T: Real> Grid<T> {
             let steps = (span / step).to_f64() - SLIVER;
             // Rounds up; a number of steps too large for the type is one that no
             // run will reach.
-            (steps as u64 + u64::from(steps.fract() > 0.0)).max(1)
+            let whole = steps as u64;
+            (whole + u64::from(steps > whole as f64)).max(1)
         } else {
             0
         };
