@@ -2,5 +2,7 @@
 
 mod derivation;
 mod dual;
+mod layering;
 mod library;
 mod random;
+mod source;

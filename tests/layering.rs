@@ -1,0 +1,165 @@
+//! Stages import leftward only, the runtime knows no generator, and files,
+//! functions and traits stay small.
+
+use crate::source::{self, File};
+
+/// The stages, each with those it may import; `expr` and `diagnostic` serve all.
+const STAGES: [(&str, &[&str]); 7] = [
+    ("expr", &[]),
+    ("diagnostic", &[]),
+    ("parse", &["diagnostic", "expr"]),
+    ("model", &["diagnostic", "expr", "parse"]),
+    ("derive", &["diagnostic", "expr", "model"]),
+    ("optimise", &["diagnostic", "expr", "derive"]),
+    ("emit", &["diagnostic", "expr", "model", "derive", "optimise"]),
+];
+
+const FILE_LINES: usize = 500;
+const FRONT_PAGE_LINES: usize = 120;
+const FUNCTION_LINES: usize = 60;
+const TRAIT_METHODS: usize = 8;
+
+/// Complains of everything at once.
+fn none(complaints: Vec<String>) {
+    assert!(complaints.is_empty(), "\n{}", complaints.join("\n"));
+}
+
+/// The stage that a file of the compiler belongs to.
+fn stage(file: &File) -> Option<&str> {
+    let inside = file.path.strip_prefix("codegen/src/")?;
+    let name = inside.split(['/', '.']).next()?;
+    STAGES.iter().map(|(stage, _)| *stage).find(|stage| *stage == name)
+}
+
+/// The modules that a file names behind `crate::`, grouped imports included.
+fn imported(file: &File) -> Vec<String> {
+    let mut found = Vec::new();
+    for behind in file.code.split("crate::").skip(1) {
+        let names = match behind.strip_prefix('{') {
+            Some(group) => group.split('}').next().unwrap_or_default().to_string(),
+            None => behind.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect(),
+        };
+        let first = |path: &str| path.split("::").next().unwrap_or_default().trim().to_string();
+        found.extend(names.split(',').map(first));
+    }
+    found
+}
+
+#[test]
+fn stages_import_only_stages_to_their_left() {
+    let mut complaints = Vec::new();
+    for file in source::files(&["codegen/src"]) {
+        let Some(here) = stage(&file) else { continue };
+        let allowed = STAGES.iter().find(|(stage, _)| *stage == here).map(|(_, allowed)| *allowed);
+        for name in imported(&file) {
+            let is_stage = STAGES.iter().any(|(stage, _)| *stage == name);
+            let fits = name == here || allowed.is_some_and(|allowed| allowed.contains(&&*name));
+            if is_stage && !fits {
+                complaints.push(format!("{}: `{here}` imports `{name}`", file.path));
+            }
+        }
+    }
+    none(complaints);
+}
+
+#[test]
+fn every_folder_of_the_compiler_is_a_stage() {
+    let outside = |file: &File| {
+        let inside = file.path.strip_prefix("codegen/src/").unwrap_or(&file.path);
+        inside.contains('/') && stage(file).is_none()
+    };
+    let files = source::files(&["codegen/src"]);
+    none(files.iter().filter(|file| outside(file)).map(|file| file.path.clone()).collect());
+}
+
+#[test]
+fn the_runtime_never_names_the_compiler() {
+    let names = |file: &File| file.code.contains("bricard_codegen");
+    let files = source::files(&["runtime/src"]);
+    assert!(!files.is_empty());
+    none(files.iter().filter(|file| names(file)).map(|file| file.path.clone()).collect());
+    let manifest = source::read("runtime/Cargo.toml");
+    assert!(!manifest.contains("codegen"), "runtime/Cargo.toml depends on the compiler");
+}
+
+#[test]
+fn the_compiler_never_names_the_runtime_but_in_what_it_emits() {
+    let names = |file: &File| {
+        file.code.contains("use bricard_runtime") && !file.path.starts_with("codegen/src/emit/")
+    };
+    let files = source::files(&["codegen/src"]);
+    none(files.iter().filter(|file| names(file)).map(|file| file.path.clone()).collect());
+}
+
+#[test]
+fn the_engine_of_expressions_knows_no_mechanics() {
+    let words = ["mass", "coriolis", "constraint", "kinetic", "potential", "mechanism"];
+    let mut complaints = Vec::new();
+    for file in source::files(&["codegen/src/expr"]) {
+        let code = file.code.to_lowercase();
+        let found = words.iter().filter(|word| code.contains(**word));
+        complaints.extend(found.map(|word| format!("{}: `{word}`", file.path)));
+    }
+    none(complaints);
+}
+
+#[test]
+fn files_stay_small() {
+    let mut complaints = Vec::new();
+    for file in source::files(&source::EVERYWHERE) {
+        let limit = if file.path.ends_with("lib.rs") { FRONT_PAGE_LINES } else { FILE_LINES };
+        if file.lines > limit {
+            complaints.push(format!("{}: {} lines, at most {limit}", file.path, file.lines));
+        }
+    }
+    none(complaints);
+}
+
+#[test]
+fn functions_stay_small() {
+    let mut complaints = Vec::new();
+    for file in source::files(&source::EVERYWHERE) {
+        for block in file.blocks("fn ") {
+            if block.lines > FUNCTION_LINES {
+                let (name, lines) = (block.name, block.lines);
+                complaints.push(format!("{}: `{name}` has {lines} lines", file.path));
+            }
+        }
+    }
+    none(complaints);
+}
+
+#[test]
+fn traits_stay_small() {
+    // `Real` is the one list of the functions of the language, which is longer.
+    let listed = ["Real"];
+    let mut complaints = Vec::new();
+    for file in source::files(&source::EVERYWHERE) {
+        for block in file.blocks("trait ") {
+            let methods = block.text.matches("fn ").count();
+            if methods > TRAIT_METHODS && !listed.contains(&block.name.as_str()) {
+                let name = block.name;
+                complaints.push(format!("{}: `{name}` has {methods} methods", file.path));
+            }
+        }
+    }
+    none(complaints);
+}
+
+#[test]
+fn every_file_begins_by_saying_what_it_is() {
+    let silent = |file: &File| !file.text.starts_with("//!");
+    let files = source::files(&source::EVERYWHERE);
+    none(files.iter().filter(|file| silent(file)).map(|file| file.path.clone()).collect());
+}
+
+#[test]
+fn nothing_is_left_for_later() {
+    let words = ["todo!", "unimplemented!", "TODO", "FIXME", "XXX", "dbg!("];
+    let mut complaints = Vec::new();
+    for file in source::files(&source::EVERYWHERE) {
+        let found = words.iter().filter(|word| file.text.contains(**word));
+        complaints.extend(found.map(|word| format!("{}: `{word}`", file.path)));
+    }
+    none(complaints);
+}
