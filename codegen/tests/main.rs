@@ -1,3 +1,4 @@
 //! The tests of the compiler, one binary.
 
+mod front;
 mod symbolic;

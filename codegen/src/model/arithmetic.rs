@@ -173,9 +173,11 @@ impl Evaluator {
             }
         };
         let raised = self.scalar(exponent, "an exponent")?;
-        if !raised.unit.is_pure() {
+        if let Unit::Known(dimension) = raised.unit
+            && !raised.unit.is_pure()
+        {
             let error = Diagnostic::error(exponent.span, "an exponent has no unit");
-            return self.report(error);
+            return self.report(error.labelled(dimension.said()));
         }
         let number = self.graph.as_number(raised.id).map(Number::to_f64);
         if number.is_some_and(|n| n.abs() > EXPONENT) {

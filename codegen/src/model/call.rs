@@ -70,7 +70,9 @@ impl Evaluator {
             return self.report(Diagnostic::error(span, message).help(format!("write `{form}`")));
         }
         if let Some((function, _)) = unary {
-            return self.unary(*function, &arguments[0]).map(Value::Scalar);
+            return self
+                .unary(*function, &arguments[0], span)
+                .map(Value::Scalar);
         }
         match name.text.as_str() {
             "atan2" => self.binary(Function2::Atan2, arguments, span),
@@ -130,7 +132,7 @@ impl Evaluator {
         self.report(Diagnostic::error(span, message))
     }
 
-    fn unary(&mut self, function: Function, argument: &Expr) -> Option<Scalar> {
+    fn unary(&mut self, function: Function, argument: &Expr, span: Span) -> Option<Scalar> {
         let x = self.scalar(argument, &format!("the argument of `{}`", function.name()))?;
         let unit = match function {
             Function::Sqrt => x.unit.power(0.5),
@@ -146,10 +148,14 @@ impl Evaluator {
             }
         };
         let id = self.graph.function(function, x.id);
-        Some(Scalar {
-            id: self.sound(id, argument.span)?,
-            unit,
-        })
+        let (at, value) = (self.facts(x.id).value, self.facts(id).value);
+        if let (Some(at), Some(value)) = (at, value)
+            && !value.is_finite()
+        {
+            let message = format!("`{}` has no finite value at {at}", function.name());
+            return self.report(Diagnostic::error(span, message));
+        }
+        Some(Scalar { id, unit })
     }
 
     /// Refuses a unit where an angle or ratio belongs.

@@ -4,52 +4,19 @@
 use super::lower::Lowering;
 use super::order::{Definition, order};
 use super::scope::Kind;
-use super::unit::{self, Unit};
+use super::si;
+use super::unit::Unit;
 use super::value::{Array, Scalar, Value};
-use super::{Constant, Input, Parameter, Quantity};
-use crate::diagnostic::{Diagnostic, Span, nearest};
-use crate::expr::{ExprId, Number, Symbol};
-use crate::parse::ast::{Ast, Declaration, Declared, Expr, Item, ItemKind, Let, Name, UnitExpr};
+use super::{Input, Quantity};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::expr::Symbol;
+use crate::parse::ast::{Declaration, Declared, Expr, Item, ItemKind, Let, Name, UnitExpr};
 use std::rc::Rc;
 
 /// The most coordinates of a mechanism.
 const COORDINATES: i64 = 10_000;
 
 impl Lowering<'_> {
-    /// Checks that the build script changes what there is.
-    pub fn changes_fit(&mut self, ast: &Ast) {
-        let names = |kind: Declared| -> Vec<&str> {
-            let declared = ast.items.iter().filter_map(|item| match &item.kind {
-                ItemKind::Declaration(d) if d.kind == kind => Some(d.name.text.as_str()),
-                _ => None,
-            });
-            declared.collect()
-        };
-        let constants = self
-            .constants
-            .iter()
-            .map(|(name, _)| (name, "constant", Declared::Constant));
-        let frozen = self
-            .frozen
-            .iter()
-            .map(|name| (name, "parameter", Declared::Parameter));
-        for (name, kind, declared) in constants.chain(frozen) {
-            let known = names(declared);
-            if known.contains(&name.as_str()) {
-                continue;
-            }
-            let near = nearest(name, known.iter().copied());
-            let help = match near {
-                Some(near) => format!("did you mean `{near}`?"),
-                None if known.is_empty() => format!("the description declares no {kind}"),
-                None => format!("the description declares {}", known.join(", ")),
-            };
-            let message =
-                format!("the build script sets the {kind} `{name}`, which is not declared");
-            self.report::<()>(Diagnostic::error(ast.name.span, message).help(help));
-        }
-    }
-
     /// Reads all declarations outside loops.
     pub fn declare(&mut self, items: &[Item]) {
         let fresh: Vec<&Item> = items
@@ -113,137 +80,21 @@ impl Lowering<'_> {
         }
     }
 
-    fn constants(&mut self, items: &[(&Item, &Declaration)]) {
-        let definition = |(_, d): &(&'_ Item, &'_ Declaration)| -> bool {
-            self.constants.iter().any(|(name, _)| *name == d.name.text)
-        };
-        let overridden: Vec<bool> = items.iter().map(definition).collect();
-        let definitions: Vec<_> = items
-            .iter()
-            .zip(&overridden)
-            .map(|((_, d), overridden)| Definition {
-                name: &d.name,
-                formulas: if *overridden {
-                    Vec::new()
-                } else {
-                    vec![&d.value]
-                },
-                recursive: false,
-            })
-            .collect();
-        for i in order(&definitions, &mut self.evaluator.diagnostics) {
-            self.constant(items[i].0, items[i].1);
-        }
-        let place = |constant: &Constant| constant.quantity.span.start.offset;
-        self.mechanism.constants.sort_by_key(place);
-    }
-
-    fn constant(&mut self, item: &Item, declaration: &Declaration) {
-        let changed = self
-            .constants
-            .iter()
-            .rev()
-            .find(|(name, _)| *name == declaration.name.text);
-        let changed = changed.map(|(_, value)| *value);
-        let Some((unit, id)) = (match changed {
-            Some(value) => self.changed_constant(declaration, value),
-            None => self.constant_value(declaration, "a constant"),
-        }) else {
-            return;
-        };
-        self.evaluator.scope.set(
-            &declaration.name.text,
-            Some(Value::Scalar(Scalar { id, unit })),
-        );
-        let quantity = quantity(item, &declaration.name, declaration.unit.as_ref());
-        self.mechanism.constants.push(Constant {
-            quantity,
-            value: id,
-        });
-    }
-
-    /// The value that the build script gives, as exact as it is written there.
-    fn changed_constant(
-        &mut self,
-        declaration: &Declaration,
-        value: f64,
-    ) -> Option<(Unit, ExprId)> {
-        let unit = self.unit(declaration.unit.as_ref());
-        let size = Number::parse_literal(&format!("{:?}", value.abs()));
-        let Some(size) = size.filter(|_| value.is_finite()) else {
-            let name = &declaration.name;
-            let message = format!(
-                "the build script sets `{}` to {value}, which is not finite",
-                name.text
-            );
-            return self.report(Diagnostic::error(name.span, message));
-        };
-        let number = if value < 0.0 { size.neg() } else { size };
-        Some((unit, self.evaluator.graph.number(number)))
-    }
-
-    /// The declared unit and the value of a formula of numbers and constants.
-    fn constant_value(
-        &mut self,
-        declaration: &Declaration,
-        what: &'static str,
-    ) -> Option<(Unit, ExprId)> {
-        let unit = self.unit(declaration.unit.as_ref());
-        self.evaluator.constant = Some(what);
-        let value = self.evaluator.scalar(&declaration.value, what);
-        self.evaluator.constant = None;
-        let value = value?;
-        self.fits(declaration, unit, value)?;
-        Some((unit, value.id))
-    }
-
     /// Refuses a value in another unit than the declared one.
     pub fn fits(&mut self, declaration: &Declaration, unit: Unit, value: Scalar) -> Option<()> {
         match unit.meet(value.unit) {
             Ok(_) => Some(()),
             Err((declared, found)) => {
-                let (name, found) = (&declaration.name.text, found.text());
-                let message = format!(
-                    "`{name}` is declared in {}, its value has {found}",
-                    declared.text()
-                );
-                let place = declaration
-                    .unit
-                    .as_ref()
-                    .map_or(declaration.name.span, |unit| unit.span);
+                let (name, declared) = (&declaration.name.text, declared.text());
+                let found = found.said();
+                let value = found.replacen("this", "its value", 1);
+                let message = format!("`{name}` is declared in {declared}, {value}");
+                let unit = declaration.unit.as_ref();
+                let place = unit.map_or(declaration.name.span, |unit| unit.span);
                 let error = Diagnostic::error(declaration.value.span, message);
-                self.report(
-                    error
-                        .labelled(format!("this has {found}"))
-                        .also(place, "declared here"),
-                )
+                self.report(error.labelled(found).also(place, "declared here"))
             }
         }
-    }
-
-    fn parameter(&mut self, item: &Item, declaration: &Declaration) {
-        let Some((unit, default)) = self.constant_value(declaration, "the default of a parameter")
-        else {
-            return;
-        };
-        let quantity = quantity(item, &declaration.name, declaration.unit.as_ref());
-        let id = if self.frozen.contains(&declaration.name.text) {
-            self.mechanism.constants.push(Constant {
-                quantity,
-                value: default,
-            });
-            default
-        } else {
-            let index = self.mechanism.parameters.len() as u32;
-            self.mechanism
-                .parameters
-                .push(Parameter { quantity, default });
-            self.evaluator.graph.symbol(Symbol::Parameter(index))
-        };
-        self.evaluator.scope.set(
-            &declaration.name.text,
-            Some(Value::Scalar(Scalar { id, unit })),
-        );
     }
 
     fn coordinates(
@@ -388,7 +239,7 @@ impl Lowering<'_> {
 
     /// The declared unit; [`Unit::Unchecked`] if there is none.
     pub fn unit(&mut self, unit: Option<&UnitExpr>) -> Unit {
-        match unit.map(unit::resolve) {
+        match unit.map(si::resolve) {
             None => Unit::Unchecked,
             Some(Ok(dimension)) => Unit::Known(dimension),
             Some(Err(diagnostic)) => {

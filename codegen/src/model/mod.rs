@@ -9,6 +9,7 @@
 mod arithmetic;
 mod call;
 mod check;
+mod constant;
 mod declare;
 mod element;
 mod evaluate;
@@ -18,6 +19,7 @@ mod lower;
 mod order;
 mod rotation;
 mod scope;
+mod si;
 mod start;
 mod statement;
 mod unit;

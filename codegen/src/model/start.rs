@@ -42,8 +42,10 @@ impl Lowering<'_> {
             let help = "what has to hold between coordinates is a `constraint`";
             return self.report(error.help(help));
         }
-        self.evaluator
-            .same_unit([(scalar, target.span), (given, value.span)], "this equation")?;
+        self.evaluator.same_unit(
+            [(scalar, target.span), (given, value.span)],
+            "this equation",
+        )?;
         if let Some(first) = self
             .named
             .starts

@@ -1,28 +1,24 @@
 //! Units: dimensions as exponents of SI base units.
 //!
-//! In:  units as written behind `:`.
+//! In:  dimensions of symbols, from [`super::si`].
 //! Out: [`Unit`]s that formulas are checked with, and their names in messages.
 //!
 //! A number has no unit: as a factor it is dimensionless, as a term, default or
 //! start value it takes the unit of what it stands beside (`x - 0.1`, `param L: m =
 //! 0.5`). A symbol declared without unit, and `t` (so that `sin(2*t)` can be
 //! written), switch the check off for every formula they take part in.
-//!
-//! Not here: units other than SI. A factor hidden in a unit would be a wrong
-//! program, so `mm`, `deg` and the like are refused with the SI unit to write.
 
-use crate::diagnostic::{Diagnostic, nearest};
-use crate::parse::ast::UnitExpr;
+use super::si;
 
 /// Exponents are counted in twelfths, so that roots have a unit.
-const PARTS: i32 = 12;
+pub const PARTS: i32 = 12;
 
 /// The base units, in the order of the exponents of a [`Dimension`].
 const BASE: [&str; 5] = ["kg", "m", "s", "A", "K"];
 
 /// Exponents of the base units, in twelfths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct Dimension([i32; 5]);
+pub struct Dimension(pub [i32; 5]);
 
 /// What is known of the unit of a formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,114 +43,6 @@ pub const PER_SECOND: Dimension = whole(0, 0, -1);
 pub const ENERGY: Dimension = whole(1, 2, -2);
 /// `W`.
 pub const POWER: Dimension = whole(1, 2, -3);
-
-/// SI units with their exponents of kg, m, s, A, K.
-const NAMED: [(&str, [i32; 5]); 21] = [
-    ("kg", [1, 0, 0, 0, 0]),
-    ("m", [0, 1, 0, 0, 0]),
-    ("s", [0, 0, 1, 0, 0]),
-    ("A", [0, 0, 0, 1, 0]),
-    ("K", [0, 0, 0, 0, 1]),
-    ("rad", [0, 0, 0, 0, 0]),
-    ("sr", [0, 0, 0, 0, 0]),
-    ("N", [1, 1, -2, 0, 0]),
-    ("J", [1, 2, -2, 0, 0]),
-    ("W", [1, 2, -3, 0, 0]),
-    ("Pa", [1, -1, -2, 0, 0]),
-    ("Hz", [0, 0, -1, 0, 0]),
-    ("V", [1, 2, -3, -1, 0]),
-    ("C", [0, 0, 1, 1, 0]),
-    ("F", [-1, -2, 4, 2, 0]),
-    ("H", [1, 2, -2, -2, 0]),
-    ("T", [1, 0, -2, -1, 0]),
-    ("Wb", [1, 2, -2, -1, 0]),
-    ("ohm", [1, 2, -3, -2, 0]),
-    ("Ohm", [1, 2, -3, -2, 0]),
-    ("S", [-1, -2, 3, 2, 0]),
-];
-
-/// Units that hide a factor, with the SI unit and the factor.
-const SCALED: [(&str, &str, &str); 37] = [
-    ("mm", "m", "1e-3"),
-    ("cm", "m", "1e-2"),
-    ("dm", "m", "1e-1"),
-    ("um", "m", "1e-6"),
-    ("nm", "m", "1e-9"),
-    ("km", "m", "1e3"),
-    ("inch", "m", "0.0254"),
-    ("ft", "m", "0.3048"),
-    ("g", "kg", "1e-3"),
-    ("mg", "kg", "1e-6"),
-    ("t", "kg", "1e3"),
-    ("lb", "kg", "0.45359237"),
-    ("ms", "s", "1e-3"),
-    ("us", "s", "1e-6"),
-    ("ns", "s", "1e-9"),
-    ("min", "s", "60"),
-    ("h", "s", "3600"),
-    ("deg", "rad", "pi/180"),
-    ("rev", "rad", "2*pi"),
-    ("rpm", "rad/s", "2*pi/60"),
-    ("mN", "N", "1e-3"),
-    ("kN", "N", "1e3"),
-    ("MN", "N", "1e6"),
-    ("Nm", "N*m", "1"),
-    ("mJ", "J", "1e-3"),
-    ("kJ", "J", "1e3"),
-    ("MJ", "J", "1e6"),
-    ("mW", "W", "1e-3"),
-    ("kW", "W", "1e3"),
-    ("MW", "W", "1e6"),
-    ("kPa", "Pa", "1e3"),
-    ("MPa", "Pa", "1e6"),
-    ("GPa", "Pa", "1e9"),
-    ("bar", "Pa", "1e5"),
-    ("kHz", "Hz", "1e3"),
-    ("mA", "A", "1e-3"),
-    ("mV", "V", "1e-3"),
-];
-
-/// The dimension of a unit as written.
-pub fn resolve(unit: &UnitExpr) -> Result<Dimension, Diagnostic> {
-    let mut total = NONE;
-    for (name, exponent) in &unit.factors {
-        let Some((_, powers)) = NAMED.iter().find(|(known, _)| *known == name.text) else {
-            let error = Diagnostic::error(name.span, unknown(&name.text));
-            return Err(error.help(instead(&name.text)));
-        };
-        let mut factor = Dimension(*powers);
-        factor
-            .0
-            .iter_mut()
-            .for_each(|power| *power *= PARTS * exponent);
-        total = total.times(factor);
-    }
-    Ok(total)
-}
-
-fn unknown(name: &str) -> String {
-    match SCALED.iter().find(|(known, ..)| *known == name) {
-        Some((_, "N*m", _)) => format!("`{name}` is written `N*m`"),
-        Some(_) => format!("`{name}` is not an SI unit"),
-        None => format!("unknown unit `{name}`"),
-    }
-}
-
-fn instead(name: &str) -> String {
-    if let Some((_, si, factor)) = SCALED.iter().find(|(known, ..)| *known == name) {
-        return match *factor {
-            "1" => format!("write `{si}`"),
-            _ => format!("write SI: `{si}`, and multiply the value by {factor}"),
-        };
-    }
-    let known = NAMED.iter().map(|(known, _)| *known);
-    match nearest(name, known) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => {
-            "units are products of m, kg, s, rad, N, J, W, Pa, Hz, A, V, K and their powers".into()
-        }
-    }
-}
 
 impl Dimension {
     /// The dimension of a product.
@@ -183,7 +71,11 @@ impl Dimension {
 
     /// What has this dimension, in words.
     pub fn said(self) -> String {
-        if self == NONE { "this has no unit".into() } else { format!("this is in {}", self.text()) }
+        if self == NONE {
+            "this has no unit".into()
+        } else {
+            format!("this is in {}", self.text())
+        }
     }
 
     /// Its name in a message.
@@ -196,29 +88,46 @@ impl Dimension {
         }
         let exact = |powers: &[i32; 5]| powers.map(|power| power * PARTS) == self.0;
         let spoken = ["N", "W", "Pa", "V"];
-        if let Some((name, _)) = NAMED.iter().find(|(n, p)| spoken.contains(n) && exact(p)) {
+        if let Some((name, _)) = si::NAMED
+            .iter()
+            .find(|(n, p)| spoken.contains(n) && exact(p))
+        {
             return (*name).into();
         }
-        let side = |below: bool| -> Vec<String> {
-            let powers = BASE
-                .iter()
-                .zip(self.0)
-                .filter(|(_, p)| (*p < 0) == below && *p != 0);
-            powers
-                .map(|(name, p)| format!("{name}{}", exponent_text(p.abs())))
-                .collect()
-        };
-        let (above, below) = (side(false), side(true));
-        let numerator = if above.is_empty() {
-            "1".to_string()
-        } else {
-            above.join("*")
-        };
-        match below.len() {
-            0 => numerator,
-            1 => format!("{numerator}/{}", below[0]),
-            _ => format!("{numerator}/({})", below.join("*")),
+        let [kg, m, s, ..] = self.0;
+        let with_newton =
+            (kg == PARTS).then_some([(NEWTON, kg), ("m", m - PARTS), ("s", s + 2 * PARTS)]);
+        let plain: Vec<_> = BASE.into_iter().zip(self.0).collect();
+        let size = |powers: &[(&str, i32)]| powers.iter().map(|(_, p)| p.abs()).sum::<i32>();
+        match with_newton {
+            Some(powers) if self.0[3..] == [0, 0] && size(&powers) < size(&plain) => {
+                quotient(&powers)
+            }
+            _ => quotient(&plain),
         }
+    }
+}
+
+const NEWTON: &str = "N";
+
+/// A product of powers as a quotient of products.
+fn quotient(powers: &[(&str, i32)]) -> String {
+    let side = |below: bool| -> Vec<String> {
+        let powers = powers.iter().filter(|(_, p)| (*p < 0) == below && *p != 0);
+        powers
+            .map(|(name, p)| format!("{name}{}", exponent_text(p.abs())))
+            .collect()
+    };
+    let (above, below) = (side(false), side(true));
+    let numerator = if above.is_empty() {
+        "1".to_string()
+    } else {
+        above.join("*")
+    };
+    match below.len() {
+        0 => numerator,
+        1 => format!("{numerator}/{}", below[0]),
+        _ => format!("{numerator}/({})", below.join("*")),
     }
 }
 
@@ -283,7 +192,9 @@ mod tests {
         assert_eq!(whole(1, 1, -2).text(), "N");
         assert_eq!(whole(0, 1, -2).text(), "m/s^2");
         assert_eq!(whole(0, 0, -1).text(), "1/s");
-        assert_eq!(whole(1, 0, 0).times(whole(0, -1, -1)).text(), "kg/(m*s)");
+        assert_eq!(whole(1, -1, -1).text(), "kg/(m*s)");
+        assert_eq!(whole(1, 0, -2).text(), "N/m");
+        assert_eq!(whole(1, 1, -1).text(), "N*s");
         assert_eq!(
             whole(0, 1, 0).power(0.5).map(Dimension::text),
             Some("m^(1/2)".into())

@@ -4,11 +4,11 @@
 //! right to left; `.x`, `[i]`. A sign binds less tightly than a power and more
 //! tightly than a product: `-x^2 = -(x^2)`, `2^-1 = 1/2`.
 
-use super::ast::{Condition, Expr, ExprKind, Name, Range};
+use super::ast::{Expr, ExprKind, Name, Range};
 use super::cursor::{Cursor, Parsed};
+use super::literal::read_number;
 use super::token::TokenKind;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::expr::{Comparison, Number};
 
 impl Cursor<'_> {
     /// Reads a formula.
@@ -121,16 +121,18 @@ impl Cursor<'_> {
             TokenKind::Word(word) => self.name_or_call(word, token.span),
             TokenKind::Symbol("(") => self.parenthesis(),
             TokenKind::Symbol("[") => self.vector(),
-            TokenKind::Symbol("." | "..") if self.number_follows() => {
-                let error = Diagnostic::error(token.span, "a number can't begin with a dot");
-                Err(self.fail(error.help("write `0.5`")))
-            }
+            TokenKind::Symbol(".") => self.dot(token.span),
             _ => Err(self.unexpected("a formula", "")),
         }
     }
 
-    fn number_follows(&self) -> bool {
-        matches!(self.peek_at(1).kind, TokenKind::Number(_))
+    fn dot(&mut self, span: Span) -> Parsed<Expr> {
+        let TokenKind::Number(digits) = &self.peek_at(1).kind else {
+            return Err(self.unexpected("a formula", ""));
+        };
+        let help = format!("write `0.{digits}`");
+        let error = Diagnostic::error(span, "a number can't begin with a dot");
+        Err(self.fail(error.help(help)))
     }
 
     fn number(&mut self, text: &str, span: Span) -> Parsed<Expr> {
@@ -236,79 +238,6 @@ impl Cursor<'_> {
             kind: ExprKind::Vector(parts),
         })
     }
-
-    fn choice(&mut self) -> Parsed<Expr> {
-        let help = "a choice is written `if a < b then x else y`";
-        let start = self.span();
-        self.advance();
-        let condition = self.condition(help)?;
-        if !self.take_word("then") {
-            return Err(self.unexpected("`then`", help));
-        }
-        let then = self.expression()?;
-        if !self.take_word("else") {
-            return Err(self.unexpected("`else`", help));
-        }
-        let otherwise = self.expression()?;
-        let span = start.to(otherwise.span);
-        let parts = (Box::new(condition), Box::new(then), Box::new(otherwise));
-        Ok(Expr {
-            span,
-            kind: ExprKind::If(parts.0, parts.1, parts.2),
-        })
-    }
-
-    fn condition(&mut self, help: &str) -> Parsed<Condition> {
-        let left = self.expression()?;
-        let operator = self.peek().clone();
-        let (comparison, exchanged) = match operator.kind {
-            TokenKind::Symbol("<") => (Comparison::Less, false),
-            TokenKind::Symbol("<=") => (Comparison::LessEqual, false),
-            TokenKind::Symbol(">") => (Comparison::Less, true),
-            TokenKind::Symbol(">=") => (Comparison::LessEqual, true),
-            TokenKind::Symbol("==") => (Comparison::Equal, false),
-            TokenKind::Symbol("!=") => (Comparison::NotEqual, false),
-            TokenKind::Symbol("=") => {
-                let error = Diagnostic::error(operator.span, "`=` does not compare");
-                return Err(self.fail(error.help("write `==`")));
-            }
-            _ => {
-                return Err(
-                    self.unexpected("a comparison: `<`, `<=`, `>`, `>=`, `==` or `!=`", help)
-                );
-            }
-        };
-        self.advance();
-        let right = self.expression()?;
-        if self.at_symbol("&&") || self.at_symbol("||") {
-            let error = Diagnostic::error(self.span(), "conditions can't be joined");
-            let help =
-                "put one choice inside the other: `if a < b then (if c < d then x else y) else y`";
-            return Err(self.fail(error.help(help)));
-        }
-        let (left, right) = if exchanged {
-            (right, left)
-        } else {
-            (left, right)
-        };
-        Ok(Condition {
-            comparison,
-            left,
-            right,
-        })
-    }
-
-    /// Refuses a comparison where a formula has ended.
-    pub fn comparison_stands_after_if(&mut self) -> Parsed<()> {
-        let there = ["<", "<=", ">", ">=", "==", "!="]
-            .iter()
-            .any(|sign| self.at_symbol(sign));
-        if !there {
-            return Ok(());
-        }
-        let error = Diagnostic::error(self.span(), "a comparison stands only behind `if`");
-        Err(self.fail(error.help("write `if a < b then x else y`, or `=` for an equation")))
-    }
 }
 
 /// Makes a sum or product, unless it has one part.
@@ -323,49 +252,5 @@ fn list(mut parts: Vec<(bool, Expr)>, kind: fn(Vec<(bool, Expr)>) -> ExprKind) -
     Expr {
         span: first.to(last),
         kind: kind(parts),
-    }
-}
-
-/// Reads a decimal literal exactly.
-fn read_number(text: &str, span: Span) -> Result<Number, Box<Diagnostic>> {
-    let refuse =
-        |message: String, help: String| Box::new(Diagnostic::error(span, message).help(help));
-    if text.len() > 2
-        && ["0x", "0b", "0o"]
-            .iter()
-            .any(|prefix| text.starts_with(prefix))
-    {
-        return Err(refuse(
-            format!("`{text}` is not a decimal number"),
-            "write it in decimals".into(),
-        ));
-    }
-    let end = text.find(|c: char| c.is_ascii_alphabetic() && c != 'e' && c != 'E');
-    let bare_exponent = text.ends_with(['e', 'E']).then(|| text.len() - 1);
-    if let Some(end) = end.or(bare_exponent) {
-        let (number, name) = text.split_at(end);
-        let message = format!("`{text}` is neither a number nor a name");
-        return Err(refuse(
-            message,
-            format!("write `{number}*{name}`, or give the unit behind `:`"),
-        ));
-    }
-    let number = Number::parse_literal(text);
-    let digits = text.split(['e', 'E']).next().unwrap_or("");
-    let vanished = |n: &Number| n.is_zero() && digits.contains(|c: char| ('1'..='9').contains(&c));
-    match number.filter(|n| n.is_finite() && !vanished(n)) {
-        Some(number) => Ok(number),
-        None => Err(refuse(
-            format!("`{}` is too large or too small", shorten(text)),
-            "numbers lie between 1e-308 and 1e308".into(),
-        )),
-    }
-}
-
-fn shorten(text: &str) -> String {
-    if text.len() <= 24 {
-        text.to_string()
-    } else {
-        format!("{}…", &text[..20])
     }
 }

@@ -66,7 +66,15 @@ impl Cursor<'_> {
         };
         if !self.at_statement() {
             let error = Diagnostic::error(start, format!("`{word}` does not begin a statement"));
-            return Err(self.fail(error.help(statement_help(&word))));
+            let help = match self.peek_at(1).kind {
+                TokenKind::Symbol("=") => {
+                    format!(
+                        "a quantity is written `let {word} = …;`, an equation `constraint {word} = …;`"
+                    )
+                }
+                _ => statement_help(&word),
+            };
+            return Err(self.fail(error.help(help)));
         }
         self.advance();
         let kind = self.item_kind(&word)?;
@@ -119,7 +127,10 @@ impl Cursor<'_> {
             TokenKind::End => false,
         };
         if same_line && goes_on {
-            return Err(self.unexpected("an operator or `;`", "a product is written with `*`"));
+            let [left, right] = [self.last_span(), next.span].map(|span| span.text(self.source));
+            let right = if right == "(" { "(…)" } else { right };
+            let help = format!("a product is written with `*`: `{left}*{right}`");
+            return Err(self.unexpected("an operator or `;`", &help));
         }
         Err(self.unexpected("`;`", &example(word)))
     }

@@ -11,9 +11,11 @@
 //! Not here: the meaning of names, shapes and units.
 
 pub mod ast;
+mod choice;
 mod cursor;
 mod expression;
 mod item;
+mod literal;
 mod scan;
 mod start;
 mod token;

@@ -160,19 +160,23 @@ impl Scanner<'_> {
     fn closing(&mut self, bracket: char, start: Position) {
         self.next();
         let span = self.span_from(start);
-        match self.open.pop() {
-            Some((open, _)) if partner(open) == bracket => {}
-            Some((open, place)) => {
-                let message = format!("`{open}` is closed by `{bracket}`");
-                let error = Diagnostic::error(span, message).also(place, "opened here");
-                self.diagnostics
-                    .push(error.help(format!("write `{}` here", partner(open))));
-            }
-            None => {
-                let message = format!("this `{bracket}` closes nothing");
-                self.diagnostics
-                    .push(Diagnostic::error(span, message).help("remove it"));
-            }
+        let matching = self
+            .open
+            .iter()
+            .rposition(|(open, _)| partner(*open) == bracket);
+        let Some(&(open, place)) = self.open.last() else {
+            let message = format!("this `{bracket}` closes nothing");
+            self.diagnostics
+                .push(Diagnostic::error(span, message).help("remove it"));
+            return;
+        };
+        // What is open inside the bracket that this one closes was forgotten.
+        self.open.truncate(matching.unwrap_or(self.open.len() - 1));
+        if partner(open) != bracket {
+            let message = format!("`{open}` is closed by `{bracket}`");
+            let error = Diagnostic::error(span, message).also(place, "opened here");
+            let help = format!("write the matching `{}` first", partner(open));
+            self.diagnostics.push(error.help(help));
         }
     }
 

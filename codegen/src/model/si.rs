@@ -1,0 +1,119 @@
+//! The names of units.
+//!
+//! In:  units as written behind `:`.
+//! Out: their dimensions.
+//!
+//! Not here: units other than SI. A factor hidden in a unit would be a wrong
+//! program, so `mm`, `deg` and the like are refused with the SI unit to write.
+
+use super::unit::{Dimension, NONE, PARTS};
+use crate::diagnostic::{Diagnostic, nearest};
+use crate::parse::ast::UnitExpr;
+
+/// SI units with their exponents of kg, m, s, A, K.
+pub const NAMED: [(&str, [i32; 5]); 21] = [
+    ("kg", [1, 0, 0, 0, 0]),
+    ("m", [0, 1, 0, 0, 0]),
+    ("s", [0, 0, 1, 0, 0]),
+    ("A", [0, 0, 0, 1, 0]),
+    ("K", [0, 0, 0, 0, 1]),
+    ("rad", [0, 0, 0, 0, 0]),
+    ("sr", [0, 0, 0, 0, 0]),
+    ("N", [1, 1, -2, 0, 0]),
+    ("J", [1, 2, -2, 0, 0]),
+    ("W", [1, 2, -3, 0, 0]),
+    ("Pa", [1, -1, -2, 0, 0]),
+    ("Hz", [0, 0, -1, 0, 0]),
+    ("V", [1, 2, -3, -1, 0]),
+    ("C", [0, 0, 1, 1, 0]),
+    ("F", [-1, -2, 4, 2, 0]),
+    ("H", [1, 2, -2, -2, 0]),
+    ("T", [1, 0, -2, -1, 0]),
+    ("Wb", [1, 2, -2, -1, 0]),
+    ("ohm", [1, 2, -3, -2, 0]),
+    ("Ohm", [1, 2, -3, -2, 0]),
+    ("S", [-1, -2, 3, 2, 0]),
+];
+
+/// Units that hide a factor, with the SI unit and the factor.
+const SCALED: [(&str, &str, &str); 37] = [
+    ("mm", "m", "1e-3"),
+    ("cm", "m", "1e-2"),
+    ("dm", "m", "1e-1"),
+    ("um", "m", "1e-6"),
+    ("nm", "m", "1e-9"),
+    ("km", "m", "1e3"),
+    ("inch", "m", "0.0254"),
+    ("ft", "m", "0.3048"),
+    ("g", "kg", "1e-3"),
+    ("mg", "kg", "1e-6"),
+    ("t", "kg", "1e3"),
+    ("lb", "kg", "0.45359237"),
+    ("ms", "s", "1e-3"),
+    ("us", "s", "1e-6"),
+    ("ns", "s", "1e-9"),
+    ("min", "s", "60"),
+    ("h", "s", "3600"),
+    ("deg", "rad", "deg"),
+    ("rev", "rad", "2*pi"),
+    ("rpm", "rad/s", "2*pi/60"),
+    ("mN", "N", "1e-3"),
+    ("kN", "N", "1e3"),
+    ("MN", "N", "1e6"),
+    ("Nm", "N*m", "1"),
+    ("mJ", "J", "1e-3"),
+    ("kJ", "J", "1e3"),
+    ("MJ", "J", "1e6"),
+    ("mW", "W", "1e-3"),
+    ("kW", "W", "1e3"),
+    ("MW", "W", "1e6"),
+    ("kPa", "Pa", "1e3"),
+    ("MPa", "Pa", "1e6"),
+    ("GPa", "Pa", "1e9"),
+    ("bar", "Pa", "1e5"),
+    ("kHz", "Hz", "1e3"),
+    ("mA", "A", "1e-3"),
+    ("mV", "V", "1e-3"),
+];
+
+/// The dimension of a unit as written.
+pub fn resolve(unit: &UnitExpr) -> Result<Dimension, Diagnostic> {
+    let mut total = NONE;
+    for (name, exponent) in &unit.factors {
+        let Some((_, powers)) = NAMED.iter().find(|(known, _)| *known == name.text) else {
+            let error = Diagnostic::error(name.span, unknown(&name.text));
+            return Err(error.help(instead(&name.text)));
+        };
+        let mut factor = Dimension(*powers);
+        factor
+            .0
+            .iter_mut()
+            .for_each(|power| *power *= PARTS * exponent);
+        total = total.times(factor);
+    }
+    Ok(total)
+}
+
+fn unknown(name: &str) -> String {
+    match SCALED.iter().find(|(known, ..)| *known == name) {
+        Some((_, "N*m", _)) => format!("`{name}` is written `N*m`"),
+        Some(_) => format!("`{name}` is not an SI unit"),
+        None => format!("unknown unit `{name}`"),
+    }
+}
+
+fn instead(name: &str) -> String {
+    if let Some((_, si, factor)) = SCALED.iter().find(|(known, ..)| *known == name) {
+        return match *factor {
+            "1" => format!("write `{si}`"),
+            _ => format!("write SI: `{si}`, and multiply the value by {factor}"),
+        };
+    }
+    let known = NAMED.iter().map(|(known, _)| *known);
+    match nearest(name, known) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => {
+            "units are products of m, kg, s, rad, N, J, W, Pa, Hz, A, V, K and their powers".into()
+        }
+    }
+}

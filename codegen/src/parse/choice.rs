@@ -1,0 +1,83 @@
+//! Choices and the comparisons in them.
+
+use super::ast::{Condition, Expr, ExprKind};
+use super::cursor::{Cursor, Parsed};
+use super::token::TokenKind;
+use crate::diagnostic::Diagnostic;
+use crate::expr::Comparison;
+
+impl Cursor<'_> {
+    /// Reads `if condition then a else b`.
+    pub fn choice(&mut self) -> Parsed<Expr> {
+        let help = "a choice is written `if a < b then x else y`";
+        let start = self.span();
+        self.advance();
+        let condition = self.condition(help)?;
+        if !self.take_word("then") {
+            return Err(self.unexpected("`then`", help));
+        }
+        let then = self.expression()?;
+        if !self.take_word("else") {
+            return Err(self.unexpected("`else`", help));
+        }
+        let otherwise = self.expression()?;
+        let span = start.to(otherwise.span);
+        let parts = (Box::new(condition), Box::new(then), Box::new(otherwise));
+        Ok(Expr {
+            span,
+            kind: ExprKind::If(parts.0, parts.1, parts.2),
+        })
+    }
+
+    fn condition(&mut self, help: &str) -> Parsed<Condition> {
+        let left = self.expression()?;
+        let operator = self.peek().clone();
+        let (comparison, exchanged) = match operator.kind {
+            TokenKind::Symbol("<") => (Comparison::Less, false),
+            TokenKind::Symbol("<=") => (Comparison::LessEqual, false),
+            TokenKind::Symbol(">") => (Comparison::Less, true),
+            TokenKind::Symbol(">=") => (Comparison::LessEqual, true),
+            TokenKind::Symbol("==") => (Comparison::Equal, false),
+            TokenKind::Symbol("!=") => (Comparison::NotEqual, false),
+            TokenKind::Symbol("=") => {
+                let error = Diagnostic::error(operator.span, "`=` does not compare");
+                return Err(self.fail(error.help("write `==`")));
+            }
+            _ => {
+                return Err(
+                    self.unexpected("a comparison: `<`, `<=`, `>`, `>=`, `==` or `!=`", help)
+                );
+            }
+        };
+        self.advance();
+        let right = self.expression()?;
+        if self.at_symbol("&&") || self.at_symbol("||") {
+            let error = Diagnostic::error(self.span(), "conditions can't be joined");
+            let help =
+                "put one choice inside the other: `if a < b then (if c < d then x else y) else y`";
+            return Err(self.fail(error.help(help)));
+        }
+        let (left, right) = if exchanged {
+            (right, left)
+        } else {
+            (left, right)
+        };
+        Ok(Condition {
+            comparison,
+            left,
+            right,
+        })
+    }
+
+    /// Refuses a comparison where a formula has ended.
+    pub fn comparison_stands_after_if(&mut self) -> Parsed<()> {
+        let there = ["<", "<=", ">", ">=", "==", "!="]
+            .iter()
+            .any(|sign| self.at_symbol(sign));
+        if !there {
+            return Ok(());
+        }
+        let error = Diagnostic::error(self.span(), "a comparison stands only behind `if`");
+        Err(self.fail(error.help("write `if a < b then x else y`, or `=` for an equation")))
+    }
+}

@@ -1,0 +1,225 @@
+//! What a formula may contain where it stands.
+
+use super::{accept, refuse_saying, with};
+
+#[test]
+fn the_kinetic_energy_is_quadratic_in_the_velocities() {
+    refuse_saying(
+        &with("kinetic q*der(q)^2 + der(w)^3;"),
+        "1:86: error: this is not quadratic",
+    );
+    refuse_saying(
+        &with("kinetic sin(der(q));"),
+        "this is not quadratic in the velocities",
+    );
+    refuse_saying(
+        &with("kinetic 1/der(q);"),
+        "this is not quadratic in the velocities",
+    );
+    refuse_saying(
+        &with("kinetic der(q)^1.5;"),
+        "this is not quadratic in the velocities",
+    );
+    refuse_saying(
+        &with("let v = der(q)^2; kinetic v*der(w);"),
+        "this is not quadratic in the velocities",
+    );
+}
+
+#[test]
+fn terms_of_lower_degree_in_the_velocities_are_kinetic_energy_too() {
+    let m = accept(&with(
+        "kinetic t*der(q); kinetic sin(w)*q^2; kinetic norm([der(q), der(w)])^2; kinetic der(q)^3/der(q);",
+    ));
+    assert_eq!(m.kinetic.len(), 5);
+}
+
+#[test]
+fn the_potential_energy_knows_no_velocities() {
+    refuse_saying(
+        &with("potential q^2 + der(q);"),
+        "the potential energy can't contain a velocity",
+    );
+    refuse_saying(
+        &with("let v = der(q); potential v^2;"),
+        "terms with `der(…)` belong in `kinetic`",
+    );
+}
+
+#[test]
+fn energies_and_constraints_have_no_kinks() {
+    for formula in [
+        "abs(q)",
+        "sign(q)",
+        "min(q, w)",
+        "max(q, w)",
+        "if q < w then q else w",
+    ] {
+        for statement in [
+            "kinetic der(q)^2*X;",
+            "potential X;",
+            "dissipation der(q)^2*X;",
+            "constraint X = 0;",
+        ] {
+            let statement = statement.replace('X', &format!("({formula})"));
+            refuse_saying(
+                &with(&statement),
+                "has to be differentiable, this has a kink",
+            );
+        }
+        let allowed = "input u = X; force X*u on q; output y = X; event e: X rising;"
+            .replace('X', &format!("({formula})"));
+        accept(&with(&allowed));
+    }
+}
+
+#[test]
+fn a_choice_between_known_numbers_is_no_kink() {
+    accept(&with(
+        "const N = 2; potential if N == 2 then q^2 else w^2; for i in 0..2 { constraint (if i == 0 then q else w) = t; }",
+    ));
+}
+
+#[test]
+fn inputs_act_through_forces_alone() {
+    refuse_saying(
+        &with("input u = 1; kinetic u*der(q)^2;"),
+        "the kinetic energy can't contain an input",
+    );
+    refuse_saying(
+        &with("input u = 1; potential u*q;"),
+        "an input acts by `force u on x`",
+    );
+    refuse_saying(
+        &with("input u = 1; constraint q = u;"),
+        "a constraint can't contain an input",
+    );
+    refuse_saying(
+        &with("input u = 1; output y = der(u);"),
+        "the derivative of an input is not known",
+    );
+    accept(&with(
+        "input u = 1; dissipation u*der(q)^2; output y = u; event e: u rising;",
+    ));
+}
+
+#[test]
+fn constraints_are_linear_in_the_velocities() {
+    refuse_saying(
+        &with("constraint der(q)^2 = 1;"),
+        "linear in the velocities",
+    );
+    refuse_saying(
+        &with("constraint der(q)*der(w) = 1;"),
+        "linear in the velocities",
+    );
+    refuse_saying(
+        &with("constraint sin(der(q)) = 0;"),
+        "linear in the velocities",
+    );
+    accept(&with("constraint der(q)^2/der(q) = der(w);"));
+}
+
+#[test]
+fn a_constraint_restricts_coordinates() {
+    refuse_saying(&with("constraint 1 = 2;"), "left minus right is -1");
+    refuse_saying(
+        &with("param a = 1; constraint a = t;"),
+        "this equation contains no coordinate",
+    );
+}
+
+#[test]
+fn accelerations_are_not_written() {
+    refuse_saying(
+        &with("output y = der(der(q));"),
+        "the derivative of a velocity",
+    );
+    refuse_saying(
+        &with("let v = der(q); kinetic der(v)^2;"),
+        "can't stand in a description",
+    );
+}
+
+#[test]
+fn forces_work_on_what_moves() {
+    refuse_saying(
+        &with("force 1 on der(q);"),
+        "a force can't work on a velocity",
+    );
+    refuse_saying(
+        &with("param a = 1; force 1 on a;"),
+        "this force does no work",
+    );
+    refuse_saying(
+        &with("input u = 1; force 1 on u*q;"),
+        "a force can't work on an input",
+    );
+    refuse_saying(&with("force 1 on abs(q);"), "has to be differentiable");
+    refuse_saying(
+        &with("force 1 on [q, w];"),
+        "the force is a number, it works on a vector of 2 components",
+    );
+    refuse_saying(
+        &with("force rotz(q) on rotz(w);"),
+        "the force is a 3 × 3 matrix",
+    );
+}
+
+#[test]
+fn dissipation_needs_a_velocity() {
+    refuse_saying(
+        &with("dissipation q^2;"),
+        "the dissipation function needs a velocity",
+    );
+}
+
+#[test]
+fn what_is_not_finite_is_refused() {
+    refuse_saying(&with("let a = 1/0;"), "division by zero");
+    refuse_saying(&with("let a = q/(w - w);"), "division by zero");
+    refuse_saying(&with("const N = 0; let a = q/N;"), "division by zero");
+    refuse_saying(&with("let a = 0^-1;"), "a negative power of zero");
+    refuse_saying(
+        &with("let a = sqrt(-1);"),
+        "`sqrt` has no finite value at -1",
+    );
+    refuse_saying(&with("let a = ln(0)*q;"), "`ln` has no finite value at 0");
+    refuse_saying(&with("let a = asin(2);"), "`asin` has no finite value at 2");
+    refuse_saying(&with("let a = (-8)^(1/3);"), "this is not a finite number");
+    refuse_saying(&with("let a = 1e300*1e300;"), "this is not a finite number");
+    refuse_saying(
+        &with("let a = 1e300*q*1e300;"),
+        "this is not a finite number",
+    );
+    refuse_saying(
+        &with("let a = exp(1e3);"),
+        "`exp` has no finite value at 1000",
+    );
+}
+
+#[test]
+fn huge_numbers_and_exponents_are_refused() {
+    refuse_saying(&with("let a = 1e999;"), "`1e999` is too large or too small");
+    refuse_saying(&with("let a = 1e-999;"), "is too large or too small");
+    refuse_saying(
+        &with("let a = 1e99999999999999;"),
+        "is too large or too small",
+    );
+    refuse_saying(
+        &with(&format!("let a = 1{};", "0".repeat(400))),
+        "is too large or too small",
+    );
+    refuse_saying(&with("let a = q^1001;"), "an exponent above 1000");
+    refuse_saying(
+        &with("let a = ((q^1000)^1000)^1000;"),
+        "a power above 1000000",
+    );
+    refuse_saying(
+        &with("let a = q^1000; let b = a^1000; let c = b*b;"),
+        "a power above 1000000",
+    );
+    accept(&with(
+        "let a = 1e-300*q; let b = 123456789012345678901234567890*q; output c = a + b;",
+    ));
+}

@@ -1,0 +1,86 @@
+//! The front end: from text to a checked mechanism, and the messages on the way.
+
+mod grammar;
+mod legality;
+mod mechanisms;
+mod names;
+mod robustness;
+mod rotation;
+mod scale;
+mod shapes;
+mod statements;
+mod units;
+mod wrong;
+
+use bricard_codegen::expr::Symbol;
+use bricard_codegen::model::Mechanism;
+use bricard_codegen::{Diagnostics, Settings, analyse};
+
+/// A mechanism of two coordinates `q` and `w` without units, and more statements.
+fn with(statements: &str) -> String {
+    format!("mechanism Test {{ coord q; coord w; kinetic der(q)^2 + der(w)^2; {statements} }}")
+}
+
+/// The mechanism of a description that is right.
+fn accept(source: &str) -> Mechanism {
+    match analyse(source, &Settings::default()) {
+        Ok((mechanism, _)) => mechanism,
+        Err(errors) => panic!("{}", errors.render("test.mech", source)),
+    }
+}
+
+/// The findings about a description that is wrong.
+fn refuse(source: &str) -> Diagnostics {
+    match analyse(source, &Settings::default()) {
+        Ok(_) => panic!("this was accepted: {source}"),
+        Err(errors) => errors,
+    }
+}
+
+/// Refuses a description with a message that contains some words.
+fn refuse_saying(source: &str, words: &str) {
+    let message = refuse(source).render("test.mech", source);
+    assert!(message.contains(words), "no `{words}` in\n{message}");
+}
+
+/// The warnings about a description that is right, rendered.
+fn warnings(source: &str) -> String {
+    match analyse(source, &Settings::default()) {
+        Ok((_, warnings)) => warnings.render("test.mech", source),
+        Err(errors) => panic!("{}", errors.render("test.mech", source)),
+    }
+}
+
+/// A state in which no two symbols have simple values.
+fn state(symbol: Symbol) -> f64 {
+    match symbol {
+        Symbol::Time => 0.37,
+        Symbol::Coordinate(i) => 0.51 + 0.29 * f64::from(i),
+        Symbol::Velocity(i) => -0.83 + 0.47 * f64::from(i),
+        Symbol::Parameter(i) => 1.31 + 0.61 * f64::from(i),
+        Symbol::Input(i) => 2.17 - 0.31 * f64::from(i),
+    }
+}
+
+/// The value of an output in that state.
+fn output(mechanism: &Mechanism, name: &str) -> f64 {
+    let found = mechanism
+        .outputs
+        .iter()
+        .find(|output| output.quantity.name == name);
+    let found = found.unwrap_or_else(|| panic!("no output `{name}`"));
+    mechanism.graph.evaluate(found.value, &state)
+}
+
+/// The value of a formula of `q`, `w` and their velocities in that state.
+fn value(formula: &str) -> f64 {
+    output(&accept(&with(&format!("output y = {formula};"))), "y")
+}
+
+/// Two values are equal up to round-off.
+fn assert_close(found: f64, expected: f64) {
+    /// A few hundred roundings.
+    const ROUND_OFF: f64 = 1e-13;
+    let error = (found - expected).abs() / expected.abs().max(1.0);
+    assert!(error < ROUND_OFF, "{found} instead of {expected}");
+}

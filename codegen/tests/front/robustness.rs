@@ -1,0 +1,232 @@
+//! Whatever is written, the answer is a mechanism or findings with their places:
+//! never a panic, never a hang.
+
+use super::mechanisms::library;
+use bricard_codegen::{Settings, analyse};
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngSeed, TestRunner};
+use std::fmt::Write;
+
+/// Descriptions that use every part of the language.
+fn samples() -> Vec<String> {
+    let everything = "/// All of it.\nmechanism All {\n const K = 2; const g: m/s^2 = 9.81; param a: m = 1/2; coord q: rad; coord p[K]: m;
+        input u: N*m = if q < 1 then sin(2*t) else -max(q, der(q)); let d[i in 0..K] = [p[i], i*a, 0]; let R = rotz(q)*rotx(-q);
+        kinetic 1/2*sum(i in 0..K, norm2(der(R*d[i]))) + q^2^1*der(q)^2; potential (d[0] + d[1]).x*a;
+        dissipation 1/2*der(q)^2; force u on q; force [0, 0, a] on d[1];
+        for i in 0..K { let x = p[i]; constraint x = a*cos(q + i*90*deg); }
+        constraint der(p[0]) = der(p[1]); start { q = 45*deg; for i in 0..K { p[i] ~ 0.7; } der(q) = 1e-3; }
+        output w = omega(R); event e: q - pi crossing; draw line([0, 0, 0], d); draw circle(d[0], a/10); }"
+        .replace(": m/s^2", "").replace(": m", "").replace(": rad", "").replace(": N*m", "");
+    vec![everything, library()[0].1.clone()]
+}
+
+/// Analyses and renders; the result doesn't matter, coming back does.
+fn survive(source: &str) {
+    match analyse(source, &Settings::default()) {
+        Ok((_, warnings)) => drop(warnings.render("test.mech", source)),
+        Err(errors) => {
+            assert!(errors.error_count() > 0, "refused without a word: {source}");
+            let text = errors.render("test.mech", source);
+            assert!(text.starts_with("test.mech:"), "{text}");
+        }
+    }
+}
+
+#[test]
+fn the_samples_are_right() {
+    for source in samples() {
+        super::accept(&source);
+    }
+}
+
+#[test]
+fn a_file_may_end_anywhere() {
+    for source in samples() {
+        for end in (0..source.len()).filter(|&end| source.is_char_boundary(end)) {
+            survive(&source[..end]);
+            survive(&format!("{}}}", &source[..end]));
+        }
+    }
+}
+
+/// The pieces of a text: words, numbers, signs, blanks.
+fn pieces(source: &str) -> Vec<String> {
+    let class = |c: char| {
+        (
+            c.is_alphanumeric(),
+            c.is_whitespace(),
+            if c.is_ascii_punctuation() { c } else { ' ' },
+        )
+    };
+    let mut pieces: Vec<String> = Vec::new();
+    let mut last = None;
+    for character in source.chars() {
+        match pieces.last_mut() {
+            Some(piece) if last == Some(class(character)) => piece.push(character),
+            _ => pieces.push(character.to_string()),
+        }
+        last = Some(class(character));
+    }
+    pieces
+}
+
+#[test]
+fn any_token_may_be_missing_or_doubled() {
+    for source in samples() {
+        let pieces = pieces(&source);
+        for i in 0..pieces.len() {
+            survive(&[&pieces[..i], &pieces[i + 1..]].concat().concat());
+            survive(
+                &[
+                    &pieces[..i],
+                    &pieces[i..=i],
+                    &[" ".to_string()],
+                    &pieces[i..],
+                ]
+                .concat()
+                .concat(),
+            );
+        }
+    }
+}
+
+#[test]
+fn any_token_may_be_replaced_by_another() {
+    let strange = [
+        "}",
+        "(",
+        "mechanism",
+        "1e9",
+        "sum",
+        "der",
+        "..",
+        "if",
+        "q",
+        "theta[0]",
+        "^",
+        "=",
+        ";",
+        "\u{3b8}",
+        "'",
+    ];
+    for source in samples() {
+        let mut pieces = pieces(&source);
+        for i in 0..pieces.len() {
+            let old = std::mem::replace(&mut pieces[i], strange[i % strange.len()].to_string());
+            survive(&pieces.concat());
+            pieces[i] = old;
+        }
+    }
+}
+
+/// Random tests run this many cases; `BRICARD_LONG=1` runs a hundred times more.
+const CASES: u32 = 1000;
+
+/// Runs a property with a fixed seed, so that a failure is one tomorrow too.
+fn forall(strategy: impl Strategy<Value = String>) {
+    let cases = if std::env::var_os("BRICARD_LONG").is_some() {
+        100 * CASES
+    } else {
+        CASES
+    };
+    let rng_seed = RngSeed::Fixed(20_120_115);
+    let config = Config {
+        cases,
+        failure_persistence: None,
+        rng_seed,
+        ..Config::default()
+    };
+    let result = TestRunner::new(config).run(&strategy, |source| {
+        survive(&source);
+        Ok(())
+    });
+    assert!(result.is_ok(), "{}", result.expect_err("a failure"));
+}
+
+#[test]
+fn random_words_are_answered() {
+    let samples = samples();
+    let words: Vec<String> = samples.iter().flat_map(|source| pieces(source)).collect();
+    let soup = prop::collection::vec(prop::sample::select(words), 0..60);
+    forall(soup.prop_map(|words| super::with(&words.join(" "))));
+}
+
+#[test]
+fn random_characters_are_answered() {
+    forall(prop::collection::vec(any::<char>(), 0..80).prop_map(|c| c.into_iter().collect()));
+    forall("[ -~\n]{0,80}".prop_map(|text| format!("mechanism M {{ {text} }}")));
+}
+
+/// A formula with one thing many times inside itself.
+fn nested(open: &str, inside: &str, close: &str, depth: usize) -> String {
+    super::with(&format!(
+        "output y = {}{inside}{};",
+        open.repeat(depth),
+        close.repeat(depth)
+    ))
+}
+
+#[test]
+fn deep_nesting_is_refused_and_fifty_levels_are_not() {
+    let forms = [
+        ("(", ")"),
+        ("[0, ", "].y"),
+        ("-", ""),
+        ("2^", ""),
+        ("sin(", ")"),
+        ("if q < 1 then 1 else ", ""),
+    ];
+    for (open, close) in forms {
+        super::accept(&nested(open, "q", close, 40));
+        super::refuse_saying(&nested(open, "q", close, 10_000), "inside one another");
+    }
+    super::refuse_saying(&nested("", "q", "[0]", 10_000), "in a row");
+    super::refuse_saying(
+        &format!("mechanism M {}", "{".repeat(10_000)),
+        "more than 100 brackets",
+    );
+    let loops = format!(
+        "{}{}",
+        "for i in 0..1 { ".repeat(10_000),
+        "}".repeat(10_000)
+    );
+    super::refuse_saying(&super::with(&loops), "more than 100 brackets");
+    survive(&"/*".repeat(10_000));
+    survive(&")".repeat(10_000));
+}
+
+#[test]
+fn long_formulas_are_not_deep() {
+    let mut sum = String::from("q");
+    for i in 0..20_000 {
+        let _ = write!(sum, " + {i}*q - w*q/2");
+    }
+    super::accept(&super::with(&format!("output y = {sum};")));
+    super::accept(&super::with(&format!(
+        "output y = q{};",
+        "*w".repeat(20_000)
+    )));
+}
+
+#[test]
+fn endless_work_is_refused() {
+    super::refuse_saying(
+        &super::with("let a = sum(i in 0..1000000000, i);"),
+        "a range of 1000000000 indices",
+    );
+    super::refuse_saying(
+        &super::with("for i in 0..9000000000000000000 { }"),
+        "is too large",
+    );
+    let nested = "for i in 0..100000 { for j in 0..100000 { } }";
+    super::refuse_saying(
+        &super::with(nested),
+        "unrolled, this description has more than",
+    );
+    let doubling: String = (0..64)
+        .map(|i| format!("let x{} = x{i}*x{i} + x{i};", i + 1))
+        .collect();
+    super::accept(&super::with(&format!(
+        "let x0 = q; {doubling} output y = der(x64);"
+    )));
+}

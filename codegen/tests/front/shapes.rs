@@ -1,0 +1,136 @@
+//! Scalars, vectors, matrices and arrays.
+
+use super::{accept, assert_close, output, refuse_saying, value, with};
+
+const Q: f64 = 0.51;
+const W: f64 = 0.80;
+
+#[test]
+fn vectors_are_calculated_with_component_by_component() {
+    assert_close(value("([q, w] + [1, 2] - [w, q]).x"), Q + 1.0 - W);
+    assert_close(value("(2*[q, w, 1]/w).z"), 2.0 / W);
+    assert_close(value("(-[q, w]).y"), -W);
+    assert_close(value("[q, w, 3][2]"), 3.0);
+}
+
+#[test]
+fn products_of_vectors_have_names() {
+    assert_close(value("dot([q, w], [w, 2])"), Q * W + 2.0 * W);
+    assert_close(value("norm2([q, w])"), Q * Q + W * W);
+    assert_close(value("norm([q, w, 1])"), (Q * Q + W * W + 1.0).sqrt());
+    assert_close(value("cross([q, w], [3, 4])"), 4.0 * Q - 3.0 * W);
+    assert_close(value("cross([q, w, 1], [2, 3, 4]).x"), W * 4.0 - 3.0);
+    assert_close(value("cross([q, w, 1], [2, 3, 4]).y"), 2.0 - Q * 4.0);
+    assert_close(value("cross([q, w, 1], [2, 3, 4]).z"), Q * 3.0 - W * 2.0);
+}
+
+#[test]
+fn matrices_multiply_rows_by_columns() {
+    assert_close(value("([[q, w], [1, 2]]*[3, 4]).x"), 3.0 * Q + 4.0 * W);
+    assert_close(
+        value("([[q, w], [1, 2]]*[[1, 2], [3, 4]])[0][1]"),
+        2.0 * Q + 4.0 * W,
+    );
+    assert_close(value("transpose([[q, w], [1, 2]])[1][0]"), W);
+    assert_close(value("([[q, w, 1], [1, 2, 3]]*[1, 1, 1]).x"), Q + W + 1.0);
+    assert_close(
+        value("(2*[[q, w], [1, 2]] - [[1, 1], [1, 1]])[0][0]"),
+        2.0 * Q - 1.0,
+    );
+}
+
+#[test]
+fn shapes_that_do_not_fit_are_refused() {
+    refuse_saying(&with("let v = [q, w] + 1;"), "this is a number");
+    refuse_saying(
+        &with("let v = [q, w] + [1, 2, 3];"),
+        "a vector of 3 components",
+    );
+    refuse_saying(
+        &with("let v = [q, w]*[1, 2];"),
+        "write `dot(a, b)` or `cross(a, b)`",
+    );
+    refuse_saying(&with("let v = 1/[1, 2];"), "only a number can divide");
+    refuse_saying(
+        &with("let v = sin([q, w]);"),
+        "the argument of `sin` has to be a number",
+    );
+    refuse_saying(&with("let v = [q];"), "two or three components");
+    refuse_saying(&with("let v = [[q, 1], 2];"), "rows of one length");
+    refuse_saying(&with("let v = [q, w].z;"), "has no `.z`");
+    refuse_saying(&with("let v = q.x;"), "a number has no components");
+    refuse_saying(&with("let v = [q, w]^2;"), "norm2(v)");
+    refuse_saying(&with("let v = [1, 2]*rotz(q);"), "write `transpose(R)*v`");
+    refuse_saying(&with("let v = rotz(q)*[1, 2];"), "the sizes have to fit");
+    refuse_saying(
+        &with("constraint [q, w] = [1, 2, 3];"),
+        "both sides are numbers",
+    );
+    refuse_saying(
+        &with("let v = if q < 1 then [1, 2] else 3;"),
+        "the other a number",
+    );
+}
+
+#[test]
+fn arrays_of_coordinates_are_named_by_their_indices() {
+    let m = accept(
+        "mechanism M { const K = 3; coord p; coord theta[K]: rad;
+        kinetic der(p)^2 + 1*sum(i in 0..K, p*der(theta[i])^2); }",
+    );
+    let names: Vec<_> = m.coordinates.iter().map(|q| q.name.as_str()).collect();
+    assert_eq!(names, ["p", "theta[0]", "theta[1]", "theta[2]"]);
+    assert_eq!(m.coordinates[3].unit, "rad");
+}
+
+#[test]
+fn the_elements_of_a_let_array_may_use_those_before_them() {
+    let source =
+        with("let s[i in 0..4] = if i == 0 then q else s[i-1] + w; output y = s[3]; output z = s;");
+    let m = accept(&source);
+    assert_close(output(&m, "y"), Q + 3.0 * W);
+    assert_close(output(&m, "z[2]"), Q + 2.0 * W);
+    refuse_saying(
+        &with("let s[i in 0..4] = s[3-i];"),
+        "may use those before it",
+    );
+    let shifted = with("let s[i in 2..4] = [i, q]; output y = s[3].x;");
+    assert_close(output(&accept(&shifted), "y"), 3.0);
+}
+
+#[test]
+fn indices_are_whole_numbers_in_range() {
+    refuse_saying(
+        &with("coord p[3]; let a = p[3];"),
+        "an array of 3 has the indices 0 to 2",
+    );
+    refuse_saying(
+        &with("coord p[3]; let a = p[-1];"),
+        "index -1 is out of range",
+    );
+    refuse_saying(&with("coord p[3]; let a = p[1/2];"), "this is 0.5");
+    refuse_saying(
+        &with("coord p[3]; let a = p[q];"),
+        "known when the code is generated",
+    );
+    refuse_saying(
+        &with("coord p[3]; let a = 2*p;"),
+        "a whole array can't be calculated with",
+    );
+    refuse_saying(&with("coord p[0];"), "an array of 0 coordinates");
+    refuse_saying(&with("coord p[100000];"), "more than 10000 coordinates");
+    refuse_saying(&with("let a[i in 0..0] = 1;"), "has no elements");
+    refuse_saying(&with("let a = q[0];"), "a number has no elements");
+}
+
+#[test]
+fn a_literal_zero_stands_for_a_zero_vector_in_an_equation() {
+    let m = accept(&with("constraint [q, w] = 0;"));
+    assert_eq!(m.constraints.len(), 2);
+    refuse_saying(&with("constraint [q, w] = 1;"), "an equation between");
+}
+
+#[test]
+fn an_empty_sum_is_zero() {
+    assert_close(value("sum(i in 0..0, q) + sum(i in 3..1, [1, 2])"), 0.0);
+}

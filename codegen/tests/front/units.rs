@@ -1,0 +1,185 @@
+//! Units where they are given.
+
+use super::{accept, refuse_saying};
+
+/// A slider and a crank with units, and more statements.
+fn with(statements: &str) -> String {
+    format!(
+        "mechanism Test {{ const g: m/s^2 = 9.81; param L: m = 1; param m: kg = 2; param J: kg*m^2 = 1;
+        param k: N/m = 3; param c: N*s/m = 1; param free = 1; coord x: m; coord phi: rad;
+        kinetic 1/2*m*der(x)^2 + 1/2*J*der(phi)^2;
+        {statements} }}"
+    )
+}
+
+#[test]
+fn sums_have_one_unit() {
+    refuse_saying(&with("let a = L + m;"), "this sum mixes m and kg");
+    refuse_saying(&with("let a = 2*L - J/m;"), "this sum mixes m and m^2");
+    refuse_saying(
+        &with("let a = [L, L] + [x, phi];"),
+        "this sum mixes m and no unit",
+    );
+    refuse_saying(&with("let a = L + phi;"), "this is in m");
+    accept(&with(
+        "let a = L + x - 0.1 + sqrt(J/m) + L*cos(phi) + norm([L, x]); output b: m = a;",
+    ));
+}
+
+#[test]
+fn functions_take_angles_and_ratios() {
+    refuse_saying(&with("let a = sin(L);"), "the argument of `sin` is in m");
+    refuse_saying(&with("let a = exp(m*g);"), "the argument of `exp` is in N");
+    refuse_saying(&with("let a = rotz(x);"), "the angle of a rotation is in m");
+    refuse_saying(
+        &with("let a = L^phi;"),
+        "the exponent of what has a unit is a number",
+    );
+    refuse_saying(&with("let a = 2^L;"), "an exponent has no unit");
+    refuse_saying(&with("let a = atan2(L, m);"), "`atan2` mixes m and kg");
+    refuse_saying(&with("let a = max(L, m);"), "`max` mixes m and kg");
+    refuse_saying(
+        &with("output a = if L < m then 1 else 2;"),
+        "this comparison mixes m and kg",
+    );
+    refuse_saying(
+        &with("output a = if L < x then L else m;"),
+        "this choice mixes m and kg",
+    );
+    accept(&with(
+        "output a: rad = atan2(x, L) + asin(x/L) + 45*deg; output b = sin(2*t) + cos(phi + pi/4);",
+    ));
+}
+
+#[test]
+fn energies_are_in_joules_and_dissipation_in_watts() {
+    refuse_saying(
+        &with("kinetic m*der(x);"),
+        "the kinetic energy is in J, this is in N*s",
+    );
+    refuse_saying(
+        &with("potential m*g;"),
+        "the potential energy is in J, this is in N",
+    );
+    refuse_saying(
+        &with("dissipation c*der(x);"),
+        "the dissipation function is in W, this is in N",
+    );
+    accept(&with(
+        "potential m*g*x + 1/2*k*(x - 0.3)^2; dissipation 1/2*c*der(x)^2;",
+    ));
+}
+
+#[test]
+fn forces_fit_what_they_work_on() {
+    refuse_saying(
+        &with("force k on x;"),
+        "this force is in N/m, here it has to be in N",
+    );
+    refuse_saying(
+        &with("force m*g on phi;"),
+        "this force is in N, here it has to be in N*m",
+    );
+    refuse_saying(
+        &with("force [m*g, m] on [x, L];"),
+        "this force is in kg, here it has to be in N",
+    );
+    accept(&with(
+        "force m*g on x; force m*g*L on phi; force [0, -m*g] on [x, L*sin(phi)]; force 3 on x;",
+    ));
+}
+
+#[test]
+fn both_sides_of_an_equation_have_one_unit() {
+    refuse_saying(
+        &with("constraint x = phi;"),
+        "this equation mixes m and no unit",
+    );
+    refuse_saying(
+        &with("constraint der(x) = x;"),
+        "this equation mixes m/s and m",
+    );
+    refuse_saying(
+        &with("start { x = 45*deg; }"),
+        "this equation mixes m and no unit",
+    );
+    refuse_saying(
+        &with("param a: m = m*2;"),
+        "the default of a parameter is built of",
+    );
+    refuse_saying(
+        &with("const a: m = g;"),
+        "`a` is declared in m, its value is in m/s^2",
+    );
+    refuse_saying(
+        &with("output a: m = phi;"),
+        "`a` is declared in m, its value has no unit",
+    );
+    refuse_saying(
+        &with("input u: N = k;"),
+        "`u` is declared in N, its value is in N/m",
+    );
+    accept(&with(
+        "constraint x = L*phi; constraint der(x) = L*der(phi); start { x = 0.5; der(phi) = 3; }",
+    ));
+}
+
+#[test]
+fn a_symbol_without_unit_switches_the_check_off() {
+    accept(&with(
+        "potential free*phi; constraint x + free*phi = m; let a = sin(free*L); force free on x; output b: kg = a;",
+    ));
+    accept(&with("output a: m = 5*t; constraint x = L*sin(2*t);"));
+}
+
+#[test]
+fn numbers_in_the_law_of_an_input_are_gains() {
+    accept(&with(
+        "input u: N*m = 10 - 2*der(phi); input f: N = -20*x - 3*der(x); force u on phi; force f on x;",
+    ));
+    refuse_saying(
+        &with("input f: N = -k*x - c*x;"),
+        "this sum mixes N and N*s",
+    );
+}
+
+#[test]
+fn derivatives_are_per_second() {
+    accept(&with(
+        "output v: m/s = der(x); output w: 1/s = omega(rotz(phi)).z; output f: Hz = der(phi);",
+    ));
+    refuse_saying(&with("output v: m = der(x);"), "its value is in m/s");
+}
+
+#[test]
+fn roots_and_powers_of_units_are_units() {
+    accept(&with(
+        "output a: m = sqrt(L*x); output b: m^3 = L^2*x; output c: 1/m = L^-1; output d: m = (L^3)^(1/3);",
+    ));
+    refuse_saying(&with("output a: m = sqrt(L);"), "its value is in m^(1/2)");
+}
+
+#[test]
+fn units_are_products_and_quotients_of_names() {
+    accept(&with(
+        "output a: kg*m^2/s^2 = L*m*g; output b: N/(m/s) = c; output c2: s^-2 = g/L; output e: J/rad = m*g*L; output f: 1 = x/L;",
+    ));
+    refuse_saying(&with("output a: m*x = 1;"), "unknown unit `x`");
+    refuse_saying(&with("output a: m^2.5 = 1;"), "expected a whole exponent");
+    refuse_saying(&with("output a: m^99 = 1;"), "lies between -30 and 30");
+    refuse_saying(&with("output a: = 1;"), "expected a unit");
+}
+
+#[test]
+fn units_that_hide_a_factor_are_refused() {
+    refuse_saying(
+        &with("param a: mm = 1;"),
+        "write SI: `m`, and multiply the value by 1e-3",
+    );
+    refuse_saying(
+        &with("param a: deg = 1;"),
+        "write SI: `rad`, and multiply the value by deg",
+    );
+    refuse_saying(&with("param a: Nm = 1;"), "`Nm` is written `N*m`");
+    refuse_saying(&with("param a: kN = 1;"), "`kN` is not an SI unit");
+}
