@@ -5,6 +5,7 @@
 //! along any path `q(s)` with given `q̇`, `q̈`, `q⃛` the equations must say what the
 //! derivatives of those are.
 
+use crate::dense::{dot, size};
 use crate::dual::evaluate;
 use crate::library::{Derived, Point, everything};
 use crate::random::Random;
@@ -180,14 +181,6 @@ impl Case<'_> {
             self.seed
         );
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn size(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a * b).abs()).sum()
 }
 
 #[test]

@@ -27,7 +27,11 @@ pub struct Block {
 
 /// Every Rust file of some folders, in order.
 pub fn files(folders: &[&str]) -> Vec<File> {
-    folders.iter().flat_map(|folder| below(&root().join(folder))).map(|path| file(&path)).collect()
+    folders
+        .iter()
+        .flat_map(|folder| below(&root().join(folder)))
+        .map(|path| file(&path))
+        .collect()
 }
 
 /// The text of a file of the workspace.
@@ -54,17 +58,33 @@ fn below(folder: &Path) -> Vec<PathBuf> {
 
 fn file(path: &Path) -> File {
     let text = fs::read_to_string(path).unwrap_or_else(|error| panic!("{path:?}: {error}"));
-    let shown = path.strip_prefix(root()).unwrap_or(path).display().to_string();
+    let shown = path
+        .strip_prefix(root())
+        .unwrap_or(path)
+        .display()
+        .to_string();
     let bare = stripped(&text);
-    let code = bare.split("#[cfg(test)]\nmod tests").next().unwrap_or_default().to_string();
-    File { path: shown, lines: text.lines().count(), code, text }
+    let code = bare
+        .split("#[cfg(test)]\nmod tests")
+        .next()
+        .unwrap_or_default()
+        .to_string();
+    File {
+        path: shown,
+        lines: text.lines().count(),
+        code,
+        text,
+    }
 }
 
 impl File {
     /// The items of a kind that have a body, found by counting braces.
     pub fn blocks(&self, keyword: &str) -> Vec<Block> {
         let starts = self.code.match_indices(keyword).map(|(at, _)| at);
-        starts.filter(|&at| self.stands_alone(at)).filter_map(|at| self.block(at, keyword)).collect()
+        starts
+            .filter(|&at| self.stands_alone(at))
+            .filter_map(|at| self.block(at, keyword))
+            .collect()
     }
 
     fn stands_alone(&self, at: usize) -> bool {
@@ -90,7 +110,11 @@ impl File {
             }
             if depth == 0 {
                 let text = rest[..=i].to_string();
-                return Some(Block { name, lines: text.lines().count(), text });
+                return Some(Block {
+                    name,
+                    lines: text.lines().count(),
+                    text,
+                });
             }
         }
         None

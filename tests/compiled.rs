@@ -1,0 +1,160 @@
+//! What the compiled code of a mechanism says at a state, as plain numbers.
+
+use crate::library::{Derived, Point};
+use crate::random::Random;
+use bricard_runtime::nalgebra::SVector;
+use bricard_runtime::{
+    Branch, Correction, Interface, Mechanism, Position, Real, Regular, State, Terms, Visitor,
+};
+use std::collections::BTreeMap;
+
+/// An entry of an array: its name, row and column.
+pub type Place = (&'static str, usize, usize);
+
+/// Everything the functions of a mechanism write at one state.
+#[derive(Clone, Debug, Default)]
+pub struct Answers {
+    pub entries: BTreeMap<Place, f64>,
+    /// `mass_pivot` and `pivot` of the regular path; none if it is not provided.
+    pub regular: Option<[f64; 2]>,
+}
+
+/// Asks the compiled code at random points; an input is held where the point says
+/// so, or left to its law.
+pub struct Ask<'a> {
+    pub point: &'a Point,
+    pub held: bool,
+}
+
+impl Answers {
+    pub fn get(&self, place: Place) -> f64 {
+        self.entries.get(&place).copied().unwrap_or(0.0)
+    }
+
+    pub fn vector(&self, array: &'static str, n: usize) -> Vec<f64> {
+        (0..n).map(|row| self.get((array, row, 0))).collect()
+    }
+
+    pub fn matrix(&self, array: &'static str, rows: usize, columns: usize) -> Vec<Vec<f64>> {
+        let row = |row| {
+            (0..columns)
+                .map(|column| self.get((array, row, column)))
+                .collect()
+        };
+        (0..rows).map(row).collect()
+    }
+
+    fn fill<'b, T: Real>(
+        &mut self,
+        array: &'static str,
+        rows: usize,
+        entries: impl IntoIterator<Item = &'b T>,
+    ) {
+        for (i, entry) in entries.into_iter().enumerate() {
+            self.entries
+                .insert((array, i % rows, i / rows), entry.to_f64());
+        }
+    }
+}
+
+/// What the compiled code of a mechanism of the library says.
+pub fn answers<T: Real>(derived: &Derived, point: &Point, held: bool) -> Answers {
+    bricard::visit::<T, _>(&derived.name, Ask { point, held }).expect("a name of the catalogue")
+}
+
+/// A random point, and the answers there.
+pub fn asked(derived: &Derived, seed: u64, held: bool) -> (Point, Answers) {
+    let point = derived.point(&mut Random::seeded(seed));
+    let answers = answers::<f64>(derived, &point, held);
+    (point, answers)
+}
+
+impl<T: Real> Visitor<T> for Ask<'_> {
+    type Output = Answers;
+
+    fn visit<M, const N: usize, const R: usize>(self, mut mechanism: M) -> Answers
+    where
+        M: Mechanism<T, N, R> + Interface<T, N>,
+    {
+        let Point {
+            t,
+            q,
+            v,
+            parameters,
+            inputs,
+        } = self.point;
+        for (i, &value) in parameters.iter().enumerate() {
+            assert!(mechanism.set_parameter(i, T::from_f64(value)));
+        }
+        for (i, &value) in inputs.iter().enumerate() {
+            assert!(mechanism.set_input(i, self.held.then(|| T::from_f64(value))));
+        }
+        let vector = |x: &[f64]| SVector::from_fn(|i, _| T::from_f64(x[i]));
+        let state = State::new(T::from_f64(*t), vector(q), vector(v));
+        let mut answers = Answers::default();
+        equations(&mechanism, &state, &mut answers);
+        interface(&mechanism, &state, &mut answers);
+        answers
+    }
+}
+
+fn equations<T, M, const N: usize, const R: usize>(
+    mechanism: &M,
+    state: &State<T, N>,
+    answers: &mut Answers,
+) where
+    T: Real,
+    M: Mechanism<T, N, R>,
+{
+    let mut terms = Terms::default();
+    mechanism.terms(state, &mut terms);
+    answers.fill("mass", N, &terms.mass);
+    answers.fill("force", N, &terms.force);
+    answers.fill("jacobian", R, &terms.jacobian);
+    answers.fill("bias", R, &terms.bias);
+    let mut position = Position::default();
+    mechanism.position(state, &mut position);
+    answers.fill("residual", R, &position.residual);
+    answers.fill("drift", R, &position.drift);
+    let mut branch = Branch::default();
+    mechanism.branch(state, &mut branch);
+    answers.fill("slope", R, &branch.slope);
+    answers.fill("branch bias", R, &branch.bias);
+    let energy = mechanism.energy(state);
+    let energies = [
+        energy.kinetic,
+        energy.potential,
+        energy.balance,
+        energy.power,
+    ];
+    answers.fill("energy", 4, &energies);
+    let mut regular = Regular::default();
+    if mechanism.regular(state, &mut regular) {
+        answers.fill("acceleration", N, &regular.acceleration);
+        answers.regular = Some([regular.mass_pivot.to_f64(), regular.pivot.to_f64()]);
+    }
+    let mut correction = Correction::default();
+    if mechanism.correction(state, &mut correction) {
+        answers.fill("correction of q", N, &correction.position);
+        answers.fill("correction of v", N, &correction.velocity);
+        answers.fill("corrected residual", R, &correction.residual);
+    }
+}
+
+fn interface<T, M, const N: usize>(mechanism: &M, state: &State<T, N>, answers: &mut Answers)
+where
+    T: Real,
+    M: Interface<T, N>,
+{
+    let mut values = [T::from_f64(f64::NAN); 64];
+    mechanism.outputs(state, &mut values);
+    let written = values
+        .iter()
+        .position(|x| !x.is_finite())
+        .unwrap_or(values.len());
+    answers.fill("outputs", written.max(1), &values[..written]);
+    let start = mechanism.start();
+    let value = |initial: &bricard_runtime::Initial<T>| initial.value;
+    let values: Vec<T> = start.q.iter().chain(&start.v).map(value).collect();
+    answers.fill("start", 2 * N, &values);
+}
