@@ -1,4 +1,9 @@
 //! The tests of the runtime: one binary, a module per concept.
 
+mod allocation;
+mod assembly;
 mod integrator;
+mod mechanisms;
+mod scan;
+mod simulate;
 mod toys;

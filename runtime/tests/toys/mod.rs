@@ -210,7 +210,7 @@ pub const PLAIN: Structure = Structure {
     outputs: &[],
     events: &[],
     constraints: &[],
-    constant_mass: true,
+    constant_mass: false,
     conservative: false,
     drawn: false,
 };
