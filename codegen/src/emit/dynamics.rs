@@ -48,7 +48,14 @@ pub(super) fn mechanism(subject: &mut Subject) -> TokenStream {
     wanted.extend(vector("bias", &equations.bias));
     let regular = regular(subject, &wanted);
     let terms = subject.method(Method {
-        docs: "Everything one acceleration needs: `M`, `p₁`, `A`, `p₂`.",
+        docs: "Everything one acceleration needs: `M q̈ + r = p₁`, `A q̈ = p₂`.
+
+| field | equation | shape | unit |
+|---|---|---|---|
+| `mass` | `M = ∂²T/∂q̇²` | `N × N` | kg for two lengths, kg·m², kg·m where an angle takes part |
+| `force` | `p₁ = Q − C q̇ − h` | `N` | N for a length, N·m for an angle |
+| `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
+| `bias` | `p₂ = −(Ȧ q̇ + ḃ)` | `R` | unit of the row per s² |",
         name: "terms",
         buffer: quote!(Terms<T, #n, #r>),
         wanted,
@@ -167,7 +174,14 @@ fn closure(subject: &mut Subject) -> TokenStream {
     wanted.extend(matrix("jacobian", &equations.jacobian));
     wanted.extend(vector("drift", &equations.drift));
     let position = subject.method(Method {
-        docs: "Everything a projection needs: `M`, `g`, `A`, `b`.",
+        docs: "Everything a projection needs: `A Δq = −g`, `A q̇ + b = 0`, in the metric `M`.
+
+| field | equation | shape | unit |
+|---|---|---|---|
+| `mass` | `M = ∂²T/∂q̇²` | `N × N` | kg for two lengths, kg·m², kg·m where an angle takes part |
+| `residual` | `g`; zero for velocity constraints | `R` | unit of the row |
+| `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
+| `drift` | `b = ∂g/∂t` | `R` | unit of the row per s |",
         name: "position",
         buffer: quote!(Position<T, #n, #r>),
         wanted,
@@ -175,7 +189,12 @@ fn closure(subject: &mut Subject) -> TokenStream {
     let mut wanted = matrix("slope", &equations.branch_slope);
     wanted.extend(vector("bias", &equations.branch_bias));
     let branch = subject.method(Method {
-        docs: "The branch rows `K`, `κ`: the constraints differentiated once more.",
+        docs: "The constraints differentiated once more: `A q⃛ + K q̈ = κ`.
+
+| field | equation | shape | unit |
+|---|---|---|---|
+| `slope` | `K = Ȧ + ∂γ/∂q̇`, `γ = −p₂` | `R × N` | unit of the row per s and unit of the coordinate |
+| `bias` | `κ = −(∂γ/∂t + ∂γ/∂q q̇)` | `R` | unit of the row per s³ |",
         name: "branch",
         buffer: quote!(Branch<T, #n, #r>),
         wanted,
@@ -220,19 +239,20 @@ pub(super) fn functions(subject: &mut Subject) -> TokenStream {
     let equations = subject.equations;
     let mut functions = vec![
         Method {
-            docs: "Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric.",
+            docs: "Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric; kg for two lengths, kg·m² for two
+angles, kg·m for one of each.",
             name: "mass_matrix",
             buffer: quote!(SMatrix<T, #n, #n>),
             wanted: matrix("", &equations.mass),
         },
         Method {
-            docs: "Potential forces `h = ∂Π/∂q`, `N`.",
+            docs: "Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.",
             name: "potential_force",
             buffer: quote!(SVector<T, #n>),
             wanted: vector("", &equations.gravity),
         },
         Method {
-            docs: "Applied and dissipative forces `Q`, `N`.",
+            docs: "Applied and dissipative forces `Q`, `N`; N for a length, N·m for an angle.",
             name: "applied_force",
             buffer: quote!(SVector<T, #n>),
             wanted: vector("", &equations.applied),
@@ -242,19 +262,19 @@ pub(super) fn functions(subject: &mut Subject) -> TokenStream {
     if !equations.jacobian.is_empty() {
         functions.extend([
             Method {
-                docs: "Constraints `g`, `R`; zero for velocity constraints.",
+                docs: "Constraints `g`, `R`, each in the unit it is written in; zero for velocity constraints.",
                 name: "constraint_residual",
                 buffer: quote!(SVector<T, #r>),
                 wanted: vector("", &equations.residual),
             },
             Method {
-                docs: "Constraint Jacobian `A = ∂g/∂q`, `R × N`.",
+                docs: "Constraint Jacobian `A = ∂g/∂q`, `R × N`; unit of the row per unit of the coordinate.",
                 name: "constraint_jacobian",
                 buffer: quote!(SMatrix<T, #r, #n>),
                 wanted: matrix("", &equations.jacobian),
             },
             Method {
-                docs: "`p₂ = −(Ȧ q̇ + ḃ)`, `R`: the constraints ask for `A q̈ = p₂`.",
+                docs: "`p₂ = −(Ȧ q̇ + ḃ)`, `R`: the constraints ask for `A q̈ = p₂`; unit of the row per s².",
                 name: "constraint_bias",
                 buffer: quote!(SVector<T, #r>),
                 wanted: vector("", &equations.bias),
@@ -281,7 +301,8 @@ fn coriolis(subject: &mut Subject) -> Vec<Method> {
         .any(|e| !subject.mechanism.graph.is_zero(*e))
     {
         functions.push(Method {
-            docs: "`C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`.",
+            docs: "`C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`; N for a
+length, N·m for an angle.",
             name: "coriolis_force",
             buffer: quote!(SVector<T, #n>),
             wanted: vector("", &equations.coriolis),
@@ -295,7 +316,8 @@ fn coriolis(subject: &mut Subject) -> Vec<Method> {
             .any(|e| !subject.mechanism.graph.is_zero(*e))
         {
             functions.push(Method {
-                docs: "Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric.",
+                docs: "Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric; the
+unit of `M` per s.",
                 name: "coriolis_matrix",
                 buffer: quote!(SMatrix<T, #n, #n>),
                 wanted: matrix("", &rows),

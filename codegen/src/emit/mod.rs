@@ -131,10 +131,7 @@ fn module_docs(subject: &Subject, origin: Origin) -> Vec<String> {
     } else {
         docs.trim()
     };
-    let mut lines: Vec<String> = docs
-        .lines()
-        .map(|line| format!(" {}", line.trim()))
-        .collect();
+    let mut lines = doc_lines(docs);
     let (n, r) = (
         subject.equations.mass.len(),
         subject.equations.jacobian.len(),
@@ -172,18 +169,25 @@ fn module_docs(subject: &Subject, origin: Origin) -> Vec<String> {
     lines
 }
 
+/// The lines of a text as the lines of a doc comment.
+fn doc_lines(text: &str) -> Vec<String> {
+    let line = |line: &str| {
+        if line.is_empty() {
+            String::new()
+        } else {
+            format!(" {line}")
+        }
+    };
+    text.lines().map(|text| line(text.trim())).collect()
+}
+
 /// The struct that stands for the mechanism.
 fn holder(subject: &Subject) -> TokenStream {
     let name = subject.type_name();
-    let docs = subject.mechanism.docs.trim();
-    let docs = format!(
-        " {}",
-        if docs.is_empty() {
-            &subject.mechanism.name
-        } else {
-            docs
-        }
-    );
+    let docs = match subject.mechanism.docs.trim() {
+        "" => doc_lines(&subject.mechanism.name),
+        docs => doc_lines(docs),
+    };
     let parameters = !subject.mechanism.parameters.is_empty();
     let inputs = !subject.mechanism.inputs.is_empty();
     let (mut fields, mut defaults) = (TokenStream::new(), TokenStream::new());
@@ -200,7 +204,7 @@ fn holder(subject: &Subject) -> TokenStream {
         defaults.extend(quote!(scalar: core::marker::PhantomData,));
     }
     quote! {
-        #[doc = #docs]
+        #(#[doc = #docs])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct #name<T> { #fields }
 
@@ -338,10 +342,10 @@ impl Subject<'_> {
             if writes.is_empty() { "_out" } else { "out" },
             Span::call_site(),
         );
-        let (docs, name) = (format!(" {docs}"), Ident::new(name, Span::call_site()));
+        let (docs, name) = (doc_lines(docs), Ident::new(name, Span::call_site()));
         let n = self.sizes().0;
         quote! {
-            #[doc = #docs]
+            #(#[doc = #docs])*
             ///
             #[doc = #cost]
             fn #name(&self, #state: &State<T, #n>, #out: &mut #buffer) {
@@ -366,7 +370,7 @@ impl Subject<'_> {
             cost,
         } = self.body(&wanted);
         let writes = self.writes(&wanted, &body, &|_| quote!(out));
-        let (docs, name) = (format!(" {docs}"), Ident::new(name, Span::call_site()));
+        let (docs, name) = (doc_lines(docs), Ident::new(name, Span::call_site()));
         let n = self.sizes().0;
         let kind = if buffer.to_string().starts_with("SVector") {
             quote!(SVector)
@@ -379,7 +383,7 @@ impl Subject<'_> {
             quote!(let mut out = #kind::zeros(); #writes out)
         };
         quote! {
-            #[doc = #docs]
+            #(#[doc = #docs])*
             ///
             #[doc = #cost]
             pub fn #name(&self, #state: &State<T, #n>) -> #buffer {

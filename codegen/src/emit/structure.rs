@@ -1,9 +1,9 @@
 //! The static description of a mechanism, and the structs of its parameters and
 //! inputs.
 
-use super::Subject;
+use super::{Subject, doc_lines};
 use crate::expr::{ExprId, Symbol};
-use crate::model::{Direction, Quantity};
+use crate::model::{Direction, Input, Quantity};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -82,13 +82,16 @@ pub(super) fn parameters(subject: &Subject) -> TokenStream {
         return TokenStream::new();
     }
     let fields = &subject.names.parameter_fields;
-    let docs = parameters.iter().map(|p| quantity_docs(&p.quantity));
+    let docs: Vec<Vec<String>> = parameters
+        .iter()
+        .map(|p| doc_lines(&quantity_docs(&p.quantity)))
+        .collect();
     let defaults: Vec<TokenStream> =
         subject.constants(parameters.iter().map(|p| p.default).collect());
     quote! {
         /// Run-time parameters, in SI units.
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct Parameters<T> { #(#[doc = #docs] pub #fields: T),* }
+        pub struct Parameters<T> { #(#(#[doc = #docs])* pub #fields: T),* }
 
         impl<T: Real> Default for Parameters<T> {
             fn default() -> Self {
@@ -105,20 +108,19 @@ pub(super) fn inputs(subject: &Subject) -> TokenStream {
         return TokenStream::new();
     }
     let fields = &subject.names.input_fields;
-    let docs = inputs.iter().map(|input| {
+    let docs = |input: &Input| {
         let law = subject
             .mechanism
             .graph
             .text(input.law, &|symbol| subject.text(symbol));
-        format!(
-            "{}\n\n Default law: `{law}`.",
-            quantity_docs(&input.quantity)
-        )
-    });
+        let docs = quantity_docs(&input.quantity);
+        doc_lines(&format!("{docs}\n\nDefault law: `{law}`."))
+    };
+    let docs: Vec<Vec<String>> = inputs.iter().map(docs).collect();
     quote! {
         /// External signals, in SI units: `None` is the default law.
         #[derive(Clone, Copy, Debug, Default, PartialEq)]
-        pub struct Inputs<T> { #(#[doc = #docs] pub #fields: Option<T>),* }
+        pub struct Inputs<T> { #(#(#[doc = #docs])* pub #fields: Option<T>),* }
     }
 }
 
@@ -137,5 +139,5 @@ fn quantity_docs(quantity: &Quantity) -> String {
     } else {
         format!(": {docs}")
     };
-    format!(" `{name}`{unit}{stop}")
+    format!("`{name}`{unit}{stop}")
 }

@@ -106,23 +106,20 @@ impl Printer<'_> {
     }
 
     fn sum(&self, constant: Number, terms: &[(ExprId, Number)]) -> (String, Binding) {
+        let negative = |weight: Number| weight.is_negative();
         let mut text = String::new();
-        for (x, weight) in terms {
-            let negative = weight.is_negative();
-            let size = if negative { weight.neg() } else { *weight };
-            text.push_str(match (text.is_empty(), negative) {
-                (true, true) => "-",
-                (true, false) => "",
-                (false, true) => " - ",
-                (false, false) => " + ",
-            });
-            text.push_str(&self.scaled(size, *x));
+        // A positive constant goes first where the terms would begin with a minus.
+        let first = !constant.is_zero() && !negative(constant) && negative(terms[0].1);
+        if first {
+            text.push_str(&self.number(constant).0);
         }
-        if !constant.is_zero() {
-            let negative = constant.is_negative();
-            let size = if negative { constant.neg() } else { constant };
-            text.push_str(if negative { " - " } else { " + " });
-            text.push_str(&self.number(size).0);
+        for (x, weight) in terms {
+            text.push_str(joint(text.is_empty(), negative(*weight)));
+            text.push_str(&self.scaled(size(*weight), *x));
+        }
+        if !first && !constant.is_zero() {
+            text.push_str(joint(false, negative(constant)));
+            text.push_str(&self.number(size(constant)).0);
         }
         let single = terms.len() == 1 && constant.is_zero() && !terms[0].1.is_negative();
         (
@@ -241,5 +238,23 @@ impl Printer<'_> {
             format!("{name}({x}, {y})")
         };
         (text, Binding::Atom)
+    }
+}
+
+/// What stands before a term of a sum.
+fn joint(first: bool, negative: bool) -> &'static str {
+    match (first, negative) {
+        (true, true) => "-",
+        (true, false) => "",
+        (false, true) => " - ",
+        (false, false) => " + ",
+    }
+}
+
+fn size(value: Number) -> Number {
+    if value.is_negative() {
+        value.neg()
+    } else {
+        value
     }
 }
