@@ -16,8 +16,8 @@ const NEAR: f64 = 0.3;
 /// A minimum of the sine below this is a passage through a singular position.
 const PASSAGE: f64 = 1e-3;
 /// Steps of the search: each shortens the bracket to 0.618 of its length, so
-/// that the time is found to about 1e-12 of a step.
-const SEARCH_STEPS: usize = 60;
+/// that the time is found to about 1e-8 of the distance between two looks.
+const SEARCH_STEPS: usize = 38;
 
 /// A passage through a singular position.
 #[derive(Clone, Copy, Debug, PartialEq)]
