@@ -9,7 +9,8 @@ use crate::{DynamicsError, Real, State, Step};
 use core::ops::ControlFlow;
 use std::vec::Vec;
 
-/// Keeps the states at `t₀`, `t₀ + dt`, `t₀ + 2 dt`, …, see [`Sampler`].
+/// Keeps the states at `t₀`, `t₀ + dt`, `t₀ + 2 dt`, …, see
+/// [`Sampler`](super::Sampler).
 ///
 /// What was recorded before a run failed stays recorded.
 #[derive(Clone, Debug)]
