@@ -25,7 +25,7 @@ pub use error::DynamicsError;
 pub use integrator::{Dop853, Dp5, IntegrateError, Integrator, Rk4, Step, Tolerance};
 pub use model::{
     Branch, Canvas, ConstraintRow, Correction, Direction, Energy, Event, Initial, Interface,
-    Mechanism, Position, Quantity, Regular, Start, Structure, Terms,
+    Mechanism, Pivots, Position, Quantity, Regular, Start, Structure, Terms,
 };
 pub use nalgebra;
 pub use observer::{

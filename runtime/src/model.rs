@@ -30,8 +30,8 @@ pub trait Mechanism<T: Real, const N: usize, const R: usize> {
     /// The acceleration where the constraints are regular, as straight-line code
     /// with this mechanism's sparsity; `false` if it is not provided.
     ///
-    /// Not to be used where [`Regular::pivot`] or [`Regular::mass_pivot`] is small.
-    fn regular(&self, _state: &State<T, N>, _out: &mut Regular<T, N>) -> bool {
+    /// Not to be used where one of [`Regular::pivots`] is small.
+    fn regular(&self, _state: &State<T, N>, _out: &mut Regular<T, N, R>) -> bool {
         false
     }
 
@@ -42,8 +42,7 @@ pub trait Mechanism<T: Real, const N: usize, const R: usize> {
     /// as straight-line code with this mechanism's sparsity; `false` if they are
     /// not provided.
     ///
-    /// Not to be used where [`Correction::pivot`] or [`Correction::mass_pivot`] is
-    /// small.
+    /// Not to be used where one of [`Correction::pivots`] is small.
     fn correction(&self, _state: &State<T, N>, _out: &mut Correction<T, N, R>) -> bool {
         false
     }
@@ -91,25 +90,11 @@ pub struct Terms<T, const N: usize, const R: usize> {
 
 /// The acceleration by the regular path, and how far it can be trusted.
 #[derive(Clone, Debug)]
-pub struct Regular<T, const N: usize> {
+pub struct Regular<T, const N: usize, const R: usize> {
     /// `q̈`, `N`.
     pub acceleration: SVector<T, N>,
-    /// The smallest `d_i / m_ii` of `M = L D Lᵀ`: how far `M` is from singular.
-    pub mass_pivot: T,
-    /// The smallest `e_i / s_ii` of `S = A M⁻¹ Aᵀ = L E Lᵀ`: the squared sine of the
-    /// angle between a constraint row and the rows before it, in the kinetic metric.
-    /// One without constraints.
-    pub pivot: T,
-}
-
-impl<T: Real, const N: usize> Default for Regular<T, N> {
-    fn default() -> Self {
-        Self {
-            acceleration: SVector::zeros(),
-            mass_pivot: T::zero(),
-            pivot: T::zero(),
-        }
-    }
+    /// What was divided by.
+    pub pivots: Pivots<T, N, R>,
 }
 
 /// One step of a projection by the regular path, and how far it can be trusted.
@@ -121,22 +106,22 @@ pub struct Correction<T, const N: usize, const R: usize> {
     pub position: SVector<T, N>,
     /// The least `Δq̇` in the kinetic metric with `A Δq̇ = −(A q̇ + b)`, `N`.
     pub velocity: SVector<T, N>,
-    /// As [`Regular::mass_pivot`].
-    pub mass_pivot: T,
-    /// As [`Regular::pivot`].
-    pub pivot: T,
+    /// What was divided by.
+    pub pivots: Pivots<T, N, R>,
 }
 
-impl<T: Real, const N: usize, const R: usize> Default for Correction<T, N, R> {
-    fn default() -> Self {
-        Self {
-            residual: SVector::zeros(),
-            position: SVector::zeros(),
-            velocity: SVector::zeros(),
-            mass_pivot: T::zero(),
-            pivot: T::zero(),
-        }
-    }
+/// The pivots of `M = L D Lᵀ` and of `S = A M⁻¹ Aᵀ = Λ E Λᵀ`.
+#[derive(Clone, Debug)]
+pub struct Pivots<T, const N: usize, const R: usize> {
+    /// `d_i`, `N`; zero where it is `m_ii` itself.
+    pub mass_pivots: SVector<T, N>,
+    /// `m_ii`, `N`; zero where it is the pivot itself.
+    pub mass_diagonal: SVector<T, N>,
+    /// `e_i`, `R`: over `s_ii`, the squared sine of the angle between a constraint
+    /// row and the rows before it, in the kinetic metric.
+    pub row_pivots: SVector<T, R>,
+    /// `s_ii`, `R`: the squared size of a constraint row in the kinetic metric.
+    pub row_squares: SVector<T, R>,
 }
 
 /// What a projection at a position needs.
@@ -183,6 +168,32 @@ zeroed!(Position {
     drift
 });
 zeroed!(Branch { slope, bias });
+zeroed!(Pivots {
+    mass_pivots,
+    mass_diagonal,
+    row_pivots,
+    row_squares
+});
+
+impl<T: Real, const N: usize, const R: usize> Default for Regular<T, N, R> {
+    fn default() -> Self {
+        Self {
+            acceleration: SVector::zeros(),
+            pivots: Pivots::default(),
+        }
+    }
+}
+
+impl<T: Real, const N: usize, const R: usize> Default for Correction<T, N, R> {
+    fn default() -> Self {
+        Self {
+            residual: SVector::zeros(),
+            position: SVector::zeros(),
+            velocity: SVector::zeros(),
+            pivots: Pivots::default(),
+        }
+    }
+}
 
 /// Energies at a state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -3,7 +3,7 @@
 use super::{Method, Subject, Written};
 use crate::derive::coriolis_matrix;
 use crate::expr::ExprId;
-use crate::optimise::{Slot, regular_acceleration, regular_correction};
+use crate::optimise::{Program, Slot, Value, regular_acceleration, regular_correction};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
@@ -85,20 +85,20 @@ fn regular(subject: &mut Subject, terms: &Wanted) -> TokenStream {
     let (n, r) = subject.counts();
     let program = regular_acceleration(&subject.program(terms), n, r);
     let written = subject.written(&program);
-    let writes = solved(&written, &["acceleration"], n.max(r));
+    let writes = solved(&written, &program);
     let Written {
         statements,
         state,
         cost,
         ..
     } = &written;
-    let n = Literal::usize_unsuffixed(n);
+    let (n, r) = subject.sizes();
     quote! {
         /// The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
         /// Schur complement `A M⁻¹ Aᵀ`.
         ///
         #[doc = #cost]
-        fn regular(&self, #state: &State<T, #n>, out: &mut Regular<T, #n>) -> bool {
+        fn regular(&self, #state: &State<T, #n>, out: &mut Regular<T, #n, #r>) -> bool {
             #statements
             #writes
             true
@@ -116,7 +116,7 @@ fn correction(subject: &mut Subject) -> TokenStream {
     wanted.extend(vector("speed", &equations.speed));
     let program = regular_correction(&subject.program(&wanted), n, r);
     let written = subject.written(&program);
-    let writes = solved(&written, &["residual", "position", "velocity"], n.max(r));
+    let writes = solved(&written, &program);
     let Written {
         statements,
         state,
@@ -137,32 +137,20 @@ fn correction(subject: &mut Subject) -> TokenStream {
     }
 }
 
-/// Assignments of solved vectors and of the pivot ratios.
-fn solved(written: &Written, vectors: &[&'static str], size: usize) -> TokenStream {
-    let slot = |array, row| Slot {
-        array,
-        row,
-        column: 0,
-    };
-    let mut writes = TokenStream::new();
-    for &array in vectors {
-        let field = Ident::new(array, Span::call_site());
-        for row in 0..size {
-            if let Some(value) = written.body.written(slot(array, row)) {
-                let row = Literal::usize_unsuffixed(row);
-                writes.extend(quote!(out.#field.data.0[0][#row] = #value;));
+/// Assignments of what a solve computes; pivots have a struct of their own.
+fn solved(written: &Written, program: &Program) -> TokenStream {
+    let write = |(slot, _): &(Slot, Value)| {
+        let value = written.body.output(*slot);
+        let row = Literal::usize_unsuffixed(slot.row);
+        let field = Ident::new(slot.array, Span::call_site());
+        match slot.array {
+            "mass_pivots" | "mass_diagonal" | "row_pivots" | "row_squares" => {
+                quote!(out.pivots.#field.data.0[0][#row] = #value;)
             }
+            _ => quote!(out.#field.data.0[0][#row] = #value;),
         }
-    }
-    let ratio = |array| {
-        written
-            .body
-            .written(slot(array, 0))
-            .unwrap_or_else(|| quote!(T::one()))
     };
-    let (mass_pivot, pivot) = (ratio("mass_pivot"), ratio("pivot"));
-    writes.extend(quote!(out.mass_pivot = #mass_pivot; out.pivot = #pivot;));
-    writes
+    program.outputs.iter().map(write).collect()
 }
 
 /// What a mechanism with constraints provides besides.

@@ -3,7 +3,7 @@
 //! An [`Entry`] is absent where it is zero by structure. Numbers are folded
 //! exactly, and signs are carried beside the values so that they cost nothing.
 
-use crate::expr::{Function2, Number};
+use crate::expr::Number;
 use crate::optimise::program::{Operation, Program, Value};
 use std::collections::BTreeMap;
 
@@ -93,30 +93,6 @@ impl Algebra {
             }
         };
         (minus, inverse)
-    }
-
-    /// The smaller of a ratio so far and `pivot / whole`; 1 where nothing was
-    /// subtracted from the pivot.
-    pub fn smaller(&mut self, so_far: Option<Value>, pivot: Signed, whole: Entry) -> Value {
-        let ratio = match whole {
-            Some(whole) if whole == pivot => self.number(Number::ONE),
-            Some((minus, whole)) => {
-                let ratio = self.program.push(Operation::Quotient(pivot.1, whole));
-                match minus == pivot.0 {
-                    true => ratio,
-                    false => self.program.push(Operation::Sum(vec![(true, ratio)])),
-                }
-            }
-            None => self.number(Number::ZERO),
-        };
-        match so_far {
-            None => ratio,
-            Some(known) if self.as_number(ratio).is_some_and(Number::is_one) => known,
-            Some(known) if self.as_number(known).is_some_and(Number::is_one) => ratio,
-            Some(known) => self
-                .program
-                .push(Operation::Function2(Function2::Min, known, ratio)),
-        }
     }
 
     pub fn number(&mut self, value: Number) -> Value {

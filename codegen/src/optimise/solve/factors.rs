@@ -2,7 +2,7 @@
 
 use super::algebra::{Algebra, Entry, Signed, Sparse};
 use crate::expr::Number;
-use crate::optimise::program::{Operation, Value};
+use crate::optimise::program::Operation;
 use std::collections::BTreeSet;
 
 /// `L D Lᵀ` in an order of elimination.
@@ -12,8 +12,8 @@ pub(super) struct Factors {
     columns: Vec<Vec<(usize, Signed)>>,
     /// `1 / d`, by pivot.
     inverse: Vec<Signed>,
-    /// The smallest `d_i / m_ii`; absent if there is no row.
-    pub ratio: Option<Value>,
+    /// `d_i` and the `m_ii` that elimination made it of, by row.
+    pub pivots: Vec<(Signed, Signed)>,
 }
 
 /// An order of elimination by minimum degree; of equals the first.
@@ -45,13 +45,13 @@ impl Algebra {
         let one = self.program.push(Operation::Number(Number::ONE));
         let mut inverse = vec![(false, one); n];
         let mut columns = vec![Vec::new(); n];
-        let mut ratio: Option<Value> = None;
+        let zero = (false, self.number(Number::ZERO));
+        let mut pivots = vec![(zero, zero); n];
         for (step, &k) in order.iter().enumerate() {
-            // A pivot that is zero by structure makes the ratio zero.
-            let zero = (false, self.number(Number::ZERO));
             let pivot = rest.get(&(k, k)).copied().unwrap_or(zero);
             inverse[k] = self.inverse(pivot);
-            ratio = Some(self.smaller(ratio, pivot, matrix.get(&(k, k)).copied()));
+            let whole = matrix.get(&(k, k)).copied().unwrap_or(zero);
+            pivots[k] = (pivot, whole);
             let below: Vec<(usize, Signed)> = order[step + 1..]
                 .iter()
                 .filter_map(|&i| rest.get(&(i, k)).map(|entry| (i, *entry)))
@@ -66,7 +66,7 @@ impl Algebra {
             order,
             columns,
             inverse,
-            ratio,
+            pivots,
         }
     }
 

@@ -5,10 +5,11 @@
 //! Out: a program that solves instead: [`with_acceleration`], [`with_correction`].
 //!
 //! `M = L D Lᵀ`, `W = L⁻¹Aᵀ`, `S = Wᵀ D⁻¹ W = A M⁻¹ Aᵀ = Λ E Λᵀ`, each in a
-//! fill-reducing order that is fixed here. No pivoting and no branch: the smallest
-//! pivot ratio of `M` (`mass_pivot`) and of `S` (`pivot`, the squared sine of the
-//! angle between a constraint row and the rows before it in the kinetic metric)
-//! are outputs too, and where one is too small the result is not to be used.
+//! fill-reducing order that is fixed here. No pivoting and no branch: the pivots
+//! (`mass_pivots`, `row_pivots`) are outputs too, beside the diagonals that they
+//! are to be compared with (`mass_diagonal`, `row_squares`), and where one is too
+//! small the result is not to be used. Left out are masses that elimination leaves
+//! as they are.
 
 mod algebra;
 mod factors;
@@ -152,17 +153,26 @@ impl System {
                 }));
             }
         }
-        for (array, ratio) in [("mass_pivot", self.mass.ratio), ("pivot", self.schur.ratio)] {
-            outputs.extend(ratio.map(|value| {
-                (
-                    Slot {
+        let pairs = [
+            ("mass_pivots", "mass_diagonal", &self.mass.pivots),
+            ("row_pivots", "row_squares", &self.schur.pivots),
+        ];
+        for (pivots, wholes, entries) in pairs {
+            for (row, &(pivot, whole)) in entries.iter().enumerate() {
+                // A row that shrinks is compared with its own past, a mass is not.
+                if pivots == "mass_pivots" && pivot == whole {
+                    continue;
+                }
+                for (array, value) in [(pivots, pivot), (wholes, whole)] {
+                    let slot = Slot {
                         array,
-                        row: 0,
+                        row,
                         column: 0,
-                    },
-                    value,
-                )
-            }));
+                    };
+                    let value = self.algebra.unsigned(Some(value));
+                    outputs.extend(value.map(|value| (slot, value)));
+                }
+            }
         }
         let program = self.algebra.program;
         let operations: Vec<Operation> = program.operations().map(|(_, o)| o.clone()).collect();
