@@ -64,6 +64,18 @@ fn block(diagnostic: &Diagnostic, file: &str, lines: &[&str]) -> String {
     let last = marks.last().map_or(1, |mark| mark.line);
     let margin = " ".repeat(last.to_string().len());
     text.push_str(&format!("{margin} |\n"));
+    text.push_str(&snippet(&marks, &margin, lines));
+    if let Some(help) = &diagnostic.help {
+        text.push_str(&format!("{margin} = help: {help}\n"));
+    }
+    text.lines()
+        .map(|line| format!("{}\n", line.trim_end()))
+        .collect()
+}
+
+/// The marked lines with their underlines.
+fn snippet(marks: &[Mark], margin: &str, lines: &[&str]) -> String {
+    let mut text = String::new();
     let mut before = None;
     for group in marks.chunk_by(|a, b| a.line == b.line) {
         let line = group[0].line;
@@ -80,12 +92,7 @@ fn block(diagnostic: &Diagnostic, file: &str, lines: &[&str]) -> String {
             text.push_str(&format!("{margin} | {row}\n"));
         }
     }
-    if let Some(help) = &diagnostic.help {
-        text.push_str(&format!("{margin} = help: {help}\n"));
-    }
-    text.lines()
-        .map(|line| format!("{}\n", line.trim_end()))
-        .collect()
+    text
 }
 
 /// Where a label is drawn: on its first line, one character at least.

@@ -89,9 +89,7 @@ impl Evaluator {
                 Err((left, right)) => {
                     let known = |(_, s, _): &&Part| matches!(s.unit, Unit::Known(_));
                     let first = terms.iter().find(known).map_or(*span, |(_, _, span)| *span);
-                    let message = format!("this sum mixes {} and {}", left.text(), right.text());
-                    let error = Diagnostic::error(*span, message).labelled(right.said());
-                    return self.report(error.also(first, left.said()));
+                    return self.mixed("this sum", [(left, first), (right, *span)]);
                 }
             };
         }
@@ -121,9 +119,8 @@ impl Evaluator {
     /// `a * b / c`
     pub fn product(&mut self, factors: &[(bool, Expr)]) -> Option<Value> {
         let values = self.parts(factors)?;
-        let scalar = |(over, value, span): &(bool, Value, Span)| match value {
-            Value::Scalar(scalar) => Some((*over, *scalar, *span)),
-            _ => None,
+        let scalar = |(over, value, span): &(bool, Value, Span)| {
+            value.as_scalar().map(|scalar| (*over, scalar, *span))
         };
         if let Some(scalars) = values.iter().map(scalar).collect::<Option<Vec<_>>>() {
             return self.product_scalars(&scalars).map(Value::Scalar);
@@ -151,6 +148,10 @@ impl Evaluator {
             powers.push((factor.id, power));
         }
         let id = self.graph.power_product(&powers);
+        // Zero fits every unit: `[[J1, 0], [0, J2]]*w` is a sum of moments.
+        if self.graph.is_zero(id) || (unit == Unit::PURE && self.has_size(factors)) {
+            unit = Unit::Number;
+        }
         let last = factors.last().map(|(_, _, span)| *span).unwrap_or_default();
         let span = factors
             .first()
@@ -160,6 +161,18 @@ impl Evaluator {
             id: self.sound(id, span)?,
             unit,
         })
+    }
+
+    /// Whether a number among dimensionless factors may stand for what has a unit:
+    /// `0.5` in `0.5*cos(q1)` for a length, but nothing in `45*deg`.
+    fn has_size(&mut self, factors: &[Part]) -> bool {
+        let numbers = factors
+            .iter()
+            .any(|(_, factor, _)| factor.unit == Unit::Number);
+        numbers
+            && factors.iter().all(|(_, factor, _)| {
+                factor.unit == Unit::Number || self.facts(factor.id).value.is_none()
+            })
     }
 
     /// `base ^ exponent`
@@ -236,7 +249,7 @@ impl Evaluator {
         self.spend(range.index.span)?;
         let mark = self.scope.open();
         if let Err(diagnostic) = self.scope.declare(&range.index, Kind::Index) {
-            return self.report(diagnostic);
+            return self.report(*diagnostic);
         }
         let id = self.graph.integer(value);
         let index = Value::Scalar(Scalar {

@@ -158,18 +158,6 @@ impl Evaluator {
         Some(Scalar { id, unit })
     }
 
-    /// Refuses a unit where an angle or ratio belongs.
-    pub fn pure(&mut self, unit: Unit, what: &str, span: Span) -> Option<()> {
-        match unit {
-            Unit::Known(dimension) if !unit.is_pure() => {
-                let message = format!("{what} is in {}", dimension.text());
-                let error = Diagnostic::error(span, message);
-                self.report(error.help("it has to be an angle (rad) or a ratio without unit"))
-            }
-            _ => Some(()),
-        }
-    }
-
     fn binary(&mut self, function: Function2, arguments: &[Expr], span: Span) -> Option<Value> {
         let what = format!("an argument of `{}`", function.name());
         let (x, y) = (

@@ -108,31 +108,11 @@ impl Lowering<'_> {
         sides: [&Expr; 2],
     ) -> Option<Option<bool>> {
         let facts = self.evaluator.facts(residual);
-        let whole = sides[0].span.to(sides[1].span);
-        if facts.kinked {
-            let span = self.culprit_of(sides, |facts| facts.kinked);
-            let error = Diagnostic::error(
-                span,
-                "a constraint has to be differentiable, this has a kink",
-            );
-            return self.report(error.help(SMOOTH));
-        }
-        if facts.input {
-            let span = self.culprit_of(sides, |facts| facts.input);
-            let error = Diagnostic::error(span, "a constraint can't contain an input");
-            return self.report(
-                error.help("what is prescribed is written with `t`; an input acts by `force`"),
-            );
-        }
-        if facts.degree > 1 {
-            let span = self.culprit_of(sides, |facts| facts.degree > 1);
-            let error = Diagnostic::error(span, "a constraint has to be linear in the velocities");
-            return self
-                .report(error.help("write it with `der(…)` of first degree, or for positions"));
-        }
+        self.legal_row(facts, sides)?;
         if facts.coordinate || facts.velocity() {
             return Some(Some(!facts.velocity()));
         }
+        let whole = sides[0].span.to(sides[1].span);
         match facts.value {
             Some(0.0) => Some(None),
             Some(value) => {
@@ -144,6 +124,31 @@ impl Lowering<'_> {
                 self.report(error.help("a constraint restricts how coordinates move"))
             }
         }
+    }
+
+    fn legal_row(&mut self, facts: Facts, sides: [&Expr; 2]) -> Option<()> {
+        let (bad, message, help): (fn(&Facts) -> bool, _, _) = if facts.kinked {
+            let message = "a constraint has to be differentiable, this has a kink";
+            (|facts| facts.kinked, message, SMOOTH)
+        } else if facts.input {
+            let help = "what is prescribed is written with `t`; an input acts by `force`";
+            (
+                |facts| facts.input,
+                "a constraint can't contain an input",
+                help,
+            )
+        } else if facts.degree > 1 {
+            let help = "write it with `der(…)` of first degree, or for positions";
+            (
+                |facts| facts.degree > 1,
+                "a constraint has to be linear in the velocities",
+                help,
+            )
+        } else {
+            return Some(());
+        };
+        let span = self.culprit_of(sides, bad);
+        self.report(Diagnostic::error(span, message).help(help))
     }
 
     /// The term of a sum that has some property, else the whole.

@@ -74,7 +74,7 @@ impl Lowering<'_> {
         match self.evaluator.scope.declare(name, kind) {
             Ok(()) => true,
             Err(diagnostic) => {
-                self.report::<()>(diagnostic);
+                self.report::<()>(*diagnostic);
                 false
             }
         }
@@ -243,7 +243,7 @@ impl Lowering<'_> {
             None => Unit::Unchecked,
             Some(Ok(dimension)) => Unit::Known(dimension),
             Some(Err(diagnostic)) => {
-                self.report::<()>(diagnostic);
+                self.report::<()>(*diagnostic);
                 Unit::Unchecked
             }
         }

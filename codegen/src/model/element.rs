@@ -4,7 +4,6 @@ use super::evaluate::Evaluator;
 use super::value::{AXES, Array, Matrix, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::parse::ast::{Expr, Name, Range};
-use std::cmp::Ordering;
 use std::rc::Rc;
 
 impl Evaluator {
@@ -55,32 +54,17 @@ impl Evaluator {
             return self
                 .report(Diagnostic::error(span, message).help("write `[x, y]` or `[x, y, z]`"));
         }
-        let scalars = values.iter().map(|v| {
-            if let Value::Scalar(s) = v {
-                Some(*s)
-            } else {
-                None
-            }
-        });
-        if let Some(scalars) = scalars.collect() {
+        if let Some(scalars) = values.iter().map(Value::as_scalar).collect() {
             return Some(Value::Vector(scalars));
         }
-        let rows = values.iter().map(|v| {
-            if let Value::Vector(row) = v {
-                Some(row.clone())
-            } else {
-                None
-            }
-        });
+        let rows = values.iter().map(|row| row.as_vector().cloned());
         match rows.collect::<Option<Vec<_>>>() {
             Some(rows) if rows.iter().all(|row| row.len() == rows[0].len()) => {
                 Some(Value::Matrix(Matrix { rows, spin: None }))
             }
             _ => {
-                let error = Diagnostic::error(
-                    span,
-                    "the parts of a vector are numbers, those of a matrix rows of one length",
-                );
+                let message = "a vector is made of numbers, a matrix of rows of one length";
+                let error = Diagnostic::error(span, message);
                 self.report(error.help("write `[x, y, z]` or `[[a, b], [c, d]]`"))
             }
         }
@@ -120,36 +104,39 @@ impl Evaluator {
                 let item = at(array.first).and_then(|k| array.items.get(k).cloned());
                 (item, array.first, array.end)
             }
-            Value::Vector(parts) => (
-                at(0).and_then(|k| parts.get(k)).map(|s| Value::Scalar(*s)),
-                0,
-                parts.len() as i64,
-            ),
-            Value::Matrix(m) => (
-                at(0)
-                    .and_then(|k| m.rows.get(k))
-                    .map(|r| Value::Vector(r.clone())),
-                0,
-                m.rows.len() as i64,
-            ),
+            Value::Vector(parts) => {
+                let part = at(0).and_then(|k| parts.get(k).copied());
+                (part.map(Value::Scalar), 0, parts.len() as i64)
+            }
+            Value::Matrix(m) => {
+                let row = at(0).and_then(|k| m.rows.get(k).cloned());
+                (row.map(Value::Vector), 0, m.rows.len() as i64)
+            }
             Value::Scalar(_) => {
                 let error = Diagnostic::error(span, "a number has no elements");
-                return self.report(
-                    error.help("an array is declared `coord theta[3]` or `let n[i in 0..3] = …`"),
-                );
+                let help = "an array is declared `coord theta[3]` or `let n[i in 0..3] = …`";
+                return self.report(error.help(help));
             }
         };
-        if found.is_none() {
-            let message = match i.cmp(&end) {
-                Ordering::Less if i >= first => format!("element {i} is not known yet"),
-                _ => format!("index {i} is out of range"),
-            };
-            let help = match i >= first && i < end {
-                true => "an element of a `let` array may use those before it".to_string(),
-                false => format!("{} has the indices {first} to {}", value.shape(), end - 1),
-            };
-            return self.report(Diagnostic::error(index.span, message).help(help));
+        found.or_else(|| self.no_element(&value, i, first..end, index.span))
+    }
+
+    fn no_element(
+        &mut self,
+        value: &Value,
+        i: i64,
+        indices: std::ops::Range<i64>,
+        span: Span,
+    ) -> Option<Value> {
+        if indices.contains(&i) {
+            let error = Diagnostic::error(span, format!("element {i} is not known yet"));
+            return self.report(error.help("an element of a `let` array may use those before it"));
         }
-        found
+        let error = Diagnostic::error(span, format!("index {i} is out of range"));
+        let (first, last) = (indices.start, indices.end - 1);
+        self.report(error.help(format!(
+            "{} has the indices {first} to {last}",
+            value.shape()
+        )))
     }
 }

@@ -11,14 +11,11 @@ use super::scope::{BUILT_IN, Kind, Scope};
 use super::unit::Unit;
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest};
-use crate::expr::{Comparison, Direction, ExprId, Function, Graph, Node, Number, Symbol};
+use crate::expr::{Comparison, Direction, ExprId, Function, Graph, Number, Symbol};
 use crate::parse::ast::{Condition, Expr, ExprKind, Range};
 
 /// The most formulas that are evaluated for one description, loops unrolled.
 const WORK: u64 = 10_000_000;
-
-/// The largest exponent that is kept as a product.
-const LARGEST_EXPONENT: i32 = 1_000_000;
 
 /// Evaluates formulas.
 #[derive(Debug, Default)]
@@ -250,44 +247,5 @@ impl Evaluator {
             chosen.push(Scalar { id, unit });
         }
         Some(values[0].with_scalars(chosen))
-    }
-
-    /// The unit that two sides have in common.
-    pub fn same_unit(&mut self, sides: [(Scalar, Span); 2], what: &str) -> Option<Unit> {
-        match sides[0].0.unit.meet(sides[1].0.unit) {
-            Ok(unit) => Some(unit),
-            Err((left, right)) => {
-                let message = format!("{what} mixes {} and {}", left.text(), right.text());
-                let error = Diagnostic::error(sides[1].1, message).labelled(right.said());
-                self.report(error.also(sides[0].1, left.said()))
-            }
-        }
-    }
-
-    /// Refuses an expression that is no number of this world.
-    pub fn sound(&mut self, id: ExprId, span: Span) -> Option<ExprId> {
-        let (finite, tame) = match self.graph.node(id) {
-            Node::Number(value) => (value.is_finite(), true),
-            Node::Sum(constant, terms) => {
-                let weights = terms.iter().all(|(_, weight)| weight.is_finite());
-                (weights && constant.is_finite(), true)
-            }
-            Node::Product(factors) => (
-                true,
-                factors
-                    .iter()
-                    .all(|(_, exponent)| exponent.abs() <= LARGEST_EXPONENT),
-            ),
-            _ => (self.facts(id).value.is_none_or(f64::is_finite), true),
-        };
-        if !finite {
-            let message = "this is not a finite number";
-            return self.report(Diagnostic::error(span, message));
-        }
-        if !tame {
-            let message = format!("this contains a power above {LARGEST_EXPONENT}");
-            return self.report(Diagnostic::error(span, message));
-        }
-        Some(id)
     }
 }

@@ -30,23 +30,26 @@ impl Evaluator {
             (Value::Matrix(m), Value::Matrix(n)) if m.rows[0].len() == n.rows.len() => {
                 self.compose(m, n, a_span.to(b_span)).map(Value::Matrix)
             }
-            (Value::Vector(_), Value::Vector(_)) => {
-                let error =
-                    Diagnostic::error(a_span.to(b_span), "the product of two vectors is ambiguous");
-                self.report(error.help("write `dot(a, b)` or `cross(a, b)`"))
-            }
-            (Value::Vector(_), Value::Matrix(_)) => {
-                let error =
-                    Diagnostic::error(a_span.to(b_span), "a vector stands behind the matrix");
-                self.report(error.help("write `transpose(R)*v`"))
-            }
-            _ => {
-                let message = format!("{} times {}", a.shape(), b.shape());
-                self.report(
-                    Diagnostic::error(a_span.to(b_span), message).help("the sizes have to fit"),
-                )
-            }
+            _ => self.no_product(a, b, a_span.to(b_span)),
         }
+    }
+
+    fn no_product(&mut self, a: &Value, b: &Value, span: Span) -> Option<Value> {
+        let (message, help) = match (a, b) {
+            (Value::Vector(_), Value::Vector(_)) => {
+                let help = "write `dot(a, b)` or `cross(a, b)`";
+                ("the product of two vectors is ambiguous".to_string(), help)
+            }
+            (Value::Vector(_), Value::Matrix(_)) => (
+                "a vector stands behind the matrix".to_string(),
+                "write `transpose(R)*v`",
+            ),
+            _ => (
+                format!("{} times {}", a.shape(), b.shape()),
+                "the sizes have to fit",
+            ),
+        };
+        self.report(Diagnostic::error(span, message).help(help))
     }
 
     fn scale(&mut self, value: &Value, factor: Part, span: Span) -> Option<Value> {

@@ -20,6 +20,7 @@ mod order;
 mod rotation;
 mod scope;
 mod si;
+mod sound;
 mod start;
 mod statement;
 mod unit;

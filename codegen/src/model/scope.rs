@@ -68,13 +68,16 @@ pub struct Scope {
 
 impl Scope {
     /// Declares a name without a value.
-    pub fn declare(&mut self, name: &Name, kind: Kind) -> Result<(), Diagnostic> {
+    pub fn declare(&mut self, name: &Name, kind: Kind) -> Result<(), Box<Diagnostic>> {
         if let Some((_, meaning)) = BUILT_IN.iter().find(|(known, _)| *known == name.text) {
             let message = format!("`{}` is {meaning} already", name.text);
-            return Err(Diagnostic::error(name.span, message).help("choose another name"));
+            let error = Diagnostic::error(name.span, message);
+            return Err(Box::new(error.help("choose another name")));
         }
         if let Some(first) = self.index.get(&name.text).map(|&i| &self.entries[i]) {
-            return Err(twice(name, first.name.span).labelled("declared again here"));
+            return Err(Box::new(
+                twice(name, first.name.span).labelled("declared again here"),
+            ));
         }
         self.index.insert(name.text.clone(), self.entries.len());
         self.entries.push(Entry {

@@ -77,12 +77,12 @@ const SCALED: [(&str, &str, &str); 37] = [
 ];
 
 /// The dimension of a unit as written.
-pub fn resolve(unit: &UnitExpr) -> Result<Dimension, Diagnostic> {
+pub fn resolve(unit: &UnitExpr) -> Result<Dimension, Box<Diagnostic>> {
     let mut total = NONE;
     for (name, exponent) in &unit.factors {
         let Some((_, powers)) = NAMED.iter().find(|(known, _)| *known == name.text) else {
             let error = Diagnostic::error(name.span, unknown(&name.text));
-            return Err(error.help(instead(&name.text)));
+            return Err(Box::new(error.help(instead(&name.text))));
         };
         let mut factor = Dimension(*powers);
         factor

@@ -86,8 +86,16 @@ impl Lowering<'_> {
         self.report(error.help("write `q1 = …;` or `der(q1) = …;`"))
     }
 
-    /// Reads a part of the picture.
+    /// Reads a part of the picture. Its numbers are sizes in units of their own.
     pub fn draw(&mut self, shape: Drawing, arguments: &[Expr], span: Span) -> Option<()> {
+        self.evaluator.gains = true;
+        let drawn = self.shape(shape, arguments, span);
+        self.evaluator.gains = false;
+        self.mechanism.shapes.push(drawn?);
+        Some(())
+    }
+
+    fn shape(&mut self, shape: Drawing, arguments: &[Expr], span: Span) -> Option<Shape> {
         let (centre, radius) = match (shape, arguments) {
             (Drawing::Circle, [centre, radius]) => (std::slice::from_ref(centre), Some(radius)),
             (Drawing::Circle, _) => {
@@ -100,22 +108,20 @@ impl Lowering<'_> {
         for argument in centre {
             points.extend(self.points(argument)?);
         }
-        let shape = match (shape, points.as_slice(), radius) {
-            (Drawing::Line, [_, _, ..], _) => Shape::Line(points),
-            (Drawing::Polygon, [_, _, _, ..], _) => Shape::Polygon(points),
-            (Drawing::Trace, [point], _) => Shape::Trace(*point),
+        match (shape, points.as_slice(), radius) {
+            (Drawing::Line, [_, _, ..], _) => Some(Shape::Line(points)),
+            (Drawing::Polygon, [_, _, _, ..], _) => Some(Shape::Polygon(points)),
+            (Drawing::Trace, [point], _) => Some(Shape::Trace(*point)),
             (Drawing::Circle, [centre], Some(radius)) => {
                 let length = self.evaluator.scalar(radius, "a radius")?;
                 self.drawable(&[length], radius.span)?;
-                Shape::Circle(*centre, length.id)
+                Some(Shape::Circle(*centre, length.id))
             }
-            _ => return self.wrong_points(shape, points.len(), span),
-        };
-        self.mechanism.shapes.push(shape);
-        Some(())
+            _ => self.wrong_points(shape, points.len(), span),
+        }
     }
 
-    fn wrong_points(&mut self, shape: Drawing, found: usize, span: Span) -> Option<()> {
+    fn wrong_points(&mut self, shape: Drawing, found: usize, span: Span) -> Option<Shape> {
         let wants = match shape {
             Drawing::Line => "a line has two or more points",
             Drawing::Polygon => "a polygon has three or more points",

@@ -76,7 +76,7 @@ impl Lowering<'_> {
             self.evaluator.spend(range.index.span)?;
             let mark = self.evaluator.scope.open();
             if let Err(diagnostic) = self.evaluator.scope.declare(&range.index, Kind::Index) {
-                return self.report(diagnostic);
+                return self.report(*diagnostic);
             }
             let id = self.evaluator.graph.integer(i);
             let index = Value::Scalar(Scalar {

@@ -3,10 +3,12 @@
 //! In:  dimensions of symbols, from [`super::si`].
 //! Out: [`Unit`]s that formulas are checked with, and their names in messages.
 //!
-//! A number has no unit: as a factor it is dimensionless, as a term, default or
-//! start value it takes the unit of what it stands beside (`x - 0.1`, `param L: m =
-//! 0.5`). A symbol declared without unit, and `t` (so that `sin(2*t)` can be
-//! written), switch the check off for every formula they take part in.
+//! A number has no unit of its own: it takes that of what it stands beside (`x -
+//! 0.1`, `x + 0.5*cos(phi)`, `param L: m = 0.5`), and as a factor of what has a unit
+//! it is dimensionless (`1/2*m*v^2`). In the law of an input and in the picture,
+//! formulas with numbers are not checked at all (`10 - 2*der(q1)`). A symbol
+//! declared without unit, and `t` (so that `sin(2*t)` can be written), switch the
+//! check off for every formula they take part in.
 
 use super::si;
 

@@ -66,6 +66,22 @@ impl Value {
         }
     }
 
+    /// The scalar, if it is one.
+    pub fn as_scalar(&self) -> Option<Scalar> {
+        match self {
+            Value::Scalar(scalar) => Some(*scalar),
+            _ => None,
+        }
+    }
+
+    /// The components, if it is a vector.
+    pub fn as_vector(&self) -> Option<&Vec<Scalar>> {
+        match self {
+            Value::Vector(parts) => Some(parts),
+            _ => None,
+        }
+    }
+
     /// Its scalars in order; those of a matrix row by row.
     pub fn scalars(&self) -> Vec<Scalar> {
         match self {

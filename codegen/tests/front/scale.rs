@@ -8,9 +8,9 @@ use std::time::Instant;
 fn description(tokens: usize) -> String {
     let mut statements = String::from("param a = 1; let x0 = q;");
     for i in 0..tokens / 25 {
-        let _ = write!(
+        let _ = writeln!(
             statements,
-            "let x{} = a*sin(x{i} + {i}) - (w + t)^2/3;\n",
+            "let x{} = a*sin(x{i} + {i}) - (w + t)^2/3;",
             i + 1
         );
     }

@@ -183,3 +183,29 @@ fn units_that_hide_a_factor_are_refused() {
     refuse_saying(&with("param a: Nm = 1;"), "`Nm` is written `N*m`");
     refuse_saying(&with("param a: kN = 1;"), "`kN` is not an SI unit");
 }
+
+#[test]
+fn zero_fits_every_unit() {
+    accept(&with(
+        "let I = [[J, 0, 0], [0, 2*J, 0], [0, 0, J]]; let w = omega(rotx(phi)); kinetic 1/2*dot(w, I*w);
+        output a: m = norm(rotz(phi)*[L, 0, 0] + [0, 0, x]); constraint [x, 0*L] = 0;",
+    ));
+}
+
+#[test]
+fn numbers_in_the_picture_are_sizes() {
+    accept(&with(
+        "draw line([x, 0], [x + 0.5*sin(phi), 0.5*cos(phi)]); draw circle([x + 2*phi, 0], 0.1 + L);",
+    ));
+}
+
+#[test]
+fn a_number_takes_the_unit_of_what_it_stands_beside() {
+    accept(&with(
+        "output a: m = x - 0.1 + 0.5*sin(phi); output b: m = (x*[1, 0, 0] + rotz(phi)*[0.1, 0.2, 0]).y; constraint x = 2*phi;",
+    ));
+    let message = "a number that is meant in m is declared: `const a: m = …;`";
+    refuse_saying(&with("let a = x + sin(phi);"), message);
+    refuse_saying(&with("let a = x + 45*deg;"), message);
+    refuse_saying(&with("let a = L*x + 2*L;"), "this sum mixes m^2 and m");
+}

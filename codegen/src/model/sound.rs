@@ -1,0 +1,78 @@
+//! What every value has to satisfy: units that agree, numbers that are finite.
+
+use super::evaluate::Evaluator;
+use super::unit::{Dimension, NONE, Unit};
+use super::value::Scalar;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::expr::{ExprId, Node};
+
+/// The largest exponent that is kept as a product.
+const LARGEST_EXPONENT: i32 = 1_000_000;
+
+impl Evaluator {
+    /// The unit that two sides have in common.
+    pub fn same_unit(&mut self, sides: [(Scalar, Span); 2], what: &str) -> Option<Unit> {
+        let [(left, left_span), (right, right_span)] = sides;
+        match left.unit.meet(right.unit) {
+            Ok(unit) => Some(unit),
+            Err((left, right)) => self.mixed(what, [(left, left_span), (right, right_span)]),
+        }
+    }
+
+    /// Says that two units stand where one belongs.
+    pub fn mixed<T>(&mut self, what: &str, sides: [(Dimension, Span); 2]) -> Option<T> {
+        let [(left, left_span), (right, right_span)] = sides;
+        let message = format!("{what} mixes {} and {}", left.text(), right.text());
+        let error = Diagnostic::error(right_span, message).labelled(right.said());
+        let unit = match (left, right) {
+            (NONE, unit) | (unit, NONE) => Some(unit.text()),
+            _ => None,
+        };
+        let declare =
+            |unit| format!("a number that is meant in {unit} is declared: `const a: {unit} = …;`");
+        self.report(
+            error
+                .also(left_span, left.said())
+                .maybe_help(unit.map(declare)),
+        )
+    }
+
+    /// Refuses a unit where an angle or ratio belongs.
+    pub fn pure(&mut self, unit: Unit, what: &str, span: Span) -> Option<()> {
+        match unit {
+            Unit::Known(dimension) if !unit.is_pure() => {
+                let message = format!("{what} is in {}", dimension.text());
+                let error = Diagnostic::error(span, message);
+                self.report(error.help("it has to be an angle (rad) or a ratio without unit"))
+            }
+            _ => Some(()),
+        }
+    }
+
+    /// Refuses an expression that is no number of this world.
+    pub fn sound(&mut self, id: ExprId, span: Span) -> Option<ExprId> {
+        let (finite, tame) = match self.graph.node(id) {
+            Node::Number(value) => (value.is_finite(), true),
+            Node::Sum(constant, terms) => {
+                let weights = terms.iter().all(|(_, weight)| weight.is_finite());
+                (weights && constant.is_finite(), true)
+            }
+            Node::Product(factors) => (
+                true,
+                factors
+                    .iter()
+                    .all(|(_, exponent)| exponent.abs() <= LARGEST_EXPONENT),
+            ),
+            _ => (self.facts(id).value.is_none_or(f64::is_finite), true),
+        };
+        if !finite {
+            let message = "this is not a finite number";
+            return self.report(Diagnostic::error(span, message));
+        }
+        if !tame {
+            let message = format!("this contains a power above {LARGEST_EXPONENT}");
+            return self.report(Diagnostic::error(span, message));
+        }
+        Some(id)
+    }
+}
