@@ -62,7 +62,6 @@ pub struct Reproduce {
 
 /// Arguments of `simulate`.
 #[derive(Args, Debug)]
-#[command(allow_negative_numbers = true)]
 #[command(after_help = "\
 Values are in SI units and may be formulas of constants: 80*deg, pi/4, 1/100.
 
@@ -75,16 +74,16 @@ pub struct Simulate {
     /// The mechanism: a name of `bricard list`
     pub name: String,
     /// Time at which to stop, in seconds
-    #[arg(long, value_name = "T", default_value = "10", value_parser = formula::number)]
+    #[arg(long, value_name = "T", default_value = "10", allow_hyphen_values = true, value_parser = formula::number)]
     pub until: f64,
     /// Fixed step, in seconds [default of rk4: 0.01]
-    #[arg(long, value_name = "h", value_parser = formula::number, conflicts_with_all = ["rtol", "atol"])]
+    #[arg(long, value_name = "h", allow_hyphen_values = true, value_parser = formula::number, conflicts_with_all = ["rtol", "atol"])]
     pub step: Option<f64>,
     /// Relative error per step that dp5 and dop853 may make [default: 1e-9]
-    #[arg(long, value_name = "r", value_parser = formula::number)]
+    #[arg(long, value_name = "r", allow_hyphen_values = true, value_parser = formula::number)]
     pub rtol: Option<f64>,
     /// Absolute error per step that they may make [default: the value of --rtol]
-    #[arg(long, value_name = "a", value_parser = formula::number)]
+    #[arg(long, value_name = "a", allow_hyphen_values = true, value_parser = formula::number)]
     pub atol: Option<f64>,
     /// Integrator [default: rk4 with --step, else dop853]
     #[arg(long, value_enum)]
@@ -100,8 +99,9 @@ pub struct Simulate {
     /// differentiated once more (less accurate; for comparison)
     #[arg(long)]
     pub no_branch_rows: bool,
-    /// Distance of the rows in time, in seconds [default: a row after each step]
-    #[arg(long, value_name = "dt", value_parser = formula::number)]
+    /// Distance of the rows in time, in seconds [default: a row after each step;
+    /// T/1000 for a plot by an adaptive method]
+    #[arg(long, value_name = "dt", allow_hyphen_values = true, value_parser = formula::number)]
     pub every: Option<f64>,
     /// Change a parameter, or hold an input at a value
     #[arg(long, value_name = "NAME=VALUE", value_parser = formula::assignment)]

@@ -5,7 +5,7 @@ use crate::mechanism::find;
 use crate::output::print;
 use crate::table::{Align, headed};
 
-/// Prints name, sizes and first doc line of each mechanism.
+/// Prints name, sizes and the first sentence about each mechanism.
 pub fn list() -> Result<(), CommandError> {
     let row = |name: &&str| {
         let structure = find(name)?.structure();
@@ -13,7 +13,7 @@ pub fn list() -> Result<(), CommandError> {
             name.to_string(),
             structure.coordinates.len().to_string(),
             structure.constraints.len().to_string(),
-            first_line(structure.docs).to_string(),
+            first_sentence(structure.docs),
         ])
     };
     let rows: Vec<_> = bricard::NAMES
@@ -25,10 +25,31 @@ pub fn list() -> Result<(), CommandError> {
     print(&headed(&heading, &rows, &align))
 }
 
-/// The first line that says something.
-pub fn first_line(docs: &str) -> &str {
-    docs.lines()
+/// The first sentence, on one line.
+pub fn first_sentence(docs: &str) -> String {
+    let lines = docs
+        .lines()
         .map(str::trim)
-        .find(|line| !line.is_empty())
-        .unwrap_or("")
+        .skip_while(|line| line.is_empty());
+    let paragraph: Vec<&str> = lines.take_while(|line| !line.is_empty()).collect();
+    let paragraph = paragraph.join(" ");
+    match paragraph.split_once(". ") {
+        Some((first, _)) => format!("{first}."),
+        None => paragraph,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::first_sentence;
+
+    #[test]
+    fn the_first_sentence_ends_at_its_full_stop() {
+        assert_eq!(
+            first_sentence("\n a linkage\n of bars. It moves.\n\nMore."),
+            "a linkage of bars."
+        );
+        assert_eq!(first_sentence("a linkage"), "a linkage");
+        assert_eq!(first_sentence(""), "");
+    }
 }

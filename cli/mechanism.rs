@@ -9,6 +9,7 @@
 use crate::error::CommandError;
 use crate::plot::Shape;
 use crate::run::{Plan, Report, RowSink, Stopped, run};
+use crate::show::freedom;
 use bricard_runtime::{
     Canvas, Initial, Interface, Mechanism, Settings, Solver, Start, State, Structure, Visitor,
     assemble,
@@ -129,7 +130,7 @@ impl<const N: usize, const R: usize> AnyMechanism for Sized<N, R> {
 
     fn freedom(&self) -> String {
         if R == 0 {
-            return format!("{N} degrees of freedom");
+            return freedom(N);
         }
         let mechanism: &dyn Whole<N, R> = &*self.mechanism;
         let state = match assemble(mechanism, &self.start(), 0.0) {
@@ -138,9 +139,9 @@ impl<const N: usize, const R: usize> AnyMechanism for Sized<N, R> {
         };
         match Solver::new(Settings::default()).on(mechanism).rank(&state) {
             Ok(rank) => format!(
-                "at the start {} of {R} constraint equations are independent: {} degrees of freedom",
+                "at the start {} of {R} constraint equations are independent: {}",
                 rank.rank,
-                N - rank.rank
+                freedom(N - rank.rank)
             ),
             Err(error) => format!("the rank at the start can't be decided: {error}"),
         }

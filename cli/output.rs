@@ -4,9 +4,12 @@
 //! Out: standard output, standard error, CSV files.
 
 use crate::error::CommandError;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+
+/// What messages call standard output.
+const STANDARD_OUTPUT: &str = "standard output";
 
 /// Prints text to standard output.
 ///
@@ -27,98 +30,110 @@ pub fn say(line: &str) {
 }
 
 /// Finds out whether a file can be written, before anything is computed for it.
+/// What it holds stays as it is until there is something to write.
 ///
 /// # Errors
 ///
 /// [`CommandError::Write`].
 pub fn probe(path: &Path) -> Result<(), CommandError> {
-    let opened = File::options().append(true).create(true).open(path);
-    opened
-        .map(|_| ())
-        .map_err(|error| CommandError::write(path, error))
+    let failed = |error| CommandError::write(path, error);
+    let is_new = !path.exists();
+    File::options()
+        .append(true)
+        .create(true)
+        .open(path)
+        .map_err(failed)?;
+    if is_new {
+        fs::remove_file(path).map_err(failed)
+    } else {
+        Ok(())
+    }
 }
 
-/// What messages call standard output.
-const STANDARD_OUTPUT: &str = "standard output";
-
-/// Rows of numbers on their way to a CSV file.
+/// Rows of numbers on their way to a CSV file or to standard output.
 pub struct CsvWriter {
-    out: Box<dyn Write>,
-    path: PathBuf,
+    path: Option<PathBuf>,
+    /// Opened when the first row comes, so that a run that can't begin harms no
+    /// file of the same name.
+    out: Option<Box<dyn Write>>,
+    header: String,
     rows: usize,
     line: String,
 }
 
 impl CsvWriter {
-    /// Opens a file, which is emptied, or standard output for `None` and `-`,
-    /// and writes the header.
+    /// Rows for a file, which is replaced when the first one comes, or for
+    /// standard output (`None`, `-`).
     ///
     /// # Errors
     ///
-    /// [`CommandError::Write`].
-    pub fn create(path: Option<&Path>, header: &[String]) -> Result<Self, CommandError> {
+    /// [`CommandError::Write`] if the file can't be written.
+    pub fn new(path: Option<&Path>, header: &[String]) -> Result<Self, CommandError> {
         let path = path.filter(|path| *path != Path::new("-"));
-        let (out, path): (Box<dyn Write>, PathBuf) = match path {
-            Some(path) => {
-                let file = File::create(path).map_err(|error| CommandError::write(path, error))?;
-                (Box::new(BufWriter::new(file)), path.to_path_buf())
-            }
-            None => (
-                Box::new(BufWriter::new(io::stdout())),
-                PathBuf::from(STANDARD_OUTPUT),
-            ),
-        };
-        let mut writer = Self {
-            out,
+        path.map(probe).transpose()?;
+        let (path, header) = (path.map(Path::to_path_buf), header.join(",") + "\n");
+        Ok(Self {
             path,
+            out: None,
+            header,
             rows: 0,
-            line: header.join(","),
-        };
-        writer.end_line()?;
-        Ok(writer)
+            line: String::new(),
+        })
     }
 
     /// Writes a row.
     ///
     /// # Errors
     ///
-    /// [`CommandError::Write`]; what was written before stays.
+    /// [`CommandError::WriteRows`]; what was written before stays.
     pub fn row(&mut self, values: &[f64]) -> Result<(), CommandError> {
+        self.line.clear();
         for (i, value) in values.iter().enumerate() {
             if i > 0 {
                 self.line.push(',');
             }
             self.line.push_str(&exact(*value));
         }
-        self.end_line()?;
+        self.line.push('\n');
+        self.write_line().map_err(|error| self.failed(error))?;
         self.rows += 1;
         Ok(())
     }
 
-    /// Hands the last rows over. Returns how many there are.
+    fn write_line(&mut self) -> io::Result<()> {
+        let out = match &mut self.out {
+            Some(out) => out,
+            None => {
+                let sink: Box<dyn Write> = match &self.path {
+                    Some(path) => Box::new(File::create(path)?),
+                    None => Box::new(io::stdout()),
+                };
+                let out = self.out.insert(Box::new(BufWriter::new(sink)));
+                out.write_all(self.header.as_bytes())?;
+                out
+            }
+        };
+        out.write_all(self.line.as_bytes())
+    }
+
+    /// Hands the last rows over.
     ///
     /// # Errors
     ///
-    /// [`CommandError::Write`].
-    pub fn finish(&mut self) -> Result<usize, CommandError> {
-        self.out.flush().map_err(|error| self.failed(error))?;
-        Ok(self.rows)
-    }
-
-    fn end_line(&mut self) -> Result<(), CommandError> {
-        self.line.push('\n');
-        let written = self.out.write_all(self.line.as_bytes());
-        self.line.clear();
-        written.map_err(|error| self.failed(error))
+    /// As [`row`](Self::row).
+    pub fn finish(&mut self) -> Result<(), CommandError> {
+        let flushed = self.out.as_mut().map_or(Ok(()), |out| out.flush());
+        flushed.map_err(|error| self.failed(error))
     }
 
     fn failed(&self, error: io::Error) -> CommandError {
-        CommandError::write_rows(&self.path, self.rows, error)
+        CommandError::write_rows(Path::new(&self.destination()), self.rows, error)
     }
 
     /// Where the rows go, as a message names it.
     pub fn destination(&self) -> String {
-        self.path.display().to_string()
+        let path = self.path.as_ref().map(|path| path.display().to_string());
+        path.unwrap_or_else(|| STANDARD_OUTPUT.to_string())
     }
 }
 

@@ -1,12 +1,18 @@
 //! The tests of the whole: one binary, a module for each kind of claim.
 
+mod command;
 mod compiled;
 mod dense;
 mod derivation;
 mod dual;
 mod golden;
+mod landing;
 mod layering;
 mod library;
+mod motion;
+mod order;
 mod random;
+mod reduction;
+mod reference;
 mod source;
 mod translation;

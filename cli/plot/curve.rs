@@ -6,6 +6,13 @@ use super::{Scale, Series};
 /// Curves that differ by less than this fraction of the panel's range look the
 /// same.
 const SAME: f64 = 2e-3;
+/// The margin above and below the values, as a fraction of their range.
+const MARGIN: f64 = 0.06;
+/// The least range shown, as a fraction of the values: what is nearly constant
+/// should look so.
+const FLAT: f64 = 1e-3;
+/// The same for what is constant altogether.
+const CONSTANT: f64 = 0.1;
 /// Points of a curve before it is thinned: about two for each pixel.
 const POINTS: usize = 1600;
 
@@ -66,8 +73,10 @@ fn range(scaled: &[Vec<f64>], scale: Scale) -> (f64, f64) {
     match scale {
         Scale::Linear if low > high => (0.0, 1.0),
         Scale::Linear => {
-            let middle = low.abs().max(high.abs());
-            let margin = (0.06 * (high - low)).max(1e-6 * middle).max(1e-300);
+            let size = low.abs().max(high.abs());
+            let flat = if low == high { CONSTANT } else { FLAT };
+            let least = if size == 0.0 { 1.0 } else { flat * size };
+            let margin = (MARGIN * (high - low)).max(0.5 * (least - (high - low)));
             (low - margin, high + margin)
         }
         Scale::Logarithmic {

@@ -12,7 +12,7 @@ mod style;
 mod svg;
 
 pub use frames::{Frame, Shape, frames};
-pub use panel::panels;
+pub use panel::{Times, panels};
 
 /// One diagram over time.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +31,8 @@ pub enum Scale {
     /// Evenly, over the range of the values.
     Linear,
     /// By powers of ten, from `10^low` to `10^high` or further up if values lie
-    /// there. Smaller values, zero among them, are drawn at the lower edge.
+    /// there. Smaller values, zero among them, are drawn at the lower edge. Values
+    /// are drawn as points: round-off has no path from one to the next.
     Logarithmic {
         /// Exponent at the lower edge.
         low: i32,

@@ -1,7 +1,7 @@
 //! Panels of curves over time, one below the other.
 
 use super::curve::{Curve, curves};
-use super::style::{DETAIL, FONT, GRID, HEADING, INK, STROKE, TEXT, colour};
+use super::style::{DETAIL, DOT, FONT, GRID, HEADING, INK, MARK, STROKE, TEXT, colour};
 use super::svg::{self, Area, Drawn};
 use super::{Panel, Scale};
 use crate::error::CommandError;
@@ -22,7 +22,18 @@ const LABELS: u32 = 78;
 /// Width of a letter of the legend (pixels), generously.
 const LETTER: u32 = 9;
 /// Lines of the grid, about.
-const TICKS: usize = 5;
+const TICKS: usize = 6;
+
+/// A diagram's times: what it shows, and what is marked.
+#[derive(Clone, Copy, Debug)]
+pub struct Times<'a> {
+    /// The time of each value (s).
+    pub values: &'a [f64],
+    /// Times to mark by vertical lines (s).
+    pub marks: &'a [f64],
+    /// What happens at the marks.
+    pub marked: &'a str,
+}
 
 /// Draws panels with a common axis of time (s).
 ///
@@ -32,24 +43,29 @@ const TICKS: usize = 5;
 pub fn panels(
     path: &Path,
     title: &str,
-    times: &[f64],
+    times: Times,
     panels: &[Panel],
 ) -> Result<(), CommandError> {
     let prepared: Vec<_> = panels
         .iter()
-        .map(|panel| curves(times, &panel.series, panel.scale))
+        .map(|panel| curves(times.values, &panel.series, panel.scale))
         .collect();
     let names = prepared
         .iter()
         .flat_map(|(curves, _)| curves)
         .map(|c| c.name.chars().count());
-    let longest = u32::try_from(names.max().unwrap_or(0)).unwrap_or(0);
+    let marked = if times.marks.is_empty() {
+        0
+    } else {
+        times.marked.chars().count()
+    };
+    let longest = u32::try_from(names.max().unwrap_or(0).max(marked)).unwrap_or(0);
     let legend = 56 + LETTER * longest.min(30);
     let count = u32::try_from(panels.len()).unwrap_or(1);
     let size = (WIDTH + legend, TITLE + PANEL * count + TIME_AXIS);
     let time = (
-        times.first().copied().unwrap_or(0.0),
-        times.last().copied().unwrap_or(1.0),
+        times.values.first().copied().unwrap_or(0.0),
+        times.values.last().copied().unwrap_or(1.0),
     );
     svg::write(path, size, |root| {
         let (head, mut rest) = root.split_vertically(TITLE * DETAIL);
@@ -59,8 +75,11 @@ pub fn panels(
             let height = if last { PANEL + TIME_AXIS } else { PANEL };
             let (area, below) = rest.split_vertically(height * DETAIL);
             let (left, right) = area.split_horizontally(WIDTH * DETAIL);
-            diagram(&left, panel, curves, (time, *range), last)?;
+            diagram(&left, panel, curves, (time, *range), (times.marks, last))?;
             explain(&right, curves)?;
+            if i == 0 && !times.marks.is_empty() {
+                explain_marks(&right, curves.len(), times.marked)?;
+            }
             rest = below;
         }
         Ok(())
@@ -85,7 +104,7 @@ fn diagram(
     panel: &Panel,
     curves: &[Curve],
     (time, range): (Range, Range),
-    last: bool,
+    (marks, last): (&[f64], bool),
 ) -> Drawn {
     let time = (
         time.0,
@@ -96,8 +115,8 @@ fn diagram(
         },
     );
     let mut chart = ChartBuilder::on(area)
-        .margin_top(10 * DETAIL)
-        .margin_bottom(6 * DETAIL)
+        .margin_top(12 * DETAIL)
+        .margin_bottom(10 * DETAIL)
         .margin_left(14 * DETAIL)
         .margin_right(8 * DETAIL)
         .set_label_area_size(LabelAreaPosition::Left, LABELS * DETAIL)
@@ -108,6 +127,7 @@ fn diagram(
         .build_cartesian_2d(time.0..time.1, range.0..range.1)?;
     let label = |y: &f64| match panel.scale {
         Scale::Linear => short(*y, range.1 - range.0),
+        Scale::Logarithmic { low, .. } if *y <= f64::from(low) => format!("≤{}", power_of_ten(*y)),
         Scale::Logarithmic { .. } => power_of_ten(*y),
     };
     let ticks = match panel.scale {
@@ -131,11 +151,34 @@ fn diagram(
         .y_label_formatter(&label)
         .x_label_formatter(&|t| short(*t, time.1 - time.0))
         .draw()?;
+    let line =
+        |t: f64| PathElement::new(vec![(t, range.0), (t, range.1)], MARK.stroke_width(DETAIL));
+    chart.draw_series(marks.iter().map(|t| line(*t)))?;
     for (i, curve) in curves.iter().enumerate() {
         let points = curve.points.iter().copied();
-        chart.draw_series(LineSeries::new(points, colour(i).stroke_width(STROKE)))?;
+        match panel.scale {
+            Scale::Linear => {
+                chart.draw_series(LineSeries::new(points, colour(i).stroke_width(STROKE)))?;
+            }
+            Scale::Logarithmic { .. } => {
+                chart.draw_series(points.map(|at| Circle::new(at, DOT, colour(i).filled())))?;
+            }
+        }
     }
     Ok(())
+}
+
+fn explain_marks(area: &Area, place: usize, text: &str) -> Drawn {
+    let anchor = Pos::new(HPos::Left, VPos::Center);
+    let style = TextStyle::from((FONT, TEXT).into_font())
+        .color(&INK)
+        .pos(anchor);
+    let y = 22 + 18 * u32::try_from(place).unwrap_or(0);
+    area.draw(&PathElement::new(
+        vec![px(20, y - 8), px(20, y + 8)],
+        MARK.stroke_width(DETAIL),
+    ))?;
+    area.draw(&Text::new(text.to_string(), px(40, y), style))
 }
 
 /// The legend, beside the diagram so that it hides nothing.
@@ -159,17 +202,18 @@ fn explain(area: &Area, curves: &[Curve]) -> Drawn {
 /// A number of an axis that spans a range, in as few digits as tell neighbours
 /// apart.
 fn short(value: f64, range: f64) -> String {
-    let digits = (2.0 - range.log10()).floor().clamp(0.0, 12.0) as usize;
-    if range > 1e5 || range < 1e-9 {
-        return format!("{value:.1e}");
+    if value.abs() < 1e-9 * range {
+        return "0".to_string();
     }
+    if range > 1e5 || range < 1e-6 {
+        return format!("{value:.1e}").replace(".0e", "e").replace('-', "−");
+    }
+    let digits = (2.0 - range.log10()).floor().clamp(0.0, 12.0) as usize;
     let text = format!("{value:.digits$}");
-    let text = if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        &text
+    let text = match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.'),
+        false => &text,
     };
-    let text = if text == "-0" { "0" } else { text };
     text.replace('-', "−")
 }
 

@@ -11,12 +11,16 @@ pub const TEXT: u32 = 15 * DETAIL;
 pub const HEADING: u32 = 18 * DETAIL;
 /// Width of curves.
 pub const STROKE: u32 = 6;
+/// Radius of points.
+pub const DOT: u32 = 4;
 /// The family of all text.
 pub const FONT: &str = "sans-serif";
 /// Text and axes.
 pub const INK: RGBColor = RGBColor(38, 38, 38);
 /// Lines of the grid.
 pub const GRID: RGBColor = RGBColor(224, 224, 224);
+/// Marks of time.
+pub const MARK: RGBColor = RGBColor(190, 190, 190);
 /// What has been.
 pub const GHOST: RGBColor = RGBColor(196, 204, 212);
 

@@ -4,7 +4,7 @@ use super::reference::{self, End};
 use crate::column::Column;
 use crate::error::CommandError;
 use crate::mechanism::{AnyMechanism, find};
-use crate::run::{Plan, Report, RowSink};
+use crate::run::{Plan, Report, RowSink, Stopped};
 use bricard_runtime::{Form, Options};
 
 /// The paper's step (s).
@@ -128,6 +128,17 @@ pub fn perform(experiment: &'static Experiment) -> Result<Outcome, CommandError>
         rows: rows.0,
         report,
     })
+}
+
+/// A failed run, under the name of its experiment.
+pub fn named(experiment: &Experiment, stopped: Stopped) -> CommandError {
+    match stopped.error {
+        CommandError::Run { reason, kept } => CommandError::Run {
+            reason: format!("{}: {reason}", experiment.title),
+            kept,
+        },
+        error => error,
+    }
 }
 
 /// The plan of an experiment with a step (s) and a form of the equations.

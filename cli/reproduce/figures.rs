@@ -3,7 +3,7 @@
 use super::experiment::Outcome;
 use crate::error::CommandError;
 use crate::figure::{ERRORS, coordinates, series};
-use crate::plot::{Frame, Panel, frames, panels};
+use crate::plot::{Frame, Panel, Times, frames, panels};
 use std::path::Path;
 
 /// Configurations that are drawn of the first second.
@@ -41,12 +41,23 @@ pub fn draw(folder: &Path, outcomes: &[Outcome]) -> Result<Vec<String>, CommandE
             .iter()
             .filter_map(|row| row.first().copied())
             .collect();
-        panels(&path, title, &times, &diagrams(outcome))?;
+        let marks: Vec<f64> = outcome
+            .report
+            .passages
+            .iter()
+            .map(|passage| passage.t)
+            .collect();
+        let times = Times {
+            values: &times,
+            marks: &marks,
+            marked: "singular position",
+        };
+        panels(&path, title, times, &diagrams(outcome))?;
         written.push(path.display().to_string());
     }
     if let Some(outcome) = outcomes.last() {
         let path = folder.join("figure_6_configurations.svg");
-        let title = "Fig. 6  Double four-bar: configurations in the first second";
+        let title = "Fig. 6  Double four-bar: configurations in the first second (faint: the 0.15 s before)";
         frames(&path, title, &configurations(outcome))?;
         written.push(path.display().to_string());
     }
@@ -58,14 +69,13 @@ fn diagrams(outcome: &Outcome) -> Vec<Panel> {
     let structure = outcome.mechanism.structure();
     let mut panels = coordinates(structure, &outcome.rows);
     let first = 1 + 2 * structure.coordinates.len();
-    panels.push(Panel {
-        axis: "constraint error".to_string(),
+    let errors = |axis: &str, name: &str, column| Panel {
+        axis: axis.to_string(),
         scale: ERRORS,
-        series: vec![
-            series("positions [m]".to_string(), first, &outcome.rows),
-            series("velocities [m/s]".to_string(), first + 1, &outcome.rows),
-        ],
-    });
+        series: vec![series(name.to_string(), column, &outcome.rows)],
+    };
+    panels.push(errors("position error [m]", "max |g|", first));
+    panels.push(errors("velocity error [m/s]", "max |dg/dt|", first + 1));
     panels
 }
 

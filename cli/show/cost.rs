@@ -12,7 +12,11 @@ type Wanted = Vec<(Slot, ExprId)>;
 pub fn costs(mechanism: &mut Mechanism, equations: &Equations) -> String {
     let e = equations;
     let mut functions = vec![(
-        "an acceleration (M, p1, G, p2)",
+        if e.jacobian.is_empty() {
+            "an acceleration (M, p1)"
+        } else {
+            "an acceleration (M, p1, G, p2)"
+        },
         [
             matrix("M", &e.mass),
             vector("p1", &e.force),

@@ -14,7 +14,7 @@ mod sections;
 use crate::arguments::Show;
 use crate::check::read;
 use crate::error::CommandError;
-use crate::list::first_line;
+use crate::list::first_sentence;
 use crate::mechanism::find;
 use crate::output::print;
 use bricard_codegen::expr::{Notation, Symbol};
@@ -85,19 +85,24 @@ impl Subject {
     }
 }
 
+/// A number of degrees of freedom in words.
+pub fn freedom(n: usize) -> String {
+    format!("{n} degree{} of freedom", if n == 1 { "" } else { "s" })
+}
+
 fn heading(mechanism: &Mechanism, subject: &Subject) -> String {
     let (n, r) = (mechanism.coordinates.len(), mechanism.constraints.len());
     let mut lines = vec![
-        format!("{}: {}", mechanism.name, first_line(&mechanism.docs)),
+        format!("{}: {}", mechanism.name, first_sentence(&mechanism.docs)),
         format!("from {}", subject.file),
         format!("{n} coordinates, {r} constraint equations"),
     ];
     lines.push(match &subject.start {
         Some(start) => start.clone(),
-        None if r == 0 => format!("{n} degrees of freedom"),
+        None if r == 0 => freedom(n),
         None => format!(
-            "{} degrees of freedom, if the constraint equations are independent",
-            n.saturating_sub(r)
+            "{} if the constraint equations are independent",
+            freedom(n.saturating_sub(r))
         ),
     });
     lines.push(String::new());
@@ -107,7 +112,7 @@ fn heading(mechanism: &Mechanism, subject: &Subject) -> String {
         } else {
             &format!(" ({})", coordinate.unit)
         };
-        let docs = first_line(&coordinate.docs);
+        let docs = first_sentence(&coordinate.docs);
         lines.push(
             format!("q[{}] is {}{unit}  {docs}", i + 1, coordinate.name)
                 .trim_end()

@@ -12,6 +12,10 @@ const STEP: f64 = 0.01;
 /// Relative tolerance of an adaptive method, unless one is given.
 const TOLERANCE: f64 = 1e-9;
 
+/// Intervals of a plot, unless their length is given: the steps of an adaptive
+/// method are too long for a smooth curve.
+const PLOTTED: f64 = 1000.0;
+
 /// The plan of a run.
 ///
 /// # Errors
@@ -44,6 +48,9 @@ pub fn plan(arguments: &Simulate, columns: Vec<Column>) -> Result<Plan, CommandE
         stabilisation: arguments.stabilisation,
         branch_rows: !arguments.no_branch_rows,
     };
+    let adaptive = matches!(options.pace, Pace::Adaptive { .. });
+    let smooth = adaptive && arguments.plot.is_some() && arguments.until > 0.0;
+    let every = every.or(smooth.then_some(arguments.until / PLOTTED));
     Ok(Plan {
         options,
         every,

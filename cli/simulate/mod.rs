@@ -13,10 +13,9 @@ use crate::error::CommandError;
 use crate::figure::overview;
 use crate::mechanism::find;
 use crate::output::{CsvWriter, probe, say};
-use crate::plot::panels;
+use crate::plot::{Times, panels};
 use crate::run::{RowSink, Stopped};
 use bricard_runtime::Structure;
-use std::path::Path;
 
 /// Simulates a mechanism.
 pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
@@ -32,8 +31,10 @@ pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
         Ok(report) => Some(report),
         Err(stopped) => stopped.report.as_deref(),
     };
-    let kept = record.close(arguments, structure, &columns)?;
-    if let Some(report) = report {
+    let passages = report.map_or(&[][..], |report| &report.passages);
+    let passages: Vec<f64> = passages.iter().map(|passage| passage.t).collect();
+    let kept = record.close(arguments, &passages, structure, &columns)?;
+    if let Some(report) = report.filter(|report| result.is_ok() || report.steps > 0) {
         say(summary::summary(report, structure).trim_end());
     }
     match result {
@@ -63,7 +64,7 @@ impl Record {
             probe(plot)?;
         }
         let wanted = arguments.out.is_some() || arguments.plot.is_none();
-        let open = || CsvWriter::create(arguments.out.as_deref(), &header(structure, columns));
+        let open = || CsvWriter::new(arguments.out.as_deref(), &header(structure, columns));
         let csv = wanted.then(open).transpose()?;
         let rows = arguments.plot.is_some().then(Vec::new);
         Ok(Self {
@@ -79,6 +80,7 @@ impl Record {
     fn close(
         &mut self,
         arguments: &Simulate,
+        passages: &[f64],
         structure: &Structure,
         columns: &[Column],
     ) -> Result<String, CommandError> {
@@ -87,12 +89,25 @@ impl Record {
             csv.finish()?;
             places.push(csv.destination());
         }
-        if let (Some(path), Some(rows)) = (&arguments.plot, &self.rows) {
-            draw(path, &arguments.name, structure, columns, rows)?;
+        if let (Some(path), Some(rows)) = (&arguments.plot, &self.rows)
+            && self.count > 0
+        {
+            let values: Vec<f64> = rows.iter().filter_map(|row| row.first().copied()).collect();
+            let times = Times {
+                values: &values,
+                marks: passages,
+                marked: "singular position",
+            };
+            panels(
+                path,
+                &arguments.name,
+                times,
+                &overview(structure, columns, rows),
+            )?;
             places.push(path.display().to_string());
         }
         Ok(match self.count {
-            0 => "\nno rows were computed".to_string(),
+            0 => "\nno rows were computed, and nothing was written".to_string(),
             count => format!(
                 "\nthe {count} rows computed before, up to t = {} s, are kept: {}",
                 self.last,
@@ -114,15 +129,4 @@ impl RowSink for Record {
         self.last = values.first().copied().unwrap_or(0.0);
         Ok(())
     }
-}
-
-fn draw(
-    path: &Path,
-    name: &str,
-    structure: &Structure,
-    columns: &[Column],
-    rows: &[Vec<f64>],
-) -> Result<(), CommandError> {
-    let times: Vec<f64> = rows.iter().filter_map(|row| row.first().copied()).collect();
-    panels(path, name, &times, &overview(structure, columns, rows))
 }

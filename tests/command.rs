@@ -1,0 +1,451 @@
+//! The command, run as a user would: status, messages, what is written and what
+//! is left alone.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+
+/// What a run of the command gave.
+struct Ran {
+    status: Option<i32>,
+    out: String,
+    err: String,
+}
+
+fn bricard(arguments: &[&str]) -> Ran {
+    let output = Command::new(env!("CARGO_BIN_EXE_bricard"))
+        .args(arguments)
+        .output();
+    read(output.expect("the command starts"))
+}
+
+fn read(output: Output) -> Ran {
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    Ran {
+        status: output.status.code(),
+        out: text(&output.stdout),
+        err: text(&output.stderr),
+    }
+}
+
+/// An empty folder of one test's own.
+fn folder(test: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"))
+        .join("command")
+        .join(test);
+    let _nothing_there = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder can be made");
+    folder
+}
+
+/// Runs the command, which has to fail with a status and say all of `said`.
+fn check_refused(arguments: &[&str], status: i32, said: &[&str]) {
+    let ran = bricard(arguments);
+    assert_eq!(ran.status, Some(status), "{arguments:?} said {}", ran.err);
+    for part in said {
+        assert!(
+            ran.err.contains(part),
+            "{arguments:?} does not say `{part}`:\n{}",
+            ran.err
+        );
+    }
+    assert!(!ran.err.contains("panicked"), "{}", ran.err);
+}
+
+/// The columns of a CSV text by name.
+fn column(csv: &str, name: &str) -> Vec<f64> {
+    let mut lines = csv.lines();
+    let header: Vec<&str> = lines.next().unwrap_or("").split(',').collect();
+    let place = header.iter().position(|column| *column == name);
+    let place = place.unwrap_or_else(|| panic!("no column `{name}` in {header:?}"));
+    let cell = |line: &str| {
+        line.split(',')
+            .nth(place)
+            .and_then(|cell| cell.parse().ok())
+    };
+    lines.map(|line| cell(line).unwrap_or(f64::NAN)).collect()
+}
+
+#[test]
+fn every_mechanism_is_listed_with_its_sizes() {
+    let ran = bricard(&["list"]);
+    assert_eq!(ran.status, Some(0));
+    for name in bricard::NAMES {
+        assert!(
+            ran.out.lines().any(|line| line.starts_with(name)),
+            "{name}\n{}",
+            ran.out
+        );
+    }
+    let line = ran
+        .out
+        .lines()
+        .find(|line| line.starts_with("slider_crank "))
+        .unwrap_or("");
+    let cells: Vec<&str> = line.split_whitespace().take(3).collect();
+    assert_eq!(cells, ["slider_crank", "3", "2"]);
+}
+
+#[test]
+fn a_wrong_name_is_answered_with_the_nearest_and_all_there_are() {
+    let wrong: [(&[&str], &str, &str); 7] = [
+        (
+            &["simulate", "slider_cranc"],
+            "did you mean `slider_crank`?",
+            "double_four_bar",
+        ),
+        (
+            &["show", "slider_cranc"],
+            "did you mean `slider_crank`?",
+            "double_four_bar",
+        ),
+        (
+            &["simulate", "slider_crank", "--set", "L9=1"],
+            "did you mean `L1`?",
+            "J2",
+        ),
+        (
+            &["simulate", "slider_crank", "--start", "q9=1"],
+            "did you mean `q1`?",
+            "q3",
+        ),
+        (
+            &["simulate", "slider_crank", "--start", "der(q9)=1"],
+            "did you mean `der(q1)`?",
+            "der(q3)",
+        ),
+        (
+            &["simulate", "slider_crank", "--columns", "enrgy"],
+            "did you mean `energy`?",
+            "constraint_error",
+        ),
+        (
+            &["simulate", "slider_crank", "--columns", "x3"],
+            "did you mean `x2`?",
+            "reactions",
+        ),
+    ];
+    for (arguments, nearest, listed) in wrong {
+        check_refused(arguments, 2, &[nearest, listed]);
+    }
+}
+
+#[test]
+fn a_number_that_makes_no_sense_is_a_wrong_command_line() {
+    let wrong: [(&[&str], &str); 9] = [
+        (&["--step", "0"], "--step must be a positive number, not 0"),
+        (
+            &["--step", "-0.01"],
+            "--step must be a positive number, not -0.01",
+        ),
+        (&["--until", "-1"], "--until must be zero or positive"),
+        (&["--rtol", "0"], "--rtol must be a positive number"),
+        (&["--atol", "-1e-9"], "--atol must be a positive number"),
+        (&["--every", "0"], "--every must be a positive number"),
+        (&["--step", "abc"], "`abc` has no value here"),
+        (&["--set", "L1"], "write NAME=VALUE"),
+        (&["--until", "1/0"], "not a finite number"),
+    ];
+    for (options, said) in wrong {
+        let arguments = [&["simulate", "slider_crank"], options].concat();
+        check_refused(&arguments, 2, &[said]);
+    }
+}
+
+#[test]
+fn options_that_contradict_each_other_are_refused() {
+    let name = ["simulate", "slider_crank"];
+    let both = [&name[..], &["--step", "0.01", "--rtol", "1e-6"]].concat();
+    check_refused(&both, 2, &["--step", "--rtol"]);
+    let useless = [&name[..], &["--method", "rk4", "--rtol", "1e-6"]].concat();
+    check_refused(&useless, 2, &["rk4 has no use for --rtol", "--method dp5"]);
+    let unknown = [&name[..], &["--method", "rk5"]].concat();
+    check_refused(&unknown, 2, &["rk4, dp5, dop853"]);
+    check_refused(&["simulat"], 2, &["simulate"]);
+    check_refused(&[], 2, &["Usage"]);
+}
+
+#[test]
+fn files_that_cannot_be_written_are_found_out_before_the_run() {
+    let name = ["simulate", "slider_crank"];
+    let missing = [&name[..], &["--out", "/nonexistent/run.csv"]].concat();
+    check_refused(&missing, 1, &["could not write /nonexistent/run.csv"]);
+    let missing = [&name[..], &["--plot", "/nonexistent/run.svg"]].concat();
+    check_refused(&missing, 1, &["could not write /nonexistent/run.svg"]);
+    let parquet = [&name[..], &["--out", "run.parquet"]].concat();
+    check_refused(&parquet, 2, &["run.parquet", "--out run.csv"]);
+    let html = [&name[..], &["--plot", "run.html"]].concat();
+    check_refused(&html, 2, &["run.html", "--plot run.svg"]);
+    check_refused(
+        &["reproduce", "--out", "/proc/figures"],
+        1,
+        &["could not write /proc/figures"],
+    );
+}
+
+#[test]
+fn an_impossible_start_names_the_equations_and_leaves_an_old_file_alone() {
+    let file = folder("impossible").join("run.csv");
+    fs::write(&file, "old").expect("the folder is ours");
+    let path = file.to_string_lossy();
+    let arguments = [
+        "simulate",
+        "slider_crank",
+        "--set",
+        "L2=0.1",
+        "--start",
+        "q1=80*deg",
+        "--out",
+        &path,
+    ];
+    let said = ["L1*sin(q1) = L2*sin(q2)", "q1", "nothing was written"];
+    check_refused(&arguments, 1, &said);
+    assert_eq!(fs::read_to_string(&file).ok().as_deref(), Some("old"));
+}
+
+#[test]
+fn rows_have_names_and_begin_at_the_held_start() {
+    let start = [
+        "--start",
+        "q1=pi/3",
+        "--start",
+        "der(q1)=-2",
+        "--set",
+        "m3=1/4",
+    ];
+    let arguments = [
+        &[
+            "simulate",
+            "slider_crank",
+            "--until",
+            "0.1",
+            "--every",
+            "0.05",
+        ],
+        &start[..],
+    ];
+    let ran = bricard(
+        &[
+            &arguments.concat()[..],
+            &["--columns", "energy,rank,reactions,x2"],
+        ]
+        .concat(),
+    );
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    let header = "t,q1,q2,q3,der(q1),der(q2),der(q3),energy,rank,r(q1),r(q2),r(q3),x2";
+    assert_eq!(ran.out.lines().next(), Some(header));
+    assert_eq!(column(&ran.out, "t"), [0.0, 0.05, 0.1]);
+    let angle = column(&ran.out, "q1")[0] - std::f64::consts::FRAC_PI_3;
+    assert!(angle.abs() < 1e-15, "{angle}");
+    assert_eq!(column(&ran.out, "der(q1)")[0], -2.0);
+    assert_eq!(column(&ran.out, "rank"), [2.0; 3]);
+    assert!(
+        (column(&ran.out, "q3")[0] - 0.5).abs() < 1e-14,
+        "2 L cos 60° = 0.5 m"
+    );
+    let energy = column(&ran.out, "energy");
+    assert!((energy[2] - energy[0]).abs() < 1e-7, "{energy:?}");
+    assert!(
+        ran.err.contains("passages through singular positions"),
+        "{}",
+        ran.err
+    );
+}
+
+#[test]
+fn printed_numbers_are_the_shortest_that_read_back() {
+    let ran = bricard(&[
+        "simulate",
+        "double_pendulum",
+        "--until",
+        "1",
+        "--step",
+        "0.01",
+    ]);
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    let mut count = 0;
+    for cell in ran.out.lines().skip(1).flat_map(|line| line.split(',')) {
+        let value: f64 = cell
+            .parse()
+            .unwrap_or_else(|_| panic!("`{cell}` is no number"));
+        let again = format!("{value:?}");
+        assert_eq!(cell, again.strip_suffix(".0").unwrap_or(&again));
+        count += 1;
+    }
+    assert_eq!(count, 101 * 5);
+}
+
+#[test]
+fn the_same_run_prints_the_same_bits() {
+    let run = || {
+        bricard(&[
+            "simulate",
+            "double_four_bar",
+            "--until",
+            "2",
+            "--method",
+            "dp5",
+        ])
+        .out
+    };
+    assert_eq!(run(), run());
+}
+
+#[test]
+fn a_form_that_ends_at_a_singular_position_keeps_its_rows() {
+    let folder = folder("multipliers");
+    let (csv, svg) = (folder.join("run.csv"), folder.join("run.svg"));
+    let (csv_path, svg_path) = (csv.to_string_lossy(), svg.to_string_lossy());
+    let files = ["--out", &csv_path, "--plot", &svg_path];
+    let options = ["--form", "multipliers", "--step", "0.01"];
+    let arguments = [&["simulate", "slider_crank"], &options[..], &files[..]].concat();
+    check_refused(
+        &arguments,
+        1,
+        &["form `multipliers`", "rows computed before", &csv_path],
+    );
+    let rows = fs::read_to_string(csv).unwrap_or_default();
+    let last = column(&rows, "t").last().copied().unwrap_or(0.0);
+    assert!(
+        (0.5..0.878).contains(&last),
+        "the first singular position is at 0.877 s, not {last}"
+    );
+    assert!(rows.ends_with('\n'), "the last row is whole");
+    assert!(fs::read_to_string(svg).is_ok_and(|svg| svg.contains("</svg>")));
+}
+
+#[test]
+fn a_plot_is_a_whole_svg_with_axes_and_names() {
+    let file = folder("plot").join("run.svg");
+    let path = file.to_string_lossy();
+    let ran = bricard(&["simulate", "slider_crank", "--until", "2", "--plot", &path]);
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    assert_eq!(ran.out, "", "rows go nowhere unless they are asked for");
+    let svg = fs::read_to_string(&file).unwrap_or_default();
+    for part in [
+        "<svg",
+        "angle [rad]",
+        "position [m]",
+        "time t [s]",
+        "q1, q2",
+        "</svg>",
+    ] {
+        assert!(svg.contains(part), "no `{part}` in the plot");
+    }
+}
+
+#[test]
+fn equations_are_shown_entry_by_entry() {
+    let ran = bricard(&["show", "slider_crank"]);
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    let lines: Vec<&str> = ran.out.lines().collect();
+    for line in [
+        "M[1,3] = 0",
+        "M[3,3] = m3",
+        "C[3,3] = 0",
+        "G[1,1] = -L1*sin(q1)",
+        "G[1,3] = -1",
+        "g[2] = L1*sin(q1) - L2*sin(q2)",
+    ] {
+        assert!(lines.contains(&line), "no line `{line}` in\n{}", ran.out);
+    }
+    let entries = |symbol: &str| lines.iter().filter(|line| line.starts_with(symbol)).count();
+    let counts = ["M[", "C[", "Cv[", "h[", "Q[", "G[", "p2["].map(entries);
+    assert_eq!(counts, [9, 9, 3, 3, 3, 6, 2]);
+    assert!(ran.out.contains("1 degree of freedom"));
+    assert!(
+        ran.out.contains("sine–cosine pairs"),
+        "operations are counted"
+    );
+}
+
+#[test]
+fn equations_are_shown_as_latex() {
+    let ran = bricard(&["show", "cart_pole", "--latex"]);
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    assert!(ran.out.contains("\\begin{align*}"));
+    assert!(ran.out.contains("\\sin \\phi"));
+    assert!(!ran.out.contains("der("), "velocities have dots");
+    assert_eq!(
+        ran.out.matches("\\begin{").count(),
+        ran.out.matches("\\end{").count()
+    );
+}
+
+#[test]
+fn a_description_outside_the_library_is_shown_and_checked() {
+    let file = folder("outside").join("pendulum.mech");
+    let source = "mechanism P { param J: kg*m^2 = 1; param c: N*m = 2; coord q: rad; \
+                  kinetic 1/2*J*der(q)^2; potential -c*cos(q); }";
+    fs::write(&file, source).expect("the folder is ours");
+    let path = file.to_string_lossy();
+    let shown = bricard(&["show", &path]);
+    assert_eq!(shown.status, Some(0), "{}", shown.err);
+    assert!(shown.out.contains("M[1,1] = J"), "{}", shown.out);
+    let checked = bricard(&["check", &path]);
+    assert_eq!(checked.status, Some(0), "{}", checked.err);
+    assert!(checked.out.contains("in order"));
+}
+
+#[test]
+fn a_wrong_description_is_answered_with_places() {
+    let file = folder("wrong").join("wrong.mech");
+    fs::write(
+        &file,
+        "mechanism P {\n    coord q: rad;\n    kinetic L9*der(q)^2;\n}\n",
+    )
+    .expect("the folder is ours");
+    let path = file.to_string_lossy();
+    for command in ["check", "show"] {
+        check_refused(&[command, &path], 1, &["wrong.mech:3:13", "L9"]);
+    }
+    check_refused(
+        &["check", "/nonexistent.mech"],
+        1,
+        &["could not read /nonexistent.mech"],
+    );
+}
+
+#[test]
+fn a_reader_that_leaves_early_is_no_failure() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_bricard"))
+        .args([
+            "simulate",
+            "double_pendulum",
+            "--until",
+            "500",
+            "--step",
+            "0.01",
+        ])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    drop(child.stdout.take());
+    let ran = read(child.wait_with_output().expect("the command ends"));
+    assert_eq!(ran.status, Some(0));
+    assert_eq!(ran.err, "");
+}
+
+#[test]
+fn the_papers_experiments_are_reproduced_within_their_bounds() {
+    let folder = folder("reproduce");
+    let ran = bricard(&["reproduce", "--out", &folder.to_string_lossy()]);
+    assert_eq!(ran.status, Some(0), "{}\n{}", ran.out, ran.err);
+    let exact = "exact  0.684  1.095  2.463  2.874  4.242  4.653  6.020  6.432  7.799";
+    for part in [
+        exact,
+        "double four-bar, 8 s: 9",
+        "The paper speaks of 6",
+        "every bound is kept",
+    ] {
+        assert!(ran.out.contains(part), "no `{part}` in\n{}", ran.out);
+    }
+    for figure in ["2", "3", "4", "6", "6_configurations"] {
+        let svg = fs::read_to_string(folder.join(format!("figure_{figure}.svg")));
+        assert!(
+            svg.is_ok_and(|svg| svg.contains("</svg>")),
+            "figure {figure}"
+        );
+    }
+}
