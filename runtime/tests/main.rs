@@ -2,6 +2,7 @@
 
 mod allocation;
 mod assembly;
+mod conserve;
 mod integrator;
 mod mechanisms;
 mod scan;

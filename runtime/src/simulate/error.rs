@@ -43,6 +43,8 @@ pub enum SimulateError<T> {
         /// Time of the initial state (s).
         t: T,
     },
+    /// The energy can't be kept, because the mechanism doesn't conserve it.
+    NotConservative,
     /// More steps were made than the run was allowed.
     TooManySteps {
         /// Time that was reached (s).
@@ -94,6 +96,10 @@ impl<T: Real> Display for SimulateError<T> {
             Self::StartNotFinite { t } => {
                 write!(f, "the initial state at t = {t} s is infinite or NaN")
             }
+            Self::NotConservative => f.write_str(
+                "the energy can't be kept: the mechanism has dissipation, applied forces, inputs \
+                 or explicit time",
+            ),
             Self::TooManySteps { t, steps } => write!(
                 f,
                 "after {steps} steps the run had only come to t = {t} s; allow more steps or a \

@@ -5,6 +5,7 @@
 //!
 //! [`Stepper`] is the same without observers, one step at a time.
 
+mod conserve;
 mod error;
 mod event;
 mod grid;
@@ -18,6 +19,7 @@ pub use options::{Audit, Options, Pace, Scheme};
 pub use stepper::Stepper;
 pub use summary::Summary;
 
+use conserve::Conserving;
 use grid::Grid;
 use options::Driver;
 use watch::Watchers;
@@ -58,7 +60,7 @@ where
     let mut run = Run {
         mechanism,
         options,
-        system: solver.on(mechanism),
+        system: Conserving::new(solver.on(mechanism)),
         probe: inquiry.on(mechanism),
         watchers: &mut watchers,
         done: &mut done,
@@ -76,7 +78,7 @@ where
 struct Run<'a, 'b, 'c, M: ?Sized, T, const N: usize, const R: usize> {
     mechanism: &'a M,
     options: &'a Options<T>,
-    system: ConstrainedSystem<'a, M, T, N, R>,
+    system: Conserving<'a, M, T, N, R>,
     /// Answers what observers ask, apart from the run.
     probe: ConstrainedSystem<'a, M, T, N, R>,
     watchers: &'a mut Watchers<'b, 'c, T, N>,
@@ -106,6 +108,12 @@ where
             .project(&mut state)
             .map_err(IntegrateError::Dynamics)?;
         self.done.end = state;
+        if self.options.keep_energy {
+            if !self.mechanism.structure().conservative {
+                return Err(SimulateError::NotConservative);
+            }
+            self.system.keep(&state);
+        }
         if self
             .watchers
             .begin(self.mechanism, &state, &mut self.probe)?

@@ -86,6 +86,10 @@ pub struct Options<T> {
     pub pace: Pace<T>,
     /// The form of the equations and how the constraints are kept.
     pub settings: Settings<T>,
+    /// Whether the energy is kept at what it was at the start, for long runs of
+    /// conservative mechanisms: its error then stays that of a few steps instead
+    /// of growing with time.
+    pub keep_energy: bool,
     /// What is checked along the way.
     pub audit: Audit,
     /// Accepted steps after which the run is given up; `None`: never.
@@ -130,6 +134,7 @@ impl<T: Real> Options<T> {
             scheme,
             pace,
             settings,
+            keep_energy: false,
             audit: Audit::ALL,
             most_steps: None,
         }

@@ -1,0 +1,83 @@
+//! Keeping the energy of a conservative mechanism where it was.
+//!
+//! In:  a system, the energy at the start.
+//! Out: the same system, whose projection brings velocities back onto the
+//!      surface of that energy, too.
+//!
+//! The energy is `T₂ + (Π − T₀)`, and only `T₂ = ½ q̇ᵀ M q̇` depends on the
+//! velocities. The nearest velocity of another energy, in the metric of `M`, is
+//! the velocity itself, longer or shorter: it still satisfies constraints at
+//! rest, and nothing but one factor has to be found.
+//!
+//! Where the mechanism nearly rests the velocity can't make up for an error of
+//! the position; nothing is done then, and the next step makes up for it. The
+//! error stays that of a few steps, however long the run is.
+//!
+//! Source: Hairer, Lubich & Wanner, Geometric Numerical Integration (2006),
+//! section IV.4 (projection methods).
+
+use crate::{ConstrainedSystem, DynamicsError, Mechanism, Real, State, System};
+use nalgebra::SVector;
+
+/// Largest change of the kinetic energy that is made up for, relative to it.
+const LARGEST_CHANGE: f64 = 0.01;
+
+/// A system whose projection keeps the energy, if asked to.
+pub(super) struct Conserving<'a, M: ?Sized, T, const N: usize, const R: usize> {
+    system: ConstrainedSystem<'a, M, T, N, R>,
+    /// The energy to keep (J).
+    energy: Option<T>,
+}
+
+impl<'a, M, T, const N: usize, const R: usize> Conserving<'a, M, T, N, R>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    /// A system that keeps nothing yet.
+    pub(super) fn new(system: ConstrainedSystem<'a, M, T, N, R>) -> Self {
+        Self {
+            system,
+            energy: None,
+        }
+    }
+
+    /// Keeps the energy of a state from now on.
+    pub(super) fn keep(&mut self, state: &State<T, N>) {
+        self.energy = Some(self.system.mechanism().energy(state).balance);
+    }
+
+    /// Makes the velocity longer or shorter until the energy is right.
+    fn restore(&self, state: &mut State<T, N>, energy: T) {
+        let mechanism = self.system.mechanism();
+        let rest = State {
+            v: SVector::zeros(),
+            ..*state
+        };
+        let at_rest = mechanism.energy(&rest).balance;
+        let kinetic = mechanism.energy(state).balance - at_rest;
+        let change = (energy - at_rest - kinetic) / kinetic;
+        // Not so if the mechanism rests: the quotient is then infinite or NaN.
+        if change.abs() <= T::from_f64(LARGEST_CHANGE) {
+            state.v *= (T::one() + change).sqrt();
+        }
+    }
+}
+
+impl<M, T, const N: usize, const R: usize> System<T, N> for Conserving<'_, M, T, N, R>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    fn acceleration(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>> {
+        self.system.acceleration(state)
+    }
+
+    fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
+        self.system.project(state)?;
+        if let Some(energy) = self.energy {
+            self.restore(state, energy);
+        }
+        Ok(())
+    }
+}
