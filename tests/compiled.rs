@@ -4,7 +4,8 @@ use crate::library::{Derived, Point};
 use crate::random::Random;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Branch, Correction, Interface, Mechanism, Position, Real, Regular, State, Terms, Visitor,
+    Branch, Correction, Interface, Mechanism, Pivots, Position, Real, Regular, State, Terms,
+    Visitor,
 };
 use std::collections::BTreeMap;
 
@@ -15,8 +16,8 @@ pub type Place = (&'static str, usize, usize);
 #[derive(Clone, Debug, Default)]
 pub struct Answers {
     pub entries: BTreeMap<Place, f64>,
-    /// `mass_pivot` and `pivot` of the regular path; none if it is not provided.
-    pub regular: Option<[f64; 2]>,
+    /// The smallest ratio of a pivot to its diagonal entry, on the regular path.
+    pub regular: f64,
 }
 
 /// Asks the compiled code at random points; an input is held where the point says
@@ -131,7 +132,7 @@ fn equations<T, M, const N: usize, const R: usize>(
     let mut regular = Regular::default();
     if mechanism.regular(state, &mut regular) {
         answers.fill("acceleration", N, &regular.acceleration);
-        answers.regular = Some([regular.mass_pivot.to_f64(), regular.pivot.to_f64()]);
+        answers.regular = smallest(&regular.pivots);
     }
     let mut correction = Correction::default();
     if mechanism.correction(state, &mut correction) {
@@ -139,6 +140,18 @@ fn equations<T, M, const N: usize, const R: usize>(
         answers.fill("correction of v", N, &correction.velocity);
         answers.fill("corrected residual", R, &correction.residual);
     }
+}
+
+/// The smallest ratio of a pivot to its diagonal entry; a pivot that is not written
+/// is its diagonal entry.
+fn smallest<T: Real, const N: usize, const R: usize>(pivots: &Pivots<T, N, R>) -> f64 {
+    let masses = pivots.mass_pivots.iter().zip(&pivots.mass_diagonal);
+    let rows = pivots.row_pivots.iter().zip(&pivots.row_squares);
+    let ratio = |(pivot, whole): (&T, &T)| match whole.to_f64() {
+        0.0 => 1.0,
+        whole => pivot.to_f64() / whole,
+    };
+    masses.chain(rows).map(ratio).fold(1.0, f64::min)
 }
 
 fn interface<T, M, const N: usize>(mechanism: &M, state: &State<T, N>, answers: &mut Answers)

@@ -1,11 +1,13 @@
 //! The tests of the whole: one binary, a module for each kind of claim.
 
+mod allocation;
 mod command;
 mod compiled;
 mod dense;
 mod derivation;
 mod dual;
 mod golden;
+mod identities;
 mod landing;
 mod layering;
 mod library;

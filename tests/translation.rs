@@ -3,6 +3,7 @@
 use crate::compiled::{Answers, Place, answers, asked};
 use crate::dense::{dot, null_space, size, times};
 use crate::library::{Derived, Point, library};
+use crate::random::Random;
 use bricard_codegen::expr::{ExprId, Symbol};
 use bricard_codegen::optimise::{Slot, interpret, optimise, plain};
 use std::collections::BTreeMap;
@@ -17,9 +18,10 @@ const SOLVED: f64 = 1e-11;
 /// Below this pivot ratio the regular path is not used.
 const REGULAR: f64 = 1e-2;
 
-/// What single precision may differ by: an angle of 300 rad is known to 1.5e-5, and a phase error of
-/// that size is multiplied by the squares of frequencies.
-const ROUGH: f64 = 1e-3;
+/// What single precision may differ by.
+const ROUGH: f64 = 1e-4;
+/// What times are multiplied by for single precision.
+const EARLY: f64 = 1e-2;
 
 /// Random states for each mechanism.
 const STATES: u64 = 50;
@@ -185,10 +187,7 @@ fn where_regular(claim: impl Fn(&Derived, &Answers, &str)) {
         let mut regular = 0;
         for seed in 0..STATES {
             let (_, answers) = asked(&derived, seed, true);
-            let fits = answers
-                .regular
-                .is_some_and(|ratios| ratios.iter().all(|x| *x > REGULAR));
-            if fits {
+            if answers.regular > REGULAR {
                 regular += 1;
                 claim(
                     &derived,
@@ -292,7 +291,10 @@ fn seed_of(what: &str) -> u64 {
 fn single_precision_says_roughly_the_same() {
     for derived in library() {
         for seed in 0..STATES {
-            let (point, exact) = asked(&derived, seed, true);
+            let mut point = derived.point(&mut Random::seeded(seed));
+            // Single precision knows an angle of 300 rad to 1.5e-5 only.
+            point.t *= EARLY;
+            let exact = answers::<f64>(&derived, &point, true);
             let rough = answers::<f32>(&derived, &point, true);
             for (place, value) in &exact.entries {
                 let solved = ["acceleration", "correction of q", "correction of v"];

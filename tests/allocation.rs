@@ -1,0 +1,67 @@
+//! Running a generated mechanism allocates nothing: a counting allocator proves it.
+
+use allocation_counter::measure;
+use bricard_runtime::{
+    Interface, Mechanism, Options, Pace, Scheme, Settings, State, Stepper, Visitor, assemble,
+    simulate,
+};
+
+/// Counts the allocations of steps on demand and of a whole run with all audits.
+struct Count {
+    scheme: Scheme,
+    pace: Pace<f64>,
+}
+
+impl Visitor<f64> for Count {
+    /// Allocations while assembling, stepping, and running.
+    type Output = [u64; 3];
+
+    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
+    where
+        M: Mechanism<f64, N, R> + Interface<f64, N>,
+    {
+        let Count { scheme, pace } = self;
+        let mut state = State::default();
+        let assembling = measure(|| {
+            state = assemble(&mechanism, &mechanism.start(), 0.0).expect("the start assembles");
+        });
+        let start = state;
+        let settings = Settings::default();
+        let mut stepper: Stepper<f64, N, R> =
+            Stepper::new(scheme, pace, settings).expect("a pace that fits");
+        let stepping = measure(|| {
+            for _ in 0..100 {
+                stepper.step(&mechanism, &mut state, 0.01).expect("a step");
+            }
+        });
+        let options = Options::new(1.0, scheme, pace);
+        let running = measure(|| {
+            let run = simulate(&mechanism, &start, &options, &mut []);
+            assert!(run.is_ok(), "the run ends well");
+        });
+        [assembling, stepping, running].map(|counted| counted.count_total)
+    }
+}
+
+#[test]
+fn running_a_mechanism_allocates_nothing() {
+    let adaptive = Pace::Adaptive {
+        relative: 1e-8,
+        absolute: 1e-8,
+    };
+    let fixed = Pace::Fixed { step: 0.01 };
+    for (scheme, pace) in [
+        (Scheme::Rk4, fixed),
+        (Scheme::Dp5, adaptive),
+        (Scheme::Dop853, adaptive),
+    ] {
+        for name in bricard::NAMES {
+            let counted = bricard::visit::<f64, _>(name, Count { scheme, pace });
+            assert_eq!(
+                counted,
+                Some([0; 3]),
+                "{name}, {scheme}: assembling, stepping, running"
+            );
+        }
+    }
+}

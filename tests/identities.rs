@@ -1,0 +1,291 @@
+//! What mechanics says whatever the numbers are: energies, ideal constraints, forms
+//! that agree.
+
+use crate::dense::{dot, null_space, size};
+use crate::random::Random;
+use bricard_runtime::nalgebra::SVector;
+use bricard_runtime::{
+    Form, Initial, Interface, Mechanism, Position, Settings, Solver, Start, State, System, Terms,
+    Visitor, assemble,
+};
+
+/// What a residual may leave over, relative to what cancels in it.
+const ROUND_OFF: f64 = 1e-12;
+
+/// The least sine of the weakest constraint at a regular state.
+const REGULAR: f64 = 0.1;
+
+/// Consistent random states for each mechanism.
+const STATES: u64 = 40;
+
+const FORMS: [Form; 4] = [
+    Form::Reduced,
+    Form::Full,
+    Form::Multipliers,
+    Form::Partitioning,
+];
+
+/// What each form of the equations says at one state.
+struct Sample {
+    name: &'static str,
+    seed: u64,
+    mass: Vec<Vec<f64>>,
+    jacobian: Vec<Vec<f64>>,
+    bias: Vec<f64>,
+    v: Vec<f64>,
+    kinetic: f64,
+    position_error: f64,
+    velocity_error: f64,
+    rank: usize,
+    rows: usize,
+    /// `q̈` and `r`, for each form.
+    forms: Vec<(Form, Vec<f64>, Vec<f64>)>,
+}
+
+/// Asks for a sample; none where no consistent regular state is near.
+struct Ask {
+    name: &'static str,
+    seed: u64,
+}
+
+impl Visitor<f64> for Ask {
+    type Output = Option<Sample>;
+
+    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Option<Sample>
+    where
+        M: Mechanism<f64, N, R> + Interface<f64, N>,
+    {
+        let state = consistent(&mechanism, self.seed)?;
+        let mut solver = Solver::new(Settings::default());
+        let mut system = solver.on(&mechanism);
+        let rank = system.rank(&state).ok()?;
+        let error = system.constraint_error(&state);
+        if R > 0 && rank.sine < REGULAR {
+            return None;
+        }
+        let mut terms: Terms<f64, N, R> = Terms::default();
+        mechanism.terms(&state, &mut terms);
+        let mut position: Position<f64, N, R> = Position::default();
+        mechanism.position(&state, &mut position);
+        let numbers = |x: &SVector<f64, N>| x.as_slice().to_vec();
+        let row = |i: usize| (0..N).map(|j| terms.jacobian[(i, j)]).collect();
+        let forms = FORMS.map(|form| {
+            let mut solver = Solver::new(Settings {
+                form,
+                ..Settings::default()
+            });
+            let reaction = solver.on(&mechanism).reaction(&state);
+            let (acceleration, reaction) = reaction.expect("a regular state");
+            (form, numbers(&acceleration), numbers(&reaction))
+        });
+        Some(Sample {
+            name: self.name,
+            seed: self.seed,
+            mass: (0..N)
+                .map(|i| (0..N).map(|j| terms.mass[(i, j)]).collect())
+                .collect(),
+            jacobian: (0..R).map(row).collect(),
+            bias: terms.bias.as_slice().to_vec(),
+            v: numbers(&state.v),
+            kinetic: mechanism.energy(&state).kinetic,
+            position_error: error.position,
+            velocity_error: error.velocity,
+            rank: rank.rank,
+            rows: R,
+            forms: forms.into(),
+        })
+    }
+}
+
+/// A state on the constraints, near a random one.
+fn consistent<M, const N: usize, const R: usize>(mechanism: &M, seed: u64) -> Option<State<f64, N>>
+where
+    M: Mechanism<f64, N, R> + Interface<f64, N>,
+{
+    let mut random = Random::seeded(seed);
+    let mut guess = || Initial {
+        value: random.between(-2.0, 2.0),
+        held: false,
+    };
+    let start = Start {
+        q: [(); N].map(|()| guess()),
+        v: [(); N].map(|()| guess()),
+    };
+    let t = random.between(0.0, 1.0);
+    assemble(mechanism, &start, t).ok()
+}
+
+/// Runs a check on samples of every mechanism of the library.
+fn check(claim: impl Fn(&Sample, &str)) {
+    for name in bricard::NAMES {
+        let ask = |seed| bricard::visit::<f64, _>(name, Ask { name, seed });
+        let samples: Vec<Sample> = (0..STATES).filter_map(|seed| ask(seed).flatten()).collect();
+        assert!(
+            4 * samples.len() as u64 > STATES,
+            "{name}: {} regular states",
+            samples.len()
+        );
+        for sample in samples {
+            claim(&sample, &format!("{}, seed {}", sample.name, sample.seed));
+        }
+    }
+}
+
+fn vanishes(left: f64, scale: f64, what: &str) {
+    assert!(
+        left.abs() <= ROUND_OFF * (1.0 + scale),
+        "{what}: {left:e} is left of {scale:e}"
+    );
+}
+
+#[test]
+fn assembled_states_are_on_the_constraints() {
+    check(|sample, what| {
+        assert!(
+            sample.position_error <= 1e-14,
+            "{what}: {:e}",
+            sample.position_error
+        );
+        assert!(
+            sample.velocity_error <= 1e-13,
+            "{what}: {:e}",
+            sample.velocity_error
+        );
+        assert_eq!(sample.rank, sample.rows, "{what}");
+    });
+}
+
+/// The mechanisms of the library have no moving frames: `T` is purely quadratic.
+#[test]
+fn the_kinetic_energy_is_half_the_quadratic_form_of_the_mass_matrix() {
+    check(|sample, what| {
+        let v = &sample.v;
+        let momentum: Vec<f64> = sample.mass.iter().map(|row| dot(row, v)).collect();
+        vanishes(
+            0.5 * dot(&momentum, v) - sample.kinetic,
+            size(&momentum, v),
+            what,
+        );
+    });
+}
+
+#[test]
+fn every_form_obeys_the_constraints() {
+    check(|sample, what| {
+        for (form, acceleration, _) in &sample.forms {
+            for (row, bias) in sample.jacobian.iter().zip(&sample.bias) {
+                let left = dot(row, acceleration) - bias;
+                vanishes(
+                    left,
+                    size(row, acceleration) + bias.abs(),
+                    &format!("{what}, {form}"),
+                );
+            }
+        }
+    });
+}
+
+#[test]
+fn reactions_do_no_work_along_the_constraints() {
+    check(|sample, what| {
+        let directions = null_space(&sample.jacobian, sample.v.len());
+        for (form, _, reaction) in &sample.forms {
+            for direction in &directions {
+                let scale = size(direction, reaction);
+                vanishes(
+                    dot(direction, reaction),
+                    scale,
+                    &format!("{what}, {form}: Dᵀr"),
+                );
+            }
+        }
+    });
+}
+
+#[test]
+fn the_null_space_has_as_many_directions_as_degrees_of_freedom() {
+    check(|sample, what| {
+        let directions = null_space(&sample.jacobian, sample.v.len());
+        assert_eq!(directions.len(), sample.v.len() - sample.rank, "{what}");
+        for (row, direction) in sample
+            .jacobian
+            .iter()
+            .flat_map(|row| directions.iter().map(move |direction| (row, direction)))
+        {
+            vanishes(
+                dot(row, direction),
+                size(row, direction),
+                &format!("{what}: A D"),
+            );
+        }
+    });
+}
+
+#[test]
+fn the_forms_agree_at_regular_states() {
+    check(|sample, what| {
+        let (_, exact, reaction) = &sample.forms[0];
+        let largest = |x: &[f64]| x.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        for (form, acceleration, other) in &sample.forms {
+            let what = format!("{what}, {form}");
+            for (a, b) in acceleration.iter().zip(exact) {
+                vanishes(a - b, 100.0 * largest(exact), &what);
+            }
+            for (a, b) in other.iter().zip(reaction) {
+                vanishes(a - b, 100.0 * (largest(reaction) + largest(exact)), &what);
+            }
+        }
+    });
+}
+
+/// Projection leaves a state that is on the constraints where it is.
+struct Project {
+    seed: u64,
+}
+
+impl Visitor<f64> for Project {
+    /// How far a consistent state moves, and a slightly inconsistent one.
+    type Output = Option<(f64, f64, f64)>;
+
+    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
+    where
+        M: Mechanism<f64, N, R> + Interface<f64, N>,
+    {
+        let state = consistent(&mechanism, self.seed)?;
+        let mut solver = Solver::new(Settings::default());
+        let mut system = solver.on(&mechanism);
+        if R > 0 && system.rank(&state).ok()?.sine < REGULAR {
+            return None;
+        }
+        let mut still = state;
+        system.project(&mut still).ok()?;
+        let mut random = Random::seeded(self.seed + 1000);
+        let mut pushed = state;
+        pushed.q = pushed.q.map(|x| x + random.between(-1e-4, 1e-4));
+        system.project(&mut pushed).ok()?;
+        let left = system.constraint_error(&pushed);
+        let moved = (still.q - state.q).amax().max((still.v - state.v).amax());
+        Some((moved, left.position, left.velocity))
+    }
+}
+
+#[test]
+fn projection_keeps_what_is_right_and_repairs_what_is_not() {
+    for name in bricard::NAMES {
+        for seed in 0..STATES {
+            let visited = bricard::visit::<f64, _>(name, Project { seed }).flatten();
+            let Some((moved, position, velocity)) = visited else {
+                continue;
+            };
+            assert!(moved <= 1e-12, "{name}, seed {seed}: moved by {moved:e}");
+            assert!(
+                position <= 1e-14,
+                "{name}, seed {seed}: {position:e} is left"
+            );
+            assert!(
+                velocity <= 1e-12,
+                "{name}, seed {seed}: {velocity:e}/s is left"
+            );
+        }
+    }
+}
