@@ -94,13 +94,18 @@ impl Evaluator {
             .iter()
             .map(|argument| self.evaluate(argument))
             .collect();
-        let values = values.into_iter().collect::<Option<Vec<_>>>()?;
+        let mut values = values.into_iter().collect::<Option<Vec<_>>>()?;
+        if matches!(name, "dot" | "norm" | "norm2") {
+            values = values.into_iter().map(Value::array_to_vector).collect();
+        }
         match (name, values.as_slice()) {
             ("der", [value]) => self.derivative(value, span),
             ("dot", [Value::Vector(a), Value::Vector(b)]) if a.len() == b.len() => {
                 self.inner(a, b, span).map(Value::Scalar)
             }
-            ("cross", [Value::Vector(a), Value::Vector(b)]) if a.len() == b.len() => {
+            ("cross", [Value::Vector(a), Value::Vector(b)])
+                if a.len() == b.len() && a.len() < 4 =>
+            {
                 self.cross(a, b, span)
             }
             ("norm2", [Value::Vector(v)]) => self.inner(v, v, span).map(Value::Scalar),
@@ -122,7 +127,8 @@ impl Evaluator {
 
     fn wrong_shape(&mut self, name: &str, values: &[Value], span: Span) -> Option<Value> {
         let wants = match name {
-            "dot" | "cross" => "two vectors of one size",
+            "dot" => "two vectors of one size",
+            "cross" => "two vectors of two or three components",
             "norm" | "norm2" => "a vector",
             "transpose" => "a matrix",
             _ => "a 3 × 3 matrix",

@@ -46,9 +46,9 @@ impl Evaluator {
     pub fn vector(&mut self, parts: &[Expr], span: Span) -> Option<Value> {
         let values: Vec<_> = parts.iter().map(|part| self.evaluate(part)).collect();
         let values = values.into_iter().collect::<Option<Vec<_>>>()?;
-        if !(2..=3).contains(&values.len()) {
+        if !(2..=4).contains(&values.len()) {
             let message = format!(
-                "a vector has two or three components, here are {}",
+                "a vector has two to four components, here are {}",
                 values.len()
             );
             return self

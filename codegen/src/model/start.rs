@@ -143,7 +143,7 @@ impl Lowering<'_> {
         };
         let mut points = Vec::new();
         for part in parts {
-            let Value::Vector(components) = &part else {
+            let Some(components) = part.as_vector().filter(|parts| parts.len() <= 3) else {
                 let message = format!(
                     "a point is written `[x, y]` or `[x, y, z]`, this is {}",
                     part.shape()

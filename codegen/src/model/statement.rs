@@ -216,9 +216,11 @@ impl Lowering<'_> {
 
     /// An equation as written, with the component and the indices it is for.
     fn row_text(&self, text: &str, suffix: &str) -> String {
-        let row = suffix
-            .strip_prefix('.')
-            .map_or(String::new(), |axis| format!(" [{axis}]"));
+        let row = match suffix.strip_prefix('.') {
+            Some(axis) => format!(" [{axis}]"),
+            None if suffix.is_empty() => String::new(),
+            None => format!(" {suffix}"),
+        };
         let indices: Vec<_> = self
             .indices
             .iter()

@@ -13,7 +13,7 @@ pub struct Scalar {
     pub unit: Unit,
 }
 
-/// A matrix of two or three rows of two or three entries.
+/// A matrix of two to four rows of two to four entries.
 #[derive(Clone, Debug)]
 pub struct Matrix {
     /// The entries, row by row.
@@ -39,7 +39,7 @@ pub struct Array {
 pub enum Value {
     /// A scalar.
     Scalar(Scalar),
-    /// A vector of two or three components.
+    /// A vector of two to four components.
     Vector(Vec<Scalar>),
     /// A matrix.
     Matrix(Matrix),
@@ -80,6 +80,15 @@ impl Value {
             Value::Vector(parts) => Some(parts),
             _ => None,
         }
+    }
+
+    /// An array of numbers as the vector that it is too; other values stay.
+    pub fn array_to_vector(self) -> Value {
+        let Value::Array(array) = &self else {
+            return self;
+        };
+        let parts: Option<Vec<Scalar>> = array.items.iter().map(Value::as_scalar).collect();
+        parts.map_or(self, Value::Vector)
     }
 
     /// Its scalars in order; those of a matrix row by row.
@@ -133,10 +142,10 @@ impl Value {
     pub fn suffixes(&self) -> Vec<String> {
         match self {
             Value::Scalar(_) => vec![String::new()],
-            Value::Vector(parts) => AXES[..parts.len()]
-                .iter()
-                .map(|axis| format!(".{axis}"))
-                .collect(),
+            Value::Vector(parts) => match AXES.get(..parts.len()) {
+                Some(axes) => axes.iter().map(|axis| format!(".{axis}")).collect(),
+                None => (0..parts.len()).map(|i| format!("[{i}]")).collect(),
+            },
             Value::Matrix(matrix) => {
                 let row = |i: usize, n: usize| (0..n).map(move |j| format!("[{i}][{j}]"));
                 let rows = matrix.rows.iter().enumerate();

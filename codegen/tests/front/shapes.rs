@@ -55,7 +55,7 @@ fn shapes_that_do_not_fit_are_refused() {
         &with("let v = sin([q, w]);"),
         "the argument of `sin` has to be a number",
     );
-    refuse_saying(&with("let v = [q];"), "two or three components");
+    refuse_saying(&with("let v = [q];"), "two to four components");
     refuse_saying(&with("let v = [[q, 1], 2];"), "rows of one length");
     refuse_saying(&with("let v = [q, w].z;"), "has no `.z`");
     refuse_saying(&with("let v = q.x;"), "a number has no components");
@@ -133,4 +133,26 @@ fn a_literal_zero_stands_for_a_zero_vector_in_an_equation() {
 #[test]
 fn an_empty_sum_is_zero() {
     assert_close(value("sum(i in 0..0, q) + sum(i in 3..1, [1, 2])"), 0.0);
+}
+
+#[test]
+fn four_components_and_arrays_of_numbers_have_lengths_and_products() {
+    let source = "coord e[4]; let v = [e[0], e[1], e[2], e[3]]; let E = [[-e[1], e[0], e[3], -e[2]], [1, 2, 3, 4]];
+        output a = norm2(e) - norm2(v); output b = dot(e, v) - norm(e)^2; output c = (E*v).y; output d = v;
+        constraint norm2(e) = 1;";
+    let m = accept(&with(source));
+    assert_close(output(&m, "a"), 0.0);
+    assert_close(output(&m, "b"), 0.0);
+    let e = |i: usize| 0.51 + 0.29 * (i as f64 + 2.0);
+    assert_close(
+        output(&m, "c"),
+        (0..4).map(|i| (i as f64 + 1.0) * e(i)).sum(),
+    );
+    assert_close(output(&m, "d[3]"), e(3));
+    refuse_saying(
+        &with("let a = cross([q, w, 1, 2], [1, 2, 3, 4]);"),
+        "two or three components",
+    );
+    refuse_saying(&with("let a = [1, 2, 3, 4, 5];"), "here are 5");
+    refuse_saying(&with("draw trace([1, 2, 3, 4]);"), "a point is written");
 }
