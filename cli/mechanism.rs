@@ -152,8 +152,10 @@ impl<const N: usize, const R: usize> AnyMechanism for Sized<N, R> {
     }
 
     fn shapes(&self, row: &[f64]) -> Vec<Shape> {
-        let mut state = State::default();
-        state.t = row.first().copied().unwrap_or(0.0);
+        let mut state = State {
+            t: row.first().copied().unwrap_or(0.0),
+            ..State::default()
+        };
         for (i, x) in row.iter().skip(1).take(2 * N).enumerate() {
             if i < N {
                 state.q[i] = *x;

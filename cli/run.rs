@@ -9,8 +9,8 @@ use crate::column::Column;
 use crate::error::CommandError;
 use crate::mechanism::Whole;
 use bricard_runtime::{
-    Counters, DynamicsError, Observer, Options, Passage, Probe, Sampler, Start, State, Step,
-    Summary, assemble, simulate,
+    Counters, DynamicsError, Observer, Occurrence, Options, Passage, Probe, Sampler, Start, State,
+    Step, Summary, assemble, simulate,
 };
 use std::cell::RefCell;
 use std::ops::ControlFlow;
@@ -53,6 +53,8 @@ pub struct Report {
     pub energy_error: f64,
     /// Passages through singular positions.
     pub passages: Vec<Passage<f64>>,
+    /// Events: the name and the time (s) of each.
+    pub events: Vec<(&'static str, f64)>,
     /// Work by kind.
     pub counters: Counters,
 }
@@ -95,19 +97,19 @@ pub fn run<const N: usize, const R: usize>(
     let begun = Instant::now();
     let result = simulate(mechanism, &state, &plan.options, &mut [&mut writer]);
     let wall = begun.elapsed();
-    let (refused, passages) = (writer.refused, writer.passages);
+    let (refused, seen) = (writer.refused, writer.seen);
     match (result, refused) {
-        (Ok(summary), None) => Ok(report(&summary, passages, wall)),
+        (Ok(summary), None) => Ok(report(&summary, seen, wall)),
         (Ok(summary), Some(error)) => {
             let time = Some(summary.end.t);
             Err(Stopped {
                 error,
                 time,
-                report: Some(Box::new(report(&summary, passages, wall))),
+                report: Some(Box::new(report(&summary, seen, wall))),
             })
         }
         (Err(failure), _) => {
-            let report = report(&failure.summary, passages, wall);
+            let report = report(&failure.summary, seen, wall);
             let reason = failure.error.to_string();
             let error = CommandError::Run {
                 reason,
@@ -123,24 +125,28 @@ pub fn run<const N: usize, const R: usize>(
     }
 }
 
-fn report<const N: usize>(
-    summary: &Summary<f64, N>,
-    passages: Vec<Passage<f64>>,
-    wall: Duration,
-) -> Report {
+fn report<const N: usize>(summary: &Summary<f64, N>, seen: Seen, wall: Duration) -> Report {
     Report {
         steps: summary.steps,
         rejected: summary.rejected,
         wall,
         constraint_error: summary.constraint_error.map_or(0.0, |error| error.position),
         energy_error: summary.energy_error.unwrap_or(0.0),
-        passages,
+        passages: seen.passages,
+        events: seen.events,
         counters: summary.counters,
     }
 }
 
 type States<const N: usize> = Rc<RefCell<Vec<State<f64, N>>>>;
 type Collect<const N: usize> = Box<dyn FnMut(&State<f64, N>) -> ControlFlow<()>>;
+
+/// What happened on the way.
+#[derive(Default)]
+struct Seen {
+    passages: Vec<Passage<f64>>,
+    events: Vec<(&'static str, f64)>,
+}
 
 /// Turns states into rows.
 struct Writer<'a, const N: usize> {
@@ -149,7 +155,7 @@ struct Writer<'a, const N: usize> {
     columns: &'a [Column],
     sink: &'a mut dyn RowSink,
     refused: Option<CommandError>,
-    passages: Vec<Passage<f64>>,
+    seen: Seen,
 }
 
 impl<'a, const N: usize> Writer<'a, N> {
@@ -169,14 +175,14 @@ impl<'a, const N: usize> Writer<'a, N> {
             }
             None => None,
         };
-        let (columns, refused, passages) = (&plan.columns, None, Vec::new());
+        let (columns, refused, seen) = (&plan.columns, None, Seen::default());
         Ok(Self {
             sampler,
             sampled,
             columns,
             sink,
             refused,
-            passages,
+            seen,
         })
     }
 
@@ -227,7 +233,14 @@ impl<const N: usize> Observer<f64, N> for Writer<'_, N> {
     }
 
     fn passage(&mut self, passage: &Passage<f64>) -> ControlFlow<()> {
-        self.passages.push(*passage);
+        self.seen.passages.push(*passage);
+        ControlFlow::Continue(())
+    }
+
+    fn event(&mut self, occurrence: &Occurrence<f64, N>) -> ControlFlow<()> {
+        self.seen
+            .events
+            .push((occurrence.event.name, occurrence.state.t));
         ControlFlow::Continue(())
     }
 

@@ -109,9 +109,9 @@ impl Projection {
 fn bounds(frames: &[Frame]) -> ([f64; 2], [f64; 2]) {
     let mut corners = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     let mut include = |point: [f64; 2], radius: f64| {
-        for axis in 0..2 {
-            corners.0[axis] = corners.0[axis].min(point[axis] - radius);
-            corners.1[axis] = corners.1[axis].max(point[axis] + radius);
+        for (axis, x) in point.into_iter().enumerate() {
+            corners.0[axis] = corners.0[axis].min(x - radius);
+            corners.1[axis] = corners.1[axis].max(x + radius);
         }
     };
     let all = frames

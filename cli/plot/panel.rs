@@ -205,7 +205,7 @@ fn short(value: f64, range: f64) -> String {
     if value.abs() < 1e-9 * range {
         return "0".to_string();
     }
-    if range > 1e5 || range < 1e-6 {
+    if !(1e-6..=1e5).contains(&range) {
         return format!("{value:.1e}").replace(".0e", "e").replace('-', "−");
     }
     let digits = (2.0 - range.log10()).floor().clamp(0.0, 12.0) as usize;

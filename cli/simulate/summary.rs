@@ -4,7 +4,7 @@ use crate::run::Report;
 use crate::table::{Align, aligned};
 use bricard_runtime::{Counters, Structure};
 
-/// Passages whose times are listed.
+/// Passages and events whose times are listed.
 const LISTED: usize = 20;
 
 /// What was done and how well, one quantity in a line.
@@ -34,6 +34,12 @@ pub fn summary(report: &Report, structure: &Structure) -> String {
         ]);
         rows.extend(work(&report.counters));
     }
+    rows.extend(
+        structure
+            .events
+            .iter()
+            .map(|event| events(event.name, report)),
+    );
     let rows: Vec<Vec<String>> = rows.into_iter().map(Vec::from).collect();
     aligned(&rows, &[Align::Left, Align::Left])
 }
@@ -48,17 +54,30 @@ fn energy(report: &Report, structure: &Structure) -> [String; 2] {
 }
 
 fn passages(report: &Report) -> String {
-    let times: Vec<String> = report
-        .passages
-        .iter()
-        .take(LISTED)
-        .map(|passage| format!("{:.3}", passage.t))
-        .collect();
-    let count = report.passages.len();
-    match count {
+    times(
+        &report
+            .passages
+            .iter()
+            .map(|passage| passage.t)
+            .collect::<Vec<_>>(),
+    )
+}
+
+fn events(name: &str, report: &Report) -> [String; 2] {
+    let of_name = report.events.iter().filter(|(event, _)| *event == name);
+    [
+        format!("event {name}"),
+        times(&of_name.map(|(_, t)| *t).collect::<Vec<_>>()),
+    ]
+}
+
+/// How many, and when.
+fn times(all: &[f64]) -> String {
+    let listed: Vec<String> = all.iter().take(LISTED).map(|t| format!("{t:.3}")).collect();
+    match all.len() {
         0 => "none".to_string(),
-        _ if count > LISTED => format!("{count}, at t = {}, … s", times.join(", ")),
-        _ => format!("{count}, at t = {} s", times.join(", ")),
+        count if count > LISTED => format!("{count}, at t = {}, … s", listed.join(", ")),
+        count => format!("{count}, at t = {} s", listed.join(", ")),
     }
 }
 
