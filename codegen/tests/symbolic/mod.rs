@@ -5,6 +5,7 @@ mod canonical;
 mod derivative;
 mod jet;
 mod number;
+mod print;
 mod program;
 mod recipe;
 mod ring;
