@@ -30,7 +30,7 @@ pub fn coriolis_matrix(graph: &mut Graph, mass: &Matrix) -> Matrix {
                 &[
                     (slopes[i][j][k], half),
                     (slopes[i][k][j], half),
-                    (slopes[j][k][i], half.neg()),
+                    (slopes[j][k][i], -half),
                 ],
             );
             terms.push(graph.mul(symbol, velocity[k]));

@@ -53,7 +53,40 @@ pub(super) fn snake_case(name: &str) -> String {
     }
 }
 
-/// `slider_crank` → `SliderCrank`; what is in camel case stays so.
+/// Types that stand beside a mechanism's in its module.
+const NEIGHBOURS: [&str; 28] = [
+    "Branch",
+    "Canvas",
+    "ConstraintRow",
+    "Correction",
+    "Default",
+    "Direction",
+    "Energy",
+    "Event",
+    "Initial",
+    "Inputs",
+    "Interface",
+    "Mechanism",
+    "None",
+    "Option",
+    "Parameters",
+    "Position",
+    "Quantity",
+    "Real",
+    "Regular",
+    "SMatrix",
+    "SVector",
+    "Self",
+    "Some",
+    "Start",
+    "State",
+    "Structure",
+    "T",
+    "Terms",
+];
+
+/// `slider_crank` → `SliderCrank`; what is in camel case stays so. A name that one
+/// of its neighbours has gets `Mechanism` in front.
 pub(super) fn camel_case(name: &str) -> String {
     let mut camel = String::new();
     for word in name.split('_').filter(|word| !word.is_empty()) {
@@ -61,7 +94,8 @@ pub(super) fn camel_case(name: &str) -> String {
         camel.extend(letters.next().into_iter().flat_map(char::to_uppercase));
         camel.push_str(letters.as_str());
     }
-    if syn::parse_str::<Ident>(&camel).is_ok() {
+    let free = !NEIGHBOURS.contains(&camel.as_str());
+    if free && syn::parse_str::<Ident>(&camel).is_ok() {
         camel
     } else {
         format!("Mechanism{camel}")

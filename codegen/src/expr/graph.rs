@@ -98,6 +98,11 @@ impl Graph {
         self.nodes.len()
     }
 
+    /// Whether there is no expression yet.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
     fn intern(&mut self, node: Node) -> ExprId {
         if let Some(&known) = self.index.get(&node) {
             return known;
@@ -161,13 +166,13 @@ impl Graph {
     ) {
         let mut add = |term, weight: Number| {
             let entry = terms.entry(term).or_insert(Number::ZERO);
-            *entry = entry.add(weight);
+            *entry = *entry + weight;
         };
         match self.node(term) {
-            Node::Number(value) => *constant = constant.add(value.mul(weight)),
+            Node::Number(value) => *constant = *constant + *value * weight,
             Node::Sum(inner, parts) if parts.len() == 1 => {
-                *constant = constant.add(inner.mul(weight));
-                add(parts[0].0, parts[0].1.mul(weight));
+                *constant = *constant + *inner * weight;
+                add(parts[0].0, parts[0].1 * weight);
             }
             _ => add(term, weight),
         }
@@ -248,7 +253,7 @@ impl Graph {
     ) {
         let mut scale = |value: Number| {
             let power = value.powi(exponent).unwrap_or(Number::float(f64::INFINITY));
-            *coefficient = coefficient.mul(power);
+            *coefficient = *coefficient * power;
         };
         match self.node(base).clone() {
             Node::Number(value) => scale(value),
@@ -261,8 +266,8 @@ impl Graph {
             }
             Node::Sum(constant, terms) if terms[0].1.is_negative() => {
                 scale(Number::MINUS_ONE);
-                let opposite: Vec<_> = terms.iter().map(|&(t, w)| (t, w.neg())).collect();
-                let positive = self.weighted_sum(constant.neg(), &opposite);
+                let opposite: Vec<_> = terms.iter().map(|&(t, w)| (t, -w)).collect();
+                let positive = self.weighted_sum(-constant, &opposite);
                 bump(powers, positive, exponent);
             }
             Node::Function(Function::Sqrt, inside) => {
@@ -277,7 +282,7 @@ impl Graph {
     /// `base ^ exponent` for any exponent: whole powers stay products, halves
     /// become square roots, the rest is left to the power function.
     pub fn pow(&mut self, base: ExprId, exponent: ExprId) -> ExprId {
-        let halves = self.as_number(exponent).map(|n| n.mul(Number::integer(2)));
+        let halves = self.as_number(exponent).map(|n| n * Number::integer(2));
         match halves
             .and_then(Number::as_integer)
             .and_then(|h| i32::try_from(h).ok())
@@ -314,8 +319,8 @@ impl Graph {
     fn negated_inside(&mut self, x: ExprId) -> ExprId {
         match self.node(x).clone() {
             Node::Sum(constant, terms) => {
-                let terms: Vec<_> = terms.iter().map(|&(t, w)| (t, w.neg())).collect();
-                self.weighted_sum(constant.neg(), &terms)
+                let terms: Vec<_> = terms.iter().map(|&(t, w)| (t, -w)).collect();
+                self.weighted_sum(-constant, &terms)
             }
             _ => self.neg(x),
         }
@@ -411,7 +416,7 @@ fn bump(powers: &mut BTreeMap<ExprId, i32>, base: ExprId, exponent: i32) {
 /// The value of a function at a number where it is rational.
 fn exact_value(function: Function, x: Number) -> Option<Number> {
     match function {
-        Function::Abs => Some(if x.is_negative() { x.neg() } else { x }),
+        Function::Abs => Some(if x.is_negative() { -x } else { x }),
         Function::Sign if x.is_negative() => Some(Number::MINUS_ONE),
         Function::Sign if !x.is_zero() => Some(Number::ONE),
         Function::Sqrt => x.exact_sqrt(),

@@ -8,6 +8,7 @@
 
 use std::cmp::Ordering;
 use std::fmt;
+use std::ops::{Add, Mul, Neg};
 
 /// The bits of the mantissa of a float.
 const MANTISSA_BITS: i32 = f64::MANTISSA_DIGITS.cast_signed();
@@ -126,29 +127,6 @@ impl Number {
         }
     }
 
-    /// The sum.
-    pub fn add(self, other: Number) -> Number {
-        let exact = self.exact_with(other).and_then(|((a, b), (c, d))| {
-            let left = a.checked_mul(d)?;
-            let right = c.checked_mul(b)?;
-            Number::ratio(left.checked_add(right)?, b.checked_mul(d)?)
-        });
-        exact.unwrap_or_else(|| Number::float(self.to_f64() + other.to_f64()))
-    }
-
-    /// The product.
-    pub fn mul(self, other: Number) -> Number {
-        let exact = self
-            .exact_with(other)
-            .and_then(|((a, b), (c, d))| Number::ratio(a.checked_mul(c)?, b.checked_mul(d)?));
-        exact.unwrap_or_else(|| Number::float(self.to_f64() * other.to_f64()))
-    }
-
-    /// The opposite.
-    pub fn neg(self) -> Number {
-        self.mul(Number::MINUS_ONE)
-    }
-
     /// An integer power; `None` for a negative power of zero.
     pub fn powi(self, exponent: i32) -> Option<Number> {
         if exponent < 0 && self.is_zero() {
@@ -212,6 +190,38 @@ fn quotient(n: u128, d: u128) -> (f64, f64) {
     let left = if up { -(missing as f64) } else { rest as f64 } / d as f64;
     let unit = 2.0_f64.powi(exponent);
     ((mantissa + u128::from(up)) as f64 * unit, left * unit)
+}
+
+impl Add for Number {
+    type Output = Number;
+
+    fn add(self, other: Number) -> Number {
+        let exact = self.exact_with(other).and_then(|((a, b), (c, d))| {
+            let left = a.checked_mul(d)?;
+            let right = c.checked_mul(b)?;
+            Number::ratio(left.checked_add(right)?, b.checked_mul(d)?)
+        });
+        exact.unwrap_or_else(|| Number::float(self.to_f64() + other.to_f64()))
+    }
+}
+
+impl Mul for Number {
+    type Output = Number;
+
+    fn mul(self, other: Number) -> Number {
+        let exact = self
+            .exact_with(other)
+            .and_then(|((a, b), (c, d))| Number::ratio(a.checked_mul(c)?, b.checked_mul(d)?));
+        exact.unwrap_or_else(|| Number::float(self.to_f64() * other.to_f64()))
+    }
+}
+
+impl Neg for Number {
+    type Output = Number;
+
+    fn neg(self) -> Number {
+        self * Number::MINUS_ONE
+    }
 }
 
 fn gcd(mut a: u128, mut b: u128) -> u128 {

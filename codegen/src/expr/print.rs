@@ -252,9 +252,5 @@ fn joint(first: bool, negative: bool) -> &'static str {
 }
 
 fn size(value: Number) -> Number {
-    if value.is_negative() {
-        value.neg()
-    } else {
-        value
-    }
+    if value.is_negative() { -value } else { value }
 }

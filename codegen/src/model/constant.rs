@@ -111,7 +111,7 @@ impl Lowering<'_> {
             );
             return self.report(Diagnostic::error(name.span, message));
         };
-        let number = if value < 0.0 { size.neg() } else { size };
+        let number = if value < 0.0 { -size } else { size };
         Some((unit, self.evaluator.graph.number(number)))
     }
 

@@ -92,7 +92,7 @@ impl Scheduler<'_> {
         if !value.is_negative() {
             return self.program.push(Operation::Number(value));
         }
-        let size = self.program.push(Operation::Number(value.neg()));
+        let size = self.program.push(Operation::Number(-value));
         self.program.push(Operation::Sum(vec![(true, size)]))
     }
 
@@ -100,12 +100,12 @@ impl Scheduler<'_> {
         let mut signed: Vec<(bool, Value)> = Vec::new();
         for (x, weight) in terms {
             let negative = weight.is_negative();
-            let size = if negative { weight.neg() } else { *weight };
+            let size = if negative { -*weight } else { *weight };
             signed.push((negative, self.weighted(*x, size)));
         }
         if !constant.is_zero() {
             let size = if constant.is_negative() {
-                constant.neg()
+                -constant
             } else {
                 constant
             };

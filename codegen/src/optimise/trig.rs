@@ -56,7 +56,7 @@ impl Ring<'_> {
                 let mut sum = constant(number);
                 for (x, weight) in terms {
                     for (monomial, coefficient) in &self.known[&x] {
-                        accumulate(&mut sum, monomial.clone(), coefficient.mul(weight));
+                        accumulate(&mut sum, monomial.clone(), *coefficient * weight);
                     }
                 }
                 (sum.len() <= TERMS_MAX).then_some(sum)
@@ -129,7 +129,7 @@ impl Ring<'_> {
         let mut product = Polynomial::new();
         for (left, x) in a {
             for (right, y) in b {
-                self.add_reduced(&mut product, joined(left, right), x.mul(*y));
+                self.add_reduced(&mut product, joined(left, right), *x * *y);
                 if product.len() > TERMS_MAX {
                     return None;
                 }
@@ -156,7 +156,7 @@ impl Ring<'_> {
         lowered.retain(|(_, n)| *n != 0);
         let with_cos = joined(&lowered, &[(cos, 2)]);
         self.add_reduced(sum, lowered, coefficient);
-        self.add_reduced(sum, with_cos, coefficient.neg());
+        self.add_reduced(sum, with_cos, -coefficient);
     }
 
     fn expression(&mut self, polynomial: &Polynomial) -> ExprId {
@@ -184,7 +184,7 @@ fn constant(value: Number) -> Polynomial {
 fn accumulate(sum: &mut Polynomial, monomial: Monomial, coefficient: Number) {
     let total = sum
         .get(&monomial)
-        .map_or(coefficient, |known| known.add(coefficient));
+        .map_or(coefficient, |known| *known + coefficient);
     if total.is_zero() {
         sum.remove(&monomial);
     } else {

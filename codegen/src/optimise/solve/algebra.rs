@@ -43,7 +43,7 @@ impl Algebra {
         let ((minus_a, a), (minus_b, b)) = (a?, b?);
         let minus = minus_a != minus_b;
         let value = match (self.as_number(a), self.as_number(b)) {
-            (Some(x), Some(y)) => self.number(x.mul(y)),
+            (Some(x), Some(y)) => self.number(x * y),
             (Some(x), _) if x.is_one() => b,
             (_, Some(y)) if y.is_one() => a,
             _ => self.program.push(Operation::Product(vec![a, b])),
@@ -56,7 +56,7 @@ impl Algebra {
         let mut kept: Vec<Signed> = Vec::new();
         for (minus, value) in terms {
             match self.as_number(value) {
-                Some(x) => number = number.add(if minus { x.neg() } else { x }),
+                Some(x) => number = number + if minus { -x } else { x },
                 // Equal terms of opposite sign cancel exactly.
                 None => match kept.iter().position(|term| *term == (!minus, value)) {
                     Some(opposite) => drop(kept.remove(opposite)),
@@ -66,7 +66,7 @@ impl Algebra {
         }
         if !number.is_zero() {
             let size = if number.is_negative() {
-                number.neg()
+                -number
             } else {
                 number
             };

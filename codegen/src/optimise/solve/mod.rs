@@ -80,9 +80,9 @@ impl System {
         let scaled_rows: Vec<Vec<Entry>> =
             rows.iter().map(|row| algebra.scaled(&mass, row)).collect();
         let mut schur = Sparse::new();
-        for i in 0..r {
-            for j in 0..=i {
-                if let Some(entry) = algebra.dot(&rows[i], &scaled_rows[j], None) {
+        for (i, row) in rows.iter().enumerate() {
+            for (j, scaled) in scaled_rows[..=i].iter().enumerate() {
+                if let Some(entry) = algebra.dot(row, scaled, None) {
                     schur.insert((i, j), entry);
                     schur.insert((j, i), entry);
                 }
