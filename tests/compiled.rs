@@ -1,11 +1,11 @@
 //! What the compiled code of a mechanism says at a state, as plain numbers.
 
-use crate::library::{Derived, Point};
+use crate::library::{Derived, Point, visit};
 use crate::random::Random;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Branch, Correction, Interface, Mechanism, Pivots, Position, Real, Regular, State, Terms,
-    Visitor,
+    Branch, Canvas, Correction, Interface, Mechanism, Pivots, Position, Real, Regular, State,
+    Terms, Visitor,
 };
 use std::collections::BTreeMap;
 
@@ -60,7 +60,7 @@ impl Answers {
 
 /// What the compiled code of a mechanism of the library says.
 pub fn answers<T: Real>(derived: &Derived, point: &Point, held: bool) -> Answers {
-    bricard::visit::<T, _>(&derived.name, Ask { point, held }).expect("a name of the catalogue")
+    visit::<T, _>(&derived.name, Ask { point, held })
 }
 
 /// A random point, and the answers there.
@@ -159,15 +159,50 @@ where
     T: Real,
     M: Interface<T, N>,
 {
-    let mut values = [T::from_f64(f64::NAN); 64];
-    mechanism.outputs(state, &mut values);
-    let written = values
-        .iter()
-        .position(|x| !x.is_finite())
-        .unwrap_or(values.len());
-    answers.fill("outputs", written.max(1), &values[..written]);
+    let unwritten = [T::from_f64(f64::NAN); 64];
+    let mut fill = |array, values: [T; 64]| {
+        let written = values.iter().take_while(|x| x.is_finite()).count();
+        answers.fill(array, written.max(1), &values[..written]);
+    };
+    let (mut outputs, mut events) = (unwritten, unwritten);
+    mechanism.outputs(state, &mut outputs);
+    mechanism.events(state, &mut events);
+    fill("outputs", outputs);
+    fill("events", events);
+    let mut picture = Picture::default();
+    mechanism.draw(state, &mut picture);
+    answers.fill("draw", picture.0.len().max(1), &picture.0);
     let start = mechanism.start();
     let value = |initial: &bricard_runtime::Initial<T>| initial.value;
     let values: Vec<T> = start.q.iter().chain(&start.v).map(value).collect();
     answers.fill("start", 2 * N, &values);
+}
+
+/// The numbers of a picture in the order in which they are drawn.
+#[derive(Default)]
+struct Picture(Vec<f64>);
+
+impl Picture {
+    fn points<T: Real>(&mut self, points: &[[T; 3]]) {
+        self.0.extend(points.iter().flatten().map(|x| x.to_f64()));
+    }
+}
+
+impl<T: Real> Canvas<T> for Picture {
+    fn line(&mut self, points: &[[T; 3]]) {
+        self.points(points);
+    }
+
+    fn circle(&mut self, centre: [T; 3], radius: T) {
+        self.points(&[centre]);
+        self.0.push(radius.to_f64());
+    }
+
+    fn polygon(&mut self, points: &[[T; 3]]) {
+        self.points(points);
+    }
+
+    fn trace(&mut self, point: [T; 3]) {
+        self.points(&[point]);
+    }
 }

@@ -6,13 +6,7 @@ use bricard_codegen::derive::{Equations, derive};
 use bricard_codegen::expr::{ExprId, Symbol};
 use bricard_codegen::model::Mechanism;
 use bricard_codegen::{Settings, analyse};
-
-/// Descriptions with terms that no mechanism of the library has.
-const ODD: [(&str, &str); 3] = [
-    ("turntable", include_str!("descriptions/turntable.mech")),
-    ("moving_rail", include_str!("descriptions/moving_rail.mech")),
-    ("knife_edge", include_str!("descriptions/knife_edge.mech")),
-];
+use bricard_runtime::{Real, Visitor};
 
 /// A description, checked and derived.
 pub struct Derived {
@@ -44,17 +38,30 @@ pub fn derived(name: &str, source: &str) -> Derived {
     }
 }
 
-/// The mechanisms of the library.
-pub fn library() -> impl Iterator<Item = Derived> {
-    bricard::NAMES.iter().map(|name| {
-        let source = bricard::source(name).expect("a name of the catalogue has a source");
-        derived(name, source)
-    })
+/// The names of the mechanisms of the library and of the odd ones.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    bricard::NAMES.iter().chain(bricard_odd::NAMES).copied()
+}
+
+/// The description of a mechanism.
+pub fn source(name: &str) -> &'static str {
+    let found = bricard::source(name).or_else(|| bricard_odd::source(name));
+    found.unwrap_or_else(|| panic!("{name} is in no catalogue"))
 }
 
 /// The mechanisms of the library and the odd ones.
 pub fn everything() -> impl Iterator<Item = Derived> {
-    library().chain(ODD.iter().map(|(name, source)| derived(name, source)))
+    names().map(|name| derived(name, source(name)))
+}
+
+/// Shows a visitor the compiled mechanism of a name, odd ones included.
+pub fn visit<T: Real, V: Visitor<T>>(name: &str, visitor: V) -> V::Output {
+    let visited = if bricard::NAMES.contains(&name) {
+        bricard::visit(name, visitor)
+    } else {
+        bricard_odd::visit(name, visitor)
+    };
+    visited.unwrap_or_else(|| panic!("{name} is in no catalogue"))
 }
 
 impl Derived {

@@ -2,10 +2,13 @@
 
 use crate::compiled::{Answers, Place, answers, asked};
 use crate::dense::{dot, null_space, size, times};
-use crate::library::{Derived, Point, library};
+use crate::library::{Derived, Point, everything};
 use crate::random::Random;
 use bricard_codegen::expr::{ExprId, Symbol};
+use bricard_codegen::model::Shape;
 use bricard_codegen::optimise::{Slot, interpret, optimise, plain};
+use bricard_runtime::nalgebra::SVector;
+use bricard_runtime::{Mechanism, Position, State, Terms};
 use std::collections::BTreeMap;
 
 /// What equal values may differ by: some units in the last place of the largest
@@ -37,8 +40,10 @@ fn places(derived: &Derived) -> Vec<(Place, ExprId)> {
         energies.power,
     ];
     let outputs: Vec<ExprId> = derived.mechanism.outputs.iter().map(|o| o.value).collect();
+    let events: Vec<ExprId> = derived.mechanism.events.iter().map(|e| e.value).collect();
+    let picture: Vec<ExprId> = derived.mechanism.shapes.iter().flat_map(drawn).collect();
     let mut places = Vec::new();
-    let vectors: [(&'static str, &[ExprId]); 7] = [
+    let vectors: [(&'static str, &[ExprId]); 9] = [
         ("force", &equations.force),
         ("bias", &equations.bias),
         ("residual", &equations.residual),
@@ -46,6 +51,8 @@ fn places(derived: &Derived) -> Vec<(Place, ExprId)> {
         ("branch bias", &equations.branch_bias),
         ("energy", &energies),
         ("outputs", &outputs),
+        ("events", &events),
+        ("draw", &picture),
     ];
     for (array, entries) in vectors {
         places.extend(
@@ -67,6 +74,15 @@ fn places(derived: &Derived) -> Vec<(Place, ExprId)> {
         }
     }
     places
+}
+
+/// The numbers of a shape in the order in which they are drawn.
+fn drawn(shape: &Shape) -> Vec<ExprId> {
+    match shape {
+        Shape::Line(points) | Shape::Polygon(points) => points.concat(),
+        Shape::Circle(centre, radius) => [&centre[..], &[*radius]].concat(),
+        Shape::Trace(point) => point.to_vec(),
+    }
 }
 
 /// The point with inputs at their laws.
@@ -99,7 +115,7 @@ fn evaluated(derived: &Derived, places: &[(Place, ExprId)], point: &Point) -> Ve
 
 #[test]
 fn compiled_code_has_the_values_of_its_expressions() {
-    for derived in library() {
+    for derived in everything() {
         let places = places(&derived);
         for seed in 0..STATES {
             for held in [false, true] {
@@ -122,7 +138,7 @@ fn compiled_code_has_the_values_of_its_expressions() {
 
 #[test]
 fn interpreted_programs_have_the_values_of_their_expressions() {
-    for mut derived in library() {
+    for mut derived in everything() {
         let places = places(&derived);
         let slot = |((array, row, column), e): &(Place, ExprId)| {
             (
@@ -154,7 +170,7 @@ fn interpreted_programs_have_the_values_of_their_expressions() {
 
 #[test]
 fn the_start_has_the_values_of_the_description() {
-    for derived in library() {
+    for derived in everything() {
         let (point, answers) = asked(&derived, 0, false);
         let n = derived.n();
         for start in &derived.mechanism.starts {
@@ -183,7 +199,7 @@ fn the_start_has_the_values_of_the_description() {
 
 /// Runs a check where the regular path may be used; says how often it was.
 fn where_regular(claim: impl Fn(&Derived, &Answers, &str)) {
-    for derived in library() {
+    for derived in everything() {
         let mut regular = 0;
         for seed in 0..STATES {
             let (_, answers) = asked(&derived, seed, true);
@@ -289,7 +305,7 @@ fn seed_of(what: &str) -> u64 {
 
 #[test]
 fn single_precision_says_roughly_the_same() {
-    for derived in library() {
+    for derived in everything() {
         for seed in 0..STATES {
             let mut point = derived.point(&mut Random::seeded(seed));
             // Single precision knows an angle of 300 rad to 1.5e-5 only.
@@ -315,5 +331,35 @@ fn single_precision_says_roughly_the_same() {
                 );
             }
         }
+    }
+}
+
+/// The functions that a user may call one by one.
+#[test]
+fn separate_functions_say_what_the_fused_ones_do() {
+    let mechanism = bricard::slider_crank_driven::SliderCrankDriven::<f64>::default();
+    let mut random = Random::seeded(7);
+    for _ in 0..STATES {
+        let mut vector = || SVector::from_fn(|_, _| random.between(-3.0, 3.0));
+        let state = State::new(0.0, vector(), vector());
+        let mut terms = Terms::default();
+        mechanism.terms(&state, &mut terms);
+        let mut position = Position::default();
+        mechanism.position(&state, &mut position);
+        let coriolis = mechanism.coriolis_force(&state);
+        let force = mechanism.applied_force(&state) - coriolis - mechanism.potential_force(&state);
+        let differences = [
+            (mechanism.mass_matrix(&state) - terms.mass).amax(),
+            (force - terms.force).amax(),
+            (mechanism.coriolis_matrix(&state) * state.v - coriolis).amax(),
+            (mechanism.constraint_residual(&state) - position.residual).amax(),
+            (mechanism.constraint_jacobian(&state) - terms.jacobian).amax(),
+            (mechanism.constraint_bias(&state) - terms.bias).amax(),
+        ];
+        // Entries of these arrays are below 100.
+        assert!(
+            differences.iter().all(|x| *x <= 100.0 * ROUND_OFF),
+            "{differences:?}"
+        );
     }
 }

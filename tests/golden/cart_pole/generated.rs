@@ -104,9 +104,9 @@ pub mod cart_pole {
     /// External signals, in SI units: `None` is the default law.
     #[derive(Clone, Copy, Debug, Default, PartialEq)]
     pub struct Inputs<T> {
-        /** `u` (N): push on the cart
-
- Default law: `0`.*/
+        /// `u` (N): push on the cart
+        ///
+        /// Default law: `0`.
         pub u: Option<T>,
     }
     /// Cart–pole: a rod that is balanced on, or swings under, a cart on a rail.
@@ -129,7 +129,14 @@ pub mod cart_pole {
         fn structure(&self) -> &'static Structure {
             &STRUCTURE
         }
-        /// Everything one acceleration needs: `M`, `p₁`, `A`, `p₂`.
+        /// Everything one acceleration needs: `M q̈ + r = p₁`, `A q̈ = p₂`.
+        ///
+        /// | field | equation | shape | unit |
+        /// |---|---|---|---|
+        /// | `mass` | `M = ∂²T/∂q̇²` | `N × N` | kg for two lengths, kg·m², kg·m where an angle takes part |
+        /// | `force` | `p₁ = Q − C q̇ − h` | `N` | N for a length, N·m for an angle |
+        /// | `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
+        /// | `bias` | `p₂ = −(Ȧ q̇ + ḃ)` | `R` | unit of the row per s² |
         ///
         /// Costs 8 products, 4 sums, 1 sine–cosine pair.
         fn terms(&self, state: &State<T, 2>, out: &mut Terms<T, 2, 0>) {
@@ -152,8 +159,8 @@ pub mod cart_pole {
         /// The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
         /// Schur complement `A M⁻¹ Aᵀ`.
         ///
-        /// Costs 14 products, 7 sums, 3 quotients, 1 sine–cosine pair.
-        fn regular(&self, state: &State<T, 2>, out: &mut Regular<T, 2>) -> bool {
+        /// Costs 14 products, 7 sums, 2 quotients, 1 sine–cosine pair.
+        fn regular(&self, state: &State<T, 2>, out: &mut Regular<T, 2, 0>) -> bool {
             let [_, phi] = state.q.data.0[0];
             let [x_dot, phi_dot] = state.v.data.0[0];
             let Parameters { m1, m2, e, j, d } = self.parameters;
@@ -172,8 +179,8 @@ pub mod cart_pole {
                     - sum * product_3);
             out.acceleration.data.0[0][0] = sum * quotient - product_3 * product_4;
             out.acceleration.data.0[0][1] = product_4;
-            out.mass_pivot = sum_3 / sum_2;
-            out.pivot = T::one();
+            out.pivots.mass_pivots.data.0[0][1] = sum_3;
+            out.pivots.mass_diagonal.data.0[0][1] = sum_2;
             true
         }
         /// Energies and the power supplied from outside.
@@ -206,7 +213,8 @@ pub mod cart_pole {
         }
     }
     impl<T: Real> CartPole<T> {
-        /// Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric.
+        /// Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric; kg for two lengths, kg·m² for two
+        /// angles, kg·m for one of each.
         ///
         /// Costs 3 products, 2 sums, 1 sine–cosine pair.
         pub fn mass_matrix(&self, state: &State<T, 2>) -> SMatrix<T, 2, 2> {
@@ -222,7 +230,7 @@ pub mod cart_pole {
             out.data.0[1][1] = j + e * m2_e;
             out
         }
-        /// Potential forces `h = ∂Π/∂q`, `N`.
+        /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
         ///
         /// Costs 3 products, 1 sum, 1 sine–cosine pair.
         pub fn potential_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
@@ -234,7 +242,7 @@ pub mod cart_pole {
                 * sin_phi;
             out
         }
-        /// Applied and dissipative forces `Q`, `N`.
+        /// Applied and dissipative forces `Q`, `N`; N for a length, N·m for an angle.
         ///
         /// Costs 1 product, 1 sum.
         pub fn applied_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
@@ -245,7 +253,8 @@ pub mod cart_pole {
             out.data.0[0][0] = u - d * x_dot;
             out
         }
-        /// `C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`.
+        /// `C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`; N for a
+        /// length, N·m for an angle.
         ///
         /// Costs 4 products, 1 sum, 1 sine–cosine pair.
         pub fn coriolis_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
@@ -257,7 +266,8 @@ pub mod cart_pole {
             out.data.0[0][0] = -m2 * e * phi_dot * phi_dot * sin_phi;
             out
         }
-        /// Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric.
+        /// Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric; the
+        /// unit of `M` per s.
         ///
         /// Costs 3 products, 1 sum, 1 sine–cosine pair.
         pub fn coriolis_matrix(&self, state: &State<T, 2>) -> SMatrix<T, 2, 2> {

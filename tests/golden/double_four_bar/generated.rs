@@ -276,11 +276,11 @@ pub mod double_four_bar {
             }
         }
     }
-    /** Two parallelograms in a row: Phong & Hoang (2012), Example 2.
-
-Three cranks of length r stand on the ground at distances L, two couplers of
-length L join them. The constraints lose rank from four to two where all links
-lie in one line: at q1 = k*pi.*/
+    /// Two parallelograms in a row: Phong & Hoang (2012), Example 2.
+    ///
+    /// Three cranks of length r stand on the ground at distances L, two couplers of
+    /// length L join them. The constraints lose rank from four to two where all links
+    /// lie in one line: at q1 = k*pi.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct DoubleFourBar<T> {
         /// Run-time parameters.
@@ -297,7 +297,14 @@ lie in one line: at q1 = k*pi.*/
         fn structure(&self) -> &'static Structure {
             &STRUCTURE
         }
-        /// Everything one acceleration needs: `M`, `p₁`, `A`, `p₂`.
+        /// Everything one acceleration needs: `M q̈ + r = p₁`, `A q̈ = p₂`.
+        ///
+        /// | field | equation | shape | unit |
+        /// |---|---|---|---|
+        /// | `mass` | `M = ∂²T/∂q̇²` | `N × N` | kg for two lengths, kg·m², kg·m where an angle takes part |
+        /// | `force` | `p₁ = Q − C q̇ − h` | `N` | N for a length, N·m for an angle |
+        /// | `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
+        /// | `bias` | `p₂ = −(Ȧ q̇ + ḃ)` | `R` | unit of the row per s² |
         ///
         /// Costs 71 products, 34 sums, 5 sine–cosine pairs.
         fn terms(&self, state: &State<T, 5>, out: &mut Terms<T, 5, 4>) {
@@ -417,8 +424,8 @@ lie in one line: at q1 = k*pi.*/
         /// The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
         /// Schur complement `A M⁻¹ Aᵀ`.
         ///
-        /// Costs 181 products, 106 sums, 14 quotients, 5 sine–cosine pairs, 3 other functions.
-        fn regular(&self, state: &State<T, 5>, out: &mut Regular<T, 5>) -> bool {
+        /// Costs 181 products, 106 sums, 9 quotients, 5 sine–cosine pairs.
+        fn regular(&self, state: &State<T, 5>, out: &mut Regular<T, 5, 4>) -> bool {
             let [q1, q2, q3, q4, q5] = state.q.data.0[0];
             let [q1_dot, q2_dot, q3_dot, q4_dot, q5_dot] = state.v.data.0[0];
             let Parameters {
@@ -493,11 +500,11 @@ lie in one line: at q1 = k*pi.*/
             let sum_6 = sum_5 - product_8 * product_9;
             let quotient_4 = T::one() / sum_6;
             let product_11 = product_10 * quotient_4;
-            let quotient_5 = T::one()
-                / (l1_sin_q1 * product_2 + sum_2 * product_5 + product_7
-                    + product_10 * product_11);
+            let sum_7 = l1_sin_q1 * product_2 + sum_2 * product_5 + product_7
+                + product_10 * product_11;
+            let quotient_5 = T::one() / sum_7;
             let product_12 = q1_dot * (l1 * q1_dot);
-            let sum_7 = m2_e2
+            let sum_8 = m2_e2
                 * ((cos_q2_sin_q1 - cos_q1_sin_q2) * product_12
                     - T::constant(9.81, -4.973799150320702e-16) * cos_q2)
                 - sum * product_4;
@@ -505,112 +512,126 @@ lie in one line: at q1 = k*pi.*/
             let sin_q3_cos_q4 = sin_q3 * cos_q4;
             let q4_dot_q4_dot = q4_dot * q4_dot;
             let product_13 = T::constant(9.81, -4.973799150320702e-16) * cos_q3;
-            let sum_8 = l3_m4
+            let sum_9 = l3_m4
                 * (e4 * (cos_q3_sin_q4 - sin_q3_cos_q4) * q4_dot_q4_dot - product_13)
                 - e3_m3 * product_13;
-            let product_14 = product_6 * sum_8;
+            let product_14 = product_6 * sum_9;
             let cos_q2_l2 = cos_q2 * l2;
             let product_15 = q3_dot * (l3 * q3_dot);
             let product_16 = cos_q3 * product_15;
-            let sum_9 = m4_e4
+            let sum_10 = m4_e4
                 * (product_15 * (sin_q3_cos_q4 - cos_q3_sin_q4)
                     - T::constant(9.81, -4.973799150320702e-16) * cos_q4)
-                - product_9 * sum_8;
-            let sum_10 = product_5 * sum_7 + product_14
+                - product_9 * sum_9;
+            let sum_11 = product_5 * sum_8 + product_14
                 - (cos_q1 * product_12 + q2_dot_q2_dot * cos_q2_l2 - product_16)
-                - sum * product_2 - product_11 * sum_9;
+                - sum * product_2 - product_11 * sum_10;
             let l1_cos_q1 = l1 * cos_q1;
-            let sum_11 = cos_q2_l2 - product_4 * l1_cos_q1;
+            let sum_12 = cos_q2_l2 - product_4 * l1_cos_q1;
             let l3_cos_q3 = l3 * cos_q3;
             let product_17 = product_6 * l3_cos_q3;
             let product_18 = product_9 * l3_cos_q3;
-            let sum_12 = product_5 * sum_11 - product_2 * l1_cos_q1 - product_17
+            let sum_13 = product_5 * sum_12 - product_2 * l1_cos_q1 - product_17
                 - product_11 * product_18;
-            let product_19 = quotient_5 * sum_12;
+            let product_19 = quotient_5 * sum_13;
             let product_20 = quotient * l1_cos_q1;
-            let product_21 = quotient_2 * sum_11;
+            let product_21 = quotient_2 * sum_12;
             let product_22 = quotient_3 * l3_cos_q3;
             let product_23 = l3_cos_q3 * product_22;
             let product_24 = quotient_4 * product_18;
-            let sum_13 = l1_cos_q1 * product_20 + sum_11 * product_21 + product_23
+            let sum_14 = l1_cos_q1 * product_20 + sum_12 * product_21 + product_23
                 + product_18 * product_24;
-            let sum_14 = sum_13 - sum_12 * product_19;
-            let quotient_6 = T::one() / sum_14;
+            let sum_15 = sum_14 - sum_13 * product_19;
+            let quotient_6 = T::one() / sum_15;
             let product_25 = sin_q3 * product_15;
-            let product_26 = sum_8 * product_22;
-            let sum_15 = sum * product_20 + sum_7 * product_21 + sum_9 * product_24
+            let product_26 = sum_9 * product_22;
+            let sum_16 = sum * product_20 + sum_8 * product_21 + sum_10 * product_24
                 - (sin_q1 * product_12 + q2_dot_q2_dot * sin_q2_l2 - product_25)
                 - product_26;
-            let sum_16 = sum_15 - sum_10 * product_19;
+            let sum_17 = sum_16 - sum_11 * product_19;
             let sin_q4_l4 = sin_q4 * l4;
-            let sum_17 = product_10 - sin_q4_l4;
-            let sum_18 = product_7 + product_11 * sum_17;
-            let product_27 = quotient_5 * sum_18;
-            let sum_19 = (l3_sin_q3 * product_22 + product_24 * sum_17)
-                + sum_12 * product_27;
-            let product_28 = quotient_6 * sum_19;
-            let product_29 = quotient_4 * sum_17;
+            let sum_18 = product_10 - sin_q4_l4;
+            let sum_19 = product_7 + product_11 * sum_18;
+            let product_27 = quotient_5 * sum_19;
+            let sum_20 = (l3_sin_q3 * product_22 + product_24 * sum_18)
+                + sum_13 * product_27;
+            let product_28 = quotient_6 * sum_20;
+            let product_29 = quotient_4 * sum_18;
             let l5_sin_q5 = l5 * sin_q5;
             let e5_m5 = e5 * m5;
             let quotient_7 = T::one() / (j5 + e5 * e5_m5);
             let product_30 = l5_sin_q5 * quotient_7;
-            let sum_20 = product_7 + sum_17 * product_29 + l5_sin_q5 * product_30;
-            let sum_21 = (sum_20 - sum_18 * product_27) - sum_19 * product_28;
-            let quotient_8 = T::one() / sum_21;
+            let sum_21 = product_7 + sum_18 * product_29 + l5_sin_q5 * product_30;
+            let sum_22 = (sum_21 - sum_19 * product_27) - sum_20 * product_28;
+            let quotient_8 = T::one() / sum_22;
             let cos_q4_l4 = cos_q4 * l4;
             let l5_cos_q5 = l5 * cos_q5;
             let q5_dot_q5_dot = q5_dot * q5_dot;
             let product_31 = T::constant(9.81, -4.973799150320702e-16) * e5_m5 * cos_q5;
-            let sum_22 = sum_9 * product_29 - product_14
+            let sum_23 = sum_10 * product_29 - product_14
                 - (product_16 + q4_dot_q4_dot * cos_q4_l4 - l5_cos_q5 * q5_dot_q5_dot)
                 - product_30 * product_31;
-            let sum_23 = (sum_22 + sum_10 * product_27) - sum_16 * product_28;
-            let sum_24 = cos_q4_l4 - product_18;
-            let sum_25 = product_17 - product_11 * sum_24;
-            let product_32 = quotient_5 * sum_25;
-            let sum_26 = (product_24 * sum_24 - product_23) - sum_12 * product_32;
-            let product_33 = quotient_6 * sum_26;
-            let sum_27 = ((product_29 * sum_24 - product_17 - product_30 * l5_cos_q5)
-                + sum_18 * product_32) - sum_19 * product_33;
-            let product_34 = quotient_8 * sum_27;
-            let product_35 = quotient_4 * sum_24;
+            let sum_24 = (sum_23 + sum_11 * product_27) - sum_17 * product_28;
+            let sum_25 = cos_q4_l4 - product_18;
+            let sum_26 = product_17 - product_11 * sum_25;
+            let product_32 = quotient_5 * sum_26;
+            let sum_27 = (product_24 * sum_25 - product_23) - sum_13 * product_32;
+            let product_33 = quotient_6 * sum_27;
+            let sum_28 = ((product_29 * sum_25 - product_17 - product_30 * l5_cos_q5)
+                + sum_19 * product_32) - sum_20 * product_33;
+            let product_34 = quotient_8 * sum_28;
+            let product_35 = quotient_4 * sum_25;
             let product_36 = quotient_7 * l5_cos_q5;
-            let sum_28 = product_23 + sum_24 * product_35 + l5_cos_q5 * product_36;
-            let sum_29 = ((sum_28 - sum_25 * product_32) - sum_26 * product_33)
-                - sum_27 * product_34;
-            let sum_30 = product_26 + sum_9 * product_35 + product_31 * product_36
+            let sum_29 = product_23 + sum_25 * product_35 + l5_cos_q5 * product_36;
+            let sum_30 = ((sum_29 - sum_26 * product_32) - sum_27 * product_33)
+                - sum_28 * product_34;
+            let sum_31 = product_26 + sum_10 * product_35 + product_31 * product_36
                 - (product_25 + q4_dot_q4_dot * sin_q4_l4 - l5_sin_q5 * q5_dot_q5_dot);
-            let product_37 = T::one() / sum_29
-                * (((sum_30 - sum_10 * product_32) - sum_16 * product_33)
-                    - sum_23 * product_34);
-            let sum_31 = quotient_8 * sum_23 - product_34 * product_37;
-            let sum_32 = (quotient_6 * sum_16 - product_28 * sum_31)
+            let product_37 = T::one() / sum_30
+                * (((sum_31 - sum_11 * product_32) - sum_17 * product_33)
+                    - sum_24 * product_34);
+            let sum_32 = quotient_8 * sum_24 - product_34 * product_37;
+            let sum_33 = (quotient_6 * sum_17 - product_28 * sum_32)
                 - product_33 * product_37;
-            let sum_33 = ((quotient_5 * sum_10 - product_19 * sum_32)
-                + product_27 * sum_31) - product_32 * product_37;
-            let product_38 = quotient_2 * ((sum_7 - sum_2 * sum_33) - sum_11 * sum_32);
+            let sum_34 = ((quotient_5 * sum_11 - product_19 * sum_33)
+                + product_27 * sum_32) - product_32 * product_37;
+            let product_38 = quotient_2 * ((sum_8 - sum_2 * sum_34) - sum_12 * sum_33);
             let product_39 = quotient_3
-                * ((((sum_8 - l3_sin_q3 * sum_33) + l3_cos_q3 * sum_32)
-                    + l3_sin_q3 * sum_31) - l3_cos_q3 * product_37);
+                * ((((sum_9 - l3_sin_q3 * sum_34) + l3_cos_q3 * sum_33)
+                    + l3_sin_q3 * sum_32) - l3_cos_q3 * product_37);
             let product_40 = quotient_4
-                * ((((sum_9 + product_10 * sum_33) - product_18 * sum_32)
-                    - sum_17 * sum_31) - sum_24 * product_37);
+                * ((((sum_10 + product_10 * sum_34) - product_18 * sum_33)
+                    - sum_18 * sum_32) - sum_25 * product_37);
             out.acceleration.data.0[0][0] = quotient
-                * ((sum + l1_sin_q1 * sum_33) - l1_cos_q1 * sum_32)
+                * ((sum + l1_sin_q1 * sum_34) - l1_cos_q1 * sum_33)
                 - product_4 * product_38;
             out.acceleration.data.0[0][1] = product_38;
             out.acceleration.data.0[0][2] = product_39 - product_9 * product_40;
             out.acceleration.data.0[0][3] = product_40;
             out.acceleration.data.0[0][4] = quotient_7
-                * (l5_cos_q5 * product_37 - (product_31 + l5_sin_q5 * sum_31));
-            out.mass_pivot = Real::min(sum_4 / sum_3, sum_6 / sum_5);
-            out.pivot = Real::min(
-                Real::min(sum_14 / sum_13, sum_21 / sum_20),
-                sum_29 / sum_28,
-            );
+                * (l5_cos_q5 * product_37 - (product_31 + l5_sin_q5 * sum_32));
+            out.pivots.mass_pivots.data.0[0][1] = sum_4;
+            out.pivots.mass_diagonal.data.0[0][1] = sum_3;
+            out.pivots.mass_pivots.data.0[0][3] = sum_6;
+            out.pivots.mass_diagonal.data.0[0][3] = sum_5;
+            out.pivots.row_pivots.data.0[0][0] = sum_7;
+            out.pivots.row_squares.data.0[0][0] = sum_7;
+            out.pivots.row_pivots.data.0[0][1] = sum_15;
+            out.pivots.row_squares.data.0[0][1] = sum_14;
+            out.pivots.row_pivots.data.0[0][2] = sum_22;
+            out.pivots.row_squares.data.0[0][2] = sum_21;
+            out.pivots.row_pivots.data.0[0][3] = sum_30;
+            out.pivots.row_squares.data.0[0][3] = sum_29;
             true
         }
-        /// Everything a projection needs: `M`, `g`, `A`, `b`.
+        /// Everything a projection needs: `A Δq = −g`, `A q̇ + b = 0`, in the metric `M`.
+        ///
+        /// | field | equation | shape | unit |
+        /// |---|---|---|---|
+        /// | `mass` | `M = ∂²T/∂q̇²` | `N × N` | kg for two lengths, kg·m², kg·m where an angle takes part |
+        /// | `residual` | `g`; zero for velocity constraints | `R` | unit of the row |
+        /// | `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
+        /// | `drift` | `b = ∂g/∂t` | `R` | unit of the row per s |
         ///
         /// Costs 32 products, 25 sums, 5 sine–cosine pairs.
         fn position(&self, state: &State<T, 5>, out: &mut Position<T, 5, 4>) {
@@ -696,7 +717,7 @@ lie in one line: at q1 = k*pi.*/
         /// The least corrections of position and velocity in the kinetic metric, where
         /// the constraints are regular.
         ///
-        /// Costs 175 products, 110 sums, 14 quotients, 5 sine–cosine pairs, 3 other functions.
+        /// Costs 175 products, 110 sums, 9 quotients, 5 sine–cosine pairs.
         fn correction(
             &self,
             state: &State<T, 5>,
@@ -777,112 +798,124 @@ lie in one line: at q1 = k*pi.*/
             let sum_9 = sum_8 - product_7 * product_8;
             let quotient_4 = T::one() / sum_9;
             let product_10 = product_9 * quotient_4;
-            let quotient_5 = T::one()
-                / (l1_sin_q1 * product + sum_5 * product_4 + product_6
-                    + product_9 * product_10);
-            let sum_10 = cos_q2_l2 - l1_cos_q1 * product_3;
+            let sum_10 = l1_sin_q1 * product + sum_5 * product_4 + product_6
+                + product_9 * product_10;
+            let quotient_5 = T::one() / sum_10;
+            let sum_11 = cos_q2_l2 - l1_cos_q1 * product_3;
             let product_11 = l3_cos_q3 * product_5;
             let product_12 = l3_cos_q3 * product_8;
-            let sum_11 = product_4 * sum_10 - l1_cos_q1 * product - product_11
+            let sum_12 = product_4 * sum_11 - l1_cos_q1 * product - product_11
                 - product_10 * product_12;
-            let product_13 = quotient_5 * sum_11;
+            let product_13 = quotient_5 * sum_12;
             let product_14 = l3_cos_q3 * quotient_3;
             let product_15 = l3_cos_q3 * product_14;
             let product_16 = quotient_4 * product_12;
-            let sum_12 = l1_cos_q1 * (l1_cos_q1 * quotient)
-                + sum_10 * (quotient_2 * sum_10) + product_15 + product_12 * product_16;
-            let sum_13 = sum_12 - sum_11 * product_13;
-            let quotient_6 = T::one() / sum_13;
-            let sum_14 = sum_2 - sum * product_13;
-            let sum_15 = product_9 - l4_sin_q4;
-            let sum_16 = product_6 + product_10 * sum_15;
-            let product_17 = quotient_5 * sum_16;
-            let sum_17 = (l3_sin_q3 * product_14 + product_16 * sum_15)
-                + sum_11 * product_17;
-            let product_18 = quotient_6 * sum_17;
-            let product_19 = quotient_4 * sum_15;
+            let sum_13 = l1_cos_q1 * (l1_cos_q1 * quotient)
+                + sum_11 * (quotient_2 * sum_11) + product_15 + product_12 * product_16;
+            let sum_14 = sum_13 - sum_12 * product_13;
+            let quotient_6 = T::one() / sum_14;
+            let sum_15 = sum_2 - sum * product_13;
+            let sum_16 = product_9 - l4_sin_q4;
+            let sum_17 = product_6 + product_10 * sum_16;
+            let product_17 = quotient_5 * sum_17;
+            let sum_18 = (l3_sin_q3 * product_14 + product_16 * sum_16)
+                + sum_12 * product_17;
+            let product_18 = quotient_6 * sum_18;
+            let product_19 = quotient_4 * sum_16;
             let quotient_7 = T::one() / (j5 + e5 * e5 * m5);
             let product_20 = l5_sin_q5 * quotient_7;
-            let sum_18 = product_6 + sum_15 * product_19 + l5_sin_q5 * product_20;
-            let sum_19 = (sum_18 - sum_16 * product_17) - sum_17 * product_18;
-            let quotient_8 = T::one() / sum_19;
-            let sum_20 = (sum_3 + sum * product_17) - sum_14 * product_18;
-            let sum_21 = cos_q4_l4 - product_12;
-            let sum_22 = product_11 - product_10 * sum_21;
-            let product_21 = quotient_5 * sum_22;
-            let sum_23 = (product_16 * sum_21 - product_15) - sum_11 * product_21;
-            let product_22 = quotient_6 * sum_23;
-            let sum_24 = ((product_19 * sum_21 - product_11 - l5_cos_q5 * product_20)
-                + sum_16 * product_21) - sum_17 * product_22;
-            let product_23 = quotient_8 * sum_24;
-            let sum_25 = product_15 + sum_21 * (quotient_4 * sum_21)
+            let sum_19 = product_6 + sum_16 * product_19 + l5_sin_q5 * product_20;
+            let sum_20 = (sum_19 - sum_17 * product_17) - sum_18 * product_18;
+            let quotient_8 = T::one() / sum_20;
+            let sum_21 = (sum_3 + sum * product_17) - sum_15 * product_18;
+            let sum_22 = cos_q4_l4 - product_12;
+            let sum_23 = product_11 - product_10 * sum_22;
+            let product_21 = quotient_5 * sum_23;
+            let sum_24 = (product_16 * sum_22 - product_15) - sum_12 * product_21;
+            let product_22 = quotient_6 * sum_24;
+            let sum_25 = ((product_19 * sum_22 - product_11 - l5_cos_q5 * product_20)
+                + sum_17 * product_21) - sum_18 * product_22;
+            let product_23 = quotient_8 * sum_25;
+            let sum_26 = product_15 + sum_22 * (quotient_4 * sum_22)
                 + l5_cos_q5 * (l5_cos_q5 * quotient_7);
-            let sum_26 = ((sum_25 - sum_22 * product_21) - sum_23 * product_22)
-                - sum_24 * product_23;
-            let quotient_9 = T::one() / sum_26;
+            let sum_27 = ((sum_26 - sum_23 * product_21) - sum_24 * product_22)
+                - sum_25 * product_23;
+            let quotient_9 = T::one() / sum_27;
             let product_24 = quotient_9
-                * (((sum_4 - sum * product_21) - sum_14 * product_22)
-                    - sum_20 * product_23);
-            let sum_27 = quotient_8 * sum_20 - product_23 * product_24;
-            let sum_28 = (quotient_6 * sum_14 - product_18 * sum_27)
+                * (((sum_4 - sum * product_21) - sum_15 * product_22)
+                    - sum_21 * product_23);
+            let sum_28 = quotient_8 * sum_21 - product_23 * product_24;
+            let sum_29 = (quotient_6 * sum_15 - product_18 * sum_28)
                 - product_22 * product_24;
-            let sum_29 = ((sum * quotient_5 - product_13 * sum_28) + product_17 * sum_27)
+            let sum_30 = ((sum * quotient_5 - product_13 * sum_29) + product_17 * sum_28)
                 - product_21 * product_24;
-            let product_25 = quotient_2 * (sum_5 * sum_29 + sum_10 * sum_28);
+            let product_25 = quotient_2 * (sum_5 * sum_30 + sum_11 * sum_29);
             let product_26 = quotient_4
-                * (((product_9 * sum_29 - product_12 * sum_28) - sum_15 * sum_27)
-                    - sum_21 * product_24);
-            let sum_30 = quotient_3
-                * (((l3_cos_q3 * sum_28 - l3_sin_q3 * sum_29) + l3_sin_q3 * sum_27)
+                * (((product_9 * sum_30 - product_12 * sum_29) - sum_16 * sum_28)
+                    - sum_22 * product_24);
+            let sum_31 = quotient_3
+                * (((l3_cos_q3 * sum_29 - l3_sin_q3 * sum_30) + l3_sin_q3 * sum_28)
                     - l3_cos_q3 * product_24) - product_8 * product_26;
             let product_27 = l3_sin_q3 * q3_dot;
-            let sum_31 = product_27 - l1_sin_q1 * q1_dot - l2_sin_q2 * q2_dot;
+            let sum_32 = product_27 - l1_sin_q1 * q1_dot - l2_sin_q2 * q2_dot;
             let product_28 = l3_cos_q3 * q3_dot;
-            let sum_32 = (l1_cos_q1 * q1_dot + cos_q2_l2 * q2_dot - product_28)
-                - product_13 * sum_31;
-            let sum_33 = ((l5_sin_q5 * q5_dot - product_27 - l4_sin_q4 * q4_dot)
-                + product_17 * sum_31) - product_18 * sum_32;
-            let sum_34 = (((product_28 + cos_q4_l4 * q4_dot - l5_cos_q5 * q5_dot)
-                - product_21 * sum_31) - product_22 * sum_32) - product_23 * sum_33;
-            let product_29 = quotient_9 * sum_34;
-            let sum_35 = quotient_8 * sum_33 - product_23 * product_29;
-            let sum_36 = (quotient_6 * sum_32 - product_18 * sum_35)
+            let sum_33 = (l1_cos_q1 * q1_dot + cos_q2_l2 * q2_dot - product_28)
+                - product_13 * sum_32;
+            let sum_34 = ((l5_sin_q5 * q5_dot - product_27 - l4_sin_q4 * q4_dot)
+                + product_17 * sum_32) - product_18 * sum_33;
+            let sum_35 = (((product_28 + cos_q4_l4 * q4_dot - l5_cos_q5 * q5_dot)
+                - product_21 * sum_32) - product_22 * sum_33) - product_23 * sum_34;
+            let product_29 = quotient_9 * sum_35;
+            let sum_36 = quotient_8 * sum_34 - product_23 * product_29;
+            let sum_37 = (quotient_6 * sum_33 - product_18 * sum_36)
                 - product_22 * product_29;
-            let sum_37 = ((quotient_5 * sum_31 - product_13 * sum_36)
-                + product_17 * sum_35) - product_21 * product_29;
-            let product_30 = quotient_2 * (sum_5 * sum_37 + sum_10 * sum_36);
+            let sum_38 = ((quotient_5 * sum_32 - product_13 * sum_37)
+                + product_17 * sum_36) - product_21 * product_29;
+            let product_30 = quotient_2 * (sum_5 * sum_38 + sum_11 * sum_37);
             let product_31 = quotient_4
-                * (((product_9 * sum_37 - product_12 * sum_36) - sum_15 * sum_35)
-                    - sum_21 * product_29);
-            let sum_38 = quotient_3
-                * (((l3_cos_q3 * sum_36 - l3_sin_q3 * sum_37) + l3_sin_q3 * sum_35)
+                * (((product_9 * sum_38 - product_12 * sum_37) - sum_16 * sum_36)
+                    - sum_22 * product_29);
+            let sum_39 = quotient_3
+                * (((l3_cos_q3 * sum_37 - l3_sin_q3 * sum_38) + l3_sin_q3 * sum_36)
                     - l3_cos_q3 * product_29) - product_8 * product_31;
             out.residual.data.0[0][0] = sum;
             out.residual.data.0[0][1] = sum_2;
             out.residual.data.0[0][2] = sum_3;
             out.residual.data.0[0][3] = sum_4;
             out.position.data.0[0][0] = quotient
-                * (l1_sin_q1 * sum_29 - l1_cos_q1 * sum_28) + product_3 * product_25;
+                * (l1_sin_q1 * sum_30 - l1_cos_q1 * sum_29) + product_3 * product_25;
             out.position.data.0[0][1] = -product_25;
-            out.position.data.0[0][2] = sum_30;
+            out.position.data.0[0][2] = sum_31;
             out.position.data.0[0][3] = product_26;
             out.position.data.0[0][4] = quotient_7
-                * (l5_cos_q5 * product_24 - l5_sin_q5 * sum_27);
+                * (l5_cos_q5 * product_24 - l5_sin_q5 * sum_28);
             out.velocity.data.0[0][0] = quotient
-                * (l1_sin_q1 * sum_37 - l1_cos_q1 * sum_36) + product_3 * product_30;
+                * (l1_sin_q1 * sum_38 - l1_cos_q1 * sum_37) + product_3 * product_30;
             out.velocity.data.0[0][1] = -product_30;
-            out.velocity.data.0[0][2] = sum_38;
+            out.velocity.data.0[0][2] = sum_39;
             out.velocity.data.0[0][3] = product_31;
             out.velocity.data.0[0][4] = quotient_7
-                * (l5_cos_q5 * product_29 - l5_sin_q5 * sum_35);
-            out.mass_pivot = Real::min(sum_7 / sum_6, sum_9 / sum_8);
-            out.pivot = Real::min(
-                Real::min(sum_13 / sum_12, sum_19 / sum_18),
-                sum_26 / sum_25,
-            );
+                * (l5_cos_q5 * product_29 - l5_sin_q5 * sum_36);
+            out.pivots.mass_pivots.data.0[0][1] = sum_7;
+            out.pivots.mass_diagonal.data.0[0][1] = sum_6;
+            out.pivots.mass_pivots.data.0[0][3] = sum_9;
+            out.pivots.mass_diagonal.data.0[0][3] = sum_8;
+            out.pivots.row_pivots.data.0[0][0] = sum_10;
+            out.pivots.row_squares.data.0[0][0] = sum_10;
+            out.pivots.row_pivots.data.0[0][1] = sum_14;
+            out.pivots.row_squares.data.0[0][1] = sum_13;
+            out.pivots.row_pivots.data.0[0][2] = sum_20;
+            out.pivots.row_squares.data.0[0][2] = sum_19;
+            out.pivots.row_pivots.data.0[0][3] = sum_27;
+            out.pivots.row_squares.data.0[0][3] = sum_26;
             true
         }
-        /// The branch rows `K`, `κ`: the constraints differentiated once more.
+        /// The constraints differentiated once more: `A q⃛ + K q̈ = κ`.
+        ///
+        /// | field | equation | shape | unit |
+        /// |---|---|---|---|
+        /// | `slope` | `K = Ȧ + ∂γ/∂q̇`, `γ = −p₂` | `R × N` | unit of the row per s and unit of the coordinate |
+        /// | `bias` | `κ = −(∂γ/∂t + ∂γ/∂q q̇)` | `R` | unit of the row per s³ |
         ///
         /// Costs 40 products, 16 sums, 5 sine–cosine pairs.
         fn branch(&self, state: &State<T, 5>, out: &mut Branch<T, 5, 4>) {
@@ -1044,7 +1077,8 @@ lie in one line: at q1 = k*pi.*/
         }
     }
     impl<T: Real> DoubleFourBar<T> {
-        /// Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric.
+        /// Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric; kg for two lengths, kg·m² for two
+        /// angles, kg·m for one of each.
         ///
         /// Costs 22 products, 9 sums, 4 sine–cosine pairs.
         pub fn mass_matrix(&self, state: &State<T, 5>) -> SMatrix<T, 5, 5> {
@@ -1091,7 +1125,7 @@ lie in one line: at q1 = k*pi.*/
             out.data.0[4][4] = j5 + e5 * e5 * m5;
             out
         }
-        /// Potential forces `h = ∂Π/∂q`, `N`.
+        /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
         ///
         /// Costs 17 products, 2 sums, 5 sine–cosine pairs.
         pub fn potential_force(&self, state: &State<T, 5>) -> SVector<T, 5> {
@@ -1118,13 +1152,14 @@ lie in one line: at q1 = k*pi.*/
                 * cos_q5;
             out
         }
-        /// Applied and dissipative forces `Q`, `N`.
+        /// Applied and dissipative forces `Q`, `N`; N for a length, N·m for an angle.
         ///
         /// Costs no operations.
         pub fn applied_force(&self, _state: &State<T, 5>) -> SVector<T, 5> {
             SVector::zeros()
         }
-        /// `C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`.
+        /// `C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`; N for a
+        /// length, N·m for an angle.
         ///
         /// Costs 20 products, 4 sums, 4 sine–cosine pairs.
         pub fn coriolis_force(&self, state: &State<T, 5>) -> SVector<T, 5> {
@@ -1154,7 +1189,8 @@ lie in one line: at q1 = k*pi.*/
                 * (cos_q3_sin_q4 - sin_q3_cos_q4);
             out
         }
-        /// Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric.
+        /// Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric; the
+        /// unit of `M` per s.
         ///
         /// Costs 16 products, 4 sums, 4 sine–cosine pairs.
         pub fn coriolis_matrix(&self, state: &State<T, 5>) -> SMatrix<T, 5, 5> {
@@ -1180,7 +1216,7 @@ lie in one line: at q1 = k*pi.*/
             out.data.0[3][2] = product_2 * q4_dot * (sin_q3_cos_q4 - cos_q3_sin_q4);
             out
         }
-        /// Constraints `g`, `R`; zero for velocity constraints.
+        /// Constraints `g`, `R`, each in the unit it is written in; zero for velocity constraints.
         ///
         /// Costs 10 products, 10 sums, 5 sine–cosine pairs.
         pub fn constraint_residual(&self, state: &State<T, 5>) -> SVector<T, 4> {
@@ -1209,7 +1245,7 @@ lie in one line: at q1 = k*pi.*/
             out.data.0[0][3] = l3_sin_q3 + l4 * sin_q4 - l5 * sin_q5;
             out
         }
-        /// Constraint Jacobian `A = ∂g/∂q`, `R × N`.
+        /// Constraint Jacobian `A = ∂g/∂q`, `R × N`; unit of the row per unit of the coordinate.
         ///
         /// Costs 10 products, 6 sums, 5 sine–cosine pairs.
         pub fn constraint_jacobian(&self, state: &State<T, 5>) -> SMatrix<T, 4, 5> {
@@ -1246,7 +1282,7 @@ lie in one line: at q1 = k*pi.*/
             out.data.0[4][3] = -l5 * cos_q5;
             out
         }
-        /// `p₂ = −(Ȧ q̇ + ḃ)`, `R`: the constraints ask for `A q̈ = p₂`.
+        /// `p₂ = −(Ȧ q̇ + ḃ)`, `R`: the constraints ask for `A q̈ = p₂`; unit of the row per s².
         ///
         /// Costs 20 products, 8 sums, 5 sine–cosine pairs.
         pub fn constraint_bias(&self, state: &State<T, 5>) -> SVector<T, 4> {

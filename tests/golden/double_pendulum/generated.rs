@@ -125,7 +125,14 @@ pub mod double_pendulum {
         fn structure(&self) -> &'static Structure {
             &STRUCTURE
         }
-        /// Everything one acceleration needs: `M`, `p₁`, `A`, `p₂`.
+        /// Everything one acceleration needs: `M q̈ + r = p₁`, `A q̈ = p₂`.
+        ///
+        /// | field | equation | shape | unit |
+        /// |---|---|---|---|
+        /// | `mass` | `M = ∂²T/∂q̇²` | `N × N` | kg for two lengths, kg·m², kg·m where an angle takes part |
+        /// | `force` | `p₁ = Q − C q̇ − h` | `N` | N for a length, N·m for an angle |
+        /// | `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
+        /// | `bias` | `p₂ = −(Ȧ q̇ + ḃ)` | `R` | unit of the row per s² |
         ///
         /// Costs 27 products, 9 sums, 2 sine–cosine pairs.
         fn terms(&self, state: &State<T, 2>, out: &mut Terms<T, 2, 0>) {
@@ -155,8 +162,8 @@ pub mod double_pendulum {
         /// The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
         /// Schur complement `A M⁻¹ Aᵀ`.
         ///
-        /// Costs 33 products, 12 sums, 3 quotients, 2 sine–cosine pairs.
-        fn regular(&self, state: &State<T, 2>, out: &mut Regular<T, 2>) -> bool {
+        /// Costs 33 products, 12 sums, 2 quotients, 2 sine–cosine pairs.
+        fn regular(&self, state: &State<T, 2>, out: &mut Regular<T, 2, 0>) -> bool {
             let [q1, q2] = state.q.data.0[0];
             let [q1_dot, q2_dot] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, j1, j2 } = self.parameters;
@@ -183,8 +190,8 @@ pub mod double_pendulum {
             let product_5 = T::one() / sum_3 * sum_4;
             out.acceleration.data.0[0][0] = product * quotient - product_4 * product_5;
             out.acceleration.data.0[0][1] = product_5;
-            out.mass_pivot = sum_3 / sum_2;
-            out.pivot = T::one();
+            out.pivots.mass_pivots.data.0[0][1] = sum_3;
+            out.pivots.mass_diagonal.data.0[0][1] = sum_2;
             true
         }
         /// Energies and the power supplied from outside.
@@ -225,7 +232,8 @@ pub mod double_pendulum {
         }
     }
     impl<T: Real> DoublePendulum<T> {
-        /// Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric.
+        /// Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric; kg for two lengths, kg·m² for two
+        /// angles, kg·m for one of each.
         ///
         /// Costs 11 products, 4 sums, 2 sine–cosine pairs.
         pub fn mass_matrix(&self, state: &State<T, 2>) -> SMatrix<T, 2, 2> {
@@ -242,7 +250,7 @@ pub mod double_pendulum {
             out.data.0[1][1] = j2 + T::from_f64(0.25) * l2 * m2_l2;
             out
         }
-        /// Potential forces `h = ∂Π/∂q`, `N`.
+        /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
         ///
         /// Costs 7 products, 1 sum, 2 sine–cosine pairs.
         pub fn potential_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
@@ -257,13 +265,14 @@ pub mod double_pendulum {
                 * sin_q2;
             out
         }
-        /// Applied and dissipative forces `Q`, `N`.
+        /// Applied and dissipative forces `Q`, `N`; N for a length, N·m for an angle.
         ///
         /// Costs no operations.
         pub fn applied_force(&self, _state: &State<T, 2>) -> SVector<T, 2> {
             SVector::zeros()
         }
-        /// `C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`.
+        /// `C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`; N for a
+        /// length, N·m for an angle.
         ///
         /// Costs 11 products, 2 sums, 2 sine–cosine pairs.
         pub fn coriolis_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
@@ -281,7 +290,8 @@ pub mod double_pendulum {
                 * (cos_q1_sin_q2 - sin_q1_cos_q2);
             out
         }
-        /// Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric.
+        /// Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric; the
+        /// unit of `M` per s.
         ///
         /// Costs 8 products, 2 sums, 2 sine–cosine pairs.
         pub fn coriolis_matrix(&self, state: &State<T, 2>) -> SMatrix<T, 2, 2> {

@@ -117,10 +117,10 @@ pub mod driven_pivot {
             }
         }
     }
-    /** A pendulum whose pivot is shaken up and down: a constraint that depends on time.
-
-Shaken fast enough, (A*w)^2 > 2*g*l with the reduced length l = J/(m*e) + e, the
-pendulum stands upright (Kapitza).*/
+    /// A pendulum whose pivot is shaken up and down: a constraint that depends on time.
+    ///
+    /// Shaken fast enough, (A*w)^2 > 2*g*l with the reduced length l = J/(m*e) + e, the
+    /// pendulum stands upright (Kapitza).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct DrivenPivot<T> {
         /// Run-time parameters.
@@ -137,7 +137,14 @@ pendulum stands upright (Kapitza).*/
         fn structure(&self) -> &'static Structure {
             &STRUCTURE
         }
-        /// Everything one acceleration needs: `M`, `p₁`, `A`, `p₂`.
+        /// Everything one acceleration needs: `M q̈ + r = p₁`, `A q̈ = p₂`.
+        ///
+        /// | field | equation | shape | unit |
+        /// |---|---|---|---|
+        /// | `mass` | `M = ∂²T/∂q̇²` | `N × N` | kg for two lengths, kg·m², kg·m where an angle takes part |
+        /// | `force` | `p₁ = Q − C q̇ − h` | `N` | N for a length, N·m for an angle |
+        /// | `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
+        /// | `bias` | `p₂ = −(Ȧ q̇ + ḃ)` | `R` | unit of the row per s² |
         ///
         /// Costs 13 products, 5 sums, 2 sine–cosine pairs.
         fn terms(&self, state: &State<T, 2>, out: &mut Terms<T, 2, 1>) {
@@ -163,8 +170,8 @@ pendulum stands upright (Kapitza).*/
         /// The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
         /// Schur complement `A M⁻¹ Aᵀ`.
         ///
-        /// Costs 25 products, 11 sums, 4 quotients, 2 sine–cosine pairs.
-        fn regular(&self, state: &State<T, 2>, out: &mut Regular<T, 2>) -> bool {
+        /// Costs 25 products, 11 sums, 3 quotients, 2 sine–cosine pairs.
+        fn regular(&self, state: &State<T, 2>, out: &mut Regular<T, 2, 1>) -> bool {
             let t = state.t;
             let [_, phi] = state.q.data.0[0];
             let [_, phi_dot] = state.v.data.0[0];
@@ -180,19 +187,29 @@ pendulum stands upright (Kapitza).*/
             let sum_3 = sum_2 - product * product_2;
             let quotient_2 = T::one() / sum_3;
             let product_3 = product_2 * quotient_2;
-            let sum_4 = (T::constant(9.81, -4.973799150320702e-16) * product
+            let sum_4 = quotient + product_2 * product_3;
+            let sum_5 = (T::constant(9.81, -4.973799150320702e-16) * product
                 - phi_dot * d) + sum * product_2;
-            let product_4 = T::one() / (quotient + product_2 * product_3)
-                * (a * w * w * cos_angle + quotient * sum + product_3 * sum_4);
-            let product_5 = quotient_2 * (sum_4 - product_2 * product_4);
+            let product_4 = T::one() / sum_4
+                * (a * w * w * cos_angle + quotient * sum + product_3 * sum_5);
+            let product_5 = quotient_2 * (sum_5 - product_2 * product_4);
             out.acceleration.data.0[0][0] = quotient * (sum - product_4)
                 + product_2 * product_5;
             out.acceleration.data.0[0][1] = product_5;
-            out.mass_pivot = sum_3 / sum_2;
-            out.pivot = T::one();
+            out.pivots.mass_pivots.data.0[0][1] = sum_3;
+            out.pivots.mass_diagonal.data.0[0][1] = sum_2;
+            out.pivots.row_pivots.data.0[0][0] = sum_4;
+            out.pivots.row_squares.data.0[0][0] = sum_4;
             true
         }
-        /// Everything a projection needs: `M`, `g`, `A`, `b`.
+        /// Everything a projection needs: `A Δq = −g`, `A q̇ + b = 0`, in the metric `M`.
+        ///
+        /// | field | equation | shape | unit |
+        /// |---|---|---|---|
+        /// | `mass` | `M = ∂²T/∂q̇²` | `N × N` | kg for two lengths, kg·m², kg·m where an angle takes part |
+        /// | `residual` | `g`; zero for velocity constraints | `R` | unit of the row |
+        /// | `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
+        /// | `drift` | `b = ∂g/∂t` | `R` | unit of the row per s |
         ///
         /// Costs 7 products, 3 sums, 2 sine–cosine pairs.
         fn position(&self, state: &State<T, 2>, out: &mut Position<T, 2, 1>) {
@@ -214,7 +231,7 @@ pendulum stands upright (Kapitza).*/
         /// The least corrections of position and velocity in the kinetic metric, where
         /// the constraints are regular.
         ///
-        /// Costs 21 products, 11 sums, 4 quotients, 2 sine–cosine pairs.
+        /// Costs 21 products, 11 sums, 3 quotients, 2 sine–cosine pairs.
         fn correction(
             &self,
             state: &State<T, 2>,
@@ -234,8 +251,8 @@ pendulum stands upright (Kapitza).*/
             let sum_2 = j + e * m_e;
             let sum_3 = sum_2 - product * product_2;
             let quotient_2 = T::one() / sum_3;
-            let quotient_3 = T::one()
-                / (quotient + product_2 * (product_2 * quotient_2));
+            let sum_4 = quotient + product_2 * (product_2 * quotient_2);
+            let quotient_3 = T::one() / sum_4;
             let product_3 = sum * quotient_3;
             let product_4 = quotient_2 * (product_2 * product_3);
             let product_5 = quotient_3 * (y_dot + a * w * sin_angle);
@@ -245,11 +262,18 @@ pendulum stands upright (Kapitza).*/
             out.position.data.0[0][1] = -product_4;
             out.velocity.data.0[0][0] = -(quotient * product_5 + product_2 * product_6);
             out.velocity.data.0[0][1] = -product_6;
-            out.mass_pivot = sum_3 / sum_2;
-            out.pivot = T::one();
+            out.pivots.mass_pivots.data.0[0][1] = sum_3;
+            out.pivots.mass_diagonal.data.0[0][1] = sum_2;
+            out.pivots.row_pivots.data.0[0][0] = sum_4;
+            out.pivots.row_squares.data.0[0][0] = sum_4;
             true
         }
-        /// The branch rows `K`, `κ`: the constraints differentiated once more.
+        /// The constraints differentiated once more: `A q⃛ + K q̈ = κ`.
+        ///
+        /// | field | equation | shape | unit |
+        /// |---|---|---|---|
+        /// | `slope` | `K = Ȧ + ∂γ/∂q̇`, `γ = −p₂` | `R × N` | unit of the row per s and unit of the coordinate |
+        /// | `bias` | `κ = −(∂γ/∂t + ∂γ/∂q q̇)` | `R` | unit of the row per s³ |
         ///
         /// Costs 5 products, 1 sine–cosine pair.
         fn branch(&self, state: &State<T, 2>, out: &mut Branch<T, 2, 1>) {
@@ -285,7 +309,8 @@ pendulum stands upright (Kapitza).*/
         }
     }
     impl<T: Real> DrivenPivot<T> {
-        /// Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric.
+        /// Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric; kg for two lengths, kg·m² for two
+        /// angles, kg·m for one of each.
         ///
         /// Costs 3 products, 2 sums, 1 sine–cosine pair.
         pub fn mass_matrix(&self, state: &State<T, 2>) -> SMatrix<T, 2, 2> {
@@ -301,7 +326,7 @@ pendulum stands upright (Kapitza).*/
             out.data.0[1][1] = j + e * m_e;
             out
         }
-        /// Potential forces `h = ∂Π/∂q`, `N`.
+        /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
         ///
         /// Costs 3 products, 1 sum, 1 sine–cosine pair.
         pub fn potential_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
@@ -314,7 +339,7 @@ pendulum stands upright (Kapitza).*/
             out.data.0[0][1] = -product * e * sin_phi;
             out
         }
-        /// Applied and dissipative forces `Q`, `N`.
+        /// Applied and dissipative forces `Q`, `N`; N for a length, N·m for an angle.
         ///
         /// Costs 1 product, 1 sum.
         pub fn applied_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
@@ -324,7 +349,8 @@ pendulum stands upright (Kapitza).*/
             out.data.0[0][1] = -d * phi_dot;
             out
         }
-        /// `C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`.
+        /// `C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`; N for a
+        /// length, N·m for an angle.
         ///
         /// Costs 4 products, 1 sum, 1 sine–cosine pair.
         pub fn coriolis_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
@@ -336,7 +362,8 @@ pendulum stands upright (Kapitza).*/
             out.data.0[0][0] = -m * e * phi_dot * phi_dot * cos_phi;
             out
         }
-        /// Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric.
+        /// Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric; the
+        /// unit of `M` per s.
         ///
         /// Costs 3 products, 1 sum, 1 sine–cosine pair.
         pub fn coriolis_matrix(&self, state: &State<T, 2>) -> SMatrix<T, 2, 2> {
@@ -348,7 +375,7 @@ pendulum stands upright (Kapitza).*/
             out.data.0[1][0] = -m * e * phi_dot * cos_phi;
             out
         }
-        /// Constraints `g`, `R`; zero for velocity constraints.
+        /// Constraints `g`, `R`, each in the unit it is written in; zero for velocity constraints.
         ///
         /// Costs 2 products, 1 sum, 1 sine–cosine pair.
         pub fn constraint_residual(&self, state: &State<T, 2>) -> SVector<T, 1> {
@@ -360,7 +387,7 @@ pendulum stands upright (Kapitza).*/
             out.data.0[0][0] = y - a * cos_angle;
             out
         }
-        /// Constraint Jacobian `A = ∂g/∂q`, `R × N`.
+        /// Constraint Jacobian `A = ∂g/∂q`, `R × N`; unit of the row per unit of the coordinate.
         ///
         /// Costs no operations.
         pub fn constraint_jacobian(&self, _state: &State<T, 2>) -> SMatrix<T, 1, 2> {
@@ -368,7 +395,7 @@ pendulum stands upright (Kapitza).*/
             out.data.0[0][0] = T::one();
             out
         }
-        /// `p₂ = −(Ȧ q̇ + ḃ)`, `R`: the constraints ask for `A q̈ = p₂`.
+        /// `p₂ = −(Ȧ q̇ + ḃ)`, `R`: the constraints ask for `A q̈ = p₂`; unit of the row per s².
         ///
         /// Costs 4 products, 1 sum, 1 sine–cosine pair.
         pub fn constraint_bias(&self, state: &State<T, 2>) -> SVector<T, 1> {

@@ -190,16 +190,16 @@ pub mod four_bar {
     /// External signals, in SI units: `None` is the default law.
     #[derive(Clone, Copy, Debug, Default, PartialEq)]
     pub struct Inputs<T> {
-        /** `u` (N*m): moment on the crank
-
- Default law: `0`.*/
+        /// `u` (N*m): moment on the crank
+        ///
+        /// Default law: `0`.
         pub u: Option<T>,
     }
-    /** Four-bar linkage: a crank that turns fully, a rocker, and the curve that a point
-beside the coupler draws.
-
-The links obey Grashof's rule (L1 + L0 < L2 + L3), the crank L1 being the
-shortest, so that no position is singular.*/
+    /// Four-bar linkage: a crank that turns fully, a rocker, and the curve that a point
+    /// beside the coupler draws.
+    ///
+    /// The links obey Grashof's rule (L1 + L0 < L2 + L3), the crank L1 being the
+    /// shortest, so that no position is singular.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct FourBar<T> {
         /// Run-time parameters.
@@ -219,7 +219,14 @@ shortest, so that no position is singular.*/
         fn structure(&self) -> &'static Structure {
             &STRUCTURE
         }
-        /// Everything one acceleration needs: `M`, `p₁`, `A`, `p₂`.
+        /// Everything one acceleration needs: `M q̈ + r = p₁`, `A q̈ = p₂`.
+        ///
+        /// | field | equation | shape | unit |
+        /// |---|---|---|---|
+        /// | `mass` | `M = ∂²T/∂q̇²` | `N × N` | kg for two lengths, kg·m², kg·m where an angle takes part |
+        /// | `force` | `p₁ = Q − C q̇ − h` | `N` | N for a length, N·m for an angle |
+        /// | `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
+        /// | `bias` | `p₂ = −(Ȧ q̇ + ḃ)` | `R` | unit of the row per s² |
         ///
         /// Costs 42 products, 18 sums, 3 sine–cosine pairs.
         fn terms(&self, state: &State<T, 3>, out: &mut Terms<T, 3, 2>) {
@@ -277,8 +284,8 @@ shortest, so that no position is singular.*/
         /// The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
         /// Schur complement `A M⁻¹ Aᵀ`.
         ///
-        /// Costs 84 products, 40 sums, 7 quotients, 3 sine–cosine pairs.
-        fn regular(&self, state: &State<T, 3>, out: &mut Regular<T, 3>) -> bool {
+        /// Costs 84 products, 40 sums, 5 quotients, 3 sine–cosine pairs.
+        fn regular(&self, state: &State<T, 3>, out: &mut Regular<T, 3, 2>) -> bool {
             let [q1, q2, q3] = state.q.data.0[0];
             let [q1_dot, q2_dot, q3_dot] = state.v.data.0[0];
             let Parameters { l1, l2, l3, m1, m2, m3, j1, j2, j3, .. } = self.parameters;
@@ -315,45 +322,57 @@ shortest, so that no position is singular.*/
             let l3_sin_q3 = l3 * sin_q3;
             let quotient_3 = T::one() / (j3 + T::from_f64(0.25) * l3 * l3 * m3);
             let product_9 = l3_sin_q3 * quotient_3;
-            let quotient_4 = T::one()
-                / (l1_sin_q1 * product_6 + sum_3 * product_8 + l3_sin_q3 * product_9);
+            let sum_6 = l1_sin_q1 * product_6 + sum_3 * product_8
+                + l3_sin_q3 * product_9;
+            let quotient_4 = T::one() / sum_6;
             let q1_dot_q1_dot = q1_dot * q1_dot;
-            let sum_6 = (product_4 * l2_cos_q2 * q1_dot_q1_dot
+            let sum_7 = (product_4 * l2_cos_q2 * q1_dot_q1_dot
                 - T::constant(4.905, -2.486899575160351e-16) * m2 * l2_cos_q2
                 - product_2 * l2_sin_q2 * q1_dot_q1_dot) - sum * product_7;
             let l3_cos_q3 = l3 * cos_q3;
             let q3_dot_q3_dot = q3_dot * q3_dot;
             let product_10 = T::constant(4.905, -2.486899575160351e-16) * m3 * l3_cos_q3;
-            let sum_7 = product_8 * sum_6
+            let sum_8 = product_8 * sum_7
                 - (product_5 + l1_cos_q1 * q1_dot_q1_dot - l3_cos_q3 * q3_dot_q3_dot)
                 - sum * product_6 - product_9 * product_10;
-            let sum_8 = l2_cos_q2 - l1_cos_q1 * product_7;
-            let sum_9 = product_8 * sum_8 - l1_cos_q1 * product_6
+            let sum_9 = l2_cos_q2 - l1_cos_q1 * product_7;
+            let sum_10 = product_8 * sum_9 - l1_cos_q1 * product_6
                 - product_9 * l3_cos_q3;
-            let product_11 = quotient_4 * sum_9;
+            let product_11 = quotient_4 * sum_10;
             let product_12 = quotient * l1_cos_q1;
-            let product_13 = quotient_2 * sum_8;
+            let product_13 = quotient_2 * sum_9;
             let product_14 = quotient_3 * l3_cos_q3;
-            let sum_10 = l1_cos_q1 * product_12 + sum_8 * product_13
+            let sum_11 = l1_cos_q1 * product_12 + sum_9 * product_13
                 + l3_cos_q3 * product_14;
-            let sum_11 = sum_10 - sum_9 * product_11;
-            let sum_12 = sum * product_12 + sum_6 * product_13 + product_10 * product_14
+            let sum_12 = sum_11 - sum_10 * product_11;
+            let sum_13 = sum * product_12 + sum_7 * product_13 + product_10 * product_14
                 - (product_3 + l1_sin_q1 * q1_dot_q1_dot - l3_sin_q3 * q3_dot_q3_dot);
-            let product_15 = T::one() / sum_11 * (sum_12 - sum_7 * product_11);
-            let sum_13 = quotient_4 * sum_7 - product_11 * product_15;
+            let product_15 = T::one() / sum_12 * (sum_13 - sum_8 * product_11);
+            let sum_14 = quotient_4 * sum_8 - product_11 * product_15;
             let product_16 = quotient_2
-                * ((sum_6 - sum_3 * sum_13) - sum_8 * product_15);
+                * ((sum_7 - sum_3 * sum_14) - sum_9 * product_15);
             out.acceleration.data.0[0][0] = quotient
-                * ((sum + l1_sin_q1 * sum_13) - l1_cos_q1 * product_15)
+                * ((sum + l1_sin_q1 * sum_14) - l1_cos_q1 * product_15)
                 - product_7 * product_16;
             out.acceleration.data.0[0][1] = product_16;
             out.acceleration.data.0[0][2] = quotient_3
-                * (l3_cos_q3 * product_15 - (product_10 + l3_sin_q3 * sum_13));
-            out.mass_pivot = sum_5 / sum_4;
-            out.pivot = sum_11 / sum_10;
+                * (l3_cos_q3 * product_15 - (product_10 + l3_sin_q3 * sum_14));
+            out.pivots.mass_pivots.data.0[0][1] = sum_5;
+            out.pivots.mass_diagonal.data.0[0][1] = sum_4;
+            out.pivots.row_pivots.data.0[0][0] = sum_6;
+            out.pivots.row_squares.data.0[0][0] = sum_6;
+            out.pivots.row_pivots.data.0[0][1] = sum_12;
+            out.pivots.row_squares.data.0[0][1] = sum_11;
             true
         }
-        /// Everything a projection needs: `M`, `g`, `A`, `b`.
+        /// Everything a projection needs: `A Δq = −g`, `A q̇ + b = 0`, in the metric `M`.
+        ///
+        /// | field | equation | shape | unit |
+        /// |---|---|---|---|
+        /// | `mass` | `M = ∂²T/∂q̇²` | `N × N` | kg for two lengths, kg·m², kg·m where an angle takes part |
+        /// | `residual` | `g`; zero for velocity constraints | `R` | unit of the row |
+        /// | `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
+        /// | `drift` | `b = ∂g/∂t` | `R` | unit of the row per s |
         ///
         /// Costs 19 products, 12 sums, 3 sine–cosine pairs.
         fn position(&self, state: &State<T, 3>, out: &mut Position<T, 3, 2>) {
@@ -390,7 +409,7 @@ shortest, so that no position is singular.*/
         /// The least corrections of position and velocity in the kinetic metric, where
         /// the constraints are regular.
         ///
-        /// Costs 74 products, 37 sums, 7 quotients, 3 sine–cosine pairs.
+        /// Costs 74 products, 37 sums, 5 quotients, 3 sine–cosine pairs.
         fn correction(
             &self,
             state: &State<T, 3>,
@@ -425,41 +444,50 @@ shortest, so that no position is singular.*/
             let product_4 = sum_4 * quotient_2;
             let quotient_3 = T::one() / (j3 + T::from_f64(0.25) * l3 * l3 * m3);
             let product_5 = l3_sin_q3 * quotient_3;
-            let quotient_4 = T::one()
-                / (l1_sin_q1 * product + sum_4 * product_4 + l3_sin_q3 * product_5);
-            let sum_7 = l2_cos_q2 - l1_cos_q1 * product_3;
-            let sum_8 = product_4 * sum_7 - l1_cos_q1 * product - l3_cos_q3 * product_5;
-            let product_6 = quotient_4 * sum_8;
-            let sum_9 = l1_cos_q1 * (l1_cos_q1 * quotient) + sum_7 * (quotient_2 * sum_7)
-                + l3_cos_q3 * (l3_cos_q3 * quotient_3);
-            let sum_10 = sum_9 - sum_8 * product_6;
-            let quotient_5 = T::one() / sum_10;
+            let sum_7 = l1_sin_q1 * product + sum_4 * product_4 + l3_sin_q3 * product_5;
+            let quotient_4 = T::one() / sum_7;
+            let sum_8 = l2_cos_q2 - l1_cos_q1 * product_3;
+            let sum_9 = product_4 * sum_8 - l1_cos_q1 * product - l3_cos_q3 * product_5;
+            let product_6 = quotient_4 * sum_9;
+            let sum_10 = l1_cos_q1 * (l1_cos_q1 * quotient)
+                + sum_8 * (quotient_2 * sum_8) + l3_cos_q3 * (l3_cos_q3 * quotient_3);
+            let sum_11 = sum_10 - sum_9 * product_6;
+            let quotient_5 = T::one() / sum_11;
             let product_7 = quotient_5 * (sum_2 - sum * product_6);
-            let sum_11 = sum * quotient_4 - product_6 * product_7;
-            let product_8 = quotient_2 * (sum_4 * sum_11 + sum_7 * product_7);
-            let sum_12 = l3_sin_q3 * q3_dot - l1_sin_q1 * q1_dot - l2_sin_q2 * q2_dot;
+            let sum_12 = sum * quotient_4 - product_6 * product_7;
+            let product_8 = quotient_2 * (sum_4 * sum_12 + sum_8 * product_7);
+            let sum_13 = l3_sin_q3 * q3_dot - l1_sin_q1 * q1_dot - l2_sin_q2 * q2_dot;
             let product_9 = quotient_5
                 * ((l1_cos_q1 * q1_dot + l2_cos_q2 * q2_dot - l3_cos_q3 * q3_dot)
-                    - product_6 * sum_12);
-            let sum_13 = quotient_4 * sum_12 - product_6 * product_9;
-            let product_10 = quotient_2 * (sum_4 * sum_13 + sum_7 * product_9);
+                    - product_6 * sum_13);
+            let sum_14 = quotient_4 * sum_13 - product_6 * product_9;
+            let product_10 = quotient_2 * (sum_4 * sum_14 + sum_8 * product_9);
             out.residual.data.0[0][0] = sum;
             out.residual.data.0[0][1] = sum_2;
             out.position.data.0[0][0] = quotient
-                * (l1_sin_q1 * sum_11 - l1_cos_q1 * product_7) + product_3 * product_8;
+                * (l1_sin_q1 * sum_12 - l1_cos_q1 * product_7) + product_3 * product_8;
             out.position.data.0[0][1] = -product_8;
             out.position.data.0[0][2] = quotient_3
-                * (l3_cos_q3 * product_7 - l3_sin_q3 * sum_11);
+                * (l3_cos_q3 * product_7 - l3_sin_q3 * sum_12);
             out.velocity.data.0[0][0] = quotient
-                * (l1_sin_q1 * sum_13 - l1_cos_q1 * product_9) + product_3 * product_10;
+                * (l1_sin_q1 * sum_14 - l1_cos_q1 * product_9) + product_3 * product_10;
             out.velocity.data.0[0][1] = -product_10;
             out.velocity.data.0[0][2] = quotient_3
-                * (l3_cos_q3 * product_9 - l3_sin_q3 * sum_13);
-            out.mass_pivot = sum_6 / sum_5;
-            out.pivot = sum_10 / sum_9;
+                * (l3_cos_q3 * product_9 - l3_sin_q3 * sum_14);
+            out.pivots.mass_pivots.data.0[0][1] = sum_6;
+            out.pivots.mass_diagonal.data.0[0][1] = sum_5;
+            out.pivots.row_pivots.data.0[0][0] = sum_7;
+            out.pivots.row_squares.data.0[0][0] = sum_7;
+            out.pivots.row_pivots.data.0[0][1] = sum_11;
+            out.pivots.row_squares.data.0[0][1] = sum_10;
             true
         }
-        /// The branch rows `K`, `κ`: the constraints differentiated once more.
+        /// The constraints differentiated once more: `A q⃛ + K q̈ = κ`.
+        ///
+        /// | field | equation | shape | unit |
+        /// |---|---|---|---|
+        /// | `slope` | `K = Ȧ + ∂γ/∂q̇`, `γ = −p₂` | `R × N` | unit of the row per s and unit of the coordinate |
+        /// | `bias` | `κ = −(∂γ/∂t + ∂γ/∂q q̇)` | `R` | unit of the row per s³ |
         ///
         /// Costs 24 products, 8 sums, 3 sine–cosine pairs.
         fn branch(&self, state: &State<T, 3>, out: &mut Branch<T, 3, 2>) {
@@ -539,7 +567,8 @@ shortest, so that no position is singular.*/
         }
     }
     impl<T: Real> FourBar<T> {
-        /// Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric.
+        /// Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric; kg for two lengths, kg·m² for two
+        /// angles, kg·m for one of each.
         ///
         /// Costs 13 products, 4 sums, 2 sine–cosine pairs.
         pub fn mass_matrix(&self, state: &State<T, 3>) -> SMatrix<T, 3, 3> {
@@ -557,7 +586,7 @@ shortest, so that no position is singular.*/
             out.data.0[2][2] = j3 + T::from_f64(0.25) * l3 * l3 * m3;
             out
         }
-        /// Potential forces `h = ∂Π/∂q`, `N`.
+        /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
         ///
         /// Costs 10 products, 1 sum, 3 sine–cosine pairs.
         pub fn potential_force(&self, state: &State<T, 3>) -> SVector<T, 3> {
@@ -574,7 +603,7 @@ shortest, so that no position is singular.*/
                 * cos_q3;
             out
         }
-        /// Applied and dissipative forces `Q`, `N`.
+        /// Applied and dissipative forces `Q`, `N`; N for a length, N·m for an angle.
         ///
         /// Costs no operations.
         pub fn applied_force(&self, _state: &State<T, 3>) -> SVector<T, 3> {
@@ -583,7 +612,8 @@ shortest, so that no position is singular.*/
             out.data.0[0][0] = u;
             out
         }
-        /// `C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`.
+        /// `C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`; N for a
+        /// length, N·m for an angle.
         ///
         /// Costs 11 products, 2 sums, 2 sine–cosine pairs.
         pub fn coriolis_force(&self, state: &State<T, 3>) -> SVector<T, 3> {
@@ -601,7 +631,8 @@ shortest, so that no position is singular.*/
                 * (cos_q1_sin_q2 - sin_q1_cos_q2);
             out
         }
-        /// Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric.
+        /// Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric; the
+        /// unit of `M` per s.
         ///
         /// Costs 8 products, 2 sums, 2 sine–cosine pairs.
         pub fn coriolis_matrix(&self, state: &State<T, 3>) -> SMatrix<T, 3, 3> {
@@ -616,7 +647,7 @@ shortest, so that no position is singular.*/
             out.data.0[1][0] = -product * q2_dot;
             out
         }
-        /// Constraints `g`, `R`; zero for velocity constraints.
+        /// Constraints `g`, `R`, each in the unit it is written in; zero for velocity constraints.
         ///
         /// Costs 6 products, 5 sums, 3 sine–cosine pairs.
         pub fn constraint_residual(&self, state: &State<T, 3>) -> SVector<T, 2> {
@@ -632,7 +663,7 @@ shortest, so that no position is singular.*/
             out.data.0[0][1] = (l1 * sin_q1 + l2 * sin_q2) - l3 * sin_q3;
             out
         }
-        /// Constraint Jacobian `A = ∂g/∂q`, `R × N`.
+        /// Constraint Jacobian `A = ∂g/∂q`, `R × N`; unit of the row per unit of the coordinate.
         ///
         /// Costs 6 products, 3 sums, 3 sine–cosine pairs.
         pub fn constraint_jacobian(&self, state: &State<T, 3>) -> SMatrix<T, 2, 3> {
@@ -652,7 +683,7 @@ shortest, so that no position is singular.*/
             out.data.0[2][1] = -l3 * cos_q3;
             out
         }
-        /// `p₂ = −(Ȧ q̇ + ḃ)`, `R`: the constraints ask for `A q̈ = p₂`.
+        /// `p₂ = −(Ȧ q̇ + ḃ)`, `R`: the constraints ask for `A q̈ = p₂`; unit of the row per s².
         ///
         /// Costs 12 products, 4 sums, 3 sine–cosine pairs.
         pub fn constraint_bias(&self, state: &State<T, 3>) -> SVector<T, 2> {

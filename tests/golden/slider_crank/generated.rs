@@ -135,10 +135,10 @@ pub mod slider_crank {
             }
         }
     }
-    /** Slider–crank with equal links, moving freely: Phong & Hoang (2012), Example 1.
-
-The slider passes over the crank's bearing, where the constraints lose rank:
-at q1 = pi/2 + k*pi.*/
+    /// Slider–crank with equal links, moving freely: Phong & Hoang (2012), Example 1.
+    ///
+    /// The slider passes over the crank's bearing, where the constraints lose rank:
+    /// at q1 = pi/2 + k*pi.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct SliderCrank<T> {
         /// Run-time parameters.
@@ -155,7 +155,14 @@ at q1 = pi/2 + k*pi.*/
         fn structure(&self) -> &'static Structure {
             &STRUCTURE
         }
-        /// Everything one acceleration needs: `M`, `p₁`, `A`, `p₂`.
+        /// Everything one acceleration needs: `M q̈ + r = p₁`, `A q̈ = p₂`.
+        ///
+        /// | field | equation | shape | unit |
+        /// |---|---|---|---|
+        /// | `mass` | `M = ∂²T/∂q̇²` | `N × N` | kg for two lengths, kg·m², kg·m where an angle takes part |
+        /// | `force` | `p₁ = Q − C q̇ − h` | `N` | N for a length, N·m for an angle |
+        /// | `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
+        /// | `bias` | `p₂ = −(Ȧ q̇ + ḃ)` | `R` | unit of the row per s² |
         ///
         /// Costs 35 products, 15 sums, 2 sine–cosine pairs.
         fn terms(&self, state: &State<T, 3>, out: &mut Terms<T, 3, 2>) {
@@ -193,8 +200,8 @@ at q1 = pi/2 + k*pi.*/
         /// The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
         /// Schur complement `A M⁻¹ Aᵀ`.
         ///
-        /// Costs 68 products, 30 sums, 7 quotients, 2 sine–cosine pairs.
-        fn regular(&self, state: &State<T, 3>, out: &mut Regular<T, 3>) -> bool {
+        /// Costs 68 products, 30 sums, 5 quotients, 2 sine–cosine pairs.
+        fn regular(&self, state: &State<T, 3>, out: &mut Regular<T, 3, 2>) -> bool {
             let [q1, q2, _] = state.q.data.0[0];
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
@@ -212,8 +219,8 @@ at q1 = pi/2 + k*pi.*/
             let sum_3 = sum_2 - product_2 * product_3;
             let quotient_3 = T::one() / sum_3;
             let product_4 = sum * quotient_3;
-            let quotient_4 = T::one()
-                / (quotient_2 + l1_sin_q1 * product + sum * product_4);
+            let sum_4 = quotient_2 + l1_sin_q1 * product + sum * product_4;
+            let quotient_4 = T::one() / sum_4;
             let product_5 = q2_dot * (l2 * q2_dot);
             let product_6 = T::from_f64(0.5) * (sin_q2 * cos_q1 + sin_q1 * cos_q2);
             let product_7 = l1
@@ -222,35 +229,46 @@ at q1 = pi/2 + k*pi.*/
                         * (T::constant(9.81, -4.973799150320702e-16) * cos_q1
                             + product_5 * product_6));
             let product_8 = q1_dot * (l1 * q1_dot);
-            let sum_4 = m2_l2
+            let sum_5 = m2_l2
                 * (T::constant(4.905, -2.486899575160351e-16) * cos_q2
                     - product_6 * product_8) + product_3 * product_7;
-            let sum_5 = product * product_7 + product_4 * sum_4
+            let sum_6 = product * product_7 + product_4 * sum_5
                 - (cos_q1 * product_8 + cos_q2 * product_5);
             let l1_cos_q1 = l1 * cos_q1;
-            let sum_6 = cos_q2 * l2 + product_3 * l1_cos_q1;
-            let sum_7 = product * l1_cos_q1 + product_4 * sum_6;
-            let product_9 = quotient_4 * sum_7;
+            let sum_7 = cos_q2 * l2 + product_3 * l1_cos_q1;
+            let sum_8 = product * l1_cos_q1 + product_4 * sum_7;
+            let product_9 = quotient_4 * sum_8;
             let product_10 = quotient * l1_cos_q1;
-            let product_11 = quotient_3 * sum_6;
-            let sum_8 = l1_cos_q1 * product_10 + sum_6 * product_11;
-            let sum_9 = sum_8 - sum_7 * product_9;
-            let sum_10 = sum_5 * product_9
+            let product_11 = quotient_3 * sum_7;
+            let sum_9 = l1_cos_q1 * product_10 + sum_7 * product_11;
+            let sum_10 = sum_9 - sum_8 * product_9;
+            let sum_11 = sum_6 * product_9
                 - ((sin_q1 * product_8 - sin_q2 * product_5) + product_7 * product_10
-                    + sum_4 * product_11);
-            let product_12 = T::one() / sum_9 * sum_10;
-            let sum_11 = quotient_4 * sum_5 + product_9 * product_12;
-            let product_13 = quotient_3 * ((sum_4 - sum * sum_11) + sum_6 * product_12);
+                    + sum_5 * product_11);
+            let product_12 = T::one() / sum_10 * sum_11;
+            let sum_12 = quotient_4 * sum_6 + product_9 * product_12;
+            let product_13 = quotient_3 * ((sum_5 - sum * sum_12) + sum_7 * product_12);
             out.acceleration.data.0[0][0] = quotient
-                * ((l1_sin_q1 * sum_11 - product_7) - l1_cos_q1 * product_12)
+                * ((l1_sin_q1 * sum_12 - product_7) - l1_cos_q1 * product_12)
                 - product_3 * product_13;
             out.acceleration.data.0[0][1] = product_13;
-            out.acceleration.data.0[0][2] = quotient_2 * sum_11;
-            out.mass_pivot = sum_3 / sum_2;
-            out.pivot = sum_9 / sum_8;
+            out.acceleration.data.0[0][2] = quotient_2 * sum_12;
+            out.pivots.mass_pivots.data.0[0][1] = sum_3;
+            out.pivots.mass_diagonal.data.0[0][1] = sum_2;
+            out.pivots.row_pivots.data.0[0][0] = sum_4;
+            out.pivots.row_squares.data.0[0][0] = sum_4;
+            out.pivots.row_pivots.data.0[0][1] = sum_10;
+            out.pivots.row_squares.data.0[0][1] = sum_9;
             true
         }
-        /// Everything a projection needs: `M`, `g`, `A`, `b`.
+        /// Everything a projection needs: `A Δq = −g`, `A q̇ + b = 0`, in the metric `M`.
+        ///
+        /// | field | equation | shape | unit |
+        /// |---|---|---|---|
+        /// | `mass` | `M = ∂²T/∂q̇²` | `N × N` | kg for two lengths, kg·m², kg·m where an angle takes part |
+        /// | `residual` | `g`; zero for velocity constraints | `R` | unit of the row |
+        /// | `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
+        /// | `drift` | `b = ∂g/∂t` | `R` | unit of the row per s |
         ///
         /// Costs 15 products, 11 sums, 2 sine–cosine pairs.
         fn position(&self, state: &State<T, 3>, out: &mut Position<T, 3, 2>) {
@@ -280,7 +298,7 @@ at q1 = pi/2 + k*pi.*/
         /// The least corrections of position and velocity in the kinetic metric, where
         /// the constraints are regular.
         ///
-        /// Costs 59 products, 29 sums, 7 quotients, 2 sine–cosine pairs.
+        /// Costs 59 products, 29 sums, 5 quotients, 2 sine–cosine pairs.
         fn correction(
             &self,
             state: &State<T, 3>,
@@ -308,38 +326,47 @@ at q1 = pi/2 + k*pi.*/
             let sum_5 = sum_4 - product_2 * product_3;
             let quotient_3 = T::one() / sum_5;
             let product_4 = sum_3 * quotient_3;
-            let quotient_4 = T::one()
-                / (quotient_2 + l1_sin_q1 * product + sum_3 * product_4);
-            let sum_6 = cos_q2_l2 + l1_cos_q1 * product_3;
-            let sum_7 = l1_cos_q1 * product + product_4 * sum_6;
-            let product_5 = quotient_4 * sum_7;
-            let sum_8 = l1_cos_q1 * (l1_cos_q1 * quotient)
-                + sum_6 * (quotient_3 * sum_6);
-            let sum_9 = sum_8 - sum_7 * product_5;
-            let quotient_5 = T::one() / sum_9;
+            let sum_6 = quotient_2 + l1_sin_q1 * product + sum_3 * product_4;
+            let quotient_4 = T::one() / sum_6;
+            let sum_7 = cos_q2_l2 + l1_cos_q1 * product_3;
+            let sum_8 = l1_cos_q1 * product + product_4 * sum_7;
+            let product_5 = quotient_4 * sum_8;
+            let sum_9 = l1_cos_q1 * (l1_cos_q1 * quotient)
+                + sum_7 * (quotient_3 * sum_7);
+            let sum_10 = sum_9 - sum_8 * product_5;
+            let quotient_5 = T::one() / sum_10;
             let product_6 = quotient_5 * (sum_2 + sum * product_5);
-            let sum_10 = sum * quotient_4 + product_5 * product_6;
-            let product_7 = quotient_3 * (sum_6 * product_6 - sum_3 * sum_10);
-            let sum_11 = (-l1_sin_q1 * q1_dot - l2_sin_q2 * q2_dot) - q3_dot;
+            let sum_11 = sum * quotient_4 + product_5 * product_6;
+            let product_7 = quotient_3 * (sum_7 * product_6 - sum_3 * sum_11);
+            let sum_12 = (-l1_sin_q1 * q1_dot - l2_sin_q2 * q2_dot) - q3_dot;
             let product_8 = quotient_5
-                * ((l1_cos_q1 * q1_dot - cos_q2_l2 * q2_dot) + product_5 * sum_11);
-            let sum_12 = quotient_4 * sum_11 + product_5 * product_8;
-            let product_9 = quotient_3 * (sum_6 * product_8 - sum_3 * sum_12);
+                * ((l1_cos_q1 * q1_dot - cos_q2_l2 * q2_dot) + product_5 * sum_12);
+            let sum_13 = quotient_4 * sum_12 + product_5 * product_8;
+            let product_9 = quotient_3 * (sum_7 * product_8 - sum_3 * sum_13);
             out.residual.data.0[0][0] = sum;
             out.residual.data.0[0][1] = sum_2;
             out.position.data.0[0][0] = quotient
-                * (l1_sin_q1 * sum_10 - l1_cos_q1 * product_6) - product_3 * product_7;
+                * (l1_sin_q1 * sum_11 - l1_cos_q1 * product_6) - product_3 * product_7;
             out.position.data.0[0][1] = product_7;
-            out.position.data.0[0][2] = quotient_2 * sum_10;
+            out.position.data.0[0][2] = quotient_2 * sum_11;
             out.velocity.data.0[0][0] = quotient
-                * (l1_sin_q1 * sum_12 - l1_cos_q1 * product_8) - product_3 * product_9;
+                * (l1_sin_q1 * sum_13 - l1_cos_q1 * product_8) - product_3 * product_9;
             out.velocity.data.0[0][1] = product_9;
-            out.velocity.data.0[0][2] = quotient_2 * sum_12;
-            out.mass_pivot = sum_5 / sum_4;
-            out.pivot = sum_9 / sum_8;
+            out.velocity.data.0[0][2] = quotient_2 * sum_13;
+            out.pivots.mass_pivots.data.0[0][1] = sum_5;
+            out.pivots.mass_diagonal.data.0[0][1] = sum_4;
+            out.pivots.row_pivots.data.0[0][0] = sum_6;
+            out.pivots.row_squares.data.0[0][0] = sum_6;
+            out.pivots.row_pivots.data.0[0][1] = sum_10;
+            out.pivots.row_squares.data.0[0][1] = sum_9;
             true
         }
-        /// The branch rows `K`, `κ`: the constraints differentiated once more.
+        /// The constraints differentiated once more: `A q⃛ + K q̈ = κ`.
+        ///
+        /// | field | equation | shape | unit |
+        /// |---|---|---|---|
+        /// | `slope` | `K = Ȧ + ∂γ/∂q̇`, `γ = −p₂` | `R × N` | unit of the row per s and unit of the coordinate |
+        /// | `bias` | `κ = −(∂γ/∂t + ∂γ/∂q q̇)` | `R` | unit of the row per s³ |
         ///
         /// Costs 16 products, 6 sums, 2 sine–cosine pairs.
         fn branch(&self, state: &State<T, 3>, out: &mut Branch<T, 3, 2>) {
@@ -400,7 +427,8 @@ at q1 = pi/2 + k*pi.*/
         }
     }
     impl<T: Real> SliderCrank<T> {
-        /// Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric.
+        /// Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric; kg for two lengths, kg·m² for two
+        /// angles, kg·m for one of each.
         ///
         /// Costs 11 products, 4 sums, 2 sine–cosine pairs.
         pub fn mass_matrix(&self, state: &State<T, 3>) -> SMatrix<T, 3, 3> {
@@ -418,7 +446,7 @@ at q1 = pi/2 + k*pi.*/
             out.data.0[2][2] = m3;
             out
         }
-        /// Potential forces `h = ∂Π/∂q`, `N`.
+        /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
         ///
         /// Costs 7 products, 2 sums, 2 sine–cosine pairs.
         pub fn potential_force(&self, state: &State<T, 3>) -> SVector<T, 3> {
@@ -433,13 +461,14 @@ at q1 = pi/2 + k*pi.*/
                 * cos_q2;
             out
         }
-        /// Applied and dissipative forces `Q`, `N`.
+        /// Applied and dissipative forces `Q`, `N`; N for a length, N·m for an angle.
         ///
         /// Costs no operations.
         pub fn applied_force(&self, _state: &State<T, 3>) -> SVector<T, 3> {
             SVector::zeros()
         }
-        /// `C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`.
+        /// `C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`; N for a
+        /// length, N·m for an angle.
         ///
         /// Costs 10 products, 1 sum, 2 sine–cosine pairs.
         pub fn coriolis_force(&self, state: &State<T, 3>) -> SVector<T, 3> {
@@ -454,7 +483,8 @@ at q1 = pi/2 + k*pi.*/
             out.data.0[0][1] = product * q1_dot * q1_dot;
             out
         }
-        /// Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric.
+        /// Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric; the
+        /// unit of `M` per s.
         ///
         /// Costs 8 products, 1 sum, 2 sine–cosine pairs.
         pub fn coriolis_matrix(&self, state: &State<T, 3>) -> SMatrix<T, 3, 3> {
@@ -469,7 +499,7 @@ at q1 = pi/2 + k*pi.*/
             out.data.0[1][0] = product * q2_dot;
             out
         }
-        /// Constraints `g`, `R`; zero for velocity constraints.
+        /// Constraints `g`, `R`, each in the unit it is written in; zero for velocity constraints.
         ///
         /// Costs 4 products, 3 sums, 2 sine–cosine pairs.
         pub fn constraint_residual(&self, state: &State<T, 3>) -> SVector<T, 2> {
@@ -481,7 +511,7 @@ at q1 = pi/2 + k*pi.*/
             out.data.0[0][1] = l1 * sin_q1 - l2 * sin_q2;
             out
         }
-        /// Constraint Jacobian `A = ∂g/∂q`, `R × N`.
+        /// Constraint Jacobian `A = ∂g/∂q`, `R × N`; unit of the row per unit of the coordinate.
         ///
         /// Costs 4 products, 4 sums, 2 sine–cosine pairs.
         pub fn constraint_jacobian(&self, state: &State<T, 3>) -> SMatrix<T, 2, 3> {
@@ -496,7 +526,7 @@ at q1 = pi/2 + k*pi.*/
             out.data.0[2][0] = -T::one();
             out
         }
-        /// `p₂ = −(Ȧ q̇ + ḃ)`, `R`: the constraints ask for `A q̈ = p₂`.
+        /// `p₂ = −(Ȧ q̇ + ḃ)`, `R`: the constraints ask for `A q̈ = p₂`; unit of the row per s².
         ///
         /// Costs 8 products, 2 sums, 2 sine–cosine pairs.
         pub fn constraint_bias(&self, state: &State<T, 3>) -> SVector<T, 2> {
