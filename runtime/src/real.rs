@@ -28,6 +28,12 @@ pub trait Real:
     /// The number `high + low`, where `low` holds the bits of a constant that
     /// do not fit into `high`. Types of 53 bits or fewer ignore `low`.
     fn constant(high: f64, low: f64) -> Self;
+    /// π.
+    #[inline(always)]
+    fn pi() -> Self {
+        // What the nearest `f64` leaves of it.
+        Self::constant(core::f64::consts::PI, 1.224_646_799_147_353_2e-16)
+    }
     /// The nearest `f64`.
     fn to_f64(self) -> f64;
     /// Neither infinite nor NaN.

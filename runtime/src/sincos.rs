@@ -8,11 +8,12 @@
 //! of the remainder loses carried along; the polynomials on [−π/4, π/4] have the
 //! minimax coefficients that Sun's fdlibm publishes (`k_sin.c`, `k_cos.c`, 1993).
 
+use core::f64::consts::FRAC_2_PI;
+
 /// The largest angle (rad) for which the reduction is exact enough: the multiples
 /// of π/2 then have at most 17 bits, which the 33-bit parts leave room for.
 pub(crate) const LARGEST: f64 = 1.0e5;
 
-const TWO_OVER_PI: f64 = 6.366_197_723_675_814e-1;
 /// The first 33 bits of π/2, the next 33, and the rest.
 const HALF_PI: [f64; 3] = [
     1.570_796_326_734_125_6,
@@ -43,7 +44,7 @@ const COSINE: [f64; 6] = [
 /// Sine and cosine of `x`, `|x| ≤` [`LARGEST`].
 #[inline(always)]
 pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
-    let shifted = x * TWO_OVER_PI + ROUND;
+    let shifted = x * FRAC_2_PI + ROUND;
     let quarter = shifted.to_bits();
     let n = shifted - ROUND;
 

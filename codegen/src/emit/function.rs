@@ -115,10 +115,7 @@ impl Writer<'_> {
         let operation = self.program.operation(value);
         let piece = match operation {
             Operation::Number(number) => return atom(literal::number(*number)),
-            Operation::Pi => {
-                let (high, low) = (std::f64::consts::PI, PI_LOW);
-                return atom(quote!(T::constant(#high, #low)));
-            }
+            Operation::Pi => return atom(quote!(T::pi())),
             Operation::Symbol(symbol) => {
                 let name = self.symbols.local(*symbol);
                 return atom(quote!(#name));
@@ -379,9 +376,6 @@ impl Writer<'_> {
         }
     }
 }
-
-/// What is left of π behind its nearest `f64`.
-const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 
 fn atom(tokens: TokenStream) -> Piece {
     Piece {
