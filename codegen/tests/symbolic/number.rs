@@ -27,14 +27,14 @@ proptest! {
         b in ratio(),
         c in ratio(),
     ) {
-        prop_assert_eq!(a.add(b), b.add(a));
-        prop_assert_eq!(a.add(b).add(c), a.add(b.add(c)));
-        prop_assert_eq!(a.mul(b).mul(c), a.mul(b.mul(c)));
-        prop_assert_eq!(a.mul(b.add(c)), a.mul(b).add(a.mul(c)));
-        prop_assert!(a.add(a.neg()).is_zero());
+        prop_assert_eq!(a + b, b + a);
+        prop_assert_eq!((a + b) + c, a + (b + c));
+        prop_assert_eq!((a * b) * c, a * (b * c));
+        prop_assert_eq!(a * (b + c), a * b + a * c);
+        prop_assert!((a + -a).is_zero());
         if !a.is_zero() {
             let inverse = a.powi(-1).expect("not a power of zero");
-            prop_assert!(a.mul(inverse).is_one());
+            prop_assert!((a * inverse).is_one());
         }
     }
 
@@ -66,8 +66,8 @@ proptest! {
         let (above, below) = text.split_once('/').unwrap_or((&text, "1"));
         let sign = if above.starts_with('-') { Number::MINUS_ONE } else { Number::ONE };
         let read = |text: &str| Number::parse_literal(text).expect("digits");
-        let above = read(above.trim_start_matches('-')).mul(sign);
-        let back = above.mul(read(below).powi(-1).expect("not zero"));
+        let above = read(above.trim_start_matches('-')) * sign;
+        let back = above * read(below).powi(-1).expect("not zero");
         prop_assert_eq!(back, number, "{}", text);
     }
 
@@ -93,9 +93,9 @@ proptest! {
             !exact.is_finite() || (found - exact).abs() <= 1e-15 * scale.abs()
         };
         let (x, y) = (a.to_f64(), b.to_f64());
-        prop_assert!(near(a.add(b).to_f64(), x + y, x.abs() + y.abs()));
-        prop_assert!(near(a.mul(b).to_f64(), x * y, x * y));
-        prop_assert!(near(a.neg().to_f64(), -x, x));
+        prop_assert!(near((a + b).to_f64(), x + y, x.abs() + y.abs()));
+        prop_assert!(near((a * b).to_f64(), x * y, x * y));
+        prop_assert!(near((-a).to_f64(), -x, x));
     }
 
     #[test]
@@ -107,9 +107,9 @@ proptest! {
 
     #[test]
     fn the_root_of_a_square_is_exact(number in ratio()) {
-        let root = number.mul(number).exact_sqrt().expect("a square");
-        prop_assert_eq!(root, if number.is_negative() { number.neg() } else { number });
-        prop_assert_eq!(number.mul(number).add(Number::ONE).neg().exact_sqrt(), None);
+        let root = (number * number).exact_sqrt().expect("a square");
+        prop_assert_eq!(root, if number.is_negative() { -number } else { number });
+        prop_assert_eq!((-(number * number + Number::ONE)).exact_sqrt(), None);
     }
 }
 
@@ -121,7 +121,7 @@ fn a_power_is_repeated_multiplication() {
         assert_eq!(base.powi(exponent), Some(product));
         let inverse = product.powi(-1).expect("not zero");
         assert_eq!(base.powi(-exponent), Some(inverse));
-        product = product.mul(base);
+        product = product * base;
     }
     assert_eq!(Number::ZERO.powi(-1), None);
 }
