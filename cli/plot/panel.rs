@@ -106,14 +106,7 @@ fn diagram(
     (time, range): (Range, Range),
     (marks, last): (&[f64], bool),
 ) -> Drawn {
-    let time = (
-        time.0,
-        if time.1 > time.0 {
-            time.1
-        } else {
-            time.0 + 1.0
-        },
-    );
+    let time = widened(time);
     let mut chart = ChartBuilder::on(area)
         .margin_top(12 * DETAIL)
         .margin_bottom(10 * DETAIL)
@@ -125,11 +118,7 @@ fn diagram(
             if last { TIME_AXIS * DETAIL } else { 0 },
         )
         .build_cartesian_2d(time.0..time.1, range.0..range.1)?;
-    let label = |y: &f64| match panel.scale {
-        Scale::Linear => short(*y, range.1 - range.0),
-        Scale::Logarithmic { low, .. } if *y <= f64::from(low) => format!("≤{}", power_of_ten(*y)),
-        Scale::Logarithmic { .. } => power_of_ten(*y),
-    };
+    let label = |y: &f64| tick(*y, panel.scale, range);
     let ticks = match panel.scale {
         Scale::Linear => TICKS,
         Scale::Logarithmic { .. } => ((range.1 - range.0) / 2.0).ceil() as usize + 1,
@@ -166,6 +155,20 @@ fn diagram(
         }
     }
     Ok(())
+}
+
+/// A range that is not empty.
+fn widened((from, to): Range) -> Range {
+    (from, if to > from { to } else { from + 1.0 })
+}
+
+/// The text at a tick of the vertical axis.
+fn tick(y: f64, scale: Scale, range: Range) -> String {
+    match scale {
+        Scale::Linear => short(y, range.1 - range.0),
+        Scale::Logarithmic { low, .. } if y <= f64::from(low) => format!("≤{}", power_of_ten(y)),
+        Scale::Logarithmic { .. } => power_of_ten(y),
+    }
 }
 
 fn explain_marks(area: &Area, place: usize, text: &str) -> Drawn {

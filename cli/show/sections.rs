@@ -22,18 +22,6 @@ enum Entries {
 /// out where there are none.
 pub fn sections(mechanism: &mut Mechanism, equations: &Equations) -> Vec<Section> {
     let coriolis = coriolis_matrix(&mut mechanism.graph, &equations.mass);
-    let matrix = |title, symbol, latex, entries: &Matrix| Section {
-        title,
-        symbol,
-        latex,
-        entries: Entries::Matrix(entries.clone()),
-    };
-    let vector = |title, symbol, latex, entries: &[ExprId]| Section {
-        title,
-        symbol,
-        latex,
-        entries: Entries::Vector(entries.to_vec()),
-    };
     let mut sections = vec![
         matrix("mass matrix M = ∂²T/∂q̇²", "M", "M", &equations.mass),
         matrix(
@@ -80,6 +68,34 @@ pub fn sections(mechanism: &mut Mechanism, equations: &Equations) -> Vec<Section
         ]);
     }
     sections
+}
+
+fn matrix(
+    title: &'static str,
+    symbol: &'static str,
+    latex: &'static str,
+    entries: &Matrix,
+) -> Section {
+    Section {
+        title,
+        symbol,
+        latex,
+        entries: Entries::Matrix(entries.clone()),
+    }
+}
+
+fn vector(
+    title: &'static str,
+    symbol: &'static str,
+    latex: &'static str,
+    entries: &[ExprId],
+) -> Section {
+    Section {
+        title,
+        symbol,
+        latex,
+        entries: Entries::Vector(entries.to_vec()),
+    }
 }
 
 /// The entries in the notation of descriptions.
