@@ -4,13 +4,13 @@
 //! Out: a [`Program`] that computes them, checked by [`verify`].
 //!
 //! The passes, in order:
-//! 1. [`trig`]: each expression in the ring of the sines and cosines it has, where
+//! 1. `trig`: each expression in the ring of the sines and cosines it has, where
 //!    that is cheaper. Works on expressions.
-//! 2. [`schedule`]: to a program, each shared expression once.
-//! 3. [`factor`]: pairs of factors and of terms that several operations share.
-//! 4. [`dead`]: what nobody reads.
+//! 2. `schedule`: to a program, each shared expression once.
+//! 3. `factor`: pairs of factors and of terms that several operations share.
+//! 4. `dead`: what nobody reads.
 //!
-//! [`solve`] appends the solve for the accelerations to a program.
+//! `solve` appends the solve for the accelerations to a program.
 
 mod count;
 mod dead;
