@@ -117,7 +117,7 @@ where
             Limit::Regular,
         )?;
         let not_finite = |_| DynamicsError::NotFinite { t: state.t };
-        tangent.refine().map_err(not_finite)?;
+        tangent.refine(-T::one()).map_err(not_finite)?;
         let values = tangent.values();
         let rank = values.iter().filter(|&&x| x > reported_rank()).count();
         let weakest = values.iter().fold(T::one(), |least, &x| least.min(x));

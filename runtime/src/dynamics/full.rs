@@ -77,7 +77,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             }
             return;
         }
-        let w = tangent.solve(&right, &none);
+        let w = tangent.solve(&right, &[T::zero(); R], &none);
         for (direction, share) in tangent.decided(&w) {
             let mut row = self.metric.raise(direction);
             for j in 0..N {

@@ -10,6 +10,7 @@
 //! Not here: the way back onto the constraints ([`crate::projection`]).
 
 mod acceleration;
+mod across;
 mod constrained;
 mod full;
 mod lifted;
@@ -19,6 +20,7 @@ mod partitioning;
 mod reduced;
 mod rows;
 mod settings;
+mod singular;
 mod sizes;
 mod solver;
 mod tangent;

@@ -8,7 +8,7 @@
 //! `L⁻¹p₁`. Where the rows of `A` are safely independent a Schur complement gives
 //! that directly; elsewhere it is built from the tangent space.
 
-use super::{Limit, Solver, Source, Which};
+use super::{Solver, Source, Which};
 use crate::linalg::{guard, passes};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
@@ -22,9 +22,13 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         bias: &SVector<T, R>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         if !self.is_factored_at(state) {
+            if self.near {
+                return self.near_singular(mechanism, state);
+            }
             self.factored = None;
             self.factorise_metric(mechanism, Source::Terms, state.t)?;
             let squared = self.factorise_constraints(Source::Terms, Which::All);
+            self.begin(squared);
             if !passes(squared, guard()) {
                 return self.near_singular(mechanism, state);
             }
@@ -35,33 +39,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// The acceleration by the factors at hand.
     #[inline]
-    fn regular_acceleration(&self, bias: &SVector<T, R>) -> SVector<T, N> {
+    pub(super) fn regular_acceleration(&self, bias: &SVector<T, R>) -> SVector<T, N> {
         let mut w = self.free_acceleration(bias);
         self.lifted.correct(&mut w, bias);
         self.lower(w)
-    }
-
-    /// The acceleration at the nearest state on the constraints; on the branch that
-    /// the velocity follows if the rows are too weak to tell.
-    fn near_singular<M: Mechanism<T, N, R> + ?Sized>(
-        &mut self,
-        mechanism: &M,
-        state: &State<T, N>,
-    ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        let (landed, limit) = self.land(mechanism, state)?;
-        mechanism.terms(&landed, &mut self.terms);
-        let bias = self.stabilised_bias(mechanism, &landed);
-        if self.is_factored_at(&landed) {
-            self.counters.landed_accelerations += 1;
-            return Ok(self.regular_acceleration(&bias));
-        }
-        self.counters.robust_accelerations += 1;
-        self.factorise_metric(mechanism, Source::Terms, landed.t)?;
-        let tangent = self.tangent(mechanism, &landed, Source::Terms, Which::All, limit)?;
-        if tangent.strong == self.rows.regular(Which::All) {
-            self.choose_rows(tangent.rows());
-        }
-        let w = self.free_acceleration(&bias);
-        Ok(self.lower(tangent.solve(&self.scaled(&bias), &w)))
     }
 }

@@ -7,7 +7,7 @@
 //! or on the stack.
 
 use super::{ConstrainedSystem, Lifted, Metric, Rows, Tangent, Which};
-use crate::linalg::{Breakdown, NotDefinite, independent, truncation, useless, weak};
+use crate::linalg::{Breakdown, NotDefinite, first_guard, guard, independent, passes, safe_steps, tangible, truncation, useless, weak};
 use crate::{Branch, Counters, DynamicsError, Mechanism, Position, Real, Settings, State, Terms};
 use nalgebra::{SMatrix, SVector};
 
@@ -35,9 +35,12 @@ pub struct Solver<T, const N: usize, const R: usize> {
     /// The largest length of the coordinates in the metric so far: what their
     /// round-off is measured by.
     pub(crate) reach: T,
-    /// Whether a projection left a state where it was in some direction because it
-    /// could not tell the branch.
-    pub(crate) unsure: bool,
+    /// The sine of the constraints at the last accepted state.
+    sine: Option<T>,
+    /// Whether the step from there comes near a singular position. Then all of its
+    /// stages are taken on the constraints: a step mixed of two kinds of stages
+    /// would lose its order.
+    pub(crate) near: bool,
     prepared: bool,
 }
 
@@ -62,7 +65,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             lifted: Lifted::default(),
             factored: None,
             reach: T::zero(),
-            unsure: false,
+            sine: None,
+            near: false,
             prepared: false,
         }
     }
@@ -141,10 +145,12 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let not_finite = |Breakdown| DynamicsError::NotFinite { t: state.t };
         let mut tangent = Tangent::new(&self.metric, &mut self.rows, jacobian, which);
         let regular = self.rows.regular(which);
-        let (limit, strong, floor) = match limit {
-            Limit::Regular => (regular, weak(), truncation()),
-            Limit::Landed => (regular, useless(), truncation()),
-            Limit::Unknown => (N.min(R), weak(), independent()),
+        let two = T::from_f64(2.0);
+        let (limit, strong, aim, floor) = match limit {
+            Limit::Regular => (regular, weak(), two, truncation()),
+            Limit::Landed => (regular, useless(), tangible(), truncation()),
+            Limit::Beside => (regular, useless::<T>() * two, tangible(), truncation()),
+            Limit::Unknown => (N.min(R), weak(), two, independent()),
         };
         if !self.settings.branch_rows {
             tangent.take_strong(floor, limit).map_err(not_finite)?;
@@ -155,7 +161,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             self.counters.branch_evaluations += 1;
             mechanism.branch(state, &mut self.branch);
             let (metric, rows) = (&self.metric, &self.rows);
-            let result = tangent.take_branch(metric, rows, &self.branch, limit);
+            let result = tangent.take_branch(metric, rows, &self.branch, aim, limit);
             result.map_err(not_finite)?;
         }
         if tangent.used < limit {
@@ -182,6 +188,26 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.learn(mechanism, state)?;
         self.prepared = true;
         Ok(())
+    }
+
+    /// Takes note of the squared sine of the constraints at the first state. How far
+    /// the first step will go is not known, so it may come near a singular position
+    /// from farther away than others.
+    #[inline]
+    pub(crate) fn begin(&mut self, squared: T) {
+        if self.sine.is_none() {
+            self.near = !passes(squared, first_guard());
+            self.sine = Some(squared.sqrt());
+        }
+    }
+
+    /// Takes note of the squared sine of the constraints at an accepted state, and
+    /// whether the next step comes near a singular position.
+    pub(crate) fn observe_sine(&mut self, squared: T) {
+        let sine = squared.sqrt();
+        let change = self.sine.map_or(T::zero(), |before| (sine - before).abs());
+        self.near = sine < guard::<T>() + safe_steps::<T>() * change;
+        self.sine = Some(sine);
     }
 
     /// Learns the rank at a state on the constraints whose position terms are in
@@ -222,6 +248,9 @@ pub(crate) enum Limit {
     /// As above, and it is on the constraints to round-off, so that even small
     /// rows tell the truth.
     Landed,
+    /// As [`Landed`](Self::Landed), and beside a state that is: what is weak there
+    /// counts as weak here.
+    Beside,
     /// It is on the constraints to round-off; how many rows are independent is the
     /// question.
     Unknown,

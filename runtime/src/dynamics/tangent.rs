@@ -23,12 +23,12 @@ use nalgebra::{SMatrix, SVector};
 /// directions, `branch..used` what else is decided, `used..N` free. Each decided
 /// column has a left vector and a singular value.
 pub(crate) struct Tangent<T, const N: usize, const R: usize> {
-    basis: SMatrix<T, N, N>,
-    left: SMatrix<T, R, R>,
-    values: SVector<T, N>,
+    pub(super) basis: SMatrix<T, N, N>,
+    pub(super) left: SMatrix<T, R, R>,
+    pub(super) values: SVector<T, N>,
     /// `Â` and `K̂`, a row in each column.
-    rows: SMatrix<T, N, R>,
-    slopes: SMatrix<T, N, R>,
+    pub(super) rows: SMatrix<T, N, R>,
+    pub(super) slopes: SMatrix<T, N, R>,
     slope_bias: [T; R],
     which: Which,
     pub(crate) strong: usize,
@@ -80,11 +80,17 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
     }
 
     /// Takes the directions that branch rows decide among those left free.
+    ///
+    /// Where the branch rows vanish with the distance to the singular position along
+    /// the tangent, the weak rows do so exactly, and they are known to round-off on
+    /// the constraints: those with singular values above `aim` say which directions
+    /// these are, and the branch rows only what happens in them.
     pub(crate) fn take_branch(
         &mut self,
         metric: &Metric<T, N>,
         rows: &Rows<T, R>,
         branch: &Branch<T, N, R>,
+        aim: T,
         limit: usize,
     ) -> Result<(), Breakdown> {
         let mut largest = T::zero();
@@ -94,8 +100,13 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
             self.slope_bias[row] = rows.scale(row) * branch.bias[row];
             largest = largest.max(norm(&self.slopes.data.0[row]));
         }
-        let slopes = self.slopes;
-        self.take(&slopes, self.used, N, branch_rank::<T>() * largest, limit)?;
+        let (lifted, slopes) = (self.rows, self.slopes);
+        let threshold = branch_rank::<T>() * largest;
+        self.take(&lifted, self.strong, N, aim, limit)?;
+        self.take(&slopes, self.used, N, threshold, limit)?;
+        let end = self.used;
+        self.used = self.strong;
+        self.take(&slopes, self.strong, end, threshold, end)?;
         self.branch = self.used;
         Ok(())
     }
@@ -106,18 +117,9 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
         self.take(&rows, self.used, N, threshold, limit)
     }
 
-    /// Decides the weak directions anew by the rows alone, without turning them
-    /// into the free ones: along the branch a vanishing row says nothing, across it
-    /// it does.
-    pub(crate) fn refine(&mut self) -> Result<(), Breakdown> {
-        let (rows, end) = (self.rows, self.used);
-        self.used = self.strong;
-        self.take(&rows, self.strong, end, -T::one(), end)
-    }
-
     /// Orthogonalises `matrix · basis` in the columns `from..to` after removing
     /// the left vectors already used, and takes the columns above `threshold`.
-    fn take(
+    pub(super) fn take(
         &mut self,
         matrix: &SMatrix<T, N, R>,
         from: usize,
@@ -156,25 +158,22 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
     }
 
     /// The `w` nearest to `free` that satisfies what was decided: `Â w = right` in
-    /// the strong directions, `K̂ w = κ̂` in the branch directions.
-    pub(crate) fn solve(&self, right: &[T; R], free: &[T; N]) -> [T; N] {
+    /// the strong directions, `K̂ w = κ̂ − jerk` in the branch directions, where
+    /// `jerk` is `Â` times the jerk.
+    pub(crate) fn solve(&self, right: &[T; R], jerk: &[T; R], free: &[T; N]) -> [T; N] {
         let mut w = [T::zero(); N];
         self.advance(&mut w, &self.rows, right, 0..self.strong);
-        self.advance(
-            &mut w,
-            &self.slopes,
-            &self.slope_bias,
-            self.strong..self.branch,
-        );
-        self.advance(&mut w, &self.rows, right, self.branch..self.used);
         for direction in &self.basis.data.0[self.used..] {
             add_scaled(&mut w, dot(direction, free), direction);
         }
+        let slope_right = core::array::from_fn(|row| self.slope_bias[row] - jerk[row]);
+        self.advance(&mut w, &self.slopes, &slope_right, self.strong..self.branch);
+        self.advance(&mut w, &self.rows, right, self.branch..self.used);
         w
     }
 
     /// Moves `w` along some decided directions until their rows are satisfied.
-    fn advance(
+    pub(super) fn advance(
         &self,
         w: &mut [T; N],
         matrix: &SMatrix<T, N, R>,
@@ -189,25 +188,6 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
             let share = dot(&self.left.data.0[j], &gap) / self.values[j];
             add_scaled(w, share, &self.basis.data.0[j]);
         }
-    }
-
-    /// The shortest change of `w` that closes `gap`, after [`refine`](Self::refine).
-    /// In a weak direction of singular value `σ` it is made only if `worth(σ, size)`
-    /// says that a gap of this size means something.
-    pub(crate) fn close(&self, gap: &[T; R], mut worth: impl FnMut(T, T) -> bool) -> [T; N] {
-        let mut w = [T::zero(); N];
-        self.advance(&mut w, &self.rows, gap, 0..self.strong);
-        let mut rest = *gap;
-        for (entry, row) in rest.iter_mut().zip(&self.rows.data.0) {
-            *entry -= dot(row, &w);
-        }
-        for j in self.strong..self.used {
-            let size = dot(&self.left.data.0[j], &rest);
-            if worth(self.values[j], size.abs()) {
-                add_scaled(&mut w, size / self.values[j], &self.basis.data.0[j]);
-            }
-        }
-        w
     }
 
     /// The scaled rows in the metric.
@@ -232,16 +212,5 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
     /// kind.
     pub(crate) fn values(&self) -> &[T] {
         &self.values.data.0[0][..self.used]
-    }
-
-    /// How fast the weak rows change along the motion: the size of `K̂` across the
-    /// branch (1/s).
-    pub(crate) fn rate(&self) -> T {
-        self.slopes
-            .data
-            .0
-            .iter()
-            .map(norm)
-            .fold(T::zero(), |most, x| most.max(x))
     }
 }

@@ -42,13 +42,20 @@ pub(crate) fn weak<T: Real>() -> T {
 /// on the constraints, and not at the state itself: the stages of a step are off
 /// the constraints by `δ`, which changes the acceleration there by `δ` over sine.
 pub(crate) fn guard<T: Real>() -> T {
-    T::from_f64(5e-2)
+    T::from_f64(2e-2)
 }
 
-/// Singular value below which a row is useless even on the constraints: round-off
-/// `ε` of the position changes the acceleration by `ε/σ³`, leaving the row out by
-/// about `σ`. The two meet here (1e-4 for `f64`).
+/// Singular value below which the branch rows decide even on the constraints (2e-3
+/// for `f64`): a row of size `σ` turns round-off `ε` of the position into an error
+/// `ε/σ³` of the acceleration, the branch rows leave out something of order `σ³`.
 pub(crate) fn useless<T: Real>() -> T {
+    T::EPSILON.sqrt().sqrt() * T::from_f64(32.0)
+}
+
+/// Singular value above which a row on the constraints shows the tangent of its
+/// branch better than branch rows do (1e-4 for `f64`): round-off `ε` of the position
+/// turns its direction by `ε/σ²`, theirs is off by about `σ²`.
+pub(crate) fn tangible<T: Real>() -> T {
     T::EPSILON.sqrt().sqrt()
 }
 
@@ -56,6 +63,24 @@ pub(crate) fn useless<T: Real>() -> T {
 /// along it, up to which a state belongs to this branch and not to another.
 pub(crate) fn same_branch<T: Real>() -> T {
     T::from_f64(0.25)
+}
+
+/// How far along the motion the jerk is taken from, in units of the time in which
+/// a weak row grows to its regular size: the fourth root of the round-off (1e-4 for
+/// `f64`), which second differences ask for.
+pub(crate) fn jerk_span<T: Real>() -> T {
+    T::EPSILON.sqrt().sqrt()
+}
+
+/// The same sine for the first step of a motion.
+pub(crate) fn first_guard<T: Real>() -> T {
+    T::from_f64(0.25)
+}
+
+/// How many times its change in the last step the sine must at least be above the
+/// guard for the next step to be safe from it.
+pub(crate) fn safe_steps<T: Real>() -> T {
+    T::from_f64(1.25)
 }
 
 /// Smallest singular value, relative to the branch rows' norm, at which a branch
@@ -104,7 +129,7 @@ pub(crate) fn acceptable<T: Real>() -> T {
 /// How many times its own uncertainty a residual must be before a weak direction
 /// is corrected for it. Less, and the correction would be noise.
 pub(crate) fn significant<T: Real>() -> T {
-    T::from_f64(16.0)
+    T::from_f64(4.0)
 }
 
 /// Whether the smallest squared sine of the constraint rows is above a bound. NaN

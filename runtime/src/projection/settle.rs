@@ -1,0 +1,161 @@
+//! Onto the constraints where rows of them vanish.
+//!
+//! In:  a state near a singular position.
+//! Out: the state on its own branch.
+//!
+//! Let `x` be the distance across the branch and `y` the distance to the singular
+//! position along it, so that a weak row reads `g = xy`. The nearest position may
+//! lie on another branch (`y = 0`), and `x = g/y` magnifies round-off. So:
+//!
+//! - A state moves across its branch only. Which direction that is, the branch rows
+//!   tell, as they do for accelerations.
+//! - `x` is taken from `g` where `y` is large, and where it is small from the
+//!   velocity level, `ẏx + yẋ = 0`; likewise `ẋ` from the velocity level, or from
+//!   the acceleration level, `2ẏẋ + y ẍ + … = 0`. For holonomic constraints
+//!   `K = 3Ȧ`, so `ẏ = K/3`.
+//! - A residual that is not well above its own round-off is left alone.
+
+use crate::dynamics::{Limit, Solver, Source, Tangent, Which};
+use crate::linalg::{acceptable, norm, on_constraint, same_branch, significant, useless};
+use crate::{DynamicsError, Mechanism, Real, State};
+
+/// Corrections after which a state is taken as it is.
+const MAX_ITERATIONS: usize = 20;
+
+/// What is needed to judge residuals at one state.
+struct Scene<T> {
+    /// Round-off of the position, a length in the metric.
+    round_off: T,
+    /// Change of position up to which its square is round-off.
+    settled: T,
+    /// The size of the velocity in the metric.
+    speed: T,
+}
+
+impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+    /// Brings a state onto its branch, as far as residuals tell it.
+    pub(super) fn settle<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &mut State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        for _ in 0..MAX_ITERATIONS {
+            mechanism.position(state, &mut self.position);
+            self.finite_residual(state)?;
+            self.factorise_metric(mechanism, Source::Position, state.t)?;
+            self.counters.projection_iterations += 1;
+            let scene = Scene {
+                round_off: self.round_off(),
+                settled: T::EPSILON.sqrt() * self.reach,
+                speed: self.metric.factor.length(&state.v.data.0[0]),
+            };
+            let across = self.position_change(mechanism, state, &scene)?;
+            let faster = self.velocity_change(mechanism, state, &scene)?;
+            let moved = self.metric.factor.length(&across);
+            let turned = self.metric.factor.length(&faster);
+            state.q += nalgebra::SVector::from(across);
+            state.v += nalgebra::SVector::from(faster);
+            let rest = on_constraint::<T>() * scene.round_off;
+            if moved <= rest && turned <= on_constraint::<T>() * T::EPSILON * scene.speed {
+                break;
+            }
+        }
+        mechanism.position(state, &mut self.position);
+        if self.finite_residual(state)? > acceptable::<T>() * self.reach {
+            return Err(self.failed(state));
+        }
+        Ok(())
+    }
+
+    /// The change of position that closes `g`.
+    fn position_change<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        scene: &Scene<T>,
+    ) -> Result<[T; N], DynamicsError<T>> {
+        let mut tangent = self.tangent_here(mechanism, state, Which::Holonomic)?;
+        let gap = self.scaled(&-self.position.residual);
+        let mut w = tangent.close_strong(&gap);
+        if norm(&w) <= scene.settled {
+            let speed = scene.speed * T::from_f64(3.0);
+            let meaning = significant::<T>() * scene.round_off;
+            let rate = tangent.rate();
+            let far = |value: T, size: T| {
+                size > meaning && size * rate > same_branch::<T>() * value * value * speed
+            };
+            let floor = if tangent.any_weak(&gap, far) { T::one() } else { useless() };
+            self.refine(&mut tangent, floor, state)?;
+            tangent.close_rows(&mut w, &gap, |_, size| size > meaning);
+            let velocity = self.scaled(&-self.velocity_level(state));
+            let noise = significant::<T>() * T::EPSILON * scene.speed;
+            tangent.close_slopes(&mut w, &velocity, T::from_f64(3.0), noise);
+        }
+        Ok(self.lower(w).data.0[0])
+    }
+
+    /// The change of velocity that closes `A q̇ + b`.
+    fn velocity_change<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        scene: &Scene<T>,
+    ) -> Result<[T; N], DynamicsError<T>> {
+        let mut tangent = self.tangent_here(mechanism, state, Which::All)?;
+        let gap = self.scaled(&-self.velocity_level(state));
+        let mut w = tangent.close_strong(&gap);
+        let off = scene.round_off.max(self.residual().0);
+        if off <= scene.settled && norm(&w) <= T::EPSILON.sqrt() * scene.speed {
+            self.refine(&mut tangent, useless(), state)?;
+            let (rate, noise) = (tangent.rate(), T::EPSILON * scene.speed);
+            // Across the branch the position is known only to `off/σ`, for which the
+            // velocity level has an error that no velocity is to blame for.
+            tangent.close_rows(&mut w, &gap, |value, size| {
+                size > significant::<T>() * (noise + rate * off / value)
+            });
+            if tangent.branch < tangent.used {
+                let level = self.acceleration_level(mechanism, state)?;
+                let share = T::from_f64(1.5);
+                tangent.close_slopes(&mut w, &level, share, significant::<T>() * noise * rate);
+            }
+        }
+        Ok(self.lower(w).data.0[0])
+    }
+
+    /// `p₂ − A q̈`, scaled, at a state: zero in the weak rows on the branch.
+    fn acceleration_level<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<[T; R], DynamicsError<T>> {
+        let acceleration = self.singular_acceleration(mechanism, state, Limit::Regular)?;
+        mechanism.terms(state, &mut self.terms);
+        let level = self.terms.bias - self.terms.jacobian * acceleration;
+        self.factorise_metric(mechanism, Source::Position, state.t)?;
+        Ok(self.scaled(&level))
+    }
+
+    /// `A q̇ + b` at the position in the buffer.
+    fn velocity_level(&self, state: &State<T, N>) -> nalgebra::SVector<T, R> {
+        self.position.jacobian * state.v + self.position.drift
+    }
+
+    fn tangent_here<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        which: Which,
+    ) -> Result<Tangent<T, N, R>, DynamicsError<T>> {
+        self.tangent(mechanism, state, Source::Position, which, Limit::Regular)
+    }
+
+    fn refine(
+        &self,
+        tangent: &mut Tangent<T, N, R>,
+        floor: T,
+        state: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        let not_finite = |_| DynamicsError::NotFinite { t: state.t };
+        tangent.refine(floor).map_err(not_finite)
+    }
+}
