@@ -22,7 +22,7 @@ pub use dynamics::{
     ConstrainedSystem, ConstraintError, Counters, Form, Rank, Settings, Solver, Stabilisation,
 };
 pub use error::DynamicsError;
-pub use integrator::{Dop853, Dp5, IntegrateError, Integrator, Rk4, Step, Tolerance};
+pub use integrator::{Dop853, Dp5, IntegrateError, Integrator, Radau5, Rk4, Step, Tolerance};
 pub use model::{
     Branch, Canvas, ConstraintRow, Correction, Direction, Energy, Event, Initial, Interface,
     Mechanism, Pivots, Position, Quantity, Regular, Start, Structure, Terms,

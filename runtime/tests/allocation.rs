@@ -14,7 +14,15 @@ static CONSERVATIVE: Structure = Structure {
 };
 
 /// Paces for every scheme.
-const PACES: [(Scheme, Pace<f64>); 5] = [
+const PACES: [(Scheme, Pace<f64>); 7] = [
+    (Scheme::Radau5, Pace::Fixed { step: 0.01 }),
+    (
+        Scheme::Radau5,
+        Pace::Adaptive {
+            relative: 1e-7,
+            absolute: 1e-7,
+        },
+    ),
     (Scheme::Rk4, Pace::Fixed { step: 0.01 }),
     (Scheme::Dp5, Pace::Fixed { step: 0.01 }),
     (

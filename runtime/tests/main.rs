@@ -7,4 +7,5 @@ mod integrator;
 mod mechanisms;
 mod scan;
 mod simulate;
+mod stiff;
 mod toys;

@@ -74,6 +74,22 @@ impl<T: Real, const N: usize> Tolerance<T, N> {
         Ok(Self { relative, q, v })
     }
 
+    /// A multiple of the round-off, for what must be solved as well as it can.
+    pub(crate) fn round_off(multiple: f64) -> Self {
+        let small = T::EPSILON * T::from_f64(multiple);
+        Self {
+            relative: small,
+            q: SVector::repeat(small),
+            v: SVector::repeat(small),
+        }
+    }
+
+    /// A part of the tolerance, in its own units, but not less than round-off.
+    pub(crate) fn part(&self, part: f64) -> T {
+        let round_off = T::EPSILON * T::from_f64(SMALLEST_TOLERANCE) / self.relative;
+        T::from_f64(part).max(round_off)
+    }
+
     /// Root mean square of an error in units of the tolerance; the values at
     /// both ends of the step, whichever is larger, set the scale.
     pub(crate) fn norm(

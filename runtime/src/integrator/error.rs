@@ -23,6 +23,14 @@ pub enum IntegrateError<T> {
         /// Time at which the integration stuck (s).
         t: T,
     },
+    /// The equations of an implicit step could not be solved, however short the
+    /// step.
+    NewtonDiverged {
+        /// Time at which the integration stuck (s).
+        t: T,
+        /// The last step that was tried (s).
+        h: T,
+    },
     /// A tolerance is zero, negative, infinite or NaN.
     ToleranceNotPositive {
         /// The offending value.
@@ -64,6 +72,11 @@ impl<T: Real> Display for IntegrateError<T> {
                 f,
                 "at t = {t} s the error estimate is infinite or NaN however short the step; look \
                  for a force or an input that grows without bound"
+            ),
+            Self::NewtonDiverged { t, h } => write!(
+                f,
+                "at t = {t} s the equations of an implicit step of {h} s could not be solved; take \
+                 a shorter step, or an explicit method"
             ),
             Self::ToleranceNotPositive { value } => {
                 write!(f, "a tolerance must be a positive number, not {value}")

@@ -56,6 +56,28 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
         self.used = 4;
     }
 
+    /// The cubics through both ends and two states between, at fractions of the
+    /// step.
+    pub(crate) fn set_stages(
+        &mut self,
+        (start, end): (&State<T, N>, &State<T, N>),
+        (first, a): (T, &State<T, N>),
+        (second, b): (T, &State<T, N>),
+    ) {
+        let cubic = |y: [&SVector<T, N>; 4]| {
+            let difference = y[3] - y[0];
+            let gap = |theta: T, y1: &SVector<T, N>| {
+                ((y1 - y[0]) / theta - difference) / (T::one() - theta)
+            };
+            let (low, high) = (gap(first, y[1]), gap(second, y[2]));
+            let last = (high - low) / (second - first);
+            [*y[0], difference, low - last * first, last]
+        };
+        self.q[..4].copy_from_slice(&cubic([&start.q, &a.q, &b.q, &end.q]));
+        self.v[..4].copy_from_slice(&cubic([&start.v, &a.v, &b.v, &end.v]));
+        self.used = 4;
+    }
+
     /// Appends the next pair of coefficients.
     pub(crate) fn push(&mut self, q: SVector<T, N>, v: SVector<T, N>) {
         if self.used < COEFFICIENTS {

@@ -8,22 +8,30 @@
 //! | [`Rk4`] | 4 | Hermite | fixed |
 //! | [`Dp5`] | 5(4) | order 4 | fixed or adaptive |
 //! | [`Dop853`] | 8(5,3) | order 7 | fixed or adaptive |
+//! | [`Radau5`] | 5(3), L-stable | order 3 | fixed or adaptive |
 //!
 //! Not here: what is done with the steps ([`crate::simulate`]).
 
+mod collocation;
 mod control;
 mod dop853;
 mod error;
 mod explicit;
+mod factors;
 mod interpolant;
+mod lu;
 mod methods;
+mod pace;
+mod radau;
+mod slope;
+mod slopes;
 mod step;
 mod tableau;
 
 pub use control::Tolerance;
 pub use error::IntegrateError;
-pub(crate) use explicit::Inside;
-pub use methods::{Dop853, Dp5, Rk4};
+pub use methods::{Dop853, Dp5, Radau5, Rk4};
+pub(crate) use pace::Inside;
 pub use step::Step;
 
 use crate::{Real, State, System};

@@ -5,6 +5,7 @@
 
 use super::interpolant::Interpolant;
 use crate::{Real, State};
+use nalgebra::SVector;
 
 /// An accepted step of an integrator.
 ///
@@ -75,6 +76,21 @@ impl<T: Real, const N: usize> Step<T, N> {
                 start + length * T::from_f64(part)
             }
         })
+    }
+
+    /// Joins both ends, given the accelerations there; the length of the step.
+    pub(super) fn set_ends(&mut self, first: &SVector<T, N>, last: &SVector<T, N>) -> T {
+        self.span = self.length();
+        self.interpolant
+            .set_ends((&self.start, first), (&self.end, last));
+        self.span
+    }
+
+    /// Joins both ends through two states between.
+    pub(super) fn set_stages(&mut self, first: (T, &State<T, N>), second: (T, &State<T, N>)) {
+        self.span = self.length();
+        self.interpolant
+            .set_stages((&self.start, &self.end), first, second);
     }
 
     /// The same step, ended earlier.

@@ -151,3 +151,19 @@ pub(crate) static DP5: Tableau = Tableau {
         (6, 2.382468931778144, -2.218314285466272e-16),
     ]],
 };
+
+/// Radau IIA of order 5, whose coefficients are in [`super::collocation`]; here is
+/// what the step control needs.
+pub(crate) static RADAU5: Tableau = Tableau {
+    order: 5,
+    error_order: 4,
+    looks: 3,
+    jumps: (0.2, 8.0),
+    nodes: &[],
+    rows: &[],
+    weights: &[],
+    errors: &[],
+    extra_nodes: &[],
+    extra_rows: &[],
+    dense: &[],
+};

@@ -6,7 +6,8 @@
 use super::SimulateError;
 use crate::integrator::Inside;
 use crate::{
-    Dop853, Dp5, IntegrateError, Integrator, Real, Rk4, Settings, State, Step, System, Tolerance,
+    Dop853, Dp5, IntegrateError, Integrator, Radau5, Real, Rk4, Settings, State, Step, System,
+    Tolerance,
 };
 use core::fmt::{Display, Formatter};
 
@@ -19,6 +20,8 @@ pub enum Scheme {
     Dp5,
     /// [`Dop853`], of order 8.
     Dop853,
+    /// [`Radau5`], implicit, of order 5: for stiff mechanisms.
+    Radau5,
 }
 
 impl Display for Scheme {
@@ -27,6 +30,7 @@ impl Display for Scheme {
             Self::Rk4 => "rk4",
             Self::Dp5 => "dp5",
             Self::Dop853 => "dop853",
+            Self::Radau5 => "radau5",
         })
     }
 }
@@ -147,6 +151,7 @@ pub(super) enum Driver<T, const N: usize> {
     Rk4(Rk4<T, N>),
     Dp5(Dp5<T, N>),
     Dop853(Dop853<T, N>),
+    Radau5(Radau5<T, N>),
 }
 
 impl<T: Real, const N: usize> Driver<T, N> {
@@ -163,6 +168,8 @@ impl<T: Real, const N: usize> Driver<T, N> {
             (Scheme::Dp5, Some(tolerance)) => Self::Dp5(Dp5::adaptive(tolerance)),
             (Scheme::Dop853, None) => Self::Dop853(Dop853::fixed()),
             (Scheme::Dop853, Some(tolerance)) => Self::Dop853(Dop853::adaptive(tolerance)),
+            (Scheme::Radau5, None) => Self::Radau5(Radau5::fixed()),
+            (Scheme::Radau5, Some(tolerance)) => Self::Radau5(Radau5::adaptive(tolerance)),
         })
     }
 
@@ -172,6 +179,7 @@ impl<T: Real, const N: usize> Driver<T, N> {
             Self::Rk4(method) => method.keep(inside),
             Self::Dp5(method) => method.keep(inside),
             Self::Dop853(method) => method.keep(inside),
+            Self::Radau5(method) => method.keep(inside),
         }
     }
 
@@ -181,6 +189,7 @@ impl<T: Real, const N: usize> Driver<T, N> {
             Self::Rk4(method) => method.forget(),
             Self::Dp5(method) => method.forget(),
             Self::Dop853(method) => method.forget(),
+            Self::Radau5(method) => method.forget(),
         }
     }
 }
@@ -196,6 +205,7 @@ impl<T: Real, const N: usize> Integrator<T, N> for Driver<T, N> {
             Self::Rk4(method) => method.step(system, state, bound),
             Self::Dp5(method) => method.step(system, state, bound),
             Self::Dop853(method) => method.step(system, state, bound),
+            Self::Radau5(method) => method.step(system, state, bound),
         }
     }
 }

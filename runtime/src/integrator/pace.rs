@@ -1,0 +1,226 @@
+//! How a method gets from a state to the next accepted one: at a fixed pace, or at
+//! one that follows a tolerance.
+//!
+//! In:  a [`Trial`]: a method that makes trial steps and tells their error.
+//! Out: accepted steps.
+//!
+//! At an adaptive pace, a trial step whose error is too large, whose error can't
+//! be told (NaN), or on whose way the mechanics failed, is tried again with a
+//! shorter one, until the step is lost in the round-off of time. A singular
+//! position that the form of the equations can't pass is reported at once: no
+//! step is short enough.
+
+use super::IntegrateError;
+use super::control::{Control, Tolerance, check_bound};
+use super::step::Step;
+use super::tableau::Tableau;
+use crate::{DynamicsError, Real, State, System};
+use nalgebra::SVector;
+
+/// The first step should change the slope by this fraction (Hairer's guess).
+const FIRST_STEP: f64 = 0.01;
+/// First step where the state or its slope is nearly zero (s).
+const TINY_STEP: f64 = 1e-6;
+
+/// What is kept of the inside of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Inside {
+    /// Nothing: [`Step::at`] is not called.
+    Nothing,
+    /// The Hermite polynomials through both ends, which cost nothing.
+    Hermite,
+    /// The method's own interpolant, extra stages included.
+    Full,
+}
+
+/// A method that makes trial steps.
+pub(super) trait Trial<T: Real, const N: usize> {
+    /// Its coefficients.
+    fn tableau(&self) -> &'static Tableau;
+
+    /// The step that is being made.
+    fn step(&mut self) -> &mut Step<T, N>;
+
+    /// Chooses what is kept of the inside of steps.
+    fn keep(&mut self, inside: Inside);
+
+    /// Forgets the slope at the end of the last step.
+    fn forget(&mut self);
+
+    /// Makes `state` the start of the next step and gives the acceleration
+    /// there, evaluated unless the last step ended in this very state.
+    fn begin<Y: System<T, N> + ?Sized>(
+        &mut self,
+        system: &mut Y,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>>;
+
+    /// Makes a trial step to the time `end`, whose end is projected.
+    fn attempt<Y: System<T, N> + ?Sized>(
+        &mut self,
+        system: &mut Y,
+        end: T,
+    ) -> Result<(), IntegrateError<T>>;
+
+    /// The error of the trial step in units of the tolerance.
+    fn error(&self, tolerance: &Tolerance<T, N>) -> T;
+
+    /// Completes an accepted step: the slope at its end, and its inside.
+    fn accept<Y: System<T, N> + ?Sized>(&mut self, system: &mut Y) -> Result<(), DynamicsError<T>>;
+}
+
+/// What decides how long a step is.
+#[derive(Clone, Debug)]
+struct Pace<T, const N: usize> {
+    tolerance: Tolerance<T, N>,
+    control: Control<T>,
+}
+
+/// A method at a pace: fixed without a [`Pace`].
+#[derive(Clone, Debug)]
+pub(super) struct Paced<K, T, const N: usize> {
+    pub(super) method: K,
+    pace: Option<Pace<T, N>>,
+}
+
+impl<K: Trial<T, N>, T: Real, const N: usize> Paced<K, T, N> {
+    /// Goes to each bound at once.
+    pub(super) fn fixed(method: K) -> Self {
+        Self { method, pace: None }
+    }
+
+    /// Goes as far as the tolerance allows.
+    pub(super) fn adaptive(method: K, tolerance: Tolerance<T, N>) -> Self {
+        let tableau = method.tableau();
+        let (least, most) = tableau.jumps;
+        let control = Control::new(tableau.error_order, least, most);
+        Self {
+            method,
+            pace: Some(Pace { tolerance, control }),
+        }
+    }
+
+    /// Makes one accepted step.
+    pub(super) fn step<Y: System<T, N> + ?Sized>(
+        &mut self,
+        system: &mut Y,
+        state: &State<T, N>,
+        bound: T,
+    ) -> Result<&Step<T, N>, IntegrateError<T>> {
+        check_bound(state.t, bound)?;
+        let slope = self.method.begin(system, state)?;
+        match &mut self.pace {
+            None => self.method.attempt(system, bound)?,
+            Some(pace) => pace.advance(&mut self.method, system, &slope, bound)?,
+        }
+        self.method.accept(system)?;
+        Ok(self.method.step())
+    }
+}
+
+impl<T: Real, const N: usize> Pace<T, N> {
+    /// Makes trial steps until one is accepted.
+    fn advance<K: Trial<T, N>, Y: System<T, N> + ?Sized>(
+        &mut self,
+        method: &mut K,
+        system: &mut Y,
+        slope: &SVector<T, N>,
+        bound: T,
+    ) -> Result<(), IntegrateError<T>> {
+        let t = method.step().start.t;
+        if self.control.h <= T::zero() {
+            self.control.h = self.first_step(method, system, slope, bound);
+        }
+        // What stood in the way of the last trial, to be reported if no step is
+        // short enough to avoid it.
+        let mut obstacle = None;
+        loop {
+            let end = match self.control.end(t, bound) {
+                Ok(end) => end,
+                Err(underflow) => return Err(obstacle.unwrap_or(underflow)),
+            };
+            let error = match method.attempt(system, end) {
+                Ok(()) => method.error(&self.tolerance),
+                Err(failure) if is_final(&failure) => return Err(failure),
+                Err(failure) => {
+                    obstacle = Some(failure);
+                    T::from_f64(f64::NAN)
+                }
+            };
+            if self.control.judge(end - t, error) {
+                return Ok(());
+            }
+            if error.is_finite() {
+                obstacle = None;
+            } else if obstacle.is_none() {
+                obstacle = Some(IntegrateError::NotFinite { t });
+            }
+            method.step().rejected += 1;
+        }
+    }
+
+    /// Hairer's guess of the first step: the slope and an explicit Euler step
+    /// tell how fast things change (II.4, "Starting Step Size").
+    fn first_step<K: Trial<T, N>, Y: System<T, N> + ?Sized>(
+        &self,
+        method: &mut K,
+        system: &mut Y,
+        a: &SVector<T, N>,
+        bound: T,
+    ) -> T {
+        let start = method.step().start;
+        let span = bound - start.t;
+        let size = self.tolerance.norm((&start.q, &start.v), &start, &start);
+        let slope = self.tolerance.norm((&start.v, a), &start, &start);
+        let tiny = T::from_f64(TINY_STEP);
+        let small = T::from_f64(1e-5);
+        let guess = if size < small || slope < small {
+            tiny
+        } else {
+            T::from_f64(FIRST_STEP) * size / slope
+        };
+        let guess = guess.min(span);
+        let curvature = self.curvature(method, system, a, guess);
+        let change = slope.max(curvature);
+        let better = if change.is_finite() && change > T::from_f64(1e-15) {
+            let order = f64::from(method.tableau().order);
+            (T::from_f64(FIRST_STEP) / change).powf(T::from_f64(1.0 / order))
+        } else {
+            tiny.max(guess * T::from_f64(1e-3))
+        };
+        (guess * T::from_f64(100.0)).min(better).min(span)
+    }
+
+    /// How fast the slope changes over an Euler step of length `h`; infinite
+    /// where the mechanics fail on the way.
+    fn curvature<K: Trial<T, N>, Y: System<T, N> + ?Sized>(
+        &self,
+        method: &mut K,
+        system: &mut Y,
+        a: &SVector<T, N>,
+        h: T,
+    ) -> T {
+        let start = method.step().start;
+        method.step().evaluations += 1;
+        let state = State {
+            t: start.t + h,
+            q: start.q + start.v * h,
+            v: start.v + a * h,
+        };
+        match system.acceleration(&state) {
+            Ok(end) => {
+                let change = (state.v - start.v, end - a);
+                self.tolerance.norm((&change.0, &change.1), &start, &start) / h
+            }
+            Err(_) => T::from_f64(f64::INFINITY),
+        }
+    }
+}
+
+/// Whether a shorter step can't help.
+fn is_final<T>(failure: &IntegrateError<T>) -> bool {
+    matches!(
+        failure,
+        IntegrateError::Dynamics(DynamicsError::SingularPosition { .. })
+    )
+}
