@@ -4,8 +4,9 @@
 //! Out: standard output, standard error, CSV files.
 
 use crate::error::CommandError;
+use csv::{ErrorKind, Writer};
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// What messages call standard output.
@@ -55,10 +56,9 @@ pub struct CsvWriter {
     path: Option<PathBuf>,
     /// Opened when the first row comes, so that a run that can't begin harms no
     /// file of the same name.
-    out: Option<Box<dyn Write>>,
-    header: String,
+    out: Option<Writer<Box<dyn Write>>>,
+    header: Vec<String>,
     rows: usize,
-    line: String,
 }
 
 impl CsvWriter {
@@ -71,13 +71,11 @@ impl CsvWriter {
     pub fn new(path: Option<&Path>, header: &[String]) -> Result<Self, CommandError> {
         let path = path.filter(|path| *path != Path::new("-"));
         path.map(probe).transpose()?;
-        let (path, header) = (path.map(Path::to_path_buf), header.join(",") + "\n");
         Ok(Self {
-            path,
+            path: path.map(Path::to_path_buf),
             out: None,
-            header,
+            header: header.to_vec(),
             rows: 0,
-            line: String::new(),
         })
     }
 
@@ -87,20 +85,13 @@ impl CsvWriter {
     ///
     /// [`CommandError::WriteRows`]; what was written before stays.
     pub fn row(&mut self, values: &[f64]) -> Result<(), CommandError> {
-        self.line.clear();
-        for (i, value) in values.iter().enumerate() {
-            if i > 0 {
-                self.line.push(',');
-            }
-            self.line.push_str(&exact(*value));
-        }
-        self.line.push('\n');
-        self.write_line().map_err(|error| self.failed(error))?;
+        let written = self.write(values);
+        written.map_err(|error| self.failed(system(error)))?;
         self.rows += 1;
         Ok(())
     }
 
-    fn write_line(&mut self) -> io::Result<()> {
+    fn write(&mut self, values: &[f64]) -> csv::Result<()> {
         let out = match &mut self.out {
             Some(out) => out,
             None => {
@@ -108,12 +99,12 @@ impl CsvWriter {
                     Some(path) => Box::new(File::create(path)?),
                     None => Box::new(io::stdout()),
                 };
-                let out = self.out.insert(Box::new(BufWriter::new(sink)));
-                out.write_all(self.header.as_bytes())?;
+                let out = self.out.insert(Writer::from_writer(sink));
+                out.write_record(&self.header)?;
                 out
             }
         };
-        out.write_all(self.line.as_bytes())
+        out.write_record(values.iter().map(|value| exact(*value)))
     }
 
     /// Hands the last rows over.
@@ -134,6 +125,16 @@ impl CsvWriter {
     pub fn destination(&self) -> String {
         let path = self.path.as_ref().map(|path| path.display().to_string());
         path.unwrap_or_else(|| STANDARD_OUTPUT.to_string())
+    }
+}
+
+/// What the system says of a failed row. As an `io::Error` of its own a CSV error
+/// would no longer tell a reader that has gone from other causes.
+fn system(error: csv::Error) -> io::Error {
+    let text = error.to_string();
+    match error.into_kind() {
+        ErrorKind::Io(error) => error,
+        _ => io::Error::other(text),
     }
 }
 
