@@ -320,7 +320,6 @@ fn the_coriolis_matrix_times_the_velocities_is_the_coriolis_force() {
 #[test]
 fn the_rate_of_the_mass_matrix_less_twice_the_coriolis_matrix_is_skew() {
     with_coriolis(|case, coriolis| {
-        let n = case.of.n();
         let Point { q, v, t, .. } = &case.point;
         let rate = |e: ExprId| {
             let coordinate = |k: usize| Dual64::new(q[k], v[k]);
@@ -329,16 +328,11 @@ fn the_rate_of_the_mass_matrix_less_twice_the_coriolis_matrix_is_skew() {
         };
         let mass = &case.of.equations.mass;
         let entry = |i: usize, j: usize| rate(mass[i][j]) - 2.0 * coriolis[i][j];
-        for i in 0..n {
-            for j in 0..=i {
-                let scale = coriolis[i][j].abs() + coriolis[j][i].abs();
-                case.same(
-                    entry(i, j),
-                    -entry(j, i),
-                    scale,
-                    &format!("(Ṁ − 2C)[{i},{j}]"),
-                );
-            }
+        let places = (0..coriolis.len()).flat_map(|i| (0..=i).map(move |j| (i, j)));
+        for (i, j) in places {
+            let scale = coriolis[i][j].abs() + coriolis[j][i].abs();
+            let what = format!("(Ṁ − 2C)[{i},{j}]");
+            case.same(entry(i, j), -entry(j, i), scale, &what);
         }
     });
 }

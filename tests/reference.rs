@@ -6,6 +6,14 @@ use bricard_runtime::{DynamicsError, Form, IntegrateError, Options, SimulateErro
 /// The paper's step (s).
 const STEP: f64 = 0.01;
 
+/// What the velocities may break the constraints by (m/s). Next to a singular position
+/// a row that vanishes says nothing about velocities, and the branch it stands for says
+/// it to the accuracy of the step.
+const SPEED_ERROR: f64 = 1e-8;
+
+/// How far the forms may differ after 8 s (rad): a tenth of what the step may be off.
+const FORMS_APART: f64 = 2e-6;
+
 /// When the double four-bar passes a singular position within 8 s: zeros of sin q₁
 /// of the exact reduction, to the millisecond.
 const PASSAGES: [f64; 9] = [
@@ -32,10 +40,7 @@ fn check(name: &str, until: f64, angle_bound: f64, constraint_bound: f64) -> Out
         found.position <= constraint_bound,
         "{name}: constraints are off by {found:?}"
     );
-    assert!(
-        found.velocity <= 100.0 * constraint_bound,
-        "{name}: {found:?}"
-    );
+    assert!(found.velocity <= SPEED_ERROR, "{name}: {found:?}");
     outcome
 }
 
@@ -127,7 +132,7 @@ fn the_full_form_gives_the_motion_of_the_reduced_one() {
         assert_eq!(full.error, None, "{name}");
         for (a, b) in full.q.iter().zip(&reduced.q) {
             assert!(
-                (a - b).abs() <= 1e-9,
+                (a - b).abs() <= FORMS_APART,
                 "{name}: {:?} and {:?}",
                 full.q,
                 reduced.q

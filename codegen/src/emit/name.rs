@@ -36,14 +36,14 @@ pub(super) fn snake_case(name: &str) -> String {
     let mut snake = String::new();
     let mut previous_lower = false;
     for c in name.chars() {
-        if c.is_uppercase() && previous_lower {
+        let separates = matches!(c, '[' | '.' | '_') || (c.is_uppercase() && previous_lower);
+        // Two in a row are no snake case.
+        if separates && !snake.ends_with('_') {
             snake.push('_');
         }
         previous_lower = c.is_lowercase();
-        match c {
-            '[' | '.' => snake.push('_'),
-            ']' => {}
-            _ => snake.extend(c.to_lowercase()),
+        if !matches!(c, '[' | ']' | '.' | '_') {
+            snake.extend(c.to_lowercase());
         }
     }
     if syn::parse_str::<Ident>(&snake).is_ok() {
@@ -111,6 +111,7 @@ mod tests {
         assert_eq!(snake_case("theta[0]"), "theta_0");
         assert_eq!(snake_case("L01"), "l01");
         assert_eq!(snake_case("type"), "type_");
+        assert_eq!(snake_case("cos_type__sin_type_"), "cos_type_sin_type_");
         assert_eq!(camel_case("double_four_bar"), "DoubleFourBar");
         assert_eq!(camel_case("SliderCrank"), "SliderCrank");
     }

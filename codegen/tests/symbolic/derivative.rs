@@ -74,7 +74,8 @@ fn every_function_has_the_derivative_and_value_of_dual_numbers() {
 #[test]
 fn functions_of_two_arguments_have_the_partial_derivatives_of_dual_numbers() {
     let (first, second) = (Symbol::Coordinate(0), Symbol::Coordinate(1));
-    let cases: [(Function2, fn(Dual64, Dual64) -> Dual64); 4] = [
+    type Oracle = fn(Dual64, Dual64) -> Dual64;
+    let cases: [(Function2, Oracle); 4] = [
         (Function2::Atan2, |x, y| x.atan2(y)),
         (Function2::Min, |x, y| if x.re < y.re { x } else { y }),
         (Function2::Max, |x, y| if x.re < y.re { y } else { x }),

@@ -1379,10 +1379,7 @@ pub mod double_four_bar {
         }
         fn start(&self) -> Start<T, 5> {
             let product = T::constant(0.4444444444444444, 2.4671622769447922e-17)
-                * T::constant(
-                    3.141592653589793f64,
-                    0.00000000000000012246467991473532f64,
-                );
+                * T::pi();
             Start {
                 q: [
                     Initial {

@@ -572,11 +572,7 @@ pub mod slider_crank {
             false
         }
         fn start(&self) -> Start<T, 3> {
-            let product = T::from_f64(0.25)
-                * T::constant(
-                    3.141592653589793f64,
-                    0.00000000000000012246467991473532f64,
-                );
+            let product = T::from_f64(0.25) * T::pi();
             Start {
                 q: [
                     Initial {
