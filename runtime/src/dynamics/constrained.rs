@@ -3,7 +3,7 @@
 //! In:  states.
 //! Out: accelerations, reactions, projections, rank, constraint errors.
 
-use super::solver::{Limit, Source};
+use super::solver::{Known, Source};
 use super::{Solver, Which};
 use crate::linalg::{passes, reported_rank, weak};
 use crate::{Counters, DynamicsError, Mechanism, Real, State, System};
@@ -114,7 +114,7 @@ where
             state,
             Source::Position,
             Which::All,
-            Limit::Regular,
+            Known::Rank,
         )?;
         let not_finite = |_| DynamicsError::NotFinite { t: state.t };
         tangent.refine(-T::one()).map_err(not_finite)?;

@@ -8,7 +8,7 @@
 //! condition number. Accelerations and forces are scaled by the diagonal of the
 //! mass matrix, so that the result does not depend on units.
 
-use super::{Limit, Solver, Source, Tangent, Which};
+use super::{Known, Solver, Source, Tangent, Which};
 use crate::linalg::Triangle;
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
@@ -24,8 +24,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.factored = None;
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
         self.counters.robust_accelerations += 1;
-        let (all, regular) = (Which::All, Limit::Regular);
-        let tangent = self.tangent(mechanism, state, Source::Terms, all, regular)?;
+        let (all, known) = (Which::All, Known::Rank);
+        let tangent = self.tangent(mechanism, state, Source::Terms, all, known)?;
         let unit = self.units();
         let mut triangle = Triangle::default();
         self.insert_motion(&mut triangle, &unit);

@@ -32,5 +32,5 @@ pub use solver::Solver;
 pub(crate) use lifted::Lifted;
 pub(crate) use metric::Metric;
 pub(crate) use rows::{Rows, Which};
-pub(crate) use solver::{Limit, Source};
+pub(crate) use solver::{Known, Source};
 pub(crate) use tangent::Tangent;

@@ -6,7 +6,7 @@
 //! Source: Phong & Hoang (2012), eq. 2.10. The matrix is singular where rows of
 //! `A` are dependent; a Schur complement of all rows shows how near that is.
 
-use super::{Limit, Solver, Source, Which};
+use super::{Known, Solver, Source, Which};
 use crate::linalg::{passes, weak};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
@@ -38,12 +38,14 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.counters.constraint_factorisations += 1;
         let every_row = (core::array::from_fn(|row| row), R);
         let (jacobian, rows) = (&self.terms.jacobian, &mut self.rows);
-        let squared = self.lifted.factorise(&self.metric, jacobian, rows, every_row);
+        let squared = self
+            .lifted
+            .factorise(&self.metric, jacobian, rows, every_row);
         if passes(squared, weak()) {
             return Ok(());
         }
-        let (all, regular) = (Which::All, Limit::Regular);
-        let tangent = self.tangent(mechanism, state, Source::Terms, all, regular)?;
+        let (all, known) = (Which::All, Known::Rank);
+        let tangent = self.tangent(mechanism, state, Source::Terms, all, known)?;
         let rank = tangent.strong;
         Err(DynamicsError::SingularPosition {
             t: state.t,

@@ -10,7 +10,7 @@
 //! the motion, which need it too, and its change: a contraction, since along the
 //! motion `A` changes by less than `K`. What is left out is of order `σ³`.
 
-use super::{Limit, Metric, Solver, Source, Tangent, Which};
+use super::{Known, Metric, Solver, Source, Tangent, Which};
 use crate::linalg::jerk_span;
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::{SMatrix, SVector};
@@ -42,14 +42,14 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         mechanism: &M,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        let (mut landed, mut limit) = (*state, Limit::Landed);
+        let (mut landed, mut known) = (*state, Known::Landed);
         if !self.settings.branch_rows {
-            limit = Limit::Regular;
+            known = Known::Rank;
         } else if let Err(error) = self.land(mechanism, &mut landed) {
             let DynamicsError::ProjectionFailed { .. } = error else {
                 return Err(error);
             };
-            (landed, limit) = (*state, Limit::Regular);
+            (landed, known) = (*state, Known::Rank);
         }
         if self.is_factored_at(&landed) {
             mechanism.terms(&landed, &mut self.terms);
@@ -58,7 +58,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             return Ok(self.regular_acceleration(&bias));
         }
         self.counters.robust_accelerations += 1;
-        self.singular_acceleration(mechanism, &landed, limit)
+        self.singular_acceleration(mechanism, &landed, known)
     }
 
     /// The acceleration at a state as it is, by a rank decision.
@@ -66,13 +66,13 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
-        limit: Limit,
+        known: Known,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        let here = self.local(mechanism, state, limit)?;
+        let here = self.local(mechanism, state, known)?;
         if here.tangent.strong == self.rows.regular(Which::All) {
             self.choose_rows(here.tangent.rows());
         }
-        self.with_jerk(mechanism, state, &here, limit)
+        self.with_jerk(mechanism, state, &here)
     }
 
     /// The equations of motion at one state.
@@ -80,12 +80,12 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
-        limit: Limit,
+        known: Known,
     ) -> Result<Local<T, N, R>, DynamicsError<T>> {
         mechanism.terms(state, &mut self.terms);
         let bias = self.stabilised_bias(mechanism, state);
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
-        let tangent = self.tangent(mechanism, state, Source::Terms, Which::All, limit)?;
+        let tangent = self.tangent(mechanism, state, Source::Terms, Which::All, known)?;
         Ok(Local {
             free: self.free_acceleration(&bias),
             right: self.scaled(&bias),
@@ -101,7 +101,6 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         mechanism: &M,
         state: &State<T, N>,
         here: &Local<T, N, R>,
-        limit: Limit,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         let mut motion = Motion {
             acceleration: here.acceleration(self, &SVector::zeros()),
@@ -112,7 +111,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         if here.tangent.branch == here.tangent.strong || rate <= T::zero() {
             return Ok(motion.acceleration);
         }
-        let beside = if limit == Limit::Landed { Limit::Beside } else { limit };
+        let (strong, aimed) = (here.tangent.strong, here.tangent.aimed);
+        let beside = Known::Beside { strong, aimed };
         let span = jerk_span::<T>() / rate;
         let next = self.local(mechanism, &motion.after(state, span), beside)?;
         for _ in 0..ROUNDS {

@@ -7,7 +7,9 @@
 //! or on the stack.
 
 use super::{ConstrainedSystem, Lifted, Metric, Rows, Tangent, Which};
-use crate::linalg::{Breakdown, NotDefinite, first_guard, guard, independent, passes, safe_steps, tangible, truncation, useless, weak};
+use crate::linalg::{
+    Breakdown, NotDefinite, first_guard, guard, independent, passes, safe_steps, truncation, weak,
+};
 use crate::{Branch, Counters, DynamicsError, Mechanism, Position, Real, Settings, State, Terms};
 use nalgebra::{SMatrix, SVector};
 
@@ -37,6 +39,8 @@ pub struct Solver<T, const N: usize, const R: usize> {
     pub(crate) reach: T,
     /// The sine of the constraints at the last accepted state.
     sine: Option<T>,
+    /// The smallest squared sine since then.
+    lowest: T,
     /// Whether the step from there comes near a singular position. Then all of its
     /// stages are taken on the constraints: a step mixed of two kinds of stages
     /// would lose its order.
@@ -66,6 +70,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             factored: None,
             reach: T::zero(),
             sine: None,
+            lowest: T::one(),
             near: false,
             prepared: false,
         }
@@ -124,7 +129,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         };
         self.counters.constraint_factorisations += 1;
         let rows = &mut self.rows;
-        self.lifted.factorise(&self.metric, jacobian, rows, list)
+        let squared = self.lifted.factorise(&self.metric, jacobian, rows, list);
+        self.lowest = self.lowest.min(squared);
+        squared
     }
 
     /// Decides which directions the constraints leave free at the state whose
@@ -135,7 +142,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         state: &State<T, N>,
         source: Source,
         which: Which,
-        limit: Limit,
+        known: Known,
     ) -> Result<Tangent<T, N, R>, DynamicsError<T>> {
         let jacobian = match source {
             Source::Terms => &self.terms.jacobian,
@@ -145,23 +152,25 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let not_finite = |Breakdown| DynamicsError::NotFinite { t: state.t };
         let mut tangent = Tangent::new(&self.metric, &mut self.rows, jacobian, which);
         let regular = self.rows.regular(which);
-        let two = T::from_f64(2.0);
-        let (limit, strong, aim, floor) = match limit {
-            Limit::Regular => (regular, weak(), two, truncation()),
-            Limit::Landed => (regular, useless(), tangible(), truncation()),
-            Limit::Beside => (regular, useless::<T>() * two, tangible(), truncation()),
-            Limit::Unknown => (N.min(R), weak(), two, independent()),
+        let (limit, floor) = match known {
+            Known::Nothing => (N.min(R), independent()),
+            _ => (regular, truncation()),
         };
         if !self.settings.branch_rows {
             tangent.take_strong(floor, limit).map_err(not_finite)?;
             return Ok(tangent);
         }
-        tangent.take_strong(strong, limit).map_err(not_finite)?;
-        if tangent.used < limit {
+        match known {
+            Known::Rank | Known::Nothing => tangent.take_strong(weak(), limit),
+            Known::Landed => tangent.take_landed(limit),
+            Known::Beside { strong, aimed } => tangent.take_counted(strong, aimed),
+        }
+        .map_err(not_finite)?;
+        if tangent.strong < limit {
             self.counters.branch_evaluations += 1;
             mechanism.branch(state, &mut self.branch);
             let (metric, rows) = (&self.metric, &self.rows);
-            let result = tangent.take_branch(metric, rows, &self.branch, aim, limit);
+            let result = tangent.take_branch(metric, rows, &self.branch, limit);
             result.map_err(not_finite)?;
         }
         if tangent.used < limit {
@@ -205,7 +214,10 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// whether the next step comes near a singular position.
     pub(crate) fn observe_sine(&mut self, squared: T) {
         let sine = squared.sqrt();
-        let change = self.sine.map_or(T::zero(), |before| (sine - before).abs());
+        let lowest = sine.min(self.lowest.sqrt());
+        let before = self.sine.unwrap_or(sine);
+        let change = (before - lowest).max(sine - lowest);
+        self.lowest = T::one();
         self.near = sine < guard::<T>() + safe_steps::<T>() * change;
         self.sine = Some(sine);
     }
@@ -219,7 +231,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     ) -> Result<(), DynamicsError<T>> {
         for which in [Which::Holonomic, Which::All] {
             let tangent =
-                self.tangent(mechanism, state, Source::Position, which, Limit::Unknown)?;
+                self.tangent(mechanism, state, Source::Position, which, Known::Nothing)?;
             if tangent.used > self.rows.regular(which) {
                 self.rows.observe_rank(tangent.used, which);
             }
@@ -241,17 +253,21 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
 /// What is known about the state of a rank decision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Limit {
-    /// It may be off the constraints; as many rows are independent as at regular
-    /// positions.
-    Regular,
-    /// As above, and it is on the constraints to round-off, so that even small
-    /// rows tell the truth.
+pub(crate) enum Known {
+    /// The rank at regular positions; the state may be off the constraints.
+    Rank,
+    /// The same, and that the state is on the constraints to round-off, so that even
+    /// small rows tell the truth.
     Landed,
-    /// As [`Landed`](Self::Landed), and beside a state that is: what is weak there
-    /// counts as weak here.
-    Beside,
-    /// It is on the constraints to round-off; how many rows are independent is the
-    /// question.
-    Unknown,
+    /// The same as at a state nearby, and how many directions are strong there, and
+    /// how many are aimed at by the rows: what is compared must be decided alike.
+    Beside {
+        /// [`Tangent::strong`] there.
+        strong: usize,
+        /// [`Tangent::aimed`] there.
+        aimed: usize,
+    },
+    /// Nothing but that the state is on the constraints to round-off; how many rows
+    /// are independent is the question.
+    Nothing,
 }

@@ -13,7 +13,9 @@
 //! Phong & Hoang (2012).
 
 use super::{Metric, Rows, Which};
-use crate::linalg::{Breakdown, add_scaled, branch_rank, dot, norm, orthogonalise};
+use crate::linalg::{
+    Breakdown, add_scaled, branch_rank, dot, norm, orthogonalise, tangible, useless,
+};
 use crate::{Branch, Real};
 use nalgebra::{SMatrix, SVector};
 
@@ -32,6 +34,9 @@ pub(crate) struct Tangent<T, const N: usize, const R: usize> {
     slope_bias: [T; R],
     which: Which,
     pub(crate) strong: usize,
+    /// How many of the decided columns, the strong ones among them, the rows alone
+    /// point to.
+    pub(crate) aimed: usize,
     pub(crate) branch: usize,
     pub(crate) used: usize,
 }
@@ -64,6 +69,7 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
             slope_bias: [T::zero(); R],
             which,
             strong: 0,
+            aimed: 0,
             branch: 0,
             used: 0,
         }
@@ -75,22 +81,48 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
         let rows = self.rows;
         self.take(&rows, 0, N, threshold, limit)?;
         self.strong = self.used;
+        self.aimed = self.used;
         self.branch = self.used;
         Ok(())
     }
 
-    /// Takes the directions that branch rows decide among those left free.
+    /// As [`take_strong`](Self::take_strong) at a state on the constraints: rows are
+    /// strong down to where round-off is too large in them. The rows below still say
+    /// which directions are free, better than the branch rows, which then only say
+    /// what happens in the others.
     ///
-    /// Where the branch rows vanish with the distance to the singular position along
-    /// the tangent, the weak rows do so exactly, and they are known to round-off on
-    /// the constraints: those with singular values above `aim` say which directions
-    /// these are, and the branch rows only what happens in them.
+    /// A group of singular values of nearly one size is not divided.
+    pub(crate) fn take_landed(&mut self, limit: usize) -> Result<(), Breakdown> {
+        self.take_strong(tangible(), limit)?;
+        self.aimed = self.used;
+        let together = T::from_f64(1.5);
+        while self.strong > 0 {
+            let value = self.values[self.strong - 1];
+            let below = self.strong < self.used && value < self.values[self.strong] * together;
+            if value >= useless() && !below {
+                break;
+            }
+            self.strong -= 1;
+        }
+        self.branch = self.strong;
+        Ok(())
+    }
+
+    /// As at a state nearby where `strong` and `aimed` directions were taken.
+    pub(crate) fn take_counted(&mut self, strong: usize, aimed: usize) -> Result<(), Breakdown> {
+        self.take_strong(T::zero(), strong)?;
+        let rows = self.rows;
+        self.take(&rows, self.strong, N, T::zero(), aimed)?;
+        self.aimed = self.used;
+        Ok(())
+    }
+
+    /// Takes the directions that branch rows decide among those that are not strong.
     pub(crate) fn take_branch(
         &mut self,
         metric: &Metric<T, N>,
         rows: &Rows<T, R>,
         branch: &Branch<T, N, R>,
-        aim: T,
         limit: usize,
     ) -> Result<(), Breakdown> {
         let mut largest = T::zero();
@@ -100,9 +132,8 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
             self.slope_bias[row] = rows.scale(row) * branch.bias[row];
             largest = largest.max(norm(&self.slopes.data.0[row]));
         }
-        let (lifted, slopes) = (self.rows, self.slopes);
+        let slopes = self.slopes;
         let threshold = branch_rank::<T>() * largest;
-        self.take(&lifted, self.strong, N, aim, limit)?;
         self.take(&slopes, self.used, N, threshold, limit)?;
         let end = self.used;
         self.used = self.strong;

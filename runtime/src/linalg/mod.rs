@@ -45,7 +45,7 @@ pub(crate) fn guard<T: Real>() -> T {
     T::from_f64(2e-2)
 }
 
-/// Singular value below which the branch rows decide even on the constraints (2e-3
+/// Singular value below which the branch rows decide even on the constraints (4e-3
 /// for `f64`): a row of size `σ` turns round-off `ε` of the position into an error
 /// `ε/σ³` of the acceleration, the branch rows leave out something of order `σ³`.
 pub(crate) fn useless<T: Real>() -> T {
@@ -53,10 +53,10 @@ pub(crate) fn useless<T: Real>() -> T {
 }
 
 /// Singular value above which a row on the constraints shows the tangent of its
-/// branch better than branch rows do (1e-4 for `f64`): round-off `ε` of the position
-/// turns its direction by `ε/σ²`, theirs is off by about `σ²`.
+/// branch better than branch rows do (1e-6 for `f64`): round-off `ε` of the position
+/// turns its direction by `ε/σ`, theirs is off by about `σ²`.
 pub(crate) fn tangible<T: Real>() -> T {
-    T::EPSILON.sqrt().sqrt()
+    T::EPSILON.sqrt() * T::from_f64(64.0)
 }
 
 /// Distance across a branch, in units of the distance to the singular position

@@ -15,7 +15,7 @@
 //!   `K = 3Ȧ`, so `ẏ = K/3`.
 //! - A residual that is not well above its own round-off is left alone.
 
-use crate::dynamics::{Limit, Solver, Source, Tangent, Which};
+use crate::dynamics::{Known, Solver, Source, Tangent, Which};
 use crate::linalg::{acceptable, norm, on_constraint, same_branch, significant, useless};
 use crate::{DynamicsError, Mechanism, Real, State};
 
@@ -84,7 +84,11 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             let far = |value: T, size: T| {
                 size > meaning && size * rate > same_branch::<T>() * value * value * speed
             };
-            let floor = if tangent.any_weak(&gap, far) { T::one() } else { useless() };
+            let floor = if tangent.any_weak(&gap, far) {
+                T::one()
+            } else {
+                useless()
+            };
             self.refine(&mut tangent, floor, state)?;
             tangent.close_rows(&mut w, &gap, |_, size| size > meaning);
             let velocity = self.scaled(&-self.velocity_level(state));
@@ -128,7 +132,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         mechanism: &M,
         state: &State<T, N>,
     ) -> Result<[T; R], DynamicsError<T>> {
-        let acceleration = self.singular_acceleration(mechanism, state, Limit::Regular)?;
+        let acceleration = self.singular_acceleration(mechanism, state, Known::Rank)?;
         mechanism.terms(state, &mut self.terms);
         let level = self.terms.bias - self.terms.jacobian * acceleration;
         self.factorise_metric(mechanism, Source::Position, state.t)?;
@@ -146,7 +150,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         state: &State<T, N>,
         which: Which,
     ) -> Result<Tangent<T, N, R>, DynamicsError<T>> {
-        self.tangent(mechanism, state, Source::Position, which, Limit::Regular)
+        self.tangent(mechanism, state, Source::Position, which, Known::Rank)
     }
 
     fn refine(
