@@ -56,6 +56,7 @@ where
             Options::dop853(END, tolerance),
         ] {
             options.audit = Audit::NONE;
+            options.most_steps = Some(50_000);
             let errors = errors(mechanism, angles, &options);
             let (median, worst) = (errors[errors.len() / 2], errors[errors.len() - 1]);
             println!("{} at {tolerance:e}: {median:e} {worst:e}", options.scheme);
