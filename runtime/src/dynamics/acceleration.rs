@@ -17,16 +17,18 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         self.prepare(mechanism, state)?;
-        mechanism.terms(state, &mut self.terms);
+        if let Some(acceleration) = self.emitted_acceleration(mechanism, state) {
+            self.counters.cheap_accelerations += 1;
+            return Ok(acceleration);
+        }
         let acceleration = if R == 0 {
             self.unconstrained(mechanism, state)?
         } else {
-            let bias = self.stabilised_bias(mechanism, state);
             match self.settings.form {
-                Form::Reduced => self.reduced(mechanism, state, &bias)?,
-                Form::Full => self.full(mechanism, state, &bias)?,
-                Form::Multipliers => self.multipliers(mechanism, state, &bias)?,
-                Form::Partitioning => self.partitioning(mechanism, state, &bias)?,
+                Form::Reduced => self.reduced(mechanism, state)?,
+                Form::Full => self.full(mechanism, state)?,
+                Form::Multipliers => self.multipliers(mechanism, state)?,
+                Form::Partitioning => self.partitioning(mechanism, state)?,
             }
         };
         if acceleration.iter().all(|x| x.is_finite()) {
@@ -42,6 +44,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         mechanism: &M,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        mechanism.terms(state, &mut self.terms);
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
         self.counters.cheap_accelerations += 1;
         let mut acceleration = self.terms.force;
@@ -86,10 +89,23 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         core::array::from_fn(|row| self.rows.scale(row) * right[row])
     }
 
-    /// Whether the factors at hand belong to this position.
+    /// Whether the general factors at hand belong to this position.
     #[inline]
-    pub(crate) fn is_factored_at(&self, state: &State<T, N>) -> bool {
-        self.factored
-            .is_some_and(|(t, q)| t == state.t && q == state.q)
+    pub(super) fn is_factored_at(&self, state: &State<T, N>) -> bool {
+        self.shared && self.is_safe_at(state)
+    }
+
+    /// Whether this position is known to be on the constraints, with rows that are
+    /// safely independent.
+    #[inline]
+    pub(super) fn is_safe_at(&self, state: &State<T, N>) -> bool {
+        self.safe.is_some_and(|(t, q)| t == state.t && q == state.q)
+    }
+
+    /// Takes note that a state is on the constraints, with rows that are safely
+    /// independent, and whether the general factors at hand belong to it.
+    pub(crate) fn safe_at(&mut self, state: &State<T, N>, shared: bool) {
+        self.safe = Some((state.t, state.q));
+        self.shared = shared;
     }
 }

@@ -70,6 +70,7 @@ where
         state: &State<T, N>,
     ) -> Result<(SVector<T, N>, SVector<T, N>), DynamicsError<T>> {
         let acceleration = self.acceleration(state)?;
+        self.mechanism.terms(state, &mut self.solver.terms);
         let terms = &self.solver.terms;
         Ok((acceleration, terms.force - terms.mass * acceleration))
     }
@@ -91,7 +92,7 @@ where
         }
         solver.prepare(self.mechanism, state)?;
         self.mechanism.position(state, &mut solver.position);
-        solver.factored = None;
+        solver.safe = None;
         solver.factorise_metric(self.mechanism, Source::Position, state.t)?;
         let regular = solver.rows.regular(Which::All);
         let list = solver.rows.active(Which::All);

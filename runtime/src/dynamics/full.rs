@@ -19,9 +19,10 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
-        bias: &SVector<T, R>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        self.factored = None;
+        mechanism.terms(state, &mut self.terms);
+        let bias = self.stabilised_bias(mechanism, state);
+        self.safe = None;
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
         self.counters.robust_accelerations += 1;
         let (all, known) = (Which::All, Known::Rank);
@@ -29,7 +30,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let unit = self.units();
         let mut triangle = Triangle::default();
         self.insert_motion(&mut triangle, &unit);
-        self.insert_constraints(&mut triangle, &unit, &tangent, bias);
+        self.insert_constraints(&mut triangle, &unit, &tangent, &bias);
         self.insert_ideality(&mut triangle, &unit, &tangent);
         let (scaled, _reaction) = triangle.solve();
         Ok(scaled.component_mul(&unit))

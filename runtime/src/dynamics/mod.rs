@@ -12,6 +12,7 @@
 mod acceleration;
 mod across;
 mod constrained;
+mod emitted;
 mod full;
 mod lifted;
 mod metric;

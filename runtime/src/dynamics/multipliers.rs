@@ -17,12 +17,13 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
-        bias: &SVector<T, R>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        mechanism.terms(state, &mut self.terms);
+        let bias = self.stabilised_bias(mechanism, state);
         self.require_independent_rows(mechanism, state)?;
         self.counters.cheap_accelerations += 1;
-        let mut w = self.free_acceleration(bias);
-        self.lifted.correct(&mut w, bias);
+        let mut w = self.free_acceleration(&bias);
+        self.lifted.correct(&mut w, &bias);
         Ok(self.lower(w))
     }
 
@@ -33,7 +34,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         mechanism: &M,
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        self.factored = None;
+        self.safe = None;
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
         self.counters.constraint_factorisations += 1;
         let every_row = (core::array::from_fn(|row| row), R);

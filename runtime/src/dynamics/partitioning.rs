@@ -19,8 +19,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
-        bias: &SVector<T, R>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        mechanism.terms(state, &mut self.terms);
+        let bias = self.stabilised_bias(mechanism, state);
         self.require_independent_rows(mechanism, state)?;
         self.counters.cheap_accelerations += 1;
         let weight = SVector::from_fn(|j, _| {
@@ -38,7 +39,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 .iter_mut()
                 .for_each(|x| *x *= self.rows.scale(row));
         }
-        let right = SVector::from(self.scaled(bias));
+        let right = SVector::from(self.scaled(&bias));
         let eliminated = Elimination::new(&jacobian, &right, &weight);
         let particular = particular(&eliminated);
         let (null_space, free) = null_space(&eliminated);

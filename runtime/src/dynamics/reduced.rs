@@ -19,22 +19,34 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
-        bias: &SVector<T, R>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        let safe = self.is_safe_at(state);
+        if self.near && !safe {
+            return self.near_singular(mechanism, state);
+        }
+        mechanism.terms(state, &mut self.terms);
         if !self.is_factored_at(state) {
-            if self.near {
-                return self.near_singular(mechanism, state);
-            }
-            self.factored = None;
-            self.factorise_metric(mechanism, Source::Terms, state.t)?;
-            let squared = self.factorise_constraints(Source::Terms, Which::All);
+            let squared = self.factorise_terms(mechanism, state)?;
             self.begin(squared);
-            if !passes(squared, guard()) {
+            if !passes(squared, guard()) && !safe {
                 return self.near_singular(mechanism, state);
             }
         }
         self.counters.cheap_accelerations += 1;
-        Ok(self.regular_acceleration(bias))
+        let bias = self.stabilised_bias(mechanism, state);
+        Ok(self.regular_acceleration(&bias))
+    }
+
+    /// Factorises metric and constraints of the terms in the buffer and returns the
+    /// smallest squared sine of a row.
+    pub(super) fn factorise_terms<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<T, DynamicsError<T>> {
+        self.safe = None;
+        self.factorise_metric(mechanism, Source::Terms, state.t)?;
+        Ok(self.factorise_constraints(Source::Terms, Which::All))
     }
 
     /// The acceleration by the factors at hand.

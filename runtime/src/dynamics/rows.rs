@@ -82,6 +82,12 @@ impl<T: Real, const R: usize> Rows<T, R> {
         }
     }
 
+    /// Whether all rows are independent at regular positions.
+    #[inline]
+    pub(crate) fn all_independent(&self) -> bool {
+        self.regular == R
+    }
+
     /// An independent subset that spans all rows at regular positions, if one is
     /// known.
     #[inline]

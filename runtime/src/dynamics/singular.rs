@@ -51,11 +51,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             };
             (landed, known) = (*state, Known::Rank);
         }
-        if self.is_factored_at(&landed) {
-            mechanism.terms(&landed, &mut self.terms);
-            let bias = self.stabilised_bias(mechanism, &landed);
-            self.counters.landed_accelerations += 1;
-            return Ok(self.regular_acceleration(&bias));
+        if self.is_safe_at(&landed) {
+            return self.landed_acceleration(mechanism, &landed);
         }
         self.counters.robust_accelerations += 1;
         self.singular_acceleration(mechanism, &landed, known)

@@ -10,7 +10,10 @@ use super::{ConstrainedSystem, Lifted, Metric, Rows, Tangent, Which};
 use crate::linalg::{
     Breakdown, NotDefinite, first_guard, guard, independent, passes, safe_steps, truncation, weak,
 };
-use crate::{Branch, Counters, DynamicsError, Mechanism, Position, Real, Settings, State, Terms};
+use crate::{
+    Branch, Correction, Counters, DynamicsError, Mechanism, Position, Real, Regular, Settings,
+    State, Terms,
+};
 use nalgebra::{SMatrix, SVector};
 
 /// Solves the equations of motion of a mechanism with `N` coordinates and `R`
@@ -31,16 +34,22 @@ pub struct Solver<T, const N: usize, const R: usize> {
     pub(crate) metric: Metric<T, N>,
     pub(crate) rows: Rows<T, R>,
     pub(crate) lifted: Lifted<T, N, R>,
-    /// The time and position that `metric` and `lifted` belong to, if both are
-    /// safe to use there.
-    pub(crate) factored: Option<(T, SVector<T, N>)>,
+    pub(crate) regular: Regular<T, N, R>,
+    pub(crate) correction: Correction<T, N, R>,
+    /// Whether the mechanism provides the last two, as far as is known.
+    pub(crate) emitted: bool,
+    /// The time and position that is known to be on the constraints, with rows that
+    /// are safely independent.
+    pub(crate) safe: Option<(T, SVector<T, N>)>,
+    /// Whether `metric` and `lifted` belong to that position.
+    pub(crate) shared: bool,
     /// The largest length of the coordinates in the metric so far: what their
     /// round-off is measured by.
     pub(crate) reach: T,
     /// The sine of the constraints at the last accepted state.
     sine: Option<T>,
     /// The smallest squared sine since then.
-    lowest: T,
+    pub(crate) lowest: T,
     /// Whether the step from there comes near a singular position. Then all of its
     /// stages are taken on the constraints: a step mixed of two kinds of stages
     /// would lose its order.
@@ -67,7 +76,11 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             metric: Metric::default(),
             rows: Rows::new(|_| true),
             lifted: Lifted::default(),
-            factored: None,
+            regular: Regular::default(),
+            correction: Correction::default(),
+            emitted: true,
+            safe: None,
+            shared: false,
             reach: T::zero(),
             sine: None,
             lowest: T::one(),
@@ -83,7 +96,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         M: Mechanism<T, N, R> + ?Sized,
     {
         self.metric.forget();
-        self.factored = None;
+        self.safe = None;
         ConstrainedSystem::new(mechanism, self)
     }
 

@@ -174,7 +174,8 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
         )?;
         for image in &images.data.0[from..to] {
             let size = norm(image);
-            if !(size > threshold) || self.used >= limit.min(R) {
+            let enough = size > threshold && self.used < limit.min(R);
+            if !enough {
                 break;
             }
             let mut left = [T::zero(); R];

@@ -101,12 +101,11 @@ impl<T: Real, const N: usize> Cholesky<T, N> {
 
     /// `√(xᵀ M x)`, the length of `x` in the metric of the matrix.
     pub(crate) fn length(&self, x: &[T; N]) -> T {
-        let lower = &self.lower.data.0;
         let mut sum = T::zero();
-        for j in 0..N {
+        for (j, column) in self.lower.data.0.iter().enumerate() {
             let mut entry = T::zero();
             for i in j..N {
-                entry += lower[j][i] * x[i];
+                entry += column[i] * x[i];
             }
             sum += entry * entry;
         }

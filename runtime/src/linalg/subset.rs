@@ -38,7 +38,8 @@ pub(crate) fn independent_rows<T: Real, const N: usize, const R: usize>(
             .or_else(|| (0..R).filter(free).fold(None, farthest));
         let Some(next) = next else { break };
         let size = distance(next);
-        if !(size > threshold * threshold) {
+        let enough = size > threshold * threshold;
+        if !enough {
             break;
         }
         chosen[found] = next;

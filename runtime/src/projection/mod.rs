@@ -11,6 +11,7 @@ mod settle;
 use crate::dynamics::{Solver, Source, Which};
 use crate::linalg::{acceptable, on_constraint, passes, weak};
 use crate::{DynamicsError, Mechanism, Real, Stabilisation, State};
+use nalgebra::SVector;
 
 /// Corrections after which a position is given up.
 const MAX_ITERATIONS: usize = 20;
@@ -35,7 +36,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.reach = self.reach.max(reach);
         let squared = self.land(mechanism, state)?;
         self.observe_sine(squared);
-        if self.factored.is_none() {
+        if self.safe.is_none() {
             self.counters.robust_projections += 1;
             self.learn(mechanism, state)?;
         }
@@ -47,14 +48,17 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// Brings a state onto the constraints and returns the smallest squared sine of
-    /// the constraints there. Where that is safe, the factors are kept for the
-    /// acceleration at the same position; elsewhere `factored` is none.
+    /// the constraints there. Where that is safe it is noted, and the factors are
+    /// kept for the acceleration at the same position.
     pub(crate) fn land<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &mut State<T, N>,
     ) -> Result<T, DynamicsError<T>> {
-        self.factored = None;
+        self.safe = None;
+        if let Some(squared) = self.emitted_landing(mechanism, state) {
+            return Ok(squared);
+        }
         if self.project_position(mechanism, state)? {
             self.factorise_metric(mechanism, Source::Position, state.t)?;
             let squared = self.factorise_constraints(Source::Position, Which::All);
@@ -81,11 +85,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         for _ in 0..MAX_ITERATIONS {
             mechanism.position(state, &mut self.position);
             let worst = self.finite_residual(state)?;
-            let stuck = before.is_some_and(|before| worst > before / T::from_f64(2.0));
-            if worst <= on_constraint::<T>() * self.round_off() {
-                return Ok(true);
-            }
-            if stuck && worst <= acceptable::<T>() * self.reach {
+            if self.is_on_constraints(worst, before) {
                 return Ok(true);
             }
             if before.is_none_or(|before| worst > before * T::from_f64(SLOW)) {
@@ -111,15 +111,23 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let mut w = [T::zero(); N];
         self.lifted.correct(&mut w, &gap);
         state.v += self.lower(w);
-        self.factored = Some((state.t, state.q));
+        self.safe_at(state, true);
     }
 
-    /// The largest constraint error at the position in the buffer, as a length in
-    /// the metric, and its row. Not finite if any row is not.
-    fn residual(&self) -> (T, usize) {
+    /// Whether the largest constraint error is round-off, or no longer grows smaller
+    /// and is small enough.
+    pub(crate) fn is_on_constraints(&self, worst: T, before: Option<T>) -> bool {
+        let stuck = before.is_some_and(|before| worst > before / T::from_f64(2.0));
+        let enough = on_constraint::<T>() * self.round_off();
+        worst <= enough || stuck && worst <= acceptable::<T>() * self.reach
+    }
+
+    /// The largest of some constraint errors, as a length in the metric, and its row.
+    /// Not finite if any row is not.
+    pub(crate) fn residual(&self, residual: &SVector<T, R>) -> (T, usize) {
         let mut worst = (T::zero(), 0);
         for row in 0..R {
-            let size = self.position.residual[row].abs() * self.rows.scale(row);
+            let size = residual[row].abs() * self.rows.scale(row);
             if size > worst.0 || !size.is_finite() {
                 worst = (size, row);
             }
@@ -129,7 +137,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// The largest constraint error, or an error if it is not finite.
     fn finite_residual(&self, state: &State<T, N>) -> Result<T, DynamicsError<T>> {
-        let (worst, _) = self.residual();
+        let (worst, _) = self.residual(&self.position.residual);
         if worst.is_finite() {
             Ok(worst)
         } else {
@@ -139,7 +147,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// The error of a projection that gives up at the position in the buffer.
     fn failed(&self, state: &State<T, N>) -> DynamicsError<T> {
-        let (_, row) = self.residual();
+        let (_, row) = self.residual(&self.position.residual);
         let residual = self.position.residual[row].abs();
         DynamicsError::ProjectionFailed {
             t: state.t,

@@ -108,7 +108,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let mut tangent = self.tangent_here(mechanism, state, Which::All)?;
         let gap = self.scaled(&-self.velocity_level(state));
         let mut w = tangent.close_strong(&gap);
-        let off = scene.round_off.max(self.residual().0);
+        let off = scene
+            .round_off
+            .max(self.residual(&self.position.residual).0);
         if off <= scene.settled && norm(&w) <= T::EPSILON.sqrt() * scene.speed {
             self.refine(&mut tangent, useless(), state)?;
             let (rate, noise) = (tangent.rate(), T::EPSILON * scene.speed);

@@ -1,0 +1,136 @@
+//! The cheap path in code that was written for this mechanism.
+//!
+//! In:  a mechanism that provides [`Mechanism::regular`] and
+//!      [`Mechanism::correction`].
+//! Out: accelerations and projections by them, where the pivots they hand out are
+//!      safe.
+//!
+//! Not here: what happens elsewhere, and for mechanisms whose rows are redundant
+//! everywhere, whose pivots are never safe.
+
+use super::Solver;
+use crate::linalg::{definite, guard, passes, weak};
+use crate::{DynamicsError, Form, Mechanism, Pivots, Real, Stabilisation, State};
+use nalgebra::SVector;
+
+/// Corrections after which the general projection takes over.
+const MAX_ITERATIONS: usize = 8;
+
+impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+    /// Whether emitted code may be asked for accelerations and projections.
+    fn asks_emitted(&self) -> bool {
+        self.emitted
+            && self.settings.form == Form::Reduced
+            && !matches!(self.settings.stabilisation, Stabilisation::Baumgarte { .. })
+            && self.rows.all_independent()
+    }
+
+    /// The acceleration by emitted code, if there is any and it is safe here.
+    #[inline]
+    pub(super) fn emitted_acceleration<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Option<SVector<T, N>> {
+        if !self.asks_emitted() {
+            return None;
+        }
+        let safe = self.is_safe_at(state);
+        if self.near && !safe {
+            return None;
+        }
+        self.emitted = mechanism.regular(state, &mut self.regular);
+        if !self.emitted {
+            return None;
+        }
+        let squared = squared_sine(&self.regular.pivots, &mut self.rows);
+        self.lowest = self.lowest.min(squared);
+        self.begin(squared);
+        let bound = if safe { weak() } else { guard() };
+        let acceleration = self.regular.acceleration;
+        let finite = acceleration.iter().all(|x| x.is_finite());
+        (finite && passes(squared, bound)).then_some(acceleration)
+    }
+
+    /// Brings a state onto the constraints by emitted code and returns the squared
+    /// sine there; none if there is no such code or it is not safe.
+    pub(crate) fn emitted_landing<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &mut State<T, N>,
+    ) -> Option<T> {
+        if !self.asks_emitted() {
+            return None;
+        }
+        let mut before = None;
+        for _ in 0..MAX_ITERATIONS {
+            if !mechanism.correction(state, &mut self.correction) {
+                return None;
+            }
+            let squared = squared_sine(&self.correction.pivots, &mut self.rows);
+            self.lowest = self.lowest.min(squared);
+            let (worst, _) = self.residual(&self.correction.residual);
+            if !passes(squared, weak()) || !worst.is_finite() {
+                return None;
+            }
+            if self.is_on_constraints(worst, before) {
+                state.v += self.correction.velocity;
+                self.safe_at(state, false);
+                return Some(squared);
+            }
+            self.counters.projection_iterations += 1;
+            state.q += self.correction.position;
+            before = Some(worst);
+        }
+        None
+    }
+
+    /// An acceleration at a state on the constraints, where the rows are safely
+    /// independent.
+    pub(super) fn landed_acceleration<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        self.counters.landed_accelerations += 1;
+        if let Some(acceleration) = self.emitted_acceleration(mechanism, state) {
+            return Ok(acceleration);
+        }
+        mechanism.terms(state, &mut self.terms);
+        let bias = self.stabilised_bias(mechanism, state);
+        if !self.is_factored_at(state) {
+            self.factorise_terms(mechanism, state)?;
+        }
+        Ok(self.regular_acceleration(&bias))
+    }
+}
+
+/// The smallest squared sine that emitted pivots show, zero if the mass matrix is
+/// not safely definite; takes note of the sizes of the rows.
+#[inline]
+fn squared_sine<T: Real, const N: usize, const R: usize>(
+    pivots: &Pivots<T, N, R>,
+    rows: &mut super::Rows<T, R>,
+) -> T {
+    let mut smallest = T::one();
+    for j in 0..N {
+        // Pivots that are diagonal entries themselves are not written.
+        if !passes_mass(pivots.mass_pivots[j], pivots.mass_diagonal[j]) {
+            return T::zero();
+        }
+    }
+    for row in 0..R {
+        rows.observe(row, pivots.row_squares[row]);
+        let ratio = pivots.row_pivots[row] / rows.size(row);
+        if !ratio.is_finite() {
+            return T::zero();
+        }
+        smallest = smallest.min(ratio);
+    }
+    smallest
+}
+
+#[inline]
+fn passes_mass<T: Real>(pivot: T, diagonal: T) -> bool {
+    pivot >= definite::<T>() * diagonal
+}
