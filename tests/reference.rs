@@ -9,7 +9,7 @@ const STEP: f64 = 0.01;
 /// What the velocities may break the constraints by (m/s). Next to a singular position
 /// a row that vanishes says nothing about velocities, and the branch it stands for says
 /// it to the accuracy of the step.
-const SPEED_ERROR: f64 = 1e-8;
+const SPEED_ERROR: f64 = 1e-9;
 
 /// How far the forms may differ after 8 s (rad): a tenth of what the step may be off.
 const FORMS_APART: f64 = 2e-6;
