@@ -63,7 +63,7 @@ impl Visitor<f64> for Ask {
         let mut system = solver.on(&mechanism);
         let rank = system.rank(&state).ok()?;
         let error = system.constraint_error(&state);
-        if R > 0 && rank.sine < REGULAR {
+        if rank.rank < R || (R > 0 && rank.sine < REGULAR) {
             return None;
         }
         let mut terms: Terms<f64, N, R> = Terms::default();
@@ -263,7 +263,8 @@ impl Visitor<f64> for Project {
         let state = consistent(&mechanism, self.seed)?;
         let mut solver = Solver::new(Settings::default());
         let mut system = solver.on(&mechanism);
-        if R > 0 && system.rank(&state).ok()?.sine < REGULAR {
+        let rank = system.rank(&state).ok()?;
+        if rank.rank < R || (R > 0 && rank.sine < REGULAR) {
             return None;
         }
         let mut still = state;
