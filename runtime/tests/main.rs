@@ -4,6 +4,7 @@ mod allocation;
 mod assembly;
 mod conserve;
 mod integrator;
+mod landing;
 mod mechanisms;
 mod scan;
 mod simulate;

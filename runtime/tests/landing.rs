@@ -1,0 +1,199 @@
+//! Passing a singular position costs no accuracy, wherever the steps land.
+//!
+//! A step begins on the exact motion so that one of its stages lands at a distance
+//! `d` from the singular position, `d = ±{1, 3.3}·10⁻ᵏ`, `k = 1…16`; the motion is
+//! followed for 0.4 s and compared with the exact one. No landing may be much worse
+//! than the median of all.
+//!
+//! Every day some of the distances are tried; with `BRICARD_LONG` set, all of them.
+
+use crate::mechanisms::{FourBars, Parallelogram, Passage, Passing, SliderCrank, Twice};
+use bricard_runtime::{Dop853, Dp5, Integrator, Rk4, Settings, Solver, State};
+
+/// How long a motion is followed (s).
+const SPAN: f64 = 0.4;
+
+/// How much worse than the median the worst landing may be.
+const SPREAD: f64 = 2.0;
+
+/// Abscissae of the stages of DP5.
+const DP5: [f64; 6] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0];
+
+/// Abscissae of the stages of DOP853.
+const DOP853: [f64; 12] = [
+    0.0,
+    0.052_600_151_958_767_7,
+    0.078_900_227_938_151_6,
+    0.118_350_341_907_227,
+    0.281_649_658_092_773,
+    1.0 / 3.0,
+    0.25,
+    4.0 / 13.0,
+    127.0 / 195.0,
+    0.6,
+    6.0 / 7.0,
+    1.0,
+];
+
+/// Median and worst error of all landings.
+#[derive(Clone, Copy, Debug)]
+struct Landings {
+    median: f64,
+    worst: f64,
+}
+
+/// Largest error of the coordinates after fixed steps from `start`.
+fn error<P, I, const N: usize, const R: usize>(
+    mut method: I,
+    mechanism: &P,
+    start: State<f64, N>,
+    steps: u32,
+    exact: &State<f64, N>,
+) -> f64
+where
+    P: Passing<N, R>,
+    I: Integrator<f64, N>,
+{
+    let mut solver = Solver::new(Settings::default());
+    let mut system = solver.on(mechanism);
+    let mut state = start;
+    for i in 1..=steps {
+        let bound = start.t + SPAN * f64::from(i) / f64::from(steps);
+        while state.t < bound {
+            state = *method.step(&mut system, &state, bound).unwrap().end();
+        }
+    }
+    (state.q - exact.q).amax()
+}
+
+/// The distances from the singular position to land at.
+fn distances() -> Vec<f64> {
+    let long = std::env::var_os("BRICARD_LONG").is_some();
+    let exponents: &[i32] = match long {
+        true => &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16],
+        false => &[1, 2, 3, 4, 6, 9, 16],
+    };
+    let sizes: &[f64] = if long {
+        &[1.0, -1.0, 3.3, -3.3]
+    } else {
+        &[1.0, -3.3]
+    };
+    let scaled = |k: &i32| {
+        sizes
+            .iter()
+            .map(|size| size * 10.0_f64.powi(-k))
+            .collect::<Vec<_>>()
+    };
+    exponents.iter().flat_map(scaled).collect()
+}
+
+/// All landings of a mechanism with one method and step size.
+fn landings<P, I, const N: usize, const R: usize>(
+    method: impl Fn() -> I,
+    stages: &[f64],
+    mechanism: &P,
+    steps: u32,
+) -> Landings
+where
+    P: Passing<N, R>,
+    I: Integrator<f64, N>,
+{
+    let (angle, rate) = mechanism.singular();
+    let passage = Passage::new(mechanism.reduction(), (angle, rate), SPAN + 0.1);
+    let state = |t: f64| {
+        let (angle, rate) = passage.at(t);
+        mechanism.state(t, angle, rate)
+    };
+    let mut errors = Vec::new();
+    for stage in stages {
+        for distance in distances() {
+            let t = distance / rate.abs() - stage * SPAN / f64::from(steps);
+            errors.push(error(
+                method(),
+                mechanism,
+                state(t),
+                steps,
+                &state(t + SPAN),
+            ));
+        }
+    }
+    errors.sort_by(f64::total_cmp);
+    Landings {
+        median: errors[errors.len() / 2],
+        worst: errors[errors.len() - 1],
+    }
+}
+
+/// RK4 keeps its order and no landing is much worse than the median.
+fn check<P, const N: usize, const R: usize>(mechanism: &P)
+where
+    P: Passing<N, R>,
+{
+    let mut before: Option<f64> = None;
+    for steps in [20, 40, 80, 160] {
+        let found = landings(Rk4::new, &[0.0, 0.5, 1.0], mechanism, steps);
+        println!("RK4, {steps} steps: {found:?}");
+        assert!(
+            found.worst <= SPREAD * found.median,
+            "{steps} steps: {found:?}"
+        );
+        if let Some(before) = before {
+            let order = (before / found.median).log2();
+            assert!(order > 3.7, "{steps} steps: order {order}");
+        }
+        before = Some(found.median);
+    }
+}
+
+/// At steps where the median reaches 1e-12, no landing is above 1e-11.
+fn check_floor<P, I, const N: usize, const R: usize>(
+    method: impl Fn() -> I,
+    stages: &[f64],
+    mechanism: &P,
+    steps: u32,
+) where
+    P: Passing<N, R>,
+    I: Integrator<f64, N>,
+{
+    let found = landings(method, stages, mechanism, steps);
+    println!("{steps} steps: {found:?}");
+    assert!(found.median <= 1e-12, "{found:?}");
+    assert!(found.worst <= 1e-11, "{found:?}");
+}
+
+#[test]
+fn every_landing_of_the_slider_crank_is_as_good_as_any_other() {
+    check::<_, 3, 2>(&SliderCrank::default());
+}
+
+#[test]
+fn every_landing_of_the_double_four_bar_is_as_good_as_any_other() {
+    check::<_, 5, 4>(&FourBars);
+}
+
+#[test]
+fn every_landing_of_five_loops_in_a_row_is_as_good_as_any_other() {
+    check::<_, 11, 10>(&FourBars);
+}
+
+#[test]
+fn every_landing_of_a_redundant_parallelogram_is_as_good_as_any_other() {
+    check::<_, 6, 6>(&Parallelogram);
+}
+
+#[test]
+fn constraints_written_twice_change_no_landing() {
+    check::<_, 3, 4>(&Twice::<_, 2>(SliderCrank::default()));
+    check::<_, 5, 8>(&Twice::<_, 4>(FourBars));
+    check::<_, 6, 12>(&Twice::<_, 6>(Parallelogram));
+}
+
+#[test]
+fn methods_of_high_order_land_within_1e_11_of_the_exact_motion() {
+    check_floor::<_, _, 3, 2>(Dp5::fixed, &DP5, &SliderCrank::default(), 160);
+    check_floor::<_, _, 5, 4>(Dp5::fixed, &DP5, &FourBars, 160);
+    check_floor::<_, _, 6, 6>(Dp5::fixed, &DP5, &Parallelogram, 160);
+    check_floor::<_, _, 3, 2>(Dop853::fixed, &DOP853, &SliderCrank::default(), 40);
+    check_floor::<_, _, 5, 4>(Dop853::fixed, &DOP853, &FourBars, 20);
+    check_floor::<_, _, 6, 6>(Dop853::fixed, &DOP853, &Parallelogram, 40);
+}
