@@ -82,6 +82,11 @@ impl<T: Real, const R: usize> Rows<T, R> {
         }
     }
 
+    /// Whether all rows restrict positions.
+    pub(crate) fn all_holonomic(&self) -> bool {
+        self.holonomic.iter().all(|holonomic| *holonomic)
+    }
+
     /// Whether all rows are independent at regular positions.
     #[inline]
     pub(crate) fn all_independent(&self) -> bool {

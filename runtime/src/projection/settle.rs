@@ -49,8 +49,14 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 settled: T::EPSILON.sqrt() * self.reach,
                 speed: self.metric.factor.length(&state.v.data.0[0]),
             };
-            let across = self.position_change(mechanism, state, &scene)?;
-            let faster = self.velocity_change(mechanism, state, &scene)?;
+            let mut tangent = self.tangent_here(mechanism, state, Which::All)?;
+            let across = if self.rows.all_holonomic() {
+                self.position_change(state, &scene, &mut tangent)?
+            } else {
+                let mut holonomic = self.tangent_here(mechanism, state, Which::Holonomic)?;
+                self.position_change(state, &scene, &mut holonomic)?
+            };
+            let faster = self.velocity_change(mechanism, state, &scene, &mut tangent)?;
             let moved = self.metric.factor.length(&across);
             let turned = self.metric.factor.length(&faster);
             state.q += nalgebra::SVector::from(across);
@@ -68,13 +74,12 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// The change of position that closes `g`.
-    fn position_change<M: Mechanism<T, N, R> + ?Sized>(
-        &mut self,
-        mechanism: &M,
+    fn position_change(
+        &self,
         state: &State<T, N>,
         scene: &Scene<T>,
+        tangent: &mut Tangent<T, N, R>,
     ) -> Result<[T; N], DynamicsError<T>> {
-        let mut tangent = self.tangent_here(mechanism, state, Which::Holonomic)?;
         let gap = self.scaled(&-self.position.residual);
         let mut w = tangent.close_strong(&gap);
         if norm(&w) <= scene.settled {
@@ -84,12 +89,13 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             let far = |value: T, size: T| {
                 size > meaning && size * rate > same_branch::<T>() * value * value * speed
             };
+            self.refine(tangent, -T::one(), state)?;
             let floor = if tangent.any_weak(&gap, far) {
                 T::one()
             } else {
                 useless()
             };
-            self.refine(&mut tangent, floor, state)?;
+            self.refine(tangent, floor, state)?;
             tangent.close_rows(&mut w, &gap, |_, size| size > meaning);
             let velocity = self.scaled(&-self.velocity_level(state));
             let noise = significant::<T>() * T::EPSILON * scene.speed;
@@ -104,15 +110,15 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         mechanism: &M,
         state: &State<T, N>,
         scene: &Scene<T>,
+        tangent: &mut Tangent<T, N, R>,
     ) -> Result<[T; N], DynamicsError<T>> {
-        let mut tangent = self.tangent_here(mechanism, state, Which::All)?;
         let gap = self.scaled(&-self.velocity_level(state));
         let mut w = tangent.close_strong(&gap);
         let off = scene
             .round_off
             .max(self.residual(&self.position.residual).0);
         if off <= scene.settled && norm(&w) <= T::EPSILON.sqrt() * scene.speed {
-            self.refine(&mut tangent, useless(), state)?;
+            self.refine(tangent, useless(), state)?;
             let (rate, noise) = (tangent.rate(), T::EPSILON * scene.speed);
             // Across the branch the position is known only to `off/σ`, for which the
             // velocity level has an error that no velocity is to blame for.
