@@ -28,12 +28,12 @@ pub use model::{
     Mechanism, Pivots, Position, Quantity, Regular, Start, Structure, Terms,
 };
 pub use nalgebra;
+#[cfg(feature = "std")]
+pub use observer::Recorder;
 pub use observer::{
     BadInterval, ConstraintAudit, EnergyAudit, Observer, Occurrence, Passage, Probe, RankAudit,
     Sampler,
 };
-#[cfg(feature = "std")]
-pub use observer::Recorder;
 pub use real::Real;
 pub use simulate::{
     Audit, Failure, Options, Pace, Scheme, SimulateError, Stepper, Summary, simulate,

@@ -29,6 +29,10 @@ impl<T: Real, const N: usize> State<T, N> {
 
 impl<T: Real, const N: usize> Default for State<T, N> {
     fn default() -> Self {
-        Self { t: T::zero(), q: SVector::zeros(), v: SVector::zeros() }
+        Self {
+            t: T::zero(),
+            q: SVector::zeros(),
+            v: SVector::zeros(),
+        }
     }
 }
