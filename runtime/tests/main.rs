@@ -3,6 +3,7 @@
 mod allocation;
 mod assembly;
 mod conserve;
+mod dynamics;
 mod integrator;
 mod landing;
 mod mechanisms;

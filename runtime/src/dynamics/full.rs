@@ -9,7 +9,7 @@
 //! mass matrix, so that the result does not depend on units.
 
 use super::{Known, Solver, Source, Tangent, Which};
-use crate::linalg::Triangle;
+use crate::linalg::{Triangle, dot, guard, passes};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
 
@@ -20,17 +20,28 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         mechanism: &M,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        mechanism.terms(state, &mut self.terms);
-        let bias = self.stabilised_bias(mechanism, state);
+        let (mut state, mut known) = (*state, Known::Rank);
+        mechanism.terms(&state, &mut self.terms);
+        let squared = self.factorise_terms(mechanism, &state)?;
+        self.begin(squared);
+        if self.near || !passes(squared, guard()) {
+            (state, known) = self.landed(mechanism, &state)?;
+        }
+        self.counters.robust_accelerations += 1;
+        let decided = self.singular_acceleration(mechanism, &state, known)?;
+        mechanism.terms(&state, &mut self.terms);
+        let bias = self.stabilised_bias(mechanism, &state);
         self.safe = None;
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
-        self.counters.robust_accelerations += 1;
-        let (all, known) = (Which::All, Known::Rank);
-        let tangent = self.tangent(mechanism, state, Source::Terms, all, known)?;
+        let tangent = self.tangent(mechanism, &state, Source::Terms, Which::All, known)?;
         let unit = self.units();
         let mut triangle = Triangle::default();
         self.insert_motion(&mut triangle, &unit);
-        self.insert_constraints(&mut triangle, &unit, &tangent, &bias);
+        if tangent.strong == self.rows.regular(Which::All) {
+            self.insert_rows(&mut triangle, &unit, &bias);
+        } else {
+            self.insert_decided(&mut triangle, &unit, &tangent, &decided);
+        }
         self.insert_ideality(&mut triangle, &unit, &tangent);
         let (scaled, _reaction) = triangle.solve();
         Ok(scaled.component_mul(&unit))
@@ -59,32 +70,35 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         }
     }
 
-    /// `A q̈ = p₂`: the rows themselves where all count, else those combinations of
-    /// rows and branch rows that decide a direction.
-    fn insert_constraints(
+    /// `A q̈ = p₂`, where all rows count.
+    fn insert_rows(
+        &self,
+        triangle: &mut Triangle<T, N>,
+        unit: &SVector<T, N>,
+        bias: &SVector<T, R>,
+    ) {
+        for (row, value) in self.scaled(bias).into_iter().enumerate() {
+            let scale = self.rows.scale(row);
+            let entry = |j| scale * self.terms.jacobian[(row, j)] * unit[j];
+            triangle.insert(core::array::from_fn(entry), [T::zero(); N], value);
+        }
+    }
+
+    /// What rows and branch rows decide in their place, where some rows vanish.
+    fn insert_decided(
         &self,
         triangle: &mut Triangle<T, N>,
         unit: &SVector<T, N>,
         tangent: &Tangent<T, N, R>,
-        bias: &SVector<T, R>,
+        decided: &SVector<T, N>,
     ) {
-        let none = [T::zero(); N];
-        let right = self.scaled(bias);
-        if tangent.strong == self.rows.regular(Which::All) {
-            for (row, value) in right.into_iter().enumerate() {
-                let scale = self.rows.scale(row);
-                let entry = |j| scale * self.terms.jacobian[(row, j)] * unit[j];
-                triangle.insert(core::array::from_fn(entry), none, value);
-            }
-            return;
-        }
-        let w = tangent.solve(&right, &[T::zero(); R], &none);
-        for (direction, share) in tangent.decided(&w) {
-            let mut row = self.metric.raise(direction);
+        let w = self.metric.factor.transposed_product(&decided.data.0[0]);
+        for direction in tangent.decided() {
+            let mut row = self.metric.factor.product(direction);
             for j in 0..N {
                 row[j] *= unit[j];
             }
-            triangle.insert(row, none, share);
+            triangle.insert(row, [T::zero(); N], dot(direction, &w));
         }
     }
 

@@ -96,11 +96,6 @@ impl<T: Real, const N: usize> Metric<T, N> {
         force
     }
 
-    /// `L d`: the row `a = dᵀLᵀ` for which `a q̈ = dᵀw`.
-    pub(crate) fn raise(&self, direction: [T; N]) -> [T; N] {
-        self.factor.product(&direction)
-    }
-
     /// `L⁻¹aᵀ` for one row `a` of a matrix: its components in coordinates in which
     /// the kinetic energy is half the square of the velocity.
     #[inline]

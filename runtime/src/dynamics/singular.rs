@@ -42,20 +42,30 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         mechanism: &M,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        let (mut landed, mut known) = (*state, Known::Landed);
-        if !self.settings.branch_rows {
-            known = Known::Rank;
-        } else if let Err(error) = self.land(mechanism, &mut landed) {
-            let DynamicsError::ProjectionFailed { .. } = error else {
-                return Err(error);
-            };
-            (landed, known) = (*state, Known::Rank);
-        }
+        let (landed, known) = self.landed(mechanism, state)?;
         if self.is_safe_at(&landed) {
             return self.landed_acceleration(mechanism, &landed);
         }
         self.counters.robust_accelerations += 1;
         self.singular_acceleration(mechanism, &landed, known)
+    }
+
+    /// The nearest state on the constraints, and what is known about it; the state
+    /// itself where it could not be brought there, or by the published method.
+    pub(super) fn landed<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<(State<T, N>, Known), DynamicsError<T>> {
+        let mut landed = *state;
+        if !self.settings.branch_rows {
+            return Ok((landed, Known::Rank));
+        }
+        match self.land(mechanism, &mut landed) {
+            Ok(_) => Ok((landed, Known::Landed)),
+            Err(DynamicsError::ProjectionFailed { .. }) => Ok((*state, Known::Rank)),
+            Err(error) => Err(error),
+        }
     }
 
     /// The acceleration at a state as it is, by a rank decision.

@@ -227,12 +227,9 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
         &self.rows
     }
 
-    /// The decided directions, each with its component of a `w`.
-    pub(crate) fn decided(&self, w: &[T; N]) -> impl Iterator<Item = ([T; N], T)> {
-        let w = *w;
-        self.basis.data.0[..self.used]
-            .iter()
-            .map(move |direction| (*direction, dot(direction, &w)))
+    /// The decided directions.
+    pub(crate) fn decided(&self) -> impl Iterator<Item = &[T; N]> {
+        self.basis.data.0[..self.used].iter()
     }
 
     /// The free directions.

@@ -6,7 +6,7 @@
 //!
 //! Not here: what to do with a matrix that is only semi-definite.
 
-use super::definite;
+use super::{definite, norm};
 use crate::Real;
 use nalgebra::SMatrix;
 
@@ -101,14 +101,17 @@ impl<T: Real, const N: usize> Cholesky<T, N> {
 
     /// `√(xᵀ M x)`, the length of `x` in the metric of the matrix.
     pub(crate) fn length(&self, x: &[T; N]) -> T {
-        let mut sum = T::zero();
+        norm(&self.transposed_product(x))
+    }
+
+    /// `Lᵀ x`.
+    pub(crate) fn transposed_product(&self, x: &[T; N]) -> [T; N] {
+        let mut product = [T::zero(); N];
         for (j, column) in self.lower.data.0.iter().enumerate() {
-            let mut entry = T::zero();
             for i in j..N {
-                entry += column[i] * x[i];
+                product[j] += column[i] * x[i];
             }
-            sum += entry * entry;
         }
-        sum.sqrt()
+        product
     }
 }

@@ -17,6 +17,8 @@ mod elimination;
 mod gram;
 mod jacobi;
 mod subset;
+#[cfg(test)]
+mod tests;
 mod triangle;
 
 pub(crate) use cholesky::{Cholesky, NotDefinite};

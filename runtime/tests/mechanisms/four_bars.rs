@@ -138,7 +138,7 @@ impl<const N: usize, const R: usize> Passing<N, R> for FourBars {
     }
 
     fn state(&self, t: f64, angle: f64, rate: f64) -> State<f64, N> {
-        let even = |i: usize, value: f64| if i % 2 == 0 { value } else { 0.0 };
+        let even = |i: usize, value: f64| if i.is_multiple_of(2) { value } else { 0.0 };
         State::new(
             t,
             SVector::from_fn(|i, _| even(i, angle)),

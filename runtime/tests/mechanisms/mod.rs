@@ -8,12 +8,14 @@ mod four_bars;
 mod parallelogram;
 mod reference;
 mod slider_crank;
+mod small;
 mod twice;
 
 pub use four_bars::FourBars;
 pub use parallelogram::Parallelogram;
 pub use reference::{Passage, Reduction};
 pub use slider_crank::SliderCrank;
+pub use small::{Sled, Spring};
 pub use twice::Twice;
 
 use bricard_runtime::{ConstraintRow, Mechanism, Quantity, State, Structure};

@@ -1,0 +1,243 @@
+//! Factorisations against what they factorise, on random matrices.
+
+use super::*;
+use nalgebra::{SMatrix, SVector};
+
+/// Seed of the random matrices; a failing test names its own.
+const SEED: u64 = 0x5DEE_CE66_D1CE_5EED;
+
+/// A small generator (xorshift64*), enough for matrices.
+struct Random(u64);
+
+impl Random {
+    fn number(&mut self) -> f64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        let bits = self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11;
+        bits as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    fn matrix<const A: usize, const B: usize>(&mut self) -> SMatrix<f64, A, B> {
+        SMatrix::from_fn(|_, _| self.number())
+    }
+
+    fn definite<const N: usize>(&mut self) -> SMatrix<f64, N, N> {
+        let half: SMatrix<f64, N, N> = self.matrix();
+        half * half.transpose() + SMatrix::identity() * 0.1
+    }
+}
+
+#[test]
+fn cholesky_gives_the_matrix_back() {
+    for round in 0..50 {
+        let mut random = Random(SEED + round);
+        let matrix: SMatrix<f64, 6, 6> = random.definite();
+        let mut cholesky = Cholesky::default();
+        cholesky.factorise(&matrix).unwrap();
+        let x: SVector<f64, 6> = random.matrix();
+        let lifted = cholesky.transposed_product(&x.data.0[0]);
+        let image = SVector::from(cholesky.product(&lifted));
+        assert!((image - matrix * x).amax() < 1e-13, "seed {SEED} + {round}");
+        let mut back = image.data.0[0];
+        cholesky.forward(&mut back);
+        cholesky.backward(&mut back);
+        assert!(
+            (SVector::from(back) - x).amax() < 1e-11,
+            "seed {SEED} + {round}"
+        );
+        let length = cholesky.length(&x.data.0[0]);
+        assert!((length * length - x.dot(&image)).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn cholesky_names_the_row_that_is_not_definite() {
+    let mut cholesky = Cholesky::default();
+    let mut check = |matrix: SMatrix<f64, 3, 3>, row: usize| {
+        assert_eq!(cholesky.factorise(&matrix), Err(NotDefinite { row }));
+    };
+    check(SMatrix::zeros(), 0);
+    check(SMatrix::from_diagonal(&[1.0, 2.0, -1.0].into()), 2);
+    check(SMatrix::repeat(1.0), 1);
+    check(SMatrix::from_diagonal(&[1.0, f64::NAN, 1.0].into()), 1);
+    check(SMatrix::from_diagonal(&[f64::INFINITY, 1.0, 1.0].into()), 0);
+}
+
+#[test]
+fn definiteness_does_not_depend_on_units() {
+    for scale in [1e-150, 1e-8, 1.0, 1e8, 1e150] {
+        let matrix = SMatrix::<f64, 2, 2>::from_diagonal(&[scale, 1.0 / scale].into());
+        assert_eq!(Cholesky::default().factorise(&matrix), Ok(()));
+    }
+}
+
+#[test]
+fn gram_solves_and_shows_the_sine_of_the_weakest_row() {
+    let mut vectors = SMatrix::<f64, 4, 3>::zeros();
+    let (sine, cosine) = 0.01_f64.sin_cos();
+    vectors.set_column(0, &[2.0, 0.0, 0.0, 0.0].into());
+    vectors.set_column(1, &[3.0 * cosine, 3.0 * sine, 0.0, 0.0].into());
+    vectors.set_column(2, &[0.0, 0.0, 0.0, 5.0].into());
+    let mut gram = Gram::default();
+    let square = gram.factorise(&vectors, 3, |k| vectors.column(k).norm_squared());
+    assert!((square.sqrt() - sine).abs() < 1e-12);
+    let x = SVector::from([1.0, -2.0, 0.5]);
+    let mut back = (vectors.transpose() * vectors * x).data.0[0];
+    gram.solve(&mut back);
+    assert!((SVector::from(back) - x).amax() < 1e-10);
+}
+
+#[test]
+fn gram_of_dependent_or_infinite_rows_passes_nowhere() {
+    let mut gram = Gram::<f64, 2>::default();
+    for entry in [1.0, f64::NAN, f64::INFINITY] {
+        let vectors = SMatrix::<f64, 3, 2>::repeat(entry);
+        let square = gram.factorise(&vectors, 2, |_| 3.0);
+        assert!(!passes(square, weak()), "{entry}: {square}");
+    }
+}
+
+/// Rotates the columns of `matrix` and checks that nothing was lost.
+fn check_rotations<const K: usize, const N: usize>(matrix: SMatrix<f64, K, N>) -> Vec<f64> {
+    let mut images = matrix;
+    let mut basis = SMatrix::<f64, N, N>::identity();
+    orthogonalise(&mut images.data.0, &mut basis.data.0).unwrap();
+    let identity = SMatrix::<f64, N, N>::identity();
+    assert!((basis.transpose() * basis - identity).amax() < 1e-13);
+    assert!((matrix * basis - images).amax() <= 1e-13 * matrix.norm());
+    let gram = images.transpose() * images;
+    let largest = gram.amax();
+    for i in 0..N {
+        for j in 0..i {
+            assert!(gram[(i, j)].abs() <= 1e-14 * largest, "columns {i}, {j}");
+        }
+    }
+    images.data.0.iter().map(norm).collect()
+}
+
+#[test]
+fn rotations_find_an_orthogonal_basis_of_any_shape() {
+    for round in 0..20 {
+        let mut random = Random(SEED + round);
+        check_rotations::<3, 5>(random.matrix());
+        check_rotations::<5, 3>(random.matrix());
+        check_rotations::<4, 4>(random.matrix());
+        check_rotations::<1, 6>(random.matrix());
+    }
+    check_rotations::<0, 3>(SMatrix::zeros());
+    check_rotations::<3, 4>(SMatrix::zeros());
+}
+
+#[test]
+fn small_singular_values_keep_their_digits() {
+    for round in 0..20 {
+        let mut random = Random(SEED + round);
+        let left = orthonormal::<5>(&mut random);
+        let right = orthonormal::<5>(&mut random);
+        let wanted = [1.0, 0.5, 1e-3, 1e-6, 1e-9];
+        let matrix = left * SMatrix::<f64, 5, 5>::from_diagonal(&wanted.into()) * right;
+        let found = check_rotations(matrix);
+        for (value, wanted) in found.iter().zip(wanted) {
+            assert!((value - wanted).abs() < 4e-15, "{found:?}");
+        }
+    }
+}
+
+fn orthonormal<const N: usize>(random: &mut Random) -> SMatrix<f64, N, N> {
+    let mut images: SMatrix<f64, N, N> = random.matrix();
+    let mut basis = SMatrix::identity();
+    orthogonalise(&mut images.data.0, &mut basis.data.0).unwrap();
+    basis
+}
+
+#[test]
+fn the_null_space_is_annihilated() {
+    let mut random = Random(SEED);
+    let factor: SMatrix<f64, 4, 2> = random.matrix();
+    let other: SMatrix<f64, 2, 6> = random.matrix();
+    let values = check_rotations::<4, 6>(factor * other);
+    assert!(values[1] > 1e-3);
+    assert!(values[2..].iter().all(|value| *value < 1e-15), "{values:?}");
+}
+
+#[test]
+fn columns_that_are_not_finite_break_off_at_once() {
+    for bad in [f64::NAN, f64::INFINITY, 1e300] {
+        let mut images = SMatrix::<f64, 3, 3>::repeat(bad);
+        let mut basis = SMatrix::<f64, 3, 3>::identity();
+        assert_eq!(
+            orthogonalise(&mut images.data.0, &mut basis.data.0),
+            Err(Breakdown)
+        );
+    }
+}
+
+#[test]
+fn independent_rows_span_what_all_span() {
+    let mut random = Random(SEED);
+    let half: SMatrix<f64, 5, 3> = random.matrix();
+    let mix: SMatrix<f64, 3, 6> = random.matrix();
+    let mut chosen = [0; 6];
+    let found = independent_rows(&mut (half * mix), 6, |row| row == 4, 1e-9, &mut chosen);
+    assert_eq!(found, 3);
+    assert_eq!(chosen[0], 4, "the row that was to come first did not");
+    let mut distinct = chosen[..3].to_vec();
+    distinct.sort_unstable();
+    distinct.dedup();
+    assert_eq!(distinct.len(), 3);
+}
+
+#[test]
+fn row_by_row_least_squares_solves_the_normal_equations() {
+    let mut random = Random(SEED);
+    let left: SMatrix<f64, 9, 3> = random.matrix();
+    let right: SMatrix<f64, 9, 3> = random.matrix();
+    let values: SVector<f64, 9> = random.matrix();
+    let mut triangle = Triangle::default();
+    for i in 0..9 {
+        let row = |m: &SMatrix<f64, 9, 3>| core::array::from_fn(|j| m[(i, j)]);
+        triangle.insert(row(&left), row(&right), values[i]);
+    }
+    let (x, y) = triangle.solve();
+    let rest = left * x + right * y - values;
+    assert!((left.transpose() * rest).amax() < 1e-13);
+    assert!((right.transpose() * rest).amax() < 1e-13);
+}
+
+#[test]
+fn elimination_gives_coordinates_that_satisfy_the_rows() {
+    let mut random = Random(SEED);
+    let matrix: SMatrix<f64, 3, 5> = random.matrix();
+    let right: SVector<f64, 3> = random.matrix();
+    let found = Elimination::new(&matrix, &right, &SVector::repeat(1.0));
+    assert_eq!(found.rank, 3);
+    let mut x: SVector<f64, 5> = random.matrix();
+    for (k, &dependent) in found.dependent.iter().enumerate() {
+        let others = (0..5).filter(|j| !found.dependent.contains(j));
+        let sum: f64 = others.map(|j| found.table[(k, j)] * x[j]).sum();
+        x[dependent] = found.offset[k] - sum;
+    }
+    assert!((matrix * x - right).amax() < 1e-12);
+}
+
+#[test]
+fn every_tolerance_is_ordered_as_its_neighbours_need_it() {
+    fn check<T: Real>() {
+        assert!(truncation::<T>() < tangible());
+        assert!(tangible::<T>() < useless());
+        assert!(useless::<T>() < weak());
+        assert!(weak::<T>() < guard());
+        assert!(guard::<T>() < first_guard());
+        assert!(definite::<T>() < T::one());
+        assert!(independent::<T>() < useless());
+        assert!(acceptable::<T>() > T::EPSILON * on_constraint());
+        assert!(jerk_span::<T>() < weak());
+        assert!(reported_rank::<T>() < weak());
+        assert!(branch_rank::<T>() < T::one());
+        assert!(same_branch::<T>() < T::one());
+        assert!(significant::<T>() > on_constraint());
+        assert!(safe_steps::<T>() > T::one());
+    }
+    check::<f64>();
+}
