@@ -7,8 +7,10 @@
 //!
 //! Every day some of the distances are tried; with `BRICARD_LONG` set, all of them.
 
-use crate::mechanisms::{FourBars, Parallelogram, Passage, Passing, SliderCrank, Twice};
-use bricard_runtime::{Dop853, Dp5, Integrator, Rk4, Settings, Solver, State};
+use crate::mechanisms::{
+    FourBars, Hung, HungReduced, Parallelogram, Passage, Passing, SliderCrank, Twice,
+};
+use bricard_runtime::{Dop853, Dp5, Integrator, Mechanism, Rk4, Settings, Solver, State};
 
 /// How long a motion is followed (s).
 const SPAN: f64 = 0.4;
@@ -43,15 +45,15 @@ struct Landings {
 }
 
 /// Largest error of the coordinates after fixed steps from `start`.
-fn error<P, I, const N: usize, const R: usize>(
+fn error<M, I, const N: usize, const R: usize>(
     mut method: I,
-    mechanism: &P,
+    mechanism: &M,
     start: State<f64, N>,
     steps: u32,
     exact: &State<f64, N>,
 ) -> f64
 where
-    P: Passing<N, R>,
+    M: Mechanism<f64, N, R>,
     I: Integrator<f64, N>,
 {
     let mut solver = Solver::new(Settings::default());
@@ -196,4 +198,50 @@ fn methods_of_high_order_land_within_1e_11_of_the_exact_motion() {
     check_floor::<_, _, 3, 2>(Dop853::fixed, &DOP853, &SliderCrank::default(), 40);
     check_floor::<_, _, 5, 4>(Dop853::fixed, &DOP853, &FourBars, 20);
     check_floor::<_, _, 6, 6>(Dop853::fixed, &DOP853, &Parallelogram, 40);
+}
+
+/// The exact motion of the reduced system, `span` seconds after (before) a state:
+/// steps so short that only round-off remains.
+fn after(span: f64, start: &State<f64, 2>) -> State<f64, 2> {
+    let mut solver: Solver<f64, 2, 0> = Solver::new(Settings::default());
+    let mut system = solver.on(&HungReduced);
+    let mut method = Dop853::fixed();
+    // A motion without damping runs backwards with its velocities turned round.
+    let sign = span.signum();
+    let mut state = State::new(0.0, start.q, start.v * sign);
+    let steps = (span.abs() / 4e-3).ceil().max(1.0) as u32;
+    for i in 1..=steps {
+        let bound = span.abs() * f64::from(i) / f64::from(steps);
+        state = *method.step(&mut system, &state, bound).unwrap().end();
+    }
+    State::new(start.t + span, state.q, state.v * sign)
+}
+
+#[test]
+fn a_second_degree_of_freedom_changes_no_landing() {
+    let singular = State::new(0.0, [0.0, -1.2].into(), [-6.0, 2.0].into());
+    let mut before: Option<f64> = None;
+    for steps in [20, 40, 80, 160] {
+        let mut errors = Vec::new();
+        for stage in [0.0, 0.5, 1.0] {
+            for distance in distances() {
+                let t = distance / 6.0 - stage * SPAN / f64::from(steps);
+                let start = after(t, &singular);
+                let end = Hung::state(&after(SPAN, &start));
+                errors.push(error(Rk4::new(), &Hung, Hung::state(&start), steps, &end));
+            }
+        }
+        errors.sort_by(f64::total_cmp);
+        let (median, worst) = (errors[errors.len() / 2], errors[errors.len() - 1]);
+        println!("RK4, {steps} steps: median {median:e}, worst {worst:e}");
+        assert!(
+            worst <= SPREAD * median,
+            "{steps} steps: {median:e}, {worst:e}"
+        );
+        if let Some(before) = before {
+            let order = (before / median).log2();
+            assert!(order > 3.7, "{steps} steps: order {order}");
+        }
+        before = Some(median);
+    }
 }

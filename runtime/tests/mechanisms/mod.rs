@@ -5,6 +5,7 @@
 //! one-degree-of-freedom reductions of its examples.
 
 mod four_bars;
+mod hung;
 mod parallelogram;
 mod reference;
 mod slider_crank;
@@ -12,6 +13,7 @@ mod small;
 mod twice;
 
 pub use four_bars::FourBars;
+pub use hung::{Hung, HungReduced};
 pub use parallelogram::Parallelogram;
 pub use reference::{Passage, Reduction};
 pub use slider_crank::SliderCrank;
