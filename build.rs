@@ -3,5 +3,7 @@
 use bricard_codegen::{BuildError, Builder};
 
 fn main() -> Result<(), BuildError> {
-    Builder::new().coriolis_matrix(true).compile_dir("mechanisms")
+    Builder::new()
+        .coriolis_matrix(true)
+        .compile_dir("mechanisms")
 }

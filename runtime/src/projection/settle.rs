@@ -19,8 +19,10 @@ use crate::dynamics::{Known, Solver, Source, Tangent, Which};
 use crate::linalg::{acceptable, norm, on_constraint, same_branch, significant, useless};
 use crate::{DynamicsError, Mechanism, Real, State};
 
-/// Corrections after which a state is taken as it is.
-const MAX_ITERATIONS: usize = 20;
+/// Corrections after which a state is taken as it is. Newton's iteration halves its
+/// distance only to a point where branches cross, so there are as many as a number
+/// has bits.
+const MAX_ITERATIONS: usize = 53;
 
 /// What is needed to judge residuals at one state.
 struct Scene<T> {
