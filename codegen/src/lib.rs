@@ -13,7 +13,7 @@
 //!
 //! and in the crate, `bricard_runtime::include_mechanism!("four_bar");`.
 //!
-//! The stages, each a module: [`parse`] → [`model`] → [`derive`] → [`optimise`] →
+//! The stages, each a module: [`parse`] → [`model`] → [`mod@derive`] → [`optimise`] →
 //! [`emit`], on expressions of [`expr`], with messages of [`diagnostic`].
 
 mod build;
