@@ -11,6 +11,7 @@ mod golden;
 mod identities;
 mod landing;
 mod layering;
+mod licences;
 mod library;
 mod motion;
 mod order;
