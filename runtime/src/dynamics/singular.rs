@@ -7,23 +7,25 @@
 //! error of `ε/σ³`. Below a certain size the branch rows `A q⃛ + K q̈ = κ` take the
 //! place of such a row. They know nothing of the size of `A`, but need the jerk
 //! `q⃛`, times `σ`. It is taken from the accelerations a little before and after on
-//! the motion, which need it too, and its change: a contraction, since along the
-//! motion `A` changes by less than `K`. What is left out is of order `σ³`.
+//! the motion, which need it too, and its changes: a contraction, since along the
+//! motion `A` changes by less than `K`. What is left out is of order `σ⁴`.
 
 use super::{Known, Metric, Solver, Source, Tangent, Which};
-use crate::linalg::jerk_span;
+use crate::linalg::{crackle_span, jerk_span};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::{SMatrix, SVector};
 
 /// Rounds of the contraction.
-const ROUNDS: usize = 6;
+const ROUNDS: usize = 8;
 
 /// How much of the difference to take over in each round. For holonomic constraints
-/// `K = 3Ȧ`, so that an error of the jerk returns as −1/3 of itself and one of the
-/// snap as −2/3: these shares remove it at once.
+/// `K = 3Ȧ`, so that an error of the jerk returns as −1/3 of itself, one of the snap
+/// as −2/3 and one of the crackle as −1: these shares remove it at once.
 const JERK_SHARE: f64 = 0.75;
 /// As [`JERK_SHARE`], for the snap.
 const SNAP_SHARE: f64 = 0.6;
+/// As [`JERK_SHARE`], for the crackle.
+const CRACKLE_SHARE: f64 = 0.5;
 
 /// The equations of motion at one state, solved but for the jerk.
 struct Local<T, const N: usize, const R: usize> {
@@ -109,38 +111,45 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         state: &State<T, N>,
         here: &Local<T, N, R>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        let mut motion = Motion {
-            acceleration: here.acceleration(self, &SVector::zeros()),
-            jerk: SVector::zeros(),
-            snap: SVector::zeros(),
-        };
         let rate = here.tangent.rate();
+        let affine = here.affine(self);
         if here.tangent.branch == here.tangent.strong || rate <= T::zero() {
-            return Ok(motion.acceleration);
+            return Ok(affine.constant);
         }
         let (strong, aimed) = (here.tangent.strong, here.tangent.aimed);
         let beside = Known::Beside { strong, aimed };
         let span = jerk_span::<T>() / rate;
-        let next = self.local(mechanism, &motion.after(state, span), beside)?;
-        for _ in 0..ROUNDS {
-            let jerk = (next.acceleration(self, &motion.jerk) - motion.acceleration) / span;
-            motion.jerk += (jerk - motion.jerk) * T::from_f64(JERK_SHARE);
-            motion.acceleration = here.acceleration(self, &motion.jerk);
-        }
-        let next = self.local(mechanism, &motion.after(state, span), beside)?;
-        let last = self.local(mechanism, &motion.after(state, -span), beside)?;
-        for _ in 0..ROUNDS {
-            let change = motion.snap * span;
-            let ahead = next.acceleration(self, &(motion.jerk + change));
-            let behind = last.acceleration(self, &(motion.jerk - change));
-            let jerk = (ahead - behind) / (span + span);
-            let bend = (ahead - motion.acceleration) - (motion.acceleration - behind);
-            let snap = bend / (span * span);
-            motion.jerk += (jerk - motion.jerk) * T::from_f64(JERK_SHARE);
-            motion.snap += (snap - motion.snap) * T::from_f64(SNAP_SHARE);
-            motion.acceleration = here.acceleration(self, &motion.jerk);
-        }
+        let mut motion = Motion::new(affine.constant);
+        let beside = |solver: &mut Self, motion: &Motion<T, N>, span: T| {
+            let state = motion.after(state, span);
+            Ok(solver.local(mechanism, &state, beside)?.affine(solver))
+        };
+        let next = beside(self, &motion, span)?;
+        motion.find_jerk(&affine, &next, span);
+        let around = [beside(self, &motion, -span)?, beside(self, &motion, span)?];
+        motion.find_snap(&affine, &around, span);
+        let span = crackle_span::<T>() / rate;
+        let around = [
+            beside(self, &motion, -(span + span))?,
+            beside(self, &motion, -span)?,
+            beside(self, &motion, span)?,
+            beside(self, &motion, span + span)?,
+        ];
+        motion.find_crackle(&affine, &around, span);
         Ok(motion.acceleration)
+    }
+}
+
+/// The acceleration at a state, as far as it depends on the jerk there:
+/// `q̈ = constant + response · q⃛`.
+struct Affine<T, const N: usize> {
+    constant: SVector<T, N>,
+    response: SMatrix<T, N, N>,
+}
+
+impl<T: Real, const N: usize> Affine<T, N> {
+    fn at(&self, jerk: &SVector<T, N>) -> SVector<T, N> {
+        self.constant + self.response * jerk
     }
 }
 
@@ -149,23 +158,97 @@ struct Motion<T, const N: usize> {
     acceleration: SVector<T, N>,
     jerk: SVector<T, N>,
     snap: SVector<T, N>,
+    crackle: SVector<T, N>,
 }
 
 impl<T: Real, const N: usize> Motion<T, N> {
+    fn new(acceleration: SVector<T, N>) -> Self {
+        Self {
+            acceleration,
+            jerk: SVector::zeros(),
+            snap: SVector::zeros(),
+            crackle: SVector::zeros(),
+        }
+    }
+
     /// The state a short time later.
     fn after(&self, state: &State<T, N>, span: T) -> State<T, N> {
-        let (half, third) = (span / T::from_f64(2.0), span / T::from_f64(3.0));
-        let turn = self.acceleration + self.jerk * half;
-        let bend = self.acceleration + self.jerk * third;
+        let part = |n: f64| span / T::from_f64(n);
+        let turn = self.acceleration + (self.jerk + self.snap * part(3.0)) * part(2.0);
+        let bend = self.acceleration + (self.jerk + self.snap * part(4.0)) * part(3.0);
         State::new(
             state.t + span,
-            state.q + (state.v + bend * half) * span,
+            state.q + (state.v + bend * part(2.0)) * span,
             state.v + turn * span,
         )
+    }
+
+    /// The jerk a short time later.
+    fn jerk_after(&self, span: T) -> SVector<T, N> {
+        self.jerk + (self.snap + self.crackle * (span / T::from_f64(2.0))) * span
+    }
+
+    /// The jerk by the acceleration at the next state, `span` later.
+    fn find_jerk(&mut self, here: &Affine<T, N>, next: &Affine<T, N>, span: T) {
+        for _ in 0..ROUNDS {
+            let jerk = (next.at(&self.jerk) - self.acceleration) / span;
+            self.jerk += (jerk - self.jerk) * T::from_f64(JERK_SHARE);
+            self.acceleration = here.at(&self.jerk);
+        }
+    }
+
+    /// Jerk and snap by the accelerations `span` before and after.
+    fn find_snap(&mut self, here: &Affine<T, N>, around: &[Affine<T, N>; 2], span: T) {
+        for _ in 0..ROUNDS {
+            let [behind, ahead] = [-span, span].map(|at| self.jerk_after(at));
+            let (behind, ahead) = (around[0].at(&behind), around[1].at(&ahead));
+            let jerk = (ahead - behind) / (span + span);
+            let bend = (ahead - self.acceleration) - (self.acceleration - behind);
+            let snap = bend / (span * span);
+            self.jerk += (jerk - self.jerk) * T::from_f64(JERK_SHARE);
+            self.snap += (snap - self.snap) * T::from_f64(SNAP_SHARE);
+            self.acceleration = here.at(&self.jerk);
+        }
+    }
+
+    /// Jerk, snap and crackle by the accelerations at −2, −1, 1 and 2 times `span`.
+    fn find_crackle(&mut self, here: &Affine<T, N>, around: &[Affine<T, N>; 4], span: T) {
+        let number = T::from_f64;
+        for _ in 0..ROUNDS {
+            let at = |i: usize, steps: f64| around[i].at(&self.jerk_after(span * number(steps)));
+            let (far, near) = ([at(0, -2.0), at(3, 2.0)], [at(1, -1.0), at(2, 1.0)]);
+            let (far_odd, near_odd) = (far[1] - far[0], near[1] - near[0]);
+            let even = |pair: [SVector<T, N>; 2]| {
+                (pair[1] - self.acceleration) - (self.acceleration - pair[0])
+            };
+            let jerk = (near_odd * number(8.0) - far_odd) / (span * number(12.0));
+            let square = span * span;
+            let snap = (even(near) * number(16.0) - even(far)) / (square * number(12.0));
+            let crackle = (far_odd - near_odd * number(2.0)) / (square * span * number(2.0));
+            self.jerk += (jerk - self.jerk) * number(JERK_SHARE);
+            self.snap += (snap - self.snap) * number(SNAP_SHARE);
+            self.crackle += (crackle - self.crackle) * number(CRACKLE_SHARE);
+            self.acceleration = here.at(&self.jerk);
+        }
     }
 }
 
 impl<T: Real, const N: usize, const R: usize> Local<T, N, R> {
+    /// `q̈` as a function of the jerk.
+    fn affine(&self, solver: &Solver<T, N, R>) -> Affine<T, N> {
+        let constant = self.acceleration(solver, &SVector::zeros());
+        let mut response = SMatrix::zeros();
+        if self.tangent.branch > self.tangent.strong {
+            for j in 0..N {
+                let mut jerk = SVector::zeros();
+                jerk[j] = T::one();
+                let change = self.acceleration(solver, &jerk) - constant;
+                response.data.0[j] = change.data.0[0];
+            }
+        }
+        Affine { constant, response }
+    }
+
     /// `q̈` if the jerk is known.
     fn acceleration(&self, solver: &Solver<T, N, R>, jerk: &SVector<T, N>) -> SVector<T, N> {
         let weight = solver.scaled(&(self.jacobian * jerk));

@@ -4,7 +4,8 @@
 //! Out: the error norm, the next step, the first step.
 //!
 //! Source: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I
-//! (1993), section II.4; PI control: Gustafsson, ACM TOMS 17 (1991) 533–554.
+//! (1993), section II.4; PI control: Gustafsson, ACM TOMS 17 (1991) 533–554; its gains
+//! in this form: Söderlind, ACM TOMS 29 (2003) 1–26.
 
 use super::IntegrateError;
 use crate::{Real, State};
@@ -16,8 +17,6 @@ const SMALLEST_TOLERANCE: f64 = 10.0;
 const SMALLEST_STEP: f64 = 4.0;
 /// The next step aims at this fraction of the step that would just pass.
 const SAFETY: f64 = 0.9;
-/// Exponent of the previous error in the PI control.
-const MEMORY: f64 = 0.04;
 /// Errors below this are not remembered: they would promise too much.
 const REMEMBERED_ERROR: f64 = 1e-4;
 /// A step whose error can't be told is followed by one this much shorter.
@@ -118,12 +117,39 @@ pub(crate) fn check_bound<T: Real>(t: T, bound: T) -> Result<(), IntegrateError<
     }
 }
 
+/// How PI control answers to errors: the next step is as the last, times
+/// `SAFETY · before^memory / error^reaction`, both exponents times the inverse order
+/// of the estimate. The gain of the integral part is their difference.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Gains {
+    /// Exponent of the error.
+    pub(crate) reaction: f64,
+    /// Exponent of the error before.
+    pub(crate) memory: f64,
+}
+
+impl Gains {
+    /// For explicit methods. The integral part is small: mechanisms change their pace
+    /// smoothly, and a control that follows it calmly has fewer steps rejected, and
+    /// errors that are more alike from one start to the next.
+    pub(crate) const CALM: Self = Self {
+        reaction: 0.6,
+        memory: 0.4,
+    };
+    /// For implicit methods, whose estimates jump when transients end.
+    pub(crate) const QUICK: Self = Self {
+        reaction: 0.88,
+        memory: 0.16,
+    };
+}
+
 /// PI control of the step size.
 #[derive(Clone, Debug)]
 pub(crate) struct Control<T> {
     /// The step to try next; zero before the first.
     pub(crate) h: T,
-    exponent: T,
+    reaction: T,
+    memory: T,
     longest_jump: T,
     shortest_jump: T,
     last_error: T,
@@ -131,14 +157,16 @@ pub(crate) struct Control<T> {
 }
 
 impl<T: Real> Control<T> {
-    /// Control of a method whose estimate is `O(h^order)`; a step may grow by
-    /// `longest_jump` and shrink by `shortest_jump` at once.
-    pub(crate) fn new(order: u8, shortest_jump: f64, longest_jump: f64) -> Self {
+    /// Control of a method whose estimate is `O(h^order)`; a step may shrink
+    /// by `least` and grow by `most` at once.
+    pub(crate) fn new(order: u8, gains: Gains, (least, most): (f64, f64)) -> Self {
+        let order = f64::from(order);
         Self {
             h: T::zero(),
-            exponent: T::from_f64(1.0 / f64::from(order)),
-            longest_jump: T::from_f64(longest_jump),
-            shortest_jump: T::from_f64(shortest_jump),
+            reaction: T::from_f64(gains.reaction / order),
+            memory: T::from_f64(gains.memory / order),
+            longest_jump: T::from_f64(most),
+            shortest_jump: T::from_f64(least),
             last_error: T::from_f64(REMEMBERED_ERROR),
             rejected: false,
         }
@@ -173,15 +201,14 @@ impl<T: Real> Control<T> {
             self.rejected = true;
             return false;
         }
-        let memory = T::from_f64(MEMORY);
-        let plain = error.powf(self.exponent - T::from_f64(0.75) * memory);
+        let plain = error.powf(self.reaction);
         if error > T::one() {
             let jump = (T::from_f64(SAFETY) / plain).max(self.shortest_jump);
             self.h = h * jump;
             self.rejected = true;
             return false;
         }
-        let wished = T::from_f64(SAFETY) * self.last_error.powf(memory) / plain;
+        let wished = T::from_f64(SAFETY) * self.last_error.powf(self.memory) / plain;
         let most = if self.rejected {
             T::one()
         } else {

@@ -5,6 +5,7 @@
 //!
 //! Not here: what the fields mean ([`super::tableau`]).
 
+use super::control::Gains;
 use super::tableau::Tableau;
 
 /// The method of order 8 with error estimates of orders 5 and 3 and the
@@ -17,6 +18,7 @@ pub(crate) static DOP853: Tableau = Tableau {
     error_order: 8,
     looks: 4,
     jumps: (1.0 / 3.0, 6.0),
+    gains: Gains::CALM,
     nodes: &[
         (0.0, 0.0),
         (0.05260015195876773, 2.2355514829149388e-18),

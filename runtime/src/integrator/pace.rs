@@ -92,8 +92,7 @@ impl<K: Trial<T, N>, T: Real, const N: usize> Paced<K, T, N> {
     /// Goes as far as the tolerance allows.
     pub(super) fn adaptive(method: K, tolerance: Tolerance<T, N>) -> Self {
         let tableau = method.tableau();
-        let (least, most) = tableau.jumps;
-        let control = Control::new(tableau.error_order, least, most);
+        let control = Control::new(tableau.error_order, tableau.gains, tableau.jumps);
         Self {
             method,
             pace: Some(Pace { tolerance, control }),

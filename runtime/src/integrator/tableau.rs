@@ -8,6 +8,7 @@
 //!
 //! Not here: how the stages are computed ([`super::explicit`]).
 
+use super::control::Gains;
 use crate::Real;
 
 pub(crate) use super::dop853::DOP853;
@@ -30,6 +31,8 @@ pub(crate) struct Tableau {
     pub(crate) looks: u8,
     /// By how much a step may shrink and grow at once.
     pub(crate) jumps: (f64, f64),
+    /// How the control of the step answers to errors.
+    pub(crate) gains: Gains,
     /// Abscissae of the stages, as `(high, low)`.
     pub(crate) nodes: &'static [(f64, f64)],
     /// Rows `a_ij`, one per stage.
@@ -66,6 +69,7 @@ pub(crate) static RK4: Tableau = Tableau {
     error_order: 5,
     looks: 1,
     jumps: (1.0, 1.0),
+    gains: Gains::CALM,
     nodes: &[(0.0, 0.0), (0.5, 0.0), (0.5, 0.0), (1.0, 0.0)],
     rows: &[&[], &[(0, 0.5, 0.0)], &[(1, 0.5, 0.0)], &[(2, 1.0, 0.0)]],
     weights: &[
@@ -91,6 +95,7 @@ pub(crate) static DP5: Tableau = Tableau {
     error_order: 5,
     looks: 2,
     jumps: (0.2, 10.0),
+    gains: Gains::CALM,
     nodes: &[
         (0.0, 0.0),
         (0.2, -1.1102230246251566e-17),
@@ -159,6 +164,7 @@ pub(crate) static RADAU5: Tableau = Tableau {
     error_order: 4,
     looks: 3,
     jumps: (0.2, 8.0),
+    gains: Gains::QUICK,
     nodes: &[],
     rows: &[],
     weights: &[],

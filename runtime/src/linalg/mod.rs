@@ -47,11 +47,11 @@ pub(crate) fn guard<T: Real>() -> T {
     T::from_f64(2e-2)
 }
 
-/// Singular value below which the branch rows decide even on the constraints (4e-3
+/// Singular value below which the branch rows decide even on the constraints (9e-3
 /// for `f64`): a row of size `σ` turns round-off `ε` of the position into an error
-/// `ε/σ³` of the acceleration, the branch rows leave out something of order `σ³`.
+/// `ε/σ³` of the acceleration, the branch rows leave out something of order `σ⁴`.
 pub(crate) fn useless<T: Real>() -> T {
-    T::EPSILON.sqrt().sqrt() * T::from_f64(32.0)
+    T::EPSILON.powf(T::from_f64(1.0 / 7.0)) * T::from_f64(1.5)
 }
 
 /// Singular value above which a row on the constraints shows the tangent of its
@@ -72,6 +72,12 @@ pub(crate) fn same_branch<T: Real>() -> T {
 /// `f64`), which second differences ask for.
 pub(crate) fn jerk_span<T: Real>() -> T {
     T::EPSILON.sqrt().sqrt()
+}
+
+/// The same for jerk, snap and crackle together: the sixth root (2e-3 for `f64`),
+/// which third differences ask for.
+pub(crate) fn crackle_span<T: Real>() -> T {
+    T::EPSILON.powf(T::from_f64(1.0 / 6.0))
 }
 
 /// The same sine for the first step of a motion.

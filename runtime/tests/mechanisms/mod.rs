@@ -15,7 +15,7 @@ mod twice;
 pub use four_bars::FourBars;
 pub use hung::{Hung, HungReduced};
 pub use parallelogram::Parallelogram;
-pub use reference::{Passage, Reduction};
+pub use reference::{Passage, Reduced, Reduction};
 pub use slider_crank::SliderCrank;
 pub use small::{Sled, Spring};
 pub use twice::Twice;

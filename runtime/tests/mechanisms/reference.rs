@@ -4,6 +4,9 @@
 //! with steps so small that only round-off remains. Against the 20-digit end
 //! values of the paper's examples it agrees to 1e-12 (see the tests of runs).
 
+use super::{ANGLE, structure};
+use bricard_runtime::{Energy, Mechanism, State, Structure, Terms};
+
 /// `M_eff = constant + ripple cos 2q`, `V = weight sin q`.
 #[derive(Clone, Copy, Debug)]
 pub struct Reduction {
@@ -67,6 +70,29 @@ impl Reduction {
             q + h / 6.0 * (v + 2.0 * v2 + 2.0 * v3 + v4),
             v + h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4),
         )
+    }
+}
+
+/// The motion as a mechanism of its own, without constraints: what a run with
+/// singular positions is compared with.
+#[derive(Clone, Copy, Debug)]
+pub struct Reduced(pub Reduction);
+
+static REDUCED: Structure = structure(&[ANGLE], &[]);
+
+impl Mechanism<f64, 1, 0> for Reduced {
+    fn structure(&self) -> &'static Structure {
+        &REDUCED
+    }
+
+    fn terms(&self, state: &State<f64, 1>, out: &mut Terms<f64, 1, 0>) {
+        let mass = self.0.constant + self.0.ripple * (2.0 * state.q[0]).cos();
+        out.mass[(0, 0)] = mass;
+        out.force[0] = mass * self.0.acceleration(state.q[0], state.v[0]);
+    }
+
+    fn energy(&self, _state: &State<f64, 1>) -> Energy<f64> {
+        Energy::default()
     }
 }
 
