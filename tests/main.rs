@@ -6,6 +6,7 @@ mod command;
 mod compiled;
 mod dense;
 mod derivation;
+mod double_double;
 mod dual;
 mod golden;
 mod identities;

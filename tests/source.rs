@@ -4,7 +4,13 @@ use std::path::{Path, PathBuf};
 use std::{fs, iter};
 
 /// The folders that hold what is shipped.
-pub const EVERYWHERE: [&str; 4] = ["codegen/src", "runtime/src", "cli", "mechanisms"];
+pub const EVERYWHERE: [&str; 5] = [
+    "codegen/src",
+    "runtime/src",
+    "reference/src",
+    "cli",
+    "mechanisms",
+];
 
 /// A source file.
 pub struct File {
