@@ -11,7 +11,7 @@
 //! motion `A` changes by less than `K`. What is left out is of order `σ⁴`.
 
 use super::{Known, Metric, Solver, Source, Tangent, Which};
-use crate::linalg::{crackle_span, jerk_span};
+use crate::linalg::{add_scaled, crackle_span, dot, jerk_span};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::{SMatrix, SVector};
 
@@ -141,15 +141,22 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 }
 
 /// The acceleration at a state, as far as it depends on the jerk there:
-/// `q̈ = constant + response · q⃛`.
+/// `q̈ = constant − Σ across_k (weights_k · q⃛)`, a term for each branch direction.
 struct Affine<T, const N: usize> {
     constant: SVector<T, N>,
-    response: SMatrix<T, N, N>,
+    across: SMatrix<T, N, N>,
+    weights: SMatrix<T, N, N>,
+    terms: usize,
 }
 
 impl<T: Real, const N: usize> Affine<T, N> {
     fn at(&self, jerk: &SVector<T, N>) -> SVector<T, N> {
-        self.constant + self.response * jerk
+        let mut acceleration = self.constant;
+        for k in 0..self.terms {
+            let share = dot(&self.weights.data.0[k], &jerk.data.0[0]);
+            add_scaled(&mut acceleration.data.0[0], -share, &self.across.data.0[k]);
+        }
+        acceleration
     }
 }
 
@@ -236,24 +243,22 @@ impl<T: Real, const N: usize> Motion<T, N> {
 impl<T: Real, const N: usize, const R: usize> Local<T, N, R> {
     /// `q̈` as a function of the jerk.
     fn affine(&self, solver: &Solver<T, N, R>) -> Affine<T, N> {
-        let constant = self.acceleration(solver, &SVector::zeros());
-        let mut response = SMatrix::zeros();
-        if self.tangent.branch > self.tangent.strong {
-            for j in 0..N {
-                let mut jerk = SVector::zeros();
-                jerk[j] = T::one();
-                let change = self.acceleration(solver, &jerk) - constant;
-                response.data.0[j] = change.data.0[0];
-            }
+        let tangent = &self.tangent;
+        let mut constant = tangent.solve(&self.right, &self.free);
+        self.metric.factor.backward(&mut constant);
+        let mut affine = Affine {
+            constant: SVector::from(constant),
+            across: SMatrix::zeros(),
+            weights: SMatrix::zeros(),
+            terms: tangent.branch - tangent.strong,
+        };
+        for k in 0..affine.terms {
+            let (left, mut across) = tangent.across(tangent.strong + k);
+            self.metric.factor.backward(&mut across);
+            affine.across.data.0[k] = across;
+            let scaled = SVector::from_fn(|row, _| left[row] * solver.rows.scale(row));
+            affine.weights.data.0[k] = self.jacobian.tr_mul(&scaled).data.0[0];
         }
-        Affine { constant, response }
-    }
-
-    /// `q̈` if the jerk is known.
-    fn acceleration(&self, solver: &Solver<T, N, R>, jerk: &SVector<T, N>) -> SVector<T, N> {
-        let weight = solver.scaled(&(self.jacobian * jerk));
-        let mut w = self.tangent.solve(&self.right, &weight, &self.free);
-        self.metric.factor.backward(&mut w);
-        SVector::from(w)
+        affine
     }
 }

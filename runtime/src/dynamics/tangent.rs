@@ -190,18 +190,34 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
     }
 
     /// The `w` nearest to `free` that satisfies what was decided: `Â w = right` in
-    /// the strong directions, `K̂ w = κ̂ − jerk` in the branch directions, where
-    /// `jerk` is `Â` times the jerk.
-    pub(crate) fn solve(&self, right: &[T; R], jerk: &[T; R], free: &[T; N]) -> [T; N] {
+    /// the strong directions, `K̂ w = κ̂` in the branch directions. The latter lacks
+    /// `Â` times the jerk, see [`across`](Self::across).
+    pub(crate) fn solve(&self, right: &[T; R], free: &[T; N]) -> [T; N] {
         let mut w = [T::zero(); N];
         self.advance(&mut w, &self.rows, right, 0..self.strong);
         for direction in &self.basis.data.0[self.used..] {
             add_scaled(&mut w, dot(direction, free), direction);
         }
-        let slope_right = core::array::from_fn(|row| self.slope_bias[row] - jerk[row]);
-        self.advance(&mut w, &self.slopes, &slope_right, self.strong..self.branch);
+        self.advance(
+            &mut w,
+            &self.slopes,
+            &self.slope_bias,
+            self.strong..self.branch,
+        );
         self.advance(&mut w, &self.rows, right, self.branch..self.used);
         w
+    }
+
+    /// How a branch direction answers to the jerk: for the left vector returned
+    /// first, the solution moves by minus the second, times the product of the left
+    /// vector with `Â` times the jerk.
+    pub(crate) fn across(&self, j: usize) -> ([T; R], [T; N]) {
+        let mut w = [T::zero(); N];
+        add_scaled(&mut w, T::one() / self.values[j], &self.basis.data.0[j]);
+        if self.branch < self.used {
+            self.advance(&mut w, &self.rows, &[T::zero(); R], self.branch..self.used);
+        }
+        (self.left.data.0[j], w)
     }
 
     /// Moves `w` along some decided directions until their rows are satisfied.
