@@ -18,6 +18,7 @@
 use crate::dynamics::{Known, Solver, Source, Tangent, Which};
 use crate::linalg::{acceptable, norm, on_constraint, same_branch, significant, useless};
 use crate::{DynamicsError, Mechanism, Real, State};
+use nalgebra::SVector;
 
 /// Corrections after which a state is taken as it is. Newton's iteration halves its
 /// distance only to a point where branches cross, so there are as many as a number
@@ -34,6 +35,21 @@ struct Scene<T> {
     speed: T,
 }
 
+impl<T: Real> Scene<T> {
+    /// Whether changes of position and velocity are round-off, or no longer grow
+    /// smaller and are small enough.
+    fn is_at_rest(&self, moved: T, turned: T, before: Option<(T, T)>) -> bool {
+        let noise = T::EPSILON * self.speed;
+        if moved <= on_constraint::<T>() * self.round_off && turned <= on_constraint::<T>() * noise
+        {
+            return true;
+        }
+        let half = T::from_f64(0.5);
+        let stuck = before.is_some_and(|(q, v)| moved > q * half && turned > v * half);
+        stuck && moved <= self.settled && turned <= T::EPSILON.sqrt() * self.speed
+    }
+}
+
 impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// Brings a state onto its branch, as far as residuals tell it.
     pub(super) fn settle<M: Mechanism<T, N, R> + ?Sized>(
@@ -41,6 +57,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         mechanism: &M,
         state: &mut State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
+        let mut before: Option<(T, T)> = None;
+        let mut acceleration = None;
         for _ in 0..MAX_ITERATIONS {
             mechanism.position(state, &mut self.position);
             self.finite_residual(state)?;
@@ -58,15 +76,16 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 let mut holonomic = self.tangent_here(mechanism, state, Which::Holonomic)?;
                 self.position_change(state, &scene, &mut holonomic)?
             };
-            let faster = self.velocity_change(mechanism, state, &scene, &mut tangent)?;
+            let faster =
+                self.velocity_change(mechanism, state, &scene, &mut tangent, &mut acceleration)?;
             let moved = self.metric.factor.length(&across);
             let turned = self.metric.factor.length(&faster);
-            state.q += nalgebra::SVector::from(across);
-            state.v += nalgebra::SVector::from(faster);
-            let rest = on_constraint::<T>() * scene.round_off;
-            if moved <= rest && turned <= on_constraint::<T>() * T::EPSILON * scene.speed {
+            state.q += SVector::from(across);
+            state.v += SVector::from(faster);
+            if scene.is_at_rest(moved, turned, before) {
                 break;
             }
+            before = Some((moved, turned));
         }
         mechanism.position(state, &mut self.position);
         if self.finite_residual(state)? > acceptable::<T>() * self.reach {
@@ -106,13 +125,16 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         Ok(self.lower(w).data.0[0])
     }
 
-    /// The change of velocity that closes `A q̇ + b`.
+    /// The change of velocity that closes `A q̇ + b`. The acceleration that the weak
+    /// directions need is computed once: near its place on the constraints a state
+    /// hardly changes it.
     fn velocity_change<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
         scene: &Scene<T>,
         tangent: &mut Tangent<T, N, R>,
+        known: &mut Option<SVector<T, N>>,
     ) -> Result<[T; N], DynamicsError<T>> {
         let gap = self.scaled(&-self.velocity_level(state));
         let mut w = tangent.close_strong(&gap);
@@ -128,7 +150,12 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 size > significant::<T>() * (noise + rate * off / value)
             });
             if tangent.branch < tangent.used {
-                let level = self.acceleration_level(mechanism, state)?;
+                let acceleration = match *known {
+                    Some(acceleration) => acceleration,
+                    None => self.singular_acceleration(mechanism, state, Known::Rank)?,
+                };
+                *known = Some(acceleration);
+                let level = self.acceleration_level(mechanism, state, &acceleration)?;
                 let share = T::from_f64(1.5);
                 tangent.close_slopes(&mut w, &level, share, significant::<T>() * noise * rate);
             }
@@ -141,8 +168,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
+        acceleration: &SVector<T, N>,
     ) -> Result<[T; R], DynamicsError<T>> {
-        let acceleration = self.singular_acceleration(mechanism, state, Known::Rank)?;
         mechanism.terms(state, &mut self.terms);
         let level = self.terms.bias - self.terms.jacobian * acceleration;
         self.factorise_metric(mechanism, Source::Position, state.t)?;
@@ -150,7 +177,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// `A q̇ + b` at the position in the buffer.
-    fn velocity_level(&self, state: &State<T, N>) -> nalgebra::SVector<T, R> {
+    fn velocity_level(&self, state: &State<T, N>) -> SVector<T, R> {
         self.position.jacobian * state.v + self.position.drift
     }
 
