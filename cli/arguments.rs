@@ -79,10 +79,10 @@ pub struct Simulate {
     /// Fixed step, in seconds [default of rk4: 0.01]
     #[arg(long, value_name = "h", allow_hyphen_values = true, value_parser = formula::number, conflicts_with_all = ["rtol", "atol"])]
     pub step: Option<f64>,
-    /// Relative error per step that dp5 and dop853 may make [default: 1e-9]
+    /// Relative error per step that an adaptive method may make [default: 1e-9]
     #[arg(long, value_name = "r", allow_hyphen_values = true, value_parser = formula::number)]
     pub rtol: Option<f64>,
-    /// Absolute error per step that they may make [default: the value of --rtol]
+    /// Absolute error per step that it may make [default: the value of --rtol]
     #[arg(long, value_name = "a", allow_hyphen_values = true, value_parser = formula::number)]
     pub atol: Option<f64>,
     /// Integrator [default: rk4 with --step, else dop853]
@@ -95,6 +95,10 @@ pub struct Simulate {
     /// baumgarte:ALPHA:BETA (1/s)
     #[arg(long, value_name = "WAY", default_value = "projection", value_parser = stabilisation)]
     pub stabilisation: Stabilisation<f64>,
+    /// Keep the energy of a conservative mechanism at what it is at the start, for
+    /// long runs
+    #[arg(long)]
+    pub keep_energy: bool,
     /// Pass singular positions as published, without the constraints
     /// differentiated once more (less accurate; for comparison)
     #[arg(long)]
@@ -130,6 +134,8 @@ pub enum MethodName {
     Dp5,
     /// Dormand–Prince 8(5,3)
     Dop853,
+    /// Radau IIA of order 5, implicit: for stiff mechanisms
+    Radau5,
 }
 
 /// The forms of the equations of motion by name.

@@ -1,5 +1,6 @@
 //! Running a generated mechanism allocates nothing: a counting allocator proves it.
 
+use crate::library::step_scale;
 use allocation_counter::measure;
 use bricard_runtime::{
     Interface, Mechanism, Options, Pace, Scheme, Settings, State, Stepper, Visitor, assemble,
@@ -9,7 +10,9 @@ use bricard_runtime::{
 /// Counts the allocations of steps on demand and of a whole run with all audits.
 struct Count {
     scheme: Scheme,
+    /// As for a mechanism of usual speed.
     pace: Pace<f64>,
+    step_scale: f64,
 }
 
 impl Visitor<f64> for Count {
@@ -20,7 +23,17 @@ impl Visitor<f64> for Count {
     where
         M: Mechanism<f64, N, R> + Interface<f64, N>,
     {
-        let Count { scheme, pace } = self;
+        let Count {
+            scheme,
+            pace,
+            step_scale,
+        } = self;
+        let pace = match pace {
+            Pace::Fixed { step } => Pace::Fixed {
+                step: step * step_scale,
+            },
+            adaptive => adaptive,
+        };
         let mut state = State::default();
         let assembling = measure(|| {
             state = assemble(&mechanism, &mechanism.start(), 0.0).expect("the start assembles");
@@ -31,10 +44,12 @@ impl Visitor<f64> for Count {
             Stepper::new(scheme, pace, settings).expect("a pace that fits");
         let stepping = measure(|| {
             for _ in 0..100 {
-                stepper.step(&mechanism, &mut state, 0.01).expect("a step");
+                stepper
+                    .step(&mechanism, &mut state, 0.01 * step_scale)
+                    .expect("a step");
             }
         });
-        let options = Options::new(1.0, scheme, pace);
+        let options = Options::new(step_scale, scheme, pace);
         let running = measure(|| {
             let run = simulate(&mechanism, &start, &options, &mut []);
             assert!(run.is_ok(), "the run ends well");
@@ -54,9 +69,16 @@ fn running_a_mechanism_allocates_nothing() {
         (Scheme::Rk4, fixed),
         (Scheme::Dp5, adaptive),
         (Scheme::Dop853, adaptive),
+        (Scheme::Radau5, adaptive),
     ] {
         for name in bricard::NAMES {
-            let counted = bricard::visit::<f64, _>(name, Count { scheme, pace });
+            let step_scale = step_scale(name);
+            let count = Count {
+                scheme,
+                pace,
+                step_scale,
+            };
+            let counted = bricard::visit::<f64, _>(name, count);
             assert_eq!(
                 counted,
                 Some([0; 3]),

@@ -1,10 +1,11 @@
 //! Every mechanism of the library runs from its own start with its energy, or power,
 //! and its constraints in order.
 
+use crate::library::time_scale;
 use crate::motion::run;
 use bricard_runtime::Options;
 
-/// How long (s).
+/// How long (s), for a mechanism of usual speed.
 const SPAN: f64 = 10.0;
 
 /// Tolerance of the integration.
@@ -23,11 +24,12 @@ const CONSTRAINT_ERROR: f64 = 1e-12;
 #[test]
 fn every_mechanism_runs_for_ten_seconds_with_energy_and_constraints_in_order() {
     for name in bricard::NAMES {
-        let mut options = Options::dop853(SPAN, TOLERANCE);
+        let span = SPAN * time_scale(name);
+        let mut options = Options::dop853(span, TOLERANCE);
         options.most_steps = Some(MOST_STEPS);
         let outcome = run(name, &options);
         assert_eq!(outcome.error, None, "{name}");
-        assert_eq!(outcome.t, SPAN, "{name}");
+        assert_eq!(outcome.t, span, "{name}");
         let energy = outcome.energy_error;
         assert!(
             energy <= ENERGY_ERROR,

@@ -2,7 +2,7 @@
 //! that agree.
 
 use crate::dense::{dot, null_space, size};
-use crate::library::{names, visit};
+use crate::library::{is_of_unit_size, names, visit};
 use crate::random::Random;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
@@ -31,6 +31,7 @@ struct Sample {
     name: &'static str,
     seed: u64,
     mass: Vec<Vec<f64>>,
+    force: Vec<f64>,
     jacobian: Vec<Vec<f64>>,
     bias: Vec<f64>,
     v: Vec<f64>,
@@ -88,6 +89,7 @@ impl Visitor<f64> for Ask {
             mass: (0..N)
                 .map(|i| (0..N).map(|j| terms.mass[(i, j)]).collect())
                 .collect(),
+            force: numbers(&terms.force),
             jacobian: (0..R).map(row).collect(),
             bias: terms.bias.as_slice().to_vec(),
             v: numbers(&state.v),
@@ -122,7 +124,7 @@ where
 
 /// Runs a check on samples of every mechanism of the library.
 fn check(claim: impl Fn(&Sample, &str)) {
-    for name in names() {
+    for name in names().filter(|name| is_of_unit_size(name)) {
         let ask = |seed| visit::<f64, _>(name, Ask { name, seed });
         let samples: Vec<Sample> = (0..STATES).filter_map(ask).collect();
         assert!(
@@ -200,7 +202,8 @@ fn reactions_do_no_work_along_the_constraints() {
         let directions = null_space(&sample.jacobian, sample.v.len());
         for (form, _, reaction) in &sample.forms {
             for direction in &directions {
-                let scale = size(direction, reaction);
+                // A reaction is what is left of the forces.
+                let scale = size(direction, reaction) + size(direction, &sample.force);
                 vanishes(
                     dot(direction, reaction),
                     scale,

@@ -43,6 +43,29 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     bricard::NAMES.iter().chain(bricard_odd::NAMES).copied()
 }
 
+/// The mechanism of the library whose motion is a thousand times faster than that of
+/// the others, and whose deflections are as much smaller.
+const FAST: &str = "flexible_slider_crank";
+
+/// By what times are multiplied, so that as much happens in one mechanism as in another.
+pub fn time_scale(name: &str) -> f64 {
+    if name == FAST { 0.01 } else { 1.0 }
+}
+
+/// Whether random states of about one mean something. A steel beam bent by metres has
+/// forces whose round-off is larger than all other terms.
+pub fn is_of_unit_size(name: &str) -> bool {
+    name != FAST
+}
+
+/// The mechanisms whose springs ask explicit methods for steps a hundred times shorter.
+const STIFF: [&str; 2] = [FAST, "flyball_governor"];
+
+/// By what fixed steps are multiplied, so that explicit methods are stable.
+pub fn step_scale(name: &str) -> f64 {
+    if STIFF.contains(&name) { 0.01 } else { 1.0 }
+}
+
 /// The description of a mechanism.
 pub fn source(name: &str) -> &'static str {
     let found = bricard::source(name).or_else(|| bricard_odd::source(name));

@@ -41,6 +41,7 @@ pub fn plan(arguments: &Simulate, columns: Vec<Column>) -> Result<Plan, CommandE
         MethodName::Rk4 => Scheme::Rk4,
         MethodName::Dp5 => Scheme::Dp5,
         MethodName::Dop853 => Scheme::Dop853,
+        MethodName::Radau5 => Scheme::Radau5,
     };
     let mut options = Options::new(arguments.until, scheme, pace(arguments, method)?);
     options.settings = Settings {
@@ -48,6 +49,7 @@ pub fn plan(arguments: &Simulate, columns: Vec<Column>) -> Result<Plan, CommandE
         stabilisation: arguments.stabilisation,
         branch_rows: !arguments.no_branch_rows,
     };
+    options.keep_energy = arguments.keep_energy;
     let adaptive = matches!(options.pace, Pace::Adaptive { .. });
     let smooth = adaptive && arguments.plot.is_some() && arguments.until > 0.0;
     let every = every.or(smooth.then_some(arguments.until / PLOTTED));
@@ -66,7 +68,7 @@ fn pace(arguments: &Simulate, method: MethodName) -> Result<Pace<f64>, CommandEr
     let useless = |option| CommandError::UselessOption {
         option,
         method: "rk4",
-        instead: "give --step, or take --method dp5 or dop853",
+        instead: "give --step, or take --method dp5, dop853 or radau5",
     };
     match (fixed, relative, absolute) {
         (Some(_), Some(_), _) => Err(useless("--rtol")),
