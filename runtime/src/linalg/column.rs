@@ -5,12 +5,32 @@
 
 use crate::Real;
 
+/// Sums that a long product is taken in side by side, so that none waits for another.
+const LANES: usize = 8;
+
 /// `aᵀb`.
 #[inline(always)]
 pub(crate) fn dot<T: Real, const L: usize>(a: &[T; L], b: &[T; L]) -> T {
     let mut sum = T::zero();
-    for i in 0..L {
-        sum += a[i] * b[i];
+    if L < 2 * LANES {
+        for i in 0..L {
+            sum += a[i] * b[i];
+        }
+        return sum;
+    }
+    let mut sums = [T::zero(); LANES];
+    let (a, a_rest) = a.as_chunks::<LANES>();
+    let (b, b_rest) = b.as_chunks::<LANES>();
+    for (a, b) in a.iter().zip(b) {
+        for lane in 0..LANES {
+            sums[lane] += a[lane] * b[lane];
+        }
+    }
+    for (a, b) in a_rest.iter().zip(b_rest) {
+        sum += *a * *b;
+    }
+    for part in sums {
+        sum += part;
     }
     sum
 }
