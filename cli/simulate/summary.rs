@@ -14,7 +14,7 @@ pub fn summary(report: &Report, structure: &Structure) -> String {
         ["rejected steps".to_string(), report.rejected.to_string()],
         [
             "wall time".to_string(),
-            format!("{:.3} s", report.wall.as_secs_f64()),
+            wall_time(report.wall.as_secs_f64()),
         ],
         energy(report, structure),
     ];
@@ -33,6 +33,7 @@ pub fn summary(report: &Report, structure: &Structure) -> String {
             passages(report),
         ]);
         rows.extend(work(&report.counters));
+        rows.extend(undetermined(&report.counters));
     }
     rows.extend(
         structure
@@ -81,18 +82,44 @@ fn times(all: &[f64]) -> String {
     }
 }
 
+/// A duration with three digits.
+fn wall_time(seconds: f64) -> String {
+    if seconds < 1.0 {
+        format!("{:.3} ms", 1e3 * seconds)
+    } else {
+        format!("{seconds:.3} s")
+    }
+}
+
+/// What a user should know if the equations left it open.
+fn undetermined(counters: &Counters) -> Option<[String; 2]> {
+    (counters.undetermined > 0).then(|| {
+        [
+            "undetermined".to_string(),
+            "the mechanism was at rest in a singular position, where nothing says which branch \
+             it takes; all were left open"
+                .to_string(),
+        ]
+    })
+}
+
 fn work(counters: &Counters) -> Vec<[String; 2]> {
     let Counters {
-        cheap_accelerations: cheap,
+        cheap_accelerations,
+        landed_accelerations: landed,
         robust_accelerations: robust,
         ..
     } = *counters;
+    let cheap = cheap_accelerations + landed;
     let total = (cheap + robust).max(1);
     let share = 100.0 * cheap as f64 / total as f64;
     vec![
         [
             "accelerations".to_string(),
-            format!("{cheap} by the cheap path ({share:.1} %), {robust} by the robust path"),
+            format!(
+                "{cheap} by the cheap path ({share:.1} %, {landed} of them brought onto the \
+                 constraints first), {robust} by the robust path"
+            ),
         ],
         [
             "rank decisions".to_string(),

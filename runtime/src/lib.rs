@@ -25,7 +25,7 @@ pub use error::DynamicsError;
 pub use integrator::{Dop853, Dp5, IntegrateError, Integrator, Radau5, Rk4, Step, Tolerance};
 pub use model::{
     Branch, Canvas, ConstraintRow, Correction, Direction, Energy, Event, Initial, Interface,
-    Mechanism, Pivots, Position, Quantity, Regular, Start, Structure, Terms,
+    Linearised, Mechanism, Pivots, Position, Quantity, Regular, Start, Structure, Terms,
 };
 pub use nalgebra;
 #[cfg(feature = "std")]
@@ -39,4 +39,4 @@ pub use simulate::{
     Audit, Failure, Options, Pace, Scheme, SimulateError, Stepper, Summary, simulate,
 };
 pub use state::State;
-pub use system::System;
+pub use system::{Slope, System};

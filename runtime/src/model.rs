@@ -52,6 +52,19 @@ pub trait Mechanism<T: Real, const N: usize, const R: usize> {
 
     /// Energies and the power that is supplied from outside.
     fn energy(&self, state: &State<T, N>) -> Energy<T>;
+
+    /// The equations of motion linearised about a motion with this acceleration and
+    /// these multipliers `λ` of the constraints, `r = Aᵀλ`; `false` if they are not
+    /// provided.
+    fn linearised(
+        &self,
+        _state: &State<T, N>,
+        _acceleration: &SVector<T, N>,
+        _multiplier: &SVector<T, R>,
+        _out: &mut Linearised<T, N, R>,
+    ) -> bool {
+        false
+    }
 }
 
 /// What a program needs to handle a mechanism it knows nothing about.
@@ -137,6 +150,20 @@ pub struct Position<T, const N: usize, const R: usize> {
     pub drift: SVector<T, R>,
 }
 
+/// The right-hand sides of the linearised equations of motion,
+/// `M δq̈ + Aᵀδλ = ∂(p₁ − M q̈ − Aᵀλ)`, `A δq̈ = ∂(p₂ − A q̈)`, with `q̈` and `λ` given.
+#[derive(Clone, Debug)]
+pub struct Linearised<T, const N: usize, const R: usize> {
+    /// `∂(p₁ − M q̈ − Aᵀλ)/∂q`, `N × N`.
+    pub force_by_position: SMatrix<T, N, N>,
+    /// `∂p₁/∂q̇`, `N × N`.
+    pub force_by_velocity: SMatrix<T, N, N>,
+    /// `∂(p₂ − A q̈)/∂q`, `R × N`.
+    pub row_by_position: SMatrix<T, R, N>,
+    /// `∂p₂/∂q̇`, `R × N`.
+    pub row_by_velocity: SMatrix<T, R, N>,
+}
+
 /// The constraints, differentiated a third time: `A q⃛ + K q̈ = κ`.
 #[derive(Clone, Debug)]
 pub struct Branch<T, const N: usize, const R: usize> {
@@ -168,6 +195,12 @@ zeroed!(Position {
     drift
 });
 zeroed!(Branch { slope, bias });
+zeroed!(Linearised {
+    force_by_position,
+    force_by_velocity,
+    row_by_position,
+    row_by_velocity
+});
 zeroed!(Pivots {
     mass_pivots,
     mass_diagonal,

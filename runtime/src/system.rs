@@ -1,13 +1,23 @@
 //! The seam between integrators and mechanics.
 //!
 //! In:  a state.
-//! Out: its acceleration, or the state brought back onto the constraints.
+//! Out: its acceleration and how that changes, or the state brought back onto the
+//!      constraints.
 //!
 //! Not here: how either is computed ([`crate::dynamics`], [`crate::projection`])
 //! and how a step is made of accelerations (the integrators).
 
 use crate::{DynamicsError, Real, State};
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
+
+/// Partial derivatives of the acceleration.
+#[derive(Clone, Debug)]
+pub struct Slope<T, const N: usize> {
+    /// `∂q̈/∂q`, `N × N`.
+    pub q: SMatrix<T, N, N>,
+    /// `∂q̈/∂q̇`, `N × N`.
+    pub v: SMatrix<T, N, N>,
+}
 
 /// What an integrator sees: a first-order flow on (q, v) with a projection.
 pub trait System<T: Real, const N: usize> {
@@ -27,4 +37,11 @@ pub trait System<T: Real, const N: usize> {
     /// A [`DynamicsError`] with the time of the state, which is then left as the
     /// last iteration made it.
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>>;
+
+    /// How the acceleration changes with the state, to the few digits that the
+    /// iteration of an implicit method needs; `None` where that is not known, so that
+    /// differences must do.
+    fn slope(&mut self, _state: &State<T, N>) -> Option<Slope<T, N>> {
+        None
+    }
 }

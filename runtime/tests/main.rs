@@ -4,6 +4,7 @@ mod allocation;
 mod assembly;
 mod conserve;
 mod dynamics;
+mod hits;
 mod integrator;
 mod landing;
 mod mechanisms;

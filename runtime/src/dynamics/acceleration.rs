@@ -72,7 +72,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// coordinates in which the kinetic energy is half the square of the velocity.
     #[inline]
     pub(super) fn free_acceleration(&self, bias: &SVector<T, R>) -> [T; N] {
-        let mut w = self.metric.force(&self.terms, bias, &self.rows);
+        let mut w = self
+            .metric
+            .force(&self.terms.force, &self.terms.jacobian, bias, &self.rows);
         self.metric.factor.forward(&mut w);
         w
     }

@@ -6,7 +6,7 @@
 use super::solver::{Known, Source};
 use super::{Solver, Which};
 use crate::linalg::{passes, reported_rank, weak};
-use crate::{Counters, DynamicsError, Mechanism, Real, State, System};
+use crate::{Counters, DynamicsError, Mechanism, Real, Slope, State, System};
 use nalgebra::SVector;
 
 /// A mechanism bound to the solver of its equations, by [`Solver::on`].
@@ -165,5 +165,9 @@ where
 
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
         self.solver.project(self.mechanism, state)
+    }
+
+    fn slope(&mut self, state: &State<T, N>) -> Option<Slope<T, N>> {
+        self.solver.slope(self.mechanism, state)
     }
 }

@@ -54,14 +54,32 @@ impl<T: Real, const N: usize, const R: usize> Lifted<T, N, R> {
     /// Adds to `w` the shortest change after which `A L⁻ᵀ w = right`.
     #[inline]
     pub(crate) fn correct(&self, w: &mut [T; N], right: &SVector<T, R>) {
-        let vectors = &self.vectors.data.0[..self.count];
-        let mut multiplier = [T::zero(); R];
-        for ((entry, vector), &row) in multiplier.iter_mut().zip(vectors).zip(&self.list) {
-            *entry = right[row] - dot(vector, w);
-        }
-        self.gram.solve(&mut multiplier);
-        for (entry, vector) in multiplier.iter().zip(vectors) {
+        let multiplier = self.steps(w, right);
+        for (entry, vector) in multiplier.iter().zip(&self.vectors.data.0[..self.count]) {
             add_scaled(w, *entry, vector);
         }
+    }
+
+    /// The multipliers `λ` of `M q̈ + Aᵀλ = p₁`, where `w` is the acceleration that the
+    /// forces alone would give; zero for the rows that depend on the others.
+    pub(crate) fn multiplier(&self, w: &[T; N], right: &SVector<T, R>) -> SVector<T, R> {
+        let steps = self.steps(w, right);
+        let mut multiplier = SVector::zeros();
+        for (step, &row) in steps[..self.count].iter().zip(&self.list) {
+            multiplier[row] = -*step;
+        }
+        multiplier
+    }
+
+    /// How far to go along each row for `A L⁻ᵀ w = right`.
+    #[inline]
+    fn steps(&self, w: &[T; N], right: &SVector<T, R>) -> [T; R] {
+        let mut steps = [T::zero(); R];
+        let vectors = &self.vectors.data.0[..self.count];
+        for ((entry, vector), &row) in steps.iter_mut().zip(vectors).zip(&self.list) {
+            *entry = right[row] - dot(vector, w);
+        }
+        self.gram.solve(&mut steps);
+        steps
     }
 }

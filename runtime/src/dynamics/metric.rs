@@ -76,20 +76,21 @@ impl<T: Real, const N: usize> Metric<T, N> {
         self.factor.factorise(&sum)
     }
 
-    /// `p₁`, or `p₁ + AᵀWp₂` where the constraints take part in the metric.
+    /// A force `p₁`, or `p₁ + AᵀWp₂` where the constraints take part in the metric.
     #[inline]
     pub(crate) fn force<const R: usize>(
         &self,
-        terms: &Terms<T, N, R>,
+        force: &SVector<T, N>,
+        jacobian: &SMatrix<T, R, N>,
         bias: &SVector<T, R>,
         rows: &Rows<T, R>,
     ) -> [T; N] {
-        let mut force = terms.force.data.0[0];
+        let mut force = force.data.0[0];
         if self.augmented {
             for row in 0..R {
                 let share = rows.weight(row) * bias[row];
                 for (j, entry) in force.iter_mut().enumerate() {
-                    *entry += share * terms.jacobian[(row, j)];
+                    *entry += share * jacobian[(row, j)];
                 }
             }
         }

@@ -23,6 +23,7 @@ mod rows;
 mod settings;
 mod singular;
 mod sizes;
+mod slope;
 mod solver;
 mod tangent;
 

@@ -89,6 +89,10 @@ pub struct Counters {
     pub robust_accelerations: u64,
     /// Singular value decompositions of the constraint Jacobian.
     pub rank_decisions: u64,
+    /// Rank decisions in a singular position at rest, where neither the constraints
+    /// nor the velocity say which branch the motion takes: all directions that they
+    /// leave open are then free, and the least acceleration is taken.
+    pub undetermined: u64,
     /// Evaluations of the branch rows.
     pub branch_evaluations: u64,
     /// Factorisations of the mass matrix.

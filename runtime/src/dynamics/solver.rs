@@ -188,6 +188,11 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         }
         if tangent.used < limit {
             tangent.take_rest(floor, limit).map_err(not_finite)?;
+            let undetermined = match known {
+                Known::Nothing => tangent.at_rest_with_vanished_rows(&self.rows),
+                _ => tangent.used < limit,
+            };
+            self.counters.undetermined += u64::from(undetermined);
         }
         Ok(tangent)
     }

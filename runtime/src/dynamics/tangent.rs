@@ -14,7 +14,7 @@
 
 use super::{Metric, Rows, Which};
 use crate::linalg::{
-    Breakdown, add_scaled, branch_rank, dot, norm, orthogonalise, tangible, useless,
+    Breakdown, add_scaled, branch_rank, dot, independent, norm, orthogonalise, tangible, useless,
 };
 use crate::{Branch, Real};
 use nalgebra::{SMatrix, SVector};
@@ -236,6 +236,18 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
             let share = dot(&self.left.data.0[j], &gap) / self.values[j];
             add_scaled(w, share, &self.basis.data.0[j]);
         }
+    }
+
+    /// Whether rows that are not zero elsewhere vanish here, and the velocity does not
+    /// say how they change.
+    pub(crate) fn at_rest_with_vanished_rows(&self, rows: &Rows<T, R>) -> bool {
+        let vanished = |row: usize| {
+            rows.takes_part(row, self.which)
+                && rows.scale(row) > T::zero()
+                && norm(&self.rows.data.0[row]) < independent()
+                && norm(&self.slopes.data.0[row]) < independent()
+        };
+        (0..R).any(vanished)
     }
 
     /// The scaled rows in the metric.

@@ -5,8 +5,7 @@
 
 use super::collocation::Collocation;
 use super::lu::Lu;
-use super::slope::Slope;
-use crate::Real;
+use crate::{Real, Slope};
 use nalgebra::{Complex, SVector};
 
 /// Three vectors, one for each stage.

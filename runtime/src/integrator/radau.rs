@@ -19,10 +19,10 @@ use super::collocation::Collocation;
 use super::control::Tolerance;
 use super::factors::{Factors, Stages};
 use super::pace::{Inside, Trial};
-use super::slope::Slope;
+use super::slope::slope;
 use super::step::Step;
 use super::tableau::{RADAU5, Tableau};
-use crate::{DynamicsError, Real, State, System};
+use crate::{DynamicsError, Real, Slope, State, System};
 use nalgebra::SVector;
 
 /// Newton's iteration ends when what is left is this part of the tolerance.
@@ -161,8 +161,9 @@ impl<T: Real, const N: usize> Radau<T, N> {
     ) -> Result<(), IntegrateError<T>> {
         let start = self.step.start;
         if self.slope.is_none() {
-            self.step.evaluations += Slope::<T, N>::EVALUATIONS;
-            self.slope = Some(Slope::of(system, &start, &self.first)?);
+            let (slope, evaluations) = slope(system, &start, &self.first)?;
+            self.step.evaluations += evaluations;
+            self.slope = Some(slope);
             self.factors = None;
         }
         if self.factors.as_ref().is_none_or(|factors| factors.h != h) {

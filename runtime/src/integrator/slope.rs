@@ -1,12 +1,12 @@
 //! How the acceleration changes with the state.
 //!
 //! In:  a system, a state and its acceleration.
-//! Out: `∂q̈/∂q` and `∂q̈/∂q̇`, by differences.
+//! Out: `∂q̈/∂q` and `∂q̈/∂q̇`, from the system where it knows them, else by differences.
 //!
 //! The iteration that uses them needs no more than a few digits: they decide how
 //! fast it converges, not what it converges to.
 
-use crate::{DynamicsError, Real, State, System};
+use crate::{DynamicsError, Real, Slope, State, System};
 use nalgebra::{SMatrix, SVector};
 
 /// How far coordinates and velocities are varied, relative to their size, as a
@@ -14,47 +14,50 @@ use nalgebra::{SMatrix, SVector};
 /// positions accelerations carry more than round-off.
 const VARIATION: f64 = 0.4;
 
-/// Partial derivatives of the acceleration.
-#[derive(Clone, Debug)]
-pub(super) struct Slope<T, const N: usize> {
-    /// `∂q̈/∂q`, `N × N`.
-    pub(super) q: SMatrix<T, N, N>,
-    /// `∂q̈/∂q̇`, `N × N`.
-    pub(super) v: SMatrix<T, N, N>,
+/// The derivatives at a state with acceleration `a`, and how many accelerations were
+/// computed for them.
+pub(super) fn slope<T: Real, const N: usize, Y: System<T, N> + ?Sized>(
+    system: &mut Y,
+    state: &State<T, N>,
+    a: &SVector<T, N>,
+) -> Result<(Slope<T, N>, u32), DynamicsError<T>> {
+    match system.slope(state) {
+        Some(slope) if is_finite(&slope) => Ok((slope, 0)),
+        _ => Ok((differences(system, state, a)?, 2 * N as u32)),
+    }
 }
 
-impl<T: Real, const N: usize> Slope<T, N> {
-    /// Accelerations that [`of`](Self::of) needs.
-    pub(super) const EVALUATIONS: u32 = 2 * N as u32;
+fn is_finite<T: Real, const N: usize>(slope: &Slope<T, N>) -> bool {
+    slope.q.iter().chain(&slope.v).all(|x| x.is_finite())
+}
 
-    /// One-sided differences at a state with acceleration `a`.
-    pub(super) fn of<Y: System<T, N> + ?Sized>(
-        system: &mut Y,
-        state: &State<T, N>,
-        a: &SVector<T, N>,
-    ) -> Result<Self, DynamicsError<T>> {
-        let mut slope = Self {
-            q: SMatrix::zeros(),
-            v: SMatrix::zeros(),
-        };
-        // A coordinate that is zero has no size of its own; it is given that of the
-        // others.
-        let size = |x: &SVector<T, N>| {
-            let most = x.iter().fold(T::zero(), |most: T, x| most.max(x.abs()));
-            if most > T::zero() { most } else { T::one() }
-        };
-        let variation = T::EPSILON.powf(T::from_f64(VARIATION));
-        let (by_q, by_v) = (size(&state.q) * variation, size(&state.v) * variation);
-        for j in 0..N {
-            let mut near = *state;
-            near.q[j] += by_q;
-            let difference = near.q[j] - state.q[j];
-            slope.q.data.0[j] = ((system.acceleration(&near)? - a) / difference).data.0[0];
-            let mut near = *state;
-            near.v[j] += by_v;
-            let difference = near.v[j] - state.v[j];
-            slope.v.data.0[j] = ((system.acceleration(&near)? - a) / difference).data.0[0];
-        }
-        Ok(slope)
+/// One-sided differences.
+fn differences<T: Real, const N: usize, Y: System<T, N> + ?Sized>(
+    system: &mut Y,
+    state: &State<T, N>,
+    a: &SVector<T, N>,
+) -> Result<Slope<T, N>, DynamicsError<T>> {
+    let mut slope = Slope {
+        q: SMatrix::zeros(),
+        v: SMatrix::zeros(),
+    };
+    // A coordinate that is zero has no size of its own; it is given that of the
+    // others.
+    let size = |x: &SVector<T, N>| {
+        let most = x.iter().fold(T::zero(), |most: T, x| most.max(x.abs()));
+        if most > T::zero() { most } else { T::one() }
+    };
+    let variation = T::EPSILON.powf(T::from_f64(VARIATION));
+    let (by_q, by_v) = (size(&state.q) * variation, size(&state.v) * variation);
+    for j in 0..N {
+        let mut near = *state;
+        near.q[j] += by_q;
+        let difference = near.q[j] - state.q[j];
+        slope.q.data.0[j] = ((system.acceleration(&near)? - a) / difference).data.0[0];
+        let mut near = *state;
+        near.v[j] += by_v;
+        let difference = near.v[j] - state.v[j];
+        slope.v.data.0[j] = ((system.acceleration(&near)? - a) / difference).data.0[0];
     }
+    Ok(slope)
 }

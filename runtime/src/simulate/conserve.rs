@@ -16,7 +16,7 @@
 //! Source: Hairer, Lubich & Wanner, Geometric Numerical Integration (2006),
 //! section IV.4 (projection methods).
 
-use crate::{ConstrainedSystem, DynamicsError, Mechanism, Real, State, System};
+use crate::{ConstrainedSystem, DynamicsError, Mechanism, Real, Slope, State, System};
 use nalgebra::SVector;
 
 /// Largest change of the kinetic energy that is made up for, relative to it.
@@ -79,5 +79,9 @@ where
             self.restore(state, energy);
         }
         Ok(())
+    }
+
+    fn slope(&mut self, state: &State<T, N>) -> Option<Slope<T, N>> {
+        self.system.slope(state)
     }
 }
