@@ -10,7 +10,7 @@
 
 use super::Rows;
 use crate::linalg::{Cholesky, NotDefinite};
-use crate::{Counters, Real, Terms};
+use crate::{Counters, Real};
 use nalgebra::{SMatrix, SVector};
 
 /// The factorised metric.

@@ -1,0 +1,57 @@
+//! How the acceleration changes with the state.
+//!
+//! In:  a mechanism that provides [`Mechanism::linearised`], a state on its
+//!      constraints.
+//! Out: `∂q̈/∂q`, `∂q̈/∂q̇`, by the factors of `M` and `A M⁻¹ Aᵀ`.
+//!
+//! Not here: what is done near singular positions, where these factors are none.
+
+use super::Solver;
+use crate::linalg::{guard, passes};
+use crate::{Linearised, Mechanism, Real, Slope, Stabilisation, State};
+use nalgebra::{SMatrix, SVector};
+
+impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+    /// The derivatives of the acceleration where the constraints are regular; `None`
+    /// near singular positions, and where constraint errors take part in it.
+    pub(crate) fn slope<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Option<Slope<T, N>> {
+        if matches!(self.settings.stabilisation, Stabilisation::Baumgarte { .. }) {
+            return None;
+        }
+        mechanism.terms(state, &mut self.terms);
+        let squared = self.factorise_terms(mechanism, state).ok()?;
+        if R > 0 && !passes(squared, guard()) {
+            return None;
+        }
+        let bias = self.terms.bias;
+        let free = self.free_acceleration(&bias);
+        let multiplier = self.lifted.multiplier(&free, &bias);
+        let acceleration = self.regular_acceleration(&bias);
+        let mut out = Linearised::default();
+        mechanism
+            .linearised(state, &acceleration, &multiplier, &mut out)
+            .then(|| Slope {
+                q: self.changes(&out.force_by_position, &out.row_by_position),
+                v: self.changes(&out.force_by_velocity, &out.row_by_velocity),
+            })
+    }
+
+    /// The `δq̈` of `M δq̈ + Aᵀδλ = force`, `A δq̈ = row`, column by column.
+    fn changes(&self, force: &SMatrix<T, N, N>, row: &SMatrix<T, R, N>) -> SMatrix<T, N, N> {
+        let mut changes = SMatrix::zeros();
+        for (j, change) in changes.data.0.iter_mut().enumerate() {
+            let row = SVector::from(row.data.0[j]);
+            let force = SVector::from(force.data.0[j]);
+            let jacobian = &self.terms.jacobian;
+            let mut w = self.metric.force(&force, jacobian, &row, &self.rows);
+            self.metric.factor.forward(&mut w);
+            self.lifted.correct(&mut w, &row);
+            *change = self.lower(w).data.0[0];
+        }
+        changes
+    }
+}
