@@ -4,8 +4,8 @@ use crate::library::{Derived, Point, visit};
 use crate::random::Random;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Branch, Canvas, Correction, Interface, Mechanism, Pivots, Position, Real, Regular, State,
-    Terms, Visitor,
+    Branch, Canvas, Correction, Interface, Linearised, Mechanism, Pivots, Position, Real, Regular,
+    State, Terms, Visitor,
 };
 use std::collections::BTreeMap;
 
@@ -83,6 +83,9 @@ impl<T: Real> Visitor<T> for Ask<'_> {
             v,
             parameters,
             inputs,
+            accelerations,
+            multipliers,
+            ..
         } = self.point;
         for (i, &value) in parameters.iter().enumerate() {
             assert!(mechanism.set_parameter(i, T::from_f64(value)));
@@ -91,9 +94,12 @@ impl<T: Real> Visitor<T> for Ask<'_> {
             assert!(mechanism.set_input(i, self.held.then(|| T::from_f64(value))));
         }
         let vector = |x: &[f64]| SVector::from_fn(|i, _| T::from_f64(x[i]));
+        let row = |x: &[f64]| SVector::from_fn(|i, _| T::from_f64(x[i]));
         let state = State::new(T::from_f64(*t), vector(q), vector(v));
         let mut answers = Answers::default();
         equations(&mechanism, &state, &mut answers);
+        let given = (vector(accelerations), row(multipliers));
+        linearised(&mechanism, &state, given, &mut answers);
         interface(&mechanism, &state, &mut answers);
         answers
     }
@@ -140,6 +146,23 @@ fn equations<T, M, const N: usize, const R: usize>(
         answers.fill("correction of v", N, &correction.velocity);
         answers.fill("corrected residual", R, &correction.residual);
     }
+}
+
+fn linearised<T, M, const N: usize, const R: usize>(
+    mechanism: &M,
+    state: &State<T, N>,
+    (acceleration, multiplier): (SVector<T, N>, SVector<T, R>),
+    answers: &mut Answers,
+) where
+    T: Real,
+    M: Mechanism<T, N, R>,
+{
+    let mut out = Linearised::default();
+    assert!(mechanism.linearised(state, &acceleration, &multiplier, &mut out));
+    answers.fill("force by q", N, &out.force_by_position);
+    answers.fill("force by v", N, &out.force_by_velocity);
+    answers.fill("row by q", R, &out.row_by_position);
+    answers.fill("row by v", R, &out.row_by_velocity);
 }
 
 /// The smallest ratio of a pivot to its diagonal entry; a pivot that is not written

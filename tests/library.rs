@@ -2,7 +2,7 @@
 //! what no mechanism of the library has.
 
 use crate::random::Random;
-use bricard_codegen::derive::{Equations, derive};
+use bricard_codegen::derive::{Equations, Linearised, derive, linearise};
 use bricard_codegen::expr::{ExprId, Symbol};
 use bricard_codegen::model::Mechanism;
 use bricard_codegen::{Settings, analyse};
@@ -13,6 +13,7 @@ pub struct Derived {
     pub name: String,
     pub mechanism: Mechanism,
     pub equations: Equations,
+    pub linearised: Linearised,
 }
 
 /// Values of every symbol of a mechanism.
@@ -23,6 +24,10 @@ pub struct Point {
     pub v: Vec<f64>,
     pub parameters: Vec<f64>,
     pub inputs: Vec<f64>,
+    /// Whether inputs follow their laws: `inputs` are then the values of these.
+    pub follows: bool,
+    pub accelerations: Vec<f64>,
+    pub multipliers: Vec<f64>,
 }
 
 /// Checks and derives a description.
@@ -31,10 +36,12 @@ pub fn derived(name: &str, source: &str) -> Derived {
     let (mut mechanism, _) =
         analysed.unwrap_or_else(|errors| panic!("{}", errors.render(name, source)));
     let equations = derive(&mut mechanism);
+    let linearised = linearise(&mut mechanism, &equations);
     Derived {
         name: name.to_string(),
         mechanism,
         equations,
+        linearised,
     }
 }
 
@@ -115,6 +122,9 @@ impl Derived {
                 .map(|x| x * random.between(0.5, 1.5))
                 .collect(),
             inputs: random.vector(self.mechanism.inputs.len(), -3.0, 3.0),
+            follows: false,
+            accelerations: random.vector(self.n(), -3.0, 3.0),
+            multipliers: random.vector(self.equations.residual.len(), -3.0, 3.0),
         }
     }
 
@@ -153,6 +163,9 @@ impl Point {
             Symbol::Velocity(i) => self.v[i as usize],
             Symbol::Parameter(i) => self.parameters[i as usize],
             Symbol::Input(i) => self.inputs[i as usize],
+            Symbol::Acceleration(i) => self.accelerations[i as usize],
+            Symbol::Multiplier(i) => self.multipliers[i as usize],
+            Symbol::Follows(_) => f64::from(self.follows),
         }
     }
 }

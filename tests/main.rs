@@ -14,6 +14,7 @@ mod landing;
 mod layering;
 mod library;
 mod licences;
+mod linearised;
 mod motion;
 mod order;
 mod random;

@@ -43,6 +43,7 @@ fn places(derived: &Derived) -> Vec<(Place, ExprId)> {
     let events: Vec<ExprId> = derived.mechanism.events.iter().map(|e| e.value).collect();
     let picture: Vec<ExprId> = derived.mechanism.shapes.iter().flat_map(drawn).collect();
     let mut places = Vec::new();
+    let linear = &derived.linearised;
     let vectors: [(&'static str, &[ExprId]); 9] = [
         ("force", &equations.force),
         ("bias", &equations.bias),
@@ -63,6 +64,10 @@ fn places(derived: &Derived) -> Vec<(Place, ExprId)> {
         );
     }
     let matrices = [
+        ("force by q", &linear.force_by_position),
+        ("force by v", &linear.force_by_velocity),
+        ("row by q", &linear.row_by_position),
+        ("row by v", &linear.row_by_velocity),
         ("mass", &equations.mass),
         ("jacobian", &equations.jacobian),
         ("slope", &equations.branch_slope),
@@ -90,6 +95,7 @@ fn at_law(derived: &Derived, point: &Point) -> Point {
     let law = |input: &bricard_codegen::model::Input| derived.value(input.law, point);
     Point {
         inputs: derived.mechanism.inputs.iter().map(law).collect(),
+        follows: true,
         ..point.clone()
     }
 }

@@ -13,9 +13,11 @@ mod christoffel;
 mod closure;
 mod energy;
 mod force;
+mod linearised;
 mod mass;
 
 pub use christoffel::coriolis_matrix;
+pub use linearised::{Linearised, linearise};
 
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::model::Mechanism;

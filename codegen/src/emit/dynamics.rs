@@ -1,5 +1,6 @@
 //! The equations of motion: the trait implementation, and the separate functions.
 
+use super::linearised::linearised;
 use super::{Method, Subject, Written};
 use crate::derive::coriolis_matrix;
 use crate::expr::ExprId;
@@ -25,7 +26,7 @@ fn vector(array: &'static str, entries: &[ExprId]) -> Wanted {
 }
 
 /// Column by column, as nalgebra stores it.
-fn matrix(array: &'static str, rows: &[Vec<ExprId>]) -> Wanted {
+pub(super) fn matrix(array: &'static str, rows: &[Vec<ExprId>]) -> Wanted {
     let columns = rows.first().map_or(0, Vec::len);
     let entry = |column| {
         rows.iter()
@@ -66,6 +67,7 @@ pub(super) fn mechanism(subject: &mut Subject) -> TokenStream {
         closure(subject)
     };
     let energy = energy(subject);
+    let linearised = linearised(subject);
     let name = subject.type_name();
     quote! {
         impl<T: Real> Mechanism<T, #n, #r> for #name<T> {
@@ -76,6 +78,7 @@ pub(super) fn mechanism(subject: &mut Subject) -> TokenStream {
             #regular
             #closure
             #energy
+            #linearised
         }
     }
 }

@@ -9,6 +9,7 @@
 mod dynamics;
 mod function;
 mod interface;
+mod linearised;
 mod literal;
 mod name;
 mod structure;
@@ -222,6 +223,7 @@ fn imports(subject: &Subject) -> TokenStream {
         "Energy",
         "Initial",
         "Interface",
+        "Linearised",
         "Mechanism",
         "Quantity",
         "Real",

@@ -54,7 +54,7 @@ pub(super) fn snake_case(name: &str) -> String {
 }
 
 /// Types that stand beside a mechanism's in its module.
-const NEIGHBOURS: [&str; 28] = [
+const NEIGHBOURS: [&str; 29] = [
     "Branch",
     "Canvas",
     "ConstraintRow",
@@ -66,6 +66,7 @@ const NEIGHBOURS: [&str; 28] = [
     "Initial",
     "Inputs",
     "Interface",
+    "Linearised",
     "Mechanism",
     "None",
     "Option",

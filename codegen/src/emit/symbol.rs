@@ -11,7 +11,16 @@ use quote::quote;
 use std::collections::BTreeSet;
 
 /// Names that emitted bodies use for themselves.
-const RESERVED: [&str; 6] = ["state", "out", "values", "canvas", "index", "value"];
+const RESERVED: [&str; 8] = [
+    "state",
+    "out",
+    "values",
+    "canvas",
+    "index",
+    "value",
+    "acceleration",
+    "multiplier",
+];
 
 /// Names of fields and of local variables.
 pub(super) struct SymbolNames {
@@ -23,6 +32,9 @@ pub(super) struct SymbolNames {
     coordinates: Vec<Ident>,
     velocities: Vec<Ident>,
     parameters: Vec<Ident>,
+    accelerations: Vec<Ident>,
+    multipliers: Vec<Ident>,
+    follows: Vec<Ident>,
     /// The local names that are taken.
     pub taken: Names,
 }
@@ -53,13 +65,31 @@ impl SymbolNames {
             .inputs
             .iter()
             .map(|input| input_names.unique(&input.quantity.name));
+        let input_fields: Vec<Ident> = inputs.collect();
+        let parameter_names = parameters.iter().map(|name| taken.unique(name)).collect();
+        let accelerations = mechanism
+            .coordinates
+            .iter()
+            .map(|q| taken.unique(&format!("{}_ddot", q.name)))
+            .collect();
+        let rows = 0..mechanism.constraints.len();
+        let multipliers = rows
+            .map(|row| taken.unique(&format!("lambda_{row}")))
+            .collect();
+        let follows = input_fields
+            .iter()
+            .map(|input| taken.unique(&format!("follows_{input}")))
+            .collect();
         SymbolNames {
             parameter_fields: parameters.iter().map(|name| fields.unique(name)).collect(),
-            input_fields: inputs.collect(),
+            input_fields,
             time,
             coordinates,
             velocities,
-            parameters: parameters.iter().map(|name| taken.unique(name)).collect(),
+            parameters: parameter_names,
+            accelerations,
+            multipliers,
+            follows,
             taken,
         }
     }
@@ -92,7 +122,27 @@ impl SymbolNames {
         if let Some(names) = chosen(&self.velocities, Symbol::Velocity) {
             statements.extend(quote!(let [#(#names),*] = state.v.data.0[0];));
         }
+        if let Some(names) = chosen(&self.accelerations, Symbol::Acceleration) {
+            statements.extend(quote!(let [#(#names),*] = acceleration.data.0[0];));
+        }
+        if let Some(names) = chosen(&self.multipliers, Symbol::Multiplier) {
+            statements.extend(quote!(let [#(#names),*] = multiplier.data.0[0];));
+        }
         statements.extend(self.parameter_prelude(&used));
+        statements.extend(self.follows_prelude(&used));
+        statements
+    }
+
+    fn follows_prelude(&self, used: &BTreeSet<Symbol>) -> TokenStream {
+        let mut statements = TokenStream::new();
+        for symbol in used {
+            if let Symbol::Follows(i) = symbol {
+                let (local, field) = (&self.follows[*i as usize], &self.input_fields[*i as usize]);
+                statements.extend(quote! {
+                    let #local = if self.inputs.#field.is_none() { T::one() } else { T::zero() };
+                });
+            }
+        }
         statements
     }
 
@@ -140,6 +190,9 @@ impl Symbols for SymbolNames {
             Symbol::Velocity(i) => self.velocities[i as usize].clone(),
             Symbol::Parameter(i) => self.parameters[i as usize].clone(),
             Symbol::Input(i) => self.input_fields[i as usize].clone(),
+            Symbol::Acceleration(i) => self.accelerations[i as usize].clone(),
+            Symbol::Multiplier(i) => self.multipliers[i as usize].clone(),
+            Symbol::Follows(i) => self.follows[i as usize].clone(),
         }
     }
 

@@ -113,11 +113,7 @@ impl Graph {
             Node::Function2(function, x, y) => self.slope2(function, [x, y], e, [d(&x), d(&y)]),
             Node::Select(comparison, [a, b, then, otherwise]) => {
                 let (then, otherwise) = (d(&then), d(&otherwise));
-                if then == otherwise {
-                    then
-                } else {
-                    self.select(comparison, a, b, then, otherwise)
-                }
+                self.select(comparison, a, b, then, otherwise)
             }
         }
     }

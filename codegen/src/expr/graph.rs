@@ -37,6 +37,14 @@ pub enum Symbol {
     Parameter(u32),
     /// An external signal, by index.
     Input(u32),
+    /// The acceleration of a coordinate, by index: given, where equations of motion
+    /// are linearised.
+    Acceleration(u32),
+    /// The multiplier of a constraint row, by index: given likewise.
+    Multiplier(u32),
+    /// One while an external signal follows its law, zero while it is held, by the
+    /// signal's index.
+    Follows(u32),
 }
 
 /// One node of the graph.
@@ -56,7 +64,7 @@ pub enum Node {
     Function(Function, ExprId),
     /// A function of two arguments.
     Function2(Function2, ExprId, ExprId),
-    /// `if left ⋈ right then … else …`.
+    /// `if left ⋈ right then … else …`, where that makes a difference.
     Select(Comparison, [ExprId; 4]),
 }
 
@@ -348,6 +356,9 @@ impl Graph {
         then: ExprId,
         otherwise: ExprId,
     ) -> ExprId {
+        if then == otherwise {
+            return then;
+        }
         self.intern(Node::Select(comparison, [left, right, then, otherwise]))
     }
 

@@ -240,6 +240,11 @@ impl Mechanism {
             Symbol::Velocity(i) => format!("der({})", coordinate(i)),
             Symbol::Parameter(i) => self.parameters[i as usize].quantity.name.clone(),
             Symbol::Input(i) => self.inputs[i as usize].quantity.name.clone(),
+            Symbol::Acceleration(i) => format!("der(der({}))", coordinate(i)),
+            Symbol::Multiplier(i) => format!("lambda[{i}]"),
+            Symbol::Follows(i) => {
+                format!("follows({})", self.inputs[i as usize].quantity.name)
+            }
         }
     }
 }

@@ -14,6 +14,9 @@ fn name(symbol: Symbol) -> String {
         Symbol::Velocity(i) => format!("der(x{i})"),
         Symbol::Parameter(i) => format!("p{i}"),
         Symbol::Input(i) => format!("u{i}"),
+        Symbol::Acceleration(_) | Symbol::Multiplier(_) | Symbol::Follows(_) => {
+            unreachable!("no description has {symbol:?}")
+        }
     }
 }
 

@@ -8,8 +8,8 @@
 pub mod cart_pole {
     use bricard_runtime::nalgebra::{SMatrix, SVector};
     use bricard_runtime::{
-        Canvas, Energy, Initial, Interface, Mechanism, Quantity, Real, Regular, Start,
-        State, Structure, Terms,
+        Canvas, Energy, Initial, Interface, Linearised, Mechanism, Quantity, Real,
+        Regular, Start, State, Structure, Terms,
     };
     /// The description that this module was generated from.
     pub const SOURCE: &str = "/// Cart–pole: a rod that is balanced on, or swings under, a cart on a rail.\nmechanism CartPole {\n    const g: m/s^2 = 9.81;\n\n    /// mass of the cart\n    param m1: kg = 1;\n    /// mass of the pole\n    param m2: kg = 0.1;\n    /// distance from the pivot to the pole's centre of mass\n    param e: m = 0.5;\n    /// inertia of the pole about its centre of mass\n    param J: kg*m^2 = 0.0083;\n    /// friction of the cart on the rail\n    param d: N*s/m = 0.1;\n\n    /// position of the cart\n    coord x: m;\n    /// angle of the pole, from the upward vertical\n    coord phi: rad;\n\n    /// push on the cart\n    input u: N = 0;\n\n    let c = [x + e*sin(phi), e*cos(phi)];\n\n    kinetic 1/2*m1*der(x)^2;\n    kinetic 1/2*m2*norm2(der(c)) + 1/2*J*der(phi)^2;\n    potential m2*g*c.y;\n    dissipation 1/2*d*der(x)^2;\n    force u on x;\n\n    start { x = 0; phi = 10*deg; }\n\n    /// height of the pole's centre of mass above the pivot\n    output height: m = c.y;\n\n    draw polygon([x - 0.15, -0.08], [x + 0.15, -0.08], [x + 0.15, 0], [x - 0.15, 0]);\n    draw line([x, 0], [x + 2*e*sin(phi), 2*e*cos(phi)]);\n}\n";
@@ -210,6 +210,39 @@ pub mod cart_pole {
                     + product_9,
                 power: x_dot * u - x_dot_x_dot * d,
             }
+        }
+        /// The equations of motion linearised about a motion.
+        ///
+        /// | field | equation | shape |
+        /// |---|---|---|
+        /// | `force_by_position` | `∂(p₁ − M q̈ − Aᵀλ)/∂q` | `N × N` |
+        /// | `force_by_velocity` | `∂p₁/∂q̇` | `N × N` |
+        /// | `row_by_position` | `∂(p₂ − A q̈)/∂q` | `R × N` |
+        /// | `row_by_velocity` | `∂p₂/∂q̇` | `R × N` |
+        ///
+        /// Costs 10 products, 3 sums, 1 sine–cosine pair.
+        fn linearised(
+            &self,
+            state: &State<T, 2>,
+            acceleration: &SVector<T, 2>,
+            _multiplier: &SVector<T, 0>,
+            out: &mut Linearised<T, 2, 0>,
+        ) -> bool {
+            let [_, phi] = state.q.data.0[0];
+            let [_, phi_dot] = state.v.data.0[0];
+            let [x_ddot, phi_ddot] = acceleration.data.0[0];
+            let Parameters { m2, e, d, .. } = self.parameters;
+            let (sin_phi, cos_phi) = phi.sin_cos();
+            let m2_e = m2 * e;
+            let product = cos_phi * m2_e;
+            let product_2 = m2_e * sin_phi;
+            out.force_by_position.data.0[1][0] = phi_dot * phi_dot * product
+                + phi_ddot * product_2;
+            out.force_by_position.data.0[1][1] = product_2 * x_ddot
+                + T::constant(9.81, -4.973799150320702e-16) * product;
+            out.force_by_velocity.data.0[0][0] = -d;
+            out.force_by_velocity.data.0[1][0] = T::from_f64(2.0) * phi_dot * product_2;
+            true
         }
     }
     impl<T: Real> CartPole<T> {

@@ -12,8 +12,9 @@
 pub mod double_four_bar {
     use bricard_runtime::nalgebra::{SMatrix, SVector};
     use bricard_runtime::{
-        Branch, Canvas, ConstraintRow, Correction, Energy, Initial, Interface, Mechanism,
-        Position, Quantity, Real, Regular, Start, State, Structure, Terms,
+        Branch, Canvas, ConstraintRow, Correction, Energy, Initial, Interface,
+        Linearised, Mechanism, Position, Quantity, Real, Regular, Start, State,
+        Structure, Terms,
     };
     /// The description that this module was generated from.
     pub const SOURCE: &str = "/// Two parallelograms in a row: Phong & Hoang (2012), Example 2.\n///\n/// Three cranks of length r stand on the ground at distances L, two couplers of\n/// length L join them. The constraints lose rank from four to two where all links\n/// lie in one line: at q1 = k*pi.\nmechanism DoubleFourBar {\n    const g: m/s^2 = 9.81;\n    /// length of the cranks, unless they are given one by one\n    const r: m = 0.4;\n    /// length of couplers and ground links, unless they are given one by one\n    const L: m = 0.7;\n\n    param L1: m = r;\n    param L2: m = L;\n    param L3: m = r;\n    param L4: m = L;\n    param L5: m = r;\n    /// ground link of the first loop\n    param L01: m = L;\n    /// ground link of the second loop\n    param L02: m = L;\n    param e1: m = r/2;\n    param e2: m = L/2;\n    param e3: m = r/2;\n    param e4: m = L/2;\n    param e5: m = r/2;\n    param m1: kg = 1;\n    param m2: kg = 1;\n    param m3: kg = 1;\n    param m4: kg = 1;\n    param m5: kg = 1;\n    param J1: kg*m^2 = 0.1;\n    param J2: kg*m^2 = 0.1;\n    param J3: kg*m^2 = 0.1;\n    param J4: kg*m^2 = 0.1;\n    param J5: kg*m^2 = 0.1;\n\n    /// angle of the first crank, from the x axis like all others\n    coord q1: rad;\n    /// angle of the first coupler\n    coord q2: rad;\n    /// angle of the second crank\n    coord q3: rad;\n    /// angle of the second coupler\n    coord q4: rad;\n    /// angle of the third crank\n    coord q5: rad;\n\n    let P1 = L1*[cos(q1), sin(q1)];\n    let P3 = [L01, 0] + L3*[cos(q3), sin(q3)];\n    let P5 = [L01 + L02, 0] + L5*[cos(q5), sin(q5)];\n    let c2 = P1 + e2*[cos(q2), sin(q2)];\n    let c4 = P3 + e4*[cos(q4), sin(q4)];\n\n    kinetic 1/2*(m1*e1^2 + J1)*der(q1)^2;\n    kinetic 1/2*m2*norm2(der(c2)) + 1/2*J2*der(q2)^2;\n    kinetic 1/2*(m3*e3^2 + J3)*der(q3)^2;\n    kinetic 1/2*m4*norm2(der(c4)) + 1/2*J4*der(q4)^2;\n    kinetic 1/2*(m5*e5^2 + J5)*der(q5)^2;\n    potential m1*g*e1*sin(q1) + m2*g*c2.y + m3*g*e3*sin(q3) + m4*g*c4.y + m5*g*e5*sin(q5);\n\n    constraint L1*cos(q1) + L2*cos(q2) - L3*cos(q3) = L01;\n    constraint L1*sin(q1) + L2*sin(q2) - L3*sin(q3) = 0;\n    constraint L3*cos(q3) + L4*cos(q4) - L5*cos(q5) = L02;\n    constraint L3*sin(q3) + L4*sin(q4) - L5*sin(q5) = 0;\n\n    start { q1 = 80*deg; q2 ~ 0; q3 ~ 80*deg; q4 ~ 0; q5 ~ 80*deg; }\n\n    /// middle of the first coupler\n    output c: m = c2;\n\n    draw line([0, 0], P1, P3, [L01, 0]);\n    draw line(P3, P5, [L01 + L02, 0]);\n}\n";
@@ -1074,6 +1075,189 @@ pub mod double_four_bar {
                 balance: sum_2,
                 power: T::zero(),
             }
+        }
+        /// The equations of motion linearised about a motion.
+        ///
+        /// | field | equation | shape |
+        /// |---|---|---|
+        /// | `force_by_position` | `∂(p₁ − M q̈ − Aᵀλ)/∂q` | `N × N` |
+        /// | `force_by_velocity` | `∂p₁/∂q̇` | `N × N` |
+        /// | `row_by_position` | `∂(p₂ − A q̈)/∂q` | `R × N` |
+        /// | `row_by_velocity` | `∂p₂/∂q̇` | `R × N` |
+        ///
+        /// Costs 131 products, 64 sums, 5 sine–cosine pairs.
+        fn linearised(
+            &self,
+            state: &State<T, 5>,
+            acceleration: &SVector<T, 5>,
+            multiplier: &SVector<T, 4>,
+            out: &mut Linearised<T, 5, 4>,
+        ) -> bool {
+            let [q1, q2, q3, q4, q5] = state.q.data.0[0];
+            let [q1_dot, q2_dot, q3_dot, q4_dot, q5_dot] = state.v.data.0[0];
+            let [q1_ddot, q2_ddot, q3_ddot, q4_ddot, q5_ddot] = acceleration.data.0[0];
+            let [lambda_0, lambda_1, lambda_2, lambda_3] = multiplier.data.0[0];
+            let Parameters {
+                l1,
+                l2,
+                l3,
+                l4,
+                l5,
+                e1,
+                e2,
+                e3,
+                e4,
+                e5,
+                m1,
+                m2,
+                m3,
+                m4,
+                m5,
+                ..
+            } = self.parameters;
+            let (
+                [sin_q1,
+                sin_q2,
+                sin_q3,
+                sin_q4,
+                sin_q5,
+                ],
+                [cos_q1,
+                cos_q2,
+                cos_q3,
+                cos_q4,
+                cos_q5,
+                ],
+            ) = T::sin_cos_all([q1, q2, q3, q4, q5]);
+            let l1_cos_q1 = l1 * cos_q1;
+            let l1_sin_q1 = l1 * sin_q1;
+            let l1_m2 = l1 * m2;
+            let product = e2 * l1_m2;
+            let product_2 = sin_q1 * product;
+            let product_3 = cos_q2 * product_2;
+            let product_4 = q2_ddot * product_3;
+            let product_5 = T::constant(9.81, -4.973799150320702e-16) * sin_q1;
+            let product_6 = cos_q1 * product;
+            let cos_q2_q2_dot = cos_q2 * q2_dot;
+            let product_7 = q2_dot * product_6 * cos_q2_q2_dot;
+            let q2_dot_sin_q2 = q2_dot * sin_q2;
+            let product_8 = product_2 * q2_dot * q2_dot_sin_q2;
+            let product_9 = product_6 * sin_q2;
+            let product_10 = q2_ddot * product_9;
+            let sum = lambda_0 * l1_cos_q1 + lambda_1 * l1_sin_q1 + product_4
+                + e1 * m1 * product_5 + l1_m2 * product_5 - product_7 - product_8
+                - product_10;
+            let q1_dot_q1_dot = q1_dot * q1_dot;
+            let product_11 = cos_q2 * product_6 * q1_dot_q1_dot;
+            let product_12 = product_2 * sin_q2 * q1_dot_q1_dot;
+            let product_13 = product_3 * q1_ddot;
+            let product_14 = product_9 * q1_ddot;
+            let cos_q2_l2 = cos_q2 * l2;
+            let sin_q2_l2 = sin_q2 * l2;
+            let sum_2 = product_14 + lambda_0 * cos_q2_l2 + lambda_1 * sin_q2_l2
+                + T::constant(9.81, -4.973799150320702e-16) * e2 * m2 * sin_q2
+                - product_11 - product_12 - product_13;
+            let l3_cos_q3 = l3 * cos_q3;
+            let l3_sin_q3 = l3 * sin_q3;
+            let l3_m4 = l3 * m4;
+            let product_15 = e4 * l3_m4;
+            let product_16 = sin_q3 * product_15;
+            let product_17 = cos_q4 * product_16;
+            let product_18 = q4_ddot * product_17;
+            let product_19 = T::constant(9.81, -4.973799150320702e-16) * sin_q3;
+            let product_20 = cos_q3 * product_15;
+            let cos_q4_q4_dot = cos_q4 * q4_dot;
+            let product_21 = q4_dot * product_20 * cos_q4_q4_dot;
+            let q4_dot_sin_q4 = q4_dot * sin_q4;
+            let product_22 = product_16 * q4_dot * q4_dot_sin_q4;
+            let product_23 = product_20 * sin_q4;
+            let product_24 = q4_ddot * product_23;
+            let sum_3 = lambda_2 * l3_cos_q3 + lambda_3 * l3_sin_q3 + product_18
+                + e3 * m3 * product_19 + l3_m4 * product_19 - lambda_0 * l3_cos_q3
+                - lambda_1 * l3_sin_q3 - product_21 - product_22 - product_24;
+            let q3_dot_q3_dot = q3_dot * q3_dot;
+            let product_25 = cos_q4 * product_20 * q3_dot_q3_dot;
+            let product_26 = product_16 * sin_q4 * q3_dot_q3_dot;
+            let product_27 = product_17 * q3_ddot;
+            let product_28 = product_23 * q3_ddot;
+            let cos_q4_l4 = cos_q4 * l4;
+            let sin_q4_l4 = sin_q4 * l4;
+            let sum_4 = product_28 + lambda_2 * cos_q4_l4 + lambda_3 * sin_q4_l4
+                + T::constant(9.81, -4.973799150320702e-16) * e4 * m4 * sin_q4
+                - product_25 - product_26 - product_27;
+            let l5_cos_q5 = l5 * cos_q5;
+            let sin_q5_l5 = sin_q5 * l5;
+            let product_29 = T::from_f64(2.0) * q1_dot;
+            let product_30 = T::from_f64(2.0) * q3_dot;
+            let q2_dot_l2 = q2_dot * l2;
+            let product_31 = l3_sin_q3 * q3_dot_q3_dot;
+            let product_32 = l3_cos_q3 * q3_ddot;
+            let product_33 = l3_cos_q3 * q3_dot_q3_dot;
+            let product_34 = l3_sin_q3 * q3_ddot;
+            let q4_dot_l4 = q4_dot * l4;
+            let q5_dot_q5_dot = q5_dot * q5_dot;
+            let product_35 = T::from_f64(2.0) * l2;
+            let product_36 = l3_cos_q3 * product_30;
+            let product_37 = l3_sin_q3 * product_30;
+            let product_38 = T::from_f64(2.0) * l4;
+            let product_39 = T::from_f64(2.0) * q5_dot;
+            out.force_by_position.data.0[0][0] = sum;
+            out.force_by_position.data.0[0][1] = product_11 + product_12 + product_13
+                - product_14;
+            out.force_by_position.data.0[1][0] = product_7 + product_8 + product_10
+                - product_4;
+            out.force_by_position.data.0[1][1] = sum_2;
+            out.force_by_position.data.0[2][2] = sum_3;
+            out.force_by_position.data.0[2][3] = product_25 + product_26 + product_27
+                - product_28;
+            out.force_by_position.data.0[3][2] = product_21 + product_22 + product_24
+                - product_18;
+            out.force_by_position.data.0[3][3] = sum_4;
+            out.force_by_position.data.0[4][4] = T::constant(
+                9.81,
+                -4.973799150320702e-16,
+            ) * e5 * m5 * sin_q5 - lambda_2 * l5_cos_q5 - lambda_3 * sin_q5_l5;
+            out.force_by_velocity.data.0[0][1] = product_3 * product_29
+                - product_9 * product_29;
+            out.force_by_velocity.data.0[1][0] = T::from_f64(2.0) * product_6
+                * q2_dot_sin_q2 - T::from_f64(2.0) * product_2 * cos_q2_q2_dot;
+            out.force_by_velocity.data.0[2][3] = product_17 * product_30
+                - product_23 * product_30;
+            out.force_by_velocity.data.0[3][2] = T::from_f64(2.0) * product_20
+                * q4_dot_sin_q4 - T::from_f64(2.0) * product_16 * cos_q4_q4_dot;
+            out.row_by_position.data.0[0][0] = l1_cos_q1 * q1_ddot
+                - l1_sin_q1 * q1_dot_q1_dot;
+            out.row_by_position.data.0[0][1] = l1_cos_q1 * q1_dot_q1_dot
+                + l1_sin_q1 * q1_ddot;
+            out.row_by_position.data.0[1][0] = q2_ddot * cos_q2_l2
+                - q2_dot_sin_q2 * q2_dot_l2;
+            out.row_by_position.data.0[1][1] = cos_q2_q2_dot * q2_dot_l2
+                + q2_ddot * sin_q2_l2;
+            out.row_by_position.data.0[2][0] = product_31 - product_32;
+            out.row_by_position.data.0[2][1] = -product_33 - product_34;
+            out.row_by_position.data.0[2][2] = product_32 - product_31;
+            out.row_by_position.data.0[2][3] = product_33 + product_34;
+            out.row_by_position.data.0[3][2] = q4_ddot * cos_q4_l4
+                - q4_dot_sin_q4 * q4_dot_l4;
+            out.row_by_position.data.0[3][3] = cos_q4_q4_dot * q4_dot_l4
+                + q4_ddot * sin_q4_l4;
+            out.row_by_position.data.0[4][2] = sin_q5_l5 * q5_dot_q5_dot
+                - l5_cos_q5 * q5_ddot;
+            out.row_by_position.data.0[4][3] = -l5_cos_q5 * q5_dot_q5_dot
+                - sin_q5_l5 * q5_ddot;
+            out.row_by_velocity.data.0[0][0] = l1_cos_q1 * product_29;
+            out.row_by_velocity.data.0[0][1] = l1_sin_q1 * product_29;
+            out.row_by_velocity.data.0[1][0] = cos_q2_q2_dot * product_35;
+            out.row_by_velocity.data.0[1][1] = q2_dot_sin_q2 * product_35;
+            out.row_by_velocity.data.0[2][0] = -product_36;
+            out.row_by_velocity.data.0[2][1] = -product_37;
+            out.row_by_velocity.data.0[2][2] = product_36;
+            out.row_by_velocity.data.0[2][3] = product_37;
+            out.row_by_velocity.data.0[3][2] = cos_q4_q4_dot * product_38;
+            out.row_by_velocity.data.0[3][3] = q4_dot_sin_q4 * product_38;
+            out.row_by_velocity.data.0[4][2] = -l5_cos_q5 * product_39;
+            out.row_by_velocity.data.0[4][3] = -sin_q5_l5 * product_39;
+            true
         }
     }
     impl<T: Real> DoubleFourBar<T> {

@@ -8,8 +8,8 @@
 pub mod double_pendulum {
     use bricard_runtime::nalgebra::{SMatrix, SVector};
     use bricard_runtime::{
-        Canvas, Energy, Initial, Interface, Mechanism, Quantity, Real, Regular, Start,
-        State, Structure, Terms,
+        Canvas, Energy, Initial, Interface, Linearised, Mechanism, Quantity, Real,
+        Regular, Start, State, Structure, Terms,
     };
     /// The description that this module was generated from.
     pub const SOURCE: &str = "/// Double pendulum: two rods in a plane, the second hung on the end of the first.\nmechanism DoublePendulum {\n    const g: m/s^2 = 9.81;\n\n    /// length of the upper rod\n    param L1: m = 1;\n    /// length of the lower rod\n    param L2: m = 1;\n    /// mass of the upper rod\n    param m1: kg = 1;\n    /// mass of the lower rod\n    param m2: kg = 1;\n    /// inertia of the upper rod about its centre of mass\n    param J1: kg*m^2 = 1/12;\n    /// inertia of the lower rod about its centre of mass\n    param J2: kg*m^2 = 1/12;\n\n    /// angle of the upper rod, from the vertical\n    coord q1: rad;\n    /// angle of the lower rod, from the vertical\n    coord q2: rad;\n\n    let d1 = [sin(q1), -cos(q1)];\n    let d2 = [sin(q2), -cos(q2)];\n    let c1 = L1/2*d1;\n    let P = L1*d1;\n    let c2 = P + L2/2*d2;\n    let tip = P + L2*d2;\n\n    kinetic 1/2*m1*norm2(der(c1)) + 1/2*J1*der(q1)^2;\n    kinetic 1/2*m2*norm2(der(c2)) + 1/2*J2*der(q2)^2;\n    potential m1*g*c1.y + m2*g*c2.y;\n\n    start { q1 = 120*deg; q2 = -10*deg; }\n\n    /// end of the lower rod\n    output end: m = tip;\n\n    draw line([0, 0], P, tip);\n    draw trace(tip);\n}\n";
@@ -229,6 +229,67 @@ pub mod double_pendulum {
                 balance: sum,
                 power: T::zero(),
             }
+        }
+        /// The equations of motion linearised about a motion.
+        ///
+        /// | field | equation | shape |
+        /// |---|---|---|
+        /// | `force_by_position` | `∂(p₁ − M q̈ − Aᵀλ)/∂q` | `N × N` |
+        /// | `force_by_velocity` | `∂p₁/∂q̇` | `N × N` |
+        /// | `row_by_position` | `∂(p₂ − A q̈)/∂q` | `R × N` |
+        /// | `row_by_velocity` | `∂p₂/∂q̇` | `R × N` |
+        ///
+        /// Costs 31 products, 17 sums, 2 sine–cosine pairs.
+        fn linearised(
+            &self,
+            state: &State<T, 2>,
+            acceleration: &SVector<T, 2>,
+            _multiplier: &SVector<T, 0>,
+            out: &mut Linearised<T, 2, 0>,
+        ) -> bool {
+            let [q1, q2] = state.q.data.0[0];
+            let [q1_dot, q2_dot] = state.v.data.0[0];
+            let [q1_ddot, q2_ddot] = acceleration.data.0[0];
+            let Parameters { l1, l2, m1, m2, .. } = self.parameters;
+            let ([sin_q2, sin_q1], [cos_q2, cos_q1]) = T::sin_cos_all([q2, q1]);
+            let l2_m2 = l2 * m2;
+            let product = l1 * l2_m2;
+            let product_2 = T::from_f64(0.5) * product;
+            let product_3 = sin_q1 * product_2;
+            let product_4 = cos_q2 * product_3;
+            let product_5 = q2_ddot * product_4;
+            let q2_dot_q2_dot = q2_dot * q2_dot;
+            let product_6 = product_3 * sin_q2;
+            let product_7 = q2_dot_q2_dot * product_6;
+            let product_8 = product_2 * cos_q1;
+            let product_9 = cos_q2 * product_8;
+            let product_10 = q2_dot_q2_dot * product_9;
+            let product_11 = sin_q2 * product_8;
+            let product_12 = q2_ddot * product_11;
+            let sum = product_5 - product_7 - product_10 - product_12
+                - l1 * cos_q1
+                    * (T::constant(4.905, -2.486899575160351e-16) * m1
+                        + T::constant(9.81, -4.973799150320702e-16) * m2);
+            let q1_dot_q1_dot = q1_dot * q1_dot;
+            let product_13 = product_6 * q1_dot_q1_dot;
+            let product_14 = product_9 * q1_dot_q1_dot;
+            let product_15 = product_4 * q1_ddot;
+            let product_16 = product_11 * q1_ddot;
+            let cos_q2_sin_q1 = cos_q2 * sin_q1;
+            let sin_q2_cos_q1 = sin_q2 * cos_q1;
+            out.force_by_position.data.0[0][0] = sum;
+            out.force_by_position.data.0[0][1] = product_13 + product_14 + product_15
+                - product_16;
+            out.force_by_position.data.0[1][0] = product_7 + product_10 + product_12
+                - product_5;
+            out.force_by_position.data.0[1][1] = product_16 - product_13 - product_14
+                - product_15
+                - T::constant(4.905, -2.486899575160351e-16) * cos_q2 * l2_m2;
+            out.force_by_velocity.data.0[0][1] = product * q1_dot
+                * (cos_q2_sin_q1 - sin_q2_cos_q1);
+            out.force_by_velocity.data.0[1][0] = product * q2_dot
+                * (sin_q2_cos_q1 - cos_q2_sin_q1);
+            true
         }
     }
     impl<T: Real> DoublePendulum<T> {

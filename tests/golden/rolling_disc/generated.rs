@@ -11,8 +11,9 @@
 pub mod rolling_disc {
     use bricard_runtime::nalgebra::{SMatrix, SVector};
     use bricard_runtime::{
-        Branch, Canvas, ConstraintRow, Correction, Energy, Initial, Interface, Mechanism,
-        Position, Quantity, Real, Regular, Start, State, Structure, Terms,
+        Branch, Canvas, ConstraintRow, Correction, Energy, Initial, Interface,
+        Linearised, Mechanism, Position, Quantity, Real, Regular, Start, State,
+        Structure, Terms,
     };
     /// The description that this module was generated from.
     pub const SOURCE: &str = "/// A disc that rolls on a plane without slipping, like a coin.\n///\n/// Rolling is two velocity constraints at the point of contact. Fast enough, with\n/// the speed above sqrt(g*r/3), the disc does not fall.\nmechanism RollingDisc {\n    const g: m/s^2 = 9.81;\n\n    /// radius\n    param r: m = 0.3;\n    /// mass, spread evenly\n    param m: kg = 1;\n\n    /// the point of contact\n    coord x: m;\n    coord y: m;\n    /// heading, from the x axis\n    coord psi: rad;\n    /// lean, from upright\n    coord theta: rad;\n    /// angle of rolling\n    coord phi: rad;\n\n    // The frame turns and leans with the disc, but does not roll with it.\n    let F = rotz(psi)*rotx(theta);\n    let w = omega(F) + [0, der(phi), 0];\n    let hub = [x, y, 0] + F*[0, 0, r];\n    let rim = F*[r*sin(phi), 0, r*cos(phi)];\n\n    kinetic 1/2*m*norm2(der(hub));\n    kinetic 1/8*m*r^2*(w.x^2 + w.z^2) + 1/4*m*r^2*w.y^2;\n    potential m*g*hub.z;\n\n    constraint der(x) = r*der(phi)*cos(psi);\n    constraint der(y) = r*der(phi)*sin(psi);\n\n    start {\n        x = 0;\n        y = 0;\n        psi = 0;\n        theta = 10*deg;\n        phi = 0;\n        der(psi) = 0;\n        der(theta) = 0;\n        der(phi) = 6;\n    }\n\n    /// the centre\n    output centre: m = hub;\n\n    draw line([x, y, 0], hub, hub + rim);\n    draw circle(hub, 0.01);\n    draw trace([x, y, 0]);\n    draw trace(hub + rim);\n}\n";
@@ -521,6 +522,123 @@ pub mod rolling_disc {
                 power: T::zero(),
             }
         }
+        /// The equations of motion linearised about a motion.
+        ///
+        /// | field | equation | shape |
+        /// |---|---|---|
+        /// | `force_by_position` | `∂(p₁ − M q̈ − Aᵀλ)/∂q` | `N × N` |
+        /// | `force_by_velocity` | `∂p₁/∂q̇` | `N × N` |
+        /// | `row_by_position` | `∂(p₂ − A q̈)/∂q` | `R × N` |
+        /// | `row_by_velocity` | `∂p₂/∂q̇` | `R × N` |
+        ///
+        /// Costs 93 products, 49 sums, 2 sine–cosine pairs.
+        fn linearised(
+            &self,
+            state: &State<T, 5>,
+            acceleration: &SVector<T, 5>,
+            multiplier: &SVector<T, 2>,
+            out: &mut Linearised<T, 5, 2>,
+        ) -> bool {
+            let [_, _, psi, theta, _] = state.q.data.0[0];
+            let [_, _, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
+            let [x_ddot, y_ddot, psi_ddot, theta_ddot, phi_ddot] = acceleration
+                .data
+                .0[0];
+            let [lambda_0, lambda_1] = multiplier.data.0[0];
+            let Parameters { r, m } = self.parameters;
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all([
+                psi,
+                theta,
+            ]);
+            let r_m = r * m;
+            let product = sin_theta * r_m;
+            let product_2 = cos_psi * product;
+            let psi_dot_psi_dot = psi_dot * psi_dot;
+            let product_3 = product_2 * theta_dot;
+            let product_4 = product * sin_psi;
+            let product_5 = T::from_f64(2.0) * psi_dot;
+            let product_6 = r_m * cos_theta;
+            let product_7 = theta_dot * product_6;
+            let product_8 = sin_psi * product_7;
+            let product_9 = cos_psi * product_6;
+            let sum = product_2 * psi_dot_psi_dot + theta_dot * product_3
+                + psi_ddot * product_4 + product_5 * product_8 - theta_ddot * product_9;
+            let product_10 = theta_dot * product_4;
+            let product_11 = sin_psi * product_6;
+            let product_12 = cos_psi * product_7;
+            let sum_2 = psi_dot_psi_dot * product_4 + theta_dot * product_10
+                - product_2 * psi_ddot - theta_ddot * product_11
+                - product_5 * product_12;
+            let product_13 = product_4 * x_ddot;
+            let product_14 = product_2 * y_ddot;
+            let product_15 = product_9 * x_ddot;
+            let product_16 = product_11 * y_ddot;
+            let cos_psi_r = cos_psi * r;
+            let r_sin_psi = r * sin_psi;
+            let sum_3 = product_4 * theta_ddot + psi_dot_psi_dot * product_11
+                + theta_dot * product_8 + product_3 * product_5 - psi_ddot * product_9;
+            let sum_4 = product_5 * product_10 - psi_ddot * product_11
+                - product_2 * theta_ddot - psi_dot_psi_dot * product_9
+                - theta_dot * product_12;
+            let r_psi_dot = r * psi_dot;
+            let product_17 = r_m * r_psi_dot;
+            let product_18 = T::from_f64(0.5) * r;
+            let product_19 = product * theta_dot;
+            let product_20 = product_6 * product_18;
+            let product_21 = T::from_f64(2.5) * sin_theta;
+            let product_22 = r * product_21;
+            let sum_5 = T::from_f64(2.5) * theta_dot * product_17
+                + phi_dot * product_18 * product_19 - product_15 - product_16
+                - T::from_f64(5.0) * cos_theta * product_7 * r_psi_dot
+                - phi_ddot * product_20 - psi_ddot * product_6 * product_22;
+            let product_23 = product_6 * r_psi_dot;
+            let product_24 = r_psi_dot * phi_dot;
+            let sum_6 = product_13
+                + T::constant(9.81, -4.973799150320702e-16) * product_6
+                + T::from_f64(2.5) * psi_dot * cos_theta * product_23 - product_14
+                - T::from_f64(0.5) * product * product_24
+                - T::from_f64(1.25) * psi_dot * product_17;
+            let product_25 = product_21 * product_23;
+            let product_26 = phi_dot * product_20;
+            let sum_7 = -product_7 * product_18;
+            let product_27 = T::from_f64(0.5) * product_23;
+            out.force_by_position.data.0[2][0] = sum;
+            out.force_by_position.data.0[2][1] = sum_2;
+            out.force_by_position.data.0[2][2] = product_13 - product_14;
+            out.force_by_position.data.0[2][3] = -product_15 - product_16;
+            out.force_by_position.data.0[2][4] = lambda_1 * cos_psi_r
+                - lambda_0 * r_sin_psi;
+            out.force_by_position.data.0[3][0] = sum_3;
+            out.force_by_position.data.0[3][1] = sum_4;
+            out.force_by_position.data.0[3][2] = sum_5;
+            out.force_by_position.data.0[3][3] = sum_6;
+            out.force_by_position.data.0[3][4] = T::from_f64(0.5) * r_psi_dot
+                * product_19 - psi_ddot * product_20;
+            out.force_by_velocity.data.0[2][0] = product_4 * product_5
+                - T::from_f64(2.0) * product_12;
+            out.force_by_velocity.data.0[2][1] = -product_2 * product_5
+                - T::from_f64(2.0) * product_8;
+            out.force_by_velocity.data.0[2][2] = -product_7 * product_22;
+            out.force_by_velocity.data.0[2][3] = product_25 + product_26;
+            out.force_by_velocity.data.0[2][4] = sum_7;
+            out.force_by_velocity.data.0[3][0] = T::from_f64(2.0) * product_10
+                - product_5 * product_9;
+            out.force_by_velocity.data.0[3][1] = -product_5 * product_11
+                - T::from_f64(2.0) * product_3;
+            out.force_by_velocity.data.0[3][2] = -product_25 - product_26;
+            out.force_by_velocity.data.0[3][4] = -product_27;
+            out.force_by_velocity.data.0[4][2] = sum_7;
+            out.force_by_velocity.data.0[4][3] = product_27;
+            out.row_by_position.data.0[2][0] = -cos_psi * product_24
+                - r_sin_psi * phi_ddot;
+            out.row_by_position.data.0[2][1] = cos_psi_r * phi_ddot
+                - sin_psi * product_24;
+            out.row_by_velocity.data.0[2][0] = -r_sin_psi * phi_dot;
+            out.row_by_velocity.data.0[2][1] = cos_psi_r * phi_dot;
+            out.row_by_velocity.data.0[4][0] = -sin_psi * r_psi_dot;
+            out.row_by_velocity.data.0[4][1] = cos_psi * r_psi_dot;
+            true
+        }
     }
     impl<T: Real> RollingDisc<T> {
         /// Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric; kg for two lengths, kg·m² for two
@@ -637,20 +755,20 @@ pub mod rolling_disc {
             let theta_dot_sin_psi = theta_dot * sin_psi;
             let product_3 = r * product;
             let product_4 = product_3 * (T::from_f64(1.25) * sin_theta);
-            let product_5 = T::from_f64(0.25) * product_3;
-            let product_6 = phi_dot * product_5;
-            let product_7 = psi_dot * product_4;
-            let product_8 = theta_dot * product_5;
-            let product_9 = psi_dot * product_5;
+            let product_5 = psi_dot * product_4;
+            let product_6 = T::from_f64(0.25) * product_3;
+            let product_7 = phi_dot * product_6;
+            let product_8 = theta_dot * product_6;
+            let product_9 = psi_dot * product_6;
             let mut out = SMatrix::zeros();
             out.data.0[2][0] = product * theta_dot_cos_psi - product_2 * psi_dot_sin_psi;
             out.data.0[2][1] = product_2 * cos_psi_psi_dot + product * theta_dot_sin_psi;
             out.data.0[2][2] = theta_dot * product_4;
-            out.data.0[2][3] = -product_6 - product_7;
+            out.data.0[2][3] = -product_5 - product_7;
             out.data.0[2][4] = product_8;
             out.data.0[3][0] = product * cos_psi_psi_dot - product_2 * theta_dot_sin_psi;
             out.data.0[3][1] = product * psi_dot_sin_psi + theta_dot_cos_psi * product_2;
-            out.data.0[3][2] = product_6 + product_7;
+            out.data.0[3][2] = product_5 + product_7;
             out.data.0[3][4] = product_9;
             out.data.0[4][2] = product_8;
             out.data.0[4][3] = -product_9;

@@ -11,8 +11,9 @@
 pub mod slider_crank {
     use bricard_runtime::nalgebra::{SMatrix, SVector};
     use bricard_runtime::{
-        Branch, Canvas, ConstraintRow, Correction, Energy, Initial, Interface, Mechanism,
-        Position, Quantity, Real, Regular, Start, State, Structure, Terms,
+        Branch, Canvas, ConstraintRow, Correction, Energy, Initial, Interface,
+        Linearised, Mechanism, Position, Quantity, Real, Regular, Start, State,
+        Structure, Terms,
     };
     /// The description that this module was generated from.
     pub const SOURCE: &str = "/// Slider–crank with equal links, moving freely: Phong & Hoang (2012), Example 1.\n///\n/// The slider passes over the crank's bearing, where the constraints lose rank:\n/// at q1 = pi/2 + k*pi.\nmechanism SliderCrank {\n    const g: m/s^2 = 9.81;\n\n    /// length of the crank\n    param L1: m = 0.5;\n    /// length of the connecting rod\n    param L2: m = 0.5;\n    /// mass of the crank\n    param m1: kg = 1;\n    /// mass of the connecting rod\n    param m2: kg = 1;\n    /// mass of the slider\n    param m3: kg = 0.5;\n    /// inertia of the crank about its centre of mass\n    param J1: kg*m^2 = 0.1;\n    /// inertia of the connecting rod about its centre of mass\n    param J2: kg*m^2 = 0.1;\n    let e1 = L1/2;\n    let e2 = L2/2;\n\n    /// crank angle, from the x axis\n    coord q1: rad;\n    /// angle of the connecting rod, downwards from the x axis\n    coord q2: rad;\n    /// position of the slider\n    coord q3: m;\n\n    let A = [L1*cos(q1), L1*sin(q1)];\n    let c2 = A + e2*[cos(q2), -sin(q2)];\n\n    kinetic 1/2*(m1*e1^2 + J1)*der(q1)^2;\n    kinetic 1/2*m2*norm2(der(c2)) + 1/2*J2*der(q2)^2;\n    kinetic 1/2*m3*der(q3)^2;\n    potential m1*g*e1*sin(q1) + m2*g*c2.y;\n\n    constraint L1*cos(q1) + L2*cos(q2) = q3;\n    constraint L1*sin(q1) = L2*sin(q2);\n\n    start { q1 = 45*deg; q2 ~ 45*deg; q3 ~ 0.7; }\n\n    /// position of the connecting rod's centre of mass\n    output x2: m = c2.x;\n    output y2: m = c2.y;\n\n    draw line([0, 0], A, [q3, 0]);\n    draw polygon([q3 - 0.05, -0.03], [q3 + 0.05, -0.03], [q3 + 0.05, 0.03], [q3 - 0.05, 0.03]);\n}\n";
@@ -424,6 +425,85 @@ pub mod slider_crank {
                 balance: sum,
                 power: T::zero(),
             }
+        }
+        /// The equations of motion linearised about a motion.
+        ///
+        /// | field | equation | shape |
+        /// |---|---|---|
+        /// | `force_by_position` | `∂(p₁ − M q̈ − Aᵀλ)/∂q` | `N × N` |
+        /// | `force_by_velocity` | `∂p₁/∂q̇` | `N × N` |
+        /// | `row_by_position` | `∂(p₂ − A q̈)/∂q` | `R × N` |
+        /// | `row_by_velocity` | `∂p₂/∂q̇` | `R × N` |
+        ///
+        /// Costs 53 products, 28 sums, 2 sine–cosine pairs.
+        fn linearised(
+            &self,
+            state: &State<T, 3>,
+            acceleration: &SVector<T, 3>,
+            multiplier: &SVector<T, 2>,
+            out: &mut Linearised<T, 3, 2>,
+        ) -> bool {
+            let [q1, q2, _] = state.q.data.0[0];
+            let [q1_dot, q2_dot, _] = state.v.data.0[0];
+            let [q1_ddot, q2_ddot, _] = acceleration.data.0[0];
+            let [lambda_0, lambda_1] = multiplier.data.0[0];
+            let Parameters { l1, l2, m1, m2, .. } = self.parameters;
+            let ([sin_q2, sin_q1], [cos_q2, cos_q1]) = T::sin_cos_all([q2, q1]);
+            let q2_dot_q2_dot = q2_dot * q2_dot;
+            let product = l2 * (l1 * m2);
+            let product_2 = T::from_f64(0.5) * product;
+            let product_3 = sin_q1 * product_2;
+            let product_4 = sin_q2 * product_3;
+            let product_5 = q2_dot_q2_dot * product_4;
+            let product_6 = product_2 * cos_q1;
+            let product_7 = q2_dot_q2_dot * cos_q2;
+            let product_8 = product_6 * product_7;
+            let sin_q2_q2_ddot = sin_q2 * q2_ddot;
+            let product_9 = product_6 * sin_q2_q2_ddot;
+            let cos_q2_q2_ddot = cos_q2 * q2_ddot;
+            let product_10 = product_3 * cos_q2_q2_ddot;
+            let sum = product_5
+                + l1
+                    * (cos_q1 * lambda_0
+                        + sin_q1
+                            * (lambda_1 + T::constant(4.905, -2.486899575160351e-16) * m1
+                                + T::constant(9.81, -4.973799150320702e-16) * m2))
+                - product_8 - product_9 - product_10;
+            let q1_dot_q1_dot = q1_dot * q1_dot;
+            let product_11 = product_4 * q1_dot_q1_dot;
+            let product_12 = product_6 * cos_q2 * q1_dot_q1_dot;
+            let product_13 = sin_q2 * product_6 * q1_ddot;
+            let product_14 = product_3 * cos_q2 * q1_ddot;
+            let sum_2 = product_11
+                + l2
+                    * (lambda_0 * cos_q2
+                        - sin_q2
+                            * (lambda_1
+                                + T::constant(4.905, -2.486899575160351e-16) * m2))
+                - product_12 - product_13 - product_14;
+            let product_15 = product * (sin_q2 * cos_q1 + sin_q1 * cos_q2);
+            let product_16 = T::from_f64(2.0) * (l1 * q1_dot);
+            let product_17 = T::from_f64(2.0) * (q2_dot * l2);
+            out.force_by_position.data.0[0][0] = sum;
+            out.force_by_position.data.0[0][1] = product_11 - product_12 - product_13
+                - product_14;
+            out.force_by_position.data.0[1][0] = product_5 - product_8 - product_9
+                - product_10;
+            out.force_by_position.data.0[1][1] = sum_2;
+            out.force_by_velocity.data.0[0][1] = -q1_dot * product_15;
+            out.force_by_velocity.data.0[1][0] = -q2_dot * product_15;
+            out.row_by_position.data.0[0][0] = l1
+                * (cos_q1 * q1_ddot - sin_q1 * q1_dot_q1_dot);
+            out.row_by_position.data.0[0][1] = l1
+                * (cos_q1 * q1_dot_q1_dot + sin_q1 * q1_ddot);
+            out.row_by_position.data.0[1][0] = l2
+                * (cos_q2_q2_ddot - q2_dot_q2_dot * sin_q2);
+            out.row_by_position.data.0[1][1] = -l2 * (product_7 + sin_q2_q2_ddot);
+            out.row_by_velocity.data.0[0][0] = cos_q1 * product_16;
+            out.row_by_velocity.data.0[0][1] = sin_q1 * product_16;
+            out.row_by_velocity.data.0[1][0] = cos_q2 * product_17;
+            out.row_by_velocity.data.0[1][1] = -sin_q2 * product_17;
+            true
         }
     }
     impl<T: Real> SliderCrank<T> {

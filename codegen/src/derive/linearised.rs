@@ -1,0 +1,115 @@
+//! The equations of motion linearised about a motion: what implicit integrators need.
+//!
+//! With `q̈` and the multipliers `λ` given, `ρ₁ = p₁ − M q̈ − Aᵀλ` and `ρ₂ = p₂ − A q̈`
+//! vanish. Their derivatives by coordinates and velocities are the right-hand sides of
+//! `M δq̈ + Aᵀδλ = ∂ρ₁`, `A δq̈ = ∂ρ₂`, which give those of the acceleration.
+//!
+//! An input that follows its law changes with the state; one that is held does not.
+//! The symbol `Follows` tells them apart.
+
+use super::{Equations, Matrix, coordinates, velocities};
+use crate::expr::{Direction, ExprId, Graph, Number, Symbol};
+use crate::model::{Input, Mechanism};
+
+/// Derivatives of what is left of the equations of motion.
+#[derive(Clone, Debug)]
+pub struct Linearised {
+    /// `∂(p₁ − M q̈ − Aᵀλ)/∂q`, `N × N`.
+    pub force_by_position: Matrix,
+    /// `∂p₁/∂q̇`, `N × N`.
+    pub force_by_velocity: Matrix,
+    /// `∂(p₂ − A q̈)/∂q`, `R × N`.
+    pub row_by_position: Matrix,
+    /// `∂p₂/∂q̇`, `R × N`.
+    pub row_by_velocity: Matrix,
+}
+
+/// Linearises the equations of motion of a mechanism.
+pub fn linearise(mechanism: &mut Mechanism, equations: &Equations) -> Linearised {
+    let n = equations.mass.len();
+    let Mechanism { graph, inputs, .. } = mechanism;
+    let forces = forces_left(graph, equations);
+    let rows = rows_left(graph, equations);
+    let [force_by_position, row_by_position] =
+        [&forces, &rows].map(|left| partials(graph, inputs, left, coordinates(n)));
+    let [force_by_velocity, row_by_velocity] =
+        [&forces, &rows].map(|left| partials(graph, inputs, left, velocities(n)));
+    Linearised {
+        force_by_position,
+        force_by_velocity,
+        row_by_position,
+        row_by_velocity,
+    }
+}
+
+/// `p₁ − M q̈ − Aᵀλ`, `N`.
+fn forces_left(graph: &mut Graph, equations: &Equations) -> Vec<ExprId> {
+    let mut left = Vec::new();
+    for (i, (&force, masses)) in equations.force.iter().zip(&equations.mass).enumerate() {
+        let column: Vec<ExprId> = equations.jacobian.iter().map(|row| row[i]).collect();
+        let inertia = against(graph, masses, Symbol::Acceleration);
+        let reaction = against(graph, &column, Symbol::Multiplier);
+        let minus = Number::MINUS_ONE;
+        let terms = [(force, Number::ONE), (inertia, minus), (reaction, minus)];
+        left.push(graph.weighted_sum(Number::ZERO, &terms));
+    }
+    left
+}
+
+/// `p₂ − A q̈`, `R`.
+fn rows_left(graph: &mut Graph, equations: &Equations) -> Vec<ExprId> {
+    let mut left = Vec::new();
+    for (&bias, row) in equations.bias.iter().zip(&equations.jacobian) {
+        let turned = against(graph, row, Symbol::Acceleration);
+        left.push(graph.sub(bias, turned));
+    }
+    left
+}
+
+/// `Σ eᵢ sᵢ`.
+fn against(graph: &mut Graph, entries: &[ExprId], symbol: fn(u32) -> Symbol) -> ExprId {
+    let mut terms = Vec::new();
+    for (i, &entry) in (0..).zip(entries) {
+        let factor = graph.symbol(symbol(i));
+        terms.push(graph.mul(entry, factor));
+    }
+    graph.sum(terms)
+}
+
+/// `∂e/∂symbol`, a row for each expression.
+fn partials(
+    graph: &mut Graph,
+    inputs: &[Input],
+    expressions: &[ExprId],
+    symbols: impl Iterator<Item = Symbol>,
+) -> Matrix {
+    let zero = graph.integer(0);
+    let mut rows: Matrix = vec![Vec::new(); expressions.len()];
+    let present: Vec<_> = expressions.iter().map(|&e| graph.symbols(e)).collect();
+    for symbol in symbols {
+        let seeds = seeds(graph, inputs, symbol);
+        let moving: Vec<Symbol> = seeds.iter().map(|(symbol, _)| *symbol).collect();
+        let mut direction = Direction::new(seeds);
+        for ((&e, row), present) in expressions.iter().zip(&mut rows).zip(&present) {
+            let moves = moving.iter().any(|symbol| present.contains(symbol));
+            row.push(match moves {
+                true => graph.derivative_along(e, &mut direction),
+                false => zero,
+            });
+        }
+    }
+    rows
+}
+
+/// A symbol changes at rate one, and with it the inputs whose laws have it.
+fn seeds(graph: &mut Graph, inputs: &[Input], symbol: Symbol) -> Vec<(Symbol, ExprId)> {
+    let mut seeds = vec![(symbol, graph.integer(1))];
+    for (i, input) in (0..).zip(inputs) {
+        if graph.depends_on(input.law, symbol) {
+            let rate = graph.differentiate(input.law, symbol);
+            let follows = graph.symbol(Symbol::Follows(i));
+            seeds.push((Symbol::Input(i), graph.mul(follows, rate)));
+        }
+    }
+    seeds
+}
