@@ -4,7 +4,7 @@
 //! Out: [`Arguments`], each value read, none checked against a mechanism yet.
 
 use crate::formula::{self, Assignment};
-use bricard_runtime::{Form, Stabilisation};
+use bricard_runtime::{Form, Scheme, Stabilisation};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -29,6 +29,9 @@ pub enum Command {
     /// Run the experiments of Phong & Hoang (2012): figures, and numbers beside
     /// exact ones
     Reproduce(Reproduce),
+    /// Measure run time against error, for all methods and forms of the equations
+    #[command(name = "workprecision")]
+    WorkPrecision(WorkPrecision),
     /// Check a description without compiling it
     Check(Check),
 }
@@ -50,6 +53,34 @@ pub struct Check {
     /// The description
     #[arg(value_name = "FILE.mech")]
     pub file: PathBuf,
+}
+
+/// Arguments of `workprecision`.
+#[derive(Args, Debug)]
+pub struct WorkPrecision {
+    /// The mechanism: a name of `bricard list`
+    pub name: String,
+    /// Time at which runs end, in seconds
+    #[arg(long, value_name = "T", default_value = "8", allow_hyphen_values = true, value_parser = formula::number)]
+    pub until: f64,
+    /// Integrators, with commas between them [default: all]
+    #[arg(long, value_enum, value_delimiter = ',')]
+    pub methods: Vec<MethodName>,
+    /// Forms of the equations of motion, with commas between them [default: all]
+    #[arg(long, value_enum, value_delimiter = ',')]
+    pub forms: Vec<FormName>,
+    /// Change a parameter, or hold an input at a value
+    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::assignment)]
+    pub set: Vec<Assignment>,
+    /// Hold a coordinate, or a velocity der(NAME), at a value at the start
+    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::assignment)]
+    pub start: Vec<Assignment>,
+    /// Draw time over error
+    #[arg(long, value_name = "FILE.svg")]
+    pub out: Option<PathBuf>,
+    /// Write the numbers behind the drawing
+    #[arg(long, value_name = "FILE.csv")]
+    pub csv: Option<PathBuf>,
 }
 
 /// Arguments of `reproduce`.
@@ -150,6 +181,17 @@ pub enum FormName {
     Multipliers,
     /// Independent and dependent coordinates; ends at a singular position
     Partitioning,
+}
+
+impl From<MethodName> for Scheme {
+    fn from(name: MethodName) -> Self {
+        match name {
+            MethodName::Rk4 => Scheme::Rk4,
+            MethodName::Dp5 => Scheme::Dp5,
+            MethodName::Dop853 => Scheme::Dop853,
+            MethodName::Radau5 => Scheme::Radau5,
+        }
+    }
 }
 
 impl From<FormName> for Form {

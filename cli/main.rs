@@ -8,6 +8,7 @@
 //! know every mechanism of the library by its name.
 
 mod arguments;
+mod changes;
 mod check;
 mod column;
 mod error;
@@ -22,6 +23,7 @@ mod run;
 mod show;
 mod simulate;
 mod table;
+mod workprecision;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
@@ -47,6 +49,7 @@ fn perform(command: &Command) -> Result<(), CommandError> {
         Command::Show(arguments) => show::show(arguments),
         Command::Simulate(arguments) => simulate::simulate(arguments),
         Command::Reproduce(arguments) => reproduce::reproduce(arguments),
+        Command::WorkPrecision(arguments) => workprecision::workprecision(arguments),
         Command::Check(arguments) => check::check(arguments),
     }
 }

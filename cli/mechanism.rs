@@ -11,9 +11,10 @@ use crate::plot::Shape;
 use crate::run::{Plan, Report, RowSink, Stopped, run};
 use crate::show::freedom;
 use bricard_runtime::{
-    Canvas, Initial, Interface, Mechanism, Settings, Solver, Start, State, Structure, Visitor,
-    assemble,
+    Canvas, Initial, Interface, Mechanism, Options, Settings, Solver, Start, State, Structure,
+    Visitor, assemble, simulate,
 };
+use std::time::{Duration, Instant};
 
 /// What the commands do with a mechanism.
 pub trait AnyMechanism {
@@ -29,8 +30,23 @@ pub trait AnyMechanism {
     fn freedom(&self) -> String;
     /// Simulates.
     fn run(&self, plan: &Plan, sink: &mut dyn RowSink) -> Result<Report, Stopped>;
+    /// Simulates with nothing recorded or audited, against the clock.
+    fn race(&self, options: &Options<f64>) -> Result<Race, String>;
     /// The picture at a state: time, coordinates, velocities.
     fn shapes(&self, row: &[f64]) -> Vec<Shape>;
+}
+
+/// A run against the clock.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Race {
+    /// The coordinates at its end.
+    pub end: Vec<f64>,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Accelerations.
+    pub evaluations: u64,
+    /// Time it took, from an assembled start.
+    pub wall: Duration,
 }
 
 /// A value held at the start.
@@ -149,6 +165,21 @@ impl<const N: usize, const R: usize> AnyMechanism for Sized<N, R> {
 
     fn run(&self, plan: &Plan, sink: &mut dyn RowSink) -> Result<Report, Stopped> {
         run(&*self.mechanism, &self.start(), plan, sink)
+    }
+
+    fn race(&self, options: &Options<f64>) -> Result<Race, String> {
+        let mechanism: &dyn Whole<N, R> = &*self.mechanism;
+        let start = assemble(mechanism, &self.start(), 0.0).map_err(|error| error.to_string())?;
+        let begun = Instant::now();
+        let result = simulate(mechanism, &start, options, &mut []);
+        let wall = begun.elapsed();
+        let summary = result.map_err(|failure| failure.error.to_string())?;
+        Ok(Race {
+            end: summary.end.q.iter().copied().collect(),
+            steps: summary.steps,
+            evaluations: summary.evaluations,
+            wall,
+        })
     }
 
     fn shapes(&self, row: &[f64]) -> Vec<Shape> {

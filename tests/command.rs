@@ -449,3 +449,33 @@ fn the_papers_experiments_are_reproduced_within_their_bounds() {
         );
     }
 }
+
+#[test]
+fn time_is_measured_over_errors_that_fall_with_the_tolerance() {
+    let folder = folder("workprecision");
+    let (csv, svg) = (folder.join("points.csv"), folder.join("points.svg"));
+    let [csv_path, svg_path] = [&csv, &svg].map(|path| path.to_string_lossy().into_owned());
+    let ran = bricard(&[
+        "workprecision",
+        "slider_crank",
+        "--until",
+        "2",
+        "--methods",
+        "dop853",
+        "--forms",
+        "reduced,multipliers",
+        "--csv",
+        &csv_path,
+        "--out",
+        &svg_path,
+    ]);
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    assert!(ran.out.contains("dop853, multipliers ends"), "{}", ran.out);
+    let text = fs::read_to_string(csv).expect("the CSV");
+    let errors = column(&text, "error");
+    let (first, last) = (errors[0], errors[errors.len() - 1]);
+    assert!(first > 1e-7 && last < 1e-11, "{errors:?}");
+    assert!(column(&text, "seconds").iter().all(|time| *time > 0.0));
+    let picture = fs::read_to_string(svg).expect("the SVG");
+    assert!(picture.contains("dop853, reduced") && picture.trim_end().ends_with("</svg>"));
+}

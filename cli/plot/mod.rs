@@ -1,18 +1,22 @@
-//! Pictures: curves over time in panels, and configurations of a mechanism.
+//! Pictures: curves over time in panels, configurations of a mechanism, time over
+//! error.
 //!
 //! In:  series of numbers with names and units, shapes.
 //! Out: SVG files.
 //!
 //! Not here: what is worth drawing ([`crate::figure`]).
 
+mod axis;
 mod curve;
 mod frames;
 mod panel;
 mod style;
 mod svg;
+mod work;
 
 pub use frames::{Frame, Shape, frames};
 pub use panel::{Times, panels};
+pub use work::{Cloud, Mark, work_diagram};
 
 /// One diagram over time.
 #[derive(Clone, Debug, PartialEq)]

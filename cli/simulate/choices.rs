@@ -4,7 +4,7 @@ use crate::arguments::{MethodName, Simulate};
 use crate::column::Column;
 use crate::error::CommandError;
 use crate::run::Plan;
-use bricard_runtime::{Options, Pace, Scheme, Settings};
+use bricard_runtime::{Options, Pace, Settings};
 use std::path::Path;
 
 /// Step of RK4, unless one is given (s).
@@ -37,13 +37,7 @@ pub fn plan(arguments: &Simulate, columns: Vec<Column>) -> Result<Plan, CommandE
     } else {
         MethodName::Dop853
     });
-    let scheme = match method {
-        MethodName::Rk4 => Scheme::Rk4,
-        MethodName::Dp5 => Scheme::Dp5,
-        MethodName::Dop853 => Scheme::Dop853,
-        MethodName::Radau5 => Scheme::Radau5,
-    };
-    let mut options = Options::new(arguments.until, scheme, pace(arguments, method)?);
+    let mut options = Options::new(arguments.until, method.into(), pace(arguments, method)?);
     options.settings = Settings {
         form: arguments.form.into(),
         stabilisation: arguments.stabilisation,

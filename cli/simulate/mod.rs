@@ -3,11 +3,11 @@
 //! In:  a mechanism's name and what to change, how to integrate, what to record.
 //! Out: CSV, a summary on standard error, SVG.
 
-mod changes;
 mod choices;
 pub mod summary;
 
 use crate::arguments::Simulate;
+use crate::changes::Changes;
 use crate::column::{Column, columns, header};
 use crate::error::CommandError;
 use crate::figure::overview;
@@ -21,7 +21,8 @@ use bricard_runtime::Structure;
 pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
     let mut mechanism = find(&arguments.name)?;
     let structure = mechanism.structure();
-    changes::apply(mechanism.as_mut(), arguments)?;
+    Changes::find(structure, &arguments.name, &arguments.set, &arguments.start)?
+        .apply(mechanism.as_mut());
     let columns = columns(&arguments.columns, structure, &arguments.name)?;
     let plan = choices::plan(arguments, columns.clone())?;
     choices::check_files(arguments)?;

@@ -15,4 +15,4 @@ mod real;
 mod text;
 
 pub use double_double::DoubleDouble;
-pub use motion::{Reference, ReferenceError, reference};
+pub use motion::{Reference, ReferenceError, reference, reference_from, states_at};

@@ -9,8 +9,8 @@
 
 use crate::DoubleDouble;
 use bricard_runtime::{
-    AssemblyError, Audit, Interface, Mechanism, Options, Real, SimulateError, State, assemble,
-    simulate,
+    AssemblyError, Audit, Interface, Mechanism, Options, Pace, Real, Scheme, Settings,
+    SimulateError, Start, State, Stepper, assemble, simulate,
 };
 use core::fmt::{Display, Formatter, Result as FmtResult};
 
@@ -66,8 +66,24 @@ pub fn reference<M, const N: usize, const R: usize>(
 where
     M: Mechanism<DoubleDouble, N, R> + Interface<DoubleDouble, N> + ?Sized,
 {
-    let start = assemble(mechanism, &mechanism.start(), DoubleDouble::default())
-        .map_err(ReferenceError::Assembly)?;
+    reference_from(mechanism, &mechanism.start(), until)
+}
+
+/// As [`reference`], from another start than the description's.
+///
+/// # Errors
+///
+/// As [`reference`].
+pub fn reference_from<M, const N: usize, const R: usize>(
+    mechanism: &M,
+    start: &Start<DoubleDouble, N>,
+    until: DoubleDouble,
+) -> Result<Reference<N>, ReferenceError<N, R>>
+where
+    M: Mechanism<DoubleDouble, N, R> + Interface<DoubleDouble, N> + ?Sized,
+{
+    let start =
+        assemble(mechanism, start, DoubleDouble::default()).map_err(ReferenceError::Assembly)?;
     let run = |tolerance: f64| {
         let options = Options {
             audit: Audit::NONE,
@@ -86,4 +102,36 @@ where
         error: changes,
         steps: fine.steps,
     })
+}
+
+/// The states at some times, in their order, on the way from a state.
+///
+/// # Errors
+///
+/// [`SimulateError`] if the run could not be made, with the time.
+pub fn states_at<M, const N: usize, const R: usize>(
+    mechanism: &M,
+    start: &State<DoubleDouble, N>,
+    times: &[DoubleDouble],
+) -> Result<Vec<State<DoubleDouble, N>>, SimulateError<DoubleDouble>>
+where
+    M: Mechanism<DoubleDouble, N, R> + ?Sized,
+{
+    let tolerance = DoubleDouble::from(FINE);
+    let pace = Pace::Adaptive {
+        relative: tolerance,
+        absolute: tolerance,
+    };
+    let mut stepper: Stepper<DoubleDouble, N, R> =
+        Stepper::new(Scheme::Dop853, pace, Settings::default())?;
+    let mut state = *start;
+    let mut states = Vec::with_capacity(times.len());
+    for time in times {
+        if *time > state.t {
+            let span = *time - state.t;
+            stepper.step(mechanism, &mut state, span)?;
+        }
+        states.push(state);
+    }
+    Ok(states)
 }

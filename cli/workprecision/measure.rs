@@ -1,0 +1,132 @@
+//! Runs against the clock.
+//!
+//! In:  a mechanism, methods and forms, where the motion ends exactly.
+//! Out: a [`Series`] for each pair: error and time at several settings.
+
+use super::reference::Exact;
+use crate::arguments::{FormName, MethodName};
+use crate::mechanism::{AnyMechanism, Race};
+use bricard_runtime::{Audit, Options, Pace};
+use std::time::Duration;
+
+/// Steps of RK4 (s), from the longest on each half of the one before.
+const LONGEST_STEP: f64 = 0.08;
+/// How many of them.
+const HALVINGS: i32 = 10;
+/// Tolerances of adaptive methods: powers of ten from the first to the last exponent.
+const EXPONENTS: std::ops::RangeInclusive<i32> = 3..=13;
+/// Runs are repeated until they took this long together.
+const TOGETHER: Duration = Duration::from_millis(60);
+/// How often at most.
+const REPEATED: usize = 15;
+/// A series ends where a run took this long.
+const LONG: Duration = Duration::from_secs(2);
+/// Accepted steps after which a run is given up.
+const MOST_STEPS: u64 = 2_000_000;
+
+/// A method with a form of the equations, at several settings.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// The method.
+    pub method: MethodName,
+    /// The form.
+    pub form: FormName,
+    /// Its runs, from the coarsest setting to the finest.
+    pub points: Vec<Point>,
+    /// Why there are no more, if a run failed.
+    pub failed: Option<String>,
+}
+
+/// A setting of a method.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Step or tolerance, in words.
+    pub setting: String,
+    /// Largest error of a coordinate at the end (m or rad).
+    pub error: f64,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Accelerations.
+    pub evaluations: u64,
+    /// Median time of a run.
+    pub wall: Duration,
+}
+
+/// Runs one method with one form at all settings.
+pub fn series(
+    mechanism: &dyn AnyMechanism,
+    (method, form): (MethodName, FormName),
+    until: f64,
+    exact: &Exact,
+) -> Series {
+    let mut series = Series {
+        method,
+        form,
+        points: Vec::new(),
+        failed: None,
+    };
+    for (setting, pace) in settings(method) {
+        let mut options = Options::new(until, method.into(), pace);
+        options.settings.form = form.into();
+        options.audit = Audit::NONE;
+        options.most_steps = Some(MOST_STEPS);
+        match repeated(mechanism, &options) {
+            Ok(race) => {
+                series.points.push(point(setting, &race, exact));
+                if race.wall > LONG {
+                    break;
+                }
+            }
+            Err(reason) => {
+                series.failed = Some(format!("{setting}: {reason}"));
+                // A coarse setting may fail where finer ones do not.
+                if !series.points.is_empty() {
+                    break;
+                }
+            }
+        }
+    }
+    series
+}
+
+/// The settings of a method, and what to call them.
+fn settings(method: MethodName) -> Vec<(String, Pace<f64>)> {
+    if method == MethodName::Rk4 {
+        let step = |halving: i32| LONGEST_STEP * 0.5_f64.powi(halving);
+        let of = |step| (format!("h = {step}"), Pace::Fixed { step });
+        return (0..HALVINGS).map(step).map(of).collect();
+    }
+    let adaptive = |exponent: i32| {
+        let tolerance = 10.0_f64.powi(-exponent);
+        let pace = Pace::Adaptive {
+            relative: tolerance,
+            absolute: tolerance,
+        };
+        (format!("tolerance {tolerance:.0e}"), pace)
+    };
+    EXPONENTS.map(adaptive).collect()
+}
+
+/// A run with the median time of several.
+fn repeated(mechanism: &dyn AnyMechanism, options: &Options<f64>) -> Result<Race, String> {
+    let mut races = vec![mechanism.race(options)?];
+    let mut together = races[0].wall;
+    while together < TOGETHER && races.len() < REPEATED {
+        let race = mechanism.race(options)?;
+        together += race.wall;
+        races.push(race);
+    }
+    races.sort_by_key(|race| race.wall);
+    Ok(races.swap_remove(races.len() / 2))
+}
+
+fn point(setting: String, race: &Race, exact: &Exact) -> Point {
+    let differences = race.end.iter().zip(&exact.end).map(|(a, b)| (a - b).abs());
+    Point {
+        setting,
+        error: differences.fold(0.0, f64::max),
+        steps: race.steps,
+        evaluations: race.evaluations,
+        wall: race.wall,
+    }
+}

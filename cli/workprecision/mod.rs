@@ -1,0 +1,194 @@
+//! `bricard workprecision`: run time against error, for methods and forms.
+//!
+//! In:  a mechanism's name and what to change.
+//! Out: a table, and on demand a work-precision diagram and the numbers as CSV.
+
+mod measure;
+mod reference;
+
+use crate::arguments::{FormName, MethodName, WorkPrecision};
+use crate::changes::Changes;
+use crate::error::CommandError;
+use crate::mechanism::find;
+use crate::output::{print, probe, say};
+use crate::plot::{Cloud, Mark, work_diagram};
+use crate::table::{Align, headed};
+use clap::ValueEnum;
+use measure::{Series, series};
+use reference::exact;
+use std::path::Path;
+
+/// Measures all methods and forms.
+///
+/// # Errors
+///
+/// [`CommandError`]: an unknown name, a start that can't be assembled, a file that
+/// can't be written. A method that fails is no error: the table says so.
+pub fn workprecision(arguments: &WorkPrecision) -> Result<(), CommandError> {
+    if arguments.until <= 0.0 {
+        return Err(CommandError::OutOfRange {
+            option: "--until",
+            value: arguments.until,
+            wanted: "a positive number",
+        });
+    }
+    let mut mechanism = find(&arguments.name)?;
+    let structure = mechanism.structure();
+    let changes = Changes::find(structure, &arguments.name, &arguments.set, &arguments.start)?;
+    changes.apply(mechanism.as_mut());
+    for path in [&arguments.out, &arguments.csv].into_iter().flatten() {
+        probe(path)?;
+    }
+    say("computing the motion to compare with, in numbers of 106 bits");
+    let exact = exact(&arguments.name, &changes, arguments.until)?;
+    let forms = forms(&arguments.forms, structure.constraints.is_empty());
+    let mut all = Vec::new();
+    for method in methods(&arguments.methods) {
+        for form in &forms {
+            say(&format!("running {}", title(method, *form)));
+            let pair = (method, *form);
+            all.push(series(mechanism.as_ref(), pair, arguments.until, &exact));
+        }
+    }
+    print(&table(&all))?;
+    print(&failures(&all))?;
+    print(&format!(
+        "error: the largest of a coordinate at t = {} s (m or rad), against a motion that is \
+         good to {:.0e}\ntime: the median of several runs, integration alone\n",
+        arguments.until, exact.error
+    ))?;
+    if let Some(path) = &arguments.csv {
+        write_csv(path, &all)?;
+    }
+    match &arguments.out {
+        Some(path) => draw(path, arguments, &all),
+        None => Ok(()),
+    }
+}
+
+fn methods(chosen: &[MethodName]) -> Vec<MethodName> {
+    match chosen {
+        [] => MethodName::value_variants().to_vec(),
+        chosen => chosen.to_vec(),
+    }
+}
+
+/// The forms that differ: without constraints there is one.
+fn forms(chosen: &[FormName], free: bool) -> Vec<FormName> {
+    match chosen {
+        _ if free => vec![FormName::Reduced],
+        [] => FormName::value_variants().to_vec(),
+        chosen => chosen.to_vec(),
+    }
+}
+
+fn word(name: &impl ValueEnum) -> String {
+    name.to_possible_value()
+        .map_or_else(String::new, |value| value.get_name().to_string())
+}
+
+fn title(method: MethodName, form: FormName) -> String {
+    format!("{}, {}", word(&method), word(&form))
+}
+
+fn table(all: &[Series]) -> String {
+    let mut rows = Vec::new();
+    for series in all {
+        let title = title(series.method, series.form);
+        for (i, point) in series.points.iter().enumerate() {
+            rows.push(vec![
+                if i == 0 { title.clone() } else { String::new() },
+                point.setting.clone(),
+                format!("{:.1e}", point.error),
+                format!("{:.3}", 1e3 * point.wall.as_secs_f64()),
+                point.steps.to_string(),
+                point.evaluations.to_string(),
+            ]);
+        }
+    }
+    let heading = [
+        "method, form",
+        "setting",
+        "error",
+        "ms",
+        "steps",
+        "accelerations",
+    ];
+    let right = Align::Right;
+    let align = [Align::Left, Align::Left, right, right, right, right];
+    headed(&heading, &rows, &align)
+}
+
+/// Where methods gave up, and why, a line for each.
+fn failures(all: &[Series]) -> String {
+    let line = |series: &Series| {
+        let reason = series.failed.as_ref()?;
+        Some(format!(
+            "{} ends: {reason}\n",
+            title(series.method, series.form)
+        ))
+    };
+    all.iter().filter_map(line).collect()
+}
+
+fn write_csv(path: &Path, all: &[Series]) -> Result<(), CommandError> {
+    let failed = |error: csv::Error| CommandError::write(path, error.into());
+    let mut writer = csv::Writer::from_path(path).map_err(failed)?;
+    writer
+        .write_record([
+            "method",
+            "form",
+            "setting",
+            "error",
+            "seconds",
+            "steps",
+            "accelerations",
+        ])
+        .map_err(failed)?;
+    for series in all {
+        for point in &series.points {
+            writer
+                .write_record([
+                    word(&series.method),
+                    word(&series.form),
+                    point.setting.clone(),
+                    point.error.to_string(),
+                    point.wall.as_secs_f64().to_string(),
+                    point.steps.to_string(),
+                    point.evaluations.to_string(),
+                ])
+                .map_err(failed)?;
+        }
+    }
+    writer
+        .flush()
+        .map_err(|error| CommandError::write(path, error))
+}
+
+fn draw(path: &Path, arguments: &WorkPrecision, all: &[Series]) -> Result<(), CommandError> {
+    let methods = methods(&arguments.methods);
+    let clouds: Vec<Cloud> = all
+        .iter()
+        .filter(|series| !series.points.is_empty())
+        .map(|series| Cloud {
+            name: title(series.method, series.form),
+            colour: methods
+                .iter()
+                .position(|m| *m == series.method)
+                .unwrap_or(0),
+            mark: match series.form {
+                FormName::Reduced => Mark::Disc,
+                FormName::Full => Mark::Ring,
+                FormName::Multipliers => Mark::Cross,
+                FormName::Partitioning => Mark::Triangle,
+            },
+            points: series
+                .points
+                .iter()
+                .map(|point| (point.error, point.wall.as_secs_f64()))
+                .collect(),
+        })
+        .collect();
+    let title = format!("{}: {} s of motion", arguments.name, arguments.until);
+    work_diagram(path, &title, &clouds)
+}
