@@ -22,7 +22,9 @@ pub use dynamics::{
     ConstrainedSystem, ConstraintError, Counters, Form, Rank, Settings, Solver, Stabilisation,
 };
 pub use error::DynamicsError;
-pub use integrator::{Dop853, Dp5, IntegrateError, Integrator, Radau5, Rk4, Step, Tolerance};
+pub use integrator::{
+    Dop853, Dp5, IntegrateError, Integrator, Radau5, Radau9, Rk4, Step, Tolerance,
+};
 pub use model::{
     Branch, Canvas, ConstraintRow, Correction, Direction, Energy, Event, Initial, Interface,
     Linearised, Mechanism, Pivots, Position, Quantity, Regular, Start, Structure, Terms,

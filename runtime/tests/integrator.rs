@@ -39,7 +39,7 @@ fn order<I: Integrator<f64, 2>>(method: impl Fn() -> I, steps: u32, halvings: u3
 }
 
 /// Order of the largest error inside one step from the exact state.
-fn inside_order<I: Integrator<f64, 2>>(method: impl Fn() -> I, h: f64) -> f64 {
+pub fn inside_order<I: Integrator<f64, 2>>(method: impl Fn() -> I, h: f64) -> f64 {
     let error = |h: f64| {
         let mut method = method();
         let start = kepler_exact(E, 1.0);

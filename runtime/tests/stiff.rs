@@ -1,18 +1,18 @@
 //! The implicit method: order, stiffness, singular positions.
 
+use crate::integrator::inside_order;
 use crate::mechanisms::{FourBars, Passing};
 use crate::toys::{Framed, Free, PLAIN, distance, kepler, kepler_exact, kepler_start};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Dp5, Integrator, Options, Pace, Radau5, Scheme, State, Structure, Tolerance, simulate,
+    Dp5, Integrator, Options, Pace, Radau5, Radau9, Scheme, State, Structure, Tolerance, simulate,
 };
 
 /// Eccentricity and end of the orbits in these tests.
 const E: f64 = 0.2;
 const END: f64 = 6.0;
 
-fn kepler_error(steps: u32) -> f64 {
-    let mut method = Radau5::fixed();
+fn kepler_error(mut method: impl Integrator<f64, 2>, steps: u32) -> f64 {
     let mut state = kepler_start(E);
     for i in 1..=steps {
         let bound = END * f64::from(i) / f64::from(steps);
@@ -23,9 +23,26 @@ fn kepler_error(steps: u32) -> f64 {
 
 #[test]
 fn radau5_converges_with_order_5() {
-    let (coarse, fine) = (kepler_error(20), kepler_error(160));
+    let coarse = kepler_error(Radau5::fixed(), 20);
+    let fine = kepler_error(Radau5::fixed(), 160);
     let order = (coarse / fine).log2() / 3.0;
     assert!((order - 5.0).abs() < 0.2, "{order} {coarse:e} {fine:e}");
+}
+
+#[test]
+fn radau9_converges_with_order_9() {
+    let coarse = kepler_error(Radau9::fixed(), 12);
+    let fine = kepler_error(Radau9::fixed(), 24);
+    let order = (coarse / fine).log2();
+    assert!((order - 9.0).abs() < 0.4, "{order} {coarse:e} {fine:e}");
+}
+
+#[test]
+fn interpolants_have_the_order_of_the_stages() {
+    let radau5 = inside_order(Radau5::fixed, 0.1);
+    assert!((radau5 - 4.0).abs() < 0.3, "{radau5}");
+    let radau9 = inside_order(Radau9::fixed, 0.4);
+    assert!((radau9 - 6.0).abs() < 0.4, "{radau9}");
 }
 
 /// Steps and accelerations of a run to `end`.
@@ -113,7 +130,7 @@ fn governor(state: &State<f64, 3>) -> SVector<f64, 3> {
 const GOVERNOR_HEIGHT: f64 = 0.6196229170613131;
 
 #[test]
-fn the_stiff_governor_takes_a_twentieth_of_the_steps_of_dp5() {
+fn the_stiff_governor_takes_few_of_the_steps_of_dp5() {
     let start = State::new(
         0.0,
         SVector::from([0.0, 30_f64.to_radians(), 0.5]),
@@ -121,15 +138,18 @@ fn the_stiff_governor_takes_a_twentieth_of_the_steps_of_dp5() {
     );
     let tolerance = Tolerance::uniform(1e-7, 1e-7).unwrap();
     let (implicit, few, _) = work(Radau5::adaptive(tolerance), start, governor, 10.0);
+    let (high, fewer, _) = work(Radau9::adaptive(tolerance), start, governor, 10.0);
     let (explicit, many, _) = work(Dp5::adaptive(tolerance), start, governor, 10.0);
     let error = |state: &State<f64, 3>| (state.q[2] - GOVERNOR_HEIGHT).abs();
     assert!(error(&implicit) < 1e-7, "{:e}", error(&implicit));
     assert!(error(&explicit) < 1e-7, "{:e}", error(&explicit));
+    assert!(error(&high) < 1e-7, "{:e}", error(&high));
     assert!(many > 20 * few, "{few} steps instead of {many}");
+    assert!(many > 80 * fewer, "{fewer} steps instead of {many}");
 }
 
 #[test]
-fn the_implicit_method_passes_singular_positions() {
+fn implicit_methods_pass_singular_positions() {
     static CONSERVATIVE: Structure = Structure {
         conservative: true,
         ..PLAIN
@@ -139,20 +159,22 @@ fn the_implicit_method_passes_singular_positions() {
     let start = Passing::<5, 4>::state(&FourBars, 0.0, angle, 0.0);
     let (angle, rate) = Passing::<5, 4>::reduction(&FourBars).after(8.0, (angle, 0.0));
     let exact = Passing::<5, 4>::state(&FourBars, 8.0, angle, rate);
-    for (pace, bound) in [
-        (Pace::Fixed { step: 0.01 }, 1e-5),
-        (
-            Pace::Adaptive {
-                relative: 1e-8,
-                absolute: 1e-8,
-            },
-            1e-5,
-        ),
+    let fixed = |step| Pace::Fixed { step };
+    let adaptive = Pace::Adaptive {
+        relative: 1e-8,
+        absolute: 1e-8,
+    };
+    for (scheme, pace, bound) in [
+        (Scheme::Radau5, fixed(0.01), 1e-5),
+        (Scheme::Radau5, adaptive, 1e-5),
+        (Scheme::Radau9, fixed(0.02), 1e-7),
+        (Scheme::Radau9, adaptive, 1e-6),
     ] {
-        let options = Options::new(8.0, Scheme::Radau5, pace);
+        let options = Options::new(8.0, scheme, pace);
         let summary = simulate::<_, _, 5, 4>(&mechanism, &start, &options, &mut [])
             .unwrap_or_else(|failure| panic!("{failure}"));
         assert_eq!(summary.passages, Some(9));
-        assert!(distance(&summary.end, &exact) < bound, "{:?}", summary.end);
+        let error = distance(&summary.end, &exact);
+        assert!(error < bound, "{scheme}, {pace:?}: {error:e}");
     }
 }

@@ -3,68 +3,82 @@
 //! In:  derivatives of the acceleration, the step length.
 //! Out: changes of the stages' accelerations.
 
-use super::collocation::Collocation;
+use super::collocation::{Collocation, MOST_PAIRS};
 use super::lu::Lu;
 use crate::{Real, Slope};
 use nalgebra::{Complex, SVector};
 
-/// Three vectors, one for each stage.
-pub(super) type Stages<T, const N: usize> = [SVector<T, N>; 3];
+/// A vector for each stage.
+pub(super) type Stages<T, const N: usize, const S: usize> = [SVector<T, N>; S];
 
-/// `W` for the real and the complex eigenvalue at a step length.
+/// `W` for the real and the complex eigenvalues at a step length.
 #[derive(Clone, Debug)]
 pub(super) struct Factors<T, const N: usize> {
     /// The step length.
     pub(super) h: T,
     /// `W` of the real eigenvalue.
     pub(super) real: Lu<T, N>,
-    complex: Lu<Complex<T>, N>,
+    complex: [Option<Lu<Complex<T>, N>>; MOST_PAIRS],
 }
 
 impl<T: Real, const N: usize> Factors<T, N> {
     /// `None` where a matrix is singular.
-    pub(super) fn new(slope: &Slope<T, N>, h: T, coefficients: &Collocation<T>) -> Option<Self> {
+    pub(super) fn new<const S: usize>(
+        slope: &Slope<T, N>,
+        h: T,
+        coefficients: &Collocation<T, S>,
+    ) -> Option<Self> {
         let zero = T::zero();
-        let real = |value: T| {
-            let factor = value * h;
-            move |i: usize, j: usize| {
-                let one = if i == j { T::one() } else { zero };
-                one - slope.v[(i, j)] * factor - slope.q[(i, j)] * (factor * factor)
-            }
-        };
-        let factor = coefficients.complex.value * h;
-        let square = factor * factor;
-        let complex = |i: usize, j: usize| {
+        let factor = coefficients.real.value * h;
+        let real = |i: usize, j: usize| {
             let one = if i == j { T::one() } else { zero };
-            Complex::new(one, zero) - factor * slope.v[(i, j)] - square * slope.q[(i, j)]
+            one - slope.v[(i, j)] * factor - slope.q[(i, j)] * (factor * factor)
         };
-        let entry = real(coefficients.real.value);
-        let matrix = core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j)));
+        let matrix = core::array::from_fn(|i| core::array::from_fn(|j| real(i, j)));
         let real = Lu::new(matrix)?;
-        let matrix = core::array::from_fn(|i| core::array::from_fn(|j| complex(i, j)));
-        let complex = Lu::new::<T>(matrix)?;
+        let mut complex = [const { None }; MOST_PAIRS];
+        let used = coefficients.complex.iter().take(coefficients.pairs);
+        for (place, eigen) in complex.iter_mut().zip(used) {
+            let factor = eigen.value * h;
+            let square = factor * factor;
+            let entry = |i: usize, j: usize| {
+                let one = if i == j { T::one() } else { zero };
+                Complex::new(one, zero) - factor * slope.v[(i, j)] - square * slope.q[(i, j)]
+            };
+            let matrix = core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j)));
+            *place = Some(Lu::new::<T>(matrix)?);
+        }
         Some(Self { h, real, complex })
     }
 
     /// The change of the stages' accelerations that removes what is left of their
     /// equations.
-    pub(super) fn solve(&self, rest: &Stages<T, N>, coefficients: &Collocation<T>) -> Stages<T, N> {
+    pub(super) fn solve<const S: usize>(
+        &self,
+        rest: &Stages<T, N, S>,
+        coefficients: &Collocation<T, S>,
+    ) -> Stages<T, N, S> {
         let Collocation { real, complex, .. } = coefficients;
         let zero = Complex::new(T::zero(), T::zero());
         let along = core::array::from_fn(|k| {
-            (0..3).fold(T::zero(), |sum, i| sum + real.left[i] * rest[i][k])
-        });
-        let across = core::array::from_fn(|k| {
-            (0..3).fold(zero, |sum, i| sum + complex.left[i] * rest[i][k])
+            (0..S).fold(T::zero(), |sum, i| sum + real.left[i] * rest[i][k])
         });
         let along = self.real.solve(&along);
-        let across = self.complex.solve::<T>(&across);
-        // The third eigenvector is the conjugate of the second.
-        let two = T::from_f64(2.0);
-        core::array::from_fn(|i| {
-            SVector::from_fn(|k, _| {
-                real.right[i] * along[k] + (complex.right[i] * across[k]).re * two
-            })
-        })
+        let mut change: Stages<T, N, S> =
+            core::array::from_fn(|i| SVector::from_fn(|k, _| real.right[i] * along[k]));
+        for (eigen, factors) in complex.iter().zip(self.complex.iter().flatten()) {
+            let across = core::array::from_fn(|k| {
+                (0..S).fold(zero, |sum, i| sum + eigen.left[i] * rest[i][k])
+            });
+            let across = factors.solve::<T>(&across);
+            // The other eigenvector of the pair is the conjugate.
+            let two = T::from_f64(2.0);
+            for (i, change) in change.iter_mut().enumerate() {
+                for (k, entry) in change.iter_mut().enumerate() {
+                    *entry += (eigen.right[i] * across[k]).re * two;
+                }
+            }
+        }
+        change
     }
 }

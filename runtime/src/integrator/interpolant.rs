@@ -13,11 +13,15 @@
 //! Source: Hairer, Nørsett & Wanner, Solving Ordinary Differential Equations I
 //! (1993), section II.6.
 
+use super::collocation::cardinal;
 use crate::{Real, State};
 use nalgebra::SVector;
 
 /// Number of coefficients of the longest interpolant, that of DOP853.
 pub(crate) const COEFFICIENTS: usize = 8;
+
+/// Most stages of an implicit method inside of a step.
+const MOST_BETWEEN: usize = 4;
 
 /// The polynomials of one step.
 #[derive(Clone, Debug)]
@@ -56,26 +60,24 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
         self.used = 4;
     }
 
-    /// The cubics through both ends and two states between, at fractions of the
-    /// step.
+    /// The polynomials through both ends and up to [`MOST_BETWEEN`] states between, at
+    /// fractions of the step.
     pub(crate) fn set_stages(
         &mut self,
         (start, end): (&State<T, N>, &State<T, N>),
-        (first, a): (T, &State<T, N>),
-        (second, b): (T, &State<T, N>),
+        nodes: &[T],
+        states: &[State<T, N>],
     ) {
-        let cubic = |y: [&SVector<T, N>; 4]| {
-            let difference = y[3] - y[0];
-            let gap = |theta: T, y1: &SVector<T, N>| {
-                ((y1 - y[0]) / theta - difference) / (T::one() - theta)
-            };
-            let (low, high) = (gap(first, y[1]), gap(second, y[2]));
-            let last = (high - low) / (second - first);
-            [*y[0], difference, low - last * first, last]
-        };
-        self.q[..4].copy_from_slice(&cubic([&start.q, &a.q, &b.q, &end.q]));
-        self.v[..4].copy_from_slice(&cubic([&start.v, &a.v, &b.v, &end.v]));
-        self.used = 4;
+        let mut values = [SVector::zeros(); MOST_BETWEEN];
+        for (value, state) in values.iter_mut().zip(states) {
+            *value = state.q;
+        }
+        set_through(&mut self.q, (&start.q, &end.q), nodes, values);
+        for (value, state) in values.iter_mut().zip(states) {
+            *value = state.v;
+        }
+        set_through(&mut self.v, (&start.v, &end.v), nodes, values);
+        self.used = nodes.len() + 2;
     }
 
     /// Appends the next pair of coefficients.
@@ -113,6 +115,32 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
             v = self.v[i] + v * factor;
         }
         (q, v)
+    }
+}
+
+/// The polynomial through both ends and values between, one coefficient after the
+/// other: each is the value that is left at an end, and is then divided out.
+fn set_through<T: Real, const N: usize>(
+    out: &mut [SVector<T, N>; COEFFICIENTS],
+    (start, end): (&SVector<T, N>, &SVector<T, N>),
+    nodes: &[T],
+    mut values: [SVector<T, N>; MOST_BETWEEN],
+) {
+    (out[0], out[1]) = (*start, end - start);
+    for (value, theta) in values.iter_mut().zip(nodes) {
+        *value = ((*value - start) / *theta - out[1]) / (T::one() - *theta);
+    }
+    for k in 0..nodes.len() {
+        let at_end = k % 2 == 1;
+        let place = if at_end { T::one() } else { T::zero() };
+        out[k + 2] = SVector::zeros();
+        for (j, value) in values[..nodes.len()].iter().enumerate() {
+            out[k + 2].axpy(cardinal(nodes, j, place), value, T::one());
+        }
+        for (value, theta) in values.iter_mut().zip(nodes) {
+            let over = if at_end { T::one() - *theta } else { *theta };
+            *value = (*value - out[k + 2]) / over;
+        }
     }
 }
 

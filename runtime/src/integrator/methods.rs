@@ -1,13 +1,13 @@
 //! The methods, at a fixed pace or at one that follows a tolerance.
 //!
 //! In:  nothing, or a [`Tolerance`].
-//! Out: [`Rk4`], [`Dp5`], [`Dop853`], [`Radau5`].
+//! Out: [`Rk4`], [`Dp5`], [`Dop853`], [`Radau5`], [`Radau9`].
 
 use super::explicit::Explicit;
 use super::pace::{Inside, Paced, Trial};
 use super::radau::Radau;
 use super::step::Step;
-use super::tableau::{DOP853, DP5, RK4};
+use super::tableau::{DOP853, DP5, RADAU5, RADAU9, RK4};
 use super::{IntegrateError, Integrator, Tolerance};
 use crate::{Real, State, System};
 
@@ -105,17 +105,32 @@ method!(
     /// three stages at once.
     ///
     /// Between the ends, the cubic polynomials through the stages.
-    Radau5, Radau<T, N>
+    Radau5, Radau<T, N, 3>
+);
+method!(
+    /// The implicit method Radau IIA of order 9, L-stable: for stiff mechanisms whose
+    /// motion is wanted to many digits. Each step solves for five stages at once.
+    ///
+    /// Between the ends, the quintic polynomials through the stages.
+    Radau9, Radau<T, N, 5>
 );
 
-impl<T: Real, const N: usize> Radau5<T, N> {
-    /// The method at a fixed pace: each step goes to its bound at once.
-    pub fn fixed() -> Self {
-        Self(Paced::fixed(Radau::new(None)))
-    }
+macro_rules! implicit {
+    ($name:ident, $tableau:ident) => {
+        impl<T: Real, const N: usize> $name<T, N> {
+            /// The method at a fixed pace: each step goes to its bound at once.
+            pub fn fixed() -> Self {
+                Self(Paced::fixed(Radau::new(&$tableau, None)))
+            }
 
-    /// The method at a pace that follows a tolerance.
-    pub fn adaptive(tolerance: Tolerance<T, N>) -> Self {
-        Self(Paced::adaptive(Radau::new(Some(tolerance)), tolerance))
-    }
+            /// The method at a pace that follows a tolerance.
+            pub fn adaptive(tolerance: Tolerance<T, N>) -> Self {
+                let method = Radau::new(&$tableau, Some(tolerance));
+                Self(Paced::adaptive(method, tolerance))
+            }
+        }
+    };
 }
+
+implicit!(Radau5, RADAU5);
+implicit!(Radau9, RADAU9);

@@ -9,6 +9,7 @@
 //! | [`Dp5`] | 5(4) | order 4 | fixed or adaptive |
 //! | [`Dop853`] | 8(5,3) | order 7 | fixed or adaptive |
 //! | [`Radau5`] | 5(3), L-stable | order 3 | fixed or adaptive |
+//! | [`Radau9`] | 9(5), L-stable | order 5 | fixed or adaptive |
 //!
 //! Not here: what is done with the steps ([`crate::simulate`]).
 
@@ -30,7 +31,7 @@ mod tableau;
 
 pub use control::Tolerance;
 pub use error::IntegrateError;
-pub use methods::{Dop853, Dp5, Radau5, Rk4};
+pub use methods::{Dop853, Dp5, Radau5, Radau9, Rk4};
 pub(crate) use pace::Inside;
 pub use step::Step;
 

@@ -1,12 +1,12 @@
-//! The stages of the implicit method Radau IIA of order 5 on `(q, q̇)`.
+//! The stages of the implicit methods Radau IIA of orders 5 and 9 on `(q, q̇)`.
 //!
 //! In:  a [`System`], the state at the start of the step.
 //! Out: the projected state at its end, an error estimate, the interpolant.
 //!
-//! The unknowns are the accelerations `a_i` of the three stages. With
+//! The unknowns are the accelerations `a_i` of the `S` stages. With
 //! `v_i = v₀ + h Σ A_ij a_j` and `q_i = q₀ + c_i h v₀ + h² Σ (A²)_ij a_j` the equations
 //! `q̈(q_i, v_i) = a_i` are solved by simplified Newton iteration, whose linear
-//! systems fall apart along the eigenvectors of `A` into a real and a complex one
+//! systems fall apart along the eigenvectors of `A` into a real one and complex ones
 //! with `W(λ) = 1 − λ h ∂q̈/∂q̇ − λ² h² ∂q̈/∂q`, `N × N`.
 //! The constraints are where they are for explicit methods: inside `q̈`, and in
 //! the projection of the end.
@@ -15,13 +15,13 @@
 //! section IV.8.
 
 use super::IntegrateError;
-use super::collocation::Collocation;
+use super::collocation::{Collocation, cardinal};
 use super::control::Tolerance;
 use super::factors::{Factors, Stages};
 use super::pace::{Inside, Trial};
 use super::slope::slope;
 use super::step::Step;
-use super::tableau::{RADAU5, Tableau};
+use super::tableau::Tableau;
 use crate::{DynamicsError, Real, Slope, State, System};
 use nalgebra::SVector;
 
@@ -48,8 +48,9 @@ const FIXED_PACE: f64 = 1e3;
 
 /// The method at work.
 #[derive(Clone, Debug)]
-pub(super) struct Radau<T, const N: usize> {
-    coefficients: Collocation<T>,
+pub(super) struct Radau<T, const N: usize, const S: usize> {
+    tableau: &'static Tableau,
+    coefficients: Collocation<T, S>,
     inside: Inside,
     step: Step<T, N>,
     tolerance: Tolerance<T, N>,
@@ -62,19 +63,19 @@ pub(super) struct Radau<T, const N: usize> {
     /// Acceleration at the start of the step.
     first: SVector<T, N>,
     /// Accelerations of the stages of the trial step.
-    a: Stages<T, N>,
+    a: Stages<T, N, S>,
     /// Those of the last accepted step, and its length; zero if there is none.
-    before: (Stages<T, N>, T),
+    before: (Stages<T, N, S>, T),
     /// Error estimate of the trial step.
     estimate: (SVector<T, N>, SVector<T, N>),
     /// The worst rate of convergence in the last trial.
     rate: T,
 }
 
-impl<T: Real, const N: usize> Radau<T, N> {
+impl<T: Real, const N: usize, const S: usize> Radau<T, N, S> {
     /// The method; `tolerance` tells Newton's iteration when to end, which at a
     /// fixed pace is near round-off.
-    pub(super) fn new(tolerance: Option<Tolerance<T, N>>) -> Self {
+    pub(super) fn new(tableau: &'static Tableau, tolerance: Option<Tolerance<T, N>>) -> Self {
         let zero = SVector::zeros();
         let (tolerance, tolerable) = match tolerance {
             Some(tolerance) => (tolerance, T::from_f64(TOLERABLE_PART)),
@@ -84,17 +85,18 @@ impl<T: Real, const N: usize> Radau<T, N> {
             }
         };
         Self {
+            tableau,
             coefficients: Collocation::new(),
             inside: Inside::Full,
-            step: Step::new(RADAU5.looks),
+            step: Step::new(tableau.looks),
             enough: tolerance.part(NEWTON_PART),
             tolerable,
             tolerance,
             slope: None,
             factors: None,
             first: zero,
-            a: [zero; 3],
-            before: ([zero; 3], T::zero()),
+            a: [zero; S],
+            before: ([zero; S], T::zero()),
             estimate: (zero, zero),
             rate: T::from_f64(UNKNOWN_RATE),
         }
@@ -111,7 +113,7 @@ impl<T: Real, const N: usize> Radau<T, N> {
     }
 
     /// The state of a stage of a step of length `h`.
-    fn stage(&self, a: &Stages<T, N>, h: T, i: usize) -> State<T, N> {
+    fn stage(&self, a: &Stages<T, N, S>, h: T, i: usize) -> State<T, N> {
         let Collocation {
             nodes,
             matrix,
@@ -133,21 +135,17 @@ impl<T: Real, const N: usize> Radau<T, N> {
 
     /// Accelerations to begin the iteration with: those of the last step's
     /// stages, extrapolated.
-    fn guess(&self, h: T) -> Stages<T, N> {
+    fn guess(&self, h: T) -> Stages<T, N, S> {
         let (before, length) = &self.before;
         if *length <= T::zero() {
-            return [self.first; 3];
+            return [self.first; S];
         }
         let nodes = &self.coefficients.nodes;
         core::array::from_fn(|i| {
             let x = T::one() + nodes[i] * h / *length;
             let mut guess = SVector::<T, N>::zeros();
             for (j, a) in before.iter().enumerate() {
-                let others = (0..3).filter(|k| *k != j);
-                let weight = others.fold(T::one(), |product, k| {
-                    product * (x - nodes[k]) / (nodes[j] - nodes[k])
-                });
-                guess.axpy(weight, a, T::one());
+                guess.axpy(cardinal(nodes, j, x), a, T::one());
             }
             guess
         })
@@ -219,7 +217,7 @@ impl<T: Real, const N: usize> Radau<T, N> {
         &mut self,
         system: &mut Y,
         h: T,
-        a: &mut Stages<T, N>,
+        a: &mut Stages<T, N, S>,
     ) -> Result<T, IntegrateError<T>> {
         let mut rest = *a;
         for (i, rest) in rest.iter_mut().enumerate() {
@@ -230,7 +228,7 @@ impl<T: Real, const N: usize> Radau<T, N> {
         let failure = IntegrateError::NewtonDiverged { t: start.t, h };
         let factors = self.factors.as_ref().ok_or(failure)?;
         let change = factors.solve(&rest, &self.coefficients);
-        let before: [_; 3] = core::array::from_fn(|i| self.stage(a, h, i));
+        let before: [_; S] = core::array::from_fn(|i| self.stage(a, h, i));
         for (a, change) in a.iter_mut().zip(&change) {
             *a += change;
         }
@@ -241,26 +239,26 @@ impl<T: Real, const N: usize> Radau<T, N> {
             let size = self.tolerance.norm((&dq, &dv), &start, &after);
             sum += size * size;
         }
-        Ok((sum / T::from_f64(3.0)).sqrt())
+        Ok((sum / T::from_f64(S as f64)).sqrt())
     }
 
     /// The error estimate of a step (IV.8.19), with the slopes at the start, or
-    /// near it for a second look (IV.8.20).
+    /// near it for a second look (IV.8.20): the slopes are compared with those that
+    /// the stages lead back to.
     fn estimate(
         &self,
         h: T,
         (v, slope): (&SVector<T, N>, &SVector<T, N>),
     ) -> (SVector<T, N>, SVector<T, N>) {
-        let start = &self.step.start;
         let (Some(factors), Some(derivatives)) = (&self.factors, &self.slope) else {
             return (SVector::zeros(), SVector::zeros());
         };
         let factor = self.coefficients.real.value * h;
         let (mut dq, mut dv) = (v * factor, slope * factor);
-        for (i, weight) in self.coefficients.error.iter().enumerate() {
-            let stage = self.stage(&self.a, h, i);
-            dq += (stage.q - start.q) * *weight;
-            dv += (stage.v - start.v) * *weight;
+        for (i, weight) in self.coefficients.start.iter().enumerate() {
+            let weight = *weight * factor;
+            dq -= self.stage(&self.a, h, i).v * weight;
+            dv -= self.a[i] * weight;
         }
         // Filtered, so that it stays small where stiff parts have died out.
         let right = dv + derivatives.q * dq * factor;
@@ -269,9 +267,9 @@ impl<T: Real, const N: usize> Radau<T, N> {
     }
 }
 
-impl<T: Real, const N: usize> Trial<T, N> for Radau<T, N> {
+impl<T: Real, const N: usize, const S: usize> Trial<T, N> for Radau<T, N, S> {
     fn tableau(&self) -> &'static Tableau {
-        &RADAU5
+        self.tableau
     }
 
     fn step(&mut self) -> &mut Step<T, N> {
@@ -316,7 +314,7 @@ impl<T: Real, const N: usize> Trial<T, N> for Radau<T, N> {
             result = self.solve(system, h);
         }
         result?;
-        let mut last = self.stage(&self.a, h, 2);
+        let mut last = self.stage(&self.a, h, S - 1);
         last.t = end;
         self.step.end = last;
         self.estimate = self.estimate(h, (&start.v, &self.first));
@@ -345,9 +343,10 @@ impl<T: Real, const N: usize> Trial<T, N> for Radau<T, N> {
     fn accept<Y: System<T, N> + ?Sized>(&mut self, _: &mut Y) -> Result<(), DynamicsError<T>> {
         let h = self.step.length();
         if self.inside != Inside::Nothing {
-            let [inner, outer, _] = self.coefficients.nodes;
-            let (first, second) = (self.stage(&self.a, h, 0), self.stage(&self.a, h, 1));
-            self.step.set_stages((inner, &first), (outer, &second));
+            let states: [_; S] = core::array::from_fn(|i| self.stage(&self.a, h, i));
+            let inner = S - 1;
+            self.step
+                .set_stages(&self.coefficients.nodes[..inner], &states[..inner]);
         }
         self.before = (self.a, h);
         if self.rate > T::from_f64(GOOD_RATE) {

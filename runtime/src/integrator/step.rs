@@ -86,11 +86,11 @@ impl<T: Real, const N: usize> Step<T, N> {
         self.span
     }
 
-    /// Joins both ends through two states between.
-    pub(super) fn set_stages(&mut self, first: (T, &State<T, N>), second: (T, &State<T, N>)) {
+    /// Joins both ends through states between, at fractions of the step.
+    pub(super) fn set_stages(&mut self, nodes: &[T], states: &[State<T, N>]) {
         self.span = self.length();
         self.interpolant
-            .set_stages((&self.start, &self.end), first, second);
+            .set_stages((&self.start, &self.end), nodes, states);
     }
 
     /// The same step, ended earlier.

@@ -157,19 +157,28 @@ pub(crate) static DP5: Tableau = Tableau {
     ]],
 };
 
-/// Radau IIA of order 5, whose coefficients are in [`super::collocation`]; here is
-/// what the step control needs.
-pub(crate) static RADAU5: Tableau = Tableau {
-    order: 5,
-    error_order: 4,
-    looks: 3,
-    jumps: (0.2, 8.0),
-    gains: Gains::QUICK,
-    nodes: &[],
-    rows: &[],
-    weights: &[],
-    errors: &[],
-    extra_nodes: &[],
-    extra_rows: &[],
-    dense: &[],
-};
+/// What the step control needs of Radau IIA, whose coefficients are in
+/// [`super::collocation`]: with `S` stages, the estimate is that of an embedded
+/// solution of order `S`.
+const fn implicit(stages: u8) -> Tableau {
+    Tableau {
+        order: 2 * stages - 1,
+        error_order: stages + 1,
+        looks: stages,
+        jumps: (0.2, 8.0),
+        gains: Gains::QUICK,
+        nodes: &[],
+        rows: &[],
+        weights: &[],
+        errors: &[],
+        extra_nodes: &[],
+        extra_rows: &[],
+        dense: &[],
+    }
+}
+
+/// Radau IIA of order 5.
+pub(crate) static RADAU5: Tableau = implicit(3);
+
+/// Radau IIA of order 9.
+pub(crate) static RADAU9: Tableau = implicit(5);

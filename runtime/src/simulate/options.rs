@@ -6,8 +6,8 @@
 use super::SimulateError;
 use crate::integrator::Inside;
 use crate::{
-    Dop853, Dp5, IntegrateError, Integrator, Radau5, Real, Rk4, Settings, State, Step, System,
-    Tolerance,
+    Dop853, Dp5, IntegrateError, Integrator, Radau5, Radau9, Real, Rk4, Settings, State, Step,
+    System, Tolerance,
 };
 use core::fmt::{Display, Formatter};
 
@@ -22,6 +22,8 @@ pub enum Scheme {
     Dop853,
     /// [`Radau5`], implicit, of order 5: for stiff mechanisms.
     Radau5,
+    /// [`Radau9`], implicit, of order 9: for stiff mechanisms, to many digits.
+    Radau9,
 }
 
 impl Display for Scheme {
@@ -31,6 +33,7 @@ impl Display for Scheme {
             Self::Dp5 => "dp5",
             Self::Dop853 => "dop853",
             Self::Radau5 => "radau5",
+            Self::Radau9 => "radau9",
         })
     }
 }
@@ -152,6 +155,7 @@ pub(super) enum Driver<T, const N: usize> {
     Dp5(Dp5<T, N>),
     Dop853(Dop853<T, N>),
     Radau5(Radau5<T, N>),
+    Radau9(Radau9<T, N>),
 }
 
 impl<T: Real, const N: usize> Driver<T, N> {
@@ -170,6 +174,8 @@ impl<T: Real, const N: usize> Driver<T, N> {
             (Scheme::Dop853, Some(tolerance)) => Self::Dop853(Dop853::adaptive(tolerance)),
             (Scheme::Radau5, None) => Self::Radau5(Radau5::fixed()),
             (Scheme::Radau5, Some(tolerance)) => Self::Radau5(Radau5::adaptive(tolerance)),
+            (Scheme::Radau9, None) => Self::Radau9(Radau9::fixed()),
+            (Scheme::Radau9, Some(tolerance)) => Self::Radau9(Radau9::adaptive(tolerance)),
         })
     }
 
@@ -180,6 +186,7 @@ impl<T: Real, const N: usize> Driver<T, N> {
             Self::Dp5(method) => method.keep(inside),
             Self::Dop853(method) => method.keep(inside),
             Self::Radau5(method) => method.keep(inside),
+            Self::Radau9(method) => method.keep(inside),
         }
     }
 
@@ -190,6 +197,7 @@ impl<T: Real, const N: usize> Driver<T, N> {
             Self::Dp5(method) => method.forget(),
             Self::Dop853(method) => method.forget(),
             Self::Radau5(method) => method.forget(),
+            Self::Radau9(method) => method.forget(),
         }
     }
 }
@@ -206,6 +214,7 @@ impl<T: Real, const N: usize> Integrator<T, N> for Driver<T, N> {
             Self::Dp5(method) => method.step(system, state, bound),
             Self::Dop853(method) => method.step(system, state, bound),
             Self::Radau5(method) => method.step(system, state, bound),
+            Self::Radau9(method) => method.step(system, state, bound),
         }
     }
 }
