@@ -112,7 +112,7 @@ macro_rules! real_for_float {
             }
             #[inline(always)]
             fn sin_cos_all<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
-                let (sines, cosines) = sin_cos_all(angles.map(f64::from));
+                let (sines, cosines) = sincos::sin_cos_all(angles.map(f64::from));
                 (sines.map(|x| x as $float), cosines.map(|x| x as $float))
             }
             real_for_float!(@unary $float: tan asin acos atan sinh cosh tanh exp ln sqrt);
@@ -164,27 +164,12 @@ macro_rules! real_for_float {
 
 /// Inlined where the reduction is exact enough, the library's elsewhere.
 #[inline(always)]
-fn sin_cos(x: f64) -> (f64, f64) {
+pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     if x.abs() <= sincos::LARGEST {
         sincos::sin_cos(x)
     } else {
         library_sin_cos(x)
     }
-}
-
-/// All inlined, or, if one of them is too large for that, one by one: so that the
-/// usual case is a loop without branches, which runs in the processor's lanes.
-#[inline(always)]
-fn sin_cos_all<const K: usize>(angles: [f64; K]) -> ([f64; K], [f64; K]) {
-    let largest = angles.iter().fold(
-        0.0,
-        |largest: f64, x| if x.abs() <= largest { largest } else { x.abs() },
-    );
-    if largest <= sincos::LARGEST {
-        return sincos::sin_cos_all(angles);
-    }
-    let both = angles.map(sin_cos);
-    (both.map(|(sin, _)| sin), both.map(|(_, cos)| cos))
 }
 
 #[cold]

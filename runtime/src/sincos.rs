@@ -44,15 +44,15 @@ const COSINE: [f64; 6] = [
 /// Sine and cosine of `x`, `|x| ≤` [`LARGEST`].
 #[inline(always)]
 pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
-    let shifted = x * FRAC_2_PI + ROUND;
+    let shifted = fused(x, FRAC_2_PI, ROUND);
     let quarter = shifted.to_bits();
     let n = shifted - ROUND;
 
     // r + tail = x − n·π/2.
-    let first = x - n * HALF_PI[0];
+    let first = fused(-n, HALF_PI[0], x);
     let middle = n * HALF_PI[1];
     let second = first - middle;
-    let rest = n * HALF_PI[2] - ((first - second) - middle);
+    let rest = fused(n, HALF_PI[2], -((first - second) - middle));
     let r = second - rest;
     let tail = (second - r) - rest;
 
@@ -70,20 +70,84 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
 /// As many angles as go through the processor's lanes at once.
 const LANES: usize = 4;
 
-/// Sines and cosines of several angles, each `|x| ≤` [`LARGEST`].
+/// Angles, or their sines or cosines, that are worked on side by side.
+type Block = [f64; LANES];
+
+/// Sines and cosines of several angles.
 #[inline(always)]
 pub(crate) fn sin_cos_all<const K: usize>(angles: [f64; K]) -> ([f64; K], [f64; K]) {
     let mut both = ([0.0; K], [0.0; K]);
-    for first in (0..K).step_by(LANES) {
-        let block: [f64; LANES] =
-            core::array::from_fn(|i| angles.get(first + i).copied().unwrap_or(0.0));
-        let block = block.map(sin_cos);
-        for (i, (sin, cos)) in block.into_iter().take(K - first).enumerate() {
-            both.0[first + i] = sin;
-            both.1[first + i] = cos;
-        }
+    if K > LANES {
+        in_blocks(&angles, &mut both.0, &mut both.1);
+        return both;
     }
+    let (mut block, mut sines, mut cosines) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+    block[..K].copy_from_slice(&angles);
+    in_block(&block, &mut sines, &mut cosines);
+    both.0.copy_from_slice(&sines[..K]);
+    both.1.copy_from_slice(&cosines[..K]);
     both
+}
+
+/// Fills slices of equal length, at least [`LANES`], block after block; the last
+/// one may take in some of the one before it.
+#[inline(never)]
+fn in_blocks(angles: &[f64], sines: &mut [f64], cosines: &mut [f64]) {
+    let mut inside = true;
+    let (blocks, rest) = angles.as_chunks::<LANES>();
+    let sine_blocks = sines.as_chunks_mut::<LANES>().0;
+    let cosine_blocks = cosines.as_chunks_mut::<LANES>().0;
+    for ((block, sines), cosines) in blocks.iter().zip(sine_blocks).zip(cosine_blocks) {
+        inside &= lanes(block, sines, cosines);
+    }
+    if !inside {
+        one_by_one(angles, sines, cosines);
+    } else if !rest.is_empty()
+        && let Some(block) = angles.last_chunk()
+        && let (Some(sines), Some(cosines)) = (sines.last_chunk_mut(), cosines.last_chunk_mut())
+    {
+        in_block(block, sines, cosines);
+    }
+}
+
+/// One block, in a function of its own: inlined into a long one the same lines go
+/// through the lanes one after the other.
+#[inline(never)]
+fn in_block(block: &Block, sines: &mut Block, cosines: &mut Block) {
+    if !lanes(block, sines, cosines) {
+        one_by_one(block, sines, cosines);
+    }
+}
+
+/// A block; `false` if one of its angles is larger than [`LARGEST`] or not a
+/// number, and what was written is not to be used.
+#[inline(always)]
+fn lanes(block: &Block, sines: &mut Block, cosines: &mut Block) -> bool {
+    let mut inside = true;
+    for ((angle, sin), cos) in block.iter().zip(sines).zip(cosines) {
+        (*sin, *cos) = sin_cos(*angle);
+        inside &= angle.abs() <= LARGEST;
+    }
+    inside
+}
+
+/// Angles of which some are too large for the fast path.
+#[cold]
+#[inline(never)]
+fn one_by_one(angles: &[f64], sines: &mut [f64], cosines: &mut [f64]) {
+    for ((angle, sin), cos) in angles.iter().zip(sines).zip(cosines) {
+        (*sin, *cos) = crate::real::sin_cos(*angle);
+    }
+}
+
+/// `a b + c`, in one operation where the processor has one: a call of a function
+/// would be far slower than what it saves.
+#[inline(always)]
+fn fused(a: f64, b: f64, c: f64) -> f64 {
+    #[cfg(all(feature = "std", target_feature = "fma"))]
+    return a.mul_add(b, c);
+    #[cfg(not(all(feature = "std", target_feature = "fma")))]
+    return a * b + c;
 }
 
 /// Both functions on [−π/4, π/4], at `r + tail`.
@@ -92,15 +156,20 @@ fn kernels(r: f64, tail: f64) -> (f64, f64) {
     let z = r * r;
     let w = z * z;
     let [s1, s2, s3, s4, s5, s6] = SINE;
-    let high = s2 + z * (s3 + z * s4) + z * w * (s5 + z * s6);
+    let high = fused(z * w, fused(z, s6, s5), fused(z, fused(z, s4, s3), s2));
     let cube = z * r;
-    let sine = r - ((z * (0.5 * tail - cube * high) - tail) - cube * s1);
+    let low = fused(z, fused(-cube, high, 0.5 * tail), -tail);
+    let sine = r - fused(-cube, s1, low);
 
     let [c1, c2, c3, c4, c5, c6] = COSINE;
-    let high = z * (c1 + z * (c2 + z * c3)) + w * w * (c4 + z * (c5 + z * c6));
+    let high = fused(
+        w * w,
+        fused(z, fused(z, c6, c5), c4),
+        z * fused(z, fused(z, c3, c2), c1),
+    );
     let half = 0.5 * z;
     let near = 1.0 - half;
-    let cosine = near + (((1.0 - near) - half) + (z * high - r * tail));
+    let cosine = near + (((1.0 - near) - half) + fused(z, high, -(r * tail)));
     (sine, cosine)
 }
 
