@@ -93,6 +93,15 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         self.counters.landed_accelerations += 1;
+        self.regular_landed(mechanism, state)
+    }
+
+    /// As [`landed_acceleration`](Self::landed_acceleration), without counting.
+    pub(super) fn regular_landed<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
         if let Some(acceleration) = self.emitted_acceleration(mechanism, state) {
             return Ok(acceleration);
         }

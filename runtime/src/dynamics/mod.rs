@@ -11,6 +11,7 @@
 
 mod acceleration;
 mod across;
+mod bridge;
 mod constrained;
 mod emitted;
 mod full;

@@ -85,7 +85,8 @@ pub struct Counters {
     /// Accelerations at the nearest state on the constraints, without a rank
     /// decision.
     pub landed_accelerations: u64,
-    /// Accelerations with a rank decision.
+    /// Accelerations where constraint rows are too weak for that: interpolated from
+    /// both sides of a singular position, or with a rank decision.
     pub robust_accelerations: u64,
     /// Singular value decompositions of the constraint Jacobian.
     pub rank_decisions: u64,
@@ -105,6 +106,6 @@ pub struct Counters {
     pub projections: u64,
     /// Corrections of positions in all projections.
     pub projection_iterations: u64,
-    /// Projections that needed a rank decision.
+    /// Projections where constraint rows are weak.
     pub robust_projections: u64,
 }

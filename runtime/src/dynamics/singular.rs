@@ -49,6 +49,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             return self.landed_acceleration(mechanism, &landed);
         }
         self.counters.robust_accelerations += 1;
+        if let Some(acceleration) = self.bridged_acceleration(&landed) {
+            return Ok(acceleration);
+        }
         self.singular_acceleration(mechanism, &landed, known)
     }
 
@@ -64,7 +67,10 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             return Ok((landed, Known::Rank));
         }
         match self.land(mechanism, &mut landed) {
-            Ok(_) => Ok((landed, Known::Landed)),
+            Ok(_) => {
+                self.slide(mechanism, state, &mut landed)?;
+                Ok((landed, Known::Landed))
+            }
             Err(DynamicsError::ProjectionFailed { .. }) => Ok((*state, Known::Rank)),
             Err(error) => Err(error),
         }

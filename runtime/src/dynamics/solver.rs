@@ -41,6 +41,9 @@ pub struct Solver<T, const N: usize, const R: usize> {
     /// The time and position that is known to be on the constraints, with rows that
     /// are safely independent.
     pub(crate) safe: Option<(T, SVector<T, N>)>,
+    /// The state that was last brought onto its branch by interpolation, and the
+    /// acceleration there.
+    pub(crate) bridged: Option<(State<T, N>, SVector<T, N>)>,
     /// Whether `metric` and `lifted` belong to that position.
     pub(crate) shared: bool,
     /// The largest length of the coordinates in the metric so far: what their
@@ -80,6 +83,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             correction: Correction::default(),
             emitted: true,
             safe: None,
+            bridged: None,
             shared: false,
             reach: T::zero(),
             sine: None,
@@ -97,6 +101,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     {
         self.metric.forget();
         self.safe = None;
+        self.bridged = None;
         ConstrainedSystem::new(mechanism, self)
     }
 

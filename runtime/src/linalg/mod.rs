@@ -80,6 +80,18 @@ pub(crate) fn crackle_span<T: Real>() -> T {
     T::EPSILON.powf(T::from_f64(1.0 / 6.0))
 }
 
+/// The angle (rad) between the states that a branch is interpolated from, in which a
+/// constraint row turns; also, about, the sine of the constraints at the first of them.
+pub(crate) fn pier_distance<T: Real>() -> T {
+    T::from_f64(0.05)
+}
+
+/// By how much, relative to what is interpolated, two interpolations may differ that
+/// use more and fewer states (1e-9 for `f64`).
+pub(crate) fn on_bridge<T: Real>() -> T {
+    truncation()
+}
+
 /// The same sine for the first step of a motion.
 pub(crate) fn first_guard<T: Real>() -> T {
     T::from_f64(0.25)

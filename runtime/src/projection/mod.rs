@@ -38,7 +38,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.observe_sine(squared);
         if self.safe.is_none() {
             self.counters.robust_projections += 1;
-            self.learn(mechanism, state)?;
+            if self.bridged.is_none() {
+                self.learn(mechanism, state)?;
+            }
         }
         if state.is_finite() {
             Ok(())
@@ -55,20 +57,36 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         mechanism: &M,
         state: &mut State<T, N>,
     ) -> Result<T, DynamicsError<T>> {
-        self.safe = None;
-        if let Some(squared) = self.emitted_landing(mechanism, state) {
+        (self.safe, self.bridged) = (None, None);
+        if let Some(squared) = self.land_regular(mechanism, state)? {
             return Ok(squared);
+        }
+        if self.bridge(mechanism, state)? {
+            return Ok(T::zero());
+        }
+        self.settle(mechanism, state)?;
+        Ok(self.factorise_constraints(Source::Position, Which::All))
+    }
+
+    /// As [`land`](Self::land) where the constraints are regular; none if they are
+    /// not, and the state is anywhere.
+    pub(crate) fn land_regular<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &mut State<T, N>,
+    ) -> Result<Option<T>, DynamicsError<T>> {
+        if let Some(squared) = self.emitted_landing(mechanism, state) {
+            return Ok(Some(squared));
         }
         if self.project_position(mechanism, state)? {
             self.factorise_metric(mechanism, Source::Position, state.t)?;
             let squared = self.factorise_constraints(Source::Position, Which::All);
             if passes(squared, weak()) {
                 self.project_velocity(state);
-                return Ok(squared);
+                return Ok(Some(squared));
             }
         }
-        self.settle(mechanism, state)?;
-        Ok(self.factorise_constraints(Source::Position, Which::All))
+        Ok(None)
     }
 
     /// Newton's iteration on `g = 0`; leaves the terms of the final position in
