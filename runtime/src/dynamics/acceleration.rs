@@ -17,7 +17,6 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         self.prepare(mechanism, state)?;
-        if std::env::var_os("DBG").is_some() { std::eprintln!("ACC t {} q {:e} near {} safe {} lowest {:e}", state.t, (state.q[0].to_f64() + 1.5707963267948966), self.near, self.is_safe_at(state), self.lowest.to_f64()); }
         if let Some(acceleration) = self.emitted_acceleration(mechanism, state) {
             self.counters.cheap_accelerations += 1;
             return Ok(acceleration);
