@@ -167,6 +167,8 @@ pub enum MethodName {
     Dop853,
     /// Radau IIA of order 5, implicit: for stiff mechanisms
     Radau5,
+    /// Radau IIA of order 9, implicit: for stiff mechanisms, to many digits
+    Radau9,
 }
 
 /// The forms of the equations of motion by name.
@@ -190,6 +192,7 @@ impl From<MethodName> for Scheme {
             MethodName::Dp5 => Scheme::Dp5,
             MethodName::Dop853 => Scheme::Dop853,
             MethodName::Radau5 => Scheme::Radau5,
+            MethodName::Radau9 => Scheme::Radau9,
         }
     }
 }

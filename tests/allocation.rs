@@ -70,6 +70,7 @@ fn running_a_mechanism_allocates_nothing() {
         (Scheme::Dp5, adaptive),
         (Scheme::Dop853, adaptive),
         (Scheme::Radau5, adaptive),
+        (Scheme::Radau9, adaptive),
     ] {
         for name in bricard::NAMES {
             let step_scale = step_scale(name);

@@ -21,4 +21,5 @@ mod random;
 mod reduction;
 mod reference;
 mod source;
+mod stiff;
 mod translation;

@@ -62,7 +62,7 @@ fn pace(arguments: &Simulate, method: MethodName) -> Result<Pace<f64>, CommandEr
     let useless = |option| CommandError::UselessOption {
         option,
         method: "rk4",
-        instead: "give --step, or take --method dp5, dop853 or radau5",
+        instead: "give --step, or take --method dp5, dop853, radau5 or radau9",
     };
     match (fixed, relative, absolute) {
         (Some(_), Some(_), _) => Err(useless("--rtol")),

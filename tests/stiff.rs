@@ -1,0 +1,84 @@
+//! Stiff mechanisms of the library against published and computed references.
+
+use bricard_runtime::{
+    Interface, Mechanism, Options, Pace, Scheme, Summary, Visitor, assemble, simulate,
+};
+
+/// Height of the sleeve of the flyball governor after 10 s (m): an implicit method of
+/// order 5 at tolerance 1e-12, on the equations in three coordinates.
+const SLEEVE: f64 = 0.6196229170613131;
+
+/// Coordinates of the slider–crank with flexible rod after 0.1 s (rad, m): the reference
+/// of the published test set, which keeps an error of 2e-10 m of its start in `x3`.
+const FLEXIBLE: [f64; 7] = [
+    15.00000000000104,
+    -0.331173498825626,
+    0.169737332842786,
+    0.0001893192899613509,
+    2.375751249879174e-05,
+    -5.323896770569702e-06,
+    -8.363313279112129e-06,
+];
+
+/// Runs a mechanism of the library from its own start.
+struct Run {
+    options: Options<f64>,
+}
+
+impl Visitor<f64> for Run {
+    type Output = (Vec<f64>, u64);
+
+    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
+    where
+        M: Mechanism<f64, N, R> + Interface<f64, N>,
+    {
+        let start = assemble(&mechanism, &mechanism.start(), 0.0).expect("the start assembles");
+        let run = simulate(&mechanism, &start, &self.options, &mut []);
+        let Summary {
+            end,
+            steps,
+            rejected,
+            ..
+        } = run.unwrap_or_else(|failure| panic!("{failure}"));
+        (end.q.as_slice().to_vec(), steps + rejected)
+    }
+}
+
+fn run(name: &str, until: f64, scheme: Scheme, tolerance: f64) -> (Vec<f64>, u64) {
+    let pace = Pace::Adaptive {
+        relative: tolerance,
+        absolute: tolerance,
+    };
+    let options = Options::new(until, scheme, pace);
+    bricard::visit(name, Run { options }).expect("a name of the catalogue")
+}
+
+#[test]
+fn the_flyball_governor_takes_a_fiftieth_of_the_steps_of_dp5() {
+    let governor = |scheme, tolerance| {
+        let (q, steps) = run("flyball_governor", 10.0, scheme, tolerance);
+        let error = (q[2] - SLEEVE).abs();
+        assert!(error <= 1e-7, "{scheme}: s is off by {error:e}");
+        steps
+    };
+    let explicit = governor(Scheme::Dp5, 1e-7).min(governor(Scheme::Dp5, 1e-5));
+    let implicit = governor(Scheme::Radau9, 1e-7);
+    assert!(
+        50 * implicit <= explicit,
+        "{implicit} steps instead of {explicit}"
+    );
+}
+
+#[test]
+fn the_flexible_slider_crank_ends_at_the_published_reference() {
+    for scheme in [Scheme::Dop853, Scheme::Radau9] {
+        let (q, _) = run("flexible_slider_crank", 0.1, scheme, 1e-12);
+        for (i, (found, exact)) in q.iter().zip(FLEXIBLE).enumerate() {
+            let error = ((found - exact) / exact).abs();
+            assert!(
+                error <= 1e-7,
+                "{scheme}: q[{i}] = {found:e} is off by {error:e}"
+            );
+        }
+    }
+}
