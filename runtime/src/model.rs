@@ -287,6 +287,13 @@ pub struct Quantity {
     pub docs: &'static str,
 }
 
+impl Quantity {
+    /// Whether its unit is that of an angle, or not given.
+    pub(crate) fn may_be_angle(&self) -> bool {
+        matches!(self.unit, "rad" | "deg" | "")
+    }
+}
+
 /// One constraint equation (one row of `A`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ConstraintRow {

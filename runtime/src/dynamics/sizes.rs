@@ -82,7 +82,7 @@ fn turned<T: Real, const N: usize>(
 ) -> State<T, N> {
     let mut turned = *state;
     for (j, coordinate) in coordinates.iter().enumerate().take(N) {
-        if matches!(coordinate.unit, "rad" | "deg" | "") {
+        if coordinate.may_be_angle() {
             let share = STRIDES[0] * sample as f64 + STRIDES[1] * (j * sample) as f64;
             turned.q[j] += T::from_f64(core::f64::consts::TAU * (share % 1.0));
         }

@@ -216,10 +216,27 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.sample_sizes(mechanism, state);
         mechanism.position(state, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, state.t)?;
-        self.reach = self.metric.factor.length(&state.q.data.0[0]);
+        self.observe_reach(mechanism, state);
         self.learn(mechanism, state)?;
         self.prepared = true;
         Ok(())
+    }
+
+    /// Takes note of the length of the coordinates in the metric. Functions of an angle
+    /// have the round-off of an angle of one, however small it is.
+    pub(crate) fn observe_reach<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) {
+        let mut sizes = state.q;
+        for (size, coordinate) in sizes.iter_mut().zip(mechanism.structure().coordinates) {
+            if coordinate.may_be_angle() {
+                *size = size.abs().max(T::one());
+            }
+        }
+        let reach = self.metric.factor.length(&sizes.data.0[0]);
+        self.reach = self.reach.max(reach);
     }
 
     /// Takes note of the squared sine of the constraints at the first state. How far
@@ -236,6 +253,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// Takes note of the squared sine of the constraints at an accepted state, and
     /// whether the next step comes near a singular position.
     pub(crate) fn observe_sine(&mut self, squared: T) {
+        if self.sine.is_none() {
+            return self.begin(squared);
+        }
         let sine = squared.sqrt();
         let lowest = sine.min(self.lowest.sqrt());
         let before = self.sine.unwrap_or(sine);

@@ -32,8 +32,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         }
         self.prepare(mechanism, state)?;
         self.counters.projections += 1;
-        let reach = self.metric.factor.length(&state.q.data.0[0]);
-        self.reach = self.reach.max(reach);
+        self.observe_reach(mechanism, state);
         let squared = self.land(mechanism, state)?;
         self.observe_sine(squared);
         if self.safe.is_none() {
