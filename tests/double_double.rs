@@ -1,7 +1,9 @@
 //! Reference motions in numbers of 106 bits, against exact ones.
 
 use bricard_reference::{DoubleDouble, Reference, ReferenceError, reference};
-use bricard_runtime::{Interface, Mechanism, Real, Visitor};
+use bricard_runtime::{
+    Interface, Mechanism, Options, Pace, Real, Scheme, Visitor, assemble, simulate,
+};
 
 /// What a reference motion may be off by (m, rad, m/s, rad/s).
 const ERROR: f64 = 1e-18;
@@ -88,4 +90,46 @@ fn the_row_of_parallelograms_follows_the_elliptic_functions() {
         check("n_four_bar", "y", cosine, "0.944518538178600962161285");
         check("n_four_bar", "φ'", v[crank], "1.506642180841829469894272");
     }
+}
+
+/// Runs an implicit method and the reference; the largest difference of a coordinate.
+struct Implicit {
+    until: f64,
+    tolerance: f64,
+}
+
+impl Visitor<DoubleDouble> for Implicit {
+    type Output = f64;
+
+    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> f64
+    where
+        M: Mechanism<DoubleDouble, N, R> + Interface<DoubleDouble, N>,
+    {
+        let until = DoubleDouble::from(self.until);
+        let exact: Result<Reference<N>, ReferenceError<N, R>> = reference(&mechanism, until);
+        let exact = exact.unwrap_or_else(|error| panic!("{error}")).end;
+        let start = assemble(&mechanism, &mechanism.start(), DoubleDouble::default());
+        let start = start.unwrap_or_else(|error| panic!("{error}"));
+        let tolerance = DoubleDouble::from(self.tolerance);
+        let pace = Pace::Adaptive {
+            relative: tolerance,
+            absolute: tolerance,
+        };
+        let options = Options::new(until, Scheme::Radau9, pace);
+        let run = simulate(&mechanism, &start, &options, &mut []);
+        let end = run.unwrap_or_else(|failure| panic!("{failure}")).end;
+        (end.q - exact.q)
+            .iter()
+            .fold(0.0, |most: f64, x| most.max(x.to_f64().abs()))
+    }
+}
+
+#[test]
+fn coefficients_of_the_implicit_method_have_more_digits_than_an_f64() {
+    let run = Implicit {
+        until: 0.25,
+        tolerance: 1e-19,
+    };
+    let error = bricard::visit("slider_crank", run).expect("a name of the catalogue");
+    assert!(error <= 1e-20, "{error:e}");
 }
