@@ -148,12 +148,9 @@ fn reduced_landings<I: Integrator<f64, 1>>(
                 State::new(t, [angle].into(), [rate].into())
             };
             let end = state(t + SPAN);
-            errors.push(error::<_, _, 1, 0>(
-                method(),
-                reduced,
-                state(t),
-                steps,
-                &end,
+            errors.push((
+                distance,
+                error::<_, _, 1, 0>(method(), reduced, state(t), steps, &end),
             ));
         }
     }

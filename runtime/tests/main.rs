@@ -2,6 +2,7 @@
 
 mod allocation;
 mod assembly;
+mod bridge;
 mod conserve;
 mod dynamics;
 mod hits;

@@ -19,9 +19,8 @@ use crate::linalg::{dot, norm, on_bridge, pier_distance};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
 
-/// Regular states on each side. With six, distances of a twentieth of a radian leave
-/// nothing of functions that change within half a radian.
-const PIERS: usize = 6;
+/// Regular states on each side: enough for functions that change within half a radian.
+const PIERS: usize = 8;
 
 /// How often the distances are doubled, where rows are weak farther out.
 const WIDENINGS: usize = 2;

@@ -83,7 +83,7 @@ pub(crate) fn crackle_span<T: Real>() -> T {
 /// The angle (rad) between the states that a branch is interpolated from, in which a
 /// constraint row turns; also, about, the sine of the constraints at the first of them.
 pub(crate) fn pier_distance<T: Real>() -> T {
-    T::from_f64(0.05)
+    T::from_f64(0.075)
 }
 
 /// By how much, relative to what is interpolated, two interpolations may differ that

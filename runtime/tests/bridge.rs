@@ -1,0 +1,75 @@
+//! Branches that are curves: singular positions are crossed between regular states on
+//! both sides, as accurately as anything else and without rank decisions.
+//!
+//! `BRICARD_LONG=1` takes forty loops in a row for 20 s instead of ten for 5 s.
+
+use crate::mechanisms::{FourBars, Passing, SliderCrank};
+use bricard_runtime::{Dop853, Integrator, Settings, Solver, State, System, Tolerance};
+
+/// Accelerations in and beside the singular position, against the exact reduction.
+fn check<P, const N: usize, const R: usize>(mechanism: &P)
+where
+    P: Passing<N, R>,
+{
+    let (angle, rate) = mechanism.singular();
+    let mut solver: Solver<f64, N, R> = Solver::new(Settings::default());
+    let mut system = solver.on(mechanism);
+    for away in [0.0, 1e-12, -1e-8, 1e-5, -1e-3, 7e-3] {
+        let state = mechanism.state(0.0, angle + away, rate);
+        let exact = mechanism.reduction().acceleration(angle + away, rate);
+        let found = system.acceleration(&state).unwrap();
+        assert!(
+            (found[0] - exact).abs() < 1e-11,
+            "{away}: {}",
+            found[0] - exact
+        );
+    }
+    let learning = 2;
+    assert_eq!(system.counters().rank_decisions, learning);
+}
+
+#[test]
+fn accelerations_in_singular_positions_are_exact_without_rank_decisions() {
+    check::<_, 3, 2>(&SliderCrank::default());
+    check::<_, 3, 2>(&SliderCrank::DRIVEN);
+    check::<_, 5, 4>(&FourBars);
+    check::<_, 11, 10>(&FourBars);
+}
+
+/// Loops in a row, from rest at 80°, against the exact reduction.
+fn follow<const N: usize, const R: usize>(span: f64) {
+    let start = Passing::<N, R>::state(&FourBars, 0.0, 80.0_f64.to_radians(), 0.0);
+    let reduction = Passing::<N, R>::reduction(&FourBars);
+    let (angle, _) = reduction.after(span, (start.q[0], 0.0));
+    let mut solver: Solver<f64, N, R> = Solver::new(Settings::default());
+    let mut system = solver.on(&FourBars);
+    let mut method = Dop853::adaptive(Tolerance::uniform(1e-12, 1e-12).unwrap());
+    let mut state: State<f64, N> = start;
+    while state.t < span {
+        state = *method.step(&mut system, &state, span).unwrap().end();
+    }
+    for i in 0..N {
+        let exact = if i.is_multiple_of(2) { angle } else { 0.0 };
+        let parallel = if i.is_multiple_of(2) { state.q[0] } else { 0.0 };
+        assert!(
+            (state.q[i] - exact).abs() < 1e-9,
+            "{i}: {}",
+            state.q[i] - exact
+        );
+        assert!(
+            (state.q[i] - parallel).abs() < 1e-10,
+            "{i}: {}",
+            state.q[i] - parallel
+        );
+    }
+}
+
+#[test]
+fn rods_of_many_loops_stay_parallel() {
+    let work = || match std::env::var_os("BRICARD_LONG") {
+        Some(_) => follow::<81, 80>(20.0),
+        None => follow::<21, 20>(5.0),
+    };
+    let thread = std::thread::Builder::new().stack_size(64 << 20).spawn(work);
+    thread.unwrap().join().unwrap();
+}
