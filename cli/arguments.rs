@@ -32,6 +32,9 @@ pub enum Command {
     /// Measure run time against error, for all methods and forms of the equations
     #[command(name = "workprecision")]
     WorkPrecision(WorkPrecision),
+    /// Measure what passing a singular position costs in accuracy, wherever the steps
+    /// land
+    Landing(Landing),
     /// Check a description without compiling it
     Check(Check),
 }
@@ -53,6 +56,17 @@ pub struct Check {
     /// The description
     #[arg(value_name = "FILE.mech")]
     pub file: PathBuf,
+}
+
+/// Arguments of `landing`.
+#[derive(Args, Debug)]
+pub struct Landing {
+    /// Mechanisms that pass a singular position
+    #[arg(default_values = ["slider_crank", "slider_crank_driven", "double_four_bar"])]
+    pub names: Vec<String>,
+    /// Integrators, with commas between them
+    #[arg(long, value_enum, value_delimiter = ',', default_values = ["rk4", "dp5", "dop853"])]
+    pub methods: Vec<MethodName>,
 }
 
 /// Arguments of `workprecision`.

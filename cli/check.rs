@@ -6,7 +6,7 @@
 use crate::arguments::Check;
 use crate::error::CommandError;
 use crate::output::{print, say};
-use bricard_codegen::{Settings, analyse};
+use bricard_codegen::{Settings, examine};
 use std::fs;
 use std::path::Path;
 
@@ -14,7 +14,7 @@ use std::path::Path;
 pub fn check(arguments: &Check) -> Result<(), CommandError> {
     let source = read(&arguments.file)?;
     let file = arguments.file.display().to_string();
-    let (mechanism, warnings) = analyse(&source, &Settings::default())
+    let (mechanism, warnings) = examine(&source, &Settings::default())
         .map_err(|errors| CommandError::Description(errors.render(&file, &source)))?;
     if !warnings.is_empty() {
         say(warnings.render(&file, &source).trim_end());

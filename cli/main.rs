@@ -14,6 +14,7 @@ mod column;
 mod error;
 mod figure;
 mod formula;
+mod landing;
 mod list;
 mod mechanism;
 mod output;
@@ -50,6 +51,7 @@ fn perform(command: &Command) -> Result<(), CommandError> {
         Command::Simulate(arguments) => simulate::simulate(arguments),
         Command::Reproduce(arguments) => reproduce::reproduce(arguments),
         Command::WorkPrecision(arguments) => workprecision::workprecision(arguments),
+        Command::Landing(arguments) => landing::landing(arguments),
         Command::Check(arguments) => check::check(arguments),
     }
 }

@@ -10,6 +10,7 @@ use crate::error::CommandError;
 use crate::plot::Shape;
 use crate::run::{Plan, Report, RowSink, Stopped, run};
 use crate::show::freedom;
+use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Canvas, Initial, Interface, Mechanism, Options, Settings, Solver, Start, State, Structure,
     Visitor, assemble, simulate,
@@ -32,6 +33,9 @@ pub trait AnyMechanism {
     fn run(&self, plan: &Plan, sink: &mut dyn RowSink) -> Result<Report, Stopped>;
     /// Simulates with nothing recorded or audited, against the clock.
     fn race(&self, options: &Options<f64>) -> Result<Race, String>;
+    /// Simulates from a state (time, coordinates, velocities) as it is; the
+    /// coordinates at the end.
+    fn follow(&self, row: &[f64], options: &Options<f64>) -> Result<Vec<f64>, String>;
     /// The picture at a state: time, coordinates, velocities.
     fn shapes(&self, row: &[f64]) -> Vec<Shape>;
 }
@@ -182,21 +186,28 @@ impl<const N: usize, const R: usize> AnyMechanism for Sized<N, R> {
         })
     }
 
+    fn follow(&self, row: &[f64], options: &Options<f64>) -> Result<Vec<f64>, String> {
+        let mechanism: &dyn Whole<N, R> = &*self.mechanism;
+        let summary = simulate(mechanism, &state_of(row), options, &mut [])
+            .map_err(|failure| failure.error.to_string())?;
+        Ok(summary.end.q.iter().copied().collect())
+    }
+
     fn shapes(&self, row: &[f64]) -> Vec<Shape> {
-        let mut state = State {
-            t: row.first().copied().unwrap_or(0.0),
-            ..State::default()
-        };
-        for (i, x) in row.iter().skip(1).take(2 * N).enumerate() {
-            if i < N {
-                state.q[i] = *x;
-            } else {
-                state.v[i - N] = *x;
-            }
-        }
+        let state = state_of(row);
         let mut sheet = Sheet::default();
         self.mechanism.draw(&state, &mut sheet);
         sheet.shapes
+    }
+}
+
+/// The state in a row: time, coordinates, velocities.
+fn state_of<const N: usize>(row: &[f64]) -> State<f64, N> {
+    let at = |i: usize| row.get(i).copied().unwrap_or(0.0);
+    State {
+        t: at(0),
+        q: SVector::from_fn(|i, _| at(1 + i)),
+        v: SVector::from_fn(|i, _| at(1 + N + i)),
     }
 }
 

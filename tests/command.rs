@@ -479,3 +479,16 @@ fn time_is_measured_over_errors_that_fall_with_the_tolerance() {
     let picture = fs::read_to_string(svg).expect("the SVG");
     assert!(picture.contains("dop853, reduced") && picture.trim_end().ends_with("</svg>"));
 }
+
+#[test]
+fn landings_beside_a_singular_position_are_alike() {
+    let ran = bricard(&["landing", "slider_crank", "--methods", "rk4"]);
+    assert_eq!(ran.status, Some(0), "{}{}", ran.out, ran.err);
+    let rows = ran.out.lines().filter(|line| line.ends_with("  ok"));
+    assert_eq!(rows.count(), 4, "{}", ran.out);
+    check_refused(
+        &["landing", "cart_pole"],
+        1,
+        &["passes no singular position"],
+    );
+}

@@ -1,0 +1,241 @@
+//! `bricard landing`: what it costs in accuracy to pass a singular position, wherever
+//! the steps happen to land.
+//!
+//! In:  names of mechanisms that pass one.
+//! Out: median and worst error over many landings, for several steps.
+//!
+//! A run begins on the exact motion so that a stage of its first step lands at a
+//! distance `d` from the singular position, `d = ±{1, 3.3}·10⁻ᵏ`, `k = 1…16`, for each
+//! stage of the method, and goes on for 0.4 s. The distance is that of the fastest
+//! coordinate.
+
+mod path;
+
+use crate::arguments::{Landing, MethodName};
+use crate::column::Column;
+use crate::error::CommandError;
+use crate::mechanism::{AnyMechanism, find};
+use crate::output::{print, say};
+use crate::run::{Plan, RowSink};
+use crate::table::{Align, headed};
+use bricard_runtime::{Audit, Options, Pace, Scheme};
+use path::{Path, path};
+
+/// How long a motion is followed (s).
+const SPAN: f64 = 0.4;
+/// Steps in that time.
+const STEPS: [u32; 4] = [20, 40, 80, 160];
+/// How much worse than the median the worst landing may be.
+const SPREAD: f64 = 2.0;
+/// A median that is round-off, and what no landing may exceed then.
+const FLOOR: f64 = 1e-12;
+const LANDED: f64 = 1e-11;
+/// Tolerance of the run that finds the singular position.
+const SEARCH: f64 = 1e-11;
+/// How long that run looks for one (s).
+const LOOK: f64 = 20.0;
+
+/// Lands each mechanism with each method.
+///
+/// # Errors
+///
+/// [`CommandError`]: a mechanism that passes no singular position, a run that failed,
+/// a landing that is worse than it may be.
+pub fn landing(arguments: &Landing) -> Result<(), CommandError> {
+    let mut rows = Vec::new();
+    let mut broken = Vec::new();
+    for name in &arguments.names {
+        let mechanism = find(name)?;
+        let about = first_passage(name, mechanism.as_ref())?;
+        for &method in &arguments.methods {
+            say(&format!("{name}: landing with {}", Scheme::from(method)));
+            for steps in STEPS {
+                let found = Landings::of(name, mechanism.as_ref(), (method, steps), about)?;
+                if !found.is_even() {
+                    broken.push(format!("{name}, {}, {steps} steps", Scheme::from(method)));
+                }
+                rows.push(found.row(name, method, steps));
+            }
+        }
+    }
+    let heading = [
+        "mechanism",
+        "method",
+        "h (s)",
+        "landings",
+        "median",
+        "worst",
+        "ratio",
+        "",
+    ];
+    let right = Align::Right;
+    let left = Align::Left;
+    print(&headed(
+        &heading,
+        &rows,
+        &[left, left, right, right, right, right, right, left],
+    ))?;
+    print("errors: the largest of a coordinate after 0.4 s (m or rad)\n")?;
+    if broken.is_empty() {
+        Ok(())
+    } else {
+        Err(CommandError::OutOfBounds(broken))
+    }
+}
+
+/// Errors of all landings of one method and step.
+struct Landings {
+    /// Sorted.
+    errors: Vec<f64>,
+}
+
+impl Landings {
+    fn of(
+        name: &str,
+        mechanism: &dyn AnyMechanism,
+        (method, steps): (MethodName, u32),
+        about: f64,
+    ) -> Result<Self, CommandError> {
+        let step = SPAN / f64::from(steps);
+        let times = |speed: f64| {
+            let starts = starts(stages(method), step, speed);
+            let mut times: Vec<f64> = starts.iter().flat_map(|t| [*t, t + SPAN]).collect();
+            times.retain(|t| about + t > 0.0);
+            times.sort_by(f64::total_cmp);
+            times
+        };
+        let exact = path(name, about, &times).map_err(failed)?;
+        let mut errors = Vec::new();
+        for row in &exact.rows {
+            let Some(end) = exact.row_at(row[0] + SPAN) else {
+                continue;
+            };
+            let mut options = Options::new(end[0], method.into(), Pace::Fixed { step });
+            options.audit = Audit::NONE;
+            let found = mechanism.follow(row, &options).map_err(failed)?;
+            let differences = found.iter().zip(&end[1..]).map(|(a, b)| (a - b).abs());
+            errors.push(differences.fold(0.0, f64::max));
+        }
+        errors.sort_by(f64::total_cmp);
+        match errors.is_empty() {
+            true => Err(failed(
+                "it begins too near the singular position".to_string(),
+            )),
+            false => Ok(Self { errors }),
+        }
+    }
+
+    fn median(&self) -> f64 {
+        self.errors[self.errors.len() / 2]
+    }
+
+    fn worst(&self) -> f64 {
+        self.errors[self.errors.len() - 1]
+    }
+
+    fn is_even(&self) -> bool {
+        let floor = if self.median() <= FLOOR { LANDED } else { 0.0 };
+        self.worst() <= floor.max(SPREAD * self.median())
+    }
+
+    fn row(&self, name: &str, method: MethodName, steps: u32) -> Vec<String> {
+        vec![
+            name.to_string(),
+            Scheme::from(method).to_string(),
+            (SPAN / f64::from(steps)).to_string(),
+            self.errors.len().to_string(),
+            format!("{:.1e}", self.median()),
+            format!("{:.1e}", self.worst()),
+            format!("{:.1}", self.worst() / self.median()),
+            if self.is_even() { "ok" } else { "uneven" }.to_string(),
+        ]
+    }
+}
+
+impl Path {
+    /// The row at a time, if there is one.
+    fn row_at(&self, time: f64) -> Option<&path::Row> {
+        let near = |row: &&path::Row| (row[0] - time).abs() < 1e-9;
+        let after = self.rows.partition_point(|row| row[0] < time - 1e-9);
+        self.rows.get(after).filter(near)
+    }
+}
+
+/// When runs begin, relative to the passage (s).
+fn starts(stages: &[f64], step: f64, speed: f64) -> Vec<f64> {
+    let mut starts = Vec::new();
+    for stage in stages {
+        for exponent in 1..=16 {
+            for size in [1.0, -1.0, 3.3, -3.3] {
+                let distance = size * 10.0_f64.powi(-exponent);
+                starts.push(distance / speed - stage * step);
+            }
+        }
+    }
+    starts
+}
+
+/// The abscissae of the stages of a method.
+fn stages(method: MethodName) -> &'static [f64] {
+    match method {
+        MethodName::Rk4 => &[0.0, 0.5, 1.0],
+        MethodName::Dp5 => &[0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0],
+        MethodName::Dop853 => &[
+            0.0,
+            0.052_600_151_958_767_7,
+            0.078_900_227_938_151_6,
+            0.118_350_341_907_227,
+            0.281_649_658_092_773,
+            1.0 / 3.0,
+            0.25,
+            4.0 / 13.0,
+            127.0 / 195.0,
+            0.6,
+            6.0 / 7.0,
+            1.0,
+        ],
+        MethodName::Radau5 => &[0.0, 0.155_051_025_721_682, 0.644_948_974_278_318, 1.0],
+        MethodName::Radau9 => &[
+            0.0,
+            0.057_104_196_114_517_7,
+            0.276_843_013_638_124,
+            0.583_590_432_368_917,
+            0.860_240_135_656_219,
+            1.0,
+        ],
+    }
+}
+
+/// When a mechanism first passes a singular position (s).
+fn first_passage(name: &str, mechanism: &dyn AnyMechanism) -> Result<f64, CommandError> {
+    let plan = Plan {
+        options: Options::dop853(LOOK, SEARCH),
+        every: Some(LOOK),
+        columns: Vec::<Column>::new(),
+    };
+    let report = mechanism
+        .run(&plan, &mut Nowhere)
+        .map_err(|stopped| stopped.error)?;
+    match report.passages.first() {
+        Some(passage) => Ok(passage.t),
+        None => Err(failed(format!(
+            "`{name}` passes no singular position in {LOOK} s"
+        ))),
+    }
+}
+
+/// Takes rows and forgets them.
+struct Nowhere;
+
+impl RowSink for Nowhere {
+    fn row(&mut self, _values: &[f64]) -> Result<(), CommandError> {
+        Ok(())
+    }
+}
+
+fn failed(reason: String) -> CommandError {
+    CommandError::Run {
+        reason,
+        kept: String::new(),
+    }
+}
