@@ -4,12 +4,13 @@
 use crate::source::{self, File};
 
 /// The stages, each with those it may import; `expr` and `diagnostic` serve all.
-const STAGES: [(&str, &[&str]); 7] = [
+const STAGES: [(&str, &[&str]); 8] = [
     ("expr", &[]),
     ("diagnostic", &[]),
     ("parse", &["diagnostic", "expr"]),
     ("model", &["diagnostic", "expr", "parse"]),
     ("derive", &["diagnostic", "expr", "model"]),
+    ("doubt", &["diagnostic", "expr", "model"]),
     ("optimise", &["diagnostic", "expr", "derive"]),
     (
         "emit",

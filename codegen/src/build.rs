@@ -42,7 +42,8 @@ pub struct Builder {
 }
 
 /// Why nothing was generated.
-#[derive(Debug)]
+///
+/// Its `Debug` is its message too: that is what a `main` that returns it prints.
 pub enum BuildError {
     /// A file could not be read or written.
     File(PathBuf, io::Error),
@@ -224,6 +225,12 @@ impl fmt::Display for BuildError {
             ),
             BuildError::Description(message) => f.write_str(message.trim_end()),
         }
+    }
+}
+
+impl fmt::Debug for BuildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
     }
 }
 

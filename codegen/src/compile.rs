@@ -3,7 +3,7 @@
 use crate::diagnostic::Diagnostics;
 use crate::emit::{self, Options, Origin};
 use crate::model::Mechanism;
-use crate::{derive, model, parse};
+use crate::{derive, doubt, model, parse};
 
 /// What to do differently from the defaults.
 #[derive(Clone, Debug, Default)]
@@ -40,7 +40,8 @@ pub fn compile_source(
     file: &str,
     settings: &Settings,
 ) -> Result<Compiled, Diagnostics> {
-    let (mut mechanism, warnings) = analyse(source, settings)?;
+    let (mut mechanism, mut warnings) = analyse(source, settings)?;
+    warnings.append_elsewhere(doubt::doubts(mechanism.clone()));
     let equations = derive::derive(&mut mechanism);
     let origin = Origin {
         module,
@@ -65,4 +66,17 @@ pub fn compile_source(
 pub fn analyse(source: &str, settings: &Settings) -> Result<(Mechanism, Diagnostics), Diagnostics> {
     let tree = parse::parse(source)?;
     model::lower(&tree, &settings.constants, &settings.frozen)
+}
+
+/// [`analyse`] and everything else that can be said without generating code: also
+/// what is legal but doubtful, found by evaluating the equations.
+///
+/// # Errors
+///
+/// As [`compile_source`].
+pub fn examine(source: &str, settings: &Settings) -> Result<(Mechanism, Diagnostics), Diagnostics> {
+    let (mechanism, mut warnings) = analyse(source, settings)?;
+    warnings.append_elsewhere(doubt::doubts(mechanism.clone()));
+    warnings.append_elsewhere(doubt::redundancies(mechanism.clone()));
+    Ok((mechanism, warnings))
 }

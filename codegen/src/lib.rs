@@ -20,6 +20,7 @@ mod build;
 mod compile;
 pub mod derive;
 pub mod diagnostic;
+pub mod doubt;
 pub mod emit;
 pub mod expr;
 pub mod model;
@@ -27,5 +28,5 @@ pub mod optimise;
 pub mod parse;
 
 pub use build::{BuildError, Builder, compile, compile_dir};
-pub use compile::{Compiled, Settings, analyse, compile_source};
+pub use compile::{Compiled, Settings, analyse, compile_source, examine};
 pub use diagnostic::Diagnostics;

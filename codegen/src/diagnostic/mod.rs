@@ -7,10 +7,12 @@
 //! Not here: the decision to stop. A stage collects all it finds; the pipeline
 //! stops between stages.
 
+mod figure;
 mod render;
 mod span;
 mod suggest;
 
+pub use figure::figure;
 pub use span::{Position, Span};
 pub use suggest::nearest;
 
@@ -134,6 +136,14 @@ impl Diagnostics {
             .list
             .into_iter()
             .for_each(|diagnostic| self.push(diagnostic));
+    }
+
+    /// Adds the findings of another collection about places that nothing is said
+    /// about yet.
+    pub fn append_elsewhere(&mut self, mut other: Diagnostics) {
+        let known = |d: &Diagnostic| self.list.iter().any(|k| k.primary.span == d.primary.span);
+        other.list.retain(|diagnostic| !known(diagnostic));
+        self.append(other);
     }
 
     /// Whether nothing was found.

@@ -83,7 +83,7 @@ impl Node {
 }
 
 /// All expressions of one mechanism.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
     index: FxHashMap<Node, ExprId>,

@@ -9,7 +9,7 @@ use super::facts::{Facts, NOT_POLYNOMIAL};
 use super::lower::Lowering;
 use super::unit::{ENERGY, POWER, Unit};
 use super::value::{Scalar, Value};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Span, figure};
 use crate::expr::ExprId;
 use crate::parse::ast::{Energy, Expr, ExprKind};
 
@@ -117,7 +117,7 @@ impl Lowering<'_> {
             Some(0.0) => Some(None),
             Some(value) => {
                 let error = Diagnostic::error(whole, "this equation never holds");
-                self.report(error.labelled(format!("left minus right is {value}")))
+                self.report(error.labelled(format!("left minus right is {}", figure(value))))
             }
             None => {
                 let error = Diagnostic::error(whole, "this equation contains no coordinate");

@@ -32,7 +32,7 @@ use crate::diagnostic::Span;
 use crate::expr::{ExprId, Graph, Symbol};
 
 /// A mechanism whose every part has been checked.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Mechanism {
     /// The name after `mechanism`.
     pub name: String,

@@ -1,6 +1,7 @@
 //! The front end: from text to a checked mechanism, and the messages on the way.
 
 mod documentation;
+mod doubts;
 mod grammar;
 mod legality;
 mod mechanisms;

@@ -2,7 +2,7 @@
 //!
 //! `BRICARD_BLESS=1` rewrites the messages; read them in the diff as a user would.
 
-use bricard_codegen::{Settings, analyse};
+use bricard_codegen::{Settings, examine};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -31,7 +31,7 @@ fn message(path: &Path) -> String {
         .file_name()
         .map(|name| name.to_string_lossy().into_owned())
         .unwrap_or_default();
-    match analyse(&source, &Settings::default()) {
+    match examine(&source, &Settings::default()) {
         Ok((_, warnings)) => warnings.render(&name, &source),
         Err(errors) => errors.render(&name, &source),
     }

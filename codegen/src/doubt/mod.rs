@@ -1,0 +1,49 @@
+//! What is legal in a description but probably not meant, found with numbers.
+//!
+//! In:  a checked [`Mechanism`].
+//! Out: warnings: coordinates without inertia, equations whose derivatives vanish
+//!      where they hold, a start that can't be assembled ([`doubts`]); equations
+//!      that follow from others ([`redundancies`]).
+//!
+//! Everything is evaluated at a few random positions that satisfy the constraints,
+//! with parameters at their defaults: what is found at all of them is said, what
+//! can't be decided is not. Mechanisms above a size are left alone, so that the
+//! work is bounded.
+//!
+//! Not here: errors. A run decides about each position by itself.
+
+mod basis;
+mod inertia;
+mod least_squares;
+mod numbers;
+mod rows;
+mod start;
+
+use crate::diagnostic::Diagnostics;
+use crate::model::Mechanism;
+use numbers::Numbers;
+
+/// Warns of what will hinder a simulation: a coordinate that moves without kinetic
+/// energy and that no constraint restricts, an equation whose derivatives vanish
+/// where it holds, a start that can't be assembled.
+pub fn doubts(mechanism: Mechanism) -> Diagnostics {
+    let mut found = Diagnostics::new();
+    if let Some(numbers) = Numbers::new(mechanism) {
+        start::unassembled(&numbers, &mut found);
+        let flat = rows::flat(&numbers);
+        rows::warn_of_flat(&numbers, &flat, &mut found);
+        inertia::massless(&numbers, &mut found);
+    }
+    found
+}
+
+/// Warns of equations that follow from the others at random positions. A run takes
+/// them as they are; only their reactions are not unique.
+pub fn redundancies(mechanism: Mechanism) -> Diagnostics {
+    let mut found = Diagnostics::new();
+    if let Some(numbers) = Numbers::new(mechanism) {
+        let flat = rows::flat(&numbers);
+        rows::warn_of_redundant(&numbers, &flat, &mut found);
+    }
+    found
+}

@@ -1,0 +1,245 @@
+//! A mechanism in numbers: constraints, their derivatives and the mass matrix at
+//! positions.
+
+use super::least_squares::{Linearised, minimise};
+use crate::expr::{ExprId, Symbol};
+use crate::model::Mechanism;
+
+/// Mechanisms with more coordinates or equations are not looked at.
+const MOST_ROWS: usize = 64;
+/// Nor are those whose energies and constraints have more terms.
+const MOST_TERMS: usize = 6000;
+/// Random positions that are looked at.
+const POSITIONS: u64 = 3;
+/// An equation holds if its error is smaller than this, relative to what its terms
+/// change by when every coordinate changes by its size, or by one.
+const HOLDS: f64 = 1e-8;
+
+/// A mechanism with the derivatives that the doubts are about.
+#[derive(Debug)]
+pub struct Numbers {
+    /// The mechanism.
+    pub mechanism: Mechanism,
+    /// `A`, row by row.
+    jacobian: Vec<Vec<ExprId>>,
+    /// `b` of the velocity level `A q̇ + b = 0`.
+    drift: Vec<ExprId>,
+    /// `M`, row by row.
+    mass: Vec<Vec<ExprId>>,
+    parameters: Vec<f64>,
+}
+
+/// A time and a position.
+#[derive(Clone, Debug)]
+pub struct Place {
+    /// The time (s).
+    pub t: f64,
+    /// The coordinates.
+    pub q: Vec<f64>,
+}
+
+impl Numbers {
+    /// Prepares a mechanism; `None` if it is too large.
+    pub fn new(mut mechanism: Mechanism) -> Option<Self> {
+        let n = mechanism.coordinates.len();
+        let kinetic = mechanism.kinetic.iter().map(|summand| summand.value);
+        let mut roots: Vec<ExprId> = kinetic.clone().collect();
+        roots.extend(mechanism.constraints.iter().map(|row| row.residual));
+        let terms = mechanism.graph.reachable(&roots).len();
+        if n.max(mechanism.constraints.len()) > MOST_ROWS || terms > MOST_TERMS {
+            return None;
+        }
+        let kinetic: Vec<ExprId> = kinetic.collect();
+        let graph = &mut mechanism.graph;
+        let kinetic = graph.sum(kinetic);
+        let symbols =
+            |of: fn(u32) -> Symbol| (0..n).filter_map(move |i| u32::try_from(i).ok().map(of));
+        let mut gradient = |e: ExprId, of: fn(u32) -> Symbol| -> Vec<ExprId> {
+            symbols(of)
+                .map(|symbol| graph.differentiate(e, symbol))
+                .collect()
+        };
+        let momenta = gradient(kinetic, Symbol::Velocity);
+        let mass = momenta
+            .into_iter()
+            .map(|p| gradient(p, Symbol::Velocity))
+            .collect();
+        let by = |holonomic| {
+            if holonomic {
+                Symbol::Coordinate
+            } else {
+                Symbol::Velocity
+            }
+        };
+        let rows = &mechanism.constraints;
+        let jacobian = rows
+            .iter()
+            .map(|row| gradient(row.residual, by(row.holonomic)))
+            .collect();
+        let mut drift = Vec::with_capacity(rows.len());
+        for row in rows {
+            drift.push(match row.holonomic {
+                true => graph.differentiate(row.residual, Symbol::Time),
+                false => row.residual,
+            });
+        }
+        let mut numbers = Self {
+            mechanism,
+            jacobian,
+            drift,
+            mass,
+            parameters: Vec::new(),
+        };
+        let defaults = numbers.mechanism.parameters.iter().map(|p| p.default);
+        let defaults: Vec<ExprId> = defaults.collect();
+        let nowhere = Place {
+            t: 0.0,
+            q: vec![0.0; n],
+        };
+        numbers.parameters = numbers.values(&defaults, &nowhere);
+        Some(numbers)
+    }
+
+    /// Values of expressions at a place, at rest.
+    pub fn values(&self, roots: &[ExprId], place: &Place) -> Vec<f64> {
+        let value = |symbol| match symbol {
+            Symbol::Time => place.t,
+            Symbol::Coordinate(i) => place.q[i as usize],
+            Symbol::Parameter(i) => self.parameters[i as usize],
+            _ => 0.0,
+        };
+        self.mechanism.graph.evaluate_all(roots, &value)
+    }
+
+    fn matrix(&self, rows: &[Vec<ExprId>], place: &Place) -> Vec<Vec<f64>> {
+        let all: Vec<ExprId> = rows.iter().flatten().copied().collect();
+        let values = self.values(&all, place);
+        let width = self.mechanism.coordinates.len().max(1);
+        values.chunks(width).map(<[f64]>::to_vec).collect()
+    }
+
+    /// `M` at a place.
+    pub fn mass(&self, place: &Place) -> Vec<Vec<f64>> {
+        self.matrix(&self.mass, place)
+    }
+
+    /// `A` at a place.
+    pub fn jacobian(&self, place: &Place) -> Vec<Vec<f64>> {
+        self.matrix(&self.jacobian, place)
+    }
+
+    /// `b` at a place.
+    pub fn drift(&self, place: &Place) -> Vec<f64> {
+        self.values(&self.drift, place)
+    }
+
+    /// The equations for positions among `rows`, linearised in the coordinates
+    /// `free`.
+    pub fn linearised(&self, rows: &[usize], free: &[usize], place: &Place) -> Linearised {
+        let residuals: Vec<ExprId> = rows
+            .iter()
+            .map(|&r| self.mechanism.constraints[r].residual)
+            .collect();
+        let chosen: Vec<Vec<ExprId>> = rows.iter().map(|&r| self.jacobian[r].clone()).collect();
+        let full = self.matrix(&chosen, place);
+        let slopes = full
+            .iter()
+            .map(|row| free.iter().map(|&j| row[j]).collect())
+            .collect();
+        (self.values(&residuals, place), slopes)
+    }
+
+    /// The equations for positions.
+    pub fn positions(&self) -> Vec<usize> {
+        let rows = 0..self.mechanism.constraints.len();
+        rows.filter(|&r| self.mechanism.constraints[r].holonomic)
+            .collect()
+    }
+
+    /// Moves free coordinates until equations hold, as far as that is possible.
+    pub fn settle(&self, rows: &[usize], free: &[usize], from: &Place) -> Option<Place> {
+        let at = |x: &[f64]| {
+            let mut place = from.clone();
+            free.iter().zip(x).for_each(|(&j, x)| place.q[j] = *x);
+            place
+        };
+        let guess: Vec<f64> = free.iter().map(|&j| from.q[j]).collect();
+        let functions = |x: &[f64]| self.linearised(rows, free, &at(x));
+        minimise(&guess, &functions).map(|x| at(&x))
+    }
+
+    /// The errors of equations at a place, and whether they hold.
+    pub fn errors(&self, rows: &[usize], place: &Place) -> (Vec<f64>, bool) {
+        let all: Vec<usize> = (0..place.q.len()).collect();
+        let (values, slopes) = self.linearised(rows, &all, place);
+        let holds = values.iter().zip(&slopes).all(|(value, row)| {
+            let terms = row
+                .iter()
+                .zip(&place.q)
+                .map(|(a, q)| a.abs() * q.abs().max(1.0));
+            value.abs() <= HOLDS * terms.sum::<f64>().max(HOLDS)
+        });
+        (values, holds)
+    }
+
+    /// The position of the start block, unsettled, with what is held in it.
+    pub fn start(&self) -> (Place, Vec<bool>) {
+        let n = self.mechanism.coordinates.len();
+        let mut place = Place {
+            t: 0.0,
+            q: vec![0.0; n],
+        };
+        let mut held = vec![false; n];
+        for start in self.mechanism.starts.iter().filter(|start| !start.velocity) {
+            place.q[start.coordinate] = self.values(&[start.value], &place)[0];
+            held[start.coordinate] = start.held;
+        }
+        (place, held)
+    }
+
+    /// Random positions near the start at which the constraints hold; fewer than
+    /// asked for where none is found.
+    pub fn samples(&self) -> Vec<Place> {
+        let (rows, free) = (
+            self.positions(),
+            (0..self.mechanism.coordinates.len()).collect::<Vec<_>>(),
+        );
+        let settled = |place: Place| match rows.as_slice() {
+            [] => Some(place),
+            rows => self
+                .settle(rows, &free, &place)
+                .filter(|place| self.errors(rows, place).1),
+        };
+        (1..=POSITIONS)
+            .filter_map(|seed| settled(self.random(seed)))
+            .collect()
+    }
+
+    /// A random position near the start.
+    pub fn random(&self, seed: u64) -> Place {
+        let (mut place, _) = self.start();
+        let mut random = Random(seed);
+        for q in &mut place.q {
+            let size = if *q == 0.0 { 1.0 } else { q.abs() };
+            *q += 0.4 * size * random.next();
+        }
+        place.t = 0.5 + 0.5 * random.next();
+        place
+    }
+}
+
+/// Numbers between −1 and 1 (Knuth's linear congruential generator).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        for _ in 0..3 {
+            self.0 = self
+                .0
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+        }
+        let high = u32::try_from(self.0 >> 32).unwrap_or(0);
+        f64::from(high) / f64::from(u32::MAX) * 2.0 - 1.0
+    }
+}

@@ -1,0 +1,141 @@
+//! A start whose held values contradict the constraints.
+
+use super::least_squares::minimise;
+use super::numbers::{Numbers, Place};
+use crate::diagnostic::{Diagnostic, Diagnostics, Span, figure};
+use std::collections::BTreeMap;
+
+/// An equation for velocities holds if its error is smaller than this, relative to
+/// its terms.
+const HOLDS: f64 = 1e-8;
+
+/// An error smaller than this, relative to the largest one, is what the search left.
+const ROUND_OFF: f64 = 1e-6;
+
+/// Warns of a start that can't be assembled, with what each equation lacks.
+pub fn unassembled(numbers: &Numbers, found: &mut Diagnostics) {
+    let rows = numbers.positions();
+    let (guess, held) = numbers.start();
+    let free: Vec<usize> = (0..held.len()).filter(|&i| !held[i]).collect();
+    // A guess may lie where every direction looks the same: others are tried.
+    let disturbed = (1..=6).map(|seed| {
+        let (mut place, random) = (guess.clone(), numbers.random(seed));
+        free.iter().for_each(|&i| place.q[i] = random.q[i]);
+        place
+    });
+    let mut best: Option<(f64, Vec<f64>)> = None;
+    for place in [guess.clone()].into_iter().chain(disturbed) {
+        let Some(end) = numbers.settle(&rows, &free, &place) else {
+            continue;
+        };
+        let (errors, holds) = numbers.errors(&rows, &end);
+        if holds {
+            return unassembled_velocities(numbers, &end, found);
+        }
+        let size = errors.iter().map(|e| e * e).sum();
+        if best.as_ref().is_none_or(|(least, _)| size < *least) {
+            best = Some((size, errors));
+        }
+    }
+    if let Some((_, errors)) = best {
+        let message = "the start can't be assembled: the constraints don't hold together with the held values";
+        let help = "write `~` for a value that may change, or correct the lengths";
+        warn(
+            numbers,
+            message,
+            help,
+            rows.iter().copied().zip(errors),
+            found,
+        );
+    }
+}
+
+fn unassembled_velocities(numbers: &Numbers, place: &Place, found: &mut Diagnostics) {
+    let n = place.q.len();
+    let (mut v, mut held) = (vec![0.0; n], vec![false; n]);
+    for start in numbers
+        .mechanism
+        .starts
+        .iter()
+        .filter(|start| start.velocity)
+    {
+        v[start.coordinate] = numbers.values(&[start.value], place)[0];
+        held[start.coordinate] = start.held;
+    }
+    let (jacobian, drift) = (numbers.jacobian(place), numbers.drift(place));
+    let free: Vec<usize> = (0..n).filter(|&i| !held[i]).collect();
+    let at = |x: &[f64]| {
+        let mut v = v.clone();
+        free.iter().zip(x).for_each(|(&i, x)| v[i] = *x);
+        v
+    };
+    let speed = |v: &[f64]| -> Vec<f64> {
+        let rows = jacobian.iter().zip(&drift);
+        rows.map(|(row, b)| row.iter().zip(v).map(|(a, v)| a * v).sum::<f64>() + b)
+            .collect()
+    };
+    let slopes: Vec<Vec<f64>> = jacobian
+        .iter()
+        .map(|row| free.iter().map(|&j| row[j]).collect())
+        .collect();
+    let guess: Vec<f64> = free.iter().map(|&i| v[i]).collect();
+    let Some(x) = minimise(&guess, &|x| (speed(&at(x)), slopes.clone())) else {
+        return;
+    };
+    let v = at(&x);
+    let errors = speed(&v);
+    let holds = jacobian.iter().zip(&errors).all(|(row, error)| {
+        let terms = row.iter().zip(&v).map(|(a, v)| a.abs() * v.abs().max(1.0));
+        error.abs() <= HOLDS * terms.sum::<f64>()
+    });
+    if !holds {
+        let message =
+            "the start can't be assembled: the held velocities contradict the constraints";
+        let help = "write `~` for a velocity that may change, or leave it out";
+        warn(
+            numbers,
+            message,
+            help,
+            errors.into_iter().enumerate(),
+            found,
+        );
+    }
+}
+
+/// Warns at the first entry of the start block (or the first constraint), with the
+/// error of each equation beside it.
+fn warn(
+    numbers: &Numbers,
+    message: &str,
+    help: &str,
+    errors: impl Iterator<Item = (usize, f64)>,
+    found: &mut Diagnostics,
+) {
+    let constraints = &numbers.mechanism.constraints;
+    let starts = numbers.mechanism.starts.iter().map(|start| start.span);
+    let Some(span) = starts.chain(constraints.iter().map(|row| row.span)).next() else {
+        return;
+    };
+    let errors: Vec<(usize, f64)> = errors.collect();
+    let largest = errors
+        .iter()
+        .fold(0.0, |most: f64, (_, e)| most.max(e.abs()));
+    let lacking = errors
+        .into_iter()
+        .filter(|(_, e)| e.abs() > ROUND_OFF * largest);
+    let mut beside: BTreeMap<Span, Vec<String>> = BTreeMap::new();
+    for (row, error) in lacking {
+        beside
+            .entry(constraints[row].span)
+            .or_default()
+            .push(figure(error));
+    }
+    let mut warning = Diagnostic::warning(span, message).help(help);
+    for (place, errors) in beside {
+        warning = warning.also(
+            place,
+            format!("left minus right stays {}", errors.join(", ")),
+        );
+    }
+    found.push(warning);
+}

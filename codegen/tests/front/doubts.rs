@@ -1,0 +1,90 @@
+//! What is legal but probably not meant is said, and nothing is said of what is
+//! meant.
+
+use super::mechanisms::library;
+use bricard_codegen::{Settings, examine};
+
+/// The warnings about a description, rendered.
+fn doubts(source: &str) -> String {
+    match examine(source, &Settings::default()) {
+        Ok((_, warnings)) => warnings.render("test.mech", source),
+        Err(errors) => panic!("{}", errors.render("test.mech", source)),
+    }
+}
+
+/// A mechanism of a point and an angle, and more statements.
+fn with(statements: &str) -> String {
+    format!(
+        "mechanism Test {{ coord x; coord y; coord phi; kinetic der(x)^2 + der(y)^2 + der(phi)^2; {statements} }}"
+    )
+}
+
+fn says(statements: &str, words: &[&str]) {
+    let found = doubts(&with(statements));
+    for word in words {
+        assert!(found.contains(word), "no `{word}` in\n{found}");
+    }
+}
+
+fn is_silent(statements: &str) {
+    assert_eq!(doubts(&with(statements)), "");
+}
+
+#[test]
+fn a_coordinate_without_inertia_is_named_unless_a_constraint_ties_it() {
+    let idle = "coord z; potential z^2;";
+    says(idle, &["`z` can move without kinetic energy"]);
+    is_silent("coord z; potential z^2; constraint z = x + y^2;");
+    let pair = "coord a; coord b; kinetic (der(a) + der(b))^2;";
+    says(pair, &["can move without kinetic energy"]);
+}
+
+#[test]
+fn an_equation_whose_derivatives_vanish_where_it_holds_is_named() {
+    for flat in ["1 - cos(phi) = 0", "(x - y)^2 = 0", "x^2 + y^2 = 0"] {
+        says(
+            &format!("constraint {flat};"),
+            &["derivatives of", flat, "vanish"],
+        );
+    }
+    for fine in ["sin(phi) = x", "x^2 + y^2 = 1", "x*y = 1/2", "x^3 + x = y"] {
+        is_silent(&format!("constraint {fine}; start {{ x ~ 0.6; y ~ 0.8; }}"));
+    }
+}
+
+#[test]
+fn an_equation_that_follows_from_others_is_named_with_them() {
+    let redundant =
+        "constraint x = sin(phi); constraint y = 1 - cos(phi); constraint x^2 + (y - 1)^2 = 1;";
+    says(redundant, &["`x^2 + (y - 1)^2 = 1` follows", "from this"]);
+    // Singular at the start alone.
+    is_silent("constraint x = sin(phi); constraint y = x*phi;");
+}
+
+#[test]
+fn a_start_that_cannot_be_assembled_is_told_with_what_each_equation_lacks() {
+    let far = "constraint x = 2 + sin(phi); constraint y = x; start { x = 0; }";
+    says(
+        far,
+        &["the start can't be assembled", "left minus right stays -1"],
+    );
+    is_silent("constraint x = 2 + sin(phi); constraint y = x; start { x = 2.5; }");
+    let fast = "constraint x = y; start { der(x) = 1; der(y) = 2; }";
+    says(
+        fast,
+        &["held velocities contradict", "left minus right stays -1"],
+    );
+    is_silent("constraint x = y; start { der(x) = 1; der(y) ~ 2; }");
+}
+
+#[test]
+fn no_mechanism_of_the_library_will_hinder_its_simulation() {
+    for (path, source) in library() {
+        let found = doubts(&source);
+        let grave = found.lines().filter(|line| line.contains("warning:"));
+        let grave: Vec<_> = grave
+            .filter(|line| !line.contains(" follows from "))
+            .collect();
+        assert!(grave.is_empty(), "{}: {grave:?}", path.display());
+    }
+}
