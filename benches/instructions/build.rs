@@ -1,0 +1,51 @@
+//! Compiles what is counted: the paper's mechanisms with their parameters folded and
+//! open, rows of parallelograms, and spatial mechanisms.
+
+use bricard_codegen::{BuildError, Builder};
+use std::path::PathBuf;
+use std::{env, fs, io};
+
+const LIBRARY: &str = "../../mechanisms";
+const OWN: &str = "mechanisms";
+const ROWS: [u32; 6] = [2, 5, 10, 20, 40, 80];
+
+fn main() -> Result<(), BuildError> {
+    let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
+    let folder = |name: &str| {
+        let folder = out.join(name);
+        fs::create_dir_all(&folder)
+            .map_err(|error: io::Error| BuildError::File(folder.clone(), error))?;
+        Ok::<_, BuildError>(folder)
+    };
+    for name in ["slider_crank", "double_four_bar"] {
+        let path = format!("{LIBRARY}/{name}.mech");
+        Builder::new().out_dir(folder("open")?).compile(&path)?;
+        frozen(Builder::new(), &path)?
+            .out_dir(folder("folded")?)
+            .compile(&path)?;
+    }
+    for name in ["spatial_double_pendulum", "spatial_chain"] {
+        let path = format!("{OWN}/{name}.mech");
+        Builder::new().out_dir(folder("folded")?).compile(&path)?;
+    }
+    for n in ROWS {
+        let path = format!("{LIBRARY}/n_four_bar.mech");
+        let builder = Builder::new()
+            .constant("N", n)
+            .out_dir(folder(&format!("row_{n}"))?);
+        frozen(builder, &path)?.compile(&path)?;
+    }
+    Ok(())
+}
+
+/// Folds every parameter of a description.
+fn frozen(mut builder: Builder, path: &str) -> Result<Builder, BuildError> {
+    let text = fs::read_to_string(path).map_err(|error| BuildError::File(path.into(), error))?;
+    for line in text.lines() {
+        if let Some(rest) = line.trim_start().strip_prefix("param ") {
+            let name = rest.split([':', '=', ' ']).next().unwrap_or_default();
+            builder = builder.freeze(name);
+        }
+    }
+    Ok(builder)
+}

@@ -1,0 +1,68 @@
+//! Counting instructions.
+//!
+//! In:  a kernel's name.
+//! Out: instructions of one call in the steady state.
+//!
+//! The program runs itself under callgrind twice, with different numbers of rounds: the
+//! difference is free of everything that is done once.
+
+use crate::kernel;
+use std::error::Error;
+use std::process::Command;
+
+/// Rounds of the two runs.
+const ROUNDS: [u64; 2] = [2, 10];
+
+/// Whether valgrind can be called.
+pub fn is_there() -> bool {
+    Command::new("valgrind")
+        .arg("--version")
+        .output()
+        .is_ok_and(|output| output.status.success())
+}
+
+/// Instructions of one call of a kernel, the call itself and the loop around it taken
+/// off; `None` if this valgrind does not know an instruction of it.
+///
+/// # Errors
+///
+/// A kernel that fails, valgrind without a count.
+pub fn instructions(name: &str) -> Result<Option<f64>, Box<dyn Error>> {
+    let around = match kernel::calls(name) {
+        1 => Some(0.0),
+        _ => per_call("slider_crank/call")?,
+    };
+    Ok(per_call(name)?
+        .zip(around)
+        .map(|(all, around)| all - around))
+}
+
+fn per_call(name: &str) -> Result<Option<f64>, Box<dyn Error>> {
+    let [few, many] = if kernel::calls(name) == 1 {
+        [1, 2]
+    } else {
+        ROUNDS
+    };
+    let calls = ((many - few) * kernel::calls(name)) as f64;
+    let counted = collected(name, many)?.zip(collected(name, few)?);
+    Ok(counted.map(|(more, less)| (more - less) / calls))
+}
+
+fn collected(name: &str, rounds: u64) -> Result<Option<f64>, Box<dyn Error>> {
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
+        .arg(std::env::current_exe()?)
+        .args(["kernel", name, &rounds.to_string()])
+        .output()?;
+    let said = String::from_utf8_lossy(&output.stderr);
+    if said.contains("Unrecognised instruction") {
+        return Ok(None);
+    }
+    let count = said
+        .lines()
+        .find_map(|line| line.split_once("Collected : "));
+    match count {
+        Some((_, count)) if output.status.success() => Ok(Some(count.trim().parse()?)),
+        _ => Err(format!("callgrind could not count {name}:\n{said}").into()),
+    }
+}

@@ -1,0 +1,386 @@
+//! What is counted: one call, many times.
+//!
+//! In:  a name, a number of rounds.
+//! Out: nothing but the work; [`ROUND`] calls a round.
+//!
+//! Calls go through functions that are not inlined, so that what surrounds them is the
+//! same for all; the kernel `call` is that surrounding alone.
+
+use bricard_runtime::{
+    Correction, Interface, Mechanism, Pace, Regular, Scheme, Settings, State, Stepper, Terms,
+    assemble,
+};
+use instructions::hand::{self, ByHand};
+use instructions::mechanism as generated;
+use std::error::Error;
+use std::hint::black_box;
+
+/// Calls in a round.
+pub const ROUND: u64 = 16;
+/// Length of a step (s).
+const STEP: f64 = 0.01;
+/// Distance of the states from which steps begin (s).
+const APART: f64 = 0.02;
+
+type Failed = Box<dyn Error>;
+
+/// What is asked of a mechanism.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Work {
+    Call,
+    Terms,
+    Regular,
+    Correction,
+    Step,
+    Run(Scheme),
+}
+
+/// Every kernel of the short form, by name.
+pub const SHORT: &[&str] = &[
+    "slider_crank/terms",
+    "slider_crank/regular",
+    "slider_crank/correction",
+    "slider_crank/step",
+    "slider_crank_open/terms",
+    "slider_crank_open/regular",
+    "slider_crank_open/step",
+    "slider_crank_hand/terms",
+    "slider_crank_hand/regular",
+    "slider_crank_hand/correction",
+    "slider_crank_hand/step",
+    "double_four_bar/terms",
+    "double_four_bar/regular",
+    "double_four_bar/correction",
+    "double_four_bar/step",
+    "double_four_bar_open/terms",
+    "double_four_bar_open/regular",
+    "double_four_bar_open/step",
+    "double_four_bar_hand/terms",
+    "double_four_bar_hand/regular",
+    "double_four_bar_hand/correction",
+    "double_four_bar_hand/step",
+    "pendulum/terms",
+    "pendulum/regular",
+    "chain/terms",
+    "chain/regular",
+    "row_10/terms",
+    "row_10/regular",
+    "row_10/step",
+    "row_40/terms",
+    "row_40/regular",
+    "row_40/step",
+];
+
+/// What the long form counts besides.
+pub const LONG: &[&str] = &[
+    "row_2/terms",
+    "row_2/regular",
+    "row_2/step",
+    "row_5/terms",
+    "row_5/regular",
+    "row_5/step",
+    "row_20/terms",
+    "row_20/regular",
+    "row_20/step",
+    "row_80/terms",
+    "row_80/regular",
+    "row_80/step",
+    "slider_crank/run_rk4",
+    "slider_crank/run_dop853",
+    "double_four_bar/run_rk4",
+    "double_four_bar/run_dop853",
+];
+
+/// Calls of a kernel in a round.
+pub fn calls(name: &str) -> u64 {
+    if name.contains("/run_") { 1 } else { ROUND }
+}
+
+/// Runs a kernel.
+///
+/// # Errors
+///
+/// A name that nothing has; a run that fails.
+pub fn run(name: &str, rounds: u64) -> Result<(), Failed> {
+    let (subject, work) = name.split_once('/').ok_or("write SUBJECT/WORK")?;
+    let work = match work {
+        "call" => Work::Call,
+        "terms" => Work::Terms,
+        "regular" => Work::Regular,
+        "correction" => Work::Correction,
+        "step" => Work::Step,
+        "run_rk4" => Work::Run(Scheme::Rk4),
+        "run_dop853" => Work::Run(Scheme::Dop853),
+        _ => return Err(format!("there is no kernel `{work}`").into()),
+    };
+    let job = (work, rounds);
+    match subject {
+        "slider_crank" => ours(
+            &generated::slider_crank_folded::slider_crank::SliderCrank::default(),
+            job,
+        ),
+        "slider_crank_open" => ours(
+            &generated::slider_crank_open::slider_crank::SliderCrank::default(),
+            job,
+        ),
+        "slider_crank_hand" => theirs(
+            &hand::SliderCrank,
+            &generated::slider_crank_folded::slider_crank::SliderCrank::default(),
+            job,
+        ),
+        "double_four_bar" => ours(
+            &generated::double_four_bar_folded::double_four_bar::DoubleFourBar::default(),
+            job,
+        ),
+        "double_four_bar_open" => ours(
+            &generated::double_four_bar_open::double_four_bar::DoubleFourBar::default(),
+            job,
+        ),
+        "double_four_bar_hand" => theirs(
+            &hand::DoubleFourBar,
+            &generated::double_four_bar_folded::double_four_bar::DoubleFourBar::default(),
+            job,
+        ),
+        "pendulum" => ours(
+            &generated::pendulum::spatial_double_pendulum::SpatialDoublePendulum::default(),
+            job,
+        ),
+        "chain" => ours(
+            &generated::chain::spatial_chain::SpatialChain::default(),
+            job,
+        ),
+        "row_2" => ours(&generated::row_2::n_four_bar::NFourBar::default(), job),
+        "row_5" => ours(&generated::row_5::n_four_bar::NFourBar::default(), job),
+        "row_10" => ours(&generated::row_10::n_four_bar::NFourBar::default(), job),
+        "row_20" => ours(&generated::row_20::n_four_bar::NFourBar::default(), job),
+        "row_40" => ours(&generated::row_40::n_four_bar::NFourBar::default(), job),
+        "row_80" => ours(&generated::row_80::n_four_bar::NFourBar::default(), job),
+        _ => Err(format!("there is no mechanism `{subject}`").into()),
+    }
+}
+
+/// States all over the place: for what needs no closed loops.
+fn scattered<const N: usize>() -> Vec<State<f64, N>> {
+    let mut seed: u64 = 1;
+    let mut random = || {
+        seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    let state = |_| {
+        let mut state = State::<f64, N>::default();
+        state.q.iter_mut().for_each(|q| *q = 1.5 * random());
+        state.v.iter_mut().for_each(|v| *v = 2.0 * random());
+        state
+    };
+    (0..ROUND).map(state).collect()
+}
+
+/// States along a motion from the start, which passes no singular position so soon.
+fn along<M, const N: usize, const R: usize>(mechanism: &M) -> Result<Vec<State<f64, N>>, Failed>
+where
+    M: Mechanism<f64, N, R> + Interface<f64, N>,
+{
+    let mut state =
+        assemble(mechanism, &mechanism.start(), 0.0).map_err(|error| error.to_string())?;
+    let mut stepper = stepper(Scheme::Rk4)?;
+    let mut states = Vec::new();
+    for _ in 0..ROUND {
+        states.push(state);
+        stepper.step(mechanism, &mut state, APART)?;
+    }
+    Ok(states)
+}
+
+/// Steps of 0.01 s, or as long as an error of 1e-9 allows.
+fn stepper<const N: usize, const R: usize>(
+    scheme: Scheme,
+) -> Result<Box<Stepper<f64, N, R>>, Failed> {
+    let pace = match scheme {
+        Scheme::Rk4 => Pace::Fixed { step: STEP },
+        _ => Pace::Adaptive {
+            relative: 1e-9,
+            absolute: 1e-9,
+        },
+    };
+    Ok(Box::new(Stepper::new(scheme, pace, Settings::default())?))
+}
+
+fn ours<M, const N: usize, const R: usize>(
+    mechanism: &M,
+    (work, rounds): (Work, u64),
+) -> Result<(), Failed>
+where
+    M: Mechanism<f64, N, R> + Interface<f64, N>,
+{
+    match work {
+        Work::Call => repeat(&scattered::<N>(), rounds, mechanism, &mut (), nothing),
+        Work::Terms => repeat(
+            &scattered::<N>(),
+            rounds,
+            mechanism,
+            &mut *Box::<Terms<_, N, R>>::default(),
+            terms,
+        ),
+        Work::Regular => {
+            let mut out = Box::<Regular<_, N, R>>::default();
+            if !mechanism.regular(&scattered::<N>()[0], &mut out) {
+                return Err("there is no regular path".into());
+            }
+            repeat(&scattered::<N>(), rounds, mechanism, &mut *out, regular);
+        }
+        Work::Correction => repeat(
+            &along(mechanism)?,
+            rounds,
+            mechanism,
+            &mut *Box::<Correction<_, N, R>>::default(),
+            correction,
+        ),
+        Work::Step => {
+            let mut stepper = stepper::<N, R>(Scheme::Rk4)?;
+            let starts = along(mechanism)?;
+            for _ in 0..rounds {
+                for start in &starts {
+                    let mut state = *start;
+                    stepper.step(mechanism, &mut state, STEP)?;
+                    black_box(&state);
+                }
+            }
+        }
+        Work::Run(scheme) => {
+            for _ in 0..rounds {
+                let mut state = assemble(mechanism, &mechanism.start(), 0.0)
+                    .map_err(|error| error.to_string())?;
+                stepper::<N, R>(scheme)?.step(mechanism, &mut state, 8.0)?;
+                black_box(&state);
+            }
+        }
+    }
+    Ok(())
+}
+
+fn theirs<H, M, const N: usize, const R: usize>(
+    mechanism: &H,
+    same: &M,
+    (work, rounds): (Work, u64),
+) -> Result<(), Failed>
+where
+    H: ByHand<N, R>,
+    M: Mechanism<f64, N, R> + Interface<f64, N>,
+{
+    match work {
+        Work::Terms => repeat(
+            &scattered::<N>(),
+            rounds,
+            mechanism,
+            &mut *Box::<Terms<_, N, R>>::default(),
+            hand_terms,
+        ),
+        Work::Regular => repeat(
+            &scattered::<N>(),
+            rounds,
+            mechanism,
+            &mut State::default(),
+            hand_acceleration::<H, N, R>,
+        ),
+        Work::Correction => repeat(
+            &along(same)?,
+            rounds,
+            mechanism,
+            &mut State::default(),
+            hand_correction::<H, N, R>,
+        ),
+        Work::Step => repeat(
+            &along(same)?,
+            rounds,
+            mechanism,
+            &mut State::default(),
+            hand_step::<H, N, R>,
+        ),
+        Work::Call | Work::Run(_) => return Err("not written by hand".into()),
+    }
+    Ok(())
+}
+
+fn repeat<M: ?Sized, O, const N: usize>(
+    states: &[State<f64, N>],
+    rounds: u64,
+    mechanism: &M,
+    out: &mut O,
+    call: fn(&M, &State<f64, N>, &mut O),
+) {
+    let call = black_box(call);
+    for _ in 0..rounds {
+        for state in states {
+            call(mechanism, state, out);
+        }
+    }
+    black_box(out);
+}
+
+#[inline(never)]
+fn nothing<M, const N: usize>(_mechanism: &M, _state: &State<f64, N>, _out: &mut ()) {}
+
+#[inline(never)]
+fn terms<M: Mechanism<f64, N, R>, const N: usize, const R: usize>(
+    mechanism: &M,
+    state: &State<f64, N>,
+    out: &mut Terms<f64, N, R>,
+) {
+    mechanism.terms(state, out);
+}
+
+#[inline(never)]
+fn regular<M: Mechanism<f64, N, R>, const N: usize, const R: usize>(
+    mechanism: &M,
+    state: &State<f64, N>,
+    out: &mut Regular<f64, N, R>,
+) {
+    black_box(mechanism.regular(state, out));
+}
+
+#[inline(never)]
+fn correction<M: Mechanism<f64, N, R>, const N: usize, const R: usize>(
+    mechanism: &M,
+    state: &State<f64, N>,
+    out: &mut Correction<f64, N, R>,
+) {
+    black_box(mechanism.correction(state, out));
+}
+
+#[inline(never)]
+fn hand_terms<H: ByHand<N, R>, const N: usize, const R: usize>(
+    mechanism: &H,
+    state: &State<f64, N>,
+    out: &mut Terms<f64, N, R>,
+) {
+    mechanism.terms(state, out);
+}
+
+#[inline(never)]
+fn hand_acceleration<H: ByHand<N, R>, const N: usize, const R: usize>(
+    mechanism: &H,
+    state: &State<f64, N>,
+    out: &mut State<f64, N>,
+) {
+    out.v = mechanism.acceleration(state);
+}
+
+#[inline(never)]
+fn hand_correction<H: ByHand<N, R>, const N: usize, const R: usize>(
+    mechanism: &H,
+    state: &State<f64, N>,
+    out: &mut State<f64, N>,
+) {
+    (out.q, out.v) = mechanism.correction(state);
+}
+
+#[inline(never)]
+fn hand_step<H: ByHand<N, R>, const N: usize, const R: usize>(
+    mechanism: &H,
+    state: &State<f64, N>,
+    out: &mut State<f64, N>,
+) {
+    *out = hand::step(mechanism, state, STEP);
+}

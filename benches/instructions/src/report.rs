@@ -1,0 +1,89 @@
+//! Counts to tables.
+
+use crate::peers::{OTHERS, PLANAR};
+use crate::recorded::Recorded;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+/// Counts by kernel.
+pub type Counts = BTreeMap<String, f64>;
+
+/// Every count beside the recorded one and the hand-written one.
+pub fn counts(counts: &Counts, recorded: &Recorded) -> String {
+    let mut text = String::from(
+        "| kernel | instructions | recorded | by hand | ratio |\n|---|--:|--:|--:|--:|\n",
+    );
+    let number =
+        |value: Option<f64>| value.map_or("–".to_string(), |value| format!("{value:.0}"));
+    for (kernel, count) in counts {
+        let (subject, work) = kernel.split_once('/').unwrap_or((kernel, ""));
+        let subject = subject.trim_end_matches("_open");
+        let by_hand = counts.get(&format!("{subject}_hand/{work}")).copied();
+        let ratio = by_hand.map_or("–".to_string(), |by_hand| {
+            format!("{:.2}", count / by_hand)
+        });
+        let line = [
+            format!("{count:.0}"),
+            number(recorded.of(kernel)),
+            number(by_hand),
+            ratio,
+        ];
+        let _infallible = writeln!(text, "| {kernel} | {} |", line.join(" | "));
+    }
+    text
+}
+
+/// The peers' published figures with ours.
+pub fn peers(counts: &Counts) -> String {
+    let mut text = String::from(
+        "\n| | slider–crank: evaluation | q̈ | double four-bar: evaluation | q̈ |\n|---|--:|--:|--:|--:|\n",
+    );
+    let cell = |value: Option<f64>| value.map_or("–".to_string(), |value| format!("{value:.0}"));
+    let mut row = |name: &str, values: [Option<f64>; 4]| {
+        let _infallible = writeln!(text, "| {name} | {} |", values.map(cell).join(" | "));
+    };
+    for (name, values) in PLANAR {
+        row(name, values.map(|value| value.map(f64::from)));
+    }
+    let ours = |suffix: &str| {
+        ["slider_crank", "double_four_bar"].map(|subject| {
+            ["terms", "regular"]
+                .map(|work| counts.get(&format!("{subject}{suffix}/{work}")).copied())
+        })
+    };
+    for (name, suffix) in [
+        ("by hand in Rust, inlined sincos", "_hand"),
+        ("bricard", ""),
+        ("bricard, run-time parameters", "_open"),
+    ] {
+        let [[a, b], [c, d]] = ours(suffix);
+        row(name, [a, b, c, d]);
+    }
+    text.push_str("\n| evaluation | best peer | goal | bricard |\n|---|--:|--:|--:|\n");
+    for (name, peer, goal, kernel) in OTHERS {
+        let _infallible = writeln!(
+            text,
+            "| {name} | {peer} | {goal} | {} |",
+            cell(counts.get(kernel).copied())
+        );
+    }
+    text
+}
+
+/// How counts grow with the number of loops: the exponent from 10 to 80.
+pub fn growth(counts: &Counts) -> String {
+    let mut text = String::from(
+        "\n| loops in a row | 2 | 5 | 10 | 20 | 40 | 80 | exponent 10–80 |\n|---|--:|--:|--:|--:|--:|--:|--:|\n",
+    );
+    for work in ["terms", "regular", "step"] {
+        let at = |n: u32| counts.get(&format!("row_{n}/{work}")).copied();
+        let cells = [2, 5, 10, 20, 40, 80]
+            .map(|n| at(n).map_or("–".to_string(), |count| format!("{count:.0}")));
+        let exponent = match (at(10), at(80)) {
+            (Some(few), Some(many)) => format!("{:.2}", (many / few).log2() / 3.0),
+            _ => "–".to_string(),
+        };
+        let _infallible = writeln!(text, "| {work} | {} | {exponent} |", cells.join(" | "));
+    }
+    text
+}
