@@ -83,6 +83,14 @@ impl Builder {
         self
     }
 
+    /// Declares that no motion of the mechanism passes a singular position, so that no
+    /// branch rows are generated. A run that comes to one all the same, and has no
+    /// other way across, ends with an error.
+    pub fn regular(mut self, declared: bool) -> Self {
+        self.settings.options.regular = declared;
+        self
+    }
+
     /// Writes to another folder than `OUT_DIR`.
     pub fn out_dir(mut self, folder: impl Into<PathBuf>) -> Self {
         self.out_dir = Some(folder.into());

@@ -24,6 +24,13 @@ pub enum DynamicsError<T> {
         /// How many rows of the Jacobian are independent here.
         rank: usize,
     },
+    /// Constraints that were declared to be regular are not.
+    NotRegular {
+        /// Time of the state (s).
+        t: T,
+        /// How many rows of the Jacobian are independent here.
+        rank: usize,
+    },
     /// The mass matrix is singular in a direction that no constraint restricts,
     /// or negative.
     MassSingular {
@@ -49,6 +56,7 @@ impl<T: Real> DynamicsError<T> {
         match *self {
             Self::NotFinite { t }
             | Self::SingularPosition { t, .. }
+            | Self::NotRegular { t, .. }
             | Self::MassSingular { t, .. }
             | Self::ProjectionFailed { t, .. } => t,
         }
@@ -67,6 +75,11 @@ impl<T: Real> Display for DynamicsError<T> {
                 f,
                 "at t = {t} s only {rank} constraint equations are independent, and the form \
                  `{form}` cannot pass a singular position; use the form `reduced` or `full`"
+            ),
+            Self::NotRegular { t, rank } => write!(
+                f,
+                "at t = {t} s only {rank} constraint equations are independent, though the \
+                 mechanism was declared to be regular; generate it without that declaration"
             ),
             Self::MassSingular { t, coordinate } => write!(
                 f,

@@ -354,4 +354,6 @@ pub struct Structure {
     pub conservative: bool,
     /// The description draws something.
     pub drawn: bool,
+    /// The constraints were declared to be regular: there are no branch rows.
+    pub regular: bool,
 }

@@ -1,11 +1,12 @@
 //! Accelerations, reactions and projections: the forms against each other, against
 //! exact motions, at singular positions and beside them.
 
-use crate::mechanisms::{FourBars, Parallelogram, Passing, Sled, SliderCrank, Spring, Twice};
+use crate::mechanisms::{FourBars, Hung, Parallelogram, Passing, Sled, SliderCrank, Spring, Twice};
+use crate::toys::{Framed, PLAIN};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    ConstrainedSystem, DynamicsError, Form, Integrator, Mechanism, Rk4, Settings, Solver,
-    Stabilisation, State, System, Terms,
+    ConstrainedSystem, DynamicsError, Form, Integrator, Mechanism, Options, Rk4, Settings, Solver,
+    Stabilisation, State, Structure, System, Terms, simulate,
 };
 
 /// All forms.
@@ -281,7 +282,7 @@ fn a_massless_coordinate_is_legal_where_a_constraint_holds_it() {
     // The slider without mass: M is singular, M + AᵀWA is not.
     struct Massless(SliderCrank);
     impl Mechanism<f64, 3, 2> for Massless {
-        fn structure(&self) -> &'static bricard_runtime::Structure {
+        fn structure(&self) -> &'static Structure {
             self.0.structure()
         }
         fn terms(&self, state: &State<f64, 3>, out: &mut Terms<f64, 3, 2>) {
@@ -342,4 +343,20 @@ fn eighty_one_coordinates_and_eighty_constraints_fit_on_a_small_stack() {
     };
     let thread = std::thread::Builder::new().stack_size(6 << 20).spawn(work);
     thread.unwrap().join().unwrap();
+}
+
+/// With two degrees of freedom nothing but branch rows leads across.
+#[test]
+fn a_mechanism_that_was_declared_regular_ends_at_a_singular_position() {
+    static DECLARED: Structure = Structure {
+        regular: true,
+        ..PLAIN
+    };
+    let hung = Framed::<Hung, 6>::new(Hung, &DECLARED);
+    let before = State::new(0.0, [0.3, -1.2].into(), [-6.0, 2.0].into());
+    let start = Hung::state(&before);
+    let options = Options::rk4(0.2, 0.01);
+    let failure = simulate::<_, _, 6, 4>(&hung, &start, &options, &mut []);
+    let message = failure.map_or_else(|failure| failure.to_string(), |_| String::new());
+    assert!(message.contains("declared to be regular"), "{message}");
 }

@@ -177,6 +177,10 @@ fn closure(subject: &mut Subject) -> TokenStream {
         buffer: quote!(Position<T, #n, #r>),
         wanted,
     });
+    let correction = correction(subject);
+    if subject.options.regular {
+        return quote!(#position #correction);
+    }
     let mut wanted = matrix("slope", &equations.branch_slope);
     wanted.extend(vector("bias", &equations.branch_bias));
     let branch = subject.method(Method {
@@ -190,7 +194,6 @@ fn closure(subject: &mut Subject) -> TokenStream {
         buffer: quote!(Branch<T, #n, #r>),
         wanted,
     });
-    let correction = correction(subject);
     quote!(#position #correction #branch)
 }
 

@@ -32,6 +32,8 @@ use symbol::SymbolNames;
 pub struct Options {
     /// Emit the Coriolis matrix `C` as a function of its own.
     pub coriolis_matrix: bool,
+    /// The constraints are declared to be regular: emit no branch rows.
+    pub regular: bool,
 }
 
 /// A description in its own words, for the emitted documentation.

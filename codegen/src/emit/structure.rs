@@ -33,6 +33,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
     });
     let (constant_mass, conservative) = (constant_mass(subject), conservative(subject));
     let drawn = !mechanism.shapes.is_empty();
+    let regular = subject.options.regular;
     quote! {
         static STRUCTURE: Structure = Structure {
             name: #name,
@@ -47,6 +48,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
             constant_mass: #constant_mass,
             conservative: #conservative,
             drawn: #drawn,
+            regular: #regular,
         };
     }
 }

@@ -8,7 +8,8 @@
 
 use super::{ConstrainedSystem, Lifted, Metric, Rows, Tangent, Which};
 use crate::linalg::{
-    Breakdown, NotDefinite, first_guard, guard, independent, passes, safe_steps, truncation, weak,
+    Breakdown, NotDefinite, first_guard, guard, independent, passes, safe_steps, truncation,
+    useless, weak,
 };
 use crate::{
     Branch, Correction, Counters, DynamicsError, Mechanism, Position, Real, Regular, Settings,
@@ -174,9 +175,14 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             Known::Nothing => (N.min(R), independent()),
             _ => (regular, truncation()),
         };
-        if !self.settings.branch_rows {
+        let declared = mechanism.structure().regular;
+        if declared || !self.settings.branch_rows {
             tangent.take_strong(floor, limit).map_err(not_finite)?;
-            return Ok(tangent);
+            let rank = tangent.rank(useless());
+            return match declared && known != Known::Nothing && rank < limit {
+                true => Err(DynamicsError::NotRegular { t: state.t, rank }),
+                false => Ok(tangent),
+            };
         }
         match known {
             Known::Rank | Known::Nothing => tangent.take_strong(weak(), limit),

@@ -238,6 +238,12 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
         }
     }
 
+    /// How many directions are decided with singular values above `threshold`.
+    pub(crate) fn rank(&self, threshold: T) -> usize {
+        let decided = self.values.data.0[0][..self.used].iter();
+        decided.filter(|value| **value > threshold).count()
+    }
+
     /// Whether rows that are not zero elsewhere vanish here, and the velocity does not
     /// say how they change.
     pub(crate) fn at_rest_with_vanished_rows(&self, rows: &Rows<T, R>) -> bool {

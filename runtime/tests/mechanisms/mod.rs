@@ -54,6 +54,7 @@ pub const fn structure(
         constant_mass: false,
         conservative: true,
         drawn: false,
+        regular: false,
     }
 }
 

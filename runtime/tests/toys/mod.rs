@@ -213,6 +213,7 @@ pub const PLAIN: Structure = Structure {
     constant_mass: false,
     conservative: false,
     drawn: false,
+    regular: false,
 };
 
 impl Mechanism<f64, 2, 1> for Bead {

@@ -75,6 +75,7 @@ pub mod cart_pole {
         constant_mass: false,
         conservative: false,
         drawn: true,
+        regular: false,
     };
     /// Run-time parameters, in SI units.
     #[derive(Clone, Copy, Debug, PartialEq)]

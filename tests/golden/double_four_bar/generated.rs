@@ -200,6 +200,7 @@ pub mod double_four_bar {
         constant_mass: false,
         conservative: true,
         drawn: true,
+        regular: false,
     };
     /// Run-time parameters, in SI units.
     #[derive(Clone, Copy, Debug, PartialEq)]

@@ -79,6 +79,7 @@ pub mod double_pendulum {
         constant_mass: false,
         conservative: true,
         drawn: true,
+        regular: false,
     };
     /// Run-time parameters, in SI units.
     #[derive(Clone, Copy, Debug, PartialEq)]

@@ -89,6 +89,7 @@ pub mod driven_pivot {
         constant_mass: false,
         conservative: false,
         drawn: true,
+        regular: false,
     };
     /// Run-time parameters, in SI units.
     #[derive(Clone, Copy, Debug, PartialEq)]

@@ -113,6 +113,7 @@ pub mod heavy_top {
         constant_mass: false,
         conservative: true,
         drawn: true,
+        regular: false,
     };
     /// Run-time parameters, in SI units.
     #[derive(Clone, Copy, Debug, PartialEq)]

@@ -94,6 +94,7 @@ pub mod rolling_disc {
         constant_mass: false,
         conservative: true,
         drawn: true,
+        regular: false,
     };
     /// Run-time parameters, in SI units.
     #[derive(Clone, Copy, Debug, PartialEq)]

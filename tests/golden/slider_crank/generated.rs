@@ -104,6 +104,7 @@ pub mod slider_crank {
         constant_mass: false,
         conservative: true,
         drawn: true,
+        regular: false,
     };
     /// Run-time parameters, in SI units.
     #[derive(Clone, Copy, Debug, PartialEq)]
