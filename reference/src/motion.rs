@@ -69,11 +69,11 @@ where
     reference_from(mechanism, &mechanism.start(), until)
 }
 
-/// As [`reference`], from another start than the description's.
+/// As [`reference()`], from another start than the description's.
 ///
 /// # Errors
 ///
-/// As [`reference`].
+/// As [`reference()`].
 pub fn reference_from<M, const N: usize, const R: usize>(
     mechanism: &M,
     start: &Start<DoubleDouble, N>,
