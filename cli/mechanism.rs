@@ -31,11 +31,9 @@ pub trait AnyMechanism {
     fn freedom(&self) -> String;
     /// Simulates.
     fn run(&self, plan: &Plan, sink: &mut dyn RowSink) -> Result<Report, Stopped>;
-    /// Simulates with nothing recorded or audited, against the clock.
-    fn race(&self, options: &Options<f64>) -> Result<Race, String>;
-    /// Simulates from a state (time, coordinates, velocities) as it is; the
-    /// coordinates at the end.
-    fn follow(&self, row: &[f64], options: &Options<f64>) -> Result<Vec<f64>, String>;
+    /// Simulates with nothing recorded or audited, against the clock: from a state
+    /// (time, coordinates, velocities) as it is, or from the assembled start.
+    fn race(&self, from: Option<&[f64]>, options: &Options<f64>) -> Result<Race, String>;
     /// The picture at a state: time, coordinates, velocities.
     fn shapes(&self, row: &[f64]) -> Vec<Shape>;
 }
@@ -49,7 +47,7 @@ pub struct Race {
     pub steps: u64,
     /// Accelerations.
     pub evaluations: u64,
-    /// Time it took, from an assembled start.
+    /// Time it took, without the assembly.
     pub wall: Duration,
 }
 
@@ -171,9 +169,12 @@ impl<const N: usize, const R: usize> AnyMechanism for Sized<N, R> {
         run(&*self.mechanism, &self.start(), plan, sink)
     }
 
-    fn race(&self, options: &Options<f64>) -> Result<Race, String> {
+    fn race(&self, from: Option<&[f64]>, options: &Options<f64>) -> Result<Race, String> {
         let mechanism: &dyn Whole<N, R> = &*self.mechanism;
-        let start = assemble(mechanism, &self.start(), 0.0).map_err(|error| error.to_string())?;
+        let start = match from {
+            Some(row) => state_of(row),
+            None => assemble(mechanism, &self.start(), 0.0).map_err(|error| error.to_string())?,
+        };
         let begun = Instant::now();
         let result = simulate(mechanism, &start, options, &mut []);
         let wall = begun.elapsed();
@@ -184,13 +185,6 @@ impl<const N: usize, const R: usize> AnyMechanism for Sized<N, R> {
             evaluations: summary.evaluations,
             wall,
         })
-    }
-
-    fn follow(&self, row: &[f64], options: &Options<f64>) -> Result<Vec<f64>, String> {
-        let mechanism: &dyn Whole<N, R> = &*self.mechanism;
-        let summary = simulate(mechanism, &state_of(row), options, &mut [])
-            .map_err(|failure| failure.error.to_string())?;
-        Ok(summary.end.q.iter().copied().collect())
     }
 
     fn shapes(&self, row: &[f64]) -> Vec<Shape> {

@@ -112,7 +112,7 @@ impl Landings {
             };
             let mut options = Options::new(end[0], method.into(), Pace::Fixed { step });
             options.audit = Audit::NONE;
-            let found = mechanism.follow(row, &options).map_err(failed)?;
+            let found = mechanism.race(Some(row), &options).map_err(failed)?.end;
             let differences = found.iter().zip(&end[1..]).map(|(a, b)| (a - b).abs());
             errors.push(differences.fold(0.0, f64::max));
         }

@@ -109,10 +109,10 @@ fn settings(method: MethodName) -> Vec<(String, Pace<f64>)> {
 
 /// A run with the median time of several.
 fn repeated(mechanism: &dyn AnyMechanism, options: &Options<f64>) -> Result<Race, String> {
-    let mut races = vec![mechanism.race(options)?];
+    let mut races = vec![mechanism.race(None, options)?];
     let mut together = races[0].wall;
     while together < TOGETHER && races.len() < REPEATED {
-        let race = mechanism.race(options)?;
+        let race = mechanism.race(None, options)?;
         together += race.wall;
         races.push(race);
     }

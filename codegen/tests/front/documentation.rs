@@ -38,7 +38,8 @@ fn blocks(text: &str) -> impl Iterator<Item = &str> {
 }
 
 fn is_whole(block: &str) -> bool {
-    block.lines().any(|line| line.starts_with("mechanism "))
+    let mut lines = block.lines();
+    lines.any(|line| line.starts_with("mechanism ") && line.ends_with('{'))
 }
 
 /// Whether a block of statements declares a name itself.
