@@ -7,7 +7,7 @@
 
 use super::count::cost;
 use super::dead::ordered;
-use super::program::{Operation, Program, Value};
+use super::program::{Operation, Program, Slot, Value};
 use crate::expr::Number;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -57,7 +57,9 @@ fn collect_factors(program: &Program) -> Program {
             moved.insert(value, builder.sum(collected));
         }
     }
-    redirected(builder.program, program.len(), &moved)
+    let grown = builder.program;
+    let operations: Vec<Operation> = grown.operations().map(|(_, o)| o.clone()).collect();
+    redirected(&operations, &grown.outputs, &moved)
 }
 
 impl Builder {
@@ -135,15 +137,16 @@ fn commonest(terms: &[Term]) -> Option<Value> {
         .map(|(factor, _)| factor)
 }
 
-/// The program with some of its first `n` values replaced everywhere.
-fn redirected(grown: Program, n: usize, moved: &BTreeMap<Value, Value>) -> Program {
-    let target = |value: &Value| match moved.get(value) {
-        Some(&to) if value.index() < n => to,
-        _ => *value,
-    };
-    let operations: Vec<Operation> = grown
-        .operations()
-        .map(|(_, operation)| match operation {
+/// The program with some of its values replaced everywhere.
+fn redirected(
+    operations: &[Operation],
+    outputs: &[(Slot, Value)],
+    moved: &BTreeMap<Value, Value>,
+) -> Program {
+    let target = |value: &Value| moved.get(value).copied().unwrap_or(*value);
+    let operations: Vec<Operation> = operations
+        .iter()
+        .map(|operation| match operation {
             Operation::Sum(terms) => {
                 Operation::Sum(terms.iter().map(|(minus, x)| (*minus, target(x))).collect())
             }
@@ -156,8 +159,7 @@ fn redirected(grown: Program, n: usize, moved: &BTreeMap<Value, Value>) -> Progr
             Operation::Number(_) | Operation::Pi | Operation::Symbol(_) => operation.clone(),
         })
         .collect();
-    let outputs: Vec<_> = grown
-        .outputs
+    let outputs: Vec<_> = outputs
         .iter()
         .map(|(slot, value)| (*slot, target(value)))
         .collect();
@@ -231,6 +233,8 @@ fn distinct_pairs(sorted: &[Value]) -> BTreeSet<(Value, Value)> {
 fn share_pairs(program: &Program) -> Program {
     let mut operations: Vec<Operation> = program.operations().map(|(_, o)| o.clone()).collect();
     let mut pairs = Pairs::of(&operations);
+    // Products that turned out to be another one: the same factors in another order.
+    let mut moved: BTreeMap<Value, Value> = BTreeMap::new();
     while let Some(pair @ (a, b)) = pairs.commonest() {
         let products: Vec<usize> = pairs.having[&pair].iter().copied().collect();
         let is_pair = |product: &&usize| pairs.products[product] == [a, b];
@@ -252,10 +256,14 @@ fn share_pairs(program: &Program) -> Program {
                     factors.remove(i);
                 }
             }
+            if factors.is_empty() {
+                moved.insert(Value::at(product), Value::at(shared));
+                continue;
+            }
             factors.push(Value::at(shared));
             operations[product] = Operation::Product(factors.clone());
             pairs.insert(product, factors);
         }
     }
-    ordered(&operations, &program.outputs)
+    redirected(&operations, &program.outputs, &moved)
 }
