@@ -1,4 +1,5 @@
 //! The tests of the compiler, one binary.
 
 mod front;
+mod random;
 mod symbolic;
