@@ -32,6 +32,8 @@ pub enum Command {
     /// Measure run time against error, for all methods and forms of the equations
     #[command(name = "workprecision")]
     WorkPrecision(WorkPrecision),
+    /// Solve the benchmark problems of the field and compare with their references
+    Validate(Validate),
     /// Measure what passing a singular position costs in accuracy, wherever the steps
     /// land
     Landing(Landing),
@@ -105,6 +107,17 @@ pub struct Reproduce {
     pub out: PathBuf,
 }
 
+/// Arguments of `validate`.
+#[derive(Args, Debug)]
+pub struct Validate {
+    /// Leave out the problems that take long
+    #[arg(long)]
+    pub quick: bool,
+    /// Where the tables go
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    pub out: PathBuf,
+}
+
 /// Arguments of `simulate`.
 #[derive(Args, Debug)]
 #[command(after_help = "\
@@ -113,8 +126,8 @@ Values are in SI units and may be formulas of constants: 80*deg, pi/4, 1/100.
 Columns of the CSV: t, the coordinates by name, their velocities as der(NAME), then \
 what --columns asks for. Numbers read back to the same bits.
 
-Exit status: 0; 1 if the run failed (the rows computed so far are kept); 2 if the \
-command line is wrong.")]
+Exit status: 0; 1 if the run failed and 130 if Ctrl-C ended it (the rows computed so \
+far are kept); 2 if the command line is wrong.")]
 pub struct Simulate {
     /// The mechanism: a name of `bricard list`
     pub name: String,

@@ -3,6 +3,7 @@
 //! In:  nothing.
 //! Out: [`CommandError`]: a message and an exit status.
 
+use crate::interrupt::INTERRUPTED;
 use bricard_codegen::diagnostic::nearest;
 use std::fmt::{self, Display, Formatter};
 use std::io;
@@ -76,6 +77,11 @@ pub enum CommandError {
         /// What became of the rows computed before.
         kept: String,
     },
+    /// A run that Ctrl-C ended.
+    Interrupted {
+        /// What became of the rows computed before.
+        kept: String,
+    },
     /// Bounds that a reproduced experiment does not keep.
     OutOfBounds(Vec<String>),
     /// The reader of standard output has gone.
@@ -111,6 +117,7 @@ impl CommandError {
             | Self::UselessOption { .. }
             | Self::FileKind { .. } => WRONG_COMMAND_LINE,
             Self::NobodyReads => 0,
+            Self::Interrupted { .. } => INTERRUPTED,
             _ => FAILED,
         }
     }
@@ -157,6 +164,7 @@ impl Display for CommandError {
             Self::Draw(path, error) => write!(f, "could not draw {}: {error}", path.display()),
             Self::Description(rendered) => write!(f, "the description is wrong\n\n{rendered}"),
             Self::Run { reason, kept } => write!(f, "{reason}{kept}"),
+            Self::Interrupted { kept } => write!(f, "interrupted{kept}"),
             Self::OutOfBounds(broken) => {
                 f.write_str("these bounds are not kept:")?;
                 broken.iter().try_for_each(|bound| write!(f, "\n  {bound}"))

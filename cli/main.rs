@@ -14,6 +14,7 @@ mod column;
 mod error;
 mod figure;
 mod formula;
+mod interrupt;
 mod landing;
 mod list;
 mod mechanism;
@@ -24,6 +25,7 @@ mod run;
 mod show;
 mod simulate;
 mod table;
+mod validate;
 mod workprecision;
 
 use arguments::{Arguments, Command};
@@ -53,5 +55,6 @@ fn perform(command: &Command) -> Result<(), CommandError> {
         Command::WorkPrecision(arguments) => workprecision::workprecision(arguments),
         Command::Landing(arguments) => landing::landing(arguments),
         Command::Check(arguments) => check::check(arguments),
+        Command::Validate(arguments) => validate::validate(arguments),
     }
 }

@@ -62,13 +62,14 @@ pub struct Held {
     pub value: f64,
 }
 
-/// Finds a mechanism of the library.
+/// Finds a mechanism of the library or of the benchmark problems.
 ///
 /// # Errors
 ///
 /// [`CommandError::UnknownName`].
 pub fn find(name: &str) -> Result<Box<dyn AnyMechanism>, CommandError> {
-    bricard::visit(name, Forget).ok_or_else(|| CommandError::UnknownName {
+    let found = bricard::visit(name, Forget).or_else(|| bricard_benchmarks::visit(name, Forget));
+    found.ok_or_else(|| CommandError::UnknownName {
         kind: "mechanism",
         owner: String::new(),
         name: name.to_string(),

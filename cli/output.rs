@@ -30,6 +30,15 @@ pub fn say(line: &str) {
     let _unread = writeln!(io::stderr().lock(), "{line}");
 }
 
+/// Writes a whole file.
+///
+/// # Errors
+///
+/// [`CommandError::Write`].
+pub fn write(path: &Path, text: &str) -> Result<(), CommandError> {
+    fs::write(path, text).map_err(|error| CommandError::write(path, error))
+}
+
 /// Finds out whether a file can be written, before anything is computed for it.
 /// What it holds stays as it is until there is something to write.
 ///

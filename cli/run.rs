@@ -7,6 +7,7 @@
 
 use crate::column::Column;
 use crate::error::CommandError;
+use crate::interrupt;
 use crate::mechanism::Whole;
 use bricard_runtime::{
     Counters, DynamicsError, Observer, Occurrence, Options, Passage, Probe, Sampler, Start, State,
@@ -229,7 +230,13 @@ impl<const N: usize> Observer<f64, N> for Writer<'_, N> {
             }
             None => self.sampled.borrow_mut().push(*step.end()),
         }
-        self.write(probe)
+        let flow = self.write(probe)?;
+        if flow.is_continue() && interrupt::is_wanted() {
+            let kept = String::new();
+            self.refused = Some(CommandError::Interrupted { kept });
+            return Ok(ControlFlow::Break(()));
+        }
+        Ok(flow)
     }
 
     fn passage(&mut self, passage: &Passage<f64>) -> ControlFlow<()> {

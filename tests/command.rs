@@ -481,6 +481,77 @@ fn time_is_measured_over_errors_that_fall_with_the_tolerance() {
 }
 
 #[test]
+fn the_benchmark_problems_keep_their_bounds() {
+    let folder = folder("validate");
+    let ran = bricard(&["validate", "--quick", "--out", &folder.to_string_lossy()]);
+    assert_eq!(ran.status, Some(0), "{}\n{}", ran.out, ran.err);
+    assert!(ran.out.contains("every bound is kept"), "{}", ran.out);
+    let markdown = fs::read_to_string(folder.join("validation.md")).expect("a table is written");
+    assert!(
+        markdown.contains("| A04 Bricard, 30 coordinates |"),
+        "{markdown}"
+    );
+    let json = fs::read_to_string(folder.join("validation.json")).expect("numbers are written");
+    let json: serde_json::Value = serde_json::from_str(&json).expect("they are JSON");
+    let problems = json["problems"].as_array().expect("problems are a list");
+    assert!(problems.len() >= 10, "{json}");
+    assert!(problems.iter().all(|p| p["passed"] == true), "{json}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_said_and_fails_the_run() {
+    let run = [
+        "simulate",
+        "double_pendulum",
+        "--until",
+        "100",
+        "--out",
+        "/dev/full",
+    ];
+    check_refused(&run, 1, &["could not write /dev/full to its end"]);
+}
+
+/// Long enough for any machine to write rows before it is interrupted.
+#[cfg(unix)]
+const PATIENCE: std::time::Duration = std::time::Duration::from_secs(60);
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_keeps_its_rows_and_says_so() {
+    let csv = folder("interrupted").join("rows.csv");
+    let child = Command::new(env!("CARGO_BIN_EXE_bricard"))
+        .args([
+            "simulate",
+            "double_pendulum",
+            "--until",
+            "1e7",
+            "--step",
+            "0.01",
+        ])
+        .args(["--out", &csv.to_string_lossy()])
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    let begun = std::time::Instant::now();
+    while fs::metadata(&csv).map_or(0, |file| file.len()) == 0 && begun.elapsed() < PATIENCE {
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    let pressed = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(pressed.is_ok_and(|status| status.success()));
+    let ran = read(child.wait_with_output().expect("the command ends"));
+    assert_eq!(ran.status, Some(130), "{}", ran.err);
+    let rows = fs::read_to_string(&csv).expect("the rows are kept");
+    let count = rows.lines().count() - 1;
+    let said = format!("the {count} rows computed before");
+    assert!(ran.err.contains("interrupted"), "{}", ran.err);
+    assert!(ran.err.contains(&said), "{count} rows: {}", ran.err);
+    assert!(rows.ends_with('\n'));
+}
+
+#[test]
 fn landings_beside_a_singular_position_are_alike() {
     let ran = bricard(&["landing", "slider_crank", "--methods", "rk4"]);
     assert_eq!(ran.status, Some(0), "{}{}", ran.out, ran.err);

@@ -11,6 +11,7 @@ use crate::changes::Changes;
 use crate::column::{Column, columns, header};
 use crate::error::CommandError;
 use crate::figure::overview;
+use crate::interrupt;
 use crate::mechanism::find;
 use crate::output::{CsvWriter, probe, say};
 use crate::plot::{Times, panels};
@@ -27,6 +28,7 @@ pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
     let plan = choices::plan(arguments, columns.clone())?;
     choices::check_files(arguments)?;
     let mut record = Record::open(arguments, structure, &columns)?;
+    interrupt::listen();
     let result = mechanism.run(&plan, &mut record);
     let report = match &result {
         Ok(report) => Some(report),
@@ -42,6 +44,7 @@ pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
         Ok(_) => Ok(()),
         Err(Stopped { error, .. }) => match error {
             CommandError::Run { reason, .. } => Err(CommandError::Run { reason, kept }),
+            CommandError::Interrupted { .. } => Err(CommandError::Interrupted { kept }),
             error => Err(error),
         },
     }
