@@ -86,7 +86,9 @@ pub(super) fn mechanism(subject: &mut Subject) -> TokenStream {
 /// The acceleration by the regular path.
 fn regular(subject: &mut Subject, terms: &Wanted) -> TokenStream {
     let (n, r) = subject.counts();
-    let program = regular_acceleration(&subject.program(terms), n, r);
+    let Some(program) = regular_acceleration(&subject.program(terms), n, r) else {
+        return TokenStream::new();
+    };
     let written = subject.written(&program);
     let writes = solved(&written, &program);
     let Written {
@@ -117,7 +119,9 @@ fn correction(subject: &mut Subject) -> TokenStream {
     wanted.extend(matrix("jacobian", &equations.jacobian));
     wanted.extend(vector("residual", &equations.residual));
     wanted.extend(vector("speed", &equations.speed));
-    let program = regular_correction(&subject.program(&wanted), n, r);
+    let Some(program) = regular_correction(&subject.program(&wanted), n, r) else {
+        return TokenStream::new();
+    };
     let written = subject.written(&program);
     let writes = solved(&written, &program);
     let Written {

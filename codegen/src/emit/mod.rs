@@ -23,7 +23,7 @@ use crate::expr::{ExprId, Symbol};
 use crate::model::Mechanism;
 use crate::optimise::{Program, Slot, cost, optimise};
 use function::Body;
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use proc_macro2::{Ident, Literal, Span, TokenStream, TokenTree};
 use quote::quote;
 use symbol::SymbolNames;
 
@@ -99,7 +99,7 @@ pub fn module(
     let dynamics = dynamics::mechanism(&mut subject);
     let functions = dynamics::functions(&mut subject);
     let interface = interface::interface(&mut subject);
-    let imports = imports(&subject);
+    let imports = imports(&subject, &dynamics);
     let docs = module_docs(&subject, origin);
     let module = Ident::new(&name::snake_case(origin.module), Span::call_site());
     let source = origin.source;
@@ -219,7 +219,9 @@ fn holder(subject: &Subject) -> TokenStream {
     }
 }
 
-fn imports(subject: &Subject) -> TokenStream {
+/// What the module uses of the runtime: a solve that is not emitted leaves its
+/// buffer out.
+fn imports(subject: &Subject, dynamics: &TokenStream) -> TokenStream {
     let mut names = vec![
         "Canvas",
         "Energy",
@@ -241,6 +243,7 @@ fn imports(subject: &Subject) -> TokenStream {
     if !subject.mechanism.events.is_empty() {
         names.extend(["Direction", "Event"]);
     }
+    names.retain(|name| !["Regular", "Correction"].contains(name) || mentions(dynamics, name));
     names.sort_unstable();
     let names = names
         .into_iter()
@@ -249,6 +252,15 @@ fn imports(subject: &Subject) -> TokenStream {
         use bricard_runtime::nalgebra::{SMatrix, SVector};
         use bricard_runtime::{#(#names),*};
     }
+}
+
+/// Whether a name occurs in tokens, at any depth.
+fn mentions(tokens: &TokenStream, name: &str) -> bool {
+    tokens.clone().into_iter().any(|token| match token {
+        TokenTree::Ident(ident) => ident == name,
+        TokenTree::Group(group) => mentions(&group.stream(), name),
+        _ => false,
+    })
 }
 
 impl Subject<'_> {
@@ -292,13 +304,14 @@ impl Subject<'_> {
         expressions.into_iter().enumerate().map(write).collect()
     }
 
+    /// The default laws of the inputs.
+    fn laws(&self) -> Vec<ExprId> {
+        let inputs = self.mechanism.inputs.iter();
+        inputs.map(|input| input.law).collect()
+    }
+
     fn program(&mut self, wanted: &[(Slot, ExprId)]) -> Program {
-        let laws: Vec<ExprId> = self
-            .mechanism
-            .inputs
-            .iter()
-            .map(|input| input.law)
-            .collect();
+        let laws = self.laws();
         optimise(&mut self.mechanism.graph, &laws, wanted)
     }
 

@@ -35,7 +35,7 @@ struct Builder {
 type Term = (bool, Vec<Value>);
 
 /// `a·x + a·y + z` becomes `a·(x + y) + z`, the commonest factor first.
-fn collect_factors(program: &Program) -> Program {
+pub(super) fn collect_factors(program: &Program) -> Program {
     let uses = program.uses();
     let mut builder = Builder {
         program: program.clone(),
@@ -230,7 +230,8 @@ fn distinct_pairs(sorted: &[Value]) -> BTreeSet<(Value, Value)> {
     pairs
 }
 
-fn share_pairs(program: &Program) -> Program {
+/// The commonest pair of factors becomes a product of its own, again and again.
+pub(super) fn share_pairs(program: &Program) -> Program {
     let mut operations: Vec<Operation> = program.operations().map(|(_, o)| o.clone()).collect();
     let mut pairs = Pairs::of(&operations);
     // Products that turned out to be another one: the same factors in another order.

@@ -3,11 +3,11 @@
 //! In:  expressions of the mechanism's graph and the slots they are wanted in.
 //! Out: a [`Program`] that computes them, checked by [`verify`].
 //!
-//! The passes, in order:
+//! The passes, in order; `RULES.md` has the identity and the domain of each rule:
 //! 1. `trig`: each expression in the ring of the sines and cosines it has, where
 //!    that is cheaper. Works on expressions.
 //! 2. `schedule`: to a program, each shared expression once.
-//! 3. `factor`: pairs of factors and of terms that several operations share.
+//! 3. `factor`: common factors of terms, and pairs of factors that products share.
 //! 4. `dead`: what nobody reads.
 //!
 //! `solve` appends the solve for the accelerations to a program.
@@ -16,6 +16,7 @@ mod count;
 mod dead;
 mod factor;
 mod interpret;
+mod pass;
 mod program;
 mod schedule;
 mod solve;
@@ -24,11 +25,16 @@ mod verify;
 
 pub use count::{Cost, cost};
 pub use interpret::interpret;
+pub use pass::{Pass, alone};
 pub use program::{Operation, Program, Slot, Value};
 pub use trig::in_trig_ring;
 pub use verify::verify;
 
 use crate::expr::{ExprId, Graph};
+
+/// The most operations of a program that is still rewritten. Sharing factors looks at
+/// all pairs again after each; a longer program is emitted as it was derived.
+pub const REWRITTEN_MAX: usize = 30_000;
 
 /// The program for the wanted expressions; `laws` are the default laws of the
 /// inputs.
@@ -41,7 +47,11 @@ pub fn optimise(graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -
     let mut arrays: Vec<&str> = wanted.iter().map(|(slot, _)| slot.array).collect();
     arrays.dedup();
     let mut chosen = wanted.to_vec();
-    let mut best = factor::factor(&schedule::schedule(graph, laws, &chosen));
+    let scheduled = schedule::schedule(graph, laws, &chosen);
+    if scheduled.len() > REWRITTEN_MAX {
+        return checked(scheduled);
+    }
+    let mut best = factor::factor(&scheduled);
     // Arrays share work, so each is judged by what the whole then costs.
     for array in arrays {
         let mut candidate = chosen.clone();
@@ -60,23 +70,25 @@ pub fn optimise(graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -
 }
 
 /// The program for the accelerations by the regular path, from the program for
-/// `mass`, `force`, `jacobian`, `bias` of `n` coordinates and `r` constraint rows.
+/// `mass`, `force`, `jacobian`, `bias` of `n` coordinates and `r` constraint rows;
+/// `None` where it would divide by what is zero everywhere.
 ///
 /// # Panics
 ///
 /// As [`optimise`].
-pub fn regular_acceleration(terms: &Program, n: usize, r: usize) -> Program {
-    checked(solve::with_acceleration(terms, n, r))
+pub fn regular_acceleration(terms: &Program, n: usize, r: usize) -> Option<Program> {
+    solve::with_acceleration(terms, n, r).map(checked)
 }
 
 /// The program for the least corrections of position and velocity, from the
-/// program for `mass`, `jacobian`, `residual`, `speed`.
+/// program for `mass`, `jacobian`, `residual`, `speed`; `None` where it would divide
+/// by what is zero everywhere.
 ///
 /// # Panics
 ///
 /// As [`optimise`].
-pub fn regular_correction(terms: &Program, n: usize, r: usize) -> Program {
-    checked(solve::with_correction(terms, n, r))
+pub fn regular_correction(terms: &Program, n: usize, r: usize) -> Option<Program> {
+    solve::with_correction(terms, n, r).map(checked)
 }
 
 fn checked(program: Program) -> Program {

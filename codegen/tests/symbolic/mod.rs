@@ -4,7 +4,9 @@
 mod canonical;
 mod derivative;
 mod jet;
+mod limits;
 mod number;
+mod passes;
 mod print;
 mod program;
 mod recipe;

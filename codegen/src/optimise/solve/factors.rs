@@ -5,6 +5,10 @@ use crate::expr::Number;
 use crate::optimise::program::Operation;
 use std::collections::BTreeSet;
 
+/// The longest program that a solve is written into: a bound on the work of the
+/// generator. Beyond it the runtime's solves stay.
+const OPERATIONS_MAX: usize = 100_000;
+
 /// `L D Lᵀ` in an order of elimination.
 pub(super) struct Factors {
     order: Vec<usize>,
@@ -14,6 +18,9 @@ pub(super) struct Factors {
     inverse: Vec<Signed>,
     /// `d_i` and the `m_ii` that elimination made it of, by row.
     pub pivots: Vec<(Signed, Signed)>,
+    /// Whether a pivot is zero whatever the state, or elimination took more than
+    /// [`OPERATIONS_MAX`]: then the rest is not to be used.
+    pub given_up: bool,
 }
 
 /// An order of elimination by minimum degree; of equals the first.
@@ -47,8 +54,14 @@ impl Algebra {
         let mut columns = vec![Vec::new(); n];
         let zero = (false, self.number(Number::ZERO));
         let mut pivots = vec![(zero, zero); n];
+        let mut given_up = false;
         for (step, &k) in order.iter().enumerate() {
             let pivot = rest.get(&(k, k)).copied().unwrap_or(zero);
+            given_up |= self.as_number(pivot.1).is_some_and(Number::is_zero);
+            given_up |= self.program.len() > OPERATIONS_MAX;
+            if given_up {
+                break;
+            }
             inverse[k] = self.inverse(pivot);
             let whole = matrix.get(&(k, k)).copied().unwrap_or(zero);
             pivots[k] = (pivot, whole);
@@ -67,6 +80,7 @@ impl Algebra {
             columns,
             inverse,
             pivots,
+            given_up,
         }
     }
 

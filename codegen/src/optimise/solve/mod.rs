@@ -9,7 +9,8 @@
 //! (`mass_pivots`, `row_pivots`) are outputs too, beside the diagonals that they
 //! are to be compared with (`mass_diagonal`, `row_squares`), and where one is too
 //! small the result is not to be used. Left out are masses that elimination leaves
-//! as they are.
+//! as they are. A pivot that is zero by structure means that there is no such
+//! program.
 
 mod algebra;
 mod factors;
@@ -22,8 +23,8 @@ use std::collections::BTreeMap;
 
 /// The accelerations: `M q̈ + Aᵀλ = p₁`, `A q̈ = p₂`, from `mass`, `force`,
 /// `jacobian`, `bias`. Output `acceleration`.
-pub(super) fn with_acceleration(program: &Program, n: usize, r: usize) -> Program {
-    let mut system = System::of(program, n, r);
+pub(super) fn with_acceleration(program: &Program, n: usize, r: usize) -> Option<Program> {
+    let mut system = System::of(program, n, r)?;
     let (force, bias) = (system.take("force", n), system.take("bias", r));
     let force = system.algebra.forward(&system.mass, force);
     let gaps: Vec<Entry> = (0..r)
@@ -31,21 +32,21 @@ pub(super) fn with_acceleration(program: &Program, n: usize, r: usize) -> Progra
         .collect();
     let multipliers = system.multipliers(gaps);
     let acceleration = system.lifted(force, &multipliers);
-    system.finish(&[("acceleration", acceleration)], program, &[])
+    Some(system.finish(&[("acceleration", acceleration)], program, &[]))
 }
 
 /// The least corrections in the kinetic metric: `A Δq = −g` and
 /// `A Δq̇ = −(A q̇ + b)`, from `mass`, `jacobian`, `residual` and `speed`. Outputs
 /// `position` and `velocity`; `residual` stays one.
-pub(super) fn with_correction(program: &Program, n: usize, r: usize) -> Program {
-    let mut system = System::of(program, n, r);
+pub(super) fn with_correction(program: &Program, n: usize, r: usize) -> Option<Program> {
+    let mut system = System::of(program, n, r)?;
     let mut corrections = Vec::new();
     for (level, correction) in [("residual", "position"), ("speed", "velocity")] {
         let gaps = system.take(level, r);
         let multipliers = system.multipliers(gaps);
         corrections.push((correction, system.lifted(vec![None; n], &multipliers)));
     }
-    system.finish(&corrections, program, &["residual"])
+    Some(system.finish(&corrections, program, &["residual"]))
 }
 
 /// A factorised `M` and `S`.
@@ -61,7 +62,10 @@ struct System {
 }
 
 impl System {
-    fn of(program: &Program, n: usize, r: usize) -> Self {
+    /// `None` where `M` or `S` has a pivot that is zero by structure: a coordinate
+    /// without inertia, or a constraint row that follows from the others. Likewise
+    /// where the program becomes too long.
+    fn of(program: &Program, n: usize, r: usize) -> Option<Self> {
         let mut algebra = Algebra {
             program: program.clone(),
         };
@@ -75,6 +79,9 @@ impl System {
         let jacobian = entries.remove("jacobian").unwrap_or_default();
 
         let mass = algebra.factorise(&mass, n);
+        if mass.given_up {
+            return None;
+        }
         let row = |i| (0..n).map(|j| jacobian.get(&(i, j)).copied()).collect();
         let rows: Vec<Vec<Entry>> = (0..r).map(|i| algebra.forward(&mass, row(i))).collect();
         let scaled_rows: Vec<Vec<Entry>> =
@@ -89,14 +96,14 @@ impl System {
             }
         }
         let schur = algebra.factorise(&schur, r);
-        System {
+        (!schur.given_up).then_some(System {
             algebra,
             entries,
             mass,
             schur,
             rows,
             scaled_rows,
-        }
+        })
     }
 
     /// A vector that the program computes.
