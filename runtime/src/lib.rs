@@ -27,7 +27,7 @@ pub use integrator::{
 };
 pub use model::{
     Branch, Canvas, ConstraintRow, Correction, Direction, Energy, Event, Initial, Interface,
-    Linearised, Mechanism, Pivots, Position, Quantity, Regular, Start, Structure, Terms,
+    Linearised, Mechanism, Pivots, Position, Quantity, Regular, Start, Structure, Terms, Whole,
 };
 pub use nalgebra;
 #[cfg(feature = "std")]

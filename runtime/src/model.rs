@@ -88,6 +88,21 @@ pub trait Interface<T: Real, const N: usize> {
     fn draw(&self, state: &State<T, N>, canvas: &mut dyn Canvas<T>);
 }
 
+/// A mechanism and what a program needs to handle it, as one object.
+///
+/// Functions over `&dyn Whole<T, N, R>` are compiled once for each pair of sizes;
+/// functions over `M: Mechanism<T, N, R>` once for each mechanism, which is faster
+/// where it runs and slower where it is built.
+pub trait Whole<T: Real, const N: usize, const R: usize>:
+    Mechanism<T, N, R> + Interface<T, N>
+{
+}
+
+impl<T: Real, M, const N: usize, const R: usize> Whole<T, N, R> for M where
+    M: Mechanism<T, N, R> + Interface<T, N>
+{
+}
+
 /// One acceleration's worth of terms.
 #[derive(Clone, Debug)]
 pub struct Terms<T, const N: usize, const R: usize> {

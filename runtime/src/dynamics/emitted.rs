@@ -23,6 +23,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             && self.settings.form == Form::Reduced
             && !matches!(self.settings.stabilisation, Stabilisation::Baumgarte { .. })
             && self.rows.all_independent()
+            && self.metric.is_of_mass_alone()
     }
 
     /// The acceleration by emitted code, if there is any and it is safe here.

@@ -22,6 +22,9 @@ pub(crate) struct Metric<T, const N: usize> {
     augmented: bool,
     /// Whether `factor` belongs to the mass matrix of this binding.
     current: bool,
+    /// The largest inertia that each coordinate had: that of an Euler parameter
+    /// vanishes at some positions, which says nothing about its scale.
+    inertia: [T; N],
 }
 
 impl<T: Real, const N: usize> Default for Metric<T, N> {
@@ -30,11 +33,31 @@ impl<T: Real, const N: usize> Default for Metric<T, N> {
             factor: Cholesky::default(),
             augmented: false,
             current: false,
+            inertia: [T::zero(); N],
         }
     }
 }
 
 impl<T: Real, const N: usize> Metric<T, N> {
+    /// Lets the constraints take part from now on.
+    pub(crate) fn augment(&mut self) {
+        self.augmented = true;
+    }
+
+    /// Takes note of how much inertia the coordinates have.
+    pub(crate) fn observe(&mut self, mass: &SMatrix<T, N, N>) {
+        for (j, inertia) in self.inertia.iter_mut().enumerate() {
+            if mass[(j, j)] > *inertia && mass[(j, j)].is_finite() {
+                *inertia = mass[(j, j)];
+            }
+        }
+    }
+
+    /// Whether the mass matrix alone is a metric.
+    pub(crate) fn is_of_mass_alone(&self) -> bool {
+        !self.augmented
+    }
+
     /// Forgets a constant mass matrix, whose parameters may have changed.
     pub(crate) fn forget(&mut self) {
         self.current = false;
@@ -63,7 +86,8 @@ impl<T: Real, const N: usize> Metric<T, N> {
                 Err(_) => self.augmented = true,
             }
         }
-        rows.weigh(mass, jacobian);
+        self.observe(mass);
+        rows.weigh(&self.inertia, jacobian);
         let mut sum = *mass;
         for row in 0..R {
             for j in 0..N {

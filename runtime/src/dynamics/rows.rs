@@ -149,19 +149,15 @@ impl<T: Real, const R: usize> Rows<T, R> {
     /// Takes note of weights: `1 / Σ aⱼ²/mⱼⱼ` over the coordinates with inertia, so
     /// that the row weighs as much as the masses it connects. Where a row vanishes
     /// the weight stays what it was.
-    pub(crate) fn weigh<const N: usize>(
-        &mut self,
-        mass: &SMatrix<T, N, N>,
-        jacobian: &SMatrix<T, R, N>,
-    ) {
+    pub(crate) fn weigh<const N: usize>(&mut self, inertia: &[T; N], jacobian: &SMatrix<T, R, N>) {
         for row in 0..R {
             let (mut with, mut without, mut heaviest) = (T::zero(), T::zero(), T::zero());
             for j in 0..N {
                 let square = jacobian[(row, j)] * jacobian[(row, j)];
                 without += square;
-                heaviest = heaviest.max(mass[(j, j)]);
-                if mass[(j, j)] > T::zero() {
-                    with += square / mass[(j, j)];
+                heaviest = heaviest.max(inertia[j]);
+                if inertia[j] > T::zero() {
+                    with += square / inertia[j];
                 }
             }
             let weight = if with > T::zero() {

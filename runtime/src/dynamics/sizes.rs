@@ -2,7 +2,7 @@
 //!
 //! In:  the first state of a motion.
 //! Out: reference sizes, also if the motion begins exactly in a singular position,
-//!      where rows of `A` vanish.
+//!      where rows of `A` vanish; whether the mass matrix is definite anywhere.
 //!
 //! The rows are evaluated with all angles turned to other values. Angles are
 //! known by their unit. A coordinate whose unit is not given may be an angle; then
@@ -10,7 +10,7 @@
 
 use super::solver::Source;
 use super::{Metric, Solver};
-use crate::linalg::{dot, independent};
+use crate::linalg::{dot, independent, is_definite};
 use crate::{Mechanism, Quantity, Real, State};
 
 /// How many times the angles are turned.
@@ -28,6 +28,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     ) {
         let coordinates = mechanism.structure().coordinates;
         let sure = coordinates.iter().all(|c| !c.unit.is_empty());
+        self.sample_mass(mechanism, state);
         let here = self.sizes(mechanism, state);
         let mut sums = [T::zero(); R];
         for sample in 1..=SAMPLES {
@@ -36,7 +37,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 *sum += size;
             }
         }
-        self.metric = Metric::default();
+        self.metric.forget();
         for row in 0..R {
             let mean = sums[row] / T::from_f64(SAMPLES as f64);
             let vanishes = here[row] <= independent::<T>() * independent::<T>() * mean;
@@ -44,6 +45,21 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             if sure || vanishes {
                 self.rows.observe(row, mean);
             }
+        }
+    }
+
+    /// Finds out whether the mass matrix is a metric at any turned position.
+    fn sample_mass<M: Mechanism<T, N, R> + ?Sized>(&mut self, mechanism: &M, state: &State<T, N>) {
+        let coordinates = mechanism.structure().coordinates;
+        self.metric = Metric::default();
+        let mut definite = false;
+        for sample in 1..=SAMPLES {
+            mechanism.position(&turned(state, coordinates, sample), &mut self.position);
+            self.metric.observe(&self.position.mass);
+            definite |= is_definite(&self.position.mass);
+        }
+        if !definite {
+            self.metric.augment();
         }
     }
 

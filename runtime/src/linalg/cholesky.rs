@@ -2,13 +2,48 @@
 //!
 //! In:  `M`, `N × N`.
 //! Out: `L` with `M = L Lᵀ`, or the pivot that is not safely positive; products
-//!      with `L⁻¹`, `L⁻ᵀ` and `Lᵀ`.
+//!      with `L⁻¹`, `L⁻ᵀ` and `Lᵀ`; whether `M` is safely definite at all.
 //!
 //! Not here: what to do with a matrix that is only semi-definite.
 
 use super::{definite, norm};
 use crate::Real;
 use nalgebra::SMatrix;
+
+/// Whether a symmetric matrix is safely positive definite, whatever the units and
+/// the order of its rows.
+///
+/// [`Cholesky::factorise`] takes the rows as they come. Of a semi-definite matrix with
+/// a tiny diagonal entry it divides round-off by that entry, and sees no pivot vanish.
+/// Here the largest pivot, relative to its diagonal entry, goes first.
+pub(crate) fn is_definite<T: Real, const N: usize>(matrix: &SMatrix<T, N, N>) -> bool {
+    let mut rest = *matrix;
+    let mut done = [false; N];
+    for _ in 0..N {
+        let ratio = |j: &usize| rest[(*j, *j)] / matrix[(*j, *j)];
+        let larger = |best: Option<usize>, j: usize| match best {
+            Some(b) if ratio(&b) >= ratio(&j) => Some(b),
+            _ => Some(j),
+        };
+        let open = (0..N).filter(|&j| !done[j]);
+        let Some(next) = open.fold(None, larger) else {
+            break;
+        };
+        let pivot = rest[(next, next)];
+        if !(pivot > definite::<T>() * matrix[(next, next)]) {
+            return false;
+        }
+        done[next] = true;
+        for j in (0..N).filter(|&j| !done[j]) {
+            let share = rest[(next, j)] / pivot;
+            for i in (0..N).filter(|&i| !done[i]) {
+                let change = share * rest[(next, i)];
+                rest[(i, j)] -= change;
+            }
+        }
+    }
+    true
+}
 
 /// The lower factor `L`; entries above the diagonal are not used.
 #[derive(Clone, Debug)]

@@ -21,7 +21,7 @@ mod subset;
 mod tests;
 mod triangle;
 
-pub(crate) use cholesky::{Cholesky, NotDefinite};
+pub(crate) use cholesky::{Cholesky, NotDefinite, is_definite};
 pub(crate) use column::{add_scaled, dot, norm};
 pub(crate) use elimination::Elimination;
 pub(crate) use gram::Gram;
