@@ -13,7 +13,7 @@ use crate::show::freedom;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Canvas, Initial, Interface, Mechanism, Options, Settings, Solver, Start, State, Structure,
-    Visitor, assemble, simulate,
+    Visitor, Whole, assemble, simulate,
 };
 use std::time::{Duration, Instant};
 
@@ -77,14 +77,6 @@ pub fn find(name: &str) -> Result<Box<dyn AnyMechanism>, CommandError> {
     })
 }
 
-/// Everything a mechanism can do, in one object.
-pub trait Whole<const N: usize, const R: usize>: Mechanism<f64, N, R> + Interface<f64, N> {}
-
-impl<M, const N: usize, const R: usize> Whole<N, R> for M where
-    M: Mechanism<f64, N, R> + Interface<f64, N>
-{
-}
-
 struct Forget;
 
 impl Visitor<f64> for Forget {
@@ -94,7 +86,7 @@ impl Visitor<f64> for Forget {
     where
         M: Mechanism<f64, N, R> + Interface<f64, N> + Clone + 'static,
     {
-        let mechanism: Box<dyn Whole<N, R>> = Box::new(mechanism);
+        let mechanism: Box<dyn Whole<f64, N, R>> = Box::new(mechanism);
         Box::new(Sized {
             mechanism,
             held: Vec::new(),
@@ -105,7 +97,7 @@ impl Visitor<f64> for Forget {
 /// A mechanism of `N` coordinates and `R` constraint equations, and what is held
 /// at its start.
 struct Sized<const N: usize, const R: usize> {
-    mechanism: Box<dyn Whole<N, R>>,
+    mechanism: Box<dyn Whole<f64, N, R>>,
     held: Vec<Held>,
 }
 
@@ -151,7 +143,7 @@ impl<const N: usize, const R: usize> AnyMechanism for Sized<N, R> {
         if R == 0 {
             return freedom(N);
         }
-        let mechanism: &dyn Whole<N, R> = &*self.mechanism;
+        let mechanism: &dyn Whole<f64, N, R> = &*self.mechanism;
         let state = match assemble(mechanism, &self.start(), 0.0) {
             Ok(state) => state,
             Err(error) => return format!("the start can't be assembled: {error}"),
@@ -171,7 +163,7 @@ impl<const N: usize, const R: usize> AnyMechanism for Sized<N, R> {
     }
 
     fn race(&self, from: Option<&[f64]>, options: &Options<f64>) -> Result<Race, String> {
-        let mechanism: &dyn Whole<N, R> = &*self.mechanism;
+        let mechanism: &dyn Whole<f64, N, R> = &*self.mechanism;
         let start = match from {
             Some(row) => state_of(row),
             None => assemble(mechanism, &self.start(), 0.0).map_err(|error| error.to_string())?,

@@ -8,10 +8,9 @@
 use crate::column::Column;
 use crate::error::CommandError;
 use crate::interrupt;
-use crate::mechanism::Whole;
 use bricard_runtime::{
     Counters, DynamicsError, Observer, Occurrence, Options, Passage, Probe, Sampler, Start, State,
-    Step, Summary, assemble, simulate,
+    Step, Summary, Whole, assemble, simulate,
 };
 use std::cell::RefCell;
 use std::ops::ControlFlow;
@@ -77,7 +76,7 @@ pub struct Stopped {
 ///
 /// [`Stopped`], with what was reached.
 pub fn run<const N: usize, const R: usize>(
-    mechanism: &dyn Whole<N, R>,
+    mechanism: &dyn Whole<f64, N, R>,
     start: &Start<f64, N>,
     plan: &Plan,
     sink: &mut dyn RowSink,

@@ -3,8 +3,8 @@
 use crate::library::step_scale;
 use allocation_counter::measure;
 use bricard_runtime::{
-    Interface, Mechanism, Options, Pace, Scheme, Settings, State, Stepper, Visitor, assemble,
-    simulate,
+    Interface, Mechanism, Options, Pace, Scheme, Settings, State, Stepper, Visitor, Whole,
+    assemble, simulate,
 };
 
 /// Counts the allocations of steps on demand and of a whole run with all audits.
@@ -23,6 +23,7 @@ impl Visitor<f64> for Count {
     where
         M: Mechanism<f64, N, R> + Interface<f64, N>,
     {
+        let mechanism: &dyn Whole<f64, N, R> = &mechanism;
         let Count {
             scheme,
             pace,
@@ -36,7 +37,7 @@ impl Visitor<f64> for Count {
         };
         let mut state = State::default();
         let assembling = measure(|| {
-            state = assemble(&mechanism, &mechanism.start(), 0.0).expect("the start assembles");
+            state = assemble(mechanism, &mechanism.start(), 0.0).expect("the start assembles");
         });
         let start = state;
         let settings = Settings::default();
@@ -45,13 +46,13 @@ impl Visitor<f64> for Count {
         let stepping = measure(|| {
             for _ in 0..100 {
                 stepper
-                    .step(&mechanism, &mut state, 0.01 * step_scale)
+                    .step(mechanism, &mut state, 0.01 * step_scale)
                     .expect("a step");
             }
         });
         let options = Options::new(step_scale, scheme, pace);
         let running = measure(|| {
-            let run = simulate(&mechanism, &start, &options, &mut []);
+            let run = simulate(mechanism, &start, &options, &mut []);
             assert!(run.is_ok(), "the run ends well");
         });
         [assembling, stepping, running].map(|counted| counted.count_total)

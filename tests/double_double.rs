@@ -2,7 +2,7 @@
 
 use bricard_reference::{DoubleDouble, Reference, ReferenceError, reference};
 use bricard_runtime::{
-    Interface, Mechanism, Options, Pace, Real, Scheme, Visitor, assemble, simulate,
+    Interface, Mechanism, Options, Pace, Real, Scheme, Visitor, Whole, assemble, simulate,
 };
 
 /// What a reference motion may be off by (m, rad, m/s, rad/s).
@@ -50,8 +50,9 @@ impl Visitor<DoubleDouble> for Motion {
     where
         M: Mechanism<DoubleDouble, N, R> + Interface<DoubleDouble, N>,
     {
+        let mechanism: &dyn Whole<DoubleDouble, N, R> = &mechanism;
         let result: Result<Reference<N>, ReferenceError<N, R>> =
-            reference(&mechanism, DoubleDouble::from(self.until));
+            reference(mechanism, DoubleDouble::from(self.until));
         let motion = result.unwrap_or_else(|error| panic!("{error}"));
         let (q, v) = (motion.end.q, motion.end.v);
         (q.as_slice().to_vec(), v.as_slice().to_vec(), motion.error)
@@ -105,10 +106,11 @@ impl Visitor<DoubleDouble> for Implicit {
     where
         M: Mechanism<DoubleDouble, N, R> + Interface<DoubleDouble, N>,
     {
+        let mechanism: &dyn Whole<DoubleDouble, N, R> = &mechanism;
         let until = DoubleDouble::from(self.until);
-        let exact: Result<Reference<N>, ReferenceError<N, R>> = reference(&mechanism, until);
+        let exact: Result<Reference<N>, ReferenceError<N, R>> = reference(mechanism, until);
         let exact = exact.unwrap_or_else(|error| panic!("{error}")).end;
-        let start = assemble(&mechanism, &mechanism.start(), DoubleDouble::default());
+        let start = assemble(mechanism, &mechanism.start(), DoubleDouble::default());
         let start = start.unwrap_or_else(|error| panic!("{error}"));
         let tolerance = DoubleDouble::from(self.tolerance);
         let pace = Pace::Adaptive {
@@ -116,7 +118,7 @@ impl Visitor<DoubleDouble> for Implicit {
             absolute: tolerance,
         };
         let options = Options::new(until, Scheme::Radau9, pace);
-        let run = simulate(&mechanism, &start, &options, &mut []);
+        let run = simulate(mechanism, &start, &options, &mut []);
         let end = run.unwrap_or_else(|failure| panic!("{failure}")).end;
         (end.q - exact.q)
             .iter()

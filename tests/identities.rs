@@ -7,7 +7,7 @@ use crate::random::Random;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Form, Initial, Interface, Mechanism, Position, Settings, Solver, Start, State, System, Terms,
-    Visitor, assemble,
+    Visitor, Whole, assemble,
 };
 
 /// What a residual may leave over, relative to what cancels in it.
@@ -59,9 +59,10 @@ impl Visitor<f64> for Ask {
     where
         M: Mechanism<f64, N, R> + Interface<f64, N>,
     {
-        let state = consistent(&mechanism, self.seed)?;
+        let mechanism: &dyn Whole<f64, N, R> = &mechanism;
+        let state = consistent(mechanism, self.seed)?;
         let mut solver = Solver::new(Settings::default());
-        let mut system = solver.on(&mechanism);
+        let mut system = solver.on(mechanism);
         let rank = system.rank(&state).ok()?;
         let error = system.constraint_error(&state);
         if rank.rank < R || (R > 0 && rank.sine < REGULAR) {
@@ -79,7 +80,7 @@ impl Visitor<f64> for Ask {
                 form,
                 ..Settings::default()
             });
-            let reaction = solver.on(&mechanism).reaction(&state);
+            let reaction = solver.on(mechanism).reaction(&state);
             let (acceleration, reaction) = reaction.expect("a regular state");
             (form, numbers(&acceleration), numbers(&reaction))
         });
@@ -107,7 +108,7 @@ impl Visitor<f64> for Ask {
 /// A state on the constraints, near a random one.
 fn consistent<M, const N: usize, const R: usize>(mechanism: &M, seed: u64) -> Option<State<f64, N>>
 where
-    M: Mechanism<f64, N, R> + Interface<f64, N>,
+    M: Mechanism<f64, N, R> + Interface<f64, N> + ?Sized,
 {
     let mut random = Random::seeded(seed);
     let mut guess = || Initial {
@@ -263,9 +264,10 @@ impl Visitor<f64> for Project {
     where
         M: Mechanism<f64, N, R> + Interface<f64, N>,
     {
-        let state = consistent(&mechanism, self.seed)?;
+        let mechanism: &dyn Whole<f64, N, R> = &mechanism;
+        let state = consistent(mechanism, self.seed)?;
         let mut solver = Solver::new(Settings::default());
-        let mut system = solver.on(&mechanism);
+        let mut system = solver.on(mechanism);
         let rank = system.rank(&state).ok()?;
         if rank.rank < R || (R > 0 && rank.sine < REGULAR) {
             return None;

@@ -7,7 +7,7 @@
 use crate::reduction::{Motion, Reduction};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Integrator, Interface, Mechanism, Rk4, Settings, Solver, State, System, Visitor,
+    Integrator, Interface, Mechanism, Rk4, Settings, Solver, State, System, Visitor, Whole,
 };
 
 /// How long a motion is followed (s).
@@ -50,13 +50,14 @@ impl Visitor<f64> for Landings {
     where
         M: Mechanism<f64, N, R> + Interface<f64, N>,
     {
+        let mechanism: &dyn Whole<f64, N, R> = &mechanism;
         let mut errors = Vec::new();
         for stage in [Stage::First, Stage::Second, Stage::Third, Stage::Last] {
             for exponent in 1..=16 {
                 for size in [1.0, -1.0, 3.3, -3.3] {
                     let distance = size * 10.0_f64.powi(-exponent);
-                    let start = self.aimed(&mechanism, stage, distance);
-                    errors.push((self.error(&mechanism, start), stage, distance));
+                    let start = self.aimed(mechanism, stage, distance);
+                    errors.push((self.error(mechanism, start), stage, distance));
                 }
             }
         }
@@ -87,7 +88,7 @@ impl Landings {
     /// The first coordinate at a stage of the step that begins at a time.
     fn landed<M, const N: usize, const R: usize>(&self, mechanism: &M, stage: Stage, t: f64) -> f64
     where
-        M: Mechanism<f64, N, R>,
+        M: Mechanism<f64, N, R> + ?Sized,
     {
         let mut solver = Solver::new(Settings::default());
         let mut system = solver.on(mechanism);
@@ -120,7 +121,7 @@ impl Landings {
         distance: f64,
     ) -> f64
     where
-        M: Mechanism<f64, N, R>,
+        M: Mechanism<f64, N, R> + ?Sized,
     {
         let abscissa = match stage {
             Stage::First => 0.0,
@@ -144,7 +145,7 @@ impl Landings {
     /// The largest error of a coordinate at the end of a run.
     fn error<M, const N: usize, const R: usize>(&self, mechanism: &M, t: f64) -> f64
     where
-        M: Mechanism<f64, N, R>,
+        M: Mechanism<f64, N, R> + ?Sized,
     {
         let mut solver = Solver::new(Settings::default());
         let mut system = solver.on(mechanism);

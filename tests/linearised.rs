@@ -6,8 +6,8 @@ use crate::random::Random;
 use bricard_codegen::expr::{ExprId, Symbol};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Interface, Mechanism, Options, Settings, Slope, Solver, State, System, Visitor, assemble,
-    simulate,
+    Interface, Mechanism, Options, Settings, Slope, Solver, State, System, Visitor, Whole,
+    assemble, simulate,
 };
 use num_dual::Dual64;
 
@@ -137,12 +137,13 @@ impl Visitor<f64> for Compare {
     where
         M: Mechanism<f64, N, R> + Interface<f64, N>,
     {
-        let start = assemble(&mechanism, &mechanism.start(), 0.0).expect("the start assembles");
+        let mechanism: &dyn Whole<f64, N, R> = &mechanism;
+        let start = assemble(mechanism, &mechanism.start(), 0.0).expect("the start assembles");
         let options = Options::dop853(0.31 * step_scale(self.name), 1e-10);
-        let run = simulate(&mechanism, &start, &options, &mut []);
+        let run = simulate(mechanism, &start, &options, &mut []);
         let state = run.unwrap_or_else(|failure| panic!("{failure}")).end;
         let mut solver = Solver::new(Settings::default());
-        let mut system = solver.on(&mechanism);
+        let mut system = solver.on(mechanism);
         let mut acceleration =
             |state: &State<f64, N>| system.acceleration(state).expect("a regular state");
         let (mut by_q, mut by_v) = (Vec::new(), Vec::new());

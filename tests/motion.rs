@@ -2,7 +2,7 @@
 
 use bricard_runtime::{
     ConstraintError, Counters, DynamicsError, Interface, Mechanism, Observer, Options, Passage,
-    Probe, SimulateError, Step, Visitor, assemble, simulate,
+    Probe, SimulateError, Step, Visitor, Whole, assemble, simulate,
 };
 use std::ops::ControlFlow;
 
@@ -72,13 +72,14 @@ impl Visitor<f64> for Run<'_> {
     where
         M: Mechanism<f64, N, R> + Interface<f64, N>,
     {
-        let start = assemble(&mechanism, &mechanism.start(), 0.0).expect("the start assembles");
+        let mechanism: &dyn Whole<f64, N, R> = &mechanism;
+        let start = assemble(mechanism, &mechanism.start(), 0.0).expect("the start assembles");
         let mut watch = Watch {
             equal: self.equal,
             passages: Vec::new(),
             apart: 0.0,
         };
-        let result = simulate(&mechanism, &start, self.options, &mut [&mut watch]);
+        let result = simulate(mechanism, &start, self.options, &mut [&mut watch]);
         let (summary, error) = match result {
             Ok(summary) => (summary, None),
             Err(failure) => (failure.summary, Some(failure.error)),

@@ -1,7 +1,7 @@
 //! Stiff mechanisms of the library against published and computed references.
 
 use bricard_runtime::{
-    Interface, Mechanism, Options, Pace, Scheme, Summary, Visitor, assemble, simulate,
+    Interface, Mechanism, Options, Pace, Scheme, Summary, Visitor, Whole, assemble, simulate,
 };
 
 /// Height of the sleeve of the flyball governor after 10 s (m): an implicit method of
@@ -32,8 +32,9 @@ impl Visitor<f64> for Run {
     where
         M: Mechanism<f64, N, R> + Interface<f64, N>,
     {
-        let start = assemble(&mechanism, &mechanism.start(), 0.0).expect("the start assembles");
-        let run = simulate(&mechanism, &start, &self.options, &mut []);
+        let mechanism: &dyn Whole<f64, N, R> = &mechanism;
+        let start = assemble(mechanism, &mechanism.start(), 0.0).expect("the start assembles");
+        let run = simulate(mechanism, &start, &self.options, &mut []);
         let Summary {
             end,
             steps,

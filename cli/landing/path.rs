@@ -4,7 +4,9 @@
 //! Out: when exactly, how fast, and states at any times around it.
 
 use bricard_reference::{DoubleDouble, states_at};
-use bricard_runtime::{Interface, Mechanism, Real, Settings, Solver, State, Visitor, assemble};
+use bricard_runtime::{
+    Interface, Mechanism, Real, Settings, Solver, State, Visitor, Whole, assemble,
+};
 
 /// How long before the passage the search for it begins (s).
 const BEFORE: f64 = 1e-3;
@@ -41,17 +43,6 @@ struct Follow<'a> {
     times: &'a dyn Fn(f64) -> Vec<f64>,
 }
 
-/// As any mechanism, in numbers of 106 bits.
-trait Exactly<const N: usize, const R: usize>:
-    Mechanism<DoubleDouble, N, R> + Interface<DoubleDouble, N>
-{
-}
-
-impl<M, const N: usize, const R: usize> Exactly<N, R> for M where
-    M: Mechanism<DoubleDouble, N, R> + Interface<DoubleDouble, N>
-{
-}
-
 impl Visitor<DoubleDouble> for Follow<'_> {
     type Output = Result<Path, String>;
 
@@ -64,13 +55,13 @@ impl Visitor<DoubleDouble> for Follow<'_> {
                 mechanism.set_parameter(index, DoubleDouble::from_f64(value.to_f64()));
             }
         }
-        let mechanism: Box<dyn Exactly<N, R>> = Box::new(mechanism);
+        let mechanism: Box<dyn Whole<DoubleDouble, N, R>> = Box::new(mechanism);
         follow(&*mechanism, &self)
     }
 }
 
 fn follow<const N: usize, const R: usize>(
-    mechanism: &dyn Exactly<N, R>,
+    mechanism: &dyn Whole<DoubleDouble, N, R>,
     wanted: &Follow,
 ) -> Result<Path, String> {
     let number = DoubleDouble::from_f64;
@@ -92,7 +83,7 @@ fn follow<const N: usize, const R: usize>(
 
 /// When exactly the constraints lose rank: their sine grows linearly on both sides.
 fn passage<const N: usize, const R: usize>(
-    mechanism: &dyn Exactly<N, R>,
+    mechanism: &dyn Whole<DoubleDouble, N, R>,
     start: &State<DoubleDouble, N>,
     about: f64,
 ) -> Result<DoubleDouble, String> {
@@ -116,7 +107,7 @@ fn passage<const N: usize, const R: usize>(
 
 /// The state at one time.
 fn one<const N: usize, const R: usize>(
-    mechanism: &dyn Exactly<N, R>,
+    mechanism: &dyn Whole<DoubleDouble, N, R>,
     start: &State<DoubleDouble, N>,
     time: DoubleDouble,
 ) -> Result<State<DoubleDouble, N>, String> {

@@ -7,7 +7,7 @@ use crate::changes::Changes;
 use crate::error::CommandError;
 use crate::mechanism::Held;
 use bricard_reference::{DoubleDouble, reference_from};
-use bricard_runtime::{Initial, Interface, Mechanism, Real, Visitor};
+use bricard_runtime::{Initial, Interface, Mechanism, Real, Visitor, Whole};
 
 /// Coordinates at the end of a motion, rounded, and how far they may be off.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,18 +40,6 @@ struct Compute<'a> {
     until: f64,
 }
 
-/// A mechanism in numbers of 106 bits, its type forgotten: the integration is compiled
-/// once for each pair of sizes.
-trait Exactly<const N: usize, const R: usize>:
-    Mechanism<DoubleDouble, N, R> + Interface<DoubleDouble, N>
-{
-}
-
-impl<M, const N: usize, const R: usize> Exactly<N, R> for M where
-    M: Mechanism<DoubleDouble, N, R> + Interface<DoubleDouble, N>
-{
-}
-
 impl Visitor<DoubleDouble> for Compute<'_> {
     type Output = Result<Exact, String>;
 
@@ -71,13 +59,13 @@ impl Visitor<DoubleDouble> for Compute<'_> {
         for (index, value) in &self.changes.inputs {
             mechanism.set_input(*index, Some(wide(*value)));
         }
-        let mechanism: Box<dyn Exactly<N, R>> = Box::new(mechanism);
+        let mechanism: Box<dyn Whole<DoubleDouble, N, R>> = Box::new(mechanism);
         compute(&*mechanism, &self.changes.held, self.until)
     }
 }
 
 fn compute<const N: usize, const R: usize>(
-    mechanism: &dyn Exactly<N, R>,
+    mechanism: &dyn Whole<DoubleDouble, N, R>,
     held: &[Held],
     until: f64,
 ) -> Result<Exact, String> {
