@@ -35,8 +35,8 @@ pub fn derived(name: &str, source: &str) -> Derived {
     let analysed = analyse(source, &Settings::default());
     let (mut mechanism, _) =
         analysed.unwrap_or_else(|errors| panic!("{}", errors.render(name, source)));
-    let equations = derive(&mut mechanism);
-    let linearised = linearise(&mut mechanism, &equations);
+    let equations = derive(&mut mechanism).expect("equations of a usual length");
+    let linearised = linearise(&mut mechanism, &equations).expect("derivatives likewise");
     Derived {
         name: name.to_string(),
         mechanism,

@@ -30,7 +30,7 @@ pub fn show(arguments: &Show) -> Result<(), CommandError> {
     };
     let (mut mechanism, _warnings) =
         analyse(&subject.source, &Settings::default()).map_err(rendered)?;
-    let equations = derive::derive(&mut mechanism);
+    let equations = derive::derive(&mut mechanism).map_err(rendered)?;
     let sections = sections::sections(&mut mechanism, &equations);
     let costs = cost::costs(&mut mechanism, &equations);
     let heading = heading(&mechanism, &subject);

@@ -42,7 +42,10 @@ pub fn compile_source(
 ) -> Result<Compiled, Diagnostics> {
     let (mut mechanism, mut warnings) = analyse(source, settings)?;
     warnings.append_elsewhere(doubt::doubts(mechanism.clone()));
-    let equations = derive::derive(&mut mechanism);
+    let equations = derive::derive(&mut mechanism)?;
+    if let Some(warning) = derive::swell(&mechanism, &equations) {
+        warnings.push(warning);
+    }
     let origin = Origin {
         module,
         file,
@@ -78,5 +81,10 @@ pub fn examine(source: &str, settings: &Settings) -> Result<(Mechanism, Diagnost
     let (mechanism, mut warnings) = analyse(source, settings)?;
     warnings.append_elsewhere(doubt::doubts(mechanism.clone()));
     warnings.append_elsewhere(doubt::redundancies(mechanism.clone()));
+    let mut derived = mechanism.clone();
+    let equations = derive::derive(&mut derived)?;
+    if let Some(warning) = derive::swell(&derived, &equations) {
+        warnings.push(warning);
+    }
     Ok((mechanism, warnings))
 }

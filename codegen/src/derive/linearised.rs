@@ -24,22 +24,27 @@ pub struct Linearised {
     pub row_by_velocity: Matrix,
 }
 
-/// Linearises the equations of motion of a mechanism.
-pub fn linearise(mechanism: &mut Mechanism, equations: &Equations) -> Linearised {
+/// The most expressions that linearising may add to those there are.
+const EXPRESSIONS_MAX: usize = 30_000;
+
+/// Linearises the equations of motion of a mechanism; none if that takes more
+/// expressions than a function should have.
+pub fn linearise(mechanism: &mut Mechanism, equations: &Equations) -> Option<Linearised> {
     let n = equations.mass.len();
     let Mechanism { graph, inputs, .. } = mechanism;
     let forces = forces_left(graph, equations);
     let rows = rows_left(graph, equations);
-    let [force_by_position, row_by_position] =
-        [&forces, &rows].map(|left| partials(graph, inputs, left, coordinates(n)));
-    let [force_by_velocity, row_by_velocity] =
-        [&forces, &rows].map(|left| partials(graph, inputs, left, velocities(n)));
-    Linearised {
+    let most = graph.len() + EXPRESSIONS_MAX;
+    let mut by_position = |left| partials(graph, inputs, left, coordinates(n), most);
+    let (force_by_position, row_by_position) = (by_position(&forces)?, by_position(&rows)?);
+    let mut by_velocity = |left| partials(graph, inputs, left, velocities(n), most);
+    let (force_by_velocity, row_by_velocity) = (by_velocity(&forces)?, by_velocity(&rows)?);
+    Some(Linearised {
         force_by_position,
         force_by_velocity,
         row_by_position,
         row_by_velocity,
-    }
+    })
 }
 
 /// `p₁ − M q̈ − Aᵀλ`, `N`.
@@ -76,17 +81,21 @@ fn against(graph: &mut Graph, entries: &[ExprId], symbol: fn(u32) -> Symbol) -> 
     graph.sum(terms)
 }
 
-/// `∂e/∂symbol`, a row for each expression.
+/// `∂e/∂symbol`, a row for each expression, unless the graph becomes too long.
 fn partials(
     graph: &mut Graph,
     inputs: &[Input],
     expressions: &[ExprId],
     symbols: impl Iterator<Item = Symbol>,
-) -> Matrix {
+    most: usize,
+) -> Option<Matrix> {
     let zero = graph.integer(0);
     let mut rows: Matrix = vec![Vec::new(); expressions.len()];
     let present: Vec<_> = expressions.iter().map(|&e| graph.symbols(e)).collect();
     for symbol in symbols {
+        if graph.len() > most {
+            return None;
+        }
         let seeds = seeds(graph, inputs, symbol);
         let moving: Vec<Symbol> = seeds.iter().map(|(symbol, _)| *symbol).collect();
         let mut direction = Direction::new(seeds);
@@ -98,7 +107,7 @@ fn partials(
             });
         }
     }
-    rows
+    Some(rows)
 }
 
 /// A symbol changes at rate one, and with it the inputs whose laws have it.

@@ -15,12 +15,16 @@ mod energy;
 mod force;
 mod linearised;
 mod mass;
+mod swell;
 
 pub use christoffel::coriolis_matrix;
 pub use linearised::{Linearised, linearise};
+pub use swell::{EXPRESSIONS_MAX, SWELL, swell};
 
+use crate::diagnostic::Diagnostics;
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::model::Mechanism;
+use swell::within_bounds;
 
 /// A matrix of expressions, row by row.
 pub type Matrix = Vec<Vec<ExprId>>;
@@ -71,7 +75,17 @@ pub struct Energies {
 }
 
 /// Derives the equations of motion from energies and constraints.
-pub fn derive(mechanism: &mut Mechanism) -> Equations {
+///
+/// # Errors
+///
+/// More than [`EXPRESSIONS_MAX`] expressions, with the lines that most of them come
+/// from.
+pub fn derive(mechanism: &mut Mechanism) -> Result<Equations, Diagnostics> {
+    equations(mechanism).ok_or_else(|| swell::refusal(mechanism))
+}
+
+/// The equations, or nothing as soon as they are too long.
+fn equations(mechanism: &mut Mechanism) -> Option<Equations> {
     let n = mechanism.coordinates.len();
     let graph = &mut mechanism.graph;
     let kinetic = graph.sum(mechanism.kinetic.iter().map(|summand| summand.value));
@@ -79,16 +93,21 @@ pub fn derive(mechanism: &mut Mechanism) -> Equations {
     let dissipation = graph.sum(mechanism.dissipation.iter().map(|summand| summand.value));
 
     let momenta = mass::momenta(graph, kinetic, n);
+    within_bounds(graph)?;
     let mass = mass::mass_matrix(graph, &momenta);
+    within_bounds(graph)?;
     let coriolis = force::coriolis_product(graph, kinetic, &momenta);
     let gravity = force::potential_force(graph, potential, n);
     let applied = force::applied(graph, &mechanism.forces, dissipation, n);
     let force = force::total(graph, &applied, &coriolis, &gravity);
 
+    within_bounds(graph)?;
     let closure = closure::closure(graph, &mechanism.constraints, n);
+    within_bounds(graph)?;
     let (branch_slope, branch_bias) = branch::branch_rows(graph, &closure, n);
     let energies = energy::energies(graph, kinetic, potential, &applied, &momenta);
-    Equations {
+    within_bounds(graph)?;
+    Some(Equations {
         mass,
         coriolis,
         gravity,
@@ -102,7 +121,7 @@ pub fn derive(mechanism: &mut Mechanism) -> Equations {
         branch_slope,
         branch_bias,
         energies,
-    }
+    })
 }
 
 /// The symbols of `n` velocities or coordinates.

@@ -164,6 +164,7 @@ fn list(subject: &mut Subject, name: &'static str, entries: &[ExprId]) -> TokenS
         body,
         state,
         cost,
+        ..
     } = subject.body(&wanted);
     let computed = (0..entries.len()).map(|row| body.output(slot(row)));
     quote! {

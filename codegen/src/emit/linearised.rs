@@ -18,20 +18,31 @@ fn argument(name: &str, statements: &TokenStream) -> Ident {
     Ident::new(&name, Span::call_site())
 }
 
-/// `fn linearised`.
+/// The most operations of a linearisation: what rustc takes a few seconds for. Beyond
+/// that implicit integrators take differences.
+const OPERATIONS_MAX: usize = 10_000;
+
+/// `fn linearised`; nothing where it would be too long.
 pub(super) fn linearised(subject: &mut Subject) -> TokenStream {
     let equations = subject.equations;
-    let derivatives = linearise(subject.mechanism, equations);
+    let Some(derivatives) = linearise(subject.mechanism, equations) else {
+        return TokenStream::new();
+    };
     let mut wanted = matrix("force_by_position", &derivatives.force_by_position);
     wanted.extend(matrix("force_by_velocity", &derivatives.force_by_velocity));
     wanted.extend(matrix("row_by_position", &derivatives.row_by_position));
     wanted.extend(matrix("row_by_velocity", &derivatives.row_by_velocity));
+    let program = subject.program(&wanted);
+    if program.len() > OPERATIONS_MAX {
+        return TokenStream::new();
+    }
     let Written {
         statements,
         body,
         state,
         cost,
-    } = subject.body(&wanted);
+        ..
+    } = subject.beside_derived(&wanted, subject.written(&program));
     let writes = subject.writes(&wanted, &body, &|array| {
         let field = Ident::new(array, Span::call_site());
         quote!(out.#field)

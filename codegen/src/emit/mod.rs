@@ -21,7 +21,7 @@ pub use write::{catalogue, render, write_if_changed};
 use crate::derive::Equations;
 use crate::expr::{ExprId, Symbol};
 use crate::model::Mechanism;
-use crate::optimise::{Program, Slot, cost, optimise};
+use crate::optimise::{Cost, Program, Slot, cost, derived_cost, optimise};
 use function::Body;
 use proc_macro2::{Ident, Literal, Span, TokenStream, TokenTree};
 use quote::quote;
@@ -73,9 +73,14 @@ struct Written {
     body: Body,
     /// `state`, or `_state` where the body does not read it.
     state: Ident,
+    counts: Cost,
     /// What it costs, in words.
     cost: String,
 }
+
+/// Said of a mechanism whose linearisation is too long.
+const LEFT_OUT: &str = " The linearised equations of motion would be too long and are left out: \
+                        implicit integrators take differences.";
 
 /// The module of a mechanism.
 pub fn module(
@@ -100,7 +105,10 @@ pub fn module(
     let functions = dynamics::functions(&mut subject);
     let interface = interface::interface(&mut subject);
     let imports = imports(&subject, &dynamics);
-    let docs = module_docs(&subject, origin);
+    let mut docs = module_docs(&subject, origin);
+    if !mentions(&dynamics, "linearised") {
+        docs.extend([String::new(), LEFT_OUT.to_string()]);
+    }
     let module = Ident::new(&name::snake_case(origin.module), Span::call_site());
     let source = origin.source;
     quote! {
@@ -219,7 +227,7 @@ fn holder(subject: &Subject) -> TokenStream {
     }
 }
 
-/// What the module uses of the runtime: a solve that is not emitted leaves its
+/// What the module uses of the runtime: a method that is not emitted leaves its
 /// buffer out.
 fn imports(subject: &Subject, dynamics: &TokenStream) -> TokenStream {
     let mut names = vec![
@@ -243,7 +251,8 @@ fn imports(subject: &Subject, dynamics: &TokenStream) -> TokenStream {
     if !subject.mechanism.events.is_empty() {
         names.extend(["Direction", "Event"]);
     }
-    names.retain(|name| !["Regular", "Correction"].contains(name) || mentions(dynamics, name));
+    let optional = ["Correction", "Linearised", "Regular"];
+    names.retain(|name| !optional.contains(name) || mentions(dynamics, name));
     names.sort_unstable();
     let names = names
         .into_iter()
@@ -317,7 +326,16 @@ impl Subject<'_> {
 
     fn body(&mut self, wanted: &[(Slot, ExprId)]) -> Written {
         let program = self.program(wanted);
-        self.written(&program)
+        self.beside_derived(wanted, self.written(&program))
+    }
+
+    /// Says besides what the program would cost as it was derived.
+    fn beside_derived(&self, wanted: &[(Slot, ExprId)], mut written: Written) -> Written {
+        let derived = derived_cost(&self.mechanism.graph, &self.laws(), wanted);
+        if derived != written.counts {
+            written.cost = format!("{} As derived: {derived}.", written.cost);
+        }
+        written
     }
 
     fn written(&self, program: &Program) -> Written {
@@ -332,6 +350,7 @@ impl Subject<'_> {
         Written {
             statements: quote!(#prelude #written),
             state: Ident::new(state, Span::call_site()),
+            counts: cost(program),
             cost: format!(" Costs {}.", cost(program)),
             body,
         }
@@ -350,6 +369,7 @@ impl Subject<'_> {
             body,
             state,
             cost,
+            ..
         } = self.body(&wanted);
         let writes = self.writes(&wanted, &body, &|array| {
             let field = Ident::new(array, Span::call_site());
@@ -385,6 +405,7 @@ impl Subject<'_> {
             body,
             state,
             cost,
+            ..
         } = self.body(&wanted);
         let writes = self.writes(&wanted, &body, &|_| quote!(out));
         let (docs, name) = (doc_lines(docs), Ident::new(name, Span::call_site()));

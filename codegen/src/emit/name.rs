@@ -1,12 +1,14 @@
 //! Readable Rust names for what a description names.
 
 use proc_macro2::{Ident, Span};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Gives each thing a name of its own.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Names {
     taken: BTreeSet<String>,
+    /// The number that the next thing of a wish is tried with: all before are taken.
+    next: BTreeMap<String, usize>,
 }
 
 impl Names {
@@ -14,19 +16,24 @@ impl Names {
     pub fn reserving(names: &[&str]) -> Self {
         Self {
             taken: names.iter().map(|name| name.to_string()).collect(),
+            next: BTreeMap::new(),
         }
     }
 
     /// A new name close to a wish; `_2`, `_3`, … is added where it is taken.
     pub fn unique(&mut self, wish: &str) -> Ident {
         let base = snake_case(wish);
-        let mut name = base.clone();
-        let mut next = 2;
-        while !self.taken.insert(name.clone()) {
-            name = format!("{base}_{next}");
-            next += 1;
+        let next = self.next.entry(base.clone()).or_insert(1);
+        loop {
+            let name = match *next {
+                1 => base.clone(),
+                number => format!("{base}_{number}"),
+            };
+            *next += 1;
+            if self.taken.insert(name.clone()) {
+                return Ident::new(&name, Span::call_site());
+            }
         }
-        Ident::new(&name, Span::call_site())
     }
 }
 

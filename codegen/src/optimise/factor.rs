@@ -9,6 +9,7 @@ use super::count::cost;
 use super::dead::ordered;
 use super::program::{Operation, Program, Slot, Value};
 use crate::expr::Number;
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The program with factors shared; never costlier.
@@ -166,10 +167,14 @@ fn redirected(
     ordered(&operations, &outputs)
 }
 
+type Pair = (Value, Value);
+
 /// Products, by the pairs of factors they have.
 struct Pairs {
     products: BTreeMap<usize, Vec<Value>>,
-    having: BTreeMap<(Value, Value), BTreeSet<usize>>,
+    having: BTreeMap<Pair, BTreeSet<usize>>,
+    /// The pairs, those that most products have first.
+    ranking: BTreeSet<(Reverse<usize>, Pair)>,
 }
 
 impl Pairs {
@@ -177,6 +182,7 @@ impl Pairs {
         let mut pairs = Pairs {
             products: BTreeMap::new(),
             having: BTreeMap::new(),
+            ranking: BTreeSet::new(),
         };
         for (i, operation) in operations.iter().enumerate() {
             if let Operation::Product(factors) = operation {
@@ -189,7 +195,7 @@ impl Pairs {
     fn insert(&mut self, product: usize, mut factors: Vec<Value>) {
         factors.sort_unstable();
         for pair in distinct_pairs(&factors) {
-            self.having.entry(pair).or_default().insert(product);
+            self.change(pair, |products| products.insert(product));
         }
         self.products.insert(product, factors);
     }
@@ -197,32 +203,31 @@ impl Pairs {
     fn remove(&mut self, product: usize) -> Vec<Value> {
         let factors = self.products.remove(&product).unwrap_or_default();
         for pair in distinct_pairs(&factors) {
-            if let Some(products) = self.having.get_mut(&pair) {
-                products.remove(&product);
-                if products.is_empty() {
-                    self.having.remove(&pair);
-                }
-            }
+            self.change(pair, |products| products.remove(&product));
         }
         factors
     }
 
+    /// Changes which products have a pair, and its rank with that.
+    fn change(&mut self, pair: Pair, by: impl FnOnce(&mut BTreeSet<usize>) -> bool) {
+        let products = self.having.entry(pair).or_default();
+        self.ranking.remove(&(Reverse(products.len()), pair));
+        by(products);
+        if products.is_empty() {
+            self.having.remove(&pair);
+        } else {
+            self.ranking.insert((Reverse(products.len()), pair));
+        }
+    }
+
     /// The pair that most products have, if two have it; the first of equals.
-    fn commonest(&self) -> Option<(Value, Value)> {
-        let most = self
-            .having
-            .values()
-            .map(BTreeSet::len)
-            .max()
-            .filter(|most| *most > 1)?;
-        self.having
-            .iter()
-            .find(|(_, products)| products.len() == most)
-            .map(|(pair, _)| *pair)
+    fn commonest(&self) -> Option<Pair> {
+        let (Reverse(most), pair) = self.ranking.first()?;
+        (*most > 1).then_some(*pair)
     }
 }
 
-fn distinct_pairs(sorted: &[Value]) -> BTreeSet<(Value, Value)> {
+fn distinct_pairs(sorted: &[Value]) -> BTreeSet<Pair> {
     let mut pairs = BTreeSet::new();
     for (i, a) in sorted.iter().enumerate() {
         pairs.extend(sorted[i + 1..].iter().map(|b| (*a, *b)));

@@ -52,11 +52,18 @@ pub fn optimise(graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -
         return checked(scheduled);
     }
     let mut best = factor::factor(&scheduled);
+    let mut reduced = wanted.to_vec();
+    let mut ring = trig::Ring::new(graph);
+    for (_, e) in &mut reduced {
+        *e = ring.reduced(*e);
+    }
     // Arrays share work, so each is judged by what the whole then costs.
     for array in arrays {
         let mut candidate = chosen.clone();
-        for (_, e) in candidate.iter_mut().filter(|(slot, _)| slot.array == array) {
-            *e = in_trig_ring(graph, *e);
+        for ((slot, e), (_, reduced)) in candidate.iter_mut().zip(&reduced) {
+            if slot.array == array {
+                *e = *reduced;
+            }
         }
         if candidate == chosen {
             continue;
@@ -96,6 +103,11 @@ fn checked(program: Program) -> Program {
         panic!("internal error, please report: {broken} in {program:?}");
     }
     program
+}
+
+/// What expressions would cost as they were derived, each shared one computed once.
+pub fn derived_cost(graph: &Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -> Cost {
+    cost(&schedule::schedule(graph, laws, wanted))
 }
 
 /// The program for expressions without rewriting: for defaults and the like, where

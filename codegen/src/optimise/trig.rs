@@ -10,7 +10,7 @@
 //! was: multiplying out pays for planar linkages, not for long spatial chains.
 
 use crate::expr::{ExprId, Function, Graph, Node, Number};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeMap;
 
 /// The largest number of terms of an intermediate polynomial.
@@ -25,28 +25,58 @@ type Polynomial = BTreeMap<Monomial, Number>;
 
 /// The expression as a reduced polynomial, or unchanged where that is too long.
 pub fn in_trig_ring(graph: &mut Graph, e: ExprId) -> ExprId {
-    let mut ring = Ring {
-        graph,
-        known: FxHashMap::default(),
-    };
-    match ring.expand(e) {
-        Some(polynomial) => ring.expression(&polynomial),
-        None => e,
-    }
+    Ring::new(graph).reduced(e)
 }
 
-struct Ring<'a> {
+/// Polynomials of expressions that share parts, each found once.
+pub(super) struct Ring<'a> {
     graph: &'a mut Graph,
     known: FxHashMap<ExprId, Polynomial>,
+    /// What is too long, and everything that has it in it.
+    too_long: FxHashSet<ExprId>,
 }
 
-impl Ring<'_> {
-    fn expand(&mut self, e: ExprId) -> Option<Polynomial> {
-        for node in self.graph.reachable(&[e]) {
-            let polynomial = self.expand_node(node)?;
-            self.known.insert(node, polynomial);
+impl<'a> Ring<'a> {
+    pub fn new(graph: &'a mut Graph) -> Self {
+        Ring {
+            graph,
+            known: FxHashMap::default(),
+            too_long: FxHashSet::default(),
         }
-        self.known.remove(&e)
+    }
+
+    /// The expression as a reduced polynomial, or unchanged where that is too long.
+    pub fn reduced(&mut self, e: ExprId) -> ExprId {
+        if self.expand(e).is_none() {
+            self.too_long.insert(e);
+            return e;
+        }
+        let polynomial = self.known[&e].clone();
+        self.expression(&polynomial)
+    }
+
+    fn expand(&mut self, e: ExprId) -> Option<()> {
+        let mut pending = vec![(e, false)];
+        while let Some((node, ready)) = pending.pop() {
+            if self.too_long.contains(&node) {
+                return None;
+            }
+            if self.known.contains_key(&node) {
+                continue;
+            }
+            if ready {
+                let polynomial = self.expand_node(node);
+                if polynomial.is_none() {
+                    self.too_long.insert(node);
+                }
+                self.known.insert(node, polynomial?);
+            } else {
+                pending.push((node, true));
+                let children = self.graph.node(node).children();
+                pending.extend(children.into_iter().map(|child| (child, false)));
+            }
+        }
+        Some(())
     }
 
     fn expand_node(&mut self, e: ExprId) -> Option<Polynomial> {

@@ -44,7 +44,8 @@ impl Case {
         let analysed = analyse(source, &Settings::default());
         let (mut mechanism, _) =
             analysed.map_err(|errors| TestCaseError::fail(errors.render("random.mech", source)))?;
-        let equations = derive(&mut mechanism);
+        let equations = derive(&mut mechanism)
+            .map_err(|errors| TestCaseError::fail(errors.render("random.mech", source)))?;
         Ok(Self {
             mechanism,
             equations,

@@ -1,12 +1,73 @@
-//! Mechanisms that the regular path is not for.
+//! Mechanisms that the usual path is not for: too long, or without inertia.
 
-use bricard_codegen::{Compiled, Settings, compile_source};
+use bricard_codegen::{Compiled, Settings, compile_source, examine};
+use std::fmt::Write;
+use std::time::Instant;
 
 fn compiled(source: &str) -> Compiled {
     match compile_source(source, "test", "test.mech", &Settings::default()) {
         Ok(compiled) => compiled,
         Err(errors) => panic!("{}", errors.render("test.mech", source)),
     }
+}
+
+/// A chain of bodies that turn about two axes each, with all positions in the world.
+fn chain(links: usize) -> String {
+    let mut text = String::from("mechanism Chain {\n");
+    for i in 0..links {
+        let _ = writeln!(text, "coord a{i}; coord b{i};");
+    }
+    let mut point = "[0, 0, 0]".to_string();
+    for i in 0..links {
+        let turned = (0..=i).rev().fold("[0, 0, -1]".to_string(), |v, k| {
+            format!("rotx(a{k})*(roty(b{k})*({v}))")
+        });
+        let _ = writeln!(
+            text,
+            "let p{i} = {point} + {turned};\nkinetic norm2(der(p{i}));"
+        );
+        point = format!("p{i}");
+    }
+    text + "}"
+}
+
+/// Room for machines that are slower than this work is quick, and for builds without
+/// optimisation.
+fn soon(start: Instant) -> bool {
+    let bound = if cfg!(debug_assertions) { 120.0 } else { 15.0 };
+    start.elapsed().as_secs_f64() < bound
+}
+
+#[test]
+fn a_mechanism_that_swells_is_compiled_with_a_warning_that_names_the_longest_lines() {
+    let source = chain(7);
+    let start = Instant::now();
+    let compiled = compiled(&source);
+    let warnings = compiled.warnings.render("test.mech", &source);
+    assert!(warnings.contains("expressions"), "{warnings}");
+    assert!(warnings.contains("kinetic norm2(der(p6))"), "{warnings}");
+    assert!(!compiled.code.contains("fn linearised"));
+    assert!(soon(start), "{:?}", start.elapsed());
+}
+
+#[test]
+fn a_mechanism_that_would_take_forever_is_refused_with_the_longest_lines() {
+    let source = chain(20);
+    let start = Instant::now();
+    let refused = compile_source(&source, "test", "test.mech", &Settings::default());
+    let errors = refused.expect_err("too long").render("test.mech", &source);
+    assert!(errors.contains("more than 150000 expressions"), "{errors}");
+    assert!(errors.contains("kinetic norm2(der(p19))"), "{errors}");
+    assert!(examine(&source, &Settings::default()).is_err());
+    assert!(soon(start), "{:?}", start.elapsed());
+}
+
+#[test]
+fn a_mechanism_of_usual_size_gets_no_such_warning() {
+    let source = chain(2);
+    let compiled = compiled(&source);
+    assert!(compiled.warnings.is_empty());
+    assert!(compiled.code.contains("fn linearised"));
 }
 
 #[test]

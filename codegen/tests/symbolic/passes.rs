@@ -102,7 +102,7 @@ fn derived() -> impl Iterator<Item = (String, Mechanism, Equations)> {
         let source = fs::read_to_string(&path).expect("a description");
         match analyse(&source, &Settings::default()) {
             Ok((mut mechanism, _)) => {
-                let equations = derive(&mut mechanism);
+                let equations = derive(&mut mechanism).expect("equations of a usual length");
                 (name, mechanism, equations)
             }
             Err(errors) => panic!("{}", errors.render(&name, &source)),

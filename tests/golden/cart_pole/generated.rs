@@ -139,7 +139,7 @@ pub mod cart_pole {
         /// | `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
         /// | `bias` | `p₂ = −(Ȧ q̇ + ḃ)` | `R` | unit of the row per s² |
         ///
-        /// Costs 8 products, 4 sums, 1 sine–cosine pair.
+        /// Costs 8 products, 4 sums, 1 sine–cosine pair. As derived: 51 products, 12 sums, 1 sine–cosine pair.
         fn terms(&self, state: &State<T, 2>, out: &mut Terms<T, 2, 0>) {
             let [_, phi] = state.q.data.0[0];
             let [x_dot, phi_dot] = state.v.data.0[0];
@@ -186,7 +186,7 @@ pub mod cart_pole {
         }
         /// Energies and the power supplied from outside.
         ///
-        /// Costs 16 products, 10 sums, 1 sine–cosine pair.
+        /// Costs 16 products, 10 sums, 1 sine–cosine pair. As derived: 36 products, 11 sums, 1 sine–cosine pair.
         fn energy(&self, state: &State<T, 2>) -> Energy<T> {
             let [_, phi] = state.q.data.0[0];
             let [x_dot, phi_dot] = state.v.data.0[0];
@@ -221,7 +221,7 @@ pub mod cart_pole {
         /// | `row_by_position` | `∂(p₂ − A q̈)/∂q` | `R × N` |
         /// | `row_by_velocity` | `∂p₂/∂q̇` | `R × N` |
         ///
-        /// Costs 10 products, 3 sums, 1 sine–cosine pair.
+        /// Costs 10 products, 3 sums, 1 sine–cosine pair. As derived: 67 products, 19 sums, 1 sine–cosine pair.
         fn linearised(
             &self,
             state: &State<T, 2>,
@@ -250,7 +250,7 @@ pub mod cart_pole {
         /// Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric; kg for two lengths, kg·m² for two
         /// angles, kg·m for one of each.
         ///
-        /// Costs 3 products, 2 sums, 1 sine–cosine pair.
+        /// Costs 3 products, 2 sums, 1 sine–cosine pair. As derived: 12 products, 3 sums, 1 sine–cosine pair.
         pub fn mass_matrix(&self, state: &State<T, 2>) -> SMatrix<T, 2, 2> {
             let [_, phi] = state.q.data.0[0];
             let Parameters { m1, m2, e, j, .. } = self.parameters;
@@ -290,7 +290,7 @@ pub mod cart_pole {
         /// `C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`; N for a
         /// length, N·m for an angle.
         ///
-        /// Costs 4 products, 1 sum, 1 sine–cosine pair.
+        /// Costs 4 products, 1 sum, 1 sine–cosine pair. As derived: 35 products, 7 sums, 1 sine–cosine pair.
         pub fn coriolis_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
             let [_, phi] = state.q.data.0[0];
             let [_, phi_dot] = state.v.data.0[0];

@@ -135,7 +135,7 @@ pub mod double_pendulum {
         /// | `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
         /// | `bias` | `p₂ = −(Ȧ q̇ + ḃ)` | `R` | unit of the row per s² |
         ///
-        /// Costs 27 products, 9 sums, 2 sine–cosine pairs.
+        /// Costs 27 products, 9 sums, 2 sine–cosine pairs. As derived: 109 products, 28 sums, 2 sine–cosine pairs.
         fn terms(&self, state: &State<T, 2>, out: &mut Terms<T, 2, 0>) {
             let [q1, q2] = state.q.data.0[0];
             let [q1_dot, q2_dot] = state.v.data.0[0];
@@ -197,7 +197,7 @@ pub mod double_pendulum {
         }
         /// Energies and the power supplied from outside.
         ///
-        /// Costs 30 products, 18 sums, 2 sine–cosine pairs.
+        /// Costs 30 products, 18 sums, 2 sine–cosine pairs. As derived: 72 products, 19 sums, 2 sine–cosine pairs.
         fn energy(&self, state: &State<T, 2>) -> Energy<T> {
             let [q1, q2] = state.q.data.0[0];
             let [q1_dot, q2_dot] = state.v.data.0[0];
@@ -240,7 +240,7 @@ pub mod double_pendulum {
         /// | `row_by_position` | `∂(p₂ − A q̈)/∂q` | `R × N` |
         /// | `row_by_velocity` | `∂p₂/∂q̇` | `R × N` |
         ///
-        /// Costs 31 products, 17 sums, 2 sine–cosine pairs.
+        /// Costs 31 products, 17 sums, 2 sine–cosine pairs. As derived: 235 products, 76 sums, 2 sine–cosine pairs.
         fn linearised(
             &self,
             state: &State<T, 2>,
@@ -297,7 +297,7 @@ pub mod double_pendulum {
         /// Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric; kg for two lengths, kg·m² for two
         /// angles, kg·m for one of each.
         ///
-        /// Costs 11 products, 4 sums, 2 sine–cosine pairs.
+        /// Costs 11 products, 4 sums, 2 sine–cosine pairs. As derived: 38 products, 7 sums, 2 sine–cosine pairs.
         pub fn mass_matrix(&self, state: &State<T, 2>) -> SMatrix<T, 2, 2> {
             let [q1, q2] = state.q.data.0[0];
             let Parameters { l1, l2, m1, m2, j1, j2 } = self.parameters;
@@ -314,7 +314,7 @@ pub mod double_pendulum {
         }
         /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
         ///
-        /// Costs 7 products, 1 sum, 2 sine–cosine pairs.
+        /// Costs 7 products, 1 sum, 2 sine–cosine pairs. As derived: 9 products, 1 sum, 2 sine–cosine pairs.
         pub fn potential_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
             let [q1, q2] = state.q.data.0[0];
             let Parameters { l1, l2, m1, m2, .. } = self.parameters;
@@ -336,7 +336,7 @@ pub mod double_pendulum {
         /// `C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`; N for a
         /// length, N·m for an angle.
         ///
-        /// Costs 11 products, 2 sums, 2 sine–cosine pairs.
+        /// Costs 11 products, 2 sums, 2 sine–cosine pairs. As derived: 62 products, 16 sums, 2 sine–cosine pairs.
         pub fn coriolis_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
             let [q1, q2] = state.q.data.0[0];
             let [q1_dot, q2_dot] = state.v.data.0[0];
@@ -355,7 +355,7 @@ pub mod double_pendulum {
         /// Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric; the
         /// unit of `M` per s.
         ///
-        /// Costs 8 products, 2 sums, 2 sine–cosine pairs.
+        /// Costs 8 products, 2 sums, 2 sine–cosine pairs. As derived: 12 products, 2 sums, 2 sine–cosine pairs.
         pub fn coriolis_matrix(&self, state: &State<T, 2>) -> SMatrix<T, 2, 2> {
             let [q1, q2] = state.q.data.0[0];
             let [q1_dot, q2_dot] = state.v.data.0[0];

@@ -171,7 +171,7 @@ pub mod heavy_top {
         /// | `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
         /// | `bias` | `p₂ = −(Ȧ q̇ + ḃ)` | `R` | unit of the row per s² |
         ///
-        /// Costs 97 products, 77 sums.
+        /// Costs 97 products, 77 sums. As derived: 368 products, 115 sums.
         fn terms(&self, state: &State<T, 4>, out: &mut Terms<T, 4, 1>) {
             let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let [e_0_dot, e_1_dot, e_2_dot, e_3_dot] = state.v.data.0[0];
@@ -434,7 +434,7 @@ pub mod heavy_top {
         /// | `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
         /// | `drift` | `b = ∂g/∂t` | `R` | unit of the row per s |
         ///
-        /// Costs 46 products, 34 sums.
+        /// Costs 46 products, 34 sums. As derived: 116 products, 34 sums.
         fn position(&self, state: &State<T, 4>, out: &mut Position<T, 4, 1>) {
             let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let Parameters { m, a, j3, j1, .. } = self.parameters;
@@ -628,7 +628,7 @@ pub mod heavy_top {
         }
         /// Energies and the power supplied from outside.
         ///
-        /// Costs 91 products, 52 sums.
+        /// Costs 91 products, 52 sums. As derived: 165 products, 52 sums.
         fn energy(&self, state: &State<T, 4>) -> Energy<T> {
             let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let [e_0_dot, e_1_dot, e_2_dot, e_3_dot] = state.v.data.0[0];
@@ -696,7 +696,7 @@ pub mod heavy_top {
         /// | `row_by_position` | `∂(p₂ − A q̈)/∂q` | `R × N` |
         /// | `row_by_velocity` | `∂p₂/∂q̇` | `R × N` |
         ///
-        /// Costs 222 products, 267 sums.
+        /// Costs 222 products, 267 sums. As derived: 847 products, 444 sums.
         fn linearised(
             &self,
             state: &State<T, 4>,
@@ -975,7 +975,7 @@ pub mod heavy_top {
         /// Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric; kg for two lengths, kg·m² for two
         /// angles, kg·m for one of each.
         ///
-        /// Costs 39 products, 30 sums.
+        /// Costs 39 products, 30 sums. As derived: 108 products, 30 sums.
         pub fn mass_matrix(&self, state: &State<T, 4>) -> SMatrix<T, 4, 4> {
             let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let Parameters { m, a, j3, j1, .. } = self.parameters;
@@ -1036,7 +1036,7 @@ pub mod heavy_top {
         }
         /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
         ///
-        /// Costs 6 products, 2 sums.
+        /// Costs 6 products, 2 sums. As derived: 12 products, 2 sums.
         pub fn potential_force(&self, state: &State<T, 4>) -> SVector<T, 4> {
             let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let Parameters { m, a, .. } = self.parameters;
@@ -1057,7 +1057,7 @@ pub mod heavy_top {
         /// `C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`; N for a
         /// length, N·m for an angle.
         ///
-        /// Costs 47 products, 37 sums.
+        /// Costs 47 products, 37 sums. As derived: 244 products, 75 sums.
         pub fn coriolis_force(&self, state: &State<T, 4>) -> SVector<T, 4> {
             let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let [e_0_dot, e_1_dot, e_2_dot, e_3_dot] = state.v.data.0[0];
@@ -1106,7 +1106,7 @@ pub mod heavy_top {
         /// Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric; the
         /// unit of `M` per s.
         ///
-        /// Costs 95 products, 88 sums.
+        /// Costs 95 products, 88 sums. As derived: 168 products, 88 sums.
         pub fn coriolis_matrix(&self, state: &State<T, 4>) -> SMatrix<T, 4, 4> {
             let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let [e_0_dot, e_1_dot, e_2_dot, e_3_dot] = state.v.data.0[0];
@@ -1220,7 +1220,7 @@ pub mod heavy_top {
         }
         /// `p₂ = −(Ȧ q̇ + ḃ)`, `R`: the constraints ask for `A q̈ = p₂`; unit of the row per s².
         ///
-        /// Costs 5 products, 4 sums.
+        /// Costs 5 products, 4 sums. As derived: 8 products, 4 sums.
         pub fn constraint_bias(&self, state: &State<T, 4>) -> SVector<T, 1> {
             let [e_0_dot, e_1_dot, e_2_dot, e_3_dot] = state.v.data.0[0];
             let mut out = SVector::zeros();
@@ -1301,7 +1301,7 @@ pub mod heavy_top {
                 ],
             }
         }
-        /// Costs 35 products, 20 sums.
+        /// Costs 35 products, 20 sums. As derived: 49 products, 20 sums.
         fn outputs(&self, state: &State<T, 4>, values: &mut [T]) {
             let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let [e_0_dot, e_1_dot, e_2_dot, e_3_dot] = state.v.data.0[0];
