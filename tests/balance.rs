@@ -6,7 +6,7 @@ use crate::motion::run;
 use bricard_runtime::Options;
 
 /// Odd mechanisms on positions that are singular in unusual ways.
-const HARD: [&str; 2] = ["kite", "platform"];
+const HARD: [&str; 1] = ["kite"];
 
 /// How long (s), for a mechanism of usual speed.
 const SPAN: f64 = 10.0;

@@ -18,6 +18,7 @@ mod linearised;
 mod motion;
 mod order;
 mod random;
+mod readme;
 mod reduction;
 mod reference;
 mod source;

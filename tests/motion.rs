@@ -1,5 +1,6 @@
 //! Runs of the library's mechanisms from their own start, and exact ends of runs.
 
+use crate::library::visit;
 use bricard_runtime::{
     ConstraintError, Counters, DynamicsError, Interface, Mechanism, Observer, Options, Passage,
     Probe, SimulateError, Step, Visitor, Whole, assemble, simulate,
@@ -57,7 +58,7 @@ pub fn run(name: &str, options: &Options<f64>) -> Outcome {
 
 /// Runs a mechanism, and watches coordinates that should stay equal.
 pub fn run_comparing(name: &str, options: &Options<f64>, equal: &[usize]) -> Outcome {
-    bricard::visit::<f64, _>(name, Run { options, equal }).expect("a name of the catalogue")
+    visit::<f64, _>(name, Run { options, equal })
 }
 
 struct Run<'a> {

@@ -203,9 +203,14 @@ fn the_start_has_the_values_of_the_description() {
     }
 }
 
+/// Mechanisms in Euler parameters: their mass matrix is definite nowhere, so they have
+/// no regular path.
+const SEMI_DEFINITE: [&str; 1] = ["platform"];
+
 /// Runs a check where the regular path may be used; says how often it was.
 fn where_regular(claim: impl Fn(&Derived, &Answers, &str)) {
-    for derived in everything().filter(|derived| is_of_unit_size(&derived.name)) {
+    let usual = |name: &str| is_of_unit_size(name) && !SEMI_DEFINITE.contains(&name);
+    for derived in everything().filter(|derived| usual(&derived.name)) {
         let mut regular = 0;
         for seed in 0..STATES {
             let (_, answers) = asked(&derived, seed, true);

@@ -9,8 +9,8 @@
 
 use crate::DoubleDouble;
 use bricard_runtime::{
-    AssemblyError, Audit, Interface, Mechanism, Options, Pace, Real, Scheme, Settings,
-    SimulateError, Start, State, Stepper, assemble, simulate,
+    AssemblyError, Dop853, IntegrateError, Integrator, Interface, Mechanism, Real, Settings,
+    SimulateError, Solver, Start, State, System, Tolerance, assemble,
 };
 use core::fmt::{Display, Formatter, Result as FmtResult};
 
@@ -84,23 +84,27 @@ where
 {
     let start =
         assemble(mechanism, start, DoubleDouble::default()).map_err(ReferenceError::Assembly)?;
-    let run = |tolerance: f64| {
-        let options = Options {
-            audit: Audit::NONE,
-            ..Options::dop853(until, DoubleDouble::from(tolerance))
-        };
-        simulate(mechanism, &start, &options, &mut [])
-            .map_err(|failure| ReferenceError::Run(failure.error))
+    if until < start.t {
+        let start = start.t;
+        return Err(ReferenceError::Run(SimulateError::BadEnd { start, until }));
+    }
+    let run = |tolerance: f64| -> Result<_, SimulateError<DoubleDouble>> {
+        let mut run = Run::new(mechanism, start, tolerance)?;
+        run.go_on(until)?;
+        Ok((run.state, run.steps))
     };
-    let (coarse, fine) = (run(COARSE)?, run(FINE)?);
-    let changes = (fine.end.q - coarse.end.q)
+    let ((coarse, _), (fine, steps)) = (
+        run(COARSE).map_err(ReferenceError::Run)?,
+        run(FINE).map_err(ReferenceError::Run)?,
+    );
+    let changes = (fine.q - coarse.q)
         .iter()
-        .chain((fine.end.v - coarse.end.v).iter())
+        .chain((fine.v - coarse.v).iter())
         .fold(0.0, |most: f64, x| most.max(x.to_f64().abs()));
     Ok(Reference {
-        end: fine.end,
+        end: fine,
         error: changes,
-        steps: fine.steps,
+        steps,
     })
 }
 
@@ -117,21 +121,55 @@ pub fn states_at<M, const N: usize, const R: usize>(
 where
     M: Mechanism<DoubleDouble, N, R> + ?Sized,
 {
-    let tolerance = DoubleDouble::from(FINE);
-    let pace = Pace::Adaptive {
-        relative: tolerance,
-        absolute: tolerance,
-    };
-    let mut stepper: Stepper<DoubleDouble, N, R> =
-        Stepper::new(Scheme::Dop853, pace, Settings::default())?;
-    let mut state = *start;
-    let mut states = Vec::with_capacity(times.len());
-    for time in times {
-        if *time > state.t {
-            let span = *time - state.t;
-            stepper.step(mechanism, &mut state, span)?;
-        }
-        states.push(state);
+    let mut run = Run::new(mechanism, *start, FINE)?;
+    let states = times.iter().map(|time| {
+        run.go_on(*time)?;
+        Ok(run.state)
+    });
+    states.collect()
+}
+
+/// A run by the method of order 8 and nothing else: what a mechanism can do besides
+/// would be compiled a second time for these numbers.
+struct Run<'a, M: ?Sized, const N: usize, const R: usize> {
+    mechanism: &'a M,
+    solver: Solver<DoubleDouble, N, R>,
+    method: Dop853<DoubleDouble, N>,
+    state: State<DoubleDouble, N>,
+    steps: u64,
+}
+
+impl<'a, M, const N: usize, const R: usize> Run<'a, M, N, R>
+where
+    M: Mechanism<DoubleDouble, N, R> + ?Sized,
+{
+    /// A run that begins at a state near the constraints.
+    fn new(
+        mechanism: &'a M,
+        mut state: State<DoubleDouble, N>,
+        tolerance: f64,
+    ) -> Result<Self, SimulateError<DoubleDouble>> {
+        let tolerance = DoubleDouble::from(tolerance);
+        let mut solver = Solver::new(Settings::default());
+        let projected = solver.on(mechanism).project(&mut state);
+        projected.map_err(IntegrateError::Dynamics)?;
+        Ok(Self {
+            mechanism,
+            solver,
+            method: Dop853::adaptive(Tolerance::uniform(tolerance, tolerance)?),
+            state,
+            steps: 0,
+        })
     }
-    Ok(states)
+
+    /// Moves on to a time, in as many steps as the tolerance demands.
+    fn go_on(&mut self, until: DoubleDouble) -> Result<(), SimulateError<DoubleDouble>> {
+        let mut system = self.solver.on(self.mechanism);
+        while self.state.t < until {
+            let step = self.method.step(&mut system, &self.state, until)?;
+            self.state = *step.end();
+            self.steps += 1;
+        }
+        Ok(())
+    }
 }

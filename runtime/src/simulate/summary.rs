@@ -4,6 +4,7 @@
 //! Out: [`Summary`].
 
 use crate::{ConstraintError, Counters, Real, State, Step};
+use core::fmt::{Display, Formatter};
 
 /// What a run did, up to its end or its failure.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,5 +54,31 @@ impl<T: Real, const N: usize> Summary<T, N> {
         self.steps += 1;
         self.rejected += u64::from(step.rejected());
         self.evaluations += u64::from(step.evaluations());
+    }
+}
+
+impl<T: Real, const N: usize> Display for Summary<T, N> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> core::fmt::Result {
+        let Self {
+            steps,
+            rejected,
+            evaluations,
+            ..
+        } = self;
+        write!(
+            f,
+            "t = {} s after {steps} steps, {rejected} rejected, and {evaluations} accelerations",
+            self.end.t
+        )?;
+        if let Some(passages) = self.passages {
+            write!(f, "; {passages} passages through singular positions")?;
+        }
+        if let Some(ConstraintError { position, .. }) = self.constraint_error {
+            write!(f, "; largest constraint error {:.1e}", position.to_f64())?;
+        }
+        if let Some(error) = self.energy_error {
+            write!(f, "; energy balance off by {:.1e} J", error.to_f64())?;
+        }
+        Ok(())
     }
 }
