@@ -9,8 +9,8 @@ use std::path::Path;
 
 /// Step of RK4, unless one is given (s).
 const STEP: f64 = 0.01;
-/// Relative tolerance of an adaptive method, unless one is given.
-const TOLERANCE: f64 = 1e-9;
+/// Relative and absolute tolerance of an adaptive method, unless one is given.
+pub const TOLERANCE: f64 = 1e-9;
 
 /// Intervals of a plot, unless their length is given: the steps of an adaptive
 /// method are too long for a smooth curve.

@@ -6,6 +6,8 @@
 mod choices;
 pub mod summary;
 
+pub use choices::TOLERANCE;
+
 use crate::arguments::Simulate;
 use crate::changes::Changes;
 use crate::column::{Column, columns, header};

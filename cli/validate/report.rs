@@ -17,6 +17,16 @@ const HEADING: [&str; 10] = [
     "published",
     "",
 ];
+const INTRODUCTION: &str = "\
+# Benchmark problems
+
+Written by `bricard validate`, which fails if a bound is not kept. Errors are those at
+the end of the run, against closed forms and computed references whose sources stand in
+`cli/validate/list.rs`. The energy is held against what it was at the start and the
+power supplied since; the constraint error is the largest of a constraint equation, in
+its own unit. Times are those of the machine that wrote the table.
+
+";
 const WORK_HEADING: [&str; 5] = ["Andrews, error", "reached", "tolerance", "steps", "time"];
 
 /// The tables for the terminal.
@@ -42,7 +52,7 @@ pub fn markdown(outcomes: &[Outcome], work: &[Reached]) -> String {
         let rows: String = rows.iter().map(|row| line(row)).collect();
         line(&heading) + &line(&rule) + &rows
     };
-    let mut text = "# Benchmark problems\n\n".to_string();
+    let mut text = INTRODUCTION.to_string();
     text += &table(&HEADING, outcomes.iter().map(row).collect());
     text.push('\n');
     text.extend(notes(outcomes).map(|note| format!("{note}\n\n")));
