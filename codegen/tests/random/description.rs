@@ -39,6 +39,8 @@ pub struct Random {
 pub struct Manner {
     /// Units of length to the metre.
     pub scale: i32,
+    /// Seconds to the unit of time.
+    pub pace: i32,
     /// Whether coordinates and constraints are written in reverse order.
     pub reversed: bool,
     /// How many times each constraint is written.
@@ -48,6 +50,7 @@ pub struct Manner {
 impl Manner {
     pub const PLAIN: Self = Self {
         scale: 1,
+        pace: 1,
         reversed: false,
         copies: 1,
     };
@@ -131,7 +134,8 @@ impl Random {
             line(format!(
                 "kinetic {mass}/20*norm2(der(c{i})) + {inertia}/200*{unit}^2*der(q{i})^2;"
             ));
-            line(format!("potential {mass}/10*981/100*{scale}*c{i}.y;"));
+            let gravity = format!("981/100*{scale}*{}^2", manner.pace);
+            line(format!("potential {mass}/10*{gravity}*c{i}.y;"));
         }
         let mut ties: Vec<String> = self
             .loops
@@ -145,6 +149,14 @@ impl Random {
             (0..manner.copies).for_each(|_| line(tie.clone()));
         }
         text + "}\n"
+    }
+
+    /// How many constraints it has.
+    pub fn ties(&self) -> usize {
+        self.loops
+            .iter()
+            .filter_map(|tie| self.tie(*tie, 1))
+            .count()
     }
 
     /// The end of a body at a distance from that of another, or from a fixed point.

@@ -7,6 +7,9 @@ use proptest::prelude::*;
 /// Millimetres to the metre.
 const MILLIMETRES: i32 = 1000;
 
+/// Seconds to the hour.
+const HOUR: i32 = 3600;
+
 /// Coordinates in another unit of length: angles stay.
 fn rescaled(random: &Random, values: &[f64], scale: f64) -> Vec<f64> {
     let scaled = |(body, x): (_, &f64)| match body {
@@ -37,6 +40,28 @@ proptest! {
         let forces = large.vector(&large.equations.force);
         for (i, exact) in plain.vector(&plain.equations.force).into_iter().enumerate() {
             agree("p₁", forces[i] * units[i] / square, exact, largest)?;
+        }
+    }
+
+    #[test]
+    fn the_unit_of_time_changes_nothing_but_scales(random in any(), (q, v) in state()) {
+        let hour = f64::from(HOUR);
+        let plain = Case::new(&random.text(Manner::PLAIN), q.clone(), v.clone())?;
+        let manner = Manner { pace: HOUR, ..Manner::PLAIN };
+        let fast = v.iter().map(|v| v * hour).collect();
+        let hours = Case::new(&random.text(manner), q, fast)?;
+        let square = hour * hour;
+        let (a, b) = (plain.equations.energies, hours.equations.energies);
+        agree("T", hours.value(b.kinetic) / square, plain.value(a.kinetic), 0.0)?;
+        agree("Π", hours.value(b.potential) / square, plain.value(a.potential), 100.0)?;
+        let [forces, biases] = [&plain.equations.force, &plain.equations.bias];
+        let exact = plain.vector(forces);
+        let largest = exact.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        for (x, y) in hours.vector(&hours.equations.force).into_iter().zip(exact) {
+            agree("p₁", x / square, y, largest)?;
+        }
+        for (x, y) in hours.vector(&hours.equations.bias).into_iter().zip(plain.vector(biases)) {
+            agree("p₂", x / square, y, 100.0)?;
         }
     }
 

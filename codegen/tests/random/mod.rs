@@ -4,7 +4,11 @@
 //! Everything is evaluated, nothing compiled, so that thousands pass in seconds. A
 //! failure is shrunk and printed as a description.
 
+mod derivatives;
 mod description;
+#[path = "../../../tests/dual.rs"]
+mod dual;
+mod forms;
 mod identities;
 mod invariances;
 
@@ -70,6 +74,16 @@ impl Case {
     fn vector(&self, entries: &[ExprId]) -> Vec<f64> {
         let graph = &self.mechanism.graph;
         graph.evaluate_all(entries, &|symbol| self.symbol(symbol))
+    }
+
+    /// Values at another state than the case's own.
+    fn vector_at(&self, q: &[f64], v: &[f64], entries: &[ExprId]) -> Vec<f64> {
+        let symbol = |symbol| match symbol {
+            Symbol::Coordinate(i) => q[i as usize],
+            Symbol::Velocity(i) => v[i as usize],
+            _ => 0.0,
+        };
+        self.mechanism.graph.evaluate_all(entries, &symbol)
     }
 
     fn matrix(&self, rows: &[Vec<ExprId>]) -> Vec<Vec<f64>> {
