@@ -1,0 +1,13 @@
+//! Stress: every case ends in a right answer or in an error that says when and why.
+//!
+//! `docs/stress.md` lists the cases with what they come to. `BRICARD_LONG=1` adds the
+//! longest runs.
+
+mod again;
+mod case;
+mod judge;
+mod limits;
+mod long;
+mod masses;
+mod starts;
+mod table;

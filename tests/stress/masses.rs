@@ -1,0 +1,118 @@
+//! Ratios of masses and of lengths.
+
+use crate::case::{Case, Wanted};
+
+const MASSES: Case = Case {
+    kind: "Ratios of masses",
+    ..Case::USUAL
+};
+const LENGTHS: Case = Case {
+    kind: "Ratios of lengths",
+    ..Case::USUAL
+};
+const DOUBLE: Case = Case {
+    mechanism: "double_pendulum",
+    ..MASSES
+};
+const CRANK: Case = Case {
+    mechanism: "slider_crank",
+    ..MASSES
+};
+const LOOP: Case = Case {
+    mechanism: "four_bar",
+    ..MASSES
+};
+
+/// The cases.
+pub const CASES: &[Case] = &[
+    Case {
+        what: "lower arm of 1e-8 kg",
+        set: &[("m2", 1e-8), ("J2", 1e-9)],
+        ..DOUBLE
+    },
+    Case {
+        what: "lower arm of 1e8 kg",
+        set: &[("m2", 1e8), ("J2", 1e7)],
+        ..DOUBLE
+    },
+    Case {
+        what: "upper arm of 1e-8 kg",
+        set: &[("m1", 1e-8), ("J1", 1e-9)],
+        ..DOUBLE
+    },
+    Case {
+        what: "upper arm of 1e8 kg",
+        set: &[("m1", 1e8), ("J1", 1e7)],
+        ..DOUBLE
+    },
+    Case {
+        what: "slider of 1e-8 kg",
+        set: &[("m3", 1e-8)],
+        ..CRANK
+    },
+    Case {
+        what: "slider of 1e8 kg",
+        set: &[("m3", 1e8)],
+        ..CRANK
+    },
+    Case {
+        what: "crank of 1e8 kg",
+        set: &[("m1", 1e8), ("J1", 1e7)],
+        ..CRANK
+    },
+    Case {
+        what: "coupler of 1e-4 kg",
+        set: &[("m2", 1e-4), ("J2", 2e-6)],
+        ..LOOP
+    },
+    Case {
+        what: "lower arm of 1e-6 m",
+        mechanism: "double_pendulum",
+        set: &[("L2", 1e-6), ("J2", 1e-13)],
+        until: 0.1,
+        wanted: Wanted::Balanced { energy: 1e-8 },
+        ..LENGTHS
+    },
+    Case {
+        what: "lower arm of 1e6 m",
+        mechanism: "double_pendulum",
+        set: &[("L2", 1e6), ("J2", 1e11)],
+        ..LENGTHS
+    },
+    Case {
+        what: "crank of 1e-6 m",
+        mechanism: "slider_crank",
+        set: &[("L1", 1e-6)],
+        ..LENGTHS
+    },
+    Case {
+        what: "rod of 1e6 m",
+        mechanism: "slider_crank",
+        set: &[("L2", 1e6), ("J2", 1e11)],
+        ..LENGTHS
+    },
+    Case {
+        what: "crank of 1e6 m on a rod of 0.5 m",
+        mechanism: "slider_crank",
+        set: &[("L1", 1e6)],
+        wanted: Wanted::Refused {
+            words: &["L1*sin(q1) = L2*sin(q2)", "is off by", "q1"],
+        },
+        ..LENGTHS
+    },
+    Case {
+        what: "pendulum of 1e-6 m",
+        mechanism: "point_pendulum",
+        set: &[("L", 1e-6)],
+        until: 0.01,
+        tolerance: 1e-13,
+        wanted: Wanted::Balanced { energy: 1e-6 },
+        ..LENGTHS
+    },
+    Case {
+        what: "pendulum of 1e6 m",
+        mechanism: "point_pendulum",
+        set: &[("L", 1e6)],
+        ..LENGTHS
+    },
+];

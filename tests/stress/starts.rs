@@ -1,0 +1,174 @@
+//! Starts on and next to singular positions, and starts that contradict.
+
+use crate::case::{Case, Wanted};
+use core::f64::consts::FRAC_PI_2;
+
+const SINGULAR: Case = Case {
+    kind: "Starts on and next to singular positions",
+    ..Case::USUAL
+};
+const BARS: Case = Case {
+    mechanism: "n_four_bar",
+    ..SINGULAR
+};
+
+/// All cranks at an angle, all couplers level: more than is needed, and consistent.
+const fn in_line(angle: f64) -> [(&'static str, f64); 5] {
+    [
+        ("phi[0]", angle),
+        ("phi[1]", angle),
+        ("phi[2]", angle),
+        ("psi[0]", 0.0),
+        ("psi[1]", 0.0),
+    ]
+}
+
+const CRANK: Case = Case {
+    mechanism: "slider_crank",
+    until: 0.5,
+    ..SINGULAR
+};
+const CONTRARY: Case = Case {
+    kind: "Inconsistent and over-determined starts",
+    mechanism: "four_bar",
+    ..Case::USUAL
+};
+const DEGENERATE: Case = Case {
+    kind: "Degenerate parameters",
+    mechanism: "four_bar",
+    ..Case::USUAL
+};
+
+/// The cases.
+pub const CASES: &[Case] = &[
+    Case {
+        what: "all rods in line, to the last bit",
+        hold: &in_line(FRAC_PI_2),
+        ..BARS
+    },
+    Case {
+        what: "1e-3 rad before it",
+        hold: &in_line(FRAC_PI_2 - 1e-3),
+        ..BARS
+    },
+    Case {
+        what: "1e-6 rad before it",
+        hold: &in_line(FRAC_PI_2 - 1e-6),
+        ..BARS
+    },
+    Case {
+        what: "1e-9 rad before it",
+        hold: &in_line(FRAC_PI_2 - 1e-9),
+        ..BARS
+    },
+    Case {
+        what: "1e-12 rad before it",
+        hold: &in_line(FRAC_PI_2 - 1e-12),
+        ..BARS
+    },
+    Case {
+        what: "1e-9 rad behind it",
+        hold: &in_line(FRAC_PI_2 + 1e-9),
+        ..BARS
+    },
+    Case {
+        what: "slider–crank upright, turning",
+        hold: &[("q1", FRAC_PI_2), ("der(q1)", 3.0)],
+        ..CRANK
+    },
+    Case {
+        what: "slider–crank 1e-8 rad from upright, turning",
+        hold: &[("q1", FRAC_PI_2 - 1e-8), ("der(q1)", 3.0)],
+        ..CRANK
+    },
+    Case {
+        what: "positions that no loop has",
+        hold: &[("q1", 0.0), ("q2", 0.0), ("q3", 0.0)],
+        wanted: Wanted::Refused {
+            words: &["no position near the start", "is off by"],
+        },
+        ..CONTRARY
+    },
+    Case {
+        what: "a loop that can't be closed",
+        set: &[("L0", 2.0)],
+        wanted: Wanted::Refused {
+            words: &["no position near the start", "is off by"],
+        },
+        ..CONTRARY
+    },
+    Case {
+        what: "velocities that no motion has",
+        hold: &[("der(q1)", 1.0), ("der(q2)", 0.0), ("der(q3)", 0.0)],
+        wanted: Wanted::Refused {
+            words: &["no velocities", "per second", "der(q1)"],
+        },
+        ..CONTRARY
+    },
+    Case {
+        what: "more values than degrees of freedom, all consistent",
+        mechanism: "n_four_bar",
+        hold: &[
+            ("phi[0]", 0.5),
+            ("phi[1]", 0.5),
+            ("phi[2]", 0.5),
+            ("psi[0]", 0.0),
+        ],
+        ..CONTRARY
+    },
+    Case {
+        what: "no mass of the coupler",
+        set: &[("m2", 0.0), ("J2", 0.0)],
+        ..DEGENERATE
+    },
+    Case {
+        what: "no mass at all",
+        set: &[
+            ("m1", 0.0),
+            ("m2", 0.0),
+            ("m3", 0.0),
+            ("J1", 0.0),
+            ("J2", 0.0),
+            ("J3", 0.0),
+        ],
+        wanted: Wanted::Refused {
+            words: &["at t = 0 s", "can move without kinetic energy"],
+        },
+        ..DEGENERATE
+    },
+    Case {
+        what: "negative masses",
+        set: &[
+            ("m1", -1.0),
+            ("m2", -1.0),
+            ("m3", -1.0),
+            ("J1", -1.0),
+            ("J2", -1.0),
+            ("J3", -1.0),
+        ],
+        wanted: Wanted::Refused {
+            words: &["at t = 0 s", "without kinetic energy"],
+        },
+        ..DEGENERATE
+    },
+    Case {
+        what: "a crank of no length",
+        set: &[("L1", 0.0)],
+        ..DEGENERATE
+    },
+    Case {
+        what: "a coupler of no length",
+        mechanism: "slider_crank",
+        set: &[("L2", 0.0)],
+        hold: &[("q1", 0.0), ("der(q1)", 0.0)],
+        ..DEGENERATE
+    },
+    Case {
+        what: "a length that is not a number",
+        set: &[("L2", f64::NAN)],
+        wanted: Wanted::Refused {
+            words: &["t = 0 s", "infinite or NaN"],
+        },
+        ..DEGENERATE
+    },
+];
