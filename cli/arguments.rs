@@ -178,6 +178,13 @@ pub struct Simulate {
     /// Where the rows go [default: standard output, or nowhere with --plot]
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
+    /// Where checkpoints of the run go; --resume goes on from them
+    #[arg(long, value_name = "FILE")]
+    pub checkpoint: Option<PathBuf>,
+    /// Go on from a checkpoint, to the same bits as without the interruption; rows are
+    /// added to those of --out
+    #[arg(long, value_name = "FILE", conflicts_with = "plot")]
+    pub resume: Option<PathBuf>,
     /// Draw coordinates and added columns over time
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,

@@ -77,6 +77,13 @@ pub enum CommandError {
         /// What became of the rows computed before.
         kept: String,
     },
+    /// A checkpoint that a run can't go on from.
+    Checkpoint {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        reason: &'static str,
+    },
     /// A run that Ctrl-C ended.
     Interrupted {
         /// What became of the rows computed before.
@@ -115,7 +122,8 @@ impl CommandError {
             Self::UnknownName { .. }
             | Self::OutOfRange { .. }
             | Self::UselessOption { .. }
-            | Self::FileKind { .. } => WRONG_COMMAND_LINE,
+            | Self::FileKind { .. }
+            | Self::Checkpoint { .. } => WRONG_COMMAND_LINE,
             Self::NobodyReads => 0,
             Self::Interrupted { .. } => INTERRUPTED,
             _ => FAILED,
@@ -164,6 +172,9 @@ impl Display for CommandError {
             Self::Draw(path, error) => write!(f, "could not draw {}: {error}", path.display()),
             Self::Description(rendered) => write!(f, "the description is wrong\n\n{rendered}"),
             Self::Run { reason, kept } => write!(f, "{reason}{kept}"),
+            Self::Checkpoint { path, reason } => {
+                write!(f, "can't go on from {}: {reason}", path.display())
+            }
             Self::Interrupted { kept } => write!(f, "interrupted{kept}"),
             Self::OutOfBounds(broken) => {
                 f.write_str("these bounds are not kept:")?;

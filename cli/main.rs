@@ -10,6 +10,7 @@
 mod arguments;
 mod changes;
 mod check;
+mod checkpoint;
 mod column;
 mod error;
 mod figure;
@@ -20,6 +21,7 @@ mod list;
 mod mechanism;
 mod output;
 mod plot;
+mod progress;
 mod reproduce;
 mod run;
 mod show;

@@ -189,7 +189,7 @@ impl<const N: usize, const R: usize> AnyMechanism for Sized<N, R> {
 }
 
 /// The state in a row: time, coordinates, velocities.
-fn state_of<const N: usize>(row: &[f64]) -> State<f64, N> {
+pub fn state_of<const N: usize>(row: &[f64]) -> State<f64, N> {
     let at = |i: usize| row.get(i).copied().unwrap_or(0.0);
     State {
         t: at(0),

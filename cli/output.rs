@@ -3,10 +3,11 @@
 //! In:  text, rows of numbers.
 //! Out: standard output, standard error, CSV files.
 
+use crate::checkpoint::Rows;
 use crate::error::CommandError;
 use csv::{ErrorKind, Writer};
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// What messages call standard output.
@@ -68,6 +69,8 @@ pub struct CsvWriter {
     out: Option<Writer<Box<dyn Write>>>,
     header: Vec<String>,
     rows: usize,
+    /// The length at which rows are added to a file.
+    tail: Option<u64>,
 }
 
 impl CsvWriter {
@@ -85,6 +88,32 @@ impl CsvWriter {
             out: None,
             header: header.to_vec(),
             rows: 0,
+            tail: None,
+        })
+    }
+
+    /// Goes on after rows of an earlier part of the run. What a file has after them is
+    /// cut off.
+    pub fn go_on(&mut self, rows: Rows) {
+        self.rows = usize::try_from(rows.count).unwrap_or(usize::MAX);
+        self.tail = rows.bytes;
+        if self.path.is_none() || rows.bytes.is_some() {
+            self.header.clear();
+        }
+    }
+
+    /// Hands rows over, and says what is there.
+    ///
+    /// # Errors
+    ///
+    /// As [`row`](Self::row).
+    pub fn settle(&mut self) -> Result<Rows, CommandError> {
+        self.finish()?;
+        let file = self.path.as_ref().and_then(|path| fs::metadata(path).ok());
+        let bytes = file.filter(|file| file.is_file()).map(|file| file.len());
+        Ok(Rows {
+            count: self.rows as u64,
+            bytes,
         })
     }
 
@@ -105,11 +134,13 @@ impl CsvWriter {
             Some(out) => out,
             None => {
                 let sink: Box<dyn Write> = match &self.path {
-                    Some(path) => Box::new(File::create(path)?),
+                    Some(path) => Box::new(opened(path, self.tail)?),
                     None => Box::new(io::stdout()),
                 };
                 let out = self.out.insert(Writer::from_writer(sink));
-                out.write_record(&self.header)?;
+                if !self.header.is_empty() {
+                    out.write_record(&self.header)?;
+                }
                 out
             }
         };
@@ -135,6 +166,20 @@ impl CsvWriter {
         let path = self.path.as_ref().map(|path| path.display().to_string());
         path.unwrap_or_else(|| STANDARD_OUTPUT.to_string())
     }
+}
+
+/// A new file, or one that goes on after a length.
+fn opened(path: &Path, tail: Option<u64>) -> io::Result<File> {
+    let Some(length) = tail else {
+        return File::create(path);
+    };
+    let mut file = File::options().write(true).open(path)?;
+    if file.metadata()?.len() < length {
+        return Err(io::Error::other("it has lost rows since the checkpoint"));
+    }
+    file.set_len(length)?;
+    file.seek(SeekFrom::End(0))?;
+    Ok(file)
 }
 
 /// What the system says of a failed row. As an `io::Error` of its own a CSV error

@@ -6,20 +6,20 @@ use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
 /// What a run of the command gave.
-struct Ran {
-    status: Option<i32>,
-    out: String,
-    err: String,
+pub struct Ran {
+    pub status: Option<i32>,
+    pub out: String,
+    pub err: String,
 }
 
-fn bricard(arguments: &[&str]) -> Ran {
+pub fn bricard(arguments: &[&str]) -> Ran {
     let output = Command::new(env!("CARGO_BIN_EXE_bricard"))
         .args(arguments)
         .output();
     read(output.expect("the command starts"))
 }
 
-fn read(output: Output) -> Ran {
+pub fn read(output: Output) -> Ran {
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     Ran {
         status: output.status.code(),
@@ -29,7 +29,7 @@ fn read(output: Output) -> Ran {
 }
 
 /// An empty folder of one test's own.
-fn folder(test: &str) -> PathBuf {
+pub fn folder(test: &str) -> PathBuf {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"))
         .join("command")
         .join(test);
@@ -39,7 +39,7 @@ fn folder(test: &str) -> PathBuf {
 }
 
 /// Runs the command, which has to fail with a status and say all of `said`.
-fn check_refused(arguments: &[&str], status: i32, said: &[&str]) {
+pub fn check_refused(arguments: &[&str], status: i32, said: &[&str]) {
     let ran = bricard(arguments);
     assert_eq!(ran.status, Some(status), "{arguments:?} said {}", ran.err);
     for part in said {

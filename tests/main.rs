@@ -21,6 +21,7 @@ mod random;
 mod readme;
 mod reduction;
 mod reference;
+mod resume;
 mod source;
 mod stiff;
 mod translation;

@@ -12,7 +12,6 @@
 mod path;
 
 use crate::arguments::{Landing, MethodName};
-use crate::column::Column;
 use crate::error::CommandError;
 use crate::mechanism::{AnyMechanism, find};
 use crate::output::{print, say};
@@ -208,11 +207,7 @@ fn stages(method: MethodName) -> &'static [f64] {
 
 /// When a mechanism first passes a singular position (s).
 fn first_passage(name: &str, mechanism: &dyn AnyMechanism) -> Result<f64, CommandError> {
-    let plan = Plan {
-        options: Options::dop853(LOOK, SEARCH),
-        every: Some(LOOK),
-        columns: Vec::<Column>::new(),
-    };
+    let plan = Plan::new(Options::dop853(LOOK, SEARCH), Some(LOOK), Vec::new());
     let report = mechanism
         .run(&plan, &mut Nowhere)
         .map_err(|stopped| stopped.error)?;

@@ -145,11 +145,8 @@ pub fn named(experiment: &Experiment, stopped: Stopped) -> CommandError {
 pub fn plan(experiment: &Experiment, step: f64, form: Form) -> Plan {
     let mut options = Options::rk4(experiment.until, step);
     options.settings.form = form;
-    Plan {
-        options,
-        every: None,
-        columns: vec![Column::ConstraintError, Column::VelocityError],
-    }
+    let columns = vec![Column::ConstraintError, Column::VelocityError];
+    Plan::new(options, None, columns)
 }
 
 /// Keeps rows in memory.

@@ -48,9 +48,8 @@ pub fn plan(arguments: &Simulate, columns: Vec<Column>) -> Result<Plan, CommandE
     let smooth = adaptive && arguments.plot.is_some() && arguments.until > 0.0;
     let every = every.or(smooth.then_some(arguments.until / PLOTTED));
     Ok(Plan {
-        options,
-        every,
-        columns,
+        watched: true,
+        ..Plan::new(options, every, columns)
     })
 }
 

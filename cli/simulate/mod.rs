@@ -4,12 +4,14 @@
 //! Out: CSV, a summary on standard error, SVG.
 
 mod choices;
+mod legs;
 pub mod summary;
 
 pub use choices::TOLERANCE;
 
 use crate::arguments::Simulate;
 use crate::changes::Changes;
+use crate::checkpoint::{Checkpoint, Rows};
 use crate::column::{Column, columns, header};
 use crate::error::CommandError;
 use crate::figure::overview;
@@ -24,12 +26,16 @@ use bricard_runtime::Structure;
 pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
     let mut mechanism = find(&arguments.name)?;
     let structure = mechanism.structure();
-    Changes::find(structure, &arguments.name, &arguments.set, &arguments.start)?
-        .apply(mechanism.as_mut());
+    let changes = Changes::find(structure, &arguments.name, &arguments.set, &arguments.start)?;
+    changes.apply(mechanism.as_mut());
     let columns = columns(&arguments.columns, structure, &arguments.name)?;
-    let plan = choices::plan(arguments, columns.clone())?;
+    let mut plan = choices::plan(arguments, columns.clone())?;
     choices::check_files(arguments)?;
+    plan.legs = legs::legs(arguments, &plan, &changes, structure)?;
     let mut record = Record::open(arguments, structure, &columns)?;
+    if let Some(checkpoint) = plan.legs.as_ref().and_then(|legs| legs.from.as_ref()) {
+        record.go_on(checkpoint);
+    }
     interrupt::listen();
     let result = mechanism.run(&plan, &mut record);
     let report = match &result {
@@ -44,11 +50,14 @@ pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
     }
     match result {
         Ok(_) => Ok(()),
-        Err(Stopped { error, .. }) => match error {
-            CommandError::Run { reason, .. } => Err(CommandError::Run { reason, kept }),
-            CommandError::Interrupted { .. } => Err(CommandError::Interrupted { kept }),
-            error => Err(error),
-        },
+        Err(Stopped { error, .. }) => {
+            legs::say_how_to_go_on(arguments);
+            match error {
+                CommandError::Run { reason, .. } => Err(CommandError::Run { reason, kept }),
+                CommandError::Interrupted { .. } => Err(CommandError::Interrupted { kept }),
+                error => Err(error),
+            }
+        }
     }
 }
 
@@ -79,6 +88,14 @@ impl Record {
             count: 0,
             last: 0.0,
         })
+    }
+
+    /// Goes on after the rows of a checkpoint.
+    fn go_on(&mut self, checkpoint: &Checkpoint) {
+        self.count = usize::try_from(checkpoint.rows.count).unwrap_or(usize::MAX);
+        if let Some(csv) = &mut self.csv {
+            csv.go_on(checkpoint.rows);
+        }
     }
 
     /// Writes what is still to be written. Returns what to say of the rows if
@@ -134,5 +151,11 @@ impl RowSink for Record {
         self.count += 1;
         self.last = values.first().copied().unwrap_or(0.0);
         Ok(())
+    }
+
+    fn settle(&mut self) -> Result<Rows, CommandError> {
+        self.csv
+            .as_mut()
+            .map_or(Ok(Rows::default()), CsvWriter::settle)
     }
 }

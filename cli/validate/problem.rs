@@ -87,11 +87,7 @@ impl Problem {
         let pace = Pace::Adaptive { relative, absolute };
         let mut options = Options::new(self.until, scheme, pace);
         options.keep_energy = self.keep_energy;
-        Plan {
-            options,
-            every: None,
-            columns,
-        }
+        Plan::new(options, None, columns)
     }
 
     /// The mechanism, held at the start as the problem wants it.

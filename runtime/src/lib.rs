@@ -38,7 +38,7 @@ pub use observer::{
 };
 pub use real::Real;
 pub use simulate::{
-    Audit, Failure, Options, Pace, Scheme, SimulateError, Stepper, Summary, simulate,
+    Audit, Failure, Options, Origin, Pace, Scheme, SimulateError, Stepper, Summary, simulate,
 };
 pub use state::State;
 pub use system::{Slope, System};

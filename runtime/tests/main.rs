@@ -8,6 +8,7 @@ mod dynamics;
 mod hits;
 mod integrator;
 mod landing;
+mod legs;
 mod mechanisms;
 mod scan;
 mod simulate;

@@ -109,3 +109,20 @@ pub struct Counters {
     /// Projections where constraint rows are weak.
     pub robust_projections: u64,
 }
+
+impl core::ops::AddAssign for Counters {
+    fn add_assign(&mut self, more: Self) {
+        self.cheap_accelerations += more.cheap_accelerations;
+        self.landed_accelerations += more.landed_accelerations;
+        self.robust_accelerations += more.robust_accelerations;
+        self.rank_decisions += more.rank_decisions;
+        self.undetermined += more.undetermined;
+        self.branch_evaluations += more.branch_evaluations;
+        self.mass_factorisations += more.mass_factorisations;
+        self.constraint_factorisations += more.constraint_factorisations;
+        self.row_choices += more.row_choices;
+        self.projections += more.projections;
+        self.projection_iterations += more.projection_iterations;
+        self.robust_projections += more.robust_projections;
+    }
+}

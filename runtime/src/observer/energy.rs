@@ -48,6 +48,13 @@ impl<T: Real> EnergyAudit<T> {
         self.supplied
     }
 
+    /// Goes on where the audit of an earlier part of the run ended: from the energy
+    /// at its start and what was supplied since (J).
+    pub(crate) fn go_on(&mut self, start: T, supplied: T) {
+        self.start = start;
+        self.supplied = supplied;
+    }
+
     /// Adds to the supplied energy without losing small parts (Kahan).
     fn supply(&mut self, energy: T) {
         let part = energy - self.lost;

@@ -54,8 +54,13 @@ impl<T: Real> Grid<T> {
 
     /// The row at `origin` is taken.
     pub(super) fn begin(&mut self, origin: T) {
+        self.go_on(origin, 1);
+    }
+
+    /// The first rows are taken.
+    fn go_on(&mut self, origin: T, rows: u64) {
         self.origin = origin;
-        self.next = 1;
+        self.next = rows;
     }
 
     /// Calls `sink` with each row of a step until it breaks off.
@@ -109,6 +114,12 @@ impl<T: Real, F> Sampler<T, F> {
             grid: Grid::new(every)?,
             sink,
         })
+    }
+
+    /// Goes on where another run ended that began at `origin` (s) and had so many
+    /// rows. Beginning anew forgets it.
+    pub fn go_on(&mut self, origin: T, rows: u64) {
+        self.grid.go_on(origin, rows);
     }
 }
 

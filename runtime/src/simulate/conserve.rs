@@ -42,9 +42,10 @@ where
         }
     }
 
-    /// Keeps the energy of a state from now on.
-    pub(super) fn keep(&mut self, state: &State<T, N>) {
-        self.energy = Some(self.system.mechanism().energy(state).balance);
+    /// Keeps the energy of a state from now on, or a given one.
+    pub(super) fn keep(&mut self, state: &State<T, N>, given: Option<T>) {
+        let own = || self.system.mechanism().energy(state).balance;
+        self.energy = Some(given.unwrap_or_else(own));
     }
 
     /// Makes the velocity longer or shorter until the energy is right.

@@ -54,6 +54,22 @@ impl<T: Real> Grid<T> {
         })
     }
 
+    /// The number of the first interval that ends after a time.
+    pub(super) fn first_after(&self, t: T) -> u64 {
+        if self.intervals == 0 || t <= self.start {
+            return 1;
+        }
+        // The quotient may be off by round-off, to either side.
+        let mut number = (((t - self.start) / self.step).to_f64() as u64).max(1);
+        while number > 1 && self.time(number - 1) > t {
+            number -= 1;
+        }
+        while number < self.intervals && self.time(number) <= t {
+            number += 1;
+        }
+        number
+    }
+
     /// How many intervals there are.
     pub(super) fn intervals(&self) -> u64 {
         self.intervals

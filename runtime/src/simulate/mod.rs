@@ -15,7 +15,7 @@ mod summary;
 mod watch;
 
 pub use error::{Failure, SimulateError};
-pub use options::{Audit, Options, Pace, Scheme};
+pub use options::{Audit, Options, Origin, Pace, Scheme};
 pub use stepper::Stepper;
 pub use summary::Summary;
 
@@ -96,13 +96,16 @@ where
             until,
             scheme,
             pace,
+            origin,
             ..
         } = *self.options;
         let mut state = self.done.end;
         if !state.is_finite() {
             return Err(SimulateError::StartNotFinite { t: state.t });
         }
-        let grid = Grid::new(state.t, until, pace)?;
+        let begun = origin.map_or(state.t, |origin| origin.t);
+        let grid = Grid::new(begun, until, pace)?;
+        let first = grid.first_after(state.t);
         let mut driver = Driver::new(scheme, pace)?;
         self.system
             .project(&mut state)
@@ -112,18 +115,20 @@ where
             if !self.mechanism.structure().conservative {
                 return Err(SimulateError::NotConservative);
             }
-            self.system.keep(&state);
+            self.system.keep(&state, origin.map(|origin| origin.energy));
         }
-        if self
+        let flow = self
             .watchers
-            .begin(self.mechanism, &state, &mut self.probe)?
-            .is_break()
-        {
+            .begin(self.mechanism, &state, &mut self.probe)?;
+        if let Some(origin) = &origin {
+            self.watchers.go_on(origin);
+        }
+        if flow.is_break() {
             self.done.stopped = true;
             return Ok(());
         }
         driver.keep(self.watchers.inside());
-        for interval in 1..=grid.intervals() {
+        for interval in first..=grid.intervals() {
             let bound = grid.time(interval);
             while self.done.end.t < bound {
                 if self.step(&mut driver, bound)?.is_break() {

@@ -82,6 +82,18 @@ impl Audit {
     };
 }
 
+/// The beginning of a run of which another one is a later part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Origin<T> {
+    /// When it began (s). Fixed steps keep to its times.
+    pub t: T,
+    /// Its energy at the start (J): what is audited against, and what is kept where
+    /// the energy is kept.
+    pub energy: T,
+    /// What the power has supplied since (J).
+    pub supplied: T,
+}
+
 /// What a user chooses about a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options<T> {
@@ -101,6 +113,9 @@ pub struct Options<T> {
     pub audit: Audit,
     /// Accepted steps after which the run is given up; `None`: never.
     pub most_steps: Option<u64>,
+    /// The beginning of the run, if this one goes on where a part of it ended;
+    /// `None`: it begins here.
+    pub origin: Option<Origin<T>>,
 }
 
 impl<T: Real> Options<T> {
@@ -144,6 +159,7 @@ impl<T: Real> Options<T> {
             keep_energy: false,
             audit: Audit::ALL,
             most_steps: None,
+            origin: None,
         }
     }
 }

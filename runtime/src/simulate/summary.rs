@@ -28,6 +28,8 @@ pub struct Summary<T, const N: usize> {
     /// The largest difference between the energy and what the power supplied
     /// makes it (J), if it was audited.
     pub energy_error: Option<T>,
+    /// What the power has supplied since the run began (J), if it was audited.
+    pub energy_supplied: Option<T>,
     /// Whether an observer broke the run off before its end.
     pub stopped: bool,
 }
@@ -45,6 +47,7 @@ impl<T: Real, const N: usize> Summary<T, N> {
             passages: None,
             constraint_error: None,
             energy_error: None,
+            energy_supplied: None,
             stopped: false,
         }
     }

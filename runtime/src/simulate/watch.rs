@@ -4,7 +4,7 @@
 //! Out: whether the run goes on.
 
 use super::event::Events;
-use super::{Audit, Options, SimulateError, Summary};
+use super::{Audit, Options, Origin, SimulateError, Summary};
 use crate::integrator::Inside;
 use crate::{
     ConstraintAudit, DynamicsError, EnergyAudit, Form, IntegrateError, Interface, Observer,
@@ -76,6 +76,13 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
             }
         }
         Ok(flow)
+    }
+
+    /// Goes on with the audit of an earlier part of the run.
+    pub(super) fn go_on(&mut self, origin: &Origin<T>) {
+        if let Some(audit) = &mut self.energy {
+            audit.go_on(origin.energy, origin.supplied);
+        }
     }
 
     /// Audits first, then the observers.
@@ -218,6 +225,7 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
             passages: self.rank.as_ref().map(RankAudit::count),
             constraint_error: self.constraints.as_ref().map(ConstraintAudit::largest),
             energy_error: self.energy.as_ref().map(EnergyAudit::largest),
+            energy_supplied: self.energy.as_ref().map(EnergyAudit::supplied),
             ..done
         }
     }

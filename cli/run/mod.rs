@@ -1,0 +1,174 @@
+//! A run: from a plan to rows and a report.
+//!
+//! In:  a mechanism, its start, a [`Plan`].
+//! Out: rows to a [`RowSink`] while they are computed, a [`Report`].
+//!
+//! Compiled once for each pair of sizes.
+
+mod writer;
+
+use crate::checkpoint::{Keeper, Legs, Rows};
+use crate::column::Column;
+use crate::error::CommandError;
+use crate::mechanism::state_of;
+use bricard_runtime::{Counters, Options, Passage, Start, Summary, Whole, assemble, simulate};
+use std::time::{Duration, Instant};
+use writer::Writer;
+
+/// How to integrate and what to record.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Method, end, form of the equations.
+    pub options: Options<f64>,
+    /// Distance of the rows (s); a row after each step if there is none.
+    pub every: Option<f64>,
+    /// Columns besides time, coordinates and velocities.
+    pub columns: Vec<Column>,
+    /// The checkpoints of a run that has some.
+    pub legs: Option<Legs>,
+    /// Whether somebody waits for the run.
+    pub watched: bool,
+}
+
+impl Plan {
+    /// A run from its start to its end that nobody waits for.
+    pub fn new(options: Options<f64>, every: Option<f64>, columns: Vec<Column>) -> Self {
+        Self {
+            options,
+            every,
+            columns,
+            legs: None,
+            watched: false,
+        }
+    }
+}
+
+/// Receives rows.
+pub trait RowSink {
+    /// Takes a row: time, coordinates, velocities, added columns.
+    ///
+    /// # Errors
+    ///
+    /// What stands in the way; it ends the run.
+    fn row(&mut self, values: &[f64]) -> Result<(), CommandError>;
+
+    /// Hands all rows over to where they go, and says what is there.
+    ///
+    /// # Errors
+    ///
+    /// As [`row`](Self::row).
+    fn settle(&mut self) -> Result<Rows, CommandError> {
+        Ok(Rows::default())
+    }
+}
+
+/// What was done in a run, and how well.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Report {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps that were tried and thrown away.
+    pub rejected: u64,
+    /// Time it took.
+    pub wall: Duration,
+    /// The largest error of a constraint equation, in its unit.
+    pub constraint_error: f64,
+    /// The largest difference between the energy and what it should be (J).
+    pub energy_error: f64,
+    /// Passages through singular positions.
+    pub passages: Vec<Passage<f64>>,
+    /// Events: the name and the time (s) of each.
+    pub events: Vec<(&'static str, f64)>,
+    /// Work by kind.
+    pub counters: Counters,
+}
+
+/// A run that could not begin or ended early.
+#[derive(Debug)]
+pub struct Stopped {
+    /// Why.
+    pub error: CommandError,
+    /// When (s), if it had begun.
+    pub time: Option<f64>,
+    /// What was done before.
+    pub report: Option<Box<Report>>,
+}
+
+impl Report {
+    /// Adds what was done in a leg.
+    fn add<const N: usize>(&mut self, summary: &Summary<f64, N>) {
+        self.steps += summary.steps;
+        self.rejected += summary.rejected;
+        let constraint = summary.constraint_error.map_or(0.0, |error| error.position);
+        self.constraint_error = self.constraint_error.max(constraint);
+        self.energy_error = self.energy_error.max(summary.energy_error.unwrap_or(0.0));
+        self.counters += summary.counters;
+    }
+}
+
+fn failed(reason: String) -> CommandError {
+    let kept = String::new();
+    CommandError::Run { reason, kept }
+}
+
+/// Runs a mechanism from a start, or from the checkpoint of the plan.
+///
+/// # Errors
+///
+/// [`Stopped`], with what was reached.
+pub fn run<const N: usize, const R: usize>(
+    mechanism: &dyn Whole<f64, N, R>,
+    start: &Start<f64, N>,
+    plan: &Plan,
+    sink: &mut dyn RowSink,
+) -> Result<Report, Stopped> {
+    let refuse = |reason: String| Stopped {
+        error: failed(reason),
+        time: None,
+        report: None,
+    };
+    let from = plan.legs.as_ref().and_then(|legs| legs.from.as_ref());
+    let mut state = match from {
+        Some(checkpoint) => state_of(&checkpoint.state),
+        None => assemble(mechanism, start, 0.0).map_err(|error| refuse(error.to_string()))?,
+    };
+    let mut writer = Writer::new(plan, sink, state.t).map_err(|e| refuse(e.to_string()))?;
+    let mut keeper = plan.legs.as_ref().map(Keeper::new);
+    let (begun, before) = (Instant::now(), writer.done.wall);
+    loop {
+        let options = Options {
+            origin: writer.origin,
+            ..plan.options
+        };
+        let result = simulate(mechanism, &state, &options, &mut [&mut writer]);
+        let (summary, reason) = match result {
+            Ok(summary) => (summary, None),
+            Err(failure) => (failure.summary, Some(failure.error.to_string())),
+        };
+        state = summary.end;
+        writer.done.wall = before + begun.elapsed();
+        writer.done.add(&summary);
+        let mut error = reason.map(failed).or_else(|| writer.refused.take());
+        if error.is_none() {
+            let ends = !writer.leg_is_over || state.t >= plan.options.until;
+            match (ends, &mut keeper) {
+                (true, _) | (_, None) => return Ok(writer.done),
+                (false, Some(keeper)) => {
+                    let taken = writer.checkpoint(&summary).and_then(|c| keeper.take(c));
+                    error = taken.err();
+                }
+            }
+        } else if let Some(keeper) = &mut keeper {
+            // What stopped the run is the news, even if this fails, too.
+            let _written = keeper.write();
+        }
+        if let Some(error) = error {
+            let (time, report) = (Some(state.t), Some(Box::new(writer.done)));
+            return Err(Stopped {
+                error,
+                time,
+                report,
+            });
+        }
+    }
+}

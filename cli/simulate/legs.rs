@@ -1,0 +1,58 @@
+//! Which checkpoints a run writes and goes on from, from the options of the command line.
+
+use crate::arguments::Simulate;
+use crate::changes::Changes;
+use crate::checkpoint::{Legs, read};
+use crate::error::CommandError;
+use crate::output::{probe, say};
+use crate::run::Plan;
+use bricard_runtime::{Options, Structure};
+
+/// The checkpoints of a run, if it has some.
+///
+/// # Errors
+///
+/// [`CommandError::Read`], [`CommandError::Write`], [`CommandError::Checkpoint`].
+pub fn legs(
+    arguments: &Simulate,
+    plan: &Plan,
+    changes: &Changes,
+    structure: &'static Structure,
+) -> Result<Option<Legs>, CommandError> {
+    if arguments.checkpoint.is_none() && arguments.resume.is_none() {
+        return Ok(None);
+    }
+    if let Some(file) = &arguments.checkpoint {
+        probe(file)?;
+    }
+    let run = described(arguments, plan, changes);
+    let from = arguments.resume.as_ref();
+    let from = from.map(|file| read(file, &run, structure)).transpose()?;
+    Ok(Some(Legs {
+        run,
+        file: arguments.checkpoint.clone(),
+        from,
+    }))
+}
+
+/// Everything that decides the bits of a run, in words. Its end is not among it: a run
+/// may be taken up again to go further.
+fn described(arguments: &Simulate, plan: &Plan, changes: &Changes) -> String {
+    let (version, name) = (env!("CARGO_PKG_VERSION"), &arguments.name);
+    let options = Options {
+        until: 0.0,
+        ..plan.options
+    };
+    let (every, columns) = (plan.every, &plan.columns);
+    format!("bricard {version}: {name} {changes:?} {options:?} {every:?} {columns:?}")
+}
+
+/// Says that a run can be taken up again, if it can.
+pub fn say_how_to_go_on(arguments: &Simulate) {
+    if let Some(file) = arguments.checkpoint.as_ref().filter(|file| file.exists()) {
+        let file = file.display();
+        say(&format!(
+            "the run can be taken up again: the same command with `--resume {file}`"
+        ));
+    }
+}

@@ -1,0 +1,148 @@
+//! Interrupted runs go on to the same bits, and equal commands give equal bits.
+
+use crate::command::{bricard, check_refused, folder, read};
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// A run at a fixed pace, one that follows a tolerance through singular positions, and
+/// one whose rows lie within steps.
+const RUNS: [&[&str]; 3] = [
+    &["double_pendulum", "--until", "60", "--step", "0.002"],
+    &[
+        "double_four_bar",
+        "--until",
+        "150",
+        "--method",
+        "dp5",
+        "--rtol",
+        "1e-10",
+    ],
+    &[
+        "furuta_pendulum",
+        "--until",
+        "300",
+        "--rtol",
+        "1e-12",
+        "--every",
+        "0.01",
+    ],
+];
+
+/// Long enough for any machine to get so far.
+const PATIENCE: Duration = Duration::from_secs(120);
+/// Bytes of rows after which a run is interrupted: several legs.
+const ENOUGH: u64 = 600_000;
+
+fn run(arguments: &[&str], csv: &Path, more: &[&str]) -> Vec<String> {
+    let csv = csv.to_string_lossy().into_owned();
+    let all = ["simulate"].iter().chain(arguments).chain(more);
+    let mut all: Vec<String> = all.map(|word| word.to_string()).collect();
+    all.extend(["--out".to_string(), csv]);
+    all
+}
+
+fn words(arguments: &[String]) -> Vec<&str> {
+    arguments.iter().map(String::as_str).collect()
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_goes_on_to_the_same_bytes() {
+    let folder = folder("resume");
+    let [whole, parts, file, other] = [
+        "whole.csv",
+        "parts.csv",
+        "run.checkpoint",
+        "whole.checkpoint",
+    ]
+    .map(|f| folder.join(f));
+    let [file, other] = [file, other].map(|path| path.to_string_lossy().into_owned());
+    for arguments in RUNS {
+        let _none_left = fs::remove_file(&file);
+        let ran = bricard(&words(&run(arguments, &whole, &["--checkpoint", &other])));
+        assert_eq!(ran.status, Some(0), "{}", ran.err);
+        let kept = run(arguments, &parts, &["--checkpoint", &file]);
+        let err = interrupted(&kept, &parts);
+        assert!(
+            err.contains("the run can be taken up again"),
+            "{arguments:?}: {err}"
+        );
+        let torn = fs::read(&parts).expect("rows are kept");
+        let on = run(arguments, &parts, &["--resume", &file]);
+        let ran = bricard(&words(&on));
+        assert_eq!(ran.status, Some(0), "{}", ran.err);
+        let [one, two] = [&whole, &parts].map(|path| fs::read(path).expect("rows"));
+        assert!(
+            torn.len() < one.len(),
+            "{arguments:?} was over before it was interrupted"
+        );
+        assert!(one == two, "{arguments:?}: the bytes differ");
+    }
+}
+
+/// Starts a run and presses Ctrl-C when some rows are written; what it says.
+#[cfg(unix)]
+fn interrupted(arguments: &[String], csv: &Path) -> String {
+    let _none_left = fs::remove_file(csv);
+    let child = Command::new(env!("CARGO_BIN_EXE_bricard"))
+        .args(arguments)
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    let begun = Instant::now();
+    while fs::metadata(csv).map_or(0, |file| file.len()) < ENOUGH && begun.elapsed() < PATIENCE {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let pressed = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(pressed.is_ok_and(|status| status.success()));
+    let ran = read(child.wait_with_output().expect("the command ends"));
+    assert_eq!(ran.status, Some(130), "{}", ran.err);
+    ran.err
+}
+
+#[test]
+fn checkpoints_at_a_fixed_pace_change_no_bit() {
+    let folder = folder("checkpoint");
+    let [plain, kept, file] = ["plain.csv", "kept.csv", "c"].map(|f| folder.join(f));
+    let arguments = ["double_pendulum", "--until", "10", "--step", "0.002"];
+    let file = file.to_string_lossy().into_owned();
+    bricard(&words(&run(&arguments, &plain, &[])));
+    bricard(&words(&run(&arguments, &kept, &["--checkpoint", &file])));
+    let [one, two] = [plain, kept].map(|path| fs::read(path).expect("rows"));
+    assert!(one == two);
+}
+
+#[test]
+fn equal_commands_give_equal_bytes() {
+    let arguments = [
+        "simulate",
+        "double_four_bar",
+        "--until",
+        "8",
+        "--columns",
+        "energy,reactions",
+    ];
+    let [one, two] = [(); 2].map(|()| bricard(&arguments));
+    assert_eq!(one.status, Some(0), "{}", one.err);
+    assert!(one.out.lines().count() > 100);
+    assert_eq!(one.out, two.out);
+}
+
+#[test]
+fn checkpoints_of_other_runs_are_refused() {
+    let folder = folder("refused");
+    let file = folder.join("c");
+    let path = file.to_string_lossy().into_owned();
+    let go_on = ["simulate", "pantograph", "--resume", &path];
+    check_refused(&go_on, 1, &["could not read", "c:"]);
+    for text in ["", "rows", "{}", "[1,2]"] {
+        fs::write(&file, text).expect("a file can be written");
+        check_refused(&go_on, 2, &["can't go on from", "no checkpoint"]);
+    }
+    fs::write(&file, r#"{"format": 1, "run": "another"}"#).expect("a file can be written");
+    check_refused(&go_on, 2, &["another run", "same mechanism and options"]);
+}
