@@ -41,13 +41,13 @@ fn every_case_ends_in_a_right_answer_or_an_error_that_says_when_and_why() {
     }
     assert!(broken.is_empty(), "{}", broken.join("\n"));
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/stress.md");
-    if std::env::var_os("BRICARD_UPDATE").is_some() {
+    if std::env::var_os("BRICARD_BLESS").is_some() {
         fs::write(&path, &text).expect("the docs can be written");
     }
     let written = fs::read_to_string(&path).unwrap_or_default();
     assert!(
         written == text,
-        "docs/stress.md is not what the runs came to; write it with BRICARD_UPDATE=1"
+        "docs/stress.md is not what the runs came to; write it with BRICARD_BLESS=1"
     );
 }
 
