@@ -21,7 +21,7 @@ impl Visitor<f64> for ThereAndBack {
         };
         let first = run(&mechanism).expect("it runs with its own parameters");
         let parameters = mechanism.structure().parameters;
-        for place in 0..parameters.len() {
+        for (place, parameter) in parameters.iter().enumerate() {
             let usual = mechanism.parameter(place).expect("it is a parameter");
             for value in [0.0, -usual, f64::NAN, f64::INFINITY, 1e300, 1e-300] {
                 mechanism.set_parameter(place, value);
@@ -30,7 +30,7 @@ impl Visitor<f64> for ThereAndBack {
             }
             mechanism.set_parameter(place, usual);
             let again = run(&mechanism).expect("it runs as before");
-            assert_eq!(first, again, "after {}", parameters[place].name);
+            assert_eq!(first, again, "after {}", parameter.name);
         }
     }
 }

@@ -14,8 +14,6 @@ pub struct Ran {
     pub energy: f64,
     /// Its error (J).
     pub energy_error: f64,
-    /// Steps.
-    pub steps: u64,
 }
 
 /// Runs a mechanism as a case says.
@@ -44,10 +42,7 @@ impl Visitor<f64> for Attempt<'_> {
         let before = mechanism.energy(&state);
         let ran = simulate(&mechanism, &state, &self.options, &mut []);
         let Summary {
-            end,
-            energy_error,
-            steps,
-            ..
+            end, energy_error, ..
         } = ran.map_err(|failure| failure.error.to_string())?;
         let after = mechanism.energy(&end);
         let size = |energy: bricard_runtime::Energy<f64>| energy.kinetic + energy.potential.abs();
@@ -55,7 +50,6 @@ impl Visitor<f64> for Attempt<'_> {
             end: end.q.iter().copied().collect(),
             energy: size(before).max(size(after)),
             energy_error: energy_error.unwrap_or(0.0),
-            steps,
         })
     }
 }

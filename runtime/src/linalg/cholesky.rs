@@ -30,7 +30,9 @@ pub(crate) fn is_definite<T: Real, const N: usize>(matrix: &SMatrix<T, N, N>) ->
             break;
         };
         let pivot = rest[(next, next)];
-        if !(pivot > definite::<T>() * matrix[(next, next)]) {
+        // False for NaN, too.
+        let is_large = pivot > definite::<T>() * matrix[(next, next)];
+        if !is_large {
             return false;
         }
         done[next] = true;
