@@ -1,12 +1,19 @@
-//! `bricard list`: the mechanisms of the library.
+//! `bricard list`: the mechanisms of the library and of the benchmark problems.
 
 use crate::error::CommandError;
 use crate::mechanism::find;
 use crate::output::print;
 use crate::table::{Align, headed};
 
-/// Prints name, sizes and the first sentence about each mechanism.
+/// Prints name, sizes and the first sentence about each mechanism; those of the
+/// benchmark problems in a table of their own.
 pub fn list() -> Result<(), CommandError> {
+    print(&table(bricard::NAMES)?)?;
+    print("\nbenchmark problems\n\n")?;
+    print(&table(bricard_benchmarks::NAMES)?)
+}
+
+fn table(names: &[&str]) -> Result<String, CommandError> {
     let row = |name: &&str| {
         let structure = find(name)?.structure();
         Ok(vec![
@@ -16,13 +23,11 @@ pub fn list() -> Result<(), CommandError> {
             first_sentence(structure.docs),
         ])
     };
-    let rows: Vec<_> = bricard::NAMES
-        .iter()
-        .map(row)
-        .collect::<Result<_, CommandError>>()?;
+    let rows = names.iter().map(row);
+    let rows: Vec<_> = rows.collect::<Result<_, CommandError>>()?;
     let heading = ["name", "coordinates", "constraint rows", "what it is"];
     let align = [Align::Left, Align::Right, Align::Right, Align::Left];
-    print(&headed(&heading, &rows, &align))
+    Ok(headed(&heading, &rows, &align))
 }
 
 /// The first sentence, on one line.

@@ -73,8 +73,19 @@ pub fn find(name: &str) -> Result<Box<dyn AnyMechanism>, CommandError> {
         kind: "mechanism",
         owner: String::new(),
         name: name.to_string(),
-        known: bricard::NAMES.iter().map(|name| name.to_string()).collect(),
+        known: names().map(str::to_string).collect(),
     })
+}
+
+/// The names that [`find`] knows.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    let library = bricard::NAMES.iter();
+    library.chain(bricard_benchmarks::NAMES).copied()
+}
+
+/// The description of a mechanism by its name.
+pub fn source(name: &str) -> Option<&'static str> {
+    bricard::source(name).or_else(|| bricard_benchmarks::source(name))
 }
 
 struct Forget;

@@ -65,6 +65,14 @@ pub fn is_of_unit_size(name: &str) -> bool {
     name != FAST
 }
 
+/// The mechanisms with more constraint equations than are ever independent.
+const REDUNDANT: [&str; 2] = ["bennett", "spherical_four_bar"];
+
+/// Whether the constraint equations of a mechanism are independent anywhere.
+pub fn has_regular_states(name: &str) -> bool {
+    !REDUNDANT.contains(&name)
+}
+
 /// The mechanisms whose springs ask explicit methods for steps a hundred times shorter.
 const STIFF: [&str; 2] = [FAST, "flyball_governor"];
 

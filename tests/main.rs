@@ -2,6 +2,7 @@
 
 mod allocation;
 mod balance;
+mod closed_forms;
 mod command;
 mod compiled;
 mod dense;

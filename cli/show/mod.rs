@@ -15,7 +15,7 @@ use crate::arguments::Show;
 use crate::check::read;
 use crate::error::CommandError;
 use crate::list::first_sentence;
-use crate::mechanism::find;
+use crate::mechanism::{find, source};
 use crate::output::print;
 use bricard_codegen::expr::{Notation, Symbol};
 use bricard_codegen::model::Mechanism;
@@ -76,7 +76,7 @@ impl Subject {
         }
         let mechanism = find(name)?;
         let structure = mechanism.structure();
-        let source = bricard::source(name).unwrap_or("").to_string();
+        let source = source(name).unwrap_or("").to_string();
         Ok(Self {
             file: structure.file.to_string(),
             source,

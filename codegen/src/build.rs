@@ -11,6 +11,8 @@
 
 use crate::compile::{Compiled, Settings, compile_source};
 use crate::emit;
+use crate::parse::{Model, ModelError};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::{env, fmt, fs, io};
 
@@ -51,8 +53,12 @@ pub enum BuildError {
     NoOutDir,
     /// The name of a description is no module name.
     Name(PathBuf),
+    /// Two descriptions of a folder would be one module, of this name.
+    SameModule([PathBuf; 2], String),
     /// The description is wrong: the rendered messages.
     Description(String),
+    /// The calls that built a model gave texts that are no formulas or names.
+    Model(ModelError),
 }
 
 impl Builder {
@@ -119,6 +125,33 @@ impl Builder {
         tell(self.try_compile_dir(folder))
     }
 
+    /// As [`compile`], of a model built by calls. `module` names the file and the
+    /// module. The description is written beside the code, as `module.mech`: the
+    /// messages show its lines.
+    ///
+    /// # Errors
+    ///
+    /// See [`BuildError`]; cargo has been told already.
+    pub fn compile_model(&self, model: &Model, module: &str) -> Result<(), BuildError> {
+        tell(self.try_compile_model(model, module))
+    }
+
+    /// Compiles a model built by calls without a word to cargo; returns the rendered
+    /// warnings.
+    ///
+    /// # Errors
+    ///
+    /// See [`BuildError`].
+    pub fn try_compile_model(&self, model: &Model, module: &str) -> Result<String, BuildError> {
+        let file = format!("{module}.mech");
+        stem(Path::new(&file))?;
+        let source = model.text().map_err(BuildError::Model)?;
+        self.write(&file, &source)?;
+        let (compiled, warnings) = self.text(&source, module, &file)?;
+        self.write(&format!("{module}.rs"), &compiled.code)?;
+        Ok(warnings)
+    }
+
     /// Compiles one description without a word to cargo; returns the rendered
     /// warnings.
     ///
@@ -140,7 +173,9 @@ impl Builder {
     pub fn try_compile_dir(&self, folder: &Path) -> Result<String, BuildError> {
         let (mut code, mut names) = (String::new(), Vec::new());
         let (mut warnings, mut errors) = (String::new(), String::new());
-        for description in descriptions(folder)? {
+        let descriptions = descriptions(folder)?;
+        apart(&descriptions)?;
+        for description in descriptions {
             let stem = stem(&description)?;
             match self.one(&description, &stem) {
                 Ok((compiled, warning)) => {
@@ -164,9 +199,13 @@ impl Builder {
         let shown = description.display().to_string();
         let file_error = |error| BuildError::File(description.to_path_buf(), error);
         let source = fs::read_to_string(description).map_err(file_error)?;
-        let compiled = compile_source(&source, stem, &shown, &self.settings)
-            .map_err(|errors| BuildError::Description(errors.render(&shown, &source)))?;
-        let warnings = compiled.warnings.render(&shown, &source);
+        self.text(&source, stem, &shown)
+    }
+
+    fn text(&self, source: &str, stem: &str, file: &str) -> Result<(Compiled, String), BuildError> {
+        let compiled = compile_source(source, stem, file, &self.settings)
+            .map_err(|errors| BuildError::Description(errors.render(file, source)))?;
+        let warnings = compiled.warnings.render(file, source);
         Ok((compiled, warnings))
     }
 
@@ -212,6 +251,19 @@ fn descriptions(folder: &Path) -> Result<Vec<PathBuf>, BuildError> {
     Ok(found)
 }
 
+/// Refuses descriptions whose modules would have one name: `a_b` and `a__b`.
+fn apart(descriptions: &[PathBuf]) -> Result<(), BuildError> {
+    let mut modules = BTreeMap::new();
+    for description in descriptions {
+        let module = emit::module_name(&stem(description)?);
+        if let Some(other) = modules.insert(module.clone(), description) {
+            let both = [other.clone(), description.clone()];
+            return Err(BuildError::SameModule(both, module));
+        }
+    }
+    Ok(())
+}
+
 fn stem(description: &Path) -> Result<String, BuildError> {
     let stem = description.file_stem().and_then(|stem| stem.to_str());
     let name = stem.filter(|stem| syn::parse_str::<syn::Ident>(stem).is_ok());
@@ -231,7 +283,14 @@ impl fmt::Display for BuildError {
                 "{}: the file's name becomes a module's: letters, digits and `_`, no keyword",
                 path.display()
             ),
+            BuildError::SameModule([first, second], module) => write!(
+                f,
+                "{} and {} would both be the module `{module}`; rename one of them",
+                first.display(),
+                second.display()
+            ),
             BuildError::Description(message) => f.write_str(message.trim_end()),
+            BuildError::Model(error) => error.fmt(f),
         }
     }
 }

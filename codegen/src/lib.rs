@@ -30,3 +30,5 @@ pub mod parse;
 pub use build::{BuildError, Builder, compile, compile_dir};
 pub use compile::{Compiled, Settings, analyse, compile_source, examine};
 pub use diagnostic::Diagnostics;
+pub use parse::ast::{Crossing, Drawing};
+pub use parse::{Formula, Model, ModelError};

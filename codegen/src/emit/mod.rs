@@ -109,7 +109,7 @@ pub fn module(
     if !mentions(&dynamics, "linearised") {
         docs.extend([String::new(), LEFT_OUT.to_string()]);
     }
-    let module = Ident::new(&name::snake_case(origin.module), Span::call_site());
+    let module = Ident::new(&module_name(origin.module), Span::call_site());
     let source = origin.source;
     quote! {
         #(#[doc = #docs])*
@@ -128,6 +128,11 @@ pub fn module(
             #interface
         }
     }
+}
+
+/// The name of the module of a description whose file has this stem.
+pub fn module_name(stem: &str) -> String {
+    name::snake_case(stem)
 }
 
 fn module_docs(subject: &Subject, origin: Origin) -> Vec<String> {

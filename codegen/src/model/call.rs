@@ -240,11 +240,11 @@ impl Evaluator {
         let mut flow = std::mem::take(&mut self.flow);
         let id = self.graph.derivative_along(scalar.id, &mut flow);
         self.flow = flow;
-        let unit = scalar.unit.times(Unit::Known(PER_SECOND));
-        let unit = if scalar.unit == Unit::Number {
-            Unit::Number
-        } else {
-            unit
+        // What a bare number made sizes may be a length, so its rate may be a speed.
+        let unit = match scalar.unit {
+            Unit::Number if self.graph.is_zero(id) => Unit::Number,
+            Unit::Number => Unit::Unchecked,
+            unit => unit.times(Unit::Known(PER_SECOND)),
         };
         Some(Scalar {
             id: self.sound(id, span)?,

@@ -8,13 +8,14 @@ use super::value::{Scalar, Value};
 use super::{Constant, Parameter};
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::expr::{ExprId, Number, Symbol};
-use crate::parse::ast::{Ast, Declaration, Declared, Item, ItemKind};
+use crate::parse::Model;
+use crate::parse::ast::{Declaration, Declared, Item, ItemKind};
 
 impl Lowering<'_> {
     /// Checks that the build script changes what there is.
-    pub fn changes_fit(&mut self, ast: &Ast) {
+    pub fn changes_fit(&mut self, model: &Model) {
         let names = |kind: Declared| -> Vec<&str> {
-            let declared = ast.items.iter().filter_map(|item| match &item.kind {
+            let declared = model.items.iter().filter_map(|item| match &item.kind {
                 ItemKind::Declaration(d) if d.kind == kind => Some(d.name.text.as_str()),
                 _ => None,
             });
@@ -41,7 +42,7 @@ impl Lowering<'_> {
             };
             let message =
                 format!("the build script sets the {kind} `{name}`, which is not declared");
-            self.report::<()>(Diagnostic::error(ast.name.span, message).help(help));
+            self.report::<()>(Diagnostic::error(model.name.span, message).help(help));
         }
     }
 

@@ -8,7 +8,8 @@ use super::scope::{Entry, Kind};
 use super::{Mechanism, statement::Named};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::expr::{ExprId, Graph, Symbol};
-use crate::parse::ast::{Ast, Name};
+use crate::parse::Model;
+use crate::parse::ast::Name;
 
 /// The work in progress.
 pub struct Lowering<'a> {
@@ -35,22 +36,22 @@ pub struct Lowering<'a> {
 ///
 /// Everything that is wrong; warnings come with the mechanism.
 pub fn lower(
-    ast: &Ast,
+    model: &Model,
     constants: &[(String, f64)],
     frozen: &[String],
 ) -> Result<(Mechanism, Diagnostics), Diagnostics> {
     let mut lowering = Lowering {
         evaluator: Evaluator::default(),
-        mechanism: Mechanism::named(&ast.name.text, &ast.docs),
+        mechanism: Mechanism::named(&model.name.text, &model.docs),
         constants,
         frozen,
         indices: Vec::new(),
         named: Named::default(),
     };
-    lowering.changes_fit(ast);
-    lowering.declare(&ast.items);
-    lowering.statements(&ast.items);
-    lowering.whole(&ast.name);
+    lowering.changes_fit(model);
+    lowering.declare(&model.items);
+    lowering.statements(&model.items);
+    lowering.whole(&model.name);
     let Lowering {
         mut evaluator,
         mut mechanism,

@@ -3,17 +3,6 @@
 use crate::diagnostic::Span;
 use crate::expr::{Comparison, Number};
 
-/// A file: one mechanism.
-#[derive(Clone, Debug)]
-pub struct Ast {
-    /// The name after `mechanism`.
-    pub name: Name,
-    /// Its doc comment.
-    pub docs: String,
-    /// What stands between its braces.
-    pub items: Vec<Item>,
-}
-
 /// A name and where it stands.
 #[derive(Clone, Debug)]
 pub struct Name {

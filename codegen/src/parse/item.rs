@@ -1,9 +1,8 @@
 //! Statements: the words that begin them, and the file around them.
 
-use super::ast::{
-    Ast, Crossing, Declaration, Declared, Drawing, Energy, Item, ItemKind, Let, Name,
-};
+use super::ast::{Crossing, Declaration, Declared, Drawing, Energy, Item, ItemKind, Let, Name};
 use super::cursor::{Cursor, Parsed, STATEMENTS};
+use super::model::Model;
 use super::token::TokenKind;
 use crate::diagnostic::{Diagnostic, nearest};
 
@@ -12,36 +11,36 @@ const FOR: &str = "repetition is written `for i in 0..K { … }`";
 
 impl Cursor<'_> {
     /// Reads a whole file.
-    pub fn file(&mut self) -> Parsed<Ast> {
+    pub fn file(&mut self) -> Parsed<Model> {
         let docs = self.docs();
         if !self.take_word("mechanism") {
             return Err(self.unexpected("`mechanism`", FILE));
         }
         let name = self.expect_name("the name of the mechanism", FILE)?;
-        let items = self.block(FILE)?;
+        let mut model = Model::named(name, docs);
+        self.block(FILE, |item| model.add(item))?;
         if self.peek().kind != TokenKind::End {
             let message = "nothing can follow the mechanism";
             let error = Diagnostic::error(self.span(), message);
             return Err(self.fail(error.help("a file holds one mechanism; write another file")));
         }
-        Ok(Ast { name, docs, items })
+        Ok(model)
     }
 
-    fn block(&mut self, help: &str) -> Parsed<Vec<Item>> {
+    /// Hands over the statements of a block.
+    fn block(&mut self, help: &str, mut add: impl FnMut(Item)) -> Parsed<()> {
         self.expect_symbol("{", help)?;
         let depth = self.block_depth();
-        let mut items = Vec::new();
         while !self.at_block_end(depth) {
             if self.take_symbol(";") {
                 continue;
             }
             match self.item() {
-                Ok(item) => items.push(item),
+                Ok(item) => add(item),
                 Err(_) => self.recover(depth),
             }
         }
-        self.expect_symbol("}", "")?;
-        Ok(items)
+        self.expect_symbol("}", "")
     }
 
     /// The nesting inside the bracket that was read last.
@@ -89,10 +88,9 @@ impl Cursor<'_> {
         let kind = match word {
             "for" => {
                 let range = self.range(FOR)?;
-                return Ok(ItemKind::For(
-                    range,
-                    self.deeper(|cursor| cursor.block(FOR))?,
-                ));
+                let mut body = Vec::new();
+                self.deeper(|cursor| cursor.block(FOR, |item| body.push(item)))?;
+                return Ok(ItemKind::For(range, body));
             }
             "start" => return Ok(ItemKind::Start(self.start_block()?)),
             "const" => self.declaration(Declared::Constant, word)?,

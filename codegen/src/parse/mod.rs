@@ -1,7 +1,7 @@
 //! Text to syntax tree, every node with its place.
 //!
 //! In:  the text of a description.
-//! Out: [`ast::Ast`]: what is written, nothing resolved.
+//! Out: [`Model`]: what is written, nothing resolved.
 //!
 //! Four steps: `scan` looks at the characters (so that the lexer cannot fail and
 //! no nesting is too deep for a recursive reader), `token` has proc-macro2 lex
@@ -14,12 +14,18 @@ pub mod ast;
 mod choice;
 mod cursor;
 mod expression;
+mod formula;
 mod item;
 mod literal;
+mod model;
+mod print;
 mod scan;
 mod start;
 mod token;
 mod unit;
+
+pub use formula::{Formula, ModelError};
+pub use model::Model;
 
 use crate::diagnostic::{Diagnostics, without_mark};
 
@@ -32,14 +38,14 @@ pub const NESTING: usize = 100;
 /// # Errors
 ///
 /// Everything that breaks the grammar, with its place.
-pub fn parse(source: &str) -> Result<ast::Ast, Diagnostics> {
+pub fn parse(source: &str) -> Result<Model, Diagnostics> {
     let source = without_mark(source);
     scan::scan(source)?;
     let tokens = token::tokenize(source)?;
     let mut cursor = cursor::Cursor::new(source, tokens);
-    let ast = cursor.file();
-    match ast {
-        Ok(ast) if cursor.diagnostics.is_empty() => Ok(ast),
+    let model = cursor.file();
+    match model {
+        Ok(model) if cursor.diagnostics.is_empty() => Ok(model),
         _ => Err(cursor.diagnostics),
     }
 }

@@ -2,8 +2,9 @@
 
 use super::ast::{Name, UnitExpr};
 use super::cursor::{Cursor, Parsed};
-use super::token::TokenKind;
-use crate::diagnostic::Diagnostic;
+use super::scan;
+use super::token::{TokenKind, tokenize};
+use crate::diagnostic::{Diagnostic, Diagnostics};
 
 /// The largest exponent of a unit.
 const LARGEST: i32 = 30;
@@ -12,12 +13,30 @@ const HELP: &str = "a unit is written like `m`, `rad`, `kg*m^2/s^2` or `1/s`";
 
 type Factors = Vec<(Name, i32)>;
 
+/// Reads a unit that stands by itself.
+pub fn read(text: &str) -> Result<UnitExpr, Diagnostics> {
+    scan::scan(text)?;
+    let mut cursor = Cursor::new(text, tokenize(text)?);
+    let unit = cursor.unit();
+    if unit.is_ok() && cursor.peek().kind != TokenKind::End {
+        let _reported = cursor.unexpected("the end of the unit", HELP);
+    }
+    match unit {
+        Ok(unit) if cursor.diagnostics.is_empty() => Ok(unit),
+        _ => Err(cursor.diagnostics),
+    }
+}
+
 impl Cursor<'_> {
     /// Reads `: unit` if it comes next.
     pub fn optional_unit(&mut self) -> Parsed<Option<UnitExpr>> {
         if !self.take_symbol(":") {
             return Ok(None);
         }
+        self.unit().map(Some)
+    }
+
+    fn unit(&mut self) -> Parsed<UnitExpr> {
         let start = self.span();
         let factors = self.unit_product()?;
         let span = start.to(self.last_span());
@@ -26,11 +45,11 @@ impl Cursor<'_> {
             .chars()
             .filter(|c| !c.is_whitespace())
             .collect();
-        Ok(Some(UnitExpr {
+        Ok(UnitExpr {
             span,
             text,
             factors,
-        }))
+        })
     }
 
     fn unit_product(&mut self) -> Parsed<Factors> {

@@ -1,10 +1,13 @@
 //! The front end: from text to a checked mechanism, and the messages on the way.
 
+mod build;
 mod documentation;
 mod doubts;
+mod forms;
 mod grammar;
 mod legality;
 mod mechanisms;
+mod model;
 mod names;
 mod robustness;
 mod rotation;
