@@ -39,6 +39,9 @@ pub enum Command {
     Landing(Landing),
     /// Check a description without compiling it
     Check(Check),
+    /// Begin a crate: a commented mechanism, its build script, a program that
+    /// simulates it
+    New(New),
 }
 
 /// Arguments of `show`.
@@ -58,6 +61,19 @@ pub struct Check {
     /// The description
     #[arg(value_name = "FILE.mech")]
     pub file: PathBuf,
+    /// Print what is found as one JSON object, for editors
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `new`.
+#[derive(Args, Debug)]
+pub struct New {
+    /// The name of the crate and of its folder
+    pub name: String,
+    /// Depend on a checkout of bricard instead of the published packages
+    #[arg(long, value_name = "DIR")]
+    pub path: Option<PathBuf>,
 }
 
 /// Arguments of `landing`.

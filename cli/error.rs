@@ -89,6 +89,17 @@ pub enum CommandError {
         /// What became of the rows computed before.
         kept: String,
     },
+    /// A folder that is there already.
+    Exists(PathBuf),
+    /// A name that a crate can't have.
+    Name {
+        /// The name.
+        name: String,
+        /// What a name has to be, or what this one is already.
+        why: &'static str,
+    },
+    /// What is wrong has been written where it was asked for.
+    Said,
     /// Bounds that a reproduced experiment does not keep.
     OutOfBounds(Vec<String>),
     /// The reader of standard output has gone.
@@ -123,7 +134,8 @@ impl CommandError {
             | Self::OutOfRange { .. }
             | Self::UselessOption { .. }
             | Self::FileKind { .. }
-            | Self::Checkpoint { .. } => WRONG_COMMAND_LINE,
+            | Self::Checkpoint { .. }
+            | Self::Name { .. } => WRONG_COMMAND_LINE,
             Self::NobodyReads => 0,
             Self::Interrupted { .. } => INTERRUPTED,
             _ => FAILED,
@@ -132,7 +144,7 @@ impl CommandError {
 
     /// Whether there is nobody to tell.
     pub fn is_silent(&self) -> bool {
-        matches!(self, Self::NobodyReads)
+        matches!(self, Self::NobodyReads | Self::Said)
     }
 }
 
@@ -176,6 +188,13 @@ impl Display for CommandError {
                 write!(f, "can't go on from {}: {reason}", path.display())
             }
             Self::Interrupted { kept } => write!(f, "interrupted{kept}"),
+            Self::Exists(path) => write!(
+                f,
+                "{} is there already, and nothing in it was changed; choose another name",
+                path.display()
+            ),
+            Self::Name { name, why } => write!(f, "a crate can't be called `{name}`: {why}"),
+            Self::Said => Ok(()),
             Self::OutOfBounds(broken) => {
                 f.write_str("these bounds are not kept:")?;
                 broken.iter().try_for_each(|bound| write!(f, "\n  {bound}"))

@@ -19,6 +19,7 @@ mod interrupt;
 mod landing;
 mod list;
 mod mechanism;
+mod new;
 mod output;
 mod plot;
 mod progress;
@@ -57,6 +58,7 @@ fn perform(command: &Command) -> Result<(), CommandError> {
         Command::WorkPrecision(arguments) => workprecision::workprecision(arguments),
         Command::Landing(arguments) => landing::landing(arguments),
         Command::Check(arguments) => check::check(arguments),
+        Command::New(arguments) => new::new(arguments),
         Command::Validate(arguments) => validate::validate(arguments),
     }
 }

@@ -1,8 +1,8 @@
 //! Motions that can be written down: the heavy top in elliptic functions, the skate on
 //! a slope, a rolling disc on its circle, Bennett's linkage.
 
-use bricard_runtime::{Interface, Mechanism, Observer, Options, Probe, Step};
 use bricard_runtime::{DynamicsError, assemble, simulate};
+use bricard_runtime::{Interface, Mechanism, Observer, Options, Probe, Step};
 use std::ops::ControlFlow;
 
 /// How long (s).
@@ -31,7 +31,11 @@ impl<const N: usize, F: FnMut(f64, &[f64], &[f64]) -> f64> Observer<f64, N> for 
         let end = step.end();
         let off = (self.off)(end.t, end.q.as_slice(), end.v.as_slice());
         // A comparison with what is not a number has to fail too.
-        self.largest = if off.is_nan() { off } else { self.largest.max(off) };
+        self.largest = if off.is_nan() {
+            off
+        } else {
+            self.largest.max(off)
+        };
         self.steps += 1;
         Ok(ControlFlow::Continue(()))
     }

@@ -1,6 +1,7 @@
 //! The tests of the whole: one binary, a module for each kind of claim.
 
 mod allocation;
+mod authoring;
 mod balance;
 mod closed_forms;
 mod command;
@@ -9,6 +10,7 @@ mod dense;
 mod derivation;
 mod double_double;
 mod dual;
+mod editors;
 mod golden;
 mod identities;
 mod landing;

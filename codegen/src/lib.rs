@@ -26,6 +26,7 @@ pub mod expr;
 pub mod model;
 pub mod optimise;
 pub mod parse;
+pub mod words;
 
 pub use build::{BuildError, Builder, compile, compile_dir};
 pub use compile::{Compiled, Settings, analyse, compile_source, examine};

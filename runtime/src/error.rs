@@ -3,7 +3,7 @@
 //! In:  nothing.
 //! Out: one enum per stage, with data and a message for people.
 
-use crate::{Form, Real};
+use crate::{Form, Real, Structure};
 use core::fmt::{Display, Formatter, Result};
 
 /// Why an acceleration or a projection could not be computed.
@@ -38,6 +38,8 @@ pub enum DynamicsError<T> {
         t: T,
         /// The coordinate at which the factorisation failed.
         coordinate: usize,
+        /// The mechanism, for the names.
+        structure: &'static Structure,
     },
     /// The position could not be brought back onto the constraints.
     ProjectionFailed {
@@ -47,6 +49,8 @@ pub enum DynamicsError<T> {
         residual: T,
         /// The row (constraint equation) that has it.
         row: usize,
+        /// The mechanism, for the names.
+        structure: &'static Structure,
     },
 }
 
@@ -81,17 +85,33 @@ impl<T: Real> Display for DynamicsError<T> {
                 "at t = {t} s only {rank} constraint equations are independent, though the \
                  mechanism was declared to be regular; generate it without that declaration"
             ),
-            Self::MassSingular { t, coordinate } => write!(
-                f,
-                "at t = {t} s coordinate {coordinate} can move without kinetic energy and no \
-                 constraint restricts it; give it inertia or a constraint"
-            ),
-            Self::ProjectionFailed { t, residual, row } => write!(
-                f,
-                "at t = {t} s constraint equation {row} is violated by {residual} and the \
-                 position could not be brought back onto it; take a smaller step, or check that \
-                 the constraints can be satisfied together"
-            ),
+            Self::MassSingular {
+                t,
+                coordinate,
+                structure,
+            } => {
+                write!(f, "at t = {t} s the coordinate ")?;
+                structure.write_coordinate(f, *coordinate)?;
+                f.write_str(
+                    " can move without kinetic energy and no constraint restricts it; give it \
+                     inertia or a constraint",
+                )
+            }
+            Self::ProjectionFailed {
+                t,
+                residual,
+                row,
+                structure,
+            } => {
+                write!(f, "at t = {t} s the constraint ")?;
+                structure.write_constraint(f, *row)?;
+                write!(
+                    f,
+                    " is violated by {residual} and the position could not be brought back onto \
+                     it; take a smaller step, or check that the constraints can be satisfied \
+                     together"
+                )
+            }
         }
     }
 }

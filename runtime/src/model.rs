@@ -278,6 +278,32 @@ pub struct Start<T, const N: usize> {
     pub v: [Initial<T>; N],
 }
 
+impl Structure {
+    /// Writes a coordinate as the description names it.
+    pub(crate) fn write_coordinate(
+        &self,
+        f: &mut core::fmt::Formatter<'_>,
+        index: usize,
+    ) -> core::fmt::Result {
+        match self.coordinates.get(index) {
+            Some(coordinate) => write!(f, "`{}`", coordinate.name),
+            None => write!(f, "{index}"),
+        }
+    }
+
+    /// Writes a constraint equation as it stands in the description, with its line.
+    pub(crate) fn write_constraint(
+        &self,
+        f: &mut core::fmt::Formatter<'_>,
+        row: usize,
+    ) -> core::fmt::Result {
+        match self.constraints.get(row) {
+            Some(equation) => write!(f, "`{}` (line {})", equation.text, equation.line),
+            None => write!(f, "{row}"),
+        }
+    }
+}
+
 /// Receives the picture of a mechanism, one shape at a time. Points are
 /// `(x, y, z)` in metres, `z = 0` in the plane.
 pub trait Canvas<T> {

@@ -14,3 +14,4 @@ mod scan;
 mod simulate;
 mod stiff;
 mod toys;
+mod words;

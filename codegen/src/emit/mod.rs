@@ -135,6 +135,11 @@ pub fn module_name(stem: &str) -> String {
     name::snake_case(stem)
 }
 
+/// The name of the struct of a mechanism with this name.
+pub fn type_name(name: &str) -> String {
+    name::camel_case(name)
+}
+
 fn module_docs(subject: &Subject, origin: Origin) -> Vec<String> {
     let Mechanism {
         name,
@@ -290,7 +295,7 @@ impl Subject<'_> {
     }
 
     fn type_name(&self) -> Ident {
-        Ident::new(&name::camel_case(&self.mechanism.name), Span::call_site())
+        Ident::new(&type_name(&self.mechanism.name), Span::call_site())
     }
 
     /// A symbol as the description names it.

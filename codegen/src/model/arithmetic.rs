@@ -148,6 +148,11 @@ impl Evaluator {
             powers.push((factor.id, power));
         }
         let id = self.graph.power_product(&powers);
+        if self.graph.is_zero(id) && !powers.iter().any(|(e, _)| self.graph.is_zero(*e)) {
+            let places = factors.first().zip(factors.last());
+            let span = places.map_or(Span::default(), |((.., a), (.., b))| a.to(*b));
+            return self.vanished(span);
+        }
         // Zero fits every unit: `[[J1, 0], [0, J2]]*w` is a sum of moments.
         if self.graph.is_zero(id) || (unit == Unit::PURE && self.has_size(factors)) {
             unit = Unit::Number;
@@ -161,6 +166,12 @@ impl Evaluator {
             id: self.sound(id, span)?,
             unit,
         })
+    }
+
+    /// A number so small that it would be taken for zero.
+    fn vanished<T>(&mut self, span: Span) -> Option<T> {
+        let error = Diagnostic::error(span, "this number is too small");
+        self.report(error.help("numbers lie between 1e-308 and 1e308"))
     }
 
     /// Whether a number among dimensionless factors may stand for what has a unit:
@@ -211,6 +222,9 @@ impl Evaluator {
             }
         };
         let id = self.graph.pow(value.id, raised.id);
+        if self.graph.is_zero(id) && !self.graph.is_zero(value.id) {
+            return self.vanished(span);
+        }
         Some(Value::Scalar(Scalar {
             id: self.sound(id, span)?,
             unit,

@@ -47,7 +47,12 @@ const ELSEWHERE: [(&str, &str); 14] = [
 
 /// Whether a name is that of a function (those of one number aside).
 pub fn known(name: &str) -> bool {
-    name == "sum" || OTHERS.iter().any(|(known, ..)| *known == name)
+    other_functions().any(|known| known == name)
+}
+
+/// The names of all functions but those of one number.
+pub fn other_functions() -> impl Iterator<Item = &'static str> + Clone {
+    OTHERS.iter().map(|(name, ..)| *name).chain(["sum"])
 }
 
 impl Evaluator {
@@ -255,9 +260,7 @@ impl Evaluator {
     fn unknown_function(&mut self, name: &Name) -> Option<Value> {
         let text = name.text.as_str();
         let functions = Function::ALL.iter().map(|(_, name)| *name);
-        let functions = functions
-            .chain(OTHERS.iter().map(|(name, ..)| *name))
-            .chain(["sum"]);
+        let functions = functions.chain(other_functions());
         let help = if self.scope.get(text).is_some() || text == "t" || text == "pi" {
             format!("`{text}` is no function; a product is written `{text}*(…)`")
         } else if let Some((_, form)) = ELSEWHERE.iter().find(|(other, _)| *other == text) {

@@ -26,7 +26,10 @@ mod statement;
 mod unit;
 mod value;
 
+pub(crate) use call::other_functions;
 pub use lower::lower;
+pub(crate) use scope::built_in;
+pub(crate) use si::units;
 
 use crate::diagnostic::Span;
 use crate::expr::{ExprId, Graph, Symbol};

@@ -59,6 +59,11 @@ pub const BUILT_IN: [(&str, &str); 3] = [
     ("deg", "the factor π/180"),
 ];
 
+/// The names that mean something everywhere.
+pub fn built_in() -> impl Iterator<Item = &'static str> {
+    BUILT_IN.iter().map(|(name, _)| *name)
+}
+
 /// The names in force.
 #[derive(Debug, Default)]
 pub struct Scope {

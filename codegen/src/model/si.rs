@@ -76,6 +76,11 @@ const SCALED: [(&str, &str, &str); 37] = [
     ("mV", "V", "1e-3"),
 ];
 
+/// The names of units.
+pub fn units() -> impl Iterator<Item = &'static str> {
+    NAMED.iter().map(|(name, _)| *name)
+}
+
 /// The dimension of a unit as written.
 pub fn resolve(unit: &UnitExpr) -> Result<Dimension, Box<Diagnostic>> {
     let mut total = NONE;

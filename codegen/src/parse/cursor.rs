@@ -1,7 +1,7 @@
 //! A reader of tokens that says what it expected, and goes on after a mistake.
 
 use super::NESTING;
-use super::ast::Name;
+use super::ast::{Crossing, Drawing, Name};
 use super::token::{Token, TokenKind, Tokens};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 
@@ -28,6 +28,24 @@ pub const STATEMENTS: [(&str, &str); 14] = [
     ("output", "output x: m = c.x;"),
     ("event", "event top: q1 - pi/2 rising;"),
     ("draw", "draw line([0, 0], c);"),
+];
+
+/// Words that hold statements and formulas together.
+pub const CONNECTIVES: [&str; 7] = ["mechanism", "for", "in", "on", "if", "then", "else"];
+
+/// What `draw` draws.
+pub const SHAPES: [(&str, Drawing); 4] = [
+    ("line", Drawing::Line),
+    ("circle", Drawing::Circle),
+    ("polygon", Drawing::Polygon),
+    ("trace", Drawing::Trace),
+];
+
+/// Which sign changes of an event count.
+pub const DIRECTIONS: [(&str, Crossing); 3] = [
+    ("rising", Crossing::Rising),
+    ("falling", Crossing::Falling),
+    ("crossing", Crossing::Crossing),
 ];
 
 /// Words that can't be names of quantities: they are part of formulas and

@@ -1,7 +1,7 @@
 //! Statements: the words that begin them, and the file around them.
 
-use super::ast::{Crossing, Declaration, Declared, Drawing, Energy, Item, ItemKind, Let, Name};
-use super::cursor::{Cursor, Parsed, STATEMENTS};
+use super::ast::{Declaration, Declared, Energy, Item, ItemKind, Let, Name};
+use super::cursor::{Cursor, DIRECTIONS, Parsed, SHAPES, STATEMENTS};
 use super::model::Model;
 use super::token::TokenKind;
 use crate::diagnostic::{Diagnostic, nearest};
@@ -227,13 +227,9 @@ impl Cursor<'_> {
         let name = self.name("the event", "event")?;
         self.expect_symbol(":", &example("event"))?;
         let value = self.expression()?;
-        let direction = match &self.peek().kind {
-            TokenKind::Word(word) if word == "rising" => Crossing::Rising,
-            TokenKind::Word(word) if word == "falling" => Crossing::Falling,
-            TokenKind::Word(word) if word == "crossing" => Crossing::Crossing,
-            _ => {
-                return Err(self.unexpected("`rising`, `falling` or `crossing`", &example("event")));
-            }
+        let direction = DIRECTIONS.iter().find(|(word, _)| self.at_word(word));
+        let Some((_, direction)) = direction.copied() else {
+            return Err(self.unexpected("`rising`, `falling` or `crossing`", &example("event")));
         };
         self.advance();
         Ok(ItemKind::Event {
@@ -245,12 +241,9 @@ impl Cursor<'_> {
 
     fn draw(&mut self) -> Parsed<ItemKind> {
         let help = "write `draw line(p, q);`, `draw circle(p, r);`, `draw polygon(p, q, s);` or `draw trace(p);`";
-        let shape = match &self.peek().kind {
-            TokenKind::Word(word) if word == "line" => Drawing::Line,
-            TokenKind::Word(word) if word == "circle" => Drawing::Circle,
-            TokenKind::Word(word) if word == "polygon" => Drawing::Polygon,
-            TokenKind::Word(word) if word == "trace" => Drawing::Trace,
-            _ => return Err(self.unexpected("`line`, `circle`, `polygon` or `trace`", help)),
+        let shape = SHAPES.iter().find(|(word, _)| self.at_word(word));
+        let Some((_, shape)) = shape.copied() else {
+            return Err(self.unexpected("`line`, `circle`, `polygon` or `trace`", help));
         };
         self.advance();
         self.expect_symbol("(", help)?;

@@ -24,6 +24,7 @@ mod start;
 mod token;
 mod unit;
 
+pub(crate) use cursor::{CONNECTIVES, DIRECTIONS, SHAPES, STATEMENTS};
 pub use formula::{Formula, ModelError};
 pub use model::Model;
 

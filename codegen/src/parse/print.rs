@@ -5,9 +5,10 @@
 //!      part of them; doc comments are.
 
 use super::ast::{
-    Condition, Crossing, Declared, Drawing, Energy, Expr, ExprKind, Item, ItemKind, Range,
-    StartItem, UnitExpr,
+    Condition, Declared, Drawing, Energy, Expr, ExprKind, Item, ItemKind, Range, StartItem,
+    UnitExpr,
 };
+use super::cursor::{DIRECTIONS, SHAPES};
 use super::model::Model;
 use crate::expr::{Comparison, Number};
 
@@ -90,11 +91,7 @@ fn statement(kind: &ItemKind, depth: usize) -> String {
             value,
             direction,
         } => {
-            let direction = match direction {
-                Crossing::Rising => "rising",
-                Crossing::Falling => "falling",
-                Crossing::Crossing => "crossing",
-            };
+            let direction = word(&DIRECTIONS, *direction);
             format!("event {}: {} {direction};", name.text, formula(value))
         }
         ItemKind::Draw { shape, arguments } => draw(*shape, arguments),
@@ -106,13 +103,14 @@ fn statement(kind: &ItemKind, depth: usize) -> String {
 }
 
 fn draw(shape: Drawing, arguments: &[Expr]) -> String {
-    let word = match shape {
-        Drawing::Line => "line",
-        Drawing::Circle => "circle",
-        Drawing::Polygon => "polygon",
-        Drawing::Trace => "trace",
-    };
+    let word = word(&SHAPES, shape);
     format!("draw {word}({});", list(arguments))
+}
+
+/// The word for a meaning.
+fn word<T: PartialEq + Copy>(words: &[(&'static str, T)], meaning: T) -> &'static str {
+    let found = words.iter().find(|(_, known)| *known == meaning);
+    found.map_or("", |(word, _)| word)
 }
 
 fn start_block(entries: &[StartItem], depth: usize) -> String {

@@ -96,10 +96,7 @@ fn rows<T: Real, const R: usize>(
             continue;
         }
         f.write_str(separator)?;
-        match structure.constraints.get(i) {
-            Some(row) => write!(f, "`{}` (line {})", row.text, row.line)?,
-            None => write!(f, "equation {i}")?,
-        }
+        structure.write_constraint(f, i)?;
         write!(f, " is off by {error}{per}")?;
         separator = ", ";
     }

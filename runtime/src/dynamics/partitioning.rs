@@ -47,7 +47,11 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let t = state.t;
         project_onto(&self.terms.mass, &null_space, free, &force)
             .map(|change| particular + change)
-            .map_err(|coordinate| DynamicsError::MassSingular { t, coordinate })
+            .map_err(|column| DynamicsError::MassSingular {
+                t,
+                coordinate: independent(&eliminated, column),
+                structure: mechanism.structure(),
+            })
     }
 }
 
@@ -60,6 +64,16 @@ fn particular<T: Real, const N: usize, const R: usize>(
         particular[eliminated.dependent[k]] = eliminated.offset[k];
     }
     particular
+}
+
+/// The coordinate that moves in a column of `D` and in no other.
+fn independent<T: Real, const N: usize, const R: usize>(
+    eliminated: &Elimination<T, N, R>,
+    column: usize,
+) -> usize {
+    let dependent = &eliminated.dependent[..eliminated.rank];
+    let mut independent = (0..N).filter(|j| !dependent.contains(j));
+    independent.nth(column).unwrap_or(column)
 }
 
 /// The columns of `D`, and how many there are.

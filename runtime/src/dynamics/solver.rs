@@ -118,7 +118,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         source: Source,
         t: T,
     ) -> Result<(), DynamicsError<T>> {
-        let constant = mechanism.structure().constant_mass;
+        let structure = mechanism.structure();
+        let constant = structure.constant_mass;
         let (mass, jacobian) = match source {
             Source::Terms => (&self.terms.mass, &self.terms.jacobian),
             Source::Position => (&self.position.mass, &self.position.jacobian),
@@ -129,7 +130,11 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             .factorise(mass, jacobian, rows, constant, counters);
         result.map_err(|NotDefinite { row }| {
             if mass.iter().chain(jacobian.iter()).all(|x| x.is_finite()) {
-                DynamicsError::MassSingular { t, coordinate: row }
+                DynamicsError::MassSingular {
+                    t,
+                    coordinate: row,
+                    structure,
+                }
             } else {
                 DynamicsError::NotFinite { t }
             }

@@ -118,7 +118,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             state.q += self.lower(w);
             before = Some(worst);
         }
-        Err(self.failed(state))
+        Err(self.failed(mechanism, state))
     }
 
     /// One linear solve for `A q̇ + b = 0` with the factors of the position in the
@@ -163,13 +163,18 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// The error of a projection that gives up at the position in the buffer.
-    fn failed(&self, state: &State<T, N>) -> DynamicsError<T> {
+    fn failed<M: Mechanism<T, N, R> + ?Sized>(
+        &self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> DynamicsError<T> {
         let (_, row) = self.residual(&self.position.residual);
         let residual = self.position.residual[row].abs();
         DynamicsError::ProjectionFailed {
             t: state.t,
             residual,
             row,
+            structure: mechanism.structure(),
         }
     }
 

@@ -89,7 +89,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         }
         mechanism.position(state, &mut self.position);
         if self.finite_residual(state)? > acceptable::<T>() * self.reach {
-            return Err(self.failed(state));
+            return Err(self.failed(mechanism, state));
         }
         Ok(())
     }

@@ -1,12 +1,16 @@
 //! `bricard check`: the front end alone.
 //!
 //! In:  a file.
-//! Out: what is wrong or doubtful in it, on standard error.
+//! Out: what is wrong or doubtful in it: for people on standard error, or as JSON on
+//!      standard output.
+
+mod json;
 
 use crate::arguments::Check;
 use crate::error::CommandError;
 use crate::output::{print, say};
-use bricard_codegen::{Settings, examine};
+use bricard_codegen::model::Mechanism;
+use bricard_codegen::{Diagnostics, Settings, examine};
 use std::fs;
 use std::path::Path;
 
@@ -14,18 +18,30 @@ use std::path::Path;
 pub fn check(arguments: &Check) -> Result<(), CommandError> {
     let source = read(&arguments.file)?;
     let file = arguments.file.display().to_string();
-    let (mechanism, warnings) = examine(&source, &Settings::default())
-        .map_err(|errors| CommandError::Description(errors.render(&file, &source)))?;
+    let examined = examine(&source, &Settings::default());
+    if arguments.json {
+        print(&json::report(&file, &examined))?;
+        return examined.map(|_| ()).map_err(|_| CommandError::Said);
+    }
+    let (mechanism, warnings) =
+        examined.map_err(|errors| CommandError::Description(errors.render(&file, &source)))?;
     if !warnings.is_empty() {
         say(warnings.render(&file, &source).trim_end());
     }
-    print(&format!(
+    print(&in_order(&file, &mechanism))
+}
+
+fn in_order(file: &str, mechanism: &Mechanism) -> String {
+    format!(
         "{file}: `{}` is in order: {} coordinates, {} constraint equations\n",
         mechanism.name,
         mechanism.coordinates.len(),
         mechanism.constraints.len()
-    ))
+    )
 }
+
+/// What the front end gives: a mechanism with warnings, or errors.
+type Examined = Result<(Mechanism, Diagnostics), Diagnostics>;
 
 /// The text of a description.
 pub fn read(path: &Path) -> Result<String, CommandError> {

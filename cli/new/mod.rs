@@ -1,0 +1,104 @@
+//! `bricard new`: a crate to begin with.
+//!
+//! In:  a name.
+//! Out: a folder with a commented mechanism, the build script that compiles it, and a
+//!      program that simulates it.
+//!
+//! Not here: an existing folder is never touched.
+
+mod text;
+
+use crate::arguments::New;
+use crate::error::CommandError;
+use crate::output::print;
+use bricard_codegen::emit::{module_name, type_name};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Names that Rust or cargo keep for themselves, and those that the program uses.
+const RESERVED: [&str; 12] = [
+    "alloc",
+    "bricard_codegen",
+    "bricard_runtime",
+    "build",
+    "core",
+    "deps",
+    "examples",
+    "incremental",
+    "main",
+    "proc_macro",
+    "std",
+    "test",
+];
+
+/// Writes the crate.
+pub fn new(arguments: &New) -> Result<(), CommandError> {
+    let name = arguments.name.as_str();
+    let module = module(name)?;
+    let workspace = arguments.path.as_deref().map(workspace).transpose()?;
+    let folder = PathBuf::from(name);
+    if folder.exists() {
+        return Err(CommandError::Exists(folder));
+    }
+    let kind = type_name(&module);
+    let files = [
+        ("Cargo.toml", text::manifest(name, workspace.as_deref())),
+        ("build.rs", text::build_script(&module)),
+        ("src/main.rs", text::program(&module, &kind)),
+        (
+            &*format!("mechanisms/{module}.mech"),
+            text::description(&kind),
+        ),
+        (".gitignore", "/target\n".to_string()),
+    ];
+    for (file, text) in files {
+        write(&folder.join(file), &text)?;
+    }
+    print(&format!(
+        "{name}/ holds a mechanism, its build script and a program that simulates it:\n\n    \
+         cd {name}\n    cargo run --release\n\n\
+         The mechanism is in mechanisms/{module}.mech.\n"
+    ))
+}
+
+/// The name of the module and of the description's file.
+fn module(name: &str) -> Result<String, CommandError> {
+    let refuse = |why| {
+        Err(CommandError::Name {
+            name: name.to_string(),
+            why,
+        })
+    };
+    let first = name.chars().next();
+    let letters = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_' || c == '-';
+    if !first.is_some_and(|c| c.is_ascii_lowercase()) || !name.chars().all(letters) {
+        return refuse(
+            "it begins with a lower-case letter and goes on with these, digits, `-` and `_`",
+        );
+    }
+    let module = name.replace('-', "_");
+    if module.ends_with('_') || module.contains("__") {
+        return refuse("`-` and `_` stand alone and between letters");
+    }
+    if RESERVED.contains(&module.as_str()) || module_name(&module) != module {
+        return refuse("it means something in Rust or to cargo");
+    }
+    Ok(module)
+}
+
+/// The folder that holds the crates to depend on, in full.
+fn workspace(path: &Path) -> Result<PathBuf, CommandError> {
+    let read = |error| CommandError::Read(path.to_path_buf(), error);
+    for package in ["codegen", "runtime"] {
+        fs::metadata(path.join(package).join("Cargo.toml")).map_err(read)?;
+    }
+    path.canonicalize().map_err(read)
+}
+
+fn write(path: &Path, text: &str) -> Result<(), CommandError> {
+    let failed = |error| CommandError::write(path, error);
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).map_err(failed)?;
+    }
+    fs::write(path, text).map_err(failed)
+}

@@ -1,0 +1,43 @@
+//! The words of the language, for editors and other tools.
+//!
+//! In:  nothing.
+//! Out: every word that means something, by what it is.
+
+use crate::expr::Function;
+use crate::{model, parse};
+
+/// Words that begin a statement, `for` aside.
+pub fn statements() -> impl Iterator<Item = &'static str> {
+    parse::STATEMENTS.iter().map(|(word, _)| *word)
+}
+
+/// Words that hold statements and formulas together.
+pub fn connectives() -> impl Iterator<Item = &'static str> {
+    parse::CONNECTIVES.into_iter()
+}
+
+/// What can be drawn.
+pub fn shapes() -> impl Iterator<Item = &'static str> {
+    parse::SHAPES.iter().map(|(word, _)| *word)
+}
+
+/// The directions of events.
+pub fn directions() -> impl Iterator<Item = &'static str> {
+    parse::DIRECTIONS.iter().map(|(word, _)| *word)
+}
+
+/// Functions.
+pub fn functions() -> impl Iterator<Item = &'static str> {
+    let unary = Function::ALL.iter().map(|(_, name)| *name);
+    unary.chain(model::other_functions())
+}
+
+/// Names that mean something everywhere.
+pub fn constants() -> impl Iterator<Item = &'static str> {
+    model::built_in()
+}
+
+/// Units.
+pub fn units() -> impl Iterator<Item = &'static str> {
+    model::units()
+}

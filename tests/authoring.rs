@@ -1,0 +1,166 @@
+//! What a person who writes mechanisms is given: `list`, `check --json`, `new`.
+
+use serde_json::{Value, json};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn run(command: &mut Command) -> (Option<i32>, String, String) {
+    let output = command.output().expect("the command starts");
+    let Output { status, .. } = output;
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (status.code(), text(&output.stdout), text(&output.stderr))
+}
+
+fn bricard(folder: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_bricard"));
+    run(command.current_dir(folder).args(arguments))
+}
+
+/// An empty folder of one test's own.
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let folder = folder.join("authoring").join(test);
+    let _nothing_there = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder can be made");
+    folder
+}
+
+#[test]
+fn the_benchmark_problems_are_listed_and_shown_by_name_too() {
+    let folder = folder("list");
+    let (status, list, _) = bricard(&folder, &["list"]);
+    assert_eq!(status, Some(0));
+    let (library, benchmarks) = list
+        .split_once("benchmark problems")
+        .expect("two tables, the second with a heading");
+    for name in bricard_benchmarks::NAMES {
+        let begins = |line: &str| line.split_whitespace().next() == Some(name);
+        assert!(benchmarks.lines().any(begins), "{name}\n{benchmarks}");
+        assert!(!library.lines().any(begins), "{name}\n{library}");
+    }
+    let (status, shown, said) = bricard(&folder, &["show", "pendulum"]);
+    assert_eq!(status, Some(0), "{said}");
+    assert!(shown.contains("M[1,1]") || shown.contains("M["), "{shown}");
+    let (status, _, said) = bricard(&folder, &["show", "pendulumm"]);
+    assert_eq!(status, Some(2));
+    assert!(said.contains("did you mean `pendulum`?"), "{said}");
+}
+
+/// Checks a description with `--json`.
+fn checked(test: &str, source: &str) -> (Option<i32>, Value, String) {
+    let folder = folder(test);
+    fs::write(folder.join("a.mech"), source).expect("the folder is ours");
+    let (status, out, said) = bricard(&folder, &["check", "a.mech", "--json"]);
+    let report = serde_json::from_str(&out).unwrap_or_else(|error| panic!("{error}: {out}"));
+    (status, report, said)
+}
+
+#[test]
+fn every_message_of_check_is_there_as_json() {
+    let source = "mechanism A {\n    coord q: rad;\n    coord q: m;\n    kinetic derr(q)^2;\n}\n";
+    let (status, report, said) = checked("wrong", source);
+    assert_eq!((status, said.as_str()), (Some(1), ""));
+    assert_eq!(report["mechanism"], Value::Null);
+    let twice = json!({
+        "file": "a.mech",
+        "line": 3,
+        "column": 11,
+        "end": { "line": 3, "column": 12 },
+        "severity": "error",
+        "message": "`q` is declared twice",
+        "label": "declared again here",
+        "labels": [{
+            "line": 2,
+            "column": 11,
+            "end": { "line": 2, "column": 12 },
+            "text": "declared here",
+        }],
+        "help": "choose another name for one of them",
+    });
+    let messages = report["messages"].as_array().expect("a list");
+    assert_eq!(messages.len(), 2, "{report:#}");
+    assert_eq!(messages[0], twice);
+    assert_eq!(messages[1]["message"], "unknown function `derr`");
+    assert_eq!(messages[1]["help"], "did you mean `der`?");
+}
+
+#[test]
+fn what_is_in_order_is_said_to_be_so_with_its_warnings() {
+    let source = "mechanism A { param a = 1; coord q; kinetic der(q)^2; }";
+    let (status, report, said) = checked("right", source);
+    assert_eq!((status, said.as_str()), (Some(0), ""));
+    let mechanism = json!({ "name": "A", "coordinates": 1, "constraint_equations": 0 });
+    assert_eq!(report["mechanism"], mechanism);
+    assert_eq!(report["messages"][0]["severity"], "warning");
+    assert_eq!(report["messages"][0]["message"], "`a` is never used");
+    let (status, out, said) = bricard(&folder("none"), &["check", "a.mech", "--json"]);
+    assert_eq!((status, out.as_str()), (Some(1), ""));
+    assert!(said.contains("could not read a.mech"), "{said}");
+}
+
+#[test]
+fn a_new_crate_builds_without_a_network_and_simulates() {
+    let folder = folder("new");
+    let workspace = env!("CARGO_MANIFEST_DIR");
+    let arguments = ["new", "my-engine", "--path", workspace];
+    let (status, said, error) = bricard(&folder, &arguments);
+    assert_eq!(status, Some(0), "{error}");
+    assert!(said.contains("mechanisms/my_engine.mech"), "{said}");
+    let made = folder.join("my-engine");
+    // The versions of the workspace, so that what it has built serves here too.
+    let lock = Path::new(workspace).join("Cargo.lock");
+    fs::copy(lock, made.join("Cargo.lock")).expect("the folder is ours");
+    let target = Path::new(env!("CARGO_BIN_EXE_bricard"))
+        .parent()
+        .and_then(Path::parent);
+    let (status, out, error) = run(Command::new(env!("CARGO"))
+        .args(["run", "--offline", "--quiet"])
+        .current_dir(&made)
+        .env(
+            "CARGO_TARGET_DIR",
+            target.expect("the folder of target/debug"),
+        )
+        .env("CARGO_PROFILE_DEV_DEBUG", "line-tables-only"));
+    assert_eq!(status, Some(0), "{error}");
+    assert_eq!(error, "", "the build of a new crate warns");
+    assert_eq!(out.lines().count(), 1 + 21 + 1, "{out}");
+    assert!(out.contains("crank") && out.contains("J"), "{out}");
+}
+
+#[test]
+fn what_is_there_already_and_what_is_no_name_is_refused() {
+    let folder = folder("refused");
+    let mine = folder.join("mine");
+    fs::create_dir(&mine).expect("the folder is ours");
+    let (status, _, said) = bricard(&folder, &["new", "mine"]);
+    assert_eq!(status, Some(1));
+    assert!(said.contains("mine is there already"), "{said}");
+    assert!(fs::read_dir(&mine).expect("it is there").next().is_none());
+    let names = [
+        "Engine",
+        "2nd",
+        "",
+        "a b",
+        "../up",
+        "a/b",
+        "type",
+        "std",
+        "test",
+        "a__b",
+        "a-",
+        "a--b",
+        "bricard_runtime",
+        "größe",
+    ];
+    for name in names {
+        let (status, _, said) = bricard(&folder, &["new", "--", name]);
+        assert_eq!(status, Some(2), "{name}: {said}");
+        assert!(said.contains("a crate can't be called"), "{name}: {said}");
+        assert!(name.is_empty() || !folder.join(name).exists(), "{name}");
+    }
+    let (status, _, said) = bricard(&folder, &["new", "engine", "--path", "nowhere"]);
+    assert_eq!(status, Some(1));
+    assert!(said.contains("could not read nowhere"), "{said}");
+    assert!(!folder.join("engine").exists());
+}
