@@ -230,3 +230,26 @@ fn endless_work_is_refused() {
         "let x0 = q; {doubling} output y = der(x64);"
     )));
 }
+
+#[test]
+fn numbers_beyond_all_bounds_are_refused_and_none_becomes_zero() {
+    let refused = [
+        "2^1000000",
+        "(10^300)^300",
+        "7^7^7^7",
+        "1e400",
+        "1e-400",
+        "10^-400*q",
+        "0.1^1000",
+        "1e-200*1e-200*q",
+        "1e308*1e308",
+        "q/(w - w)",
+        "q^(10^9)",
+    ];
+    for formula in refused {
+        super::refuse(&super::with(&format!("output y = {formula};")));
+    }
+    for formula in ["q^1000", "(1/3)^500*3^500", "1e-300*q*1e300", "0*q", "0^3"] {
+        super::accept(&super::with(&format!("output y = {formula};")));
+    }
+}

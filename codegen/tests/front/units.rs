@@ -209,3 +209,13 @@ fn a_number_takes_the_unit_of_what_it_stands_beside() {
     refuse_saying(&with("let a = x + 45*deg;"), message);
     refuse_saying(&with("let a = L*x + 2*L;"), "this sum mixes m^2 and m");
 }
+
+#[test]
+fn the_rate_of_what_a_bare_number_made_is_not_checked() {
+    // The 1 may be a metre or a ratio, so the rate may be a speed or a frequency.
+    let axis = "param m: kg = 1; param r: m = 1; param a: rad = 1; coord q: rad;
+        let axis = rotz(q)*rotx(a)*[0, 0, 1];";
+    for energy in ["1/2*m*r^2*norm2(der(axis))", "1/2*m*norm2(der(axis))"] {
+        accept(&format!("mechanism Test {{ {axis} kinetic {energy}; }}"));
+    }
+}
