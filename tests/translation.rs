@@ -277,20 +277,27 @@ fn the_regular_corrections_solve_the_constraints_with_the_least_kinetic_norm() {
             let found = answers.get(("corrected residual", row, 0));
             cancels(found - residual, residual.abs(), &format!("{what}: g"));
         }
-        let speed =
-            |row: &Vec<f64>, i: usize, v: &[f64]| dot(row, v) + answers.get(("drift", i, 0));
         let (point, _) = asked(derived, seed_of(what), true);
+        // The velocity is corrected as it is needed after the position is.
+        let moved = answers.vector("correction of q", n);
+        let gap_of_speed = |row: &Vec<f64>, i: usize| {
+            let turn = derived.vector(&derived.equations.turn[i], &point);
+            let turned = dot(&turn, &moved);
+            let scale = size(row, &point.v) + size(&turn, &moved);
+            let gap = dot(row, &point.v) + answers.get(("drift", i, 0)) + turned;
+            (gap, scale)
+        };
         for (level, array) in ["correction of q", "correction of v"]
             .into_iter()
             .enumerate()
         {
             let step = answers.vector(array, n);
             for (i, row) in jacobian.iter().enumerate() {
-                let gap = match level {
-                    0 => answers.get(("residual", i, 0)),
-                    _ => speed(row, i, &point.v),
+                let (gap, scale) = match level {
+                    0 => (answers.get(("residual", i, 0)), 0.0),
+                    _ => gap_of_speed(row, i),
                 };
-                let scale = size(row, &step) + gap.abs();
+                let scale = size(row, &step) + gap.abs() + scale;
                 cancels(dot(row, &step) + gap, scale, &format!("{what}: {array}"));
             }
             let pushed = times(&mass, &step);

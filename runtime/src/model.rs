@@ -132,7 +132,8 @@ pub struct Correction<T, const N: usize, const R: usize> {
     pub residual: SVector<T, R>,
     /// The least `Δq` in the kinetic metric with `A Δq = −g`, `N`.
     pub position: SVector<T, N>,
-    /// The least `Δq̇` in the kinetic metric with `A Δq̇ = −(A q̇ + b)`, `N`.
+    /// The least `Δq̇` in the kinetic metric with `A Δq̇ = −(A q̇ + b)`, `N`; the right-hand
+    /// side is that at `q + Δq`, to first order.
     pub velocity: SVector<T, N>,
     /// What was divided by.
     pub pivots: Pivots<T, N, R>,

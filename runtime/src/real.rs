@@ -39,6 +39,12 @@ pub trait Real:
     /// Neither infinite nor NaN.
     fn is_finite(self) -> bool;
 
+    /// `self · factor + term`, rounded once where the processor has an operation for
+    /// that.
+    #[inline(always)]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        self * factor + term
+    }
     /// Sine and cosine of one angle (rad), computed together.
     fn sin_cos(self) -> (Self, Self);
     /// Sines and cosines of several angles (rad): the first array holds the sines.
@@ -104,6 +110,12 @@ macro_rules! real_for_float {
             #[inline(always)]
             fn is_finite(self) -> bool {
                 $float::is_finite(self)
+            }
+            // Without such an operation a function would be called.
+            #[cfg(all(feature = "std", target_feature = "fma"))]
+            #[inline(always)]
+            fn mul_add(self, factor: Self, term: Self) -> Self {
+                $float::mul_add(self, factor, term)
             }
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {

@@ -23,8 +23,15 @@ impl<T: Real, const N: usize> State<T, N> {
 
     /// Whether every number of the state is finite.
     pub fn is_finite(&self) -> bool {
-        self.t.is_finite() && self.q.iter().chain(self.v.iter()).all(|x| x.is_finite())
+        self.t.is_finite() && all_finite(&self.q) && all_finite(&self.v)
     }
+}
+
+/// Whether every entry is finite; all are looked at, side by side.
+#[inline]
+pub(crate) fn all_finite<T: Real, const N: usize>(vector: &SVector<T, N>) -> bool {
+    let [entries] = &vector.data.0;
+    entries.iter().fold(true, |all, x| all & x.is_finite())
 }
 
 impl<T: Real, const N: usize> Default for State<T, N> {

@@ -3,7 +3,7 @@
 //! Holonomic rows: `g(q, t) = 0`, `φ = ġ = A q̇ + b`. Velocity rows: `φ = A q̇ + b`
 //! as written. From there both are alike: `φ̇ = A q̈ + γ`, `p₂ = −γ`.
 
-use super::{Matrix, gradient, rates, velocities};
+use super::{Matrix, coordinates, gradient, rates, velocities};
 use crate::expr::{ExprId, Graph};
 use crate::model::Constraint;
 
@@ -11,6 +11,8 @@ pub(super) struct Closure {
     pub residual: Vec<ExprId>,
     /// `φ = A q̇ + b`.
     pub speed: Vec<ExprId>,
+    /// `∂φ/∂q`.
+    pub turn: Matrix,
     pub jacobian: Matrix,
     pub drift: Vec<ExprId>,
     /// `γ = Ȧ q̇ + ḃ`.
@@ -36,6 +38,10 @@ pub(super) fn closure(graph: &mut Graph, constraints: &[Constraint], n: usize) -
         .iter()
         .map(|&phi| gradient(graph, phi, velocities(n)))
         .collect();
+    let turn: Matrix = speed
+        .iter()
+        .map(|&phi| gradient(graph, phi, coordinates(n)))
+        .collect();
     let drift = speed.iter().map(|&phi| graph.at_rest(phi)).collect();
     let gamma = rates(graph, &speed, n);
     let bias = gamma.iter().map(|&gamma| graph.neg(gamma)).collect();
@@ -45,6 +51,7 @@ pub(super) fn closure(graph: &mut Graph, constraints: &[Constraint], n: usize) -
     Closure {
         residual,
         speed,
+        turn,
         jacobian,
         drift,
         gamma,

@@ -47,6 +47,8 @@ pub struct Equations {
     pub residual: Vec<ExprId>,
     /// `A q̇ + b`, `R`.
     pub speed: Vec<ExprId>,
+    /// `∂(A q̇ + b)/∂q`, `R × N`.
+    pub turn: Matrix,
     /// `A`, `R × N`.
     pub jacobian: Matrix,
     /// `b`, `R`, of the velocity level `A q̇ + b = 0`.
@@ -115,6 +117,7 @@ fn equations(mechanism: &mut Mechanism) -> Option<Equations> {
         force,
         residual: closure.residual,
         speed: closure.speed,
+        turn: closure.turn,
         jacobian: closure.jacobian,
         drift: closure.drift,
         bias: closure.bias,

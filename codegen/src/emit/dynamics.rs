@@ -119,6 +119,7 @@ fn correction(subject: &mut Subject) -> TokenStream {
     wanted.extend(matrix("jacobian", &equations.jacobian));
     wanted.extend(vector("residual", &equations.residual));
     wanted.extend(vector("speed", &equations.speed));
+    wanted.extend(matrix("turn", &equations.turn));
     let Some(program) = regular_correction(&subject.program(&wanted), n, r) else {
         return TokenStream::new();
     };

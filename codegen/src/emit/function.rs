@@ -29,6 +29,8 @@ struct Piece {
     tokens: TokenStream,
     binding: Binding,
     operands: usize,
+    /// A product in two parts: each stands anywhere, the second only inside brackets.
+    factors: Option<(TokenStream, TokenStream)>,
 }
 
 /// The names of the symbols of a mechanism inside function bodies.
@@ -271,22 +273,52 @@ impl Writer<'_> {
             .sum()
     }
 
+    /// A product that is written where it is added goes with the sum into one operation.
     fn sum(&self, terms: &[(bool, Value)]) -> Piece {
-        let mut tokens = TokenStream::new();
-        for (i, (minus, value)) in terms.iter().enumerate() {
-            let term = self.bound(*value, Binding::Product);
-            tokens.extend(match (minus, i) {
-                (false, 0) => quote!(#term),
-                (false, _) => quote!(+ #term),
-                (true, _) => quote!(- #term),
-            });
+        let (first, rest) = self.begun(terms);
+        let mut sum = first;
+        for (minus, value) in rest {
+            let term = self.piece(value);
+            let (so_far, operands) = (sum.tokens, sum.operands + term.operands);
+            let (tokens, binding) = match (&term.factors, minus) {
+                (Some((x, y)), false) => (quote!(#x.mul_add(#y, #so_far)), Binding::Atom),
+                (Some((x, y)), true) => (quote!((-#x).mul_add(#y, #so_far)), Binding::Atom),
+                (None, _) => {
+                    let term = self.bound(value, Binding::Product);
+                    let sign = if minus { quote!(-) } else { quote!(+) };
+                    (quote!(#so_far #sign #term), Binding::Sum)
+                }
+            };
+            sum = Piece {
+                tokens,
+                binding,
+                operands,
+                factors: None,
+            };
         }
-        let operands = self.operands(terms.iter().map(|(_, value)| *value));
-        Piece {
-            tokens,
+        sum
+    }
+
+    /// What a sum begins with, a term that is no product if one is added, and the rest.
+    fn begun(&self, terms: &[(bool, Value)]) -> (Piece, Vec<(bool, Value)>) {
+        let mut rest = terms.to_vec();
+        let plain = |(minus, value): &(bool, Value)| !minus && self.piece(*value).factors.is_none();
+        let (minus, value) = rest.remove(terms.iter().position(plain).unwrap_or(0));
+        let Piece {
+            tokens, operands, ..
+        } = self.piece(value);
+        let term = self.bound(value, Binding::Product);
+        let piece = Piece {
+            tokens: if minus {
+                quote!(-#term)
+            } else {
+                tokens.clone()
+            },
             binding: Binding::Sum,
-            operands,
-        }
+            operands: *operands,
+            factors: None,
+        };
+        (piece, rest)
     }
 
     /// Numbers stand in front, as people write them.
@@ -295,28 +327,24 @@ impl Writer<'_> {
         let (mut ordered, others): (Vec<Value>, Vec<Value>) =
             factors.iter().copied().partition(is_number);
         ordered.extend(others);
-        let mut tokens = TokenStream::new();
-        for (i, value) in ordered.into_iter().enumerate() {
-            let first = i == 0;
-            let factor = self.bound(
-                value,
-                if first {
-                    Binding::Product
-                } else {
-                    Binding::Atom
-                },
-            );
-            tokens.extend(if first {
-                quote!(#factor)
-            } else {
-                quote!(* #factor)
-            });
-        }
-        let operands = self.operands(factors.iter().copied());
+        let mut pieces: Vec<TokenStream> = ordered
+            .iter()
+            .map(|value| self.bound(*value, Binding::Atom))
+            .collect();
+        let last = pieces.pop().unwrap_or_default();
+        let bare = ordered
+            .last()
+            .map(|value| self.piece(*value).tokens.clone());
+        let in_front = match &pieces[..] {
+            [only] => only.clone(),
+            [first, rest @ ..] => quote!((#first #(* #rest)*)),
+            [] => TokenStream::new(),
+        };
         Piece {
-            tokens,
+            tokens: quote!(#(#pieces *)* #last),
             binding: Binding::Product,
-            operands,
+            operands: self.operands(factors.iter().copied()),
+            factors: bare.map(|bare| (in_front, bare)),
         }
     }
 
@@ -330,6 +358,7 @@ impl Writer<'_> {
             tokens: quote!(#above / #below),
             binding: Binding::Product,
             operands,
+            factors: None,
         }
     }
 
@@ -373,6 +402,7 @@ impl Writer<'_> {
             tokens,
             binding: Binding::Atom,
             operands: OPERANDS_MAX + 1,
+            factors: None,
         }
     }
 }
@@ -382,6 +412,7 @@ fn atom(tokens: TokenStream) -> Piece {
         tokens,
         binding: Binding::Atom,
         operands: 1,
+        factors: None,
     }
 }
 

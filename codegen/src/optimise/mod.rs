@@ -88,7 +88,7 @@ pub fn regular_acceleration(terms: &Program, n: usize, r: usize) -> Option<Progr
 }
 
 /// The program for the least corrections of position and velocity, from the
-/// program for `mass`, `jacobian`, `residual`, `speed`; `None` where it would divide
+/// program for `mass`, `jacobian`, `residual`, `speed`, `turn`; `None` where it would divide
 /// by what is zero everywhere.
 ///
 /// # Panics

@@ -6,21 +6,35 @@
 //! Not here: the forms, which have a file each.
 
 use super::{Solver, Source};
+use crate::state::all_finite;
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
 use nalgebra::SVector;
 
 impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// The acceleration in the form of the settings.
+    #[inline]
     pub(crate) fn acceleration<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        self.prepare(mechanism, state)?;
+        if !self.is_prepared() {
+            self.prepare(mechanism, state)?;
+        }
         if let Some(acceleration) = self.emitted_acceleration(mechanism, state) {
             self.counters.cheap_accelerations += 1;
             return Ok(acceleration);
         }
+        self.general_acceleration(mechanism, state)
+    }
+
+    /// The acceleration by the runtime's own solves.
+    #[inline(never)]
+    fn general_acceleration<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
         let acceleration = if R == 0 {
             self.unconstrained(mechanism, state)?
         } else {
@@ -31,7 +45,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 Form::Partitioning => self.partitioning(mechanism, state)?,
             }
         };
-        if acceleration.iter().all(|x| x.is_finite()) {
+        if all_finite(&acceleration) {
             Ok(acceleration)
         } else {
             Err(DynamicsError::NotFinite { t: state.t })
@@ -101,7 +115,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// safely independent.
     #[inline]
     pub(super) fn is_safe_at(&self, state: &State<T, N>) -> bool {
-        self.safe.is_some_and(|(t, q)| t == state.t && q == state.q)
+        let is_at = |(t, q): &(T, SVector<T, N>)| *t == state.t && q.data.0 == state.q.data.0;
+        self.safe.as_ref().is_some_and(is_at)
     }
 
     /// Takes note that a state is on the constraints, with rows that are safely

@@ -159,6 +159,7 @@ impl<M, T: Real, const N: usize, const R: usize> System<T, N> for ConstrainedSys
 where
     M: Mechanism<T, N, R> + ?Sized,
 {
+    #[inline]
     fn acceleration(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>> {
         self.solver.acceleration(self.mechanism, state)
     }

@@ -9,7 +9,8 @@
 //! everywhere, whose pivots are never safe.
 
 use super::Solver;
-use crate::linalg::{definite, guard, passes, weak};
+use crate::linalg::{definite, guard, passes, straight, weak};
+use crate::state::all_finite;
 use crate::{DynamicsError, Form, Mechanism, Pivots, Real, Stabilisation, State};
 use nalgebra::SVector;
 
@@ -27,17 +28,13 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// The acceleration by emitted code, if there is any and it is safe here.
-    #[inline]
+    #[inline(always)]
     pub(super) fn emitted_acceleration<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
     ) -> Option<SVector<T, N>> {
-        if !self.asks_emitted() {
-            return None;
-        }
-        let safe = self.is_safe_at(state);
-        if self.near && !safe {
+        if !self.asks_emitted() || self.near && !self.is_safe_at(state) {
             return None;
         }
         self.emitted = mechanism.regular(state, &mut self.regular);
@@ -45,12 +42,11 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             return None;
         }
         let squared = squared_sine(&self.regular.pivots, &mut self.rows);
-        self.lowest = self.lowest.min(squared);
+        self.observe_lowest(squared);
         self.begin(squared);
-        let bound = if safe { weak() } else { guard() };
-        let acceleration = self.regular.acceleration;
-        let finite = acceleration.iter().all(|x| x.is_finite());
-        (finite && passes(squared, bound)).then_some(acceleration)
+        let trusted = passes(squared, guard()) || passes(squared, weak()) && self.is_safe_at(state);
+        let acceleration = &self.regular.acceleration;
+        (trusted && all_finite(acceleration)).then_some(*acceleration)
     }
 
     /// Brings a state onto the constraints by emitted code and returns the squared
@@ -69,21 +65,39 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 return None;
             }
             let squared = squared_sine(&self.correction.pivots, &mut self.rows);
-            self.lowest = self.lowest.min(squared);
+            self.observe_lowest(squared);
             let (worst, _) = self.residual(&self.correction.residual);
             if !passes(squared, weak()) || !worst.is_finite() {
                 return None;
             }
-            if self.is_on_constraints(worst, before) {
+            let landed = self.is_on_constraints(worst, before);
+            if !landed {
+                self.counters.projection_iterations += 1;
+                state.q += self.correction.position;
+            }
+            if landed || self.is_straight(worst, squared) {
                 state.v += self.correction.velocity;
                 self.safe_at(state, false);
                 return Some(squared);
             }
-            self.counters.projection_iterations += 1;
-            state.q += self.correction.position;
             before = Some(worst);
         }
         None
+    }
+
+    /// Whether the constraints are straight, to round-off, over the correction of a
+    /// residual, so that the state is on them after one.
+    #[inline]
+    fn is_straight(&self, worst: T, squared_sine: T) -> bool {
+        let most = straight::<T>() * self.reach;
+        worst * worst <= squared_sine * most * most
+    }
+
+    #[inline]
+    fn observe_lowest(&mut self, squared: T) {
+        if squared < self.lowest {
+            self.lowest = squared;
+        }
     }
 
     /// An acceleration at a state on the constraints, where the rows are safely
@@ -122,25 +136,21 @@ fn squared_sine<T: Real, const N: usize, const R: usize>(
     pivots: &Pivots<T, N, R>,
     rows: &mut super::Rows<T, R>,
 ) -> T {
+    let mut sound = true;
+    // Pivots that are diagonal entries themselves are not written.
+    let [masses] = &pivots.mass_pivots.data.0;
+    let [diagonal] = &pivots.mass_diagonal.data.0;
+    for (pivot, whole) in masses.iter().zip(diagonal) {
+        sound &= *pivot >= definite::<T>() * *whole;
+    }
     let mut smallest = T::one();
-    for j in 0..N {
-        // Pivots that are diagonal entries themselves are not written.
-        if !passes_mass(pivots.mass_pivots[j], pivots.mass_diagonal[j]) {
-            return T::zero();
-        }
-    }
     for row in 0..R {
-        rows.observe(row, pivots.row_squares[row]);
-        let ratio = pivots.row_pivots[row] / rows.size(row);
-        if !ratio.is_finite() {
-            return T::zero();
+        rows.observe(row, pivots.row_squares.data.0[0][row]);
+        let ratio = pivots.row_pivots.data.0[0][row] / rows.size(row);
+        sound &= ratio.is_finite();
+        if ratio < smallest {
+            smallest = ratio;
         }
-        smallest = smallest.min(ratio);
     }
-    smallest
-}
-
-#[inline]
-fn passes_mass<T: Real>(pivot: T, diagonal: T) -> bool {
-    pivot >= definite::<T>() * diagonal
+    if sound { smallest } else { T::zero() }
 }

@@ -18,6 +18,8 @@ use nalgebra::SMatrix;
 pub(crate) struct Rows<T, const R: usize> {
     /// Squared reference sizes.
     size: [T; R],
+    /// What rows are multiplied by to have size one.
+    scale: [T; R],
     /// Weights `W` of the rows in an augmented metric; zero until known.
     weight: [T; R],
     holonomic: [bool; R],
@@ -34,6 +36,7 @@ impl<T: Real, const R: usize> Rows<T, R> {
     pub(crate) fn new(holonomic: impl Fn(usize) -> bool) -> Self {
         Self {
             size: [T::zero(); R],
+            scale: [T::zero(); R],
             weight: [T::zero(); R],
             holonomic: core::array::from_fn(holonomic),
             active: core::array::from_fn(|row| row),
@@ -47,8 +50,16 @@ impl<T: Real, const R: usize> Rows<T, R> {
     /// Takes note of the squared size of a row.
     #[inline]
     pub(crate) fn observe(&mut self, row: usize, size: T) {
-        if size > self.size[row] && size.is_finite() {
+        if size > self.size[row] {
+            self.grow(row, size);
+        }
+    }
+
+    #[cold]
+    fn grow(&mut self, row: usize, size: T) {
+        if size.is_finite() {
             self.size[row] = size;
+            self.scale[row] = T::one() / size.sqrt();
         }
     }
 
@@ -60,12 +71,9 @@ impl<T: Real, const R: usize> Rows<T, R> {
 
     /// What a row is multiplied by to have size one; zero for a row that was
     /// never anything but zero.
+    #[inline]
     pub(crate) fn scale(&self, row: usize) -> T {
-        if self.size[row] > T::zero() {
-            T::one() / self.size[row].sqrt()
-        } else {
-            T::zero()
-        }
+        self.scale[row]
     }
 
     /// Whether a row is among those that are meant.

@@ -17,6 +17,10 @@ use crate::{
 };
 use nalgebra::{SMatrix, SVector};
 
+/// By which factor a coordinate grows before the length of the coordinates is measured
+/// again: round-off is needed to no more digits.
+const REACH_STEP: f64 = 1.125;
+
 /// Solves the equations of motion of a mechanism with `N` coordinates and `R`
 /// constraint equations.
 ///
@@ -50,6 +54,8 @@ pub struct Solver<T, const N: usize, const R: usize> {
     /// The largest length of the coordinates in the metric so far: what their
     /// round-off is measured by.
     pub(crate) reach: T,
+    /// The sizes of the coordinates up to which that is not measured again.
+    sizes: [T; N],
     /// The sine of the constraints at the last accepted state.
     sine: Option<T>,
     /// The smallest squared sine since then.
@@ -87,6 +93,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             bridged: None,
             shared: false,
             reach: T::zero(),
+            sizes: [-T::one(); N],
             sine: None,
             lowest: T::one(),
             near: false,
@@ -213,13 +220,20 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         Ok(tangent)
     }
 
+    /// Whether nothing is to be learned before the first state.
+    #[inline]
+    pub(crate) fn is_prepared(&self) -> bool {
+        self.prepared || R == 0
+    }
+
     /// Learns the sizes and the rank of the rows at the first state there is.
+    #[cold]
     pub(crate) fn prepare<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        if self.prepared || R == 0 {
+        if self.is_prepared() {
             return Ok(());
         }
         let constraints = mechanism.structure().constraints;
@@ -233,18 +247,33 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         Ok(())
     }
 
-    /// Takes note of the length of the coordinates in the metric. Functions of an angle
-    /// have the round-off of an angle of one, however small it is.
+    /// Takes note of the length of the coordinates in the metric, where one of them is
+    /// larger than it was.
+    #[inline]
     pub(crate) fn observe_reach<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
     ) {
+        let [q] = &state.q.data.0;
+        let sizes = q.iter().zip(&self.sizes);
+        if sizes.fold(false, |any, (q, size)| any | (q.abs() > *size)) {
+            self.extend_reach(mechanism, state);
+        }
+    }
+
+    /// Functions of an angle have the round-off of an angle of one, however small it is.
+    #[inline(never)]
+    fn extend_reach<M: Mechanism<T, N, R> + ?Sized>(&mut self, mechanism: &M, state: &State<T, N>) {
         let mut sizes = state.q;
         for (size, coordinate) in sizes.iter_mut().zip(mechanism.structure().coordinates) {
+            *size = size.abs();
             if coordinate.may_be_angle() {
-                *size = size.abs().max(T::one());
+                *size = size.max(T::one());
             }
+        }
+        for (known, size) in self.sizes.iter_mut().zip(&sizes) {
+            *known = known.max(*size * T::from_f64(REACH_STEP));
         }
         let reach = self.metric.factor.length(&sizes.data.0[0]);
         self.reach = self.reach.max(reach);

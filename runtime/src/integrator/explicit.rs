@@ -48,6 +48,7 @@ impl<T: Real, const N: usize, const S: usize> Explicit<T, N, S> {
     }
 
     /// Computes the slope at a state into a slot.
+    #[inline]
     fn evaluate<Y: System<T, N> + ?Sized>(
         &mut self,
         system: &mut Y,
@@ -61,6 +62,7 @@ impl<T: Real, const N: usize, const S: usize> Explicit<T, N, S> {
     }
 
     /// The state at the fraction `node` of a step of length `h`.
+    #[inline(always)]
     fn stage(&self, h: T, node: T, row: &[Term]) -> State<T, N> {
         let (q, v) = self.slopes.combine(row);
         let start = &self.step.start;

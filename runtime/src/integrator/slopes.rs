@@ -5,6 +5,7 @@
 
 use super::tableau::Term;
 use crate::Real;
+use crate::linalg::add_scaled;
 use nalgebra::SVector;
 
 /// Slopes of `(q, q̇)` in `S` slots.
@@ -29,12 +30,17 @@ impl<T: Real, const N: usize, const S: usize> Slopes<T, N, S> {
     }
 
     /// A combination of the slopes.
+    #[inline(always)]
     pub(super) fn combine(&self, row: &[Term]) -> (SVector<T, N>, SVector<T, N>) {
-        let (mut q, mut v) = (SVector::<T, N>::zeros(), SVector::<T, N>::zeros());
-        for &(slot, high, low) in row {
+        let Some((&(slot, high, low), rest)) = row.split_first() else {
+            return (SVector::zeros(), SVector::zeros());
+        };
+        let weight = T::constant(high, low);
+        let (mut q, mut v) = (self.v[slot] * weight, self.a[slot] * weight);
+        for &(slot, high, low) in rest {
             let weight = T::constant(high, low);
-            q.axpy(weight, &self.v[slot], T::one());
-            v.axpy(weight, &self.a[slot], T::one());
+            add_scaled(&mut q.data.0[0], weight, &self.v[slot].data.0[0]);
+            add_scaled(&mut v.data.0[0], weight, &self.a[slot].data.0[0]);
         }
         (q, v)
     }

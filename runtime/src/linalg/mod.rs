@@ -146,6 +146,13 @@ pub(crate) fn acceptable<T: Real>() -> T {
     truncation()
 }
 
+/// Length of a correction, in units of that of the coordinates, over which constraints
+/// are straight (1e-9 for `f64`): what a linear correction leaves is of the order of
+/// its square.
+pub(crate) fn straight<T: Real>() -> T {
+    truncation()
+}
+
 /// How many times its own uncertainty a residual must be before a weak direction
 /// is corrected for it. Less, and the correction would be noise.
 pub(crate) fn significant<T: Real>() -> T {

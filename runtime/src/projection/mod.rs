@@ -30,7 +30,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         if R == 0 || self.settings.stabilisation != Stabilisation::Projection {
             return Ok(());
         }
-        self.prepare(mechanism, state)?;
+        if !self.is_prepared() {
+            self.prepare(mechanism, state)?;
+        }
         self.counters.projections += 1;
         self.observe_reach(mechanism, state);
         let squared = self.land(mechanism, state)?;

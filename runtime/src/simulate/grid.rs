@@ -37,14 +37,14 @@ impl<T: Real> Grid<T> {
         if span > T::zero() && step < smallest {
             return Err(SimulateError::StepLost { step, smallest });
         }
-        let intervals = if span > T::zero() {
+        let intervals = if span <= step {
+            u64::from(span > T::zero())
+        } else {
             let steps = (span / step).to_f64() - SLIVER;
             // Rounds up; a number of steps too large for the type is one that no
             // run will reach.
             let whole = steps as u64;
             (whole + u64::from(steps > whole as f64)).max(1)
-        } else {
-            0
         };
         Ok(Self {
             start,

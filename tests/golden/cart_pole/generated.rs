@@ -152,8 +152,9 @@ pub mod cart_pole {
             out.mass.data.0[0][0] = m1 + m2;
             out.mass.data.0[0][1] = product;
             out.mass.data.0[1][0] = product;
-            out.mass.data.0[1][1] = j + e * m2_e;
-            out.force.data.0[0][0] = u + phi_dot * phi_dot * product_2 - d * x_dot;
+            out.mass.data.0[1][1] = e.mul_add(m2_e, j);
+            out.force.data.0[0][0] = (-d)
+                .mul_add(x_dot, (phi_dot * phi_dot).mul_add(product_2, u));
             out.force.data.0[0][1] = T::constant(9.81, -4.973799150320702e-16)
                 * product_2;
         }
@@ -169,16 +170,20 @@ pub mod cart_pole {
             let m2_e = m2 * e;
             let (sin_phi, cos_phi) = phi.sin_cos();
             let product = m2_e * sin_phi;
-            let sum = u + phi_dot * phi_dot * product - d * x_dot;
+            let sum = (-d).mul_add(x_dot, (phi_dot * phi_dot).mul_add(product, u));
             let quotient = T::one() / (m2 + m1);
             let product_2 = m2_e * cos_phi;
             let product_3 = quotient * product_2;
-            let sum_2 = j + e * m2_e;
-            let sum_3 = sum_2 - product_2 * product_3;
-            let product_4 = T::one() / sum_3
-                * (T::constant(9.81, -4.973799150320702e-16) * product
-                    - sum * product_3);
-            out.acceleration.data.0[0][0] = sum * quotient - product_3 * product_4;
+            let sum_2 = e.mul_add(m2_e, j);
+            let sum_3 = (-product_2).mul_add(product_3, sum_2);
+            let product_4 = (T::one() / sum_3)
+                * (-sum)
+                    .mul_add(
+                        product_3,
+                        T::constant(9.81, -4.973799150320702e-16) * product,
+                    );
+            out.acceleration.data.0[0][0] = (-product_3)
+                .mul_add(product_4, sum * quotient);
             out.acceleration.data.0[0][1] = product_4;
             out.pivots.mass_pivots.data.0[0][1] = sum_3;
             out.pivots.mass_diagonal.data.0[0][1] = sum_2;
@@ -209,7 +214,7 @@ pub mod cart_pole {
                 potential: product_9,
                 balance: product_2 + product_4 + product_6 + product_7 + product_8
                     + product_9,
-                power: x_dot * u - x_dot_x_dot * d,
+                power: (-x_dot_x_dot).mul_add(d, x_dot * u),
             }
         }
         /// The equations of motion linearised about a motion.
@@ -237,10 +242,13 @@ pub mod cart_pole {
             let m2_e = m2 * e;
             let product = cos_phi * m2_e;
             let product_2 = m2_e * sin_phi;
-            out.force_by_position.data.0[1][0] = phi_dot * phi_dot * product
-                + phi_ddot * product_2;
-            out.force_by_position.data.0[1][1] = product_2 * x_ddot
-                + T::constant(9.81, -4.973799150320702e-16) * product;
+            out.force_by_position.data.0[1][0] = phi_ddot
+                .mul_add(product_2, phi_dot * phi_dot * product);
+            out.force_by_position.data.0[1][1] = T::constant(
+                    9.81,
+                    -4.973799150320702e-16,
+                )
+                .mul_add(product, product_2 * x_ddot);
             out.force_by_velocity.data.0[0][0] = -d;
             out.force_by_velocity.data.0[1][0] = T::from_f64(2.0) * phi_dot * product_2;
             true
@@ -261,7 +269,7 @@ pub mod cart_pole {
             out.data.0[0][0] = m1 + m2;
             out.data.0[0][1] = product;
             out.data.0[1][0] = product;
-            out.data.0[1][1] = j + e * m2_e;
+            out.data.0[1][1] = e.mul_add(m2_e, j);
             out
         }
         /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
@@ -284,7 +292,7 @@ pub mod cart_pole {
             let Parameters { d, .. } = self.parameters;
             let u = self.inputs.u.unwrap_or(T::zero());
             let mut out = SVector::zeros();
-            out.data.0[0][0] = u - d * x_dot;
+            out.data.0[0][0] = (-d).mul_add(x_dot, u);
             out
         }
         /// `C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`; N for a
@@ -400,7 +408,7 @@ pub mod cart_pole {
                 .line(
                     &[
                         [x, T::zero(), T::zero()],
-                        [x + sin_phi * product, product * cos_phi, T::zero()],
+                        [sin_phi.mul_add(product, x), product * cos_phi, T::zero()],
                     ],
                 );
         }

@@ -351,11 +351,11 @@ pub mod double_four_bar {
             ) = T::sin_cos_all([q1, q2, q3, q4, q5]);
             let e1_m1 = e1 * m1;
             let l1_m2 = l1 * m2;
-            let product = l1_m2 * e2 * (cos_q1 * cos_q2 + sin_q1 * sin_q2);
+            let product = l1_m2 * e2 * sin_q1.mul_add(sin_q2, cos_q1 * cos_q2);
             let m2_e2 = m2 * e2;
             let e3_m3 = e3 * m3;
             let l3_m4 = l3 * m4;
-            let product_2 = l3_m4 * e4 * (cos_q3 * cos_q4 + sin_q3 * sin_q4);
+            let product_2 = l3_m4 * e4 * sin_q3.mul_add(sin_q4, cos_q3 * cos_q4);
             let m4_e4 = m4 * e4;
             let e5_m5 = e5 * m5;
             let cos_q1_sin_q2 = cos_q1 * sin_q2;
@@ -379,27 +379,35 @@ pub mod double_four_bar {
             let product_7 = cos_q3 * product_6;
             let product_8 = sin_q3 * product_6;
             let q5_dot_q5_dot = q5_dot * q5_dot;
-            out.mass.data.0[0][0] = j1 + e1 * e1_m1 + l1 * l1_m2;
+            out.mass.data.0[0][0] = l1.mul_add(l1_m2, e1.mul_add(e1_m1, j1));
             out.mass.data.0[0][1] = product;
             out.mass.data.0[1][0] = product;
-            out.mass.data.0[1][1] = j2 + e2 * m2_e2;
-            out.mass.data.0[2][2] = j3 + e3 * e3_m3 + l3 * l3_m4;
+            out.mass.data.0[1][1] = e2.mul_add(m2_e2, j2);
+            out.mass.data.0[2][2] = l3.mul_add(l3_m4, e3.mul_add(e3_m3, j3));
             out.mass.data.0[2][3] = product_2;
             out.mass.data.0[3][2] = product_2;
-            out.mass.data.0[3][3] = j4 + e4 * m4_e4;
-            out.mass.data.0[4][4] = j5 + e5 * e5_m5;
-            out.force.data.0[0][0] = l1_m2
-                * (e2 * (cos_q1_sin_q2 - cos_q2_sin_q1) * q2_dot_q2_dot - product_3)
-                - e1_m1 * product_3;
+            out.mass.data.0[3][3] = e4.mul_add(m4_e4, j4);
+            out.mass.data.0[4][4] = e5.mul_add(e5_m5, j5);
+            out.force.data.0[0][0] = (-e1_m1)
+                .mul_add(
+                    product_3,
+                    l1_m2
+                        * (e2 * (cos_q1_sin_q2 - cos_q2_sin_q1) * q2_dot_q2_dot
+                            - product_3),
+                );
             out.force.data.0[0][1] = m2_e2
-                * ((cos_q2_sin_q1 - cos_q1_sin_q2) * product_4
-                    - T::constant(9.81, -4.973799150320702e-16) * cos_q2);
-            out.force.data.0[0][2] = l3_m4
-                * (e4 * (cos_q3_sin_q4 - cos_q4_sin_q3) * q4_dot_q4_dot - product_5)
-                - e3_m3 * product_5;
+                * (-T::constant(9.81, -4.973799150320702e-16))
+                    .mul_add(cos_q2, (cos_q2_sin_q1 - cos_q1_sin_q2) * product_4);
+            out.force.data.0[0][2] = (-e3_m3)
+                .mul_add(
+                    product_5,
+                    l3_m4
+                        * (e4 * (cos_q3_sin_q4 - cos_q4_sin_q3) * q4_dot_q4_dot
+                            - product_5),
+                );
             out.force.data.0[0][3] = m4_e4
-                * ((cos_q4_sin_q3 - cos_q3_sin_q4) * product_6
-                    - T::constant(9.81, -4.973799150320702e-16) * cos_q4);
+                * (-T::constant(9.81, -4.973799150320702e-16))
+                    .mul_add(cos_q4, (cos_q4_sin_q3 - cos_q3_sin_q4) * product_6);
             out.force.data.0[0][4] = -T::constant(9.81, -4.973799150320702e-16) * e5_m5
                 * cos_q5;
             out.jacobian.data.0[0][0] = -l1 * sin_q1;
@@ -414,14 +422,14 @@ pub mod double_four_bar {
             out.jacobian.data.0[3][3] = cos_q4_l4;
             out.jacobian.data.0[4][2] = l5_sin_q5;
             out.jacobian.data.0[4][3] = -cos_q5_l5;
-            out.bias.data.0[0][0] = cos_q1 * product_4 + q2_dot_q2_dot * cos_q2_l2
+            out.bias.data.0[0][0] = q2_dot_q2_dot.mul_add(cos_q2_l2, cos_q1 * product_4)
                 - product_7;
-            out.bias.data.0[0][1] = sin_q1 * product_4 + q2_dot_q2_dot * sin_q2_l2
+            out.bias.data.0[0][1] = q2_dot_q2_dot.mul_add(sin_q2_l2, sin_q1 * product_4)
                 - product_8;
-            out.bias.data.0[0][2] = product_7 + q4_dot_q4_dot * cos_q4_l4
-                - cos_q5_l5 * q5_dot_q5_dot;
-            out.bias.data.0[0][3] = product_8 + q4_dot_q4_dot * sin_q4_l4
-                - l5_sin_q5 * q5_dot_q5_dot;
+            out.bias.data.0[0][2] = (-cos_q5_l5)
+                .mul_add(q5_dot_q5_dot, q4_dot_q4_dot.mul_add(cos_q4_l4, product_7));
+            out.bias.data.0[0][3] = (-l5_sin_q5)
+                .mul_add(q5_dot_q5_dot, q4_dot_q4_dot.mul_add(sin_q4_l4, product_8));
         }
         /// The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
         /// Schur complement `A M⁻¹ Aᵀ`.
@@ -469,149 +477,245 @@ pub mod double_four_bar {
             ) = T::sin_cos_all([q1, q2, q3, q4, q5]);
             let e1_m1 = e1 * m1;
             let l1_m2 = l1 * m2;
-            let quotient = T::one() / (j1 + e1 * e1_m1 + l1 * l1_m2);
+            let quotient = T::one() / l1.mul_add(l1_m2, e1.mul_add(e1_m1, j1));
             let cos_q1_sin_q2 = cos_q1 * sin_q2;
             let cos_q2_sin_q1 = cos_q2 * sin_q1;
             let q2_dot_q2_dot = q2_dot * q2_dot;
             let product = T::constant(9.81, -4.973799150320702e-16) * cos_q1;
-            let sum = l1_m2
-                * (e2 * (cos_q1_sin_q2 - cos_q2_sin_q1) * q2_dot_q2_dot - product)
-                - e1_m1 * product;
+            let sum = (-e1_m1)
+                .mul_add(
+                    product,
+                    l1_m2
+                        * (e2 * (cos_q1_sin_q2 - cos_q2_sin_q1) * q2_dot_q2_dot
+                            - product),
+                );
             let l1_sin_q1 = l1 * sin_q1;
             let product_2 = quotient * l1_sin_q1;
-            let product_3 = l1_m2 * e2 * (cos_q1 * cos_q2 + sin_q2 * sin_q1);
+            let product_3 = l1_m2 * e2 * sin_q2.mul_add(sin_q1, cos_q1 * cos_q2);
             let product_4 = quotient * product_3;
             let sin_q2_l2 = sin_q2 * l2;
             let sum_2 = l1_sin_q1 * product_4 - sin_q2_l2;
             let m2_e2 = m2 * e2;
-            let sum_3 = j2 + e2 * m2_e2;
-            let sum_4 = sum_3 - product_3 * product_4;
+            let sum_3 = e2.mul_add(m2_e2, j2);
+            let sum_4 = (-product_3).mul_add(product_4, sum_3);
             let quotient_2 = T::one() / sum_4;
             let product_5 = sum_2 * quotient_2;
             let l3_sin_q3 = l3 * sin_q3;
             let e3_m3 = e3 * m3;
             let l3_m4 = l3 * m4;
-            let quotient_3 = T::one() / (j3 + e3 * e3_m3 + l3 * l3_m4);
+            let quotient_3 = T::one() / l3.mul_add(l3_m4, e3.mul_add(e3_m3, j3));
             let product_6 = l3_sin_q3 * quotient_3;
             let product_7 = l3_sin_q3 * product_6;
-            let product_8 = l3_m4 * e4 * (cos_q3 * cos_q4 + sin_q3 * sin_q4);
+            let product_8 = l3_m4 * e4 * sin_q3.mul_add(sin_q4, cos_q3 * cos_q4);
             let product_9 = quotient_3 * product_8;
             let product_10 = l3_sin_q3 * product_9;
             let m4_e4 = m4 * e4;
-            let sum_5 = j4 + e4 * m4_e4;
-            let sum_6 = sum_5 - product_8 * product_9;
+            let sum_5 = e4.mul_add(m4_e4, j4);
+            let sum_6 = (-product_8).mul_add(product_9, sum_5);
             let quotient_4 = T::one() / sum_6;
             let product_11 = product_10 * quotient_4;
-            let sum_7 = l1_sin_q1 * product_2 + sum_2 * product_5 + product_7
-                + product_10 * product_11;
+            let sum_7 = product_10
+                .mul_add(
+                    product_11,
+                    sum_2.mul_add(product_5, l1_sin_q1.mul_add(product_2, product_7)),
+                );
             let quotient_5 = T::one() / sum_7;
             let product_12 = q1_dot * (l1 * q1_dot);
-            let sum_8 = m2_e2
-                * ((cos_q2_sin_q1 - cos_q1_sin_q2) * product_12
-                    - T::constant(9.81, -4.973799150320702e-16) * cos_q2)
-                - sum * product_4;
+            let sum_8 = (-sum)
+                .mul_add(
+                    product_4,
+                    m2_e2
+                        * (-T::constant(9.81, -4.973799150320702e-16))
+                            .mul_add(
+                                cos_q2,
+                                (cos_q2_sin_q1 - cos_q1_sin_q2) * product_12,
+                            ),
+                );
             let cos_q3_sin_q4 = cos_q3 * sin_q4;
             let sin_q3_cos_q4 = sin_q3 * cos_q4;
             let q4_dot_q4_dot = q4_dot * q4_dot;
             let product_13 = T::constant(9.81, -4.973799150320702e-16) * cos_q3;
-            let sum_9 = l3_m4
-                * (e4 * (cos_q3_sin_q4 - sin_q3_cos_q4) * q4_dot_q4_dot - product_13)
-                - e3_m3 * product_13;
+            let sum_9 = (-e3_m3)
+                .mul_add(
+                    product_13,
+                    l3_m4
+                        * (e4 * (cos_q3_sin_q4 - sin_q3_cos_q4) * q4_dot_q4_dot
+                            - product_13),
+                );
             let product_14 = product_6 * sum_9;
             let cos_q2_l2 = cos_q2 * l2;
             let product_15 = q3_dot * (l3 * q3_dot);
             let product_16 = cos_q3 * product_15;
-            let sum_10 = m4_e4
-                * (product_15 * (sin_q3_cos_q4 - cos_q3_sin_q4)
-                    - T::constant(9.81, -4.973799150320702e-16) * cos_q4)
-                - product_9 * sum_9;
-            let sum_11 = product_5 * sum_8 + product_14
-                - (cos_q1 * product_12 + q2_dot_q2_dot * cos_q2_l2 - product_16)
-                - sum * product_2 - product_11 * sum_10;
+            let sum_10 = (-product_9)
+                .mul_add(
+                    sum_9,
+                    m4_e4
+                        * (-T::constant(9.81, -4.973799150320702e-16))
+                            .mul_add(
+                                cos_q4,
+                                product_15 * (sin_q3_cos_q4 - cos_q3_sin_q4),
+                            ),
+                );
+            let sum_11 = (-product_11)
+                .mul_add(
+                    sum_10,
+                    (-sum)
+                        .mul_add(
+                            product_2,
+                            product_5.mul_add(sum_8, product_14)
+                                - (q2_dot_q2_dot.mul_add(cos_q2_l2, cos_q1 * product_12)
+                                    - product_16),
+                        ),
+                );
             let l1_cos_q1 = l1 * cos_q1;
-            let sum_12 = cos_q2_l2 - product_4 * l1_cos_q1;
+            let sum_12 = (-product_4).mul_add(l1_cos_q1, cos_q2_l2);
             let l3_cos_q3 = l3 * cos_q3;
             let product_17 = product_6 * l3_cos_q3;
             let product_18 = product_9 * l3_cos_q3;
-            let sum_13 = product_5 * sum_12 - product_2 * l1_cos_q1 - product_17
-                - product_11 * product_18;
+            let sum_13 = (-product_11)
+                .mul_add(
+                    product_18,
+                    (-product_2).mul_add(l1_cos_q1, product_5 * sum_12) - product_17,
+                );
             let product_19 = quotient_5 * sum_13;
             let product_20 = quotient * l1_cos_q1;
             let product_21 = quotient_2 * sum_12;
             let product_22 = quotient_3 * l3_cos_q3;
             let product_23 = l3_cos_q3 * product_22;
             let product_24 = quotient_4 * product_18;
-            let sum_14 = l1_cos_q1 * product_20 + sum_12 * product_21 + product_23
-                + product_18 * product_24;
-            let sum_15 = sum_14 - sum_13 * product_19;
+            let sum_14 = product_18
+                .mul_add(
+                    product_24,
+                    sum_12.mul_add(product_21, l1_cos_q1.mul_add(product_20, product_23)),
+                );
+            let sum_15 = (-sum_13).mul_add(product_19, sum_14);
             let quotient_6 = T::one() / sum_15;
             let product_25 = sin_q3 * product_15;
             let product_26 = sum_9 * product_22;
-            let sum_16 = sum * product_20 + sum_8 * product_21 + sum_10 * product_24
-                - (sin_q1 * product_12 + q2_dot_q2_dot * sin_q2_l2 - product_25)
+            let sum_16 = sum_10
+                .mul_add(product_24, sum_8.mul_add(product_21, sum * product_20))
+                - (q2_dot_q2_dot.mul_add(sin_q2_l2, sin_q1 * product_12) - product_25)
                 - product_26;
-            let sum_17 = sum_16 - sum_11 * product_19;
+            let sum_17 = (-sum_11).mul_add(product_19, sum_16);
             let sin_q4_l4 = sin_q4 * l4;
             let sum_18 = product_10 - sin_q4_l4;
-            let sum_19 = product_7 + product_11 * sum_18;
+            let sum_19 = product_11.mul_add(sum_18, product_7);
             let product_27 = quotient_5 * sum_19;
-            let sum_20 = (l3_sin_q3 * product_22 + product_24 * sum_18)
-                + sum_13 * product_27;
+            let sum_20 = sum_13
+                .mul_add(product_27, product_24.mul_add(sum_18, l3_sin_q3 * product_22));
             let product_28 = quotient_6 * sum_20;
             let product_29 = quotient_4 * sum_18;
             let l5_sin_q5 = l5 * sin_q5;
             let e5_m5 = e5 * m5;
-            let quotient_7 = T::one() / (j5 + e5 * e5_m5);
+            let quotient_7 = T::one() / e5.mul_add(e5_m5, j5);
             let product_30 = l5_sin_q5 * quotient_7;
-            let sum_21 = product_7 + sum_18 * product_29 + l5_sin_q5 * product_30;
-            let sum_22 = (sum_21 - sum_19 * product_27) - sum_20 * product_28;
+            let sum_21 = l5_sin_q5
+                .mul_add(product_30, sum_18.mul_add(product_29, product_7));
+            let sum_22 = (-sum_20)
+                .mul_add(product_28, (-sum_19).mul_add(product_27, sum_21));
             let quotient_8 = T::one() / sum_22;
             let cos_q4_l4 = cos_q4 * l4;
             let l5_cos_q5 = l5 * cos_q5;
             let q5_dot_q5_dot = q5_dot * q5_dot;
             let product_31 = T::constant(9.81, -4.973799150320702e-16) * e5_m5 * cos_q5;
-            let sum_23 = sum_10 * product_29 - product_14
-                - (product_16 + q4_dot_q4_dot * cos_q4_l4 - l5_cos_q5 * q5_dot_q5_dot)
-                - product_30 * product_31;
-            let sum_24 = (sum_23 + sum_11 * product_27) - sum_17 * product_28;
+            let sum_23 = (-product_30)
+                .mul_add(
+                    product_31,
+                    sum_10 * product_29 - product_14
+                        - (-l5_cos_q5)
+                            .mul_add(
+                                q5_dot_q5_dot,
+                                q4_dot_q4_dot.mul_add(cos_q4_l4, product_16),
+                            ),
+                );
+            let sum_24 = (-sum_17)
+                .mul_add(product_28, sum_11.mul_add(product_27, sum_23));
             let sum_25 = cos_q4_l4 - product_18;
-            let sum_26 = product_17 - product_11 * sum_25;
+            let sum_26 = (-product_11).mul_add(sum_25, product_17);
             let product_32 = quotient_5 * sum_26;
-            let sum_27 = (product_24 * sum_25 - product_23) - sum_13 * product_32;
+            let sum_27 = (-sum_13).mul_add(product_32, product_24 * sum_25 - product_23);
             let product_33 = quotient_6 * sum_27;
-            let sum_28 = ((product_29 * sum_25 - product_17 - product_30 * l5_cos_q5)
-                + sum_19 * product_32) - sum_20 * product_33;
+            let sum_28 = (-sum_20)
+                .mul_add(
+                    product_33,
+                    sum_19
+                        .mul_add(
+                            product_32,
+                            (-product_30)
+                                .mul_add(l5_cos_q5, product_29 * sum_25 - product_17),
+                        ),
+                );
             let product_34 = quotient_8 * sum_28;
             let product_35 = quotient_4 * sum_25;
             let product_36 = quotient_7 * l5_cos_q5;
-            let sum_29 = product_23 + sum_25 * product_35 + l5_cos_q5 * product_36;
-            let sum_30 = ((sum_29 - sum_26 * product_32) - sum_27 * product_33)
-                - sum_28 * product_34;
-            let sum_31 = product_26 + sum_10 * product_35 + product_31 * product_36
-                - (product_25 + q4_dot_q4_dot * sin_q4_l4 - l5_sin_q5 * q5_dot_q5_dot);
-            let product_37 = T::one() / sum_30
-                * (((sum_31 - sum_11 * product_32) - sum_17 * product_33)
-                    - sum_24 * product_34);
-            let sum_32 = quotient_8 * sum_24 - product_34 * product_37;
-            let sum_33 = (quotient_6 * sum_17 - product_28 * sum_32)
-                - product_33 * product_37;
-            let sum_34 = ((quotient_5 * sum_11 - product_19 * sum_33)
-                + product_27 * sum_32) - product_32 * product_37;
-            let product_38 = quotient_2 * ((sum_8 - sum_2 * sum_34) - sum_12 * sum_33);
+            let sum_29 = l5_cos_q5
+                .mul_add(product_36, sum_25.mul_add(product_35, product_23));
+            let sum_30 = (-sum_28)
+                .mul_add(
+                    product_34,
+                    (-sum_27).mul_add(product_33, (-sum_26).mul_add(product_32, sum_29)),
+                );
+            let sum_31 = product_31
+                .mul_add(product_36, sum_10.mul_add(product_35, product_26))
+                - (-l5_sin_q5)
+                    .mul_add(
+                        q5_dot_q5_dot,
+                        q4_dot_q4_dot.mul_add(sin_q4_l4, product_25),
+                    );
+            let product_37 = (T::one() / sum_30)
+                * (-sum_24)
+                    .mul_add(
+                        product_34,
+                        (-sum_17)
+                            .mul_add(product_33, (-sum_11).mul_add(product_32, sum_31)),
+                    );
+            let sum_32 = (-product_34).mul_add(product_37, quotient_8 * sum_24);
+            let sum_33 = (-product_33)
+                .mul_add(product_37, (-product_28).mul_add(sum_32, quotient_6 * sum_17));
+            let sum_34 = (-product_32)
+                .mul_add(
+                    product_37,
+                    product_27
+                        .mul_add(
+                            sum_32,
+                            (-product_19).mul_add(sum_33, quotient_5 * sum_11),
+                        ),
+                );
+            let product_38 = quotient_2
+                * (-sum_12).mul_add(sum_33, (-sum_2).mul_add(sum_34, sum_8));
             let product_39 = quotient_3
-                * ((((sum_9 - l3_sin_q3 * sum_34) + l3_cos_q3 * sum_33)
-                    + l3_sin_q3 * sum_32) - l3_cos_q3 * product_37);
+                * (-l3_cos_q3)
+                    .mul_add(
+                        product_37,
+                        l3_sin_q3
+                            .mul_add(
+                                sum_32,
+                                l3_cos_q3
+                                    .mul_add(sum_33, (-l3_sin_q3).mul_add(sum_34, sum_9)),
+                            ),
+                    );
             let product_40 = quotient_4
-                * ((((sum_10 + product_10 * sum_34) - product_18 * sum_33)
-                    - sum_18 * sum_32) - sum_25 * product_37);
-            out.acceleration.data.0[0][0] = quotient
-                * ((sum + l1_sin_q1 * sum_34) - l1_cos_q1 * sum_33)
-                - product_4 * product_38;
+                * (-sum_25)
+                    .mul_add(
+                        product_37,
+                        (-sum_18)
+                            .mul_add(
+                                sum_32,
+                                (-product_18)
+                                    .mul_add(sum_33, product_10.mul_add(sum_34, sum_10)),
+                            ),
+                    );
+            out.acceleration.data.0[0][0] = (-product_4)
+                .mul_add(
+                    product_38,
+                    quotient
+                        * (-l1_cos_q1).mul_add(sum_33, l1_sin_q1.mul_add(sum_34, sum)),
+                );
             out.acceleration.data.0[0][1] = product_38;
-            out.acceleration.data.0[0][2] = product_39 - product_9 * product_40;
+            out.acceleration.data.0[0][2] = (-product_9).mul_add(product_40, product_39);
             out.acceleration.data.0[0][3] = product_40;
             out.acceleration.data.0[0][4] = quotient_7
-                * (l5_cos_q5 * product_37 - (product_31 + l5_sin_q5 * sum_32));
+                * (l5_cos_q5 * product_37 - l5_sin_q5.mul_add(sum_32, product_31));
             out.pivots.mass_pivots.data.0[0][1] = sum_4;
             out.pivots.mass_diagonal.data.0[0][1] = sum_3;
             out.pivots.mass_pivots.data.0[0][3] = sum_6;
@@ -677,9 +781,9 @@ pub mod double_four_bar {
                 ],
             ) = T::sin_cos_all([q1, q2, q3, q4, q5]);
             let l1_m2 = l1 * m2;
-            let product = l1_m2 * e2 * (cos_q1 * cos_q2 + sin_q1 * sin_q2);
+            let product = l1_m2 * e2 * sin_q1.mul_add(sin_q2, cos_q1 * cos_q2);
             let l3_m4 = l3 * m4;
-            let product_2 = l3_m4 * e4 * (cos_q3 * cos_q4 + sin_q3 * sin_q4);
+            let product_2 = l3_m4 * e4 * sin_q3.mul_add(sin_q4, cos_q3 * cos_q4);
             let l1_cos_q1 = l1 * cos_q1;
             let cos_q2_l2 = cos_q2 * l2;
             let l3_cos_q3 = l3 * cos_q3;
@@ -690,18 +794,18 @@ pub mod double_four_bar {
             let l5_cos_q5 = l5 * cos_q5;
             let sin_q4_l4 = sin_q4 * l4;
             let l5_sin_q5 = l5 * sin_q5;
-            out.mass.data.0[0][0] = j1 + e1 * e1 * m1 + l1 * l1_m2;
+            out.mass.data.0[0][0] = l1.mul_add(l1_m2, (e1 * e1).mul_add(m1, j1));
             out.mass.data.0[0][1] = product;
             out.mass.data.0[1][0] = product;
-            out.mass.data.0[1][1] = j2 + m2 * e2 * e2;
-            out.mass.data.0[2][2] = j3 + e3 * e3 * m3 + l3 * l3_m4;
+            out.mass.data.0[1][1] = (m2 * e2).mul_add(e2, j2);
+            out.mass.data.0[2][2] = l3.mul_add(l3_m4, (e3 * e3).mul_add(m3, j3));
             out.mass.data.0[2][3] = product_2;
             out.mass.data.0[3][2] = product_2;
-            out.mass.data.0[3][3] = j4 + m4 * e4 * e4;
-            out.mass.data.0[4][4] = j5 + e5 * e5 * m5;
-            out.residual.data.0[0][0] = (l1_cos_q1 + cos_q2_l2 - l3_cos_q3) - l01;
+            out.mass.data.0[3][3] = (m4 * e4).mul_add(e4, j4);
+            out.mass.data.0[4][4] = (e5 * e5).mul_add(m5, j5);
+            out.residual.data.0[0][0] = l1_cos_q1 + cos_q2_l2 - l3_cos_q3 - l01;
             out.residual.data.0[0][1] = l1_sin_q1 + sin_q2_l2 - l3_sin_q3;
-            out.residual.data.0[0][2] = (l3_cos_q3 + cos_q4_l4 - l5_cos_q5) - l02;
+            out.residual.data.0[0][2] = l3_cos_q3 + cos_q4_l4 - l5_cos_q5 - l02;
             out.residual.data.0[0][3] = l3_sin_q3 + sin_q4_l4 - l5_sin_q5;
             out.jacobian.data.0[0][0] = -l1_sin_q1;
             out.jacobian.data.0[0][1] = l1_cos_q1;
@@ -719,7 +823,7 @@ pub mod double_four_bar {
         /// The least corrections of position and velocity in the kinetic metric, where
         /// the constraints are regular.
         ///
-        /// Costs 175 products, 110 sums, 9 quotients, 5 sine–cosine pairs.
+        /// Costs 185 products, 122 sums, 9 quotients, 5 sine–cosine pairs.
         fn correction(
             &self,
             state: &State<T, 5>,
@@ -768,136 +872,267 @@ pub mod double_four_bar {
             let l1_cos_q1 = l1 * cos_q1;
             let cos_q2_l2 = cos_q2 * l2;
             let l3_cos_q3 = l3 * cos_q3;
-            let sum = (l1_cos_q1 + cos_q2_l2 - l3_cos_q3) - l01;
+            let sum = l1_cos_q1 + cos_q2_l2 - l3_cos_q3 - l01;
             let l1_sin_q1 = l1 * sin_q1;
             let l2_sin_q2 = l2 * sin_q2;
             let l3_sin_q3 = l3 * sin_q3;
             let sum_2 = l1_sin_q1 + l2_sin_q2 - l3_sin_q3;
             let cos_q4_l4 = cos_q4 * l4;
             let l5_cos_q5 = l5 * cos_q5;
-            let sum_3 = (l3_cos_q3 + cos_q4_l4 - l5_cos_q5) - l02;
+            let sum_3 = l3_cos_q3 + cos_q4_l4 - l5_cos_q5 - l02;
             let l4_sin_q4 = l4 * sin_q4;
             let l5_sin_q5 = l5 * sin_q5;
             let sum_4 = l3_sin_q3 + l4_sin_q4 - l5_sin_q5;
             let l1_m2 = l1 * m2;
-            let quotient = T::one() / (j1 + e1 * e1 * m1 + l1 * l1_m2);
+            let quotient = T::one() / l1.mul_add(l1_m2, (e1 * e1).mul_add(m1, j1));
             let product = l1_sin_q1 * quotient;
-            let product_2 = l1_m2 * e2 * (cos_q1 * cos_q2 + sin_q1 * sin_q2);
+            let product_2 = l1_m2 * e2 * sin_q1.mul_add(sin_q2, cos_q1 * cos_q2);
             let product_3 = quotient * product_2;
             let sum_5 = l1_sin_q1 * product_3 - l2_sin_q2;
-            let sum_6 = j2 + m2 * e2 * e2;
-            let sum_7 = sum_6 - product_2 * product_3;
+            let sum_6 = (m2 * e2).mul_add(e2, j2);
+            let sum_7 = (-product_2).mul_add(product_3, sum_6);
             let quotient_2 = T::one() / sum_7;
             let product_4 = sum_5 * quotient_2;
             let l3_m4 = l3 * m4;
-            let quotient_3 = T::one() / (j3 + e3 * e3 * m3 + l3 * l3_m4);
+            let quotient_3 = T::one() / l3.mul_add(l3_m4, (e3 * e3).mul_add(m3, j3));
             let product_5 = l3_sin_q3 * quotient_3;
             let product_6 = l3_sin_q3 * product_5;
-            let product_7 = l3_m4 * e4 * (cos_q3 * cos_q4 + sin_q3 * sin_q4);
+            let product_7 = l3_m4 * e4 * sin_q3.mul_add(sin_q4, cos_q3 * cos_q4);
             let product_8 = quotient_3 * product_7;
             let product_9 = l3_sin_q3 * product_8;
-            let sum_8 = j4 + m4 * e4 * e4;
-            let sum_9 = sum_8 - product_7 * product_8;
+            let sum_8 = (m4 * e4).mul_add(e4, j4);
+            let sum_9 = (-product_7).mul_add(product_8, sum_8);
             let quotient_4 = T::one() / sum_9;
             let product_10 = product_9 * quotient_4;
-            let sum_10 = l1_sin_q1 * product + sum_5 * product_4 + product_6
-                + product_9 * product_10;
+            let sum_10 = product_9
+                .mul_add(
+                    product_10,
+                    sum_5.mul_add(product_4, l1_sin_q1.mul_add(product, product_6)),
+                );
             let quotient_5 = T::one() / sum_10;
-            let sum_11 = cos_q2_l2 - l1_cos_q1 * product_3;
+            let sum_11 = (-l1_cos_q1).mul_add(product_3, cos_q2_l2);
             let product_11 = l3_cos_q3 * product_5;
             let product_12 = l3_cos_q3 * product_8;
-            let sum_12 = product_4 * sum_11 - l1_cos_q1 * product - product_11
-                - product_10 * product_12;
+            let sum_12 = (-product_10)
+                .mul_add(
+                    product_12,
+                    (-l1_cos_q1).mul_add(product, product_4 * sum_11) - product_11,
+                );
             let product_13 = quotient_5 * sum_12;
             let product_14 = l3_cos_q3 * quotient_3;
             let product_15 = l3_cos_q3 * product_14;
             let product_16 = quotient_4 * product_12;
-            let sum_13 = l1_cos_q1 * (l1_cos_q1 * quotient)
-                + sum_11 * (quotient_2 * sum_11) + product_15 + product_12 * product_16;
-            let sum_14 = sum_13 - sum_12 * product_13;
+            let sum_13 = product_12
+                .mul_add(
+                    product_16,
+                    sum_11
+                        .mul_add(
+                            quotient_2 * sum_11,
+                            l1_cos_q1.mul_add(l1_cos_q1 * quotient, product_15),
+                        ),
+                );
+            let sum_14 = (-sum_12).mul_add(product_13, sum_13);
             let quotient_6 = T::one() / sum_14;
-            let sum_15 = sum_2 - sum * product_13;
+            let sum_15 = (-sum).mul_add(product_13, sum_2);
             let sum_16 = product_9 - l4_sin_q4;
-            let sum_17 = product_6 + product_10 * sum_16;
+            let sum_17 = product_10.mul_add(sum_16, product_6);
             let product_17 = quotient_5 * sum_17;
-            let sum_18 = (l3_sin_q3 * product_14 + product_16 * sum_16)
-                + sum_12 * product_17;
+            let sum_18 = sum_12
+                .mul_add(product_17, product_16.mul_add(sum_16, l3_sin_q3 * product_14));
             let product_18 = quotient_6 * sum_18;
             let product_19 = quotient_4 * sum_16;
-            let quotient_7 = T::one() / (j5 + e5 * e5 * m5);
+            let quotient_7 = T::one() / (e5 * e5).mul_add(m5, j5);
             let product_20 = l5_sin_q5 * quotient_7;
-            let sum_19 = product_6 + sum_16 * product_19 + l5_sin_q5 * product_20;
-            let sum_20 = (sum_19 - sum_17 * product_17) - sum_18 * product_18;
+            let sum_19 = l5_sin_q5
+                .mul_add(product_20, sum_16.mul_add(product_19, product_6));
+            let sum_20 = (-sum_18)
+                .mul_add(product_18, (-sum_17).mul_add(product_17, sum_19));
             let quotient_8 = T::one() / sum_20;
-            let sum_21 = (sum_3 + sum * product_17) - sum_15 * product_18;
+            let sum_21 = (-sum_15).mul_add(product_18, sum.mul_add(product_17, sum_3));
             let sum_22 = cos_q4_l4 - product_12;
-            let sum_23 = product_11 - product_10 * sum_22;
+            let sum_23 = (-product_10).mul_add(sum_22, product_11);
             let product_21 = quotient_5 * sum_23;
-            let sum_24 = (product_16 * sum_22 - product_15) - sum_12 * product_21;
+            let sum_24 = (-sum_12).mul_add(product_21, product_16 * sum_22 - product_15);
             let product_22 = quotient_6 * sum_24;
-            let sum_25 = ((product_19 * sum_22 - product_11 - l5_cos_q5 * product_20)
-                + sum_17 * product_21) - sum_18 * product_22;
+            let sum_25 = (-sum_18)
+                .mul_add(
+                    product_22,
+                    sum_17
+                        .mul_add(
+                            product_21,
+                            (-l5_cos_q5)
+                                .mul_add(product_20, product_19 * sum_22 - product_11),
+                        ),
+                );
             let product_23 = quotient_8 * sum_25;
-            let sum_26 = product_15 + sum_22 * (quotient_4 * sum_22)
-                + l5_cos_q5 * (l5_cos_q5 * quotient_7);
-            let sum_27 = ((sum_26 - sum_23 * product_21) - sum_24 * product_22)
-                - sum_25 * product_23;
+            let sum_26 = l5_cos_q5
+                .mul_add(
+                    l5_cos_q5 * quotient_7,
+                    sum_22.mul_add(quotient_4 * sum_22, product_15),
+                );
+            let sum_27 = (-sum_25)
+                .mul_add(
+                    product_23,
+                    (-sum_24).mul_add(product_22, (-sum_23).mul_add(product_21, sum_26)),
+                );
             let quotient_9 = T::one() / sum_27;
             let product_24 = quotient_9
-                * (((sum_4 - sum * product_21) - sum_15 * product_22)
-                    - sum_21 * product_23);
-            let sum_28 = quotient_8 * sum_21 - product_23 * product_24;
-            let sum_29 = (quotient_6 * sum_15 - product_18 * sum_28)
-                - product_22 * product_24;
-            let sum_30 = ((sum * quotient_5 - product_13 * sum_29) + product_17 * sum_28)
-                - product_21 * product_24;
-            let product_25 = quotient_2 * (sum_5 * sum_30 + sum_11 * sum_29);
+                * (-sum_21)
+                    .mul_add(
+                        product_23,
+                        (-sum_15).mul_add(product_22, (-sum).mul_add(product_21, sum_4)),
+                    );
+            let sum_28 = (-product_23).mul_add(product_24, quotient_8 * sum_21);
+            let sum_29 = (-product_22)
+                .mul_add(product_24, (-product_18).mul_add(sum_28, quotient_6 * sum_15));
+            let sum_30 = (-product_21)
+                .mul_add(
+                    product_24,
+                    product_17
+                        .mul_add(sum_28, (-product_13).mul_add(sum_29, sum * quotient_5)),
+                );
+            let product_25 = quotient_2 * sum_11.mul_add(sum_29, sum_5 * sum_30);
+            let sum_31 = product_3
+                .mul_add(
+                    product_25,
+                    quotient * (-l1_cos_q1).mul_add(sum_29, l1_sin_q1 * sum_30),
+                );
             let product_26 = quotient_4
-                * (((product_9 * sum_30 - product_12 * sum_29) - sum_16 * sum_28)
-                    - sum_22 * product_24);
-            let sum_31 = quotient_3
-                * (((l3_cos_q3 * sum_29 - l3_sin_q3 * sum_30) + l3_sin_q3 * sum_28)
-                    - l3_cos_q3 * product_24) - product_8 * product_26;
-            let product_27 = l3_sin_q3 * q3_dot;
-            let sum_32 = product_27 - l1_sin_q1 * q1_dot - l2_sin_q2 * q2_dot;
-            let product_28 = l3_cos_q3 * q3_dot;
-            let sum_33 = (l1_cos_q1 * q1_dot + cos_q2_l2 * q2_dot - product_28)
-                - product_13 * sum_32;
-            let sum_34 = ((l5_sin_q5 * q5_dot - product_27 - l4_sin_q4 * q4_dot)
-                + product_17 * sum_32) - product_18 * sum_33;
-            let sum_35 = (((product_28 + cos_q4_l4 * q4_dot - l5_cos_q5 * q5_dot)
-                - product_21 * sum_32) - product_22 * sum_33) - product_23 * sum_34;
-            let product_29 = quotient_9 * sum_35;
-            let sum_36 = quotient_8 * sum_34 - product_23 * product_29;
-            let sum_37 = (quotient_6 * sum_33 - product_18 * sum_36)
-                - product_22 * product_29;
-            let sum_38 = ((quotient_5 * sum_32 - product_13 * sum_37)
-                + product_17 * sum_36) - product_21 * product_29;
-            let product_30 = quotient_2 * (sum_5 * sum_38 + sum_11 * sum_37);
-            let product_31 = quotient_4
-                * (((product_9 * sum_38 - product_12 * sum_37) - sum_16 * sum_36)
-                    - sum_22 * product_29);
-            let sum_39 = quotient_3
-                * (((l3_cos_q3 * sum_37 - l3_sin_q3 * sum_38) + l3_sin_q3 * sum_36)
-                    - l3_cos_q3 * product_29) - product_8 * product_31;
+                * (-sum_22)
+                    .mul_add(
+                        product_24,
+                        (-sum_16)
+                            .mul_add(
+                                sum_28,
+                                (-product_12).mul_add(sum_29, product_9 * sum_30),
+                            ),
+                    );
+            let sum_32 = (-product_8)
+                .mul_add(
+                    product_26,
+                    quotient_3
+                        * (-l3_cos_q3)
+                            .mul_add(
+                                product_24,
+                                l3_sin_q3
+                                    .mul_add(
+                                        sum_28,
+                                        (-l3_sin_q3).mul_add(sum_30, l3_cos_q3 * sum_29),
+                                    ),
+                            ),
+                );
+            let product_27 = quotient_7
+                * (-l5_sin_q5).mul_add(sum_28, l5_cos_q5 * product_24);
+            let product_28 = l3_sin_q3 * q3_dot;
+            let product_29 = l1_sin_q1 * q1_dot;
+            let product_30 = l2_sin_q2 * q2_dot;
+            let product_31 = cos_q2_l2 * q2_dot;
+            let product_32 = l3_cos_q3 * q3_dot;
+            let product_33 = sum_32 * product_32;
+            let product_34 = l1_cos_q1 * q1_dot;
+            let sum_33 = (-sum_31)
+                .mul_add(
+                    product_34,
+                    product_25.mul_add(product_31, product_28 - product_29 - product_30)
+                        + product_33,
+                );
+            let product_35 = sum_32 * product_28;
+            let sum_34 = (-product_13)
+                .mul_add(
+                    sum_33,
+                    (-sum_31)
+                        .mul_add(
+                            product_29,
+                            product_25
+                                .mul_add(product_30, product_31 + product_34 - product_32)
+                                + product_35,
+                        ),
+                );
+            let product_36 = l5_sin_q5 * q5_dot;
+            let product_37 = l4_sin_q4 * q4_dot;
+            let product_38 = l5_cos_q5 * q5_dot;
+            let product_39 = cos_q4_l4 * q4_dot;
+            let sum_35 = product_17
+                .mul_add(
+                    sum_33,
+                    (-product_26)
+                        .mul_add(
+                            product_39,
+                            product_27
+                                .mul_add(product_38, product_36 - product_28 - product_37)
+                                - product_33,
+                        ),
+                );
+            let sum_36 = (-product_18).mul_add(sum_34, sum_35);
+            let sum_37 = (-product_21)
+                .mul_add(
+                    sum_33,
+                    (-product_26)
+                        .mul_add(
+                            product_37,
+                            product_27
+                                .mul_add(product_36, product_32 + product_39 - product_38)
+                                - product_35,
+                        ),
+                );
+            let product_40 = quotient_9
+                * (-product_23).mul_add(sum_36, (-product_22).mul_add(sum_34, sum_37));
+            let sum_38 = (-product_23).mul_add(product_40, quotient_8 * sum_36);
+            let sum_39 = (-product_22)
+                .mul_add(product_40, (-product_18).mul_add(sum_38, quotient_6 * sum_34));
+            let sum_40 = (-product_21)
+                .mul_add(
+                    product_40,
+                    product_17
+                        .mul_add(
+                            sum_38,
+                            (-product_13).mul_add(sum_39, quotient_5 * sum_33),
+                        ),
+                );
+            let product_41 = quotient_2 * sum_11.mul_add(sum_39, sum_5 * sum_40);
+            let product_42 = quotient_4
+                * (-sum_22)
+                    .mul_add(
+                        product_40,
+                        (-sum_16)
+                            .mul_add(
+                                sum_38,
+                                (-product_12).mul_add(sum_39, product_9 * sum_40),
+                            ),
+                    );
+            let sum_41 = (-product_8)
+                .mul_add(
+                    product_42,
+                    quotient_3
+                        * (-l3_cos_q3)
+                            .mul_add(
+                                product_40,
+                                l3_sin_q3
+                                    .mul_add(
+                                        sum_38,
+                                        (-l3_sin_q3).mul_add(sum_40, l3_cos_q3 * sum_39),
+                                    ),
+                            ),
+                );
             out.residual.data.0[0][0] = sum;
             out.residual.data.0[0][1] = sum_2;
             out.residual.data.0[0][2] = sum_3;
             out.residual.data.0[0][3] = sum_4;
-            out.position.data.0[0][0] = quotient
-                * (l1_sin_q1 * sum_30 - l1_cos_q1 * sum_29) + product_3 * product_25;
+            out.position.data.0[0][0] = sum_31;
             out.position.data.0[0][1] = -product_25;
-            out.position.data.0[0][2] = sum_31;
+            out.position.data.0[0][2] = sum_32;
             out.position.data.0[0][3] = product_26;
-            out.position.data.0[0][4] = quotient_7
-                * (l5_cos_q5 * product_24 - l5_sin_q5 * sum_28);
-            out.velocity.data.0[0][0] = quotient
-                * (l1_sin_q1 * sum_38 - l1_cos_q1 * sum_37) + product_3 * product_30;
-            out.velocity.data.0[0][1] = -product_30;
-            out.velocity.data.0[0][2] = sum_39;
-            out.velocity.data.0[0][3] = product_31;
+            out.position.data.0[0][4] = product_27;
+            out.velocity.data.0[0][0] = product_3
+                .mul_add(
+                    product_41,
+                    quotient * (-l1_cos_q1).mul_add(sum_39, l1_sin_q1 * sum_40),
+                );
+            out.velocity.data.0[0][1] = -product_41;
+            out.velocity.data.0[0][2] = sum_41;
+            out.velocity.data.0[0][3] = product_42;
             out.velocity.data.0[0][4] = quotient_7
-                * (l5_cos_q5 * product_29 - l5_sin_q5 * sum_36);
+                * (-l5_sin_q5).mul_add(sum_38, l5_cos_q5 * product_40);
             out.pivots.mass_pivots.data.0[0][1] = sum_7;
             out.pivots.mass_diagonal.data.0[0][1] = sum_6;
             out.pivots.mass_pivots.data.0[0][3] = sum_9;
@@ -970,14 +1205,14 @@ pub mod double_four_bar {
             out.slope.data.0[3][3] = -product_7 * sin_q4;
             out.slope.data.0[4][2] = cos_q5 * product_8;
             out.slope.data.0[4][3] = product_8 * sin_q5;
-            out.bias.data.0[0][0] = product_10 - product_2 * q1_dot_q1_dot
-                - sin_q2 * product_11;
-            out.bias.data.0[0][1] = product * q1_dot_q1_dot + cos_q2 * product_11
+            out.bias.data.0[0][0] = (-sin_q2)
+                .mul_add(product_11, (-product_2).mul_add(q1_dot_q1_dot, product_10));
+            out.bias.data.0[0][1] = cos_q2.mul_add(product_11, product * q1_dot_q1_dot)
                 - product_12;
-            out.bias.data.0[0][2] = sin_q5 * product_13 - product_10
-                - sin_q4 * product_14;
-            out.bias.data.0[0][3] = product_12 + cos_q4 * product_14
-                - cos_q5 * product_13;
+            out.bias.data.0[0][2] = (-sin_q4)
+                .mul_add(product_14, sin_q5 * product_13 - product_10);
+            out.bias.data.0[0][3] = (-cos_q5)
+                .mul_add(product_13, cos_q4.mul_add(product_14, product_12));
         }
         /// Energies and the power supplied from outside.
         ///
@@ -1145,9 +1380,16 @@ pub mod double_four_bar {
             let product_8 = product_2 * q2_dot * q2_dot_sin_q2;
             let product_9 = product_6 * sin_q2;
             let product_10 = q2_ddot * product_9;
-            let sum = lambda_0 * l1_cos_q1 + lambda_1 * l1_sin_q1 + product_4
-                + e1 * m1 * product_5 + l1_m2 * product_5 - product_7 - product_8
-                - product_10;
+            let sum = l1_m2
+                .mul_add(
+                    product_5,
+                    (e1 * m1)
+                        .mul_add(
+                            product_5,
+                            lambda_1
+                                .mul_add(l1_sin_q1, lambda_0.mul_add(l1_cos_q1, product_4)),
+                        ),
+                ) - product_7 - product_8 - product_10;
             let q1_dot_q1_dot = q1_dot * q1_dot;
             let product_11 = cos_q2 * product_6 * q1_dot_q1_dot;
             let product_12 = product_2 * sin_q2 * q1_dot_q1_dot;
@@ -1155,9 +1397,11 @@ pub mod double_four_bar {
             let product_14 = product_9 * q1_ddot;
             let cos_q2_l2 = cos_q2 * l2;
             let sin_q2_l2 = sin_q2 * l2;
-            let sum_2 = product_14 + lambda_0 * cos_q2_l2 + lambda_1 * sin_q2_l2
-                + T::constant(9.81, -4.973799150320702e-16) * e2 * m2 * sin_q2
-                - product_11 - product_12 - product_13;
+            let sum_2 = (T::constant(9.81, -4.973799150320702e-16) * e2 * m2)
+                .mul_add(
+                    sin_q2,
+                    lambda_1.mul_add(sin_q2_l2, lambda_0.mul_add(cos_q2_l2, product_14)),
+                ) - product_11 - product_12 - product_13;
             let l3_cos_q3 = l3 * cos_q3;
             let l3_sin_q3 = l3 * sin_q3;
             let l3_m4 = l3 * m4;
@@ -1173,9 +1417,24 @@ pub mod double_four_bar {
             let product_22 = product_16 * q4_dot * q4_dot_sin_q4;
             let product_23 = product_20 * sin_q4;
             let product_24 = q4_ddot * product_23;
-            let sum_3 = lambda_2 * l3_cos_q3 + lambda_3 * l3_sin_q3 + product_18
-                + e3 * m3 * product_19 + l3_m4 * product_19 - lambda_0 * l3_cos_q3
-                - lambda_1 * l3_sin_q3 - product_21 - product_22 - product_24;
+            let sum_3 = (-lambda_1)
+                .mul_add(
+                    l3_sin_q3,
+                    (-lambda_0)
+                        .mul_add(
+                            l3_cos_q3,
+                            l3_m4
+                                .mul_add(
+                                    product_19,
+                                    (e3 * m3)
+                                        .mul_add(
+                                            product_19,
+                                            lambda_3
+                                                .mul_add(l3_sin_q3, lambda_2.mul_add(l3_cos_q3, product_18)),
+                                        ),
+                                ),
+                        ),
+                ) - product_21 - product_22 - product_24;
             let q3_dot_q3_dot = q3_dot * q3_dot;
             let product_25 = cos_q4 * product_20 * q3_dot_q3_dot;
             let product_26 = product_16 * sin_q4 * q3_dot_q3_dot;
@@ -1183,9 +1442,11 @@ pub mod double_four_bar {
             let product_28 = product_23 * q3_ddot;
             let cos_q4_l4 = cos_q4 * l4;
             let sin_q4_l4 = sin_q4 * l4;
-            let sum_4 = product_28 + lambda_2 * cos_q4_l4 + lambda_3 * sin_q4_l4
-                + T::constant(9.81, -4.973799150320702e-16) * e4 * m4 * sin_q4
-                - product_25 - product_26 - product_27;
+            let sum_4 = (T::constant(9.81, -4.973799150320702e-16) * e4 * m4)
+                .mul_add(
+                    sin_q4,
+                    lambda_3.mul_add(sin_q4_l4, lambda_2.mul_add(cos_q4_l4, product_28)),
+                ) - product_25 - product_26 - product_27;
             let l5_cos_q5 = l5 * cos_q5;
             let sin_q5_l5 = sin_q5 * l5;
             let product_29 = T::from_f64(2.0) * q1_dot;
@@ -1214,38 +1475,43 @@ pub mod double_four_bar {
             out.force_by_position.data.0[3][2] = product_21 + product_22 + product_24
                 - product_18;
             out.force_by_position.data.0[3][3] = sum_4;
-            out.force_by_position.data.0[4][4] = T::constant(
-                9.81,
-                -4.973799150320702e-16,
-            ) * e5 * m5 * sin_q5 - lambda_2 * l5_cos_q5 - lambda_3 * sin_q5_l5;
-            out.force_by_velocity.data.0[0][1] = product_3 * product_29
-                - product_9 * product_29;
-            out.force_by_velocity.data.0[1][0] = T::from_f64(2.0) * product_6
-                * q2_dot_sin_q2 - T::from_f64(2.0) * product_2 * cos_q2_q2_dot;
-            out.force_by_velocity.data.0[2][3] = product_17 * product_30
-                - product_23 * product_30;
-            out.force_by_velocity.data.0[3][2] = T::from_f64(2.0) * product_20
-                * q4_dot_sin_q4 - T::from_f64(2.0) * product_16 * cos_q4_q4_dot;
-            out.row_by_position.data.0[0][0] = l1_cos_q1 * q1_ddot
-                - l1_sin_q1 * q1_dot_q1_dot;
-            out.row_by_position.data.0[0][1] = l1_cos_q1 * q1_dot_q1_dot
-                + l1_sin_q1 * q1_ddot;
-            out.row_by_position.data.0[1][0] = q2_ddot * cos_q2_l2
-                - q2_dot_sin_q2 * q2_dot_l2;
-            out.row_by_position.data.0[1][1] = cos_q2_q2_dot * q2_dot_l2
-                + q2_ddot * sin_q2_l2;
+            out.force_by_position.data.0[4][4] = (-lambda_3)
+                .mul_add(
+                    sin_q5_l5,
+                    (-lambda_2)
+                        .mul_add(
+                            l5_cos_q5,
+                            T::constant(9.81, -4.973799150320702e-16) * e5 * m5 * sin_q5,
+                        ),
+                );
+            out.force_by_velocity.data.0[0][1] = (-product_9)
+                .mul_add(product_29, product_3 * product_29);
+            out.force_by_velocity.data.0[1][0] = (-(T::from_f64(2.0) * product_2))
+                .mul_add(cos_q2_q2_dot, T::from_f64(2.0) * product_6 * q2_dot_sin_q2);
+            out.force_by_velocity.data.0[2][3] = (-product_23)
+                .mul_add(product_30, product_17 * product_30);
+            out.force_by_velocity.data.0[3][2] = (-(T::from_f64(2.0) * product_16))
+                .mul_add(cos_q4_q4_dot, T::from_f64(2.0) * product_20 * q4_dot_sin_q4);
+            out.row_by_position.data.0[0][0] = (-l1_sin_q1)
+                .mul_add(q1_dot_q1_dot, l1_cos_q1 * q1_ddot);
+            out.row_by_position.data.0[0][1] = l1_sin_q1
+                .mul_add(q1_ddot, l1_cos_q1 * q1_dot_q1_dot);
+            out.row_by_position.data.0[1][0] = (-q2_dot_sin_q2)
+                .mul_add(q2_dot_l2, q2_ddot * cos_q2_l2);
+            out.row_by_position.data.0[1][1] = q2_ddot
+                .mul_add(sin_q2_l2, cos_q2_q2_dot * q2_dot_l2);
             out.row_by_position.data.0[2][0] = product_31 - product_32;
             out.row_by_position.data.0[2][1] = -product_33 - product_34;
             out.row_by_position.data.0[2][2] = product_32 - product_31;
             out.row_by_position.data.0[2][3] = product_33 + product_34;
-            out.row_by_position.data.0[3][2] = q4_ddot * cos_q4_l4
-                - q4_dot_sin_q4 * q4_dot_l4;
-            out.row_by_position.data.0[3][3] = cos_q4_q4_dot * q4_dot_l4
-                + q4_ddot * sin_q4_l4;
-            out.row_by_position.data.0[4][2] = sin_q5_l5 * q5_dot_q5_dot
-                - l5_cos_q5 * q5_ddot;
-            out.row_by_position.data.0[4][3] = -l5_cos_q5 * q5_dot_q5_dot
-                - sin_q5_l5 * q5_ddot;
+            out.row_by_position.data.0[3][2] = (-q4_dot_sin_q4)
+                .mul_add(q4_dot_l4, q4_ddot * cos_q4_l4);
+            out.row_by_position.data.0[3][3] = q4_ddot
+                .mul_add(sin_q4_l4, cos_q4_q4_dot * q4_dot_l4);
+            out.row_by_position.data.0[4][2] = (-l5_cos_q5)
+                .mul_add(q5_ddot, sin_q5_l5 * q5_dot_q5_dot);
+            out.row_by_position.data.0[4][3] = (-sin_q5_l5)
+                .mul_add(q5_ddot, -l5_cos_q5 * q5_dot_q5_dot);
             out.row_by_velocity.data.0[0][0] = l1_cos_q1 * product_29;
             out.row_by_velocity.data.0[0][1] = l1_sin_q1 * product_29;
             out.row_by_velocity.data.0[1][0] = cos_q2_q2_dot * product_35;
@@ -1295,19 +1561,19 @@ pub mod double_four_bar {
                 q4,
             ]);
             let l1_m2 = l1 * m2;
-            let product = l1_m2 * e2 * (cos_q1 * cos_q2 + sin_q1 * sin_q2);
+            let product = l1_m2 * e2 * sin_q1.mul_add(sin_q2, cos_q1 * cos_q2);
             let l3_m4 = l3 * m4;
-            let product_2 = l3_m4 * e4 * (cos_q3 * cos_q4 + sin_q3 * sin_q4);
+            let product_2 = l3_m4 * e4 * sin_q3.mul_add(sin_q4, cos_q3 * cos_q4);
             let mut out = SMatrix::zeros();
-            out.data.0[0][0] = j1 + e1 * e1 * m1 + l1 * l1_m2;
+            out.data.0[0][0] = l1.mul_add(l1_m2, (e1 * e1).mul_add(m1, j1));
             out.data.0[0][1] = product;
             out.data.0[1][0] = product;
-            out.data.0[1][1] = j2 + m2 * e2 * e2;
-            out.data.0[2][2] = j3 + e3 * e3 * m3 + l3 * l3_m4;
+            out.data.0[1][1] = (m2 * e2).mul_add(e2, j2);
+            out.data.0[2][2] = l3.mul_add(l3_m4, (e3 * e3).mul_add(m3, j3));
             out.data.0[2][3] = product_2;
             out.data.0[3][2] = product_2;
-            out.data.0[3][3] = j4 + m4 * e4 * e4;
-            out.data.0[4][4] = j5 + e5 * e5 * m5;
+            out.data.0[3][3] = (m4 * e4).mul_add(e4, j4);
+            out.data.0[4][4] = (e5 * e5).mul_add(m5, j5);
             out
         }
         /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
@@ -1326,11 +1592,11 @@ pub mod double_four_bar {
             ]);
             let mut out = SVector::zeros();
             out.data.0[0][0] = T::constant(9.81, -4.973799150320702e-16) * cos_q1
-                * (e1 * m1 + l1 * m2);
+                * l1.mul_add(m2, e1 * m1);
             out.data.0[0][1] = T::constant(9.81, -4.973799150320702e-16) * m2 * e2
                 * cos_q2;
             out.data.0[0][2] = T::constant(9.81, -4.973799150320702e-16) * cos_q3
-                * (e3 * m3 + l3 * m4);
+                * l3.mul_add(m4, e3 * m3);
             out.data.0[0][3] = T::constant(9.81, -4.973799150320702e-16) * m4 * e4
                 * cos_q4;
             out.data.0[0][4] = T::constant(9.81, -4.973799150320702e-16) * e5 * m5
@@ -1424,10 +1690,11 @@ pub mod double_four_bar {
             let l3_cos_q3 = l3 * cos_q3;
             let l3_sin_q3 = l3 * sin_q3;
             let mut out = SVector::zeros();
-            out.data.0[0][0] = (l1 * cos_q1 + l2 * cos_q2 - l3_cos_q3) - l01;
-            out.data.0[0][1] = l1 * sin_q1 + l2 * sin_q2 - l3_sin_q3;
-            out.data.0[0][2] = (l3_cos_q3 + l4 * cos_q4 - l5 * cos_q5) - l02;
-            out.data.0[0][3] = l3_sin_q3 + l4 * sin_q4 - l5 * sin_q5;
+            out.data.0[0][0] = l2.mul_add(cos_q2, l1 * cos_q1) - l3_cos_q3 - l01;
+            out.data.0[0][1] = l2.mul_add(sin_q2, l1 * sin_q1) - l3_sin_q3;
+            out.data.0[0][2] = (-l5).mul_add(cos_q5, l4.mul_add(cos_q4, l3_cos_q3))
+                - l02;
+            out.data.0[0][3] = (-l5).mul_add(sin_q5, l4.mul_add(sin_q4, l3_sin_q3));
             out
         }
         /// Constraint Jacobian `A = ∂g/∂q`, `R × N`; unit of the row per unit of the coordinate.
@@ -1496,10 +1763,12 @@ pub mod double_four_bar {
             let product_6 = q4_dot * (q4_dot * l4);
             let product_7 = q5_dot * (q5_dot * l5);
             let mut out = SVector::zeros();
-            out.data.0[0][0] = cos_q1 * product + cos_q2 * product_2 - product_4;
-            out.data.0[0][1] = product * sin_q1 + product_2 * sin_q2 - product_5;
-            out.data.0[0][2] = product_4 + cos_q4 * product_6 - cos_q5 * product_7;
-            out.data.0[0][3] = product_5 + product_6 * sin_q4 - product_7 * sin_q5;
+            out.data.0[0][0] = cos_q2.mul_add(product_2, cos_q1 * product) - product_4;
+            out.data.0[0][1] = product_2.mul_add(sin_q2, product * sin_q1) - product_5;
+            out.data.0[0][2] = (-cos_q5)
+                .mul_add(product_7, cos_q4.mul_add(product_6, product_4));
+            out.data.0[0][3] = (-product_7)
+                .mul_add(sin_q5, product_6.mul_add(sin_q4, product_5));
             out
         }
     }
@@ -1617,7 +1886,10 @@ pub mod double_four_bar {
             let [q1, q2, _, _, _] = state.q.data.0[0];
             let Parameters { l1, e2, .. } = self.parameters;
             let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
-            let computed = [l1 * cos_q1 + e2 * cos_q2, l1 * sin_q1 + e2 * sin_q2];
+            let computed = [
+                e2.mul_add(cos_q2, l1 * cos_q1),
+                e2.mul_add(sin_q2, l1 * sin_q1),
+            ];
             for (place, value) in values.iter_mut().zip(computed) {
                 *place = value;
             }
@@ -1631,7 +1903,7 @@ pub mod double_four_bar {
                 q3,
                 q5,
             ]);
-            let sum = l01 + l3 * cos_q3;
+            let sum = l3.mul_add(cos_q3, l01);
             let l3_sin_q3 = l3 * sin_q3;
             let sum_2 = l01 + l02;
             canvas
@@ -1647,7 +1919,7 @@ pub mod double_four_bar {
                 .line(
                     &[
                         [sum, l3_sin_q3, T::zero()],
-                        [sum_2 + l5 * cos_q5, l5 * sin_q5, T::zero()],
+                        [l5.mul_add(cos_q5, sum_2), l5 * sin_q5, T::zero()],
                         [sum_2, T::zero(), T::zero()],
                     ],
                 );

@@ -143,22 +143,32 @@ pub mod double_pendulum {
             let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let m2_l2 = m2 * l2;
             let product = T::from_f64(0.5) * l1;
-            let product_2 = (sin_q1 * sin_q2 + cos_q1 * cos_q2) * m2_l2 * product;
+            let product_2 = cos_q1.mul_add(cos_q2, sin_q1 * sin_q2) * m2_l2 * product;
             let sin_q2_cos_q1 = sin_q2 * cos_q1;
             let sin_q1_cos_q2 = sin_q1 * cos_q2;
-            let sum = m2
-                * (T::from_f64(0.5) * l2 * q2_dot * q2_dot
-                    * (sin_q2_cos_q1 - sin_q1_cos_q2)
-                    - T::constant(9.81, -4.973799150320702e-16) * sin_q1)
-                - T::constant(4.905, -2.486899575160351e-16) * m1 * sin_q1;
-            out.mass.data.0[0][0] = j1 + l1 * l1 * (m2 + T::from_f64(0.25) * m1);
+            let sum = (-(T::constant(4.905, -2.486899575160351e-16) * m1))
+                .mul_add(
+                    sin_q1,
+                    m2
+                        * (-T::constant(9.81, -4.973799150320702e-16))
+                            .mul_add(
+                                sin_q1,
+                                T::from_f64(0.5) * l2 * q2_dot * q2_dot
+                                    * (sin_q2_cos_q1 - sin_q1_cos_q2),
+                            ),
+                );
+            out.mass.data.0[0][0] = (l1 * l1)
+                .mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
             out.mass.data.0[0][1] = product_2;
             out.mass.data.0[1][0] = product_2;
-            out.mass.data.0[1][1] = j2 + T::from_f64(0.25) * l2 * m2_l2;
+            out.mass.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             out.force.data.0[0][0] = l1 * sum;
             out.force.data.0[0][1] = m2_l2
-                * (product * q1_dot * q1_dot * (sin_q1_cos_q2 - sin_q2_cos_q1)
-                    - T::constant(4.905, -2.486899575160351e-16) * sin_q2);
+                * (-T::constant(4.905, -2.486899575160351e-16))
+                    .mul_add(
+                        sin_q2,
+                        product * q1_dot * q1_dot * (sin_q1_cos_q2 - sin_q2_cos_q1),
+                    );
         }
         /// The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
         /// Schur complement `A M⁻¹ Aᵀ`.
@@ -171,25 +181,40 @@ pub mod double_pendulum {
             let ([sin_q2, sin_q1], [cos_q2, cos_q1]) = T::sin_cos_all([q2, q1]);
             let sin_q2_cos_q1 = sin_q2 * cos_q1;
             let sin_q1_cos_q2 = sin_q1 * cos_q2;
-            let sum = m2
-                * (T::from_f64(0.5) * l2 * q2_dot * q2_dot
-                    * (sin_q2_cos_q1 - sin_q1_cos_q2)
-                    - T::constant(9.81, -4.973799150320702e-16) * sin_q1)
-                - T::constant(4.905, -2.486899575160351e-16) * sin_q1 * m1;
+            let sum = (-(T::constant(4.905, -2.486899575160351e-16) * sin_q1))
+                .mul_add(
+                    m1,
+                    m2
+                        * (-T::constant(9.81, -4.973799150320702e-16))
+                            .mul_add(
+                                sin_q1,
+                                T::from_f64(0.5) * l2 * q2_dot * q2_dot
+                                    * (sin_q2_cos_q1 - sin_q1_cos_q2),
+                            ),
+                );
             let product = l1 * sum;
-            let quotient = T::one() / (j1 + l1 * l1 * (m2 + T::from_f64(0.25) * m1));
+            let quotient = T::one()
+                / (l1 * l1).mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
             let m2_l2 = m2 * l2;
             let product_2 = T::from_f64(0.5) * l1;
-            let product_3 = (sin_q2 * sin_q1 + cos_q1 * cos_q2) * m2_l2 * product_2;
+            let product_3 = cos_q1.mul_add(cos_q2, sin_q2 * sin_q1) * m2_l2 * product_2;
             let product_4 = quotient * product_3;
-            let sum_2 = j2 + T::from_f64(0.25) * l2 * m2_l2;
-            let sum_3 = sum_2 - product_3 * product_4;
-            let sum_4 = m2_l2
-                * (product_2 * q1_dot * q1_dot * (sin_q1_cos_q2 - sin_q2_cos_q1)
-                    - T::constant(4.905, -2.486899575160351e-16) * sin_q2)
-                - product * product_4;
-            let product_5 = T::one() / sum_3 * sum_4;
-            out.acceleration.data.0[0][0] = product * quotient - product_4 * product_5;
+            let sum_2 = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
+            let sum_3 = (-product_3).mul_add(product_4, sum_2);
+            let sum_4 = (-product)
+                .mul_add(
+                    product_4,
+                    m2_l2
+                        * (-T::constant(4.905, -2.486899575160351e-16))
+                            .mul_add(
+                                sin_q2,
+                                product_2 * q1_dot * q1_dot
+                                    * (sin_q1_cos_q2 - sin_q2_cos_q1),
+                            ),
+                );
+            let product_5 = (T::one() / sum_3) * sum_4;
+            out.acceleration.data.0[0][0] = (-product_4)
+                .mul_add(product_5, product * quotient);
             out.acceleration.data.0[0][1] = product_5;
             out.pivots.mass_pivots.data.0[0][1] = sum_3;
             out.pivots.mass_diagonal.data.0[0][1] = sum_2;
@@ -267,10 +292,12 @@ pub mod double_pendulum {
             let product_10 = q2_dot_q2_dot * product_9;
             let product_11 = sin_q2 * product_8;
             let product_12 = q2_ddot * product_11;
-            let sum = product_5 - product_7 - product_10 - product_12
-                - l1 * cos_q1
-                    * (T::constant(4.905, -2.486899575160351e-16) * m1
-                        + T::constant(9.81, -4.973799150320702e-16) * m2);
+            let sum = (-(l1 * cos_q1))
+                .mul_add(
+                    T::constant(9.81, -4.973799150320702e-16)
+                        .mul_add(m2, T::constant(4.905, -2.486899575160351e-16) * m1),
+                    product_5 - product_7 - product_10 - product_12,
+                );
             let q1_dot_q1_dot = q1_dot * q1_dot;
             let product_13 = product_6 * q1_dot_q1_dot;
             let product_14 = product_9 * q1_dot_q1_dot;
@@ -283,9 +310,11 @@ pub mod double_pendulum {
                 - product_16;
             out.force_by_position.data.0[1][0] = product_7 + product_10 + product_12
                 - product_5;
-            out.force_by_position.data.0[1][1] = product_16 - product_13 - product_14
-                - product_15
-                - T::constant(4.905, -2.486899575160351e-16) * cos_q2 * l2_m2;
+            out.force_by_position.data.0[1][1] = (-(T::constant(
+                4.905,
+                -2.486899575160351e-16,
+            ) * cos_q2))
+                .mul_add(l2_m2, product_16 - product_13 - product_14 - product_15);
             out.force_by_velocity.data.0[0][1] = product * q1_dot
                 * (cos_q2_sin_q1 - sin_q2_cos_q1);
             out.force_by_velocity.data.0[1][0] = product * q2_dot
@@ -303,13 +332,13 @@ pub mod double_pendulum {
             let Parameters { l1, l2, m1, m2, j1, j2 } = self.parameters;
             let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let m2_l2 = m2 * l2;
-            let product = T::from_f64(0.5) * l1 * (sin_q1 * sin_q2 + cos_q1 * cos_q2)
+            let product = T::from_f64(0.5) * l1 * cos_q1.mul_add(cos_q2, sin_q1 * sin_q2)
                 * m2_l2;
             let mut out = SMatrix::zeros();
-            out.data.0[0][0] = j1 + l1 * l1 * (m2 + T::from_f64(0.25) * m1);
+            out.data.0[0][0] = (l1 * l1).mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
             out.data.0[0][1] = product;
             out.data.0[1][0] = product;
-            out.data.0[1][1] = j2 + T::from_f64(0.25) * l2 * m2_l2;
+            out.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             out
         }
         /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
@@ -321,8 +350,8 @@ pub mod double_pendulum {
             let ([sin_q1, sin_q2], [_, _]) = T::sin_cos_all([q1, q2]);
             let mut out = SVector::zeros();
             out.data.0[0][0] = l1 * sin_q1
-                * (T::constant(4.905, -2.486899575160351e-16) * m1
-                    + T::constant(9.81, -4.973799150320702e-16) * m2);
+                * T::constant(9.81, -4.973799150320702e-16)
+                    .mul_add(m2, T::constant(4.905, -2.486899575160351e-16) * m1);
             out.data.0[0][1] = T::constant(4.905, -2.486899575160351e-16) * m2 * l2
                 * sin_q2;
             out
@@ -344,7 +373,7 @@ pub mod double_pendulum {
             let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let sin_q1_cos_q2 = sin_q1 * cos_q2;
             let cos_q1_sin_q2 = cos_q1 * sin_q2;
-            let product = l1 * l2 * (T::from_f64(0.5) * m2);
+            let product = (l1 * l2) * (T::from_f64(0.5) * m2);
             let mut out = SVector::zeros();
             out.data.0[0][0] = q2_dot * q2_dot * (sin_q1_cos_q2 - cos_q1_sin_q2)
                 * product;
@@ -362,7 +391,7 @@ pub mod double_pendulum {
             let Parameters { l1, l2, m2, .. } = self.parameters;
             let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let product = T::from_f64(0.5)
-                * (m2 * (l1 * l2 * (sin_q1 * cos_q2 - cos_q1 * sin_q2)));
+                * (m2 * (l1 * l2 * (-cos_q1).mul_add(sin_q2, sin_q1 * cos_q2)));
             let mut out = SMatrix::zeros();
             out.data.0[0][1] = -q1_dot * product;
             out.data.0[1][0] = product * q2_dot;
@@ -427,7 +456,10 @@ pub mod double_pendulum {
             let [q1, q2] = state.q.data.0[0];
             let Parameters { l1, l2, .. } = self.parameters;
             let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
-            let computed = [l1 * sin_q1 + l2 * sin_q2, -l1 * cos_q1 - l2 * cos_q2];
+            let computed = [
+                l2.mul_add(sin_q2, l1 * sin_q1),
+                (-l2).mul_add(cos_q2, -l1 * cos_q1),
+            ];
             for (place, value) in values.iter_mut().zip(computed) {
                 *place = value;
             }
@@ -439,8 +471,8 @@ pub mod double_pendulum {
             let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let l1_sin_q1 = l1 * sin_q1;
             let l1_cos_q1 = l1 * cos_q1;
-            let sum = l1_sin_q1 + l2 * sin_q2;
-            let sum_2 = -l1_cos_q1 - l2 * cos_q2;
+            let sum = l2.mul_add(sin_q2, l1_sin_q1);
+            let sum_2 = (-l2).mul_add(cos_q2, -l1_cos_q1);
             canvas
                 .line(
                     &[

@@ -161,11 +161,11 @@ pub mod driven_pivot {
             out.mass.data.0[0][0] = m;
             out.mass.data.0[0][1] = sum;
             out.mass.data.0[1][0] = sum;
-            out.mass.data.0[1][1] = j + e * m_e;
-            out.force.data.0[0][0] = m_e * phi_dot * phi_dot * cos_phi
-                - T::constant(9.81, -4.973799150320702e-16) * m;
-            out.force.data.0[0][1] = T::constant(9.81, -4.973799150320702e-16) * product
-                - phi_dot * d;
+            out.mass.data.0[1][1] = e.mul_add(m_e, j);
+            out.force.data.0[0][0] = (-T::constant(9.81, -4.973799150320702e-16))
+                .mul_add(m, m_e * phi_dot * phi_dot * cos_phi);
+            out.force.data.0[0][1] = (-phi_dot)
+                .mul_add(d, T::constant(9.81, -4.973799150320702e-16) * product);
             out.jacobian.data.0[0][0] = T::one();
             out.bias.data.0[0][0] = -a * w * w * cos_angle;
         }
@@ -181,22 +181,26 @@ pub mod driven_pivot {
             let ([sin_phi, _], [cos_phi, cos_angle]) = T::sin_cos_all([phi, w * t]);
             let quotient = T::one() / m;
             let m_e = m * e;
-            let sum = m_e * phi_dot * phi_dot * cos_phi
-                - T::constant(9.81, -4.973799150320702e-16) * m;
+            let sum = (-T::constant(9.81, -4.973799150320702e-16))
+                .mul_add(m, m_e * phi_dot * phi_dot * cos_phi);
             let product = m_e * sin_phi;
             let product_2 = quotient * product;
-            let sum_2 = j + e * m_e;
-            let sum_3 = sum_2 - product * product_2;
+            let sum_2 = e.mul_add(m_e, j);
+            let sum_3 = (-product).mul_add(product_2, sum_2);
             let quotient_2 = T::one() / sum_3;
             let product_3 = product_2 * quotient_2;
-            let sum_4 = quotient + product_2 * product_3;
-            let sum_5 = (T::constant(9.81, -4.973799150320702e-16) * product
-                - phi_dot * d) + sum * product_2;
-            let product_4 = T::one() / sum_4
-                * (a * w * w * cos_angle + quotient * sum + product_3 * sum_5);
-            let product_5 = quotient_2 * (sum_5 - product_2 * product_4);
-            out.acceleration.data.0[0][0] = quotient * (sum - product_4)
-                + product_2 * product_5;
+            let sum_4 = product_2.mul_add(product_3, quotient);
+            let sum_5 = sum
+                .mul_add(
+                    product_2,
+                    (-phi_dot)
+                        .mul_add(d, T::constant(9.81, -4.973799150320702e-16) * product),
+                );
+            let product_4 = (T::one() / sum_4)
+                * product_3.mul_add(sum_5, quotient.mul_add(sum, a * w * w * cos_angle));
+            let product_5 = quotient_2 * (-product_2).mul_add(product_4, sum_5);
+            out.acceleration.data.0[0][0] = product_2
+                .mul_add(product_5, quotient * (sum - product_4));
             out.acceleration.data.0[0][1] = product_5;
             out.pivots.mass_pivots.data.0[0][1] = sum_3;
             out.pivots.mass_diagonal.data.0[0][1] = sum_2;
@@ -225,8 +229,8 @@ pub mod driven_pivot {
             out.mass.data.0[0][0] = m;
             out.mass.data.0[0][1] = sum;
             out.mass.data.0[1][0] = sum;
-            out.mass.data.0[1][1] = j + e * m_e;
-            out.residual.data.0[0][0] = y - a * cos_angle;
+            out.mass.data.0[1][1] = e.mul_add(m_e, j);
+            out.residual.data.0[0][0] = (-a).mul_add(cos_angle, y);
             out.jacobian.data.0[0][0] = T::one();
             out.drift.data.0[0][0] = a * w * sin_angle;
         }
@@ -245,24 +249,26 @@ pub mod driven_pivot {
             let Parameters { a, w, m, e, j, .. } = self.parameters;
             let w_t = w * t;
             let ([sin_angle, sin_phi], [cos_angle, _]) = T::sin_cos_all([w_t, phi]);
-            let sum = y - a * cos_angle;
+            let sum = (-a).mul_add(cos_angle, y);
             let quotient = T::one() / m;
             let m_e = m * e;
             let product = sin_phi * m_e;
             let product_2 = quotient * product;
-            let sum_2 = j + e * m_e;
-            let sum_3 = sum_2 - product * product_2;
+            let sum_2 = e.mul_add(m_e, j);
+            let sum_3 = (-product).mul_add(product_2, sum_2);
             let quotient_2 = T::one() / sum_3;
-            let sum_4 = quotient + product_2 * (product_2 * quotient_2);
+            let sum_4 = product_2.mul_add(product_2 * quotient_2, quotient);
             let quotient_3 = T::one() / sum_4;
             let product_3 = sum * quotient_3;
             let product_4 = quotient_2 * (product_2 * product_3);
-            let product_5 = quotient_3 * (y_dot + a * w * sin_angle);
+            let product_5 = quotient_3 * (a * w).mul_add(sin_angle, y_dot);
             let product_6 = quotient_2 * (product_2 * product_5);
             out.residual.data.0[0][0] = sum;
-            out.position.data.0[0][0] = -(quotient * product_3 + product_2 * product_4);
+            out.position.data.0[0][0] = -product_2
+                .mul_add(product_4, quotient * product_3);
             out.position.data.0[0][1] = -product_4;
-            out.velocity.data.0[0][0] = -(quotient * product_5 + product_2 * product_6);
+            out.velocity.data.0[0][0] = -product_2
+                .mul_add(product_6, quotient * product_5);
             out.velocity.data.0[0][1] = -product_6;
             out.pivots.mass_pivots.data.0[0][1] = sum_3;
             out.pivots.mass_diagonal.data.0[0][1] = sum_2;
@@ -333,8 +339,8 @@ pub mod driven_pivot {
             let (sin_phi, cos_phi) = phi.sin_cos();
             let m_e = m * e;
             let product = cos_phi * m_e;
-            out.force_by_position.data.0[1][0] = (cos_phi * phi_ddot
-                - phi_dot * phi_dot * sin_phi) * m_e;
+            out.force_by_position.data.0[1][0] = (-(phi_dot * phi_dot))
+                .mul_add(sin_phi, cos_phi * phi_ddot) * m_e;
             out.force_by_position.data.0[1][1] = (y_ddot
                 + T::constant(9.81, -4.973799150320702e-16)) * product;
             out.force_by_velocity.data.0[1][0] = T::from_f64(2.0) * phi_dot * product;
@@ -357,7 +363,7 @@ pub mod driven_pivot {
             out.data.0[0][0] = m;
             out.data.0[0][1] = sum;
             out.data.0[1][0] = sum;
-            out.data.0[1][1] = j + e * m_e;
+            out.data.0[1][1] = e.mul_add(m_e, j);
             out
         }
         /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
@@ -418,7 +424,7 @@ pub mod driven_pivot {
             let Parameters { a, w, .. } = self.parameters;
             let (_, cos_angle) = (w * t).sin_cos();
             let mut out = SVector::zeros();
-            out.data.0[0][0] = y - a * cos_angle;
+            out.data.0[0][0] = (-a).mul_add(cos_angle, y);
             out
         }
         /// Constraint Jacobian `A = ∂g/∂q`, `R × N`; unit of the row per unit of the coordinate.
@@ -499,7 +505,7 @@ pub mod driven_pivot {
             let Parameters { e, .. } = self.parameters;
             let (sin_phi, cos_phi) = phi.sin_cos();
             let product = T::from_f64(2.0) * e;
-            let computed = [sin_phi * product, y + product * cos_phi];
+            let computed = [sin_phi * product, product.mul_add(cos_phi, y)];
             for (place, value) in values.iter_mut().zip(computed) {
                 *place = value;
             }
@@ -514,7 +520,7 @@ pub mod driven_pivot {
                 .line(
                     &[
                         [T::zero(), y, T::zero()],
-                        [sin_phi * product, y + product * cos_phi, T::zero()],
+                        [sin_phi * product, product.mul_add(cos_phi, y), T::zero()],
                     ],
                 );
             canvas

@@ -197,7 +197,7 @@ pub mod heavy_top {
             let sum = product_3 - j3;
             let product_16 = e_2 * sum;
             let product_17 = product_4 * e_1_j1;
-            let sum_2 = product_15 + product * product_16 - product_17;
+            let sum_2 = product.mul_add(product_16, product_15) - product_17;
             let sum_3 = j3 - product_3;
             let product_18 = product_4 * e_2_j1;
             let product_19 = product * e_1_j1;
@@ -208,7 +208,7 @@ pub mod heavy_top {
             let product_23 = product_2 * j1;
             let product_24 = product_7 * product_16;
             let sum_5 = product_4 * e_2 * sum_3 - product_18 - product_19;
-            let sum_6 = product_17 + product_4 * e_1 * sum - product_15;
+            let sum_6 = (product_4 * e_1).mul_add(sum, product_17) - product_15;
             let e_0_e_3_dot = e_0 * e_3_dot;
             let e_2_e_1_dot = e_2 * e_1_dot;
             let e_1_e_2_dot = e_1 * e_2_dot;
@@ -219,10 +219,18 @@ pub mod heavy_top {
             let e_1_dot_e_1_dot = e_1_dot * e_1_dot;
             let e_2_dot_e_2_dot = e_2_dot * e_2_dot;
             let sum_8 = e_1_dot_e_1_dot + e_2_dot_e_2_dot;
-            let sum_9 = e_1 * e_1_dot + e_2 * e_2_dot;
+            let sum_9 = e_2.mul_add(e_2_dot, e_1 * e_1_dot);
             let product_26 = product_3 * sum_9;
-            let sum_10 = e_3_dot * (product_25 + (e_1_e_2_dot - e_2_e_1_dot) * sum_7)
-                + j1 * (e_0 * sum_8 - e_0_dot * sum_9) - e_0_dot * product_26;
+            let sum_10 = (-e_0_dot)
+                .mul_add(
+                    product_26,
+                    j1
+                        .mul_add(
+                            (-e_0_dot).mul_add(sum_9, e_0 * sum_8),
+                            e_3_dot
+                                * (e_1_e_2_dot - e_2_e_1_dot).mul_add(sum_7, product_25),
+                        ),
+                );
             let e_0_dot_e_0_dot = e_0_dot * e_0_dot;
             let e_3_dot_e_3_dot = e_3_dot * e_3_dot;
             let product_27 = T::from_f64(4.0) * a;
@@ -233,43 +241,75 @@ pub mod heavy_top {
             let product_29 = j3
                 * (e_1_e_2_dot + e_3_e_0_dot - e_0_e_3_dot - e_2_e_1_dot);
             let sum_11 = e_0_dot_e_0_dot + e_3_dot_e_3_dot;
-            let sum_12 = e_0 * e_0_dot + e_3 * e_3_dot;
+            let sum_12 = e_3.mul_add(e_3_dot, e_0 * e_0_dot);
             let product_30 = product_3 * sum_12;
-            let sum_13 = e_2_dot * (product_29 + sum_7 * (e_0_e_3_dot - e_3_e_0_dot))
-                + j1 * (e_1 * sum_11 - e_1_dot * sum_12) - e_1_dot * product_30;
+            let sum_13 = (-e_1_dot)
+                .mul_add(
+                    product_30,
+                    j1
+                        .mul_add(
+                            (-e_1_dot).mul_add(sum_12, e_1 * sum_11),
+                            e_2_dot
+                                * sum_7.mul_add(e_0_e_3_dot - e_3_e_0_dot, product_29),
+                        ),
+                );
             let product_31 = a_m
-                * (T::constant(19.62, -9.947598300641404e-16)
-                    + product_27
-                        * (e_0_dot_e_0_dot + e_3_dot_e_3_dot - e_1_dot_e_1_dot
-                            - e_2_dot_e_2_dot));
-            let sum_14 = e_1_dot * (product_25 + sum_7 * (e_3_e_0_dot - e_0_e_3_dot))
-                + j1 * (e_2 * sum_11 - e_2_dot * sum_12) - e_2_dot * product_30;
-            let sum_15 = e_0_dot * (product_29 + sum_7 * (e_2_e_1_dot - e_1_e_2_dot))
-                + j1 * (e_3 * sum_8 - e_3_dot * sum_9) - e_3_dot * product_26;
-            out.mass.data.0[0][0] = j3 * product_2 + product_6 + product_9 + product_12
-                + product_13 + product_14;
+                * product_27
+                    .mul_add(
+                        e_0_dot_e_0_dot + e_3_dot_e_3_dot - e_1_dot_e_1_dot
+                            - e_2_dot_e_2_dot,
+                        T::constant(19.62, -9.947598300641404e-16),
+                    );
+            let sum_14 = (-e_2_dot)
+                .mul_add(
+                    product_30,
+                    j1
+                        .mul_add(
+                            (-e_2_dot).mul_add(sum_12, e_2 * sum_11),
+                            e_1_dot
+                                * sum_7.mul_add(e_3_e_0_dot - e_0_e_3_dot, product_25),
+                        ),
+                );
+            let sum_15 = (-e_3_dot)
+                .mul_add(
+                    product_26,
+                    j1
+                        .mul_add(
+                            (-e_3_dot).mul_add(sum_9, e_3 * sum_8),
+                            e_0_dot
+                                * sum_7.mul_add(e_2_e_1_dot - e_1_e_2_dot, product_29),
+                        ),
+                );
+            out.mass.data.0[0][0] = j3.mul_add(product_2, product_6) + product_9
+                + product_12 + product_13 + product_14;
             out.mass.data.0[0][1] = sum_2;
             out.mass.data.0[0][2] = sum_4;
             out.mass.data.0[0][3] = product_20;
             out.mass.data.0[1][0] = sum_2;
-            out.mass.data.0[1][1] = product_6 + product_9 + j3 * product_11 + product_21
-                + product_22 + product_23;
+            out.mass.data.0[1][1] = j3.mul_add(product_11, product_6 + product_9)
+                + product_21 + product_22 + product_23;
             out.mass.data.0[1][2] = product_24;
             out.mass.data.0[1][3] = sum_5;
             out.mass.data.0[2][0] = sum_4;
             out.mass.data.0[2][1] = product_24;
-            out.mass.data.0[2][2] = product_6 + product_12 + product_21 + product_22
-                + product_23 + j3 * product_8;
+            out.mass.data.0[2][2] = j3
+                .mul_add(
+                    product_8,
+                    product_6 + product_12 + product_21 + product_22 + product_23,
+                );
             out.mass.data.0[2][3] = sum_6;
             out.mass.data.0[3][0] = product_20;
             out.mass.data.0[3][1] = sum_5;
             out.mass.data.0[3][2] = sum_6;
-            out.mass.data.0[3][3] = product_9 + product_12 + product_13 + product_14
-                + product_21 + j3 * product_5;
-            out.force.data.0[0][0] = T::from_f64(8.0) * sum_10 + e_0 * product_28;
-            out.force.data.0[0][1] = T::from_f64(8.0) * sum_13 + e_1 * product_31;
-            out.force.data.0[0][2] = T::from_f64(8.0) * sum_14 + e_2 * product_31;
-            out.force.data.0[0][3] = T::from_f64(8.0) * sum_15 + e_3 * product_28;
+            out.mass.data.0[3][3] = j3
+                .mul_add(
+                    product_5,
+                    product_9 + product_12 + product_13 + product_14 + product_21,
+                );
+            out.force.data.0[0][0] = e_0.mul_add(product_28, T::from_f64(8.0) * sum_10);
+            out.force.data.0[0][1] = e_1.mul_add(product_31, T::from_f64(8.0) * sum_13);
+            out.force.data.0[0][2] = e_2.mul_add(product_31, T::from_f64(8.0) * sum_14);
+            out.force.data.0[0][3] = e_3.mul_add(product_28, T::from_f64(8.0) * sum_15);
             out.jacobian.data.0[0][0] = T::from_f64(2.0) * e_0;
             out.jacobian.data.0[1][0] = T::from_f64(2.0) * e_1;
             out.jacobian.data.0[2][0] = T::from_f64(2.0) * e_2;
@@ -304,7 +344,7 @@ pub mod heavy_top {
             let e_2_j1 = e_2 * j1;
             let product_14 = product_10 * e_2_j1;
             let quotient = T::one()
-                / (j3 * product_2 + product_6 + product_9 + product_12 + product_13
+                / (j3.mul_add(product_2, product_6) + product_9 + product_12 + product_13
                     + product_14);
             let e_0_e_3_dot = e_0 * e_3_dot;
             let e_2_e_1_dot = e_2 * e_1_dot;
@@ -316,10 +356,18 @@ pub mod heavy_top {
             let e_1_dot_e_1_dot = e_1_dot * e_1_dot;
             let e_2_dot_e_2_dot = e_2_dot * e_2_dot;
             let sum_2 = e_1_dot_e_1_dot + e_2_dot_e_2_dot;
-            let sum_3 = e_1 * e_1_dot + e_2 * e_2_dot;
+            let sum_3 = e_2.mul_add(e_2_dot, e_1 * e_1_dot);
             let product_16 = product_3 * sum_3;
-            let sum_4 = e_3_dot * (product_15 + (e_1_e_2_dot - e_2_e_1_dot) * sum)
-                + j1 * (e_0 * sum_2 - e_0_dot * sum_3) - e_0_dot * product_16;
+            let sum_4 = (-e_0_dot)
+                .mul_add(
+                    product_16,
+                    j1
+                        .mul_add(
+                            (-e_0_dot).mul_add(sum_3, e_0 * sum_2),
+                            e_3_dot
+                                * (e_1_e_2_dot - e_2_e_1_dot).mul_add(sum, product_15),
+                        ),
+                );
             let e_0_dot_e_0_dot = e_0_dot * e_0_dot;
             let e_3_dot_e_3_dot = e_3_dot * e_3_dot;
             let product_17 = T::from_f64(4.0) * a;
@@ -327,22 +375,22 @@ pub mod heavy_top {
                 * ((e_1_dot_e_1_dot + e_2_dot_e_2_dot - e_0_dot_e_0_dot
                     - e_3_dot_e_3_dot) * product_17
                     - T::constant(19.62, -9.947598300641404e-16));
-            let sum_5 = T::from_f64(8.0) * sum_4 + e_0 * product_18;
+            let sum_5 = e_0.mul_add(product_18, T::from_f64(8.0) * sum_4);
             let product_19 = T::from_f64(2.0) * e_0;
             let product_20 = quotient * product_19;
             let product_21 = product * e_2_j1;
             let sum_6 = product_3 - j3;
             let product_22 = e_2 * sum_6;
             let product_23 = product_4 * e_1_j1;
-            let sum_7 = product_21 + product * product_22 - product_23;
+            let sum_7 = product.mul_add(product_22, product_21) - product_23;
             let product_24 = quotient * sum_7;
-            let sum_8 = T::from_f64(2.0) * e_1 - product_19 * product_24;
+            let sum_8 = (-product_19).mul_add(product_24, T::from_f64(2.0) * e_1);
             let product_25 = product_2 * product_3;
             let product_26 = product_5 * j1;
             let product_27 = product_2 * j1;
-            let sum_9 = product_6 + product_9 + j3 * product_11 + product_25 + product_26
-                + product_27;
-            let sum_10 = sum_9 - sum_7 * product_24;
+            let sum_9 = j3.mul_add(product_11, product_6 + product_9) + product_25
+                + product_26 + product_27;
+            let sum_10 = (-sum_7).mul_add(product_24, sum_9);
             let quotient_2 = T::one() / sum_10;
             let product_28 = sum_8 * quotient_2;
             let sum_11 = j3 - product_3;
@@ -350,67 +398,176 @@ pub mod heavy_top {
             let product_30 = product * e_1_j1;
             let sum_12 = product * e_1 * sum_11 - product_29 - product_30;
             let product_31 = quotient * sum_12;
-            let sum_13 = product_7 * product_22 - sum_7 * product_31;
+            let sum_13 = (-sum_7).mul_add(product_31, product_7 * product_22);
             let product_32 = quotient_2 * sum_13;
-            let sum_14 = (T::from_f64(2.0) * e_2 - product_19 * product_31)
-                - sum_8 * product_32;
-            let sum_15 = product_6 + product_12 + product_25 + product_26 + product_27
-                + j3 * product_8;
-            let sum_16 = (sum_15 - sum_12 * product_31) - sum_13 * product_32;
+            let sum_14 = (-sum_8)
+                .mul_add(
+                    product_32,
+                    (-product_19).mul_add(product_31, T::from_f64(2.0) * e_2),
+                );
+            let sum_15 = j3
+                .mul_add(
+                    product_8,
+                    product_6 + product_12 + product_25 + product_26 + product_27,
+                );
+            let sum_16 = (-sum_13)
+                .mul_add(product_32, (-sum_12).mul_add(product_31, sum_15));
             let quotient_3 = T::one() / sum_16;
             let product_33 = sum_14 * quotient_3;
             let product_34 = product * e_0 * sum_6;
             let product_35 = quotient * product_34;
-            let sum_17 = (product_4 * e_2 * sum_11 - product_29 - product_30)
-                - sum_7 * product_35;
+            let sum_17 = (-sum_7)
+                .mul_add(product_35, product_4 * e_2 * sum_11 - product_29 - product_30);
             let product_36 = quotient_2 * sum_17;
-            let sum_18 = ((product_23 + product_4 * e_1 * sum_6 - product_21)
-                - sum_12 * product_35) - sum_13 * product_36;
+            let sum_18 = (-sum_13)
+                .mul_add(
+                    product_36,
+                    (-sum_12)
+                        .mul_add(
+                            product_35,
+                            (product_4 * e_1).mul_add(sum_6, product_23) - product_21,
+                        ),
+                );
             let product_37 = quotient_3 * sum_18;
-            let sum_19 = ((T::from_f64(2.0) * e_3 - product_19 * product_35)
-                - sum_8 * product_36) - sum_14 * product_37;
-            let sum_20 = product_9 + product_12 + product_13 + product_14 + product_25
-                + j3 * product_5;
-            let sum_21 = ((sum_20 - product_34 * product_35) - sum_17 * product_36)
-                - sum_18 * product_37;
+            let sum_19 = (-sum_14)
+                .mul_add(
+                    product_37,
+                    (-sum_8)
+                        .mul_add(
+                            product_36,
+                            (-product_19).mul_add(product_35, T::from_f64(2.0) * e_3),
+                        ),
+                );
+            let sum_20 = j3
+                .mul_add(
+                    product_5,
+                    product_9 + product_12 + product_13 + product_14 + product_25,
+                );
+            let sum_21 = (-sum_18)
+                .mul_add(
+                    product_37,
+                    (-sum_17)
+                        .mul_add(product_36, (-product_34).mul_add(product_35, sum_20)),
+                );
             let quotient_4 = T::one() / sum_21;
             let product_38 = sum_19 * quotient_4;
-            let sum_22 = product_19 * product_20 + sum_8 * product_28
-                + sum_14 * product_33 + sum_19 * product_38;
+            let sum_22 = sum_19
+                .mul_add(
+                    product_38,
+                    sum_14
+                        .mul_add(
+                            product_33,
+                            sum_8.mul_add(product_28, product_19 * product_20),
+                        ),
+                );
             let product_39 = j3
                 * (e_1_e_2_dot + e_3_e_0_dot - e_0_e_3_dot - e_2_e_1_dot);
             let sum_23 = e_0_dot_e_0_dot + e_3_dot_e_3_dot;
-            let sum_24 = e_0 * e_0_dot + e_3 * e_3_dot;
+            let sum_24 = e_3.mul_add(e_3_dot, e_0 * e_0_dot);
             let product_40 = product_3 * sum_24;
-            let sum_25 = e_2_dot * (product_39 + sum * (e_0_e_3_dot - e_3_e_0_dot))
-                + j1 * (e_1 * sum_23 - e_1_dot * sum_24) - e_1_dot * product_40;
+            let sum_25 = (-e_1_dot)
+                .mul_add(
+                    product_40,
+                    j1
+                        .mul_add(
+                            (-e_1_dot).mul_add(sum_24, e_1 * sum_23),
+                            e_2_dot * sum.mul_add(e_0_e_3_dot - e_3_e_0_dot, product_39),
+                        ),
+                );
             let product_41 = a_m
-                * (T::constant(19.62, -9.947598300641404e-16)
-                    + product_17
-                        * (e_0_dot_e_0_dot + e_3_dot_e_3_dot - e_1_dot_e_1_dot
-                            - e_2_dot_e_2_dot));
-            let sum_26 = (T::from_f64(8.0) * sum_25 + e_1 * product_41)
-                - sum_5 * product_24;
-            let sum_27 = e_1_dot * (product_15 + sum * (e_3_e_0_dot - e_0_e_3_dot))
-                + j1 * (e_2 * sum_23 - e_2_dot * sum_24) - e_2_dot * product_40;
-            let sum_28 = ((T::from_f64(8.0) * sum_27 + e_2 * product_41)
-                - sum_5 * product_31) - product_32 * sum_26;
-            let sum_29 = e_0_dot * (product_39 + sum * (e_2_e_1_dot - e_1_e_2_dot))
-                + j1 * (e_3 * sum_2 - e_3_dot * sum_3) - e_3_dot * product_16;
-            let sum_30 = (((T::from_f64(8.0) * sum_29 + e_3 * product_18)
-                - sum_5 * product_35) - product_36 * sum_26) - product_37 * sum_28;
-            let sum_31 = T::from_f64(2.0)
-                * (e_1_dot_e_1_dot + e_2_dot_e_2_dot + e_0_dot_e_0_dot + e_3_dot_e_3_dot)
-                + sum_5 * product_20 + product_28 * sum_26 + product_33 * sum_28
-                + product_38 * sum_30;
-            let product_42 = T::one() / sum_22 * sum_31;
-            let product_43 = quotient_4 * (sum_30 - sum_19 * product_42);
-            let sum_32 = quotient_3 * (sum_28 - sum_14 * product_42)
-                - product_37 * product_43;
-            let sum_33 = (quotient_2 * (sum_26 - sum_8 * product_42)
-                - product_32 * sum_32) - product_36 * product_43;
-            let sum_34 = ((quotient * (sum_5 - product_19 * product_42)
-                - product_24 * sum_33) - product_31 * sum_32) - product_35 * product_43;
+                * product_17
+                    .mul_add(
+                        e_0_dot_e_0_dot + e_3_dot_e_3_dot - e_1_dot_e_1_dot
+                            - e_2_dot_e_2_dot,
+                        T::constant(19.62, -9.947598300641404e-16),
+                    );
+            let sum_26 = (-sum_5)
+                .mul_add(product_24, e_1.mul_add(product_41, T::from_f64(8.0) * sum_25));
+            let sum_27 = (-e_2_dot)
+                .mul_add(
+                    product_40,
+                    j1
+                        .mul_add(
+                            (-e_2_dot).mul_add(sum_24, e_2 * sum_23),
+                            e_1_dot * sum.mul_add(e_3_e_0_dot - e_0_e_3_dot, product_15),
+                        ),
+                );
+            let sum_28 = (-product_32)
+                .mul_add(
+                    sum_26,
+                    (-sum_5)
+                        .mul_add(
+                            product_31,
+                            e_2.mul_add(product_41, T::from_f64(8.0) * sum_27),
+                        ),
+                );
+            let sum_29 = (-e_3_dot)
+                .mul_add(
+                    product_16,
+                    j1
+                        .mul_add(
+                            (-e_3_dot).mul_add(sum_3, e_3 * sum_2),
+                            e_0_dot * sum.mul_add(e_2_e_1_dot - e_1_e_2_dot, product_39),
+                        ),
+                );
+            let sum_30 = (-product_37)
+                .mul_add(
+                    sum_28,
+                    (-product_36)
+                        .mul_add(
+                            sum_26,
+                            (-sum_5)
+                                .mul_add(
+                                    product_35,
+                                    e_3.mul_add(product_18, T::from_f64(8.0) * sum_29),
+                                ),
+                        ),
+                );
+            let sum_31 = product_38
+                .mul_add(
+                    sum_30,
+                    product_33
+                        .mul_add(
+                            sum_28,
+                            product_28
+                                .mul_add(
+                                    sum_26,
+                                    sum_5
+                                        .mul_add(
+                                            product_20,
+                                            T::from_f64(2.0)
+                                                * (e_1_dot_e_1_dot + e_2_dot_e_2_dot + e_0_dot_e_0_dot
+                                                    + e_3_dot_e_3_dot),
+                                        ),
+                                ),
+                        ),
+                );
+            let product_42 = (T::one() / sum_22) * sum_31;
+            let product_43 = quotient_4 * (-sum_19).mul_add(product_42, sum_30);
+            let sum_32 = (-product_37)
+                .mul_add(product_43, quotient_3 * (-sum_14).mul_add(product_42, sum_28));
+            let sum_33 = (-product_36)
+                .mul_add(
+                    product_43,
+                    (-product_32)
+                        .mul_add(
+                            sum_32,
+                            quotient_2 * (-sum_8).mul_add(product_42, sum_26),
+                        ),
+                );
+            let sum_34 = (-product_35)
+                .mul_add(
+                    product_43,
+                    (-product_31)
+                        .mul_add(
+                            sum_32,
+                            (-product_24)
+                                .mul_add(
+                                    sum_33,
+                                    quotient * (-product_19).mul_add(product_42, sum_5),
+                                ),
+                        ),
+                );
             out.acceleration.data.0[0][0] = sum_34;
             out.acceleration.data.0[0][1] = sum_33;
             out.acceleration.data.0[0][2] = sum_32;
@@ -458,7 +615,7 @@ pub mod heavy_top {
             let sum = product_3 - j3;
             let product_15 = e_2 * sum;
             let product_16 = product_4 * e_1_j1;
-            let sum_2 = product_14 + product * product_15 - product_16;
+            let sum_2 = product.mul_add(product_15, product_14) - product_16;
             let sum_3 = j3 - product_3;
             let product_17 = product_4 * e_2_j1;
             let product_18 = product * e_1_j1;
@@ -469,29 +626,35 @@ pub mod heavy_top {
             let product_22 = product_2 * j1;
             let product_23 = product_7 * product_15;
             let sum_5 = product_4 * e_2 * sum_3 - product_17 - product_18;
-            let sum_6 = product_16 + product_4 * e_1 * sum - product_14;
-            out.mass.data.0[0][0] = j3 * product_2 + product_6 + product_9 + product_11
-                + product_12 + product_13;
+            let sum_6 = (product_4 * e_1).mul_add(sum, product_16) - product_14;
+            out.mass.data.0[0][0] = j3.mul_add(product_2, product_6) + product_9
+                + product_11 + product_12 + product_13;
             out.mass.data.0[0][1] = sum_2;
             out.mass.data.0[0][2] = sum_4;
             out.mass.data.0[0][3] = product_19;
             out.mass.data.0[1][0] = sum_2;
-            out.mass.data.0[1][1] = product_6 + product_9 + j3 * product_10 + product_20
-                + product_21 + product_22;
+            out.mass.data.0[1][1] = j3.mul_add(product_10, product_6 + product_9)
+                + product_20 + product_21 + product_22;
             out.mass.data.0[1][2] = product_23;
             out.mass.data.0[1][3] = sum_5;
             out.mass.data.0[2][0] = sum_4;
             out.mass.data.0[2][1] = product_23;
-            out.mass.data.0[2][2] = product_6 + product_11 + product_20 + product_21
-                + product_22 + j3 * product_8;
+            out.mass.data.0[2][2] = j3
+                .mul_add(
+                    product_8,
+                    product_6 + product_11 + product_20 + product_21 + product_22,
+                );
             out.mass.data.0[2][3] = sum_6;
             out.mass.data.0[3][0] = product_19;
             out.mass.data.0[3][1] = sum_5;
             out.mass.data.0[3][2] = sum_6;
-            out.mass.data.0[3][3] = product_9 + product_11 + product_12 + product_13
-                + product_20 + j3 * product_5;
-            out.residual.data.0[0][0] = (e_2_e_2 + e_1 * e_1 + e_0 * e_0 + e_3 * e_3)
-                - T::one();
+            out.mass.data.0[3][3] = j3
+                .mul_add(
+                    product_5,
+                    product_9 + product_11 + product_12 + product_13 + product_20,
+                );
+            out.residual.data.0[0][0] = e_3
+                .mul_add(e_3, e_0.mul_add(e_0, e_1.mul_add(e_1, e_2_e_2))) - T::one();
             out.jacobian.data.0[0][0] = T::from_f64(2.0) * e_0;
             out.jacobian.data.0[1][0] = T::from_f64(2.0) * e_1;
             out.jacobian.data.0[2][0] = T::from_f64(2.0) * e_2;
@@ -500,7 +663,7 @@ pub mod heavy_top {
         /// The least corrections of position and velocity in the kinetic metric, where
         /// the constraints are regular.
         ///
-        /// Costs 111 products, 70 sums, 5 quotients.
+        /// Costs 119 products, 74 sums, 5 quotients.
         fn correction(
             &self,
             state: &State<T, 4>,
@@ -510,7 +673,8 @@ pub mod heavy_top {
             let [e_0_dot, e_1_dot, e_2_dot, e_3_dot] = state.v.data.0[0];
             let Parameters { m, a, j3, j1, .. } = self.parameters;
             let e_2_e_2 = e_2 * e_2;
-            let sum = (e_2_e_2 + e_1 * e_1 + e_0 * e_0 + e_3 * e_3) - T::one();
+            let sum = e_3.mul_add(e_3, e_0.mul_add(e_0, e_1.mul_add(e_1, e_2_e_2)))
+                - T::one();
             let product = T::from_f64(4.0) * e_3;
             let product_2 = a * (a * m);
             let sum_2 = product_2 - j3;
@@ -528,12 +692,15 @@ pub mod heavy_top {
             let product_13 = product_8 * e_1_j1;
             let product_14 = product_11 * j1;
             let quotient = T::one()
-                / (j3 * product_4 + product_7 + product_10 + product_12 + product_13
-                    + product_14);
+                / (j3.mul_add(product_4, product_7) + product_10 + product_12
+                    + product_13 + product_14);
             let product_15 = product_3 * quotient;
             let product_16 = product_2 * product_4;
-            let sum_3 = product_10 + product_12 + product_13 + product_14 + product_16
-                + j3 * product_6;
+            let sum_3 = j3
+                .mul_add(
+                    product_6,
+                    product_10 + product_12 + product_13 + product_14 + product_16,
+                );
             let sum_4 = j3 - product_2;
             let e_2_j1 = e_2 * j1;
             let product_17 = product_5 * e_2_j1;
@@ -541,65 +708,128 @@ pub mod heavy_top {
             let product_19 = product * e_2_j1;
             let product_20 = e_2 * sum_2;
             let product_21 = product_5 * e_1_j1;
-            let sum_5 = product_19 + product * product_20 - product_21;
-            let sum_6 = (e_2 * product_5 * sum_4 - product_17 - product_18)
-                - product_15 * sum_5;
+            let sum_5 = product.mul_add(product_20, product_19) - product_21;
+            let sum_6 = (-product_15)
+                .mul_add(sum_5, e_2 * product_5 * sum_4 - product_17 - product_18);
             let product_22 = product_6 * j1;
             let product_23 = product_4 * j1;
-            let sum_7 = product_7 + product_10 + product_16 + j3 * product_11
+            let sum_7 = j3.mul_add(product_11, product_7 + product_10 + product_16)
                 + product_22 + product_23;
             let product_24 = quotient * sum_5;
-            let sum_8 = sum_7 - sum_5 * product_24;
+            let sum_8 = (-sum_5).mul_add(product_24, sum_7);
             let quotient_2 = T::one() / sum_8;
             let product_25 = sum_6 * quotient_2;
             let sum_9 = e_1 * product * sum_4 - product_17 - product_18;
             let product_26 = quotient * sum_9;
-            let sum_10 = product_8 * product_20 - sum_5 * product_26;
-            let sum_11 = ((product_21 + e_1 * sum_2 * product_5 - product_19)
-                - product_15 * sum_9) - product_25 * sum_10;
-            let sum_12 = product_7 + product_12 + product_16 + product_22 + product_23
-                + j3 * product_9;
+            let sum_10 = (-sum_5).mul_add(product_26, product_8 * product_20);
+            let sum_11 = (-product_25)
+                .mul_add(
+                    sum_10,
+                    (-product_15)
+                        .mul_add(
+                            sum_9,
+                            (e_1 * sum_2).mul_add(product_5, product_21) - product_19,
+                        ),
+                );
+            let sum_12 = j3
+                .mul_add(
+                    product_9,
+                    product_7 + product_12 + product_16 + product_22 + product_23,
+                );
             let product_27 = quotient_2 * sum_10;
-            let sum_13 = (sum_12 - sum_9 * product_26) - sum_10 * product_27;
+            let sum_13 = (-sum_10)
+                .mul_add(product_27, (-sum_9).mul_add(product_26, sum_12));
             let quotient_3 = T::one() / sum_13;
             let product_28 = sum_11 * quotient_3;
-            let sum_14 = ((sum_3 - product_3 * product_15) - sum_6 * product_25)
-                - sum_11 * product_28;
+            let sum_14 = (-sum_11)
+                .mul_add(
+                    product_28,
+                    (-sum_6).mul_add(product_25, (-product_3).mul_add(product_15, sum_3)),
+                );
             let quotient_4 = T::one() / sum_14;
             let product_29 = T::from_f64(2.0) * e_0;
-            let sum_15 = T::from_f64(2.0) * e_1 - product_24 * product_29;
-            let sum_16 = (T::from_f64(2.0) * e_2 - product_26 * product_29)
-                - product_27 * sum_15;
-            let sum_17 = ((T::from_f64(2.0) * e_3 - product_15 * product_29)
-                - product_25 * sum_15) - product_28 * sum_16;
-            let sum_18 = product_29 * (quotient * product_29)
-                + sum_15 * (quotient_2 * sum_15) + sum_16 * (quotient_3 * sum_16)
-                + sum_17 * (quotient_4 * sum_17);
+            let sum_15 = (-product_24).mul_add(product_29, T::from_f64(2.0) * e_1);
+            let sum_16 = (-product_27)
+                .mul_add(
+                    sum_15,
+                    (-product_26).mul_add(product_29, T::from_f64(2.0) * e_2),
+                );
+            let sum_17 = (-product_28)
+                .mul_add(
+                    sum_16,
+                    (-product_25)
+                        .mul_add(
+                            sum_15,
+                            (-product_15).mul_add(product_29, T::from_f64(2.0) * e_3),
+                        ),
+                );
+            let sum_18 = sum_17
+                .mul_add(
+                    quotient_4 * sum_17,
+                    sum_16
+                        .mul_add(
+                            quotient_3 * sum_16,
+                            sum_15
+                                .mul_add(
+                                    quotient_2 * sum_15,
+                                    product_29 * (quotient * product_29),
+                                ),
+                        ),
+                );
             let quotient_5 = T::one() / sum_18;
             let product_30 = sum * quotient_5;
             let product_31 = quotient_4 * (sum_17 * product_30);
-            let sum_19 = product_28 * product_31 - quotient_3 * (sum_16 * product_30);
+            let sum_19 = (-quotient_3)
+                .mul_add(sum_16 * product_30, product_28 * product_31);
             let sum_20 = product_25 * product_31
-                - (quotient_2 * (sum_15 * product_30) + product_27 * sum_19);
-            let product_32 = quotient_5
-                * (T::from_f64(2.0)
-                    * (e_1 * e_1_dot + e_0 * e_0_dot + e_2 * e_2_dot + e_3 * e_3_dot));
+                - product_27.mul_add(sum_19, quotient_2 * (sum_15 * product_30));
+            let sum_21 = product_15 * product_31
+                - product_26
+                    .mul_add(
+                        sum_19,
+                        product_24.mul_add(sum_20, quotient * (product_29 * product_30)),
+                    );
+            let sum_22 = (-product_31)
+                .mul_add(
+                    T::from_f64(2.0) * e_3_dot,
+                    sum_19
+                        .mul_add(
+                            T::from_f64(2.0) * e_2_dot,
+                            sum_20
+                                .mul_add(
+                                    T::from_f64(2.0) * e_1_dot,
+                                    sum_21
+                                        .mul_add(
+                                            T::from_f64(2.0) * e_0_dot,
+                                            T::from_f64(2.0)
+                                                * e_3
+                                                    .mul_add(
+                                                        e_3_dot,
+                                                        e_2.mul_add(e_2_dot, e_0.mul_add(e_0_dot, e_1 * e_1_dot)),
+                                                    ),
+                                        ),
+                                ),
+                        ),
+                );
+            let product_32 = quotient_5 * sum_22;
             let product_33 = quotient_4 * (sum_17 * product_32);
-            let sum_21 = product_28 * product_33 - quotient_3 * (sum_16 * product_32);
-            let sum_22 = product_25 * product_33
-                - (quotient_2 * (sum_15 * product_32) + product_27 * sum_21);
+            let sum_23 = (-quotient_3)
+                .mul_add(sum_16 * product_32, product_28 * product_33);
+            let sum_24 = product_25 * product_33
+                - product_27.mul_add(sum_23, quotient_2 * (sum_15 * product_32));
             out.residual.data.0[0][0] = sum;
-            out.position.data.0[0][0] = product_15 * product_31
-                - ((quotient * (product_29 * product_30) + product_24 * sum_20)
-                    + product_26 * sum_19);
+            out.position.data.0[0][0] = sum_21;
             out.position.data.0[0][1] = sum_20;
             out.position.data.0[0][2] = sum_19;
             out.position.data.0[0][3] = -product_31;
             out.velocity.data.0[0][0] = product_15 * product_33
-                - ((quotient * (product_29 * product_32) + product_24 * sum_22)
-                    + product_26 * sum_21);
-            out.velocity.data.0[0][1] = sum_22;
-            out.velocity.data.0[0][2] = sum_21;
+                - product_26
+                    .mul_add(
+                        sum_23,
+                        product_24.mul_add(sum_24, quotient * (product_29 * product_32)),
+                    );
+            out.velocity.data.0[0][1] = sum_24;
+            out.velocity.data.0[0][2] = sum_23;
             out.velocity.data.0[0][3] = -product_33;
             out.pivots.mass_pivots.data.0[0][1] = sum_8;
             out.pivots.mass_diagonal.data.0[0][1] = sum_7;
@@ -638,48 +868,96 @@ pub mod heavy_top {
             let e_0_e_2_dot = e_0 * e_2_dot;
             let e_2_e_0_dot = e_2 * e_0_dot;
             let product = T::from_f64(2.0)
-                * ((e_3_e_1_dot + e_1_e_3_dot) + (e_0_e_2_dot + e_2_e_0_dot));
+                * (e_3_e_1_dot + e_1_e_3_dot + (e_0_e_2_dot + e_2_e_0_dot));
             let e_3_dot_e_2 = e_3_dot * e_2;
             let e_3_e_2_dot = e_3 * e_2_dot;
             let e_1_dot_e_0 = e_1_dot * e_0;
             let e_1_e_0_dot = e_1 * e_0_dot;
             let product_2 = T::from_f64(2.0)
-                * ((e_3_dot_e_2 + e_3_e_2_dot) - (e_1_dot_e_0 + e_1_e_0_dot));
+                * (e_3_dot_e_2 + e_3_e_2_dot - (e_1_dot_e_0 + e_1_e_0_dot));
             let product_3 = T::from_f64(2.0)
-                * (e_1_dot * e_1 + e_2_dot * e_2 - e_0 * e_0_dot - e_3 * e_3_dot);
+                * (-e_3)
+                    .mul_add(
+                        e_3_dot,
+                        (-e_0).mul_add(e_0_dot, e_2_dot.mul_add(e_2, e_1_dot * e_1)),
+                    );
             let a_a = a * a;
             let product_4 = T::from_f64(2.0)
                 * (e_3_e_2_dot + e_1_dot_e_0 - e_3_dot_e_2 - e_1_e_0_dot);
             let product_5 = T::from_f64(2.0)
                 * (e_1_e_3_dot + e_0_e_2_dot - e_3_e_1_dot - e_2_e_0_dot);
             let product_6 = T::from_f64(2.0)
-                * (e_3_dot * e_0 + e_1_dot * e_2 - e_3 * e_0_dot - e_1 * e_2_dot);
+                * (-e_1)
+                    .mul_add(
+                        e_2_dot,
+                        (-e_3).mul_add(e_0_dot, e_1_dot.mul_add(e_2, e_3_dot * e_0)),
+                    );
             let product_7 = product_6 * j3;
-            let sum = m
-                * ((product * product + product_2 * product_2 + product_3 * product_3)
-                    * a_a) + j1 * (product_4 * product_4 + product_5 * product_5)
-                + product_6 * product_7;
+            let sum = product_6
+                .mul_add(
+                    product_7,
+                    j1
+                        .mul_add(
+                            product_5.mul_add(product_5, product_4 * product_4),
+                            m
+                                * (product_3
+                                    .mul_add(
+                                        product_3,
+                                        product_2.mul_add(product_2, product * product),
+                                    ) * a_a),
+                        ),
+                );
             let product_8 = T::from_f64(0.5) * sum;
             let product_9 = T::constant(9.81, -4.973799150320702e-16) * m * a
-                * (e_1 * e_1 + e_2 * e_2 - e_0 * e_0 - e_3 * e_3);
+                * (-e_3).mul_add(e_3, (-e_0).mul_add(e_0, e_2.mul_add(e_2, e_1 * e_1)));
             let product_10 = T::from_f64(4.0) * a_a;
-            let sum_2 = m
-                * ((e_2 * product - e_1 * product_2 - e_0 * product_3) * product_10)
-                - j1 * (T::from_f64(4.0) * (e_1 * product_4 + e_2 * product_5));
+            let sum_2 = (-j1)
+                .mul_add(
+                    T::from_f64(4.0) * e_2.mul_add(product_5, e_1 * product_4),
+                    m
+                        * ((-e_0)
+                            .mul_add(product_3, (-e_1).mul_add(product_2, e_2 * product))
+                            * product_10),
+                );
             let product_11 = T::from_f64(2.0) * product_7;
-            let sum_3 = m
-                * (product_10 * (e_3 * product + e_1 * product_3 - e_0 * product_2))
-                + j1 * (T::from_f64(4.0) * (e_0 * product_4 - e_3 * product_5));
-            let sum_4 = m
-                * (product_10 * (e_0 * product + e_3 * product_2 + e_2 * product_3))
-                + j1 * (T::from_f64(4.0) * (e_3 * product_4 + e_0 * product_5));
-            let sum_5 = m
-                * (product_10 * (e_1 * product + e_2 * product_2 - e_3 * product_3))
-                - j1 * (T::from_f64(4.0) * (e_2 * product_4 - e_1 * product_5));
-            let sum_6 = e_0_dot * (T::from_f64(0.5) * sum_2 - e_3 * product_11)
-                + e_1_dot * (e_2 * product_11 + T::from_f64(0.5) * sum_3)
-                + e_2_dot * (T::from_f64(0.5) * sum_4 - e_1 * product_11)
-                + e_3_dot * (e_0 * product_11 + T::from_f64(0.5) * sum_5);
+            let sum_3 = j1
+                .mul_add(
+                    T::from_f64(4.0) * (-e_3).mul_add(product_5, e_0 * product_4),
+                    m
+                        * (product_10
+                            * (-e_0)
+                                .mul_add(product_2, e_1.mul_add(product_3, e_3 * product))),
+                );
+            let sum_4 = j1
+                .mul_add(
+                    T::from_f64(4.0) * e_0.mul_add(product_5, e_3 * product_4),
+                    m
+                        * (product_10
+                            * e_2
+                                .mul_add(product_3, e_3.mul_add(product_2, e_0 * product))),
+                );
+            let sum_5 = (-j1)
+                .mul_add(
+                    T::from_f64(4.0) * (-e_1).mul_add(product_5, e_2 * product_4),
+                    m
+                        * (product_10
+                            * (-e_3)
+                                .mul_add(product_3, e_2.mul_add(product_2, e_1 * product))),
+                );
+            let sum_6 = e_3_dot
+                .mul_add(
+                    T::from_f64(0.5).mul_add(sum_5, e_0 * product_11),
+                    e_2_dot
+                        .mul_add(
+                            (-e_1).mul_add(product_11, T::from_f64(0.5) * sum_4),
+                            e_1_dot
+                                .mul_add(
+                                    T::from_f64(0.5).mul_add(sum_3, e_2 * product_11),
+                                    e_0_dot
+                                        * (-e_3).mul_add(product_11, T::from_f64(0.5) * sum_2),
+                                ),
+                        ),
+                );
             Energy {
                 kinetic: product_8,
                 potential: -product_9,
@@ -734,10 +1012,16 @@ pub mod heavy_top {
             let e_0_dot_e_0_dot = e_0_dot * e_0_dot;
             let product_19 = product_7 * e_0_dot_e_0_dot;
             let product_20 = product_7 * e_3_dot_e_3_dot;
-            let sum = product_3 + product_5 + product_8 + product_9 + product_12
-                + product_14 + j3 * (T::from_f64(8.0) * e_3_dot_e_3_dot + product_16)
-                - product_17 - product_18 - product_19 - product_20
-                - product_6 * (product_16 + T::from_f64(8.0) * e_0 * e_0_ddot);
+            let sum = (-product_6)
+                .mul_add(
+                    (T::from_f64(8.0) * e_0).mul_add(e_0_ddot, product_16),
+                    j3
+                        .mul_add(
+                            T::from_f64(8.0).mul_add(e_3_dot_e_3_dot, product_16),
+                            product_3 + product_5 + product_8 + product_9 + product_12
+                                + product_14,
+                        ) - product_17 - product_18 - product_19 - product_20,
+                );
             let product_21 = T::from_f64(8.0) * product_6;
             let product_22 = e_2_dot * product_21;
             let product_23 = e_3_dot * product_22;
@@ -754,9 +1038,15 @@ pub mod heavy_top {
             let product_33 = product_11 * e_0_dot;
             let product_34 = T::from_f64(8.0) * (j1 + product_6);
             let product_35 = e_1_ddot * product_34;
-            let sum_3 = product_23 + product_24 + product_25 + product_26
-                + e_3_ddot * sum_2 * product_27 - product_30 - product_32 - product_33
-                - e_0 * product_35;
+            let sum_3 = (-e_0)
+                .mul_add(
+                    product_35,
+                    (e_3_ddot * sum_2)
+                        .mul_add(
+                            product_27,
+                            product_23 + product_24 + product_25 + product_26,
+                        ) - product_30 - product_32 - product_33,
+                );
             let product_36 = e_1_dot * product_28;
             let product_37 = e_3_dot * product_36;
             let product_38 = product_4 * e_0_ddot;
@@ -768,9 +1058,12 @@ pub mod heavy_top {
             let product_43 = product_13 * e_0_dot;
             let product_44 = product_11 * e_3_dot;
             let product_45 = e_2_ddot * product_34;
-            let sum_5 = product_37 + product_38 + e_3_ddot * sum_4 * product_39
-                - product_40 - product_41 - product_42 - product_43 - product_44
-                - e_0 * product_45;
+            let sum_5 = (-e_0)
+                .mul_add(
+                    product_45,
+                    (e_3_ddot * sum_4).mul_add(product_39, product_37 + product_38)
+                        - product_40 - product_41 - product_42 - product_43 - product_44,
+                );
             let product_46 = e_2_ddot * j3 * product_39;
             let product_47 = j3 * product_15 * e_0_ddot;
             let e_1_ddot_e_2 = e_1_ddot * e_2;
@@ -785,17 +1078,25 @@ pub mod heavy_top {
             let e_3_e_0_ddot = e_3 * e_0_ddot;
             let product_54 = product_7 * e_3_e_0_ddot;
             let product_55 = product_2 * e_2_ddot;
-            let sum_6 = product_46 + product_47 + product_48 + product_49 - product_51
-                - product_28 * e_3_ddot_e_0 - product_52 - product_53 - product_54
-                - product_55;
+            let sum_6 = (-product_28)
+                .mul_add(
+                    e_3_ddot_e_0,
+                    product_46 + product_47 + product_48 + product_49 - product_51,
+                ) - product_52 - product_53 - product_54 - product_55;
             let product_56 = product * e_0;
             let product_57 = e_1_ddot * product_56;
             let product_58 = product * e_3;
             let product_59 = e_2_ddot * product_58;
             let product_60 = e_1 * product_34;
-            let sum_7 = product_23 + product_26 + product_57 + product_59
-                + e_2_ddot * product_15 * sum_2 - product_30 - product_32 - product_33
-                - e_0_ddot * product_60;
+            let sum_7 = (-e_0_ddot)
+                .mul_add(
+                    product_60,
+                    (e_2_ddot * product_15)
+                        .mul_add(
+                            sum_2,
+                            product_23 + product_26 + product_57 + product_59,
+                        ) - product_30 - product_32 - product_33,
+                );
             let product_61 = e_0_ddot * product_56;
             let product_62 = e_3_ddot * product_58;
             let product_63 = product_10 * e_0_dot;
@@ -803,57 +1104,103 @@ pub mod heavy_top {
             let product_65 = product_10 * e_3_dot;
             let product_66 = e_3_dot * product_65;
             let product_67 = e_2_ddot * product_27;
-            let sum_8 = product_18 + product_19 + product_20 + product_61 + product_62
-                + product_64 + product_66
-                + j3 * (T::from_f64(8.0) * e_2_dot_e_2_dot + product_67) - product_8
-                - product_9 - product_17
-                - product_6 * (product_67 + T::from_f64(8.0) * e_1_ddot * e_1);
+            let sum_8 = (-product_6)
+                .mul_add(
+                    (T::from_f64(8.0) * e_1_ddot).mul_add(e_1, product_67),
+                    j3
+                        .mul_add(
+                            T::from_f64(8.0).mul_add(e_2_dot_e_2_dot, product_67),
+                            product_18 + product_19 + product_20 + product_61
+                                + product_62 + product_64 + product_66,
+                        ) - product_8 - product_9 - product_17,
+                );
             let product_68 = T::from_f64(4.0) * e_0;
             let product_69 = j3 * e_3_ddot * product_68;
             let product_70 = e_0_ddot * product_58;
             let product_71 = e_2_dot * product_36;
             let product_72 = product_7 * e_3_ddot_e_0;
             let product_73 = e_3_ddot * product_56;
-            let sum_9 = product_52 + product_54 + product_69 + product_70 - product_47
-                - product_48 - product_71 - product_28 * e_1_e_2_ddot - product_72
-                - product_73;
+            let sum_9 = (-product_28)
+                .mul_add(
+                    e_1_e_2_ddot,
+                    product_52 + product_54 + product_69 + product_70 - product_47
+                        - product_48 - product_71,
+                ) - product_72 - product_73;
             let product_74 = e_0_dot * product_29;
             let product_75 = e_1_ddot * product_58;
             let product_76 = e_2_ddot * product_56;
-            let sum_10 = product_74 + product_75 + e_2_ddot * sum_4 * product_68
-                - product_40 - product_41 - product_43 - product_44 - product_76
-                - e_3_ddot * product_60;
+            let sum_10 = (-e_3_ddot)
+                .mul_add(
+                    product_60,
+                    (e_2_ddot * sum_4).mul_add(product_68, product_74 + product_75)
+                        - product_40 - product_41 - product_43 - product_44 - product_76,
+                );
             let product_77 = e_2 * product_34;
-            let sum_11 = product_37 + product_76 + e_1_ddot * product_15 * sum_4
-                - product_40 - product_41 - product_43 - product_44 - product_75
-                - e_0_ddot * product_77;
-            let sum_12 = product_46 + product_47 + product_72 + product_73 - product_53
-                - product_54 - product_69 - product_70 - product_71
-                - product_28 * e_1_ddot_e_2;
+            let sum_11 = (-e_0_ddot)
+                .mul_add(
+                    product_77,
+                    (e_1_ddot * product_15).mul_add(sum_4, product_37 + product_76)
+                        - product_40 - product_41 - product_43 - product_44 - product_75,
+                );
+            let sum_12 = (-product_28)
+                .mul_add(
+                    e_1_ddot_e_2,
+                    product_46 + product_47 + product_72 + product_73 - product_53
+                        - product_54 - product_69 - product_70 - product_71,
+                );
             let product_78 = e_1_ddot * product_39;
-            let sum_13 = product_18 + product_19 + product_20 + product_61 + product_62
-                + product_64 + product_66
-                + j3 * (T::from_f64(8.0) * e_1_dot_e_1_dot + product_78) - product_8
-                - product_9 - product_17
-                - product_6 * (product_78 + T::from_f64(8.0) * e_2_ddot * e_2);
+            let sum_13 = (-product_6)
+                .mul_add(
+                    (T::from_f64(8.0) * e_2_ddot).mul_add(e_2, product_78),
+                    j3
+                        .mul_add(
+                            T::from_f64(8.0).mul_add(e_1_dot_e_1_dot, product_78),
+                            product_18 + product_19 + product_20 + product_61
+                                + product_62 + product_64 + product_66,
+                        ) - product_8 - product_9 - product_17,
+                );
             let product_79 = e_0_dot * product_36;
-            let sum_14 = product_32 + product_33 + product_57 + product_59
-                + e_1_ddot * sum_2 * product_68 - product_23 - product_26 - product_79
-                - e_3_ddot * product_77;
-            let sum_15 = product_52 + product_53 + product_55 + product_69 - product_46
-                - product_48 - product_49 - product_51 - product_72
-                - product_28 * e_3_e_0_ddot;
-            let sum_16 = product_42 + product_74 + e_0_ddot * product_27 * sum_4
-                - product_38 - product_40 - product_41 - product_43 - product_44
-                - e_3 * product_35;
-            let sum_17 = product_24 + product_25 + product_32 + product_33
-                + e_0_ddot * sum_2 * product_39 - product_23 - product_26 - product_79
-                - e_3 * product_45;
+            let sum_14 = (-e_3_ddot)
+                .mul_add(
+                    product_77,
+                    (e_1_ddot * sum_2)
+                        .mul_add(
+                            product_68,
+                            product_32 + product_33 + product_57 + product_59,
+                        ) - product_23 - product_26 - product_79,
+                );
+            let sum_15 = (-product_28)
+                .mul_add(
+                    e_3_e_0_ddot,
+                    product_52 + product_53 + product_55 + product_69 - product_46
+                        - product_48 - product_49 - product_51 - product_72,
+                );
+            let sum_16 = (-e_3)
+                .mul_add(
+                    product_35,
+                    (e_0_ddot * product_27).mul_add(sum_4, product_42 + product_74)
+                        - product_38 - product_40 - product_41 - product_43 - product_44,
+                );
+            let sum_17 = (-e_3)
+                .mul_add(
+                    product_45,
+                    (e_0_ddot * sum_2)
+                        .mul_add(
+                            product_39,
+                            product_24 + product_25 + product_32 + product_33,
+                        ) - product_23 - product_26 - product_79,
+                );
             let product_80 = e_0_ddot * product_68;
-            let sum_18 = product_3 + product_5 + product_8 + product_9 + product_12
-                + product_14 + j3 * (T::from_f64(8.0) * e_0_dot_e_0_dot + product_80)
-                - product_17 - product_18 - product_19 - product_20
-                - product_6 * (product_80 + T::from_f64(8.0) * e_3_ddot * e_3);
+            let sum_18 = (-product_6)
+                .mul_add(
+                    (T::from_f64(8.0) * e_3_ddot).mul_add(e_3, product_80),
+                    j3
+                        .mul_add(
+                            T::from_f64(8.0).mul_add(e_0_dot_e_0_dot, product_80),
+                            product_3 + product_5 + product_8 + product_9 + product_12
+                                + product_14,
+                        ) - product_17 - product_18 - product_19 - product_20,
+                );
             let product_81 = e_0_dot * product_21;
             let product_82 = e_0 * product_81;
             let product_83 = e_1 * product_31;
@@ -882,7 +1229,7 @@ pub mod heavy_top {
             let product_106 = e_1 * product_22;
             let product_107 = e_3 * product_81;
             let product_108 = e_1 * product_13;
-            let sum_19 = e_3 * e_0_dot * product_100 + product_101 + product_102
+            let sum_19 = (e_3 * e_0_dot).mul_add(product_100, product_101) + product_102
                 + product_103 - product_104 - product_105 - product_106 - product_107
                 - product_108;
             let product_109 = e_1_dot * product_88;
@@ -898,19 +1245,19 @@ pub mod heavy_top {
             let product_119 = e_3 * product_118;
             let product_120 = e_0 * product_111;
             let product_121 = e_0 * product_65;
-            let sum_20 = product_105 + product_107 + e_2 * e_1_dot * product_100
+            let sum_20 = (e_2 * e_1_dot).mul_add(product_100, product_105 + product_107)
                 + product_117 - product_101 - product_102 - product_119 - product_120
                 - product_121;
             let product_122 = e_2 * product_63;
             let product_123 = e_1 * product_111;
             let product_124 = e_1 * product_65;
             let product_125 = e_2_dot * product_88;
-            let sum_21 = product_119 + product_120 + product_121
-                + e_1 * e_2_dot * product_100 - product_104 - product_105 - product_106
-                - product_107 - product_117;
-            let sum_22 = product_104 + product_106 + product_108
-                + e_3_dot * e_0 * product_100 - product_101 - product_102 - product_103
-                - product_119 - product_120;
+            let sum_21 = (e_1 * e_2_dot)
+                .mul_add(product_100, product_119 + product_120 + product_121)
+                - product_104 - product_105 - product_106 - product_107 - product_117;
+            let sum_22 = (e_3_dot * e_0)
+                .mul_add(product_100, product_104 + product_106 + product_108)
+                - product_101 - product_102 - product_103 - product_119 - product_120;
             out.force_by_position.data.0[0][0] = sum;
             out.force_by_position.data.0[0][1] = sum_3;
             out.force_by_position.data.0[0][2] = sum_5;
@@ -929,37 +1276,57 @@ pub mod heavy_top {
             out.force_by_position.data.0[3][3] = sum_18;
             out.force_by_velocity.data.0[0][0] = -e_3 * product_50 - product_82
                 - product_83 - product_84 - product_85 - product_86;
-            out.force_by_velocity.data.0[0][1] = e_3 * product_29 + product_87
-                + e_0_dot * product_89 - product_90 - product_91 - product_92
-                - product_93;
-            out.force_by_velocity.data.0[0][2] = product_94 + product_95
-                + e_0_dot * product_96 + product_97 - e_3 * product_36 - product_98
-                - product_99;
+            out.force_by_velocity.data.0[0][1] = e_0_dot
+                .mul_add(product_89, e_3.mul_add(product_29, product_87)) - product_90
+                - product_91 - product_92 - product_93;
+            out.force_by_velocity.data.0[0][2] = (-e_3)
+                .mul_add(
+                    product_36,
+                    e_0_dot.mul_add(product_96, product_94 + product_95) + product_97,
+                ) - product_98 - product_99;
             out.force_by_velocity.data.0[0][3] = sum_19;
-            out.force_by_velocity.data.0[1][0] = product_90 + e_2 * product_50
-                + e_0 * product_109 - product_87 - product_110 - product_112
-                - product_113;
-            out.force_by_velocity.data.0[1][1] = -product_82 - product_83
-                - e_2 * product_29 - product_114 - product_115 - product_116;
+            out.force_by_velocity.data.0[1][0] = e_0
+                .mul_add(product_109, e_2.mul_add(product_50, product_90)) - product_87
+                - product_110 - product_112 - product_113;
+            out.force_by_velocity.data.0[1][1] = (-e_2)
+                .mul_add(product_29, -product_82 - product_83) - product_114
+                - product_115 - product_116;
             out.force_by_velocity.data.0[1][2] = sum_20;
-            out.force_by_velocity.data.0[1][3] = product_94 + product_95 + product_122
-                + e_3 * product_109 - e_2 * product_118 - product_123 - product_124;
-            out.force_by_velocity.data.0[2][0] = product_98 + product_123 + product_124
-                + e_0 * product_125 - product_94 - product_122 - e_1 * product_50;
+            out.force_by_velocity.data.0[1][3] = (-e_2)
+                .mul_add(
+                    product_118,
+                    e_3.mul_add(product_109, product_94 + product_95 + product_122),
+                ) - product_123 - product_124;
+            out.force_by_velocity.data.0[2][0] = (-e_1)
+                .mul_add(
+                    product_50,
+                    e_0.mul_add(product_125, product_98 + product_123 + product_124)
+                        - product_94 - product_122,
+                );
             out.force_by_velocity.data.0[2][1] = sum_21;
-            out.force_by_velocity.data.0[2][2] = -product_82 - product_84 - product_114
-                - product_115 - product_116 - e_1 * product_36;
-            out.force_by_velocity.data.0[2][3] = product_91 + e_1 * product_118
-                + e_3 * product_125 - product_87 - product_110 - product_112
-                - product_113;
+            out.force_by_velocity.data.0[2][2] = (-e_1)
+                .mul_add(
+                    product_36,
+                    -product_82 - product_84 - product_114 - product_115 - product_116,
+                );
+            out.force_by_velocity.data.0[2][3] = e_3
+                .mul_add(product_125, e_1.mul_add(product_118, product_91)) - product_87
+                - product_110 - product_112 - product_113;
             out.force_by_velocity.data.0[3][0] = sum_22;
-            out.force_by_velocity.data.0[3][1] = product_98 + product_99 + product_123
-                + e_3_dot * product_89 - product_95 - product_97 - e_0 * product_29;
-            out.force_by_velocity.data.0[3][2] = product_112 + e_0 * product_36
-                + e_3_dot * product_96 - product_90 - product_91 - product_92
-                - product_93;
-            out.force_by_velocity.data.0[3][3] = -product_83 - product_84 - product_85
-                - product_86 - product_114 - e_0 * product_118;
+            out.force_by_velocity.data.0[3][1] = (-e_0)
+                .mul_add(
+                    product_29,
+                    e_3_dot.mul_add(product_89, product_98 + product_99 + product_123)
+                        - product_95 - product_97,
+                );
+            out.force_by_velocity.data.0[3][2] = e_3_dot
+                .mul_add(product_96, e_0.mul_add(product_36, product_112)) - product_90
+                - product_91 - product_92 - product_93;
+            out.force_by_velocity.data.0[3][3] = (-e_0)
+                .mul_add(
+                    product_118,
+                    -product_83 - product_84 - product_85 - product_86 - product_114,
+                );
             out.row_by_position.data.0[0][0] = -T::from_f64(2.0) * e_0_ddot;
             out.row_by_position.data.0[1][0] = -T::from_f64(2.0) * e_1_ddot;
             out.row_by_position.data.0[2][0] = -T::from_f64(2.0) * e_2_ddot;
@@ -999,7 +1366,7 @@ pub mod heavy_top {
             let sum = product_3 - j3;
             let product_16 = e_2 * sum;
             let product_17 = product_4 * e_1_j1;
-            let sum_2 = product_15 + product * product_16 - product_17;
+            let sum_2 = product.mul_add(product_16, product_15) - product_17;
             let sum_3 = j3 - product_3;
             let product_18 = product_4 * e_2_j1;
             let product_19 = product * e_1_j1;
@@ -1010,28 +1377,34 @@ pub mod heavy_top {
             let product_23 = product_2 * j1;
             let product_24 = product_7 * product_16;
             let sum_5 = product_4 * e_2 * sum_3 - product_18 - product_19;
-            let sum_6 = product_17 + product_4 * e_1 * sum - product_15;
+            let sum_6 = (product_4 * e_1).mul_add(sum, product_17) - product_15;
             let mut out = SMatrix::zeros();
-            out.data.0[0][0] = j3 * product_2 + product_6 + product_9 + product_12
+            out.data.0[0][0] = j3.mul_add(product_2, product_6) + product_9 + product_12
                 + product_13 + product_14;
             out.data.0[0][1] = sum_2;
             out.data.0[0][2] = sum_4;
             out.data.0[0][3] = product_20;
             out.data.0[1][0] = sum_2;
-            out.data.0[1][1] = product_6 + product_9 + j3 * product_11 + product_21
+            out.data.0[1][1] = j3.mul_add(product_11, product_6 + product_9) + product_21
                 + product_22 + product_23;
             out.data.0[1][2] = product_24;
             out.data.0[1][3] = sum_5;
             out.data.0[2][0] = sum_4;
             out.data.0[2][1] = product_24;
-            out.data.0[2][2] = product_6 + product_12 + product_21 + product_22
-                + product_23 + j3 * product_8;
+            out.data.0[2][2] = j3
+                .mul_add(
+                    product_8,
+                    product_6 + product_12 + product_21 + product_22 + product_23,
+                );
             out.data.0[2][3] = sum_6;
             out.data.0[3][0] = product_20;
             out.data.0[3][1] = sum_5;
             out.data.0[3][2] = sum_6;
-            out.data.0[3][3] = product_9 + product_12 + product_13 + product_14
-                + product_21 + j3 * product_5;
+            out.data.0[3][3] = j3
+                .mul_add(
+                    product_5,
+                    product_9 + product_12 + product_13 + product_14 + product_21,
+                );
             out
         }
         /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
@@ -1069,38 +1442,66 @@ pub mod heavy_top {
             let product = j3 * (e_1_e_2_dot + e_0_dot_e_3 - e_3_dot_e_0 - e_1_dot_e_2);
             let product_2 = a * (a * m);
             let sum = j1 + product_2;
-            let product_3 = sum * (e_1 * e_1_dot + e_2_dot * e_2);
+            let product_3 = sum * e_2_dot.mul_add(e_2, e_1 * e_1_dot);
             let e_1_dot_e_1_dot = e_1_dot * e_1_dot;
             let e_2_dot_e_2_dot = e_2_dot * e_2_dot;
             let product_4 = j1 * (e_1_dot_e_1_dot + e_2_dot_e_2_dot);
             let product_5 = T::from_f64(8.0)
-                * (e_3_dot * (product + (e_1_dot_e_2 - e_1_e_2_dot) * sum)
-                    + e_0_dot * product_3 - e_0 * product_4);
+                * (-e_0)
+                    .mul_add(
+                        product_4,
+                        e_0_dot
+                            .mul_add(
+                                product_3,
+                                e_3_dot * (e_1_dot_e_2 - e_1_e_2_dot).mul_add(sum, product),
+                            ),
+                    );
             let e_0_dot_e_0_dot = e_0_dot * e_0_dot;
             let e_3_dot_e_3_dot = e_3_dot * e_3_dot;
             let product_6 = T::from_f64(4.0) * product_2;
             let product_7 = (e_0_dot_e_0_dot + e_3_dot_e_3_dot - e_1_dot_e_1_dot
                 - e_2_dot_e_2_dot) * product_6;
             let product_8 = j3 * (e_3_dot_e_0 + e_1_dot_e_2 - e_1_e_2_dot - e_0_dot_e_3);
-            let product_9 = sum * (e_0_dot * e_0 + e_3_dot * e_3);
+            let product_9 = sum * e_3_dot.mul_add(e_3, e_0_dot * e_0);
             let product_10 = j1 * (e_0_dot_e_0_dot + e_3_dot_e_3_dot);
             let product_11 = T::from_f64(8.0)
-                * (e_2_dot * (product_8 + sum * (e_0_dot_e_3 - e_3_dot_e_0))
-                    + e_1_dot * product_9 - e_1 * product_10);
+                * (-e_1)
+                    .mul_add(
+                        product_10,
+                        e_1_dot
+                            .mul_add(
+                                product_9,
+                                e_2_dot * sum.mul_add(e_0_dot_e_3 - e_3_dot_e_0, product_8),
+                            ),
+                    );
             let product_12 = product_6
                 * (e_1_dot_e_1_dot + e_2_dot_e_2_dot - e_0_dot_e_0_dot
                     - e_3_dot_e_3_dot);
             let product_13 = T::from_f64(8.0)
-                * (e_1_dot * (product + sum * (e_3_dot_e_0 - e_0_dot_e_3))
-                    + e_2_dot * product_9 - e_2 * product_10);
+                * (-e_2)
+                    .mul_add(
+                        product_10,
+                        e_2_dot
+                            .mul_add(
+                                product_9,
+                                e_1_dot * sum.mul_add(e_3_dot_e_0 - e_0_dot_e_3, product),
+                            ),
+                    );
             let product_14 = T::from_f64(8.0)
-                * (e_0_dot * (product_8 + sum * (e_1_e_2_dot - e_1_dot_e_2))
-                    + e_3_dot * product_3 - e_3 * product_4);
+                * (-e_3)
+                    .mul_add(
+                        product_4,
+                        e_3_dot
+                            .mul_add(
+                                product_3,
+                                e_0_dot * sum.mul_add(e_1_e_2_dot - e_1_dot_e_2, product_8),
+                            ),
+                    );
             let mut out = SVector::zeros();
-            out.data.0[0][0] = product_5 + e_0 * product_7;
-            out.data.0[0][1] = product_11 + e_1 * product_12;
-            out.data.0[0][2] = product_13 + e_2 * product_12;
-            out.data.0[0][3] = product_14 + e_3 * product_7;
+            out.data.0[0][0] = e_0.mul_add(product_7, product_5);
+            out.data.0[0][1] = e_1.mul_add(product_12, product_11);
+            out.data.0[0][2] = e_2.mul_add(product_12, product_13);
+            out.data.0[0][3] = e_3.mul_add(product_7, product_14);
             out
         }
         /// Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric; the
@@ -1118,9 +1519,9 @@ pub mod heavy_top {
             let product_5 = e_0 * product_4;
             let product_6 = T::from_f64(8.0) * j1;
             let product_7 = T::from_f64(8.0) * product_3;
-            let product_8 = T::from_f64(0.5) * (e_1 * product_6 + e_1 * product_7);
+            let product_8 = T::from_f64(0.5) * e_1.mul_add(product_7, e_1 * product_6);
             let product_9 = e_1_dot * product_8;
-            let product_10 = T::from_f64(0.5) * (product_6 * e_2 + product_7 * e_2);
+            let product_10 = T::from_f64(0.5) * product_7.mul_add(e_2, product_6 * e_2);
             let product_11 = e_2_dot * product_10;
             let product_12 = e_3 * product_4;
             let product_13 = T::from_f64(4.0) * j1;
@@ -1134,7 +1535,7 @@ pub mod heavy_top {
             let product_20 = T::from_f64(0.5) * (product_17 + product_18 - product_19);
             let product_21 = T::from_f64(0.5) * (product_19 - product_17 - product_18);
             let sum_2 = product_20 + product_21;
-            let product_22 = T::from_f64(0.5) * (e_0 * product_7 + e_0 * product_6);
+            let product_22 = T::from_f64(0.5) * e_0.mul_add(product_6, e_0 * product_7);
             let product_23 = e_1 * product_13;
             let sum_3 = product_8 + product_23;
             let product_24 = product * e_1;
@@ -1152,7 +1553,7 @@ pub mod heavy_top {
             let product_31 = e_0 * product_13;
             let sum_9 = product_22 + product_31;
             let product_32 = e_0_dot * product_22;
-            let product_33 = T::from_f64(0.5) * (e_3 * product_7 + e_3 * product_6);
+            let product_33 = T::from_f64(0.5) * e_3.mul_add(product_6, e_3 * product_7);
             let product_34 = e_3_dot * product_33;
             let product_35 = e_0_dot * sum;
             let product_36 = T::from_f64(0.5) * (product_28 - product_5 - product_31);
@@ -1162,38 +1563,85 @@ pub mod heavy_top {
             let sum_11 = product_36 + product_37;
             let sum_12 = product_14 + product_33;
             let mut out = SMatrix::zeros();
-            out.data.0[0][0] = e_3_dot * product_2 + e_0_dot * product_5 + product_9
-                + product_11;
-            out.data.0[0][1] = e_2_dot * sum + e_3_dot * sum_2 + e_1_dot * product_22
-                - e_0_dot * sum_3;
-            out.data.0[0][2] = e_3_dot * sum_4 + e_2_dot * product_22 - e_0_dot * sum_5
-                - e_1_dot * sum;
-            out.data.0[0][3] = e_3_dot * product_28 - product_29 - product_30
-                - e_0_dot * (product_2 - (product_12 - product_2));
-            out.data.0[1][0] = e_2_dot * sum_8 + e_3_dot * sum_6 + e_0_dot * product_8
-                - e_1_dot * sum_9;
-            out.data.0[1][1] = e_2_dot * product_19 + e_1_dot * product_25 + product_32
+            out.data.0[0][0] = e_0_dot
+                .mul_add(product_5, e_3_dot.mul_add(product_2, product_9)) + product_11;
+            out.data.0[0][1] = (-e_0_dot)
+                .mul_add(
+                    sum_3,
+                    e_1_dot.mul_add(product_22, e_3_dot.mul_add(sum_2, e_2_dot * sum)),
+                );
+            out.data.0[0][2] = (-e_1_dot)
+                .mul_add(
+                    sum,
+                    (-e_0_dot)
+                        .mul_add(sum_5, e_2_dot.mul_add(product_22, e_3_dot * sum_4)),
+                );
+            out.data.0[0][3] = (-e_0_dot)
+                .mul_add(
+                    product_2 - (product_12 - product_2),
+                    e_3_dot * product_28 - product_29 - product_30,
+                );
+            out.data.0[1][0] = (-e_1_dot)
+                .mul_add(
+                    sum_9,
+                    e_0_dot.mul_add(product_8, e_3_dot.mul_add(sum_6, e_2_dot * sum_8)),
+                );
+            out.data.0[1][1] = e_1_dot
+                .mul_add(product_25, e_2_dot.mul_add(product_19, product_32))
                 + product_34;
-            out.data.0[1][2] = e_2_dot * product_24 - product_35 - product_38
-                - e_1_dot * (product_19 - (product_18 - product_19));
-            out.data.0[1][3] = e_2_dot * sum_11 + e_3_dot * product_8 - e_0_dot * sum_6
-                - e_1_dot * sum_12;
-            out.data.0[2][0] = e_1_dot * sum_8 + e_3_dot * sum_7 + e_0_dot * product_10
-                - e_2_dot * sum_9;
-            out.data.0[2][1] = product_35 + product_38 + e_1_dot * product_19
-                - e_2_dot * (product_24 - (product_25 - product_24));
-            out.data.0[2][2] = product_32 + product_34 + e_1_dot * product_24
-                + e_2_dot * product_18;
-            out.data.0[2][3] = e_1_dot * sum_11 + e_3_dot * product_10 - e_0_dot * sum_7
-                - e_2_dot * sum_12;
-            out.data.0[3][0] = product_29 + product_30 + product_2 * e_0_dot
-                - e_3_dot * (product_28 - (product_5 - product_28));
-            out.data.0[3][1] = e_0_dot * sum_2 + e_2_dot * sum_10 + e_1_dot * product_33
-                - e_3_dot * sum_3;
-            out.data.0[3][2] = e_0_dot * sum_4 + e_2_dot * product_33 - e_1_dot * sum_10
-                - e_3_dot * sum_5;
-            out.data.0[3][3] = product_9 + product_11 + e_0_dot * product_28
-                + e_3_dot * product_12;
+            out.data.0[1][2] = (-e_1_dot)
+                .mul_add(
+                    product_19 - (product_18 - product_19),
+                    e_2_dot * product_24 - product_35 - product_38,
+                );
+            out.data.0[1][3] = (-e_1_dot)
+                .mul_add(
+                    sum_12,
+                    (-e_0_dot)
+                        .mul_add(sum_6, e_3_dot.mul_add(product_8, e_2_dot * sum_11)),
+                );
+            out.data.0[2][0] = (-e_2_dot)
+                .mul_add(
+                    sum_9,
+                    e_0_dot.mul_add(product_10, e_3_dot.mul_add(sum_7, e_1_dot * sum_8)),
+                );
+            out.data.0[2][1] = (-e_2_dot)
+                .mul_add(
+                    product_24 - (product_25 - product_24),
+                    e_1_dot.mul_add(product_19, product_35 + product_38),
+                );
+            out.data.0[2][2] = e_2_dot
+                .mul_add(
+                    product_18,
+                    e_1_dot.mul_add(product_24, product_32 + product_34),
+                );
+            out.data.0[2][3] = (-e_2_dot)
+                .mul_add(
+                    sum_12,
+                    (-e_0_dot)
+                        .mul_add(sum_7, e_3_dot.mul_add(product_10, e_1_dot * sum_11)),
+                );
+            out.data.0[3][0] = (-e_3_dot)
+                .mul_add(
+                    product_28 - (product_5 - product_28),
+                    product_2.mul_add(e_0_dot, product_29 + product_30),
+                );
+            out.data.0[3][1] = (-e_3_dot)
+                .mul_add(
+                    sum_3,
+                    e_1_dot.mul_add(product_33, e_2_dot.mul_add(sum_10, e_0_dot * sum_2)),
+                );
+            out.data.0[3][2] = (-e_3_dot)
+                .mul_add(
+                    sum_5,
+                    (-e_1_dot)
+                        .mul_add(sum_10, e_2_dot.mul_add(product_33, e_0_dot * sum_4)),
+                );
+            out.data.0[3][3] = e_3_dot
+                .mul_add(
+                    product_12,
+                    e_0_dot.mul_add(product_28, product_9 + product_11),
+                );
             out
         }
         /// Constraints `g`, `R`, each in the unit it is written in; zero for velocity constraints.
@@ -1202,8 +1650,8 @@ pub mod heavy_top {
         pub fn constraint_residual(&self, state: &State<T, 4>) -> SVector<T, 1> {
             let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let mut out = SVector::zeros();
-            out.data.0[0][0] = (e_1 * e_1 + e_0 * e_0 + e_2 * e_2 + e_3 * e_3)
-                - T::one();
+            out.data.0[0][0] = e_3
+                .mul_add(e_3, e_2.mul_add(e_2, e_0.mul_add(e_0, e_1 * e_1))) - T::one();
             out
         }
         /// Constraint Jacobian `A = ∂g/∂q`, `R × N`; unit of the row per unit of the coordinate.
@@ -1225,8 +1673,15 @@ pub mod heavy_top {
             let [e_0_dot, e_1_dot, e_2_dot, e_3_dot] = state.v.data.0[0];
             let mut out = SVector::zeros();
             out.data.0[0][0] = -T::from_f64(2.0)
-                * (e_1_dot * e_1_dot + e_0_dot * e_0_dot + e_2_dot * e_2_dot
-                    + e_3_dot * e_3_dot);
+                * e_3_dot
+                    .mul_add(
+                        e_3_dot,
+                        e_2_dot
+                            .mul_add(
+                                e_2_dot,
+                                e_0_dot.mul_add(e_0_dot, e_1_dot * e_1_dot),
+                            ),
+                    );
             out
         }
     }
@@ -1313,23 +1768,46 @@ pub mod heavy_top {
             let product_5 = T::from_f64(2.0) * a;
             let product_6 = e_3 * product_3;
             let product_7 = product * e_0;
-            let sum = e_1 * e_1 + e_2 * e_2 - e_0 * e_0 - e_3 * e_3;
+            let sum = (-e_3)
+                .mul_add(e_3, (-e_0).mul_add(e_0, e_2.mul_add(e_2, e_1 * e_1)));
             let product_8 = T::from_f64(2.0) * e_0;
             let product_9 = T::from_f64(2.0) * e_3;
-            let sum_2 = e_3_dot * product_8 + product_3 * e_1_dot - e_0_dot * product_9
-                - product * e_2_dot;
+            let sum_2 = (-product)
+                .mul_add(
+                    e_2_dot,
+                    (-e_0_dot)
+                        .mul_add(
+                            product_9,
+                            product_3.mul_add(e_1_dot, e_3_dot * product_8),
+                        ),
+                );
             let product_10 = (product_2 - product_4)
-                * (product_8 * e_1_dot + product_9 * e_2_dot - product * e_0_dot
-                    - product_3 * e_3_dot);
+                * (-product_3)
+                    .mul_add(
+                        e_3_dot,
+                        (-product)
+                            .mul_add(
+                                e_0_dot,
+                                product_9.mul_add(e_2_dot, product_8 * e_1_dot),
+                            ),
+                    );
             let product_11 = (product_6 + product_7)
-                * (product_8 * e_2_dot + product * e_3_dot - product_3 * e_0_dot
-                    - e_1_dot * product_9);
+                * (-e_1_dot)
+                    .mul_add(
+                        product_9,
+                        (-product_3)
+                            .mul_add(
+                                e_0_dot,
+                                product.mul_add(e_3_dot, product_8 * e_2_dot),
+                            ),
+                    );
             let computed = [
                 (product_2 + product_4) * product_5,
                 product_5 * (product_6 - product_7),
                 -product_5 * sum,
                 sum_2,
-                (j1 + a * a * m) * (product_10 + product_11) - sum * sum_2 * j3,
+                (-(sum * sum_2))
+                    .mul_add(j3, (a * a).mul_add(m, j1) * (product_10 + product_11)),
             ];
             for (place, value) in values.iter_mut().zip(computed) {
                 *place = value;
@@ -1340,10 +1818,10 @@ pub mod heavy_top {
             let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let Parameters { a, .. } = self.parameters;
             let product = T::from_f64(4.0) * a;
-            let product_2 = (e_0 * e_2 + e_1 * e_3) * product;
-            let product_3 = product * (e_2 * e_3 - e_0 * e_1);
+            let product_2 = e_1.mul_add(e_3, e_0 * e_2) * product;
+            let product_3 = product * (-e_0).mul_add(e_1, e_2 * e_3);
             let product_4 = T::from_f64(2.0) * a
-                * (e_0 * e_0 + e_3 * e_3 - e_1 * e_1 - e_2 * e_2);
+                * (-e_2).mul_add(e_2, (-e_1).mul_add(e_1, e_3.mul_add(e_3, e_0 * e_0)));
             canvas
                 .line(
                     &[

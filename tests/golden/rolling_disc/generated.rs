@@ -161,7 +161,7 @@ pub mod rolling_disc {
             let product_5 = r * m_r;
             let product_6 = T::from_f64(0.5) * product_5;
             let product_7 = sin_theta * product_6;
-            let sum_2 = psi_dot * psi_dot + theta_dot * theta_dot;
+            let sum_2 = theta_dot.mul_add(theta_dot, psi_dot * psi_dot);
             let cos_theta_psi_dot = cos_theta * psi_dot;
             let product_8 = theta_dot * cos_theta_psi_dot;
             let product_9 = T::from_f64(2.0) * product_8;
@@ -178,8 +178,8 @@ pub mod rolling_disc {
             out.mass.data.0[1][3] = sum;
             out.mass.data.0[2][0] = product;
             out.mass.data.0[2][1] = product_4;
-            out.mass.data.0[2][2] = (T::from_f64(1.5)
-                - T::from_f64(1.25) * cos_theta * cos_theta) * product_5;
+            out.mass.data.0[2][2] = (-(T::from_f64(1.25) * cos_theta))
+                .mul_add(cos_theta, T::from_f64(1.5)) * product_5;
             out.mass.data.0[2][4] = product_7;
             out.mass.data.0[3][0] = product_3;
             out.mass.data.0[3][1] = sum;
@@ -187,15 +187,17 @@ pub mod rolling_disc {
             out.mass.data.0[4][2] = product_7;
             out.mass.data.0[4][4] = product_6;
             out.force.data.0[0][0] = m_r
-                * (sin_theta_sin_psi * sum_2 - cos_psi * product_9);
+                * (-cos_psi).mul_add(product_9, sin_theta_sin_psi * sum_2);
             out.force.data.0[0][1] = -m_r
-                * (sin_psi * product_9 + cos_psi_sin_theta * sum_2);
+                * cos_psi_sin_theta.mul_add(sum_2, sin_psi * product_9);
             out.force.data.0[0][2] = -cos_theta * product_5 * theta_dot
-                * (T::from_f64(2.5) * sin_theta_psi_dot + product_10);
+                * T::from_f64(2.5).mul_add(sin_theta_psi_dot, product_10);
             out.force.data.0[0][3] = m_r
-                * (T::constant(9.81, -4.973799150320702e-16) * sin_theta
-                    + r * cos_theta_psi_dot
-                        * (product_10 + T::from_f64(1.25) * sin_theta_psi_dot));
+                * (r * cos_theta_psi_dot)
+                    .mul_add(
+                        T::from_f64(1.25).mul_add(sin_theta_psi_dot, product_10),
+                        T::constant(9.81, -4.973799150320702e-16) * sin_theta,
+                    );
             out.force.data.0[0][4] = -product_6 * product_8;
             out.jacobian.data.0[0][0] = T::one();
             out.jacobian.data.0[1][1] = T::one();
@@ -219,11 +221,11 @@ pub mod rolling_disc {
             let quotient = T::one() / m;
             let m_r = m * r;
             let sin_theta_sin_psi = sin_theta * sin_psi;
-            let sum = psi_dot * psi_dot + theta_dot * theta_dot;
+            let sum = theta_dot.mul_add(theta_dot, psi_dot * psi_dot);
             let psi_dot_cos_theta = psi_dot * cos_theta;
             let product = theta_dot * psi_dot_cos_theta;
             let product_2 = T::from_f64(2.0) * product;
-            let product_3 = m_r * (sin_theta_sin_psi * sum - cos_psi * product_2);
+            let product_3 = m_r * (-cos_psi).mul_add(product_2, sin_theta_sin_psi * sum);
             let r_cos_psi = r * cos_psi;
             let product_4 = r * m_r;
             let product_5 = T::from_f64(0.5) * product_4;
@@ -235,11 +237,16 @@ pub mod rolling_disc {
             let product_9 = quotient * product_8;
             let sum_2 = r_cos_psi * product_7 - product_9;
             let product_10 = product_4
-                * (T::from_f64(1.5) - T::from_f64(1.25) * cos_theta * cos_theta);
+                * (-(T::from_f64(1.25) * cos_theta))
+                    .mul_add(cos_theta, T::from_f64(1.5));
             let product_11 = m_r * sin_theta_sin_psi;
             let product_12 = quotient * product_11;
-            let sum_3 = ((product_10 - product_6 * product_7) - product_8 * product_9)
-                - product_11 * product_12;
+            let sum_3 = (-product_11)
+                .mul_add(
+                    product_12,
+                    (-product_8)
+                        .mul_add(product_9, (-product_6).mul_add(product_7, product_10)),
+                );
             let quotient_3 = T::one() / sum_3;
             let product_13 = sum_2 * quotient_3;
             let product_14 = m_r * cos_theta;
@@ -247,66 +254,121 @@ pub mod rolling_disc {
             let product_16 = quotient * product_15;
             let product_17 = cos_psi * product_14;
             let product_18 = quotient * product_17;
-            let sum_4 = product_11 * product_18 - product_8 * product_16;
+            let sum_4 = (-product_8).mul_add(product_16, product_11 * product_18);
             let product_19 = quotient_3 * sum_4;
-            let sum_5 = product_16 + sum_2 * product_19;
+            let sum_5 = sum_2.mul_add(product_19, product_16);
             let product_20 = T::from_f64(1.25) * product_4;
-            let sum_6 = ((product_20 - product_15 * product_16)
-                - product_17 * product_18) - sum_4 * product_19;
+            let sum_6 = (-sum_4)
+                .mul_add(
+                    product_19,
+                    (-product_17)
+                        .mul_add(
+                            product_18,
+                            (-product_15).mul_add(product_16, product_20),
+                        ),
+                );
             let quotient_4 = T::one() / sum_6;
             let product_21 = sum_5 * quotient_4;
             let product_22 = r_cos_psi * quotient_2;
-            let sum_7 = quotient + sum_2 * product_13 + sum_5 * product_21
-                + r_cos_psi * product_22;
+            let sum_7 = r_cos_psi
+                .mul_add(
+                    product_22,
+                    sum_5.mul_add(product_21, sum_2.mul_add(product_13, quotient)),
+                );
             let quotient_5 = T::one() / sum_7;
             let r_sin_psi = r * sin_psi;
             let psi_dot_phi_dot = psi_dot * phi_dot;
             let product_23 = product * product_5;
             let sin_theta_psi_dot = sin_theta * psi_dot;
             let product_24 = T::from_f64(0.5) * phi_dot;
-            let sum_8 = (product_7 * product_23
-                - theta_dot * cos_theta * product_4
-                    * (T::from_f64(2.5) * sin_theta_psi_dot + product_24))
-                - product_3 * product_9;
-            let product_25 = m_r * (sin_psi * product_2 + sum * sin_theta_cos_psi);
-            let sum_9 = sum_8 + product_12 * product_25;
-            let sum_10 = m_r
-                * (T::constant(9.81, -4.973799150320702e-16) * sin_theta
-                    + r * psi_dot_cos_theta
-                        * (product_24 + T::from_f64(1.25) * sin_theta_psi_dot))
-                - product_3 * product_16;
-            let sum_11 = (sum_10 - product_18 * product_25) - product_19 * sum_9;
-            let sum_12 = r_sin_psi * psi_dot_phi_dot + quotient * product_3
-                + product_13 * sum_9 + product_22 * product_23 - product_21 * sum_11;
+            let sum_8 = (-product_3)
+                .mul_add(
+                    product_9,
+                    (-(theta_dot * cos_theta * product_4))
+                        .mul_add(
+                            T::from_f64(2.5).mul_add(sin_theta_psi_dot, product_24),
+                            product_7 * product_23,
+                        ),
+                );
+            let product_25 = m_r * sum.mul_add(sin_theta_cos_psi, sin_psi * product_2);
+            let sum_9 = product_12.mul_add(product_25, sum_8);
+            let sum_10 = (-product_3)
+                .mul_add(
+                    product_16,
+                    m_r
+                        * (r * psi_dot_cos_theta)
+                            .mul_add(
+                                T::from_f64(1.25).mul_add(sin_theta_psi_dot, product_24),
+                                T::constant(9.81, -4.973799150320702e-16) * sin_theta,
+                            ),
+                );
+            let sum_11 = (-product_19)
+                .mul_add(sum_9, (-product_18).mul_add(product_25, sum_10));
+            let sum_12 = (-product_21)
+                .mul_add(
+                    sum_11,
+                    product_22
+                        .mul_add(
+                            product_23,
+                            product_13
+                                .mul_add(
+                                    sum_9,
+                                    quotient.mul_add(product_3, r_sin_psi * psi_dot_phi_dot),
+                                ),
+                        ),
+                );
             let sum_13 = product_7 * r_sin_psi - product_12;
-            let sum_14 = product_18 - product_19 * sum_13;
-            let sum_15 = product_13 * sum_13 + product_22 * r_sin_psi
-                - product_21 * sum_14;
+            let sum_14 = (-product_19).mul_add(sum_13, product_18);
+            let sum_15 = (-product_21)
+                .mul_add(sum_14, product_22.mul_add(r_sin_psi, product_13 * sum_13));
             let product_26 = quotient_5 * sum_15;
             let product_27 = quotient_3 * sum_13;
             let product_28 = quotient_4 * sum_14;
             let product_29 = quotient_2 * r_sin_psi;
-            let sum_16 = quotient + sum_13 * product_27 + sum_14 * product_28
-                + r_sin_psi * product_29;
-            let sum_17 = sum_16 - sum_15 * product_26;
-            let sum_18 = sum_9 * product_27 + sum_11 * product_28
-                + product_23 * product_29 - r_cos_psi * psi_dot_phi_dot
-                - quotient * product_25;
-            let product_30 = T::one() / sum_17 * (sum_18 - sum_12 * product_26);
-            let sum_19 = quotient_5 * sum_12 - product_26 * product_30;
+            let sum_16 = r_sin_psi
+                .mul_add(
+                    product_29,
+                    sum_14.mul_add(product_28, sum_13.mul_add(product_27, quotient)),
+                );
+            let sum_17 = (-sum_15).mul_add(product_26, sum_16);
+            let sum_18 = (-quotient)
+                .mul_add(
+                    product_25,
+                    (-r_cos_psi)
+                        .mul_add(
+                            psi_dot_phi_dot,
+                            product_23
+                                .mul_add(
+                                    product_29,
+                                    sum_11.mul_add(product_28, sum_9 * product_27),
+                                ),
+                        ),
+                );
+            let product_30 = (T::one() / sum_17) * (-sum_12).mul_add(product_26, sum_18);
+            let sum_19 = (-product_26).mul_add(product_30, quotient_5 * sum_12);
             let product_31 = quotient_4
-                * ((sum_11 + sum_5 * sum_19) - sum_14 * product_30);
-            let sum_20 = quotient_3 * ((sum_9 - sum_2 * sum_19) - sum_13 * product_30)
-                - product_19 * product_31;
-            out.acceleration.data.0[0][0] = (quotient * (product_3 - sum_19)
-                - product_9 * sum_20) - product_16 * product_31;
+                * (-sum_14).mul_add(product_30, sum_5.mul_add(sum_19, sum_11));
+            let sum_20 = (-product_19)
+                .mul_add(
+                    product_31,
+                    quotient_3
+                        * (-sum_13).mul_add(product_30, (-sum_2).mul_add(sum_19, sum_9)),
+                );
+            out.acceleration.data.0[0][0] = (-product_16)
+                .mul_add(
+                    product_31,
+                    (-product_9).mul_add(sum_20, quotient * (product_3 - sum_19)),
+                );
             out.acceleration.data.0[0][1] = product_18 * product_31
-                - (quotient * (product_25 + product_30) + product_12 * sum_20);
+                - product_12.mul_add(sum_20, quotient * (product_25 + product_30));
             out.acceleration.data.0[0][2] = sum_20;
             out.acceleration.data.0[0][3] = product_31;
-            out.acceleration.data.0[0][4] = quotient_2
-                * ((r_cos_psi * sum_19 - product_23) + r_sin_psi * product_30)
-                - product_7 * sum_20;
+            out.acceleration.data.0[0][4] = (-product_7)
+                .mul_add(
+                    sum_20,
+                    quotient_2
+                        * r_sin_psi.mul_add(product_30, r_cos_psi * sum_19 - product_23),
+                );
             out.pivots.mass_pivots.data.0[0][2] = sum_3;
             out.pivots.mass_diagonal.data.0[0][2] = product_10;
             out.pivots.mass_pivots.data.0[0][3] = sum_6;
@@ -353,8 +415,8 @@ pub mod rolling_disc {
             out.mass.data.0[1][3] = sum;
             out.mass.data.0[2][0] = product_2;
             out.mass.data.0[2][1] = product_5;
-            out.mass.data.0[2][2] = T::from_f64(1.5) * product_6
-                - cos_theta * cos_theta * product_7;
+            out.mass.data.0[2][2] = (-(cos_theta * cos_theta))
+                .mul_add(product_7, T::from_f64(1.5) * product_6);
             out.mass.data.0[2][4] = product_9;
             out.mass.data.0[3][0] = product_4;
             out.mass.data.0[3][1] = sum;
@@ -389,7 +451,8 @@ pub mod rolling_disc {
             let product_3 = product_2 * quotient;
             let product_4 = r * m_r;
             let product_5 = T::from_f64(1.25) * product_4;
-            let sum = T::from_f64(1.5) * product_4 - cos_theta * cos_theta * product_5;
+            let sum = (-(cos_theta * cos_theta))
+                .mul_add(product_5, T::from_f64(1.5) * product_4);
             let product_6 = T::from_f64(0.5) * product_4;
             let product_7 = sin_theta * product_6;
             let quotient_2 = T::one() / product_6;
@@ -397,51 +460,80 @@ pub mod rolling_disc {
             let product_9 = m_r * sin_psi;
             let product_10 = sin_theta * product_9;
             let product_11 = quotient * product_10;
-            let sum_2 = ((sum - product_7 * product_8) - product_2 * product_3)
-                - product_10 * product_11;
+            let sum_2 = (-product_10)
+                .mul_add(
+                    product_11,
+                    (-product_2).mul_add(product_3, (-product_7).mul_add(product_8, sum)),
+                );
             let quotient_3 = T::one() / sum_2;
             let cos_psi_r = cos_psi * r;
             let sum_3 = product_8 * cos_psi_r - product_3;
-            let sum_4 = x_dot - cos_psi_r * phi_dot;
+            let sum_4 = (-cos_psi_r).mul_add(phi_dot, x_dot);
             let product_12 = quotient_3 * sum_3;
             let product_13 = cos_theta * product_9;
             let product_14 = quotient * product_13;
             let product_15 = product * cos_theta;
             let product_16 = quotient * product_15;
-            let sum_5 = product_10 * product_16 - product_2 * product_14;
+            let sum_5 = (-product_2).mul_add(product_14, product_10 * product_16);
             let product_17 = quotient_3 * sum_5;
-            let sum_6 = product_14 + sum_3 * product_17;
-            let sum_7 = ((product_5 - product_13 * product_14) - product_15 * product_16)
-                - sum_5 * product_17;
+            let sum_6 = sum_3.mul_add(product_17, product_14);
+            let sum_7 = (-sum_5)
+                .mul_add(
+                    product_17,
+                    (-product_15)
+                        .mul_add(
+                            product_16,
+                            (-product_13).mul_add(product_14, product_5),
+                        ),
+                );
             let quotient_4 = T::one() / sum_7;
             let product_18 = sum_6 * quotient_4;
             let product_19 = quotient_2 * cos_psi_r;
-            let sum_8 = quotient + sum_3 * product_12 + sum_6 * product_18
-                + cos_psi_r * product_19;
+            let sum_8 = cos_psi_r
+                .mul_add(
+                    product_19,
+                    sum_6.mul_add(product_18, sum_3.mul_add(product_12, quotient)),
+                );
             let quotient_5 = T::one() / sum_8;
             let r_sin_psi = r * sin_psi;
             let sum_9 = product_8 * r_sin_psi - product_11;
-            let sum_10 = product_16 - product_17 * sum_9;
-            let sum_11 = product_12 * sum_9 + product_19 * r_sin_psi
-                - product_18 * sum_10;
+            let sum_10 = (-product_17).mul_add(sum_9, product_16);
+            let sum_11 = (-product_18)
+                .mul_add(sum_10, product_19.mul_add(r_sin_psi, product_12 * sum_9));
             let product_20 = quotient_5 * sum_11;
-            let sum_12 = quotient + sum_9 * (quotient_3 * sum_9)
-                + sum_10 * (quotient_4 * sum_10) + r_sin_psi * (quotient_2 * r_sin_psi);
-            let sum_13 = sum_12 - sum_11 * product_20;
-            let product_21 = T::one() / sum_13
-                * ((y_dot - phi_dot * r_sin_psi) - sum_4 * product_20);
-            let sum_14 = sum_4 * quotient_5 - product_20 * product_21;
-            let product_22 = quotient_4 * (sum_6 * sum_14 - sum_10 * product_21);
-            let sum_15 = quotient_3 * (sum_3 * sum_14 + sum_9 * product_21)
-                + product_17 * product_22;
-            out.velocity.data.0[0][0] = (product_3 * sum_15 - quotient * sum_14)
-                - product_14 * product_22;
-            out.velocity.data.0[0][1] = (product_11 * sum_15 - quotient * product_21)
-                + product_16 * product_22;
+            let sum_12 = r_sin_psi
+                .mul_add(
+                    quotient_2 * r_sin_psi,
+                    sum_10
+                        .mul_add(
+                            quotient_4 * sum_10,
+                            sum_9.mul_add(quotient_3 * sum_9, quotient),
+                        ),
+                );
+            let sum_13 = (-sum_11).mul_add(product_20, sum_12);
+            let product_21 = (T::one() / sum_13)
+                * (-sum_4).mul_add(product_20, (-phi_dot).mul_add(r_sin_psi, y_dot));
+            let sum_14 = (-product_20).mul_add(product_21, sum_4 * quotient_5);
+            let product_22 = quotient_4 * (-sum_10).mul_add(product_21, sum_6 * sum_14);
+            let sum_15 = product_17
+                .mul_add(
+                    product_22,
+                    quotient_3 * sum_9.mul_add(product_21, sum_3 * sum_14),
+                );
+            out.velocity.data.0[0][0] = (-product_14)
+                .mul_add(product_22, (-quotient).mul_add(sum_14, product_3 * sum_15));
+            out.velocity.data.0[0][1] = product_16
+                .mul_add(
+                    product_22,
+                    (-quotient).mul_add(product_21, product_11 * sum_15),
+                );
             out.velocity.data.0[0][2] = -sum_15;
             out.velocity.data.0[0][3] = product_22;
-            out.velocity.data.0[0][4] = quotient_2
-                * (cos_psi_r * sum_14 + r_sin_psi * product_21) + product_8 * sum_15;
+            out.velocity.data.0[0][4] = product_8
+                .mul_add(
+                    sum_15,
+                    quotient_2 * r_sin_psi.mul_add(product_21, cos_psi_r * sum_14),
+                );
             out.pivots.mass_pivots.data.0[0][2] = sum_2;
             out.pivots.mass_diagonal.data.0[0][2] = sum;
             out.pivots.mass_pivots.data.0[0][3] = sum_7;
@@ -562,25 +654,67 @@ pub mod rolling_disc {
             let product_7 = theta_dot * product_6;
             let product_8 = sin_psi * product_7;
             let product_9 = cos_psi * product_6;
-            let sum = product_2 * psi_dot_psi_dot + theta_dot * product_3
-                + psi_ddot * product_4 + product_5 * product_8 - theta_ddot * product_9;
+            let sum = (-theta_ddot)
+                .mul_add(
+                    product_9,
+                    product_5
+                        .mul_add(
+                            product_8,
+                            psi_ddot
+                                .mul_add(
+                                    product_4,
+                                    theta_dot.mul_add(product_3, product_2 * psi_dot_psi_dot),
+                                ),
+                        ),
+                );
             let product_10 = theta_dot * product_4;
             let product_11 = sin_psi * product_6;
             let product_12 = cos_psi * product_7;
-            let sum_2 = psi_dot_psi_dot * product_4 + theta_dot * product_10
-                - product_2 * psi_ddot - theta_ddot * product_11
-                - product_5 * product_12;
+            let sum_2 = (-product_5)
+                .mul_add(
+                    product_12,
+                    (-theta_ddot)
+                        .mul_add(
+                            product_11,
+                            (-product_2)
+                                .mul_add(
+                                    psi_ddot,
+                                    theta_dot.mul_add(product_10, psi_dot_psi_dot * product_4),
+                                ),
+                        ),
+                );
             let product_13 = product_4 * x_ddot;
             let product_14 = product_2 * y_ddot;
             let product_15 = product_9 * x_ddot;
             let product_16 = product_11 * y_ddot;
             let cos_psi_r = cos_psi * r;
             let r_sin_psi = r * sin_psi;
-            let sum_3 = product_4 * theta_ddot + psi_dot_psi_dot * product_11
-                + theta_dot * product_8 + product_3 * product_5 - psi_ddot * product_9;
-            let sum_4 = product_5 * product_10 - psi_ddot * product_11
-                - product_2 * theta_ddot - psi_dot_psi_dot * product_9
-                - theta_dot * product_12;
+            let sum_3 = (-psi_ddot)
+                .mul_add(
+                    product_9,
+                    product_3
+                        .mul_add(
+                            product_5,
+                            theta_dot
+                                .mul_add(
+                                    product_8,
+                                    psi_dot_psi_dot.mul_add(product_11, product_4 * theta_ddot),
+                                ),
+                        ),
+                );
+            let sum_4 = (-theta_dot)
+                .mul_add(
+                    product_12,
+                    (-psi_dot_psi_dot)
+                        .mul_add(
+                            product_9,
+                            (-product_2)
+                                .mul_add(
+                                    theta_ddot,
+                                    (-psi_ddot).mul_add(product_11, product_5 * product_10),
+                                ),
+                        ),
+                );
             let r_psi_dot = r * psi_dot;
             let product_17 = r_m * r_psi_dot;
             let product_18 = T::from_f64(0.5) * r;
@@ -588,17 +722,39 @@ pub mod rolling_disc {
             let product_20 = product_6 * product_18;
             let product_21 = T::from_f64(2.5) * sin_theta;
             let product_22 = r * product_21;
-            let sum_5 = T::from_f64(2.5) * theta_dot * product_17
-                + phi_dot * product_18 * product_19 - product_15 - product_16
-                - T::from_f64(5.0) * cos_theta * product_7 * r_psi_dot
-                - phi_ddot * product_20 - psi_ddot * product_6 * product_22;
+            let sum_5 = (-(psi_ddot * product_6))
+                .mul_add(
+                    product_22,
+                    (-phi_ddot)
+                        .mul_add(
+                            product_20,
+                            (-(T::from_f64(5.0) * cos_theta * product_7))
+                                .mul_add(
+                                    r_psi_dot,
+                                    (phi_dot * product_18)
+                                        .mul_add(
+                                            product_19,
+                                            T::from_f64(2.5) * theta_dot * product_17,
+                                        ) - product_15 - product_16,
+                                ),
+                        ),
+                );
             let product_23 = product_6 * r_psi_dot;
             let product_24 = r_psi_dot * phi_dot;
-            let sum_6 = product_13
-                + T::constant(9.81, -4.973799150320702e-16) * product_6
-                + T::from_f64(2.5) * psi_dot * cos_theta * product_23 - product_14
-                - T::from_f64(0.5) * product * product_24
-                - T::from_f64(1.25) * psi_dot * product_17;
+            let sum_6 = (-(T::from_f64(1.25) * psi_dot))
+                .mul_add(
+                    product_17,
+                    (-(T::from_f64(0.5) * product))
+                        .mul_add(
+                            product_24,
+                            (T::from_f64(2.5) * psi_dot * cos_theta)
+                                .mul_add(
+                                    product_23,
+                                    T::constant(9.81, -4.973799150320702e-16)
+                                        .mul_add(product_6, product_13),
+                                ) - product_14,
+                        ),
+                );
             let product_25 = product_21 * product_23;
             let product_26 = phi_dot * product_20;
             let sum_7 = -product_7 * product_18;
@@ -607,33 +763,33 @@ pub mod rolling_disc {
             out.force_by_position.data.0[2][1] = sum_2;
             out.force_by_position.data.0[2][2] = product_13 - product_14;
             out.force_by_position.data.0[2][3] = -product_15 - product_16;
-            out.force_by_position.data.0[2][4] = lambda_1 * cos_psi_r
-                - lambda_0 * r_sin_psi;
+            out.force_by_position.data.0[2][4] = (-lambda_0)
+                .mul_add(r_sin_psi, lambda_1 * cos_psi_r);
             out.force_by_position.data.0[3][0] = sum_3;
             out.force_by_position.data.0[3][1] = sum_4;
             out.force_by_position.data.0[3][2] = sum_5;
             out.force_by_position.data.0[3][3] = sum_6;
-            out.force_by_position.data.0[3][4] = T::from_f64(0.5) * r_psi_dot
-                * product_19 - psi_ddot * product_20;
-            out.force_by_velocity.data.0[2][0] = product_4 * product_5
-                - T::from_f64(2.0) * product_12;
-            out.force_by_velocity.data.0[2][1] = -product_2 * product_5
-                - T::from_f64(2.0) * product_8;
+            out.force_by_position.data.0[3][4] = (-psi_ddot)
+                .mul_add(product_20, T::from_f64(0.5) * r_psi_dot * product_19);
+            out.force_by_velocity.data.0[2][0] = (-T::from_f64(2.0))
+                .mul_add(product_12, product_4 * product_5);
+            out.force_by_velocity.data.0[2][1] = (-T::from_f64(2.0))
+                .mul_add(product_8, -product_2 * product_5);
             out.force_by_velocity.data.0[2][2] = -product_7 * product_22;
             out.force_by_velocity.data.0[2][3] = product_25 + product_26;
             out.force_by_velocity.data.0[2][4] = sum_7;
-            out.force_by_velocity.data.0[3][0] = T::from_f64(2.0) * product_10
-                - product_5 * product_9;
-            out.force_by_velocity.data.0[3][1] = -product_5 * product_11
-                - T::from_f64(2.0) * product_3;
+            out.force_by_velocity.data.0[3][0] = (-product_5)
+                .mul_add(product_9, T::from_f64(2.0) * product_10);
+            out.force_by_velocity.data.0[3][1] = (-T::from_f64(2.0))
+                .mul_add(product_3, -product_5 * product_11);
             out.force_by_velocity.data.0[3][2] = -product_25 - product_26;
             out.force_by_velocity.data.0[3][4] = -product_27;
             out.force_by_velocity.data.0[4][2] = sum_7;
             out.force_by_velocity.data.0[4][3] = product_27;
-            out.row_by_position.data.0[2][0] = -cos_psi * product_24
-                - r_sin_psi * phi_ddot;
-            out.row_by_position.data.0[2][1] = cos_psi_r * phi_ddot
-                - sin_psi * product_24;
+            out.row_by_position.data.0[2][0] = (-r_sin_psi)
+                .mul_add(phi_ddot, -cos_psi * product_24);
+            out.row_by_position.data.0[2][1] = (-sin_psi)
+                .mul_add(product_24, cos_psi_r * phi_ddot);
             out.row_by_velocity.data.0[2][0] = -r_sin_psi * phi_dot;
             out.row_by_velocity.data.0[2][1] = cos_psi_r * phi_dot;
             out.row_by_velocity.data.0[4][0] = -sin_psi * r_psi_dot;
@@ -673,8 +829,8 @@ pub mod rolling_disc {
             out.data.0[1][3] = sum;
             out.data.0[2][0] = product_2;
             out.data.0[2][1] = product_5;
-            out.data.0[2][2] = T::from_f64(1.5) * product_6
-                - cos_theta * cos_theta * product_7;
+            out.data.0[2][2] = (-(cos_theta * cos_theta))
+                .mul_add(product_7, T::from_f64(1.5) * product_6);
             out.data.0[2][4] = product_9;
             out.data.0[3][0] = product_4;
             out.data.0[3][1] = sum;
@@ -722,16 +878,21 @@ pub mod rolling_disc {
             let product_4 = r * r_m;
             let product_5 = psi_dot * product_4;
             let mut out = SVector::zeros();
-            out.data.0[0][0] = (psi_dot
-                * (cos_psi * product - sin_psi * psi_dot_sin_theta)
-                - sin_psi * product_2) * r_m;
+            out.data.0[0][0] = (-sin_psi)
+                .mul_add(
+                    product_2,
+                    psi_dot * (-sin_psi).mul_add(psi_dot_sin_theta, cos_psi * product),
+                ) * r_m;
             out.data.0[0][1] = r_m
-                * (cos_psi * product_2
-                    + psi_dot * (cos_psi * psi_dot_sin_theta + product * sin_psi));
+                * psi_dot
+                    .mul_add(
+                        product.mul_add(sin_psi, cos_psi * psi_dot_sin_theta),
+                        cos_psi * product_2,
+                    );
             out.data.0[0][2] = theta_dot_cos_theta
-                * (T::from_f64(2.5) * psi_dot_sin_theta + product_3) * product_4;
+                * T::from_f64(2.5).mul_add(psi_dot_sin_theta, product_3) * product_4;
             out.data.0[0][3] = -cos_theta
-                * (product_3 + T::from_f64(1.25) * psi_dot_sin_theta) * product_5;
+                * T::from_f64(1.25).mul_add(psi_dot_sin_theta, product_3) * product_5;
             out.data.0[0][4] = T::from_f64(0.5) * theta_dot_cos_theta * product_5;
             out
         }
@@ -762,13 +923,17 @@ pub mod rolling_disc {
             let product_8 = theta_dot * product_6;
             let product_9 = psi_dot * product_6;
             let mut out = SMatrix::zeros();
-            out.data.0[2][0] = product * theta_dot_cos_psi - product_2 * psi_dot_sin_psi;
-            out.data.0[2][1] = product_2 * cos_psi_psi_dot + product * theta_dot_sin_psi;
+            out.data.0[2][0] = (-product_2)
+                .mul_add(psi_dot_sin_psi, product * theta_dot_cos_psi);
+            out.data.0[2][1] = product
+                .mul_add(theta_dot_sin_psi, product_2 * cos_psi_psi_dot);
             out.data.0[2][2] = theta_dot * product_4;
             out.data.0[2][3] = -product_5 - product_7;
             out.data.0[2][4] = product_8;
-            out.data.0[3][0] = product * cos_psi_psi_dot - product_2 * theta_dot_sin_psi;
-            out.data.0[3][1] = product * psi_dot_sin_psi + theta_dot_cos_psi * product_2;
+            out.data.0[3][0] = (-product_2)
+                .mul_add(theta_dot_sin_psi, product * cos_psi_psi_dot);
+            out.data.0[3][1] = theta_dot_cos_psi
+                .mul_add(product_2, product * psi_dot_sin_psi);
             out.data.0[3][2] = product_5 + product_7;
             out.data.0[3][4] = product_9;
             out.data.0[4][2] = product_8;
@@ -888,8 +1053,8 @@ pub mod rolling_disc {
             ]);
             let r_sin_theta = r * sin_theta;
             let computed = [
-                x + sin_psi * r_sin_theta,
-                y - r_sin_theta * cos_psi,
+                sin_psi.mul_add(r_sin_theta, x),
+                (-r_sin_theta).mul_add(cos_psi, y),
                 r * cos_theta,
             ];
             for (place, value) in values.iter_mut().zip(computed) {
@@ -912,9 +1077,9 @@ pub mod rolling_disc {
             let sum_2 = y - product_2;
             let r_cos_theta = r * cos_theta;
             let r_sin_phi = r * sin_phi;
-            let sum_3 = sum + (cos_psi * r_sin_phi + product * cos_phi);
-            let sum_4 = sum_2 + (sin_psi * r_sin_phi - product_2 * cos_phi);
-            let sum_5 = r_cos_theta + r_cos_theta * cos_phi;
+            let sum_3 = sum + product.mul_add(cos_phi, cos_psi * r_sin_phi);
+            let sum_4 = sum_2 + (-product_2).mul_add(cos_phi, sin_psi * r_sin_phi);
+            let sum_5 = r_cos_theta.mul_add(cos_phi, r_cos_theta);
             canvas
                 .line(
                     &[

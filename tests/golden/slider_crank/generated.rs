@@ -173,31 +173,40 @@ pub mod slider_crank {
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
             let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let m2_l2 = m2 * l2;
-            let product = T::from_f64(0.5) * l1 * (sin_q1 * sin_q2 - cos_q1 * cos_q2)
-                * m2_l2;
+            let product = T::from_f64(0.5) * l1
+                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2) * m2_l2;
             let product_2 = q2_dot * (l2 * q2_dot);
-            let product_3 = T::from_f64(0.5) * (sin_q2 * cos_q1 + sin_q1 * cos_q2);
+            let product_3 = T::from_f64(0.5) * sin_q1.mul_add(cos_q2, sin_q2 * cos_q1);
             let product_4 = q1_dot * (l1 * q1_dot);
-            out.mass.data.0[0][0] = j1 + l1 * l1 * (m2 + T::from_f64(0.25) * m1);
+            out.mass.data.0[0][0] = (l1 * l1)
+                .mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
             out.mass.data.0[0][1] = product;
             out.mass.data.0[1][0] = product;
-            out.mass.data.0[1][1] = j2 + T::from_f64(0.25) * l2 * m2_l2;
+            out.mass.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             out.mass.data.0[2][2] = m3;
             out.force.data.0[0][0] = -l1
-                * (T::constant(4.905, -2.486899575160351e-16) * m1 * cos_q1
-                    + m2
-                        * (T::constant(9.81, -4.973799150320702e-16) * cos_q1
-                            + product_2 * product_3));
+                * m2
+                    .mul_add(
+                        product_2
+                            .mul_add(
+                                product_3,
+                                T::constant(9.81, -4.973799150320702e-16) * cos_q1,
+                            ),
+                        T::constant(4.905, -2.486899575160351e-16) * m1 * cos_q1,
+                    );
             out.force.data.0[0][1] = m2_l2
-                * (T::constant(4.905, -2.486899575160351e-16) * cos_q2
-                    - product_3 * product_4);
+                * (-product_3)
+                    .mul_add(
+                        product_4,
+                        T::constant(4.905, -2.486899575160351e-16) * cos_q2,
+                    );
             out.jacobian.data.0[0][0] = -l1 * sin_q1;
             out.jacobian.data.0[0][1] = l1 * cos_q1;
             out.jacobian.data.0[1][0] = -sin_q2 * l2;
             out.jacobian.data.0[1][1] = -cos_q2 * l2;
             out.jacobian.data.0[2][0] = -T::one();
-            out.bias.data.0[0][0] = cos_q1 * product_4 + cos_q2 * product_2;
-            out.bias.data.0[0][1] = sin_q1 * product_4 - sin_q2 * product_2;
+            out.bias.data.0[0][0] = cos_q2.mul_add(product_2, cos_q1 * product_4);
+            out.bias.data.0[0][1] = (-sin_q2).mul_add(product_2, sin_q1 * product_4);
         }
         /// The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
         /// Schur complement `A M⁻¹ Aᵀ`.
@@ -208,51 +217,76 @@ pub mod slider_crank {
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
             let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
-            let quotient = T::one() / (j1 + l1 * l1 * (m2 + T::from_f64(0.25) * m1));
+            let quotient = T::one()
+                / (l1 * l1).mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
             let l1_sin_q1 = l1 * sin_q1;
             let quotient_2 = T::one() / m3;
             let product = quotient * l1_sin_q1;
             let m2_l2 = m2 * l2;
-            let product_2 = T::from_f64(0.5) * l1 * (sin_q1 * sin_q2 - cos_q1 * cos_q2)
-                * m2_l2;
+            let product_2 = T::from_f64(0.5) * l1
+                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2) * m2_l2;
             let product_3 = quotient * product_2;
-            let sum = l1_sin_q1 * product_3 - sin_q2 * l2;
-            let sum_2 = j2 + T::from_f64(0.25) * l2 * m2_l2;
-            let sum_3 = sum_2 - product_2 * product_3;
+            let sum = (-sin_q2).mul_add(l2, l1_sin_q1 * product_3);
+            let sum_2 = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
+            let sum_3 = (-product_2).mul_add(product_3, sum_2);
             let quotient_3 = T::one() / sum_3;
             let product_4 = sum * quotient_3;
-            let sum_4 = quotient_2 + l1_sin_q1 * product + sum * product_4;
+            let sum_4 = sum.mul_add(product_4, l1_sin_q1.mul_add(product, quotient_2));
             let quotient_4 = T::one() / sum_4;
             let product_5 = q2_dot * (l2 * q2_dot);
-            let product_6 = T::from_f64(0.5) * (sin_q2 * cos_q1 + sin_q1 * cos_q2);
+            let product_6 = T::from_f64(0.5) * sin_q1.mul_add(cos_q2, sin_q2 * cos_q1);
             let product_7 = l1
-                * (T::constant(4.905, -2.486899575160351e-16) * m1 * cos_q1
-                    + m2
-                        * (T::constant(9.81, -4.973799150320702e-16) * cos_q1
-                            + product_5 * product_6));
+                * m2
+                    .mul_add(
+                        product_5
+                            .mul_add(
+                                product_6,
+                                T::constant(9.81, -4.973799150320702e-16) * cos_q1,
+                            ),
+                        T::constant(4.905, -2.486899575160351e-16) * m1 * cos_q1,
+                    );
             let product_8 = q1_dot * (l1 * q1_dot);
-            let sum_5 = m2_l2
-                * (T::constant(4.905, -2.486899575160351e-16) * cos_q2
-                    - product_6 * product_8) + product_3 * product_7;
-            let sum_6 = product * product_7 + product_4 * sum_5
-                - (cos_q1 * product_8 + cos_q2 * product_5);
+            let sum_5 = product_3
+                .mul_add(
+                    product_7,
+                    m2_l2
+                        * (-product_6)
+                            .mul_add(
+                                product_8,
+                                T::constant(4.905, -2.486899575160351e-16) * cos_q2,
+                            ),
+                );
+            let sum_6 = product_4.mul_add(sum_5, product * product_7)
+                - cos_q2.mul_add(product_5, cos_q1 * product_8);
             let l1_cos_q1 = l1 * cos_q1;
-            let sum_7 = cos_q2 * l2 + product_3 * l1_cos_q1;
-            let sum_8 = product * l1_cos_q1 + product_4 * sum_7;
+            let sum_7 = product_3.mul_add(l1_cos_q1, cos_q2 * l2);
+            let sum_8 = product_4.mul_add(sum_7, product * l1_cos_q1);
             let product_9 = quotient_4 * sum_8;
             let product_10 = quotient * l1_cos_q1;
             let product_11 = quotient_3 * sum_7;
-            let sum_9 = l1_cos_q1 * product_10 + sum_7 * product_11;
-            let sum_10 = sum_9 - sum_8 * product_9;
+            let sum_9 = sum_7.mul_add(product_11, l1_cos_q1 * product_10);
+            let sum_10 = (-sum_8).mul_add(product_9, sum_9);
             let sum_11 = sum_6 * product_9
-                - ((sin_q1 * product_8 - sin_q2 * product_5) + product_7 * product_10
-                    + sum_5 * product_11);
-            let product_12 = T::one() / sum_10 * sum_11;
-            let sum_12 = quotient_4 * sum_6 + product_9 * product_12;
-            let product_13 = quotient_3 * ((sum_5 - sum * sum_12) + sum_7 * product_12);
-            out.acceleration.data.0[0][0] = quotient
-                * ((l1_sin_q1 * sum_12 - product_7) - l1_cos_q1 * product_12)
-                - product_3 * product_13;
+                - sum_5
+                    .mul_add(
+                        product_11,
+                        product_7
+                            .mul_add(
+                                product_10,
+                                (-sin_q2).mul_add(product_5, sin_q1 * product_8),
+                            ),
+                    );
+            let product_12 = (T::one() / sum_10) * sum_11;
+            let sum_12 = product_9.mul_add(product_12, quotient_4 * sum_6);
+            let product_13 = quotient_3
+                * sum_7.mul_add(product_12, (-sum).mul_add(sum_12, sum_5));
+            out.acceleration.data.0[0][0] = (-product_3)
+                .mul_add(
+                    product_13,
+                    quotient
+                        * (-l1_cos_q1)
+                            .mul_add(product_12, l1_sin_q1 * sum_12 - product_7),
+                );
             out.acceleration.data.0[0][1] = product_13;
             out.acceleration.data.0[0][2] = quotient_2 * sum_12;
             out.pivots.mass_pivots.data.0[0][1] = sum_3;
@@ -278,18 +312,19 @@ pub mod slider_crank {
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
             let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let m2_l2 = m2 * l2;
-            let product = T::from_f64(0.5) * l1 * (sin_q1 * sin_q2 - cos_q1 * cos_q2)
-                * m2_l2;
+            let product = T::from_f64(0.5) * l1
+                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2) * m2_l2;
             let l1_cos_q1 = l1 * cos_q1;
             let cos_q2_l2 = cos_q2 * l2;
             let l1_sin_q1 = l1 * sin_q1;
             let sin_q2_l2 = sin_q2 * l2;
-            out.mass.data.0[0][0] = j1 + l1 * l1 * (m2 + T::from_f64(0.25) * m1);
+            out.mass.data.0[0][0] = (l1 * l1)
+                .mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
             out.mass.data.0[0][1] = product;
             out.mass.data.0[1][0] = product;
-            out.mass.data.0[1][1] = j2 + T::from_f64(0.25) * l2 * m2_l2;
+            out.mass.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             out.mass.data.0[2][2] = m3;
-            out.residual.data.0[0][0] = (l1_cos_q1 + cos_q2_l2) - q3;
+            out.residual.data.0[0][0] = l1_cos_q1 + cos_q2_l2 - q3;
             out.residual.data.0[0][1] = l1_sin_q1 - sin_q2_l2;
             out.jacobian.data.0[0][0] = -l1_sin_q1;
             out.jacobian.data.0[0][1] = l1_cos_q1;
@@ -300,7 +335,7 @@ pub mod slider_crank {
         /// The least corrections of position and velocity in the kinetic metric, where
         /// the constraints are regular.
         ///
-        /// Costs 59 products, 29 sums, 5 quotients, 2 sine–cosine pairs.
+        /// Costs 63 products, 33 sums, 5 quotients, 2 sine–cosine pairs.
         fn correction(
             &self,
             state: &State<T, 3>,
@@ -312,49 +347,73 @@ pub mod slider_crank {
             let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let l1_cos_q1 = l1 * cos_q1;
             let cos_q2_l2 = cos_q2 * l2;
-            let sum = (l1_cos_q1 + cos_q2_l2) - q3;
+            let sum = l1_cos_q1 + cos_q2_l2 - q3;
             let l1_sin_q1 = l1 * sin_q1;
             let l2_sin_q2 = l2 * sin_q2;
             let sum_2 = l1_sin_q1 - l2_sin_q2;
-            let quotient = T::one() / (j1 + l1 * l1 * (m2 + T::from_f64(0.25) * m1));
+            let quotient = T::one()
+                / (l1 * l1).mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
             let quotient_2 = T::one() / m3;
             let product = l1_sin_q1 * quotient;
             let l2_m2 = l2 * m2;
-            let product_2 = T::from_f64(0.5) * l1 * (sin_q1 * sin_q2 - cos_q1 * cos_q2)
-                * l2_m2;
+            let product_2 = T::from_f64(0.5) * l1
+                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2) * l2_m2;
             let product_3 = quotient * product_2;
             let sum_3 = l1_sin_q1 * product_3 - l2_sin_q2;
-            let sum_4 = j2 + T::from_f64(0.25) * l2 * l2_m2;
-            let sum_5 = sum_4 - product_2 * product_3;
+            let sum_4 = (T::from_f64(0.25) * l2).mul_add(l2_m2, j2);
+            let sum_5 = (-product_2).mul_add(product_3, sum_4);
             let quotient_3 = T::one() / sum_5;
             let product_4 = sum_3 * quotient_3;
-            let sum_6 = quotient_2 + l1_sin_q1 * product + sum_3 * product_4;
+            let sum_6 = sum_3.mul_add(product_4, l1_sin_q1.mul_add(product, quotient_2));
             let quotient_4 = T::one() / sum_6;
-            let sum_7 = cos_q2_l2 + l1_cos_q1 * product_3;
-            let sum_8 = l1_cos_q1 * product + product_4 * sum_7;
+            let sum_7 = l1_cos_q1.mul_add(product_3, cos_q2_l2);
+            let sum_8 = product_4.mul_add(sum_7, l1_cos_q1 * product);
             let product_5 = quotient_4 * sum_8;
-            let sum_9 = l1_cos_q1 * (l1_cos_q1 * quotient)
-                + sum_7 * (quotient_3 * sum_7);
-            let sum_10 = sum_9 - sum_8 * product_5;
+            let sum_9 = sum_7
+                .mul_add(quotient_3 * sum_7, l1_cos_q1 * (l1_cos_q1 * quotient));
+            let sum_10 = (-sum_8).mul_add(product_5, sum_9);
             let quotient_5 = T::one() / sum_10;
-            let product_6 = quotient_5 * (sum_2 + sum * product_5);
-            let sum_11 = sum * quotient_4 + product_5 * product_6;
-            let product_7 = quotient_3 * (sum_7 * product_6 - sum_3 * sum_11);
-            let sum_12 = (-l1_sin_q1 * q1_dot - l2_sin_q2 * q2_dot) - q3_dot;
-            let product_8 = quotient_5
-                * ((l1_cos_q1 * q1_dot - cos_q2_l2 * q2_dot) + product_5 * sum_12);
-            let sum_13 = quotient_4 * sum_12 + product_5 * product_8;
-            let product_9 = quotient_3 * (sum_7 * product_8 - sum_3 * sum_13);
+            let product_6 = quotient_5 * sum.mul_add(product_5, sum_2);
+            let sum_11 = product_5.mul_add(product_6, sum * quotient_4);
+            let product_7 = quotient_3 * (-sum_3).mul_add(sum_11, sum_7 * product_6);
+            let sum_12 = (-product_3)
+                .mul_add(
+                    product_7,
+                    quotient * (-l1_cos_q1).mul_add(product_6, l1_sin_q1 * sum_11),
+                );
+            let product_8 = l1_sin_q1 * q1_dot;
+            let product_9 = l2_sin_q2 * q2_dot;
+            let product_10 = l1_cos_q1 * q1_dot;
+            let product_11 = cos_q2_l2 * q2_dot;
+            let sum_13 = (-product_7)
+                .mul_add(
+                    product_11,
+                    (-sum_12).mul_add(product_10, -product_8 - product_9 - q3_dot),
+                );
+            let product_12 = quotient_5
+                * product_5
+                    .mul_add(
+                        sum_13,
+                        (-sum_12)
+                            .mul_add(
+                                product_8,
+                                product_7.mul_add(product_9, product_10 - product_11),
+                            ),
+                    );
+            let sum_14 = product_5.mul_add(product_12, quotient_4 * sum_13);
+            let product_13 = quotient_3 * (-sum_3).mul_add(sum_14, sum_7 * product_12);
             out.residual.data.0[0][0] = sum;
             out.residual.data.0[0][1] = sum_2;
-            out.position.data.0[0][0] = quotient
-                * (l1_sin_q1 * sum_11 - l1_cos_q1 * product_6) - product_3 * product_7;
+            out.position.data.0[0][0] = sum_12;
             out.position.data.0[0][1] = product_7;
             out.position.data.0[0][2] = quotient_2 * sum_11;
-            out.velocity.data.0[0][0] = quotient
-                * (l1_sin_q1 * sum_13 - l1_cos_q1 * product_8) - product_3 * product_9;
-            out.velocity.data.0[0][1] = product_9;
-            out.velocity.data.0[0][2] = quotient_2 * sum_13;
+            out.velocity.data.0[0][0] = (-product_3)
+                .mul_add(
+                    product_13,
+                    quotient * (-l1_cos_q1).mul_add(product_12, l1_sin_q1 * sum_14),
+                );
+            out.velocity.data.0[0][1] = product_13;
+            out.velocity.data.0[0][2] = quotient_2 * sum_14;
             out.pivots.mass_pivots.data.0[0][1] = sum_5;
             out.pivots.mass_diagonal.data.0[0][1] = sum_4;
             out.pivots.row_pivots.data.0[0][0] = sum_6;
@@ -387,8 +446,10 @@ pub mod slider_crank {
             out.slope.data.0[0][1] = -T::from_f64(3.0) * product_2;
             out.slope.data.0[1][0] = -cos_q2 * product_3;
             out.slope.data.0[1][1] = product_3 * sin_q2;
-            out.bias.data.0[0][0] = -product_2 * q1_dot_q1_dot - sin_q2 * product_4;
-            out.bias.data.0[0][1] = product * q1_dot_q1_dot - cos_q2 * product_4;
+            out.bias.data.0[0][0] = (-sin_q2)
+                .mul_add(product_4, -product_2 * q1_dot_q1_dot);
+            out.bias.data.0[0][1] = (-cos_q2)
+                .mul_add(product_4, product * q1_dot_q1_dot);
         }
         /// Energies and the power supplied from outside.
         ///
@@ -463,26 +524,36 @@ pub mod slider_crank {
             let product_9 = product_6 * sin_q2_q2_ddot;
             let cos_q2_q2_ddot = cos_q2 * q2_ddot;
             let product_10 = product_3 * cos_q2_q2_ddot;
-            let sum = product_5
-                + l1
-                    * (cos_q1 * lambda_0
-                        + sin_q1
-                            * (lambda_1 + T::constant(4.905, -2.486899575160351e-16) * m1
-                                + T::constant(9.81, -4.973799150320702e-16) * m2))
-                - product_8 - product_9 - product_10;
+            let sum = l1
+                .mul_add(
+                    sin_q1
+                        .mul_add(
+                            T::constant(9.81, -4.973799150320702e-16)
+                                .mul_add(
+                                    m2,
+                                    T::constant(4.905, -2.486899575160351e-16)
+                                        .mul_add(m1, lambda_1),
+                                ),
+                            cos_q1 * lambda_0,
+                        ),
+                    product_5,
+                ) - product_8 - product_9 - product_10;
             let q1_dot_q1_dot = q1_dot * q1_dot;
             let product_11 = product_4 * q1_dot_q1_dot;
             let product_12 = product_6 * cos_q2 * q1_dot_q1_dot;
             let product_13 = sin_q2 * product_6 * q1_ddot;
             let product_14 = product_3 * cos_q2 * q1_ddot;
-            let sum_2 = product_11
-                + l2
-                    * (lambda_0 * cos_q2
-                        - sin_q2
-                            * (lambda_1
-                                + T::constant(4.905, -2.486899575160351e-16) * m2))
-                - product_12 - product_13 - product_14;
-            let product_15 = product * (sin_q2 * cos_q1 + sin_q1 * cos_q2);
+            let sum_2 = l2
+                .mul_add(
+                    (-sin_q2)
+                        .mul_add(
+                            T::constant(4.905, -2.486899575160351e-16)
+                                .mul_add(m2, lambda_1),
+                            lambda_0 * cos_q2,
+                        ),
+                    product_11,
+                ) - product_12 - product_13 - product_14;
+            let product_15 = product * sin_q1.mul_add(cos_q2, sin_q2 * cos_q1);
             let product_16 = T::from_f64(2.0) * (l1 * q1_dot);
             let product_17 = T::from_f64(2.0) * (q2_dot * l2);
             out.force_by_position.data.0[0][0] = sum;
@@ -494,11 +565,11 @@ pub mod slider_crank {
             out.force_by_velocity.data.0[0][1] = -q1_dot * product_15;
             out.force_by_velocity.data.0[1][0] = -q2_dot * product_15;
             out.row_by_position.data.0[0][0] = l1
-                * (cos_q1 * q1_ddot - sin_q1 * q1_dot_q1_dot);
+                * (-sin_q1).mul_add(q1_dot_q1_dot, cos_q1 * q1_ddot);
             out.row_by_position.data.0[0][1] = l1
-                * (cos_q1 * q1_dot_q1_dot + sin_q1 * q1_ddot);
+                * sin_q1.mul_add(q1_ddot, cos_q1 * q1_dot_q1_dot);
             out.row_by_position.data.0[1][0] = l2
-                * (cos_q2_q2_ddot - q2_dot_q2_dot * sin_q2);
+                * (-q2_dot_q2_dot).mul_add(sin_q2, cos_q2_q2_ddot);
             out.row_by_position.data.0[1][1] = -l2 * (product_7 + sin_q2_q2_ddot);
             out.row_by_velocity.data.0[0][0] = cos_q1 * product_16;
             out.row_by_velocity.data.0[0][1] = sin_q1 * product_16;
@@ -517,13 +588,13 @@ pub mod slider_crank {
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
             let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let m2_l2 = m2 * l2;
-            let product = T::from_f64(0.5) * l1 * (sin_q1 * sin_q2 - cos_q1 * cos_q2)
-                * m2_l2;
+            let product = T::from_f64(0.5) * l1
+                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2) * m2_l2;
             let mut out = SMatrix::zeros();
-            out.data.0[0][0] = j1 + l1 * l1 * (m2 + T::from_f64(0.25) * m1);
+            out.data.0[0][0] = (l1 * l1).mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
             out.data.0[0][1] = product;
             out.data.0[1][0] = product;
-            out.data.0[1][1] = j2 + T::from_f64(0.25) * l2 * m2_l2;
+            out.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             out.data.0[2][2] = m3;
             out
         }
@@ -536,8 +607,8 @@ pub mod slider_crank {
             let ([_, _], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let mut out = SVector::zeros();
             out.data.0[0][0] = l1 * cos_q1
-                * (T::constant(4.905, -2.486899575160351e-16) * m1
-                    + T::constant(9.81, -4.973799150320702e-16) * m2);
+                * T::constant(9.81, -4.973799150320702e-16)
+                    .mul_add(m2, T::constant(4.905, -2.486899575160351e-16) * m1);
             out.data.0[0][1] = -T::constant(4.905, -2.486899575160351e-16) * m2 * l2
                 * cos_q2;
             out
@@ -557,8 +628,8 @@ pub mod slider_crank {
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, m2, .. } = self.parameters;
             let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
-            let product = T::from_f64(0.5) * m2
-                * ((cos_q1 * sin_q2 + sin_q1 * cos_q2) * (l1 * l2));
+            let product = (T::from_f64(0.5) * m2)
+                * (sin_q1.mul_add(cos_q2, cos_q1 * sin_q2) * (l1 * l2));
             let mut out = SVector::zeros();
             out.data.0[0][0] = q2_dot * q2_dot * product;
             out.data.0[0][1] = product * q1_dot * q1_dot;
@@ -574,7 +645,7 @@ pub mod slider_crank {
             let Parameters { l1, l2, m2, .. } = self.parameters;
             let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let product = T::from_f64(0.5)
-                * (m2 * (l1 * l2 * (cos_q1 * sin_q2 + sin_q1 * cos_q2)));
+                * (m2 * (l1 * l2 * sin_q1.mul_add(cos_q2, cos_q1 * sin_q2)));
             let mut out = SMatrix::zeros();
             out.data.0[0][1] = q1_dot * product;
             out.data.0[1][0] = product * q2_dot;
@@ -588,8 +659,8 @@ pub mod slider_crank {
             let Parameters { l1, l2, .. } = self.parameters;
             let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let mut out = SVector::zeros();
-            out.data.0[0][0] = (l1 * cos_q1 + l2 * cos_q2) - q3;
-            out.data.0[0][1] = l1 * sin_q1 - l2 * sin_q2;
+            out.data.0[0][0] = l2.mul_add(cos_q2, l1 * cos_q1) - q3;
+            out.data.0[0][1] = (-l2).mul_add(sin_q2, l1 * sin_q1);
             out
         }
         /// Constraint Jacobian `A = ∂g/∂q`, `R × N`; unit of the row per unit of the coordinate.
@@ -618,8 +689,8 @@ pub mod slider_crank {
             let product = q1_dot * (q1_dot * l1);
             let product_2 = q2_dot * (q2_dot * l2);
             let mut out = SVector::zeros();
-            out.data.0[0][0] = cos_q1 * product + cos_q2 * product_2;
-            out.data.0[0][1] = product * sin_q1 - product_2 * sin_q2;
+            out.data.0[0][0] = cos_q2.mul_add(product_2, cos_q1 * product);
+            out.data.0[0][1] = (-product_2).mul_add(sin_q2, product * sin_q1);
             out
         }
     }
@@ -692,8 +763,8 @@ pub mod slider_crank {
             let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let product = T::from_f64(0.5) * l2;
             let computed = [
-                l1 * cos_q1 + cos_q2 * product,
-                l1 * sin_q1 - product * sin_q2,
+                cos_q2.mul_add(product, l1 * cos_q1),
+                (-product).mul_add(sin_q2, l1 * sin_q1),
             ];
             for (place, value) in values.iter_mut().zip(computed) {
                 *place = value;

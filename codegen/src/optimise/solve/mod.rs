@@ -35,17 +35,23 @@ pub(super) fn with_acceleration(program: &Program, n: usize, r: usize) -> Option
     Some(system.finish(&[("acceleration", acceleration)], program, &[]))
 }
 
-/// The least corrections in the kinetic metric: `A Δq = −g` and
-/// `A Δq̇ = −(A q̇ + b)`, from `mass`, `jacobian`, `residual` and `speed`. Outputs
-/// `position` and `velocity`; `residual` stays one.
+/// The least corrections in the kinetic metric: `A Δq = −g`, and `A Δq̇ = −(A q̇ + b)`
+/// with the right-hand side that it has `Δq` farther on, to first order: from `mass`,
+/// `jacobian`, `residual`, `speed` and `turn`, `∂(A q̇ + b)/∂q`. Outputs `position` and
+/// `velocity`; `residual` stays one.
 pub(super) fn with_correction(program: &Program, n: usize, r: usize) -> Option<Program> {
     let mut system = System::of(program, n, r)?;
-    let mut corrections = Vec::new();
-    for (level, correction) in [("residual", "position"), ("speed", "velocity")] {
-        let gaps = system.take(level, r);
-        let multipliers = system.multipliers(gaps);
-        corrections.push((correction, system.lifted(vec![None; n], &multipliers)));
+    let residual = system.take("residual", r);
+    let position = system.least(residual);
+    let turn = system.entries.remove("turn").unwrap_or_default();
+    let mut speed = system.take("speed", r);
+    for (i, speed) in speed.iter_mut().enumerate() {
+        let row: Vec<Entry> = (0..n).map(|j| turn.get(&(i, j)).copied()).collect();
+        let less = speed.map(|(minus, value)| (!minus, value));
+        *speed = system.algebra.dot(&row, &position, less);
     }
+    let velocity = system.least(speed);
+    let corrections = [("position", position), ("velocity", velocity)];
     Some(system.finish(&corrections, program, &["residual"]))
 }
 
@@ -117,6 +123,13 @@ impl System {
         let gaps = self.algebra.forward(&self.schur, gaps);
         let gaps = self.algebra.scaled(&self.schur, &gaps);
         self.algebra.backward(&self.schur, gaps)
+    }
+
+    /// The least `x` with `A x = −gaps`.
+    fn least(&mut self, gaps: Vec<Entry>) -> Vec<Entry> {
+        let multipliers = self.multipliers(gaps);
+        let still = vec![None; self.rows.first().map_or(0, Vec::len)];
+        self.lifted(still, &multipliers)
     }
 
     /// `L⁻ᵀ D⁻¹ (driving − W λ)`.
