@@ -59,6 +59,8 @@ pub const SHORT: &[&str] = &[
     "double_four_bar_hand/regular",
     "double_four_bar_hand/correction",
     "double_four_bar_hand/step",
+    "andrews/terms",
+    "andrews/regular",
     "pendulum/terms",
     "pendulum/regular",
     "chain/terms",
@@ -149,11 +151,16 @@ pub fn run(name: &str, rounds: u64) -> Result<(), Failed> {
             &generated::chain::spatial_chain::SpatialChain::default(),
             job,
         ),
+        #[cfg(feature = "long")]
         "row_2" => ours(&generated::row_2::n_four_bar::NFourBar::default(), job),
+        #[cfg(feature = "long")]
         "row_5" => ours(&generated::row_5::n_four_bar::NFourBar::default(), job),
+        "andrews" => ours(&generated::andrews::andrews::Andrews::default(), job),
         "row_10" => ours(&generated::row_10::n_four_bar::NFourBar::default(), job),
+        #[cfg(feature = "long")]
         "row_20" => ours(&generated::row_20::n_four_bar::NFourBar::default(), job),
         "row_40" => ours(&generated::row_40::n_four_bar::NFourBar::default(), job),
+        #[cfg(feature = "long")]
         "row_80" => ours(&generated::row_80::n_four_bar::NFourBar::default(), job),
         _ => Err(format!("there is no mechanism `{subject}`").into()),
     }

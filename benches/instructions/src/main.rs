@@ -2,10 +2,11 @@
 //!
 //! `short` (the default) checks against `benches/recorded.json`, `long` counts
 //! everything, `size` measures generation, compilation and machine code; `--record`
-//! replaces the recorded figures.
+//! replaces the recorded figures, `table` writes them to `docs/instructions.md`.
 
 mod callgrind;
 mod kernel;
+mod page;
 mod peers;
 mod recorded;
 mod report;
@@ -34,12 +35,18 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         }
         [] | ["short"] => measure(kernel::SHORT.to_vec(), false),
         ["short", "--record"] => measure(kernel::SHORT.to_vec(), true),
+        ["long", ..] if !cfg!(feature = "long") => Err("build it with `--features long`".into()),
         ["long"] => measure([kernel::SHORT, kernel::LONG].concat(), false),
         ["long", "--record"] => measure([kernel::SHORT, kernel::LONG].concat(), true),
-        ["count", ref kernels @ ..] => measure(kernels.to_vec(), false),
-        _ => {
-            Err("write `short`, `long`, either with `--record`, `size`, or `count KERNEL…`".into())
+        ["table"] => {
+            page::write(&Recorded::read()?)?;
+            Ok(ExitCode::SUCCESS)
         }
+        ["count", ref kernels @ ..] => measure(kernels.to_vec(), false),
+        _ => Err(
+            "write `short`, `long`, either with `--record`, `size`, `table`, or `count KERNEL…`"
+                .into(),
+        ),
     }
 }
 
@@ -80,7 +87,7 @@ fn measure(kernels: Vec<&str>, record: bool) -> Result<ExitCode, Box<dyn Error>>
     }
     print!(
         "{}{}{}",
-        report::counts(&counts, &recorded),
+        report::counts(&counts, Some(&recorded)),
         report::peers(&counts),
         report::growth(&counts)
     );
@@ -88,16 +95,17 @@ fn measure(kernels: Vec<&str>, record: bool) -> Result<ExitCode, Box<dyn Error>>
         counts
             .iter()
             .for_each(|(kernel, count)| recorded.set(kernel, *count));
+        page::write(&recorded)?;
         recorded.write()?;
         return Ok(ExitCode::SUCCESS);
+    }
+    if !page::is_current(&recorded)? {
+        worse.push("docs/instructions.md says something else than recorded.json: `table`".into());
     }
     if worse.is_empty() {
         return Ok(ExitCode::SUCCESS);
     }
-    println!(
-        "\nworse than recorded by more than 3 %:\n{}",
-        worse.join("\n")
-    );
+    println!("\nnot as recorded, by more than 3 %:\n{}", worse.join("\n"));
     println!("if that is meant, record it in the same commit: `short --record`, `long --record`");
     Ok(ExitCode::FAILURE)
 }

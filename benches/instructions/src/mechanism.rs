@@ -16,6 +16,8 @@ generated! {
     slider_crank_folded: "folded" / "slider_crank";
     /// All parameters folded.
     double_four_bar_folded: "folded" / "double_four_bar";
+    /// Seven bodies in three loops.
+    andrews: "folded" / "andrews";
     /// Two rods in space.
     pendulum: "folded" / "spatial_double_pendulum";
     /// Six links in space.
@@ -24,16 +26,20 @@ generated! {
     slider_crank_open: "open" / "slider_crank";
     /// Parameters set when the program runs.
     double_four_bar_open: "open" / "double_four_bar";
+    /// 10 parallelograms.
+    row_10: "row_10" / "n_four_bar";
+    /// 40 parallelograms.
+    row_40: "row_40" / "n_four_bar";
+}
+
+#[cfg(feature = "long")]
+generated! {
     /// 2 parallelograms.
     row_2: "row_2" / "n_four_bar";
     /// 5 parallelograms.
     row_5: "row_5" / "n_four_bar";
-    /// 10 parallelograms.
-    row_10: "row_10" / "n_four_bar";
     /// 20 parallelograms.
     row_20: "row_20" / "n_four_bar";
-    /// 40 parallelograms.
-    row_40: "row_40" / "n_four_bar";
     /// 80 parallelograms.
     row_80: "row_80" / "n_four_bar";
 }

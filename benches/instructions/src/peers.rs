@@ -21,7 +21,8 @@ pub const PLANAR: [(&str, [Option<u32>; 4]); 5] = [
 ];
 
 /// Mechanism, best peer, goal, and the kernel that counts ours.
-pub const OTHERS: [(&str, u32, u32, &str); 4] = [
+pub const OTHERS: [(&str, u32, u32, &str); 5] = [
+    ("Andrews' mechanism", 1685, 800, "andrews/terms"),
     ("spatial double pendulum", 1505, 800, "pendulum/terms"),
     ("six-link chain, recursion", 2368, 2300, "chain/terms"),
     ("10 loops in a row", 4273, 750, "row_10/terms"),

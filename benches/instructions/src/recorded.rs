@@ -4,6 +4,7 @@
 //! Out: what each kernel is known to cost, and what has become worse.
 
 use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
 use std::error::Error;
 use std::fs;
 use std::path::PathBuf;
@@ -38,6 +39,12 @@ impl Recorded {
     /// What a kernel is known to cost.
     pub fn of(&self, kernel: &str) -> Option<f64> {
         self.0.get(kernel).and_then(Value::as_f64)
+    }
+
+    /// All of them.
+    pub fn counts(&self) -> BTreeMap<String, f64> {
+        let figure = |(kernel, value): (&String, &Value)| Some((kernel.clone(), value.as_f64()?));
+        self.0.iter().filter_map(figure).collect()
     }
 
     /// Whether a count is worse than the recorded one by more than is allowed.

@@ -8,11 +8,15 @@ use std::fmt::Write;
 /// Counts by kernel.
 pub type Counts = BTreeMap<String, f64>;
 
-/// Every count beside the recorded one and the hand-written one.
-pub fn counts(counts: &Counts, recorded: &Recorded) -> String {
-    let mut text = String::from(
-        "| kernel | instructions | recorded | by hand | ratio |\n|---|--:|--:|--:|--:|\n",
-    );
+/// Every count beside the hand-written one, and beside what is recorded, if that is
+/// something else.
+pub fn counts(counts: &Counts, recorded: Option<&Recorded>) -> String {
+    let mut text = String::from(match recorded {
+        Some(_) => {
+            "| kernel | instructions | by hand | ratio | recorded |\n|---|--:|--:|--:|--:|\n"
+        }
+        None => "| kernel | instructions | by hand | ratio |\n|---|--:|--:|--:|\n",
+    });
     let number =
         |value: Option<f64>| value.map_or("–".to_string(), |value| format!("{value:.0}"));
     for (kernel, count) in counts {
@@ -22,12 +26,8 @@ pub fn counts(counts: &Counts, recorded: &Recorded) -> String {
         let ratio = by_hand.map_or("–".to_string(), |by_hand| {
             format!("{:.2}", count / by_hand)
         });
-        let line = [
-            format!("{count:.0}"),
-            number(recorded.of(kernel)),
-            number(by_hand),
-            ratio,
-        ];
+        let mut line = vec![format!("{count:.0}"), number(by_hand), ratio];
+        line.extend(recorded.map(|recorded| number(recorded.of(kernel))));
         let _infallible = writeln!(text, "| {kernel} | {} |", line.join(" | "));
     }
     text
