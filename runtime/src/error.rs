@@ -3,6 +3,7 @@
 //! In:  nothing.
 //! Out: one enum per stage, with data and a message for people.
 
+use crate::number::Number;
 use crate::{Form, Real, Structure};
 use core::fmt::{Display, Formatter, Result};
 
@@ -73,24 +74,27 @@ impl<T: Real> Display for DynamicsError<T> {
             Self::NotFinite { t } => write!(
                 f,
                 "at t = {t} s the equations of motion gave a number that is infinite or NaN; \
-                 look for a force or an input that grows without bound, or take a smaller step"
+                 look for a force or an input that grows without bound, or take a smaller step",
+                t = Number(t)
             ),
             Self::SingularPosition { t, form, rank } => write!(
                 f,
                 "at t = {t} s only {rank} constraint equations are independent, and the form \
-                 `{form}` cannot pass a singular position; use the form `reduced` or `full`"
+                 `{form}` cannot pass a singular position; use the form `reduced` or `full`",
+                t = Number(t)
             ),
             Self::NotRegular { t, rank } => write!(
                 f,
                 "at t = {t} s only {rank} constraint equations are independent, though the \
-                 mechanism was declared to be regular; generate it without that declaration"
+                 mechanism was declared to be regular; generate it without that declaration",
+                t = Number(t)
             ),
             Self::MassSingular {
                 t,
                 coordinate,
                 structure,
             } => {
-                write!(f, "at t = {t} s the coordinate ")?;
+                write!(f, "at t = {t} s the coordinate ", t = Number(t))?;
                 structure.write_coordinate(f, *coordinate)?;
                 f.write_str(
                     " can move without kinetic energy and no constraint restricts it; give it \
@@ -103,13 +107,14 @@ impl<T: Real> Display for DynamicsError<T> {
                 row,
                 structure,
             } => {
-                write!(f, "at t = {t} s the constraint ")?;
+                write!(f, "at t = {t} s the constraint ", t = Number(t))?;
                 structure.write_constraint(f, *row)?;
                 write!(
                     f,
                     " is violated by {residual} and the position could not be brought back onto \
                      it; take a smaller step, or check that the constraints can be satisfied \
-                     together"
+                     together",
+                    residual = Number(residual)
                 )
             }
         }

@@ -8,6 +8,7 @@ mod error;
 mod integrator;
 mod linalg;
 mod model;
+mod number;
 mod observer;
 mod projection;
 mod real;

@@ -155,7 +155,7 @@ pub fn run(name: &str, rounds: u64) -> Result<(), Failed> {
         "row_2" => ours(&generated::row_2::n_four_bar::NFourBar::default(), job),
         #[cfg(feature = "long")]
         "row_5" => ours(&generated::row_5::n_four_bar::NFourBar::default(), job),
-        "andrews" => ours(&generated::andrews::andrews::Andrews::default(), job),
+        "andrews" => ours(&generated::andrews_folded::andrews::Andrews::default(), job),
         "row_10" => ours(&generated::row_10::n_four_bar::NFourBar::default(), job),
         #[cfg(feature = "long")]
         "row_20" => ours(&generated::row_20::n_four_bar::NFourBar::default(), job),

@@ -17,7 +17,7 @@ generated! {
     /// All parameters folded.
     double_four_bar_folded: "folded" / "double_four_bar";
     /// Seven bodies in three loops.
-    andrews: "folded" / "andrews";
+    andrews_folded: "folded" / "andrews";
     /// Two rods in space.
     pendulum: "folded" / "spatial_double_pendulum";
     /// Six links in space.

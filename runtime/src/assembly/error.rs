@@ -3,6 +3,7 @@
 //! In:  nothing.
 //! Out: [`AssemblyError`].
 
+use crate::number::Number;
 use crate::{Quantity, Real, Structure};
 use core::fmt::{Display, Formatter, Result};
 use nalgebra::SVector;
@@ -52,7 +53,8 @@ impl<T: Real, const N: usize, const R: usize> Display for AssemblyError<T, N, R>
             Self::NotFinite { t } => write!(
                 f,
                 "the start at t = {t} s, or a constraint evaluated there, is infinite or NaN; \
-                 check the values in `start` and the parameters"
+                 check the values in `start` and the parameters",
+                t = Number(t)
             ),
             Self::Positions {
                 structure,
@@ -83,6 +85,9 @@ impl<T: Real, const N: usize, const R: usize> Display for AssemblyError<T, N, R>
     }
 }
 
+/// The part of the largest residual below which others are none.
+const HARMLESS: f64 = 1e-6;
+
 /// One clause per constraint equation that is not satisfied.
 fn rows<T: Real, const R: usize>(
     f: &mut Formatter<'_>,
@@ -90,14 +95,17 @@ fn rows<T: Real, const R: usize>(
     residual: &SVector<T, R>,
     per: &str,
 ) -> Result {
+    let worst = residual
+        .iter()
+        .fold(T::zero(), |worst, x| worst.max(x.abs()));
     let mut separator = " ";
     for (i, error) in residual.iter().enumerate() {
-        if *error == T::zero() {
+        if error.abs() <= worst * T::from_f64(HARMLESS) {
             continue;
         }
         f.write_str(separator)?;
         structure.write_constraint(f, i)?;
-        write!(f, " is off by {error}{per}")?;
+        write!(f, " is off by {error}{per}", error = Number(error))?;
         separator = ", ";
     }
     Ok(())

@@ -9,7 +9,7 @@
 //! everywhere, whose pivots are never safe.
 
 use super::Solver;
-use crate::linalg::{definite, guard, passes, straight, weak};
+use crate::linalg::{definite, guard, passes, straight, straight_turn, weak};
 use crate::state::all_finite;
 use crate::{DynamicsError, Form, Mechanism, Pivots, Real, Stabilisation, State};
 use nalgebra::SVector;
@@ -75,8 +75,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 self.counters.projection_iterations += 1;
                 state.q += self.correction.position;
             }
-            if landed || self.is_straight(worst, squared) {
-                state.v += self.correction.velocity;
+            let straight = self.is_straight(worst, squared, &state.v);
+            state.v += self.correction.velocity;
+            if landed || straight {
                 self.safe_at(state, false);
                 return Some(squared);
             }
@@ -85,12 +86,20 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         None
     }
 
-    /// Whether the constraints are straight, to round-off, over the correction of a
-    /// residual, so that the state is on them after one.
+    /// Whether the constraints are straight, to round-off, over the corrections of the
+    /// residual and of the velocities, so that the state is on them after one.
     #[inline]
-    fn is_straight(&self, worst: T, squared_sine: T) -> bool {
+    fn is_straight(&self, worst: T, squared_sine: T, velocities: &SVector<T, N>) -> bool {
         let most = straight::<T>() * self.reach;
-        worst * worst <= squared_sine * most * most
+        let [corrections] = &self.correction.velocity.data.0;
+        let [velocities] = &velocities.data.0;
+        let (mut turned, mut whole) = (T::zero(), T::zero());
+        for ((weight, dv), v) in self.weights.iter().zip(corrections).zip(velocities) {
+            turned = (*weight * *dv).mul_add(*dv, turned);
+            whole = (*weight * *v).mul_add(*v, whole);
+        }
+        let turn = straight_turn::<T>();
+        worst * worst <= squared_sine * most * most && turned <= turn * turn * whole
     }
 
     #[inline]

@@ -56,6 +56,8 @@ pub struct Solver<T, const N: usize, const R: usize> {
     pub(crate) reach: T,
     /// The sizes of the coordinates up to which that is not measured again.
     sizes: [T; N],
+    /// The inverse squares of those sizes; zero where a coordinate has only been zero.
+    pub(crate) weights: [T; N],
     /// The sine of the constraints at the last accepted state.
     sine: Option<T>,
     /// The smallest squared sine since then.
@@ -94,6 +96,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             shared: false,
             reach: T::zero(),
             sizes: [-T::one(); N],
+            weights: [T::zero(); N],
             sine: None,
             lowest: T::one(),
             near: false,
@@ -272,8 +275,12 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 *size = size.max(T::one());
             }
         }
-        for (known, size) in self.sizes.iter_mut().zip(&sizes) {
+        let known = self.sizes.iter_mut().zip(&mut self.weights);
+        for ((known, weight), size) in known.zip(&sizes) {
             *known = known.max(*size * T::from_f64(REACH_STEP));
+            if *known > T::zero() {
+                *weight = T::one() / (*known * *known);
+            }
         }
         let reach = self.metric.factor.length(&sizes.data.0[0]);
         self.reach = self.reach.max(reach);

@@ -3,6 +3,7 @@
 //! In:  nothing.
 //! Out: [`IntegrateError`].
 
+use crate::number::Number;
 use crate::{DynamicsError, Real};
 use core::fmt::{Display, Formatter, Result};
 
@@ -66,30 +67,43 @@ impl<T: Real> Display for IntegrateError<T> {
                 f,
                 "at t = {t} s the tolerance demands a step of {h} s, which is lost in the \
                  round-off of time; allow a larger tolerance, or look for a force that grows \
-                 without bound"
+                 without bound",
+                t = Number(t),
+                h = Number(h)
             ),
             Self::NotFinite { t } => write!(
                 f,
                 "at t = {t} s the error estimate is infinite or NaN however short the step; look \
-                 for a force or an input that grows without bound"
+                 for a force or an input that grows without bound",
+                t = Number(t)
             ),
             Self::NewtonDiverged { t, h } => write!(
                 f,
                 "at t = {t} s the equations of an implicit step of {h} s could not be solved; take \
-                 a shorter step, or an explicit method"
+                 a shorter step, or an explicit method",
+                t = Number(t),
+                h = Number(h)
             ),
             Self::ToleranceNotPositive { value } => {
-                write!(f, "a tolerance must be a positive number, not {value}")
+                write!(
+                    f,
+                    "a tolerance must be a positive number, not {value}",
+                    value = Number(value)
+                )
             }
             Self::ToleranceTooSmall { relative, smallest } => write!(
                 f,
                 "a relative tolerance of {relative} is below the round-off of the numbers; the \
-                 smallest that makes sense is {smallest}"
+                 smallest that makes sense is {smallest}",
+                relative = Number(relative),
+                smallest = Number(smallest)
             ),
             Self::BadBound { t, bound } => {
                 write!(
                     f,
-                    "cannot step from t = {t} s to t = {bound} s: the end must come later"
+                    "cannot step from t = {t} s to t = {bound} s: the end must come later",
+                    t = Number(t),
+                    bound = Number(bound)
                 )
             }
         }

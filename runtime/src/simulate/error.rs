@@ -4,6 +4,7 @@
 //! Out: [`SimulateError`], and [`Failure`] with what was reached before it.
 
 use super::{Scheme, Summary};
+use crate::number::Number;
 use crate::{DynamicsError, IntegrateError, Real};
 use core::fmt::{Display, Formatter, Result};
 
@@ -75,13 +76,16 @@ impl<T: Real> Display for SimulateError<T> {
             Self::StepNotPositive { step } => {
                 write!(
                     f,
-                    "the step must be a positive number of seconds, not {step}"
+                    "the step must be a positive number of seconds, not {step}",
+                    step = Number(step)
                 )
             }
             Self::StepLost { step, smallest } => write!(
                 f,
                 "a step of {step} s is lost in the round-off of time; the smallest that could be \
-                 told from zero here is {smallest} s"
+                 told from zero here is {smallest} s",
+                step = Number(step),
+                smallest = Number(smallest)
             ),
             Self::NoErrorEstimate { scheme } => write!(
                 f,
@@ -91,10 +95,16 @@ impl<T: Real> Display for SimulateError<T> {
             Self::BadEnd { start, until } => write!(
                 f,
                 "the run begins at t = {start} s and can't end at t = {until} s: the end must be \
-                 a number and not come earlier"
+                 a number and not come earlier",
+                start = Number(start),
+                until = Number(until)
             ),
             Self::StartNotFinite { t } => {
-                write!(f, "the initial state at t = {t} s is infinite or NaN")
+                write!(
+                    f,
+                    "the initial state at t = {t} s is infinite or NaN",
+                    t = Number(t)
+                )
             }
             Self::NotConservative => f.write_str(
                 "the energy can't be kept: the mechanism has dissipation, applied forces, inputs \
@@ -103,7 +113,8 @@ impl<T: Real> Display for SimulateError<T> {
             Self::TooManySteps { t, steps } => write!(
                 f,
                 "after {steps} steps the run had only come to t = {t} s; allow more steps or a \
-                 larger tolerance"
+                 larger tolerance",
+                t = Number(t)
             ),
             Self::TooManyEvents { events, room } => {
                 write!(
