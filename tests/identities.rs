@@ -6,8 +6,8 @@ use crate::library::{has_regular_states, is_of_unit_size, names, visit};
 use crate::random::Random;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Form, Initial, Interface, Mechanism, Position, Settings, Solver, Start, State, System, Terms,
-    Visitor, Whole, assemble,
+    ConstraintError, Form, Initial, Interface, Mechanism, Position, Settings, Solver, Start, State,
+    System, Terms, Visitor, Whole, assemble,
 };
 
 /// What a residual may leave over, relative to what cancels in it.
@@ -276,10 +276,17 @@ impl Visitor<f64> for Project {
         let mut still = state;
         system.project(&mut still).ok()?;
         let mut random = Random::seeded(self.seed + 1000);
-        let mut pushed = state;
-        pushed.q = pushed.q.map(|x| x + random.between(-1e-4, 1e-4));
-        system.project(&mut pushed).ok()?;
-        let left = system.constraint_error(&pushed);
+        let mut left = ConstraintError::<f64>::default();
+        // Positions that are off by much, and velocities that are.
+        for (far, fast) in [(1e-4, 0.0), (1e-10, 1.0)] {
+            let mut pushed = state;
+            pushed.q = pushed.q.map(|x| x + random.between(-far, far));
+            pushed.v = pushed.v.map(|x| x + random.between(-fast, fast));
+            system.project(&mut pushed).ok()?;
+            let here = system.constraint_error(&pushed);
+            left.position = left.position.max(here.position);
+            left.velocity = left.velocity.max(here.velocity);
+        }
         let moved = (still.q - state.q).amax().max((still.v - state.v).amax());
         Some((moved, left.position, left.velocity))
     }

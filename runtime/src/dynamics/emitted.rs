@@ -9,7 +9,7 @@
 //! everywhere, whose pivots are never safe.
 
 use super::Solver;
-use crate::linalg::{definite, guard, passes, straight, straight_turn, weak};
+use crate::linalg::{definite, guard, passes, straight, weak};
 use crate::state::all_finite;
 use crate::{DynamicsError, Form, Mechanism, Pivots, Real, Stabilisation, State};
 use nalgebra::SVector;
@@ -75,9 +75,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 self.counters.projection_iterations += 1;
                 state.q += self.correction.position;
             }
-            let straight = self.is_straight(worst, squared, &state.v);
-            state.v += self.correction.velocity;
-            if landed || straight {
+            if landed || self.is_straight(worst, squared, &state.v) {
+                state.v += self.correction.velocity;
                 self.safe_at(state, false);
                 return Some(squared);
             }
@@ -90,7 +89,6 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// residual and of the velocities, so that the state is on them after one.
     #[inline]
     fn is_straight(&self, worst: T, squared_sine: T, velocities: &SVector<T, N>) -> bool {
-        let most = straight::<T>() * self.reach;
         let [corrections] = &self.correction.velocity.data.0;
         let [velocities] = &velocities.data.0;
         let (mut turned, mut whole) = (T::zero(), T::zero());
@@ -98,8 +96,10 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             turned = (*weight * *dv).mul_add(*dv, turned);
             whole = (*weight * *v).mul_add(*v, whole);
         }
-        let turn = straight_turn::<T>();
-        worst * worst <= squared_sine * most * most && turned <= turn * turn * whole
+        // The squares of the lengths of a correction and of a position.
+        let (moved, reach) = (worst * worst, squared_sine * self.reach * self.reach);
+        let (most, round_off) = (straight::<T>(), T::EPSILON);
+        moved <= most * most * reach && moved * turned <= round_off * round_off * reach * whole
     }
 
     #[inline]

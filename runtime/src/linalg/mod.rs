@@ -153,12 +153,6 @@ pub(crate) fn straight<T: Real>() -> T {
     truncation()
 }
 
-/// Change of the velocities, relative to them, that may go with such a correction
-/// (2e-7 for `f64`): what the product of both leaves is round-off.
-pub(crate) fn straight_turn<T: Real>() -> T {
-    T::EPSILON / straight()
-}
-
 /// How many times its own uncertainty a residual must be before a weak direction
 /// is corrected for it. Less, and the correction would be noise.
 pub(crate) fn significant<T: Real>() -> T {
