@@ -61,9 +61,89 @@ pub const CASES: &[Case] = &[
         ..CRANK
     },
     Case {
+        what: "coupler of 1e-8 kg",
+        set: &[("m2", 1e-8), ("J2", 2e-10)],
+        ..LOOP
+    },
+    Case {
+        what: "coupler of 1e-6 kg",
+        set: &[("m2", 1e-6), ("J2", 2e-8)],
+        ..LOOP
+    },
+    Case {
         what: "coupler of 1e-4 kg",
         set: &[("m2", 1e-4), ("J2", 2e-6)],
         ..LOOP
+    },
+    Case {
+        what: "coupler of 1e4 kg",
+        set: &[("m2", 1e4), ("J2", 2e2)],
+        ..LOOP
+    },
+    Case {
+        what: "coupler of 1e6 kg",
+        set: &[("m2", 1e6), ("J2", 2e4)],
+        ..LOOP
+    },
+    Case {
+        what: "coupler of 1e8 kg",
+        set: &[("m2", 1e8), ("J2", 2e6)],
+        ..LOOP
+    },
+    Case {
+        what: "crank of 1e-8 kg",
+        set: &[("m1", 1e-8), ("J1", 2e-10)],
+        ..LOOP
+    },
+    Case {
+        what: "crank of 1e8 kg",
+        set: &[("m1", 1e8), ("J1", 2e6)],
+        ..LOOP
+    },
+    Case {
+        what: "rocker of 1e-8 kg",
+        set: &[("m3", 1e-8), ("J3", 2e-10)],
+        ..LOOP
+    },
+    Case {
+        what: "rocker of 1e8 kg",
+        set: &[("m3", 1e8), ("J3", 2e6)],
+        // Of sixteen digits, eight belong to the light parts.
+        wanted: Wanted::Right {
+            energy: 1e-6,
+            end: 1e-6,
+        },
+        ..LOOP
+    },
+    Case {
+        what: "rod of 1e-8 kg, through dead centres",
+        set: &[("m2", 1e-8), ("J2", 2e-10)],
+        until: 4.0,
+        ..CRANK
+    },
+    Case {
+        what: "rod of 1e-5 kg, through dead centres",
+        set: &[("m2", 1e-5), ("J2", 2e-7)],
+        until: 4.0,
+        ..CRANK
+    },
+    Case {
+        what: "rod of 1e5 kg, through dead centres",
+        set: &[("m2", 1e5), ("J2", 2e4)],
+        until: 4.0,
+        ..CRANK
+    },
+    Case {
+        what: "rod of 1e8 kg, through dead centres",
+        set: &[("m2", 1e8), ("J2", 2e6)],
+        until: 4.0,
+        ..CRANK
+    },
+    Case {
+        what: "crank of 1e-8 kg, through dead centres",
+        set: &[("m1", 1e-8), ("J1", 2e-10)],
+        until: 4.0,
+        ..CRANK
     },
     Case {
         what: "lower arm of 1e-6 m",

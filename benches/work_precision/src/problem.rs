@@ -108,6 +108,7 @@ static PLAIN: Structure = Structure {
     constant_mass: false,
     conservative: false,
     drawn: false,
+    regular: false,
 };
 
 /// The equation of one degree of freedom.

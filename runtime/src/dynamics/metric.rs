@@ -7,6 +7,11 @@
 //! inertia) as long as `M` and `A` have no common null direction. `M + AᵀWA` with
 //! `p₁ + AᵀWp₂` has the same solutions and is definite; the weights `W` are made
 //! of diagonals, so that neither part drowns the other.
+//!
+//! Nor is `M` alone a good metric where a row connects masses that differ by many
+//! orders of magnitude: what the lightest contributes to `A M⁻¹ Aᵀ` drowns the rest,
+//! and rows look dependent that are not. With the weights of the heaviest masses,
+//! `M + AᵀWA` brings all contributions to one size.
 
 use super::Rows;
 use crate::linalg::{Cholesky, NotDefinite};

@@ -10,7 +10,7 @@
 //! It is compared with the largest size it had so far.
 
 use crate::Real;
-use crate::linalg::{independent_rows, weak};
+use crate::linalg::{disproportionate, independent_rows, weak};
 use nalgebra::SMatrix;
 
 /// Sizes, weights and choice of rows.
@@ -22,6 +22,8 @@ pub(crate) struct Rows<T, const R: usize> {
     scale: [T; R],
     /// Weights `W` of the rows in an augmented metric; zero until known.
     weight: [T; R],
+    /// Whether they are those of the heaviest masses.
+    heavy: bool,
     holonomic: [bool; R],
     active: [usize; R],
     active_count: usize,
@@ -38,6 +40,7 @@ impl<T: Real, const R: usize> Rows<T, R> {
             size: [T::zero(); R],
             scale: [T::zero(); R],
             weight: [T::zero(); R],
+            heavy: false,
             holonomic: core::array::from_fn(holonomic),
             active: core::array::from_fn(|row| row),
             active_count: 0,
@@ -154,10 +157,41 @@ impl<T: Real, const R: usize> Rows<T, R> {
         self.weight[row]
     }
 
+    /// Gives rows the weights of the heaviest masses that they connect, if those differ
+    /// so much from the lightest that rows look dependent which are not.
+    pub(crate) fn weigh_by_heaviest<const N: usize>(
+        &mut self,
+        mobility: &SMatrix<T, R, N>,
+    ) -> bool {
+        let mut weight = [T::zero(); R];
+        for (row, weight) in weight.iter_mut().enumerate() {
+            let shares = || {
+                mobility
+                    .row(row)
+                    .into_iter()
+                    .copied()
+                    .filter(|share| *share > T::zero())
+            };
+            let most = shares().fold(T::zero(), |most, share| most.max(share));
+            let least = shares().fold(most, |least, share| least.min(share));
+            if least > T::zero() {
+                *weight = T::one() / least;
+            }
+            self.heavy |= least < disproportionate::<T>() * most;
+        }
+        if self.heavy {
+            self.weight = weight;
+        }
+        self.heavy
+    }
+
     /// Takes note of weights: `1 / Σ aⱼ²/mⱼⱼ` over the coordinates with inertia, so
     /// that the row weighs as much as the masses it connects. Where a row vanishes
     /// the weight stays what it was.
     pub(crate) fn weigh<const N: usize>(&mut self, inertia: &[T; N], jacobian: &SMatrix<T, R, N>) {
+        if self.heavy {
+            return;
+        }
         for row in 0..R {
             let (mut with, mut without, mut heaviest) = (T::zero(), T::zero(), T::zero());
             for j in 0..N {

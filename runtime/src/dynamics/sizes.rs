@@ -2,7 +2,8 @@
 //!
 //! In:  the first state of a motion.
 //! Out: reference sizes, also if the motion begins exactly in a singular position,
-//!      where rows of `A` vanish; whether the mass matrix is definite anywhere.
+//!      where rows of `A` vanish; whether the mass matrix is definite anywhere, and
+//!      whether the masses that a row connects are of similar size.
 //!
 //! The rows are evaluated with all angles turned to other values. Angles are
 //! known by their unit. A coordinate whose unit is not given may be an angle; then
@@ -12,6 +13,7 @@ use super::solver::Source;
 use super::{Metric, Solver};
 use crate::linalg::{dot, independent, is_definite};
 use crate::{Mechanism, Quantity, Real, State};
+use nalgebra::SMatrix;
 
 /// How many times the angles are turned.
 const SAMPLES: usize = 8;
@@ -48,18 +50,36 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         }
     }
 
-    /// Finds out whether the mass matrix is a metric at any turned position.
+    /// Finds out whether the mass matrix is a metric at any turned position, and one in
+    /// which the rows can be told apart.
     fn sample_mass<M: Mechanism<T, N, R> + ?Sized>(&mut self, mechanism: &M, state: &State<T, N>) {
         let coordinates = mechanism.structure().coordinates;
         self.metric = Metric::default();
         let mut definite = false;
+        let mut mobility = SMatrix::<T, R, N>::zeros();
         for sample in 1..=SAMPLES {
-            mechanism.position(&turned(state, coordinates, sample), &mut self.position);
+            let turned = turned(state, coordinates, sample);
+            mechanism.position(&turned, &mut self.position);
             self.metric.observe(&self.position.mass);
             definite |= is_definite(&self.position.mass);
+            self.observe_mobility(&mut mobility);
         }
-        if !definite {
+        let uneven = self.rows.weigh_by_heaviest(&mobility);
+        if !definite || uneven {
             self.metric.augment();
+        }
+    }
+
+    /// Takes note of how much of each row each coordinate provides: `aⱼ²/mⱼⱼ`.
+    fn observe_mobility(&self, mobility: &mut SMatrix<T, R, N>) {
+        for j in 0..N {
+            for row in 0..R {
+                let entry = self.position.jacobian[(row, j)];
+                let share = entry * entry / self.position.mass[(j, j)];
+                if share > mobility[(row, j)] && share.is_finite() {
+                    mobility[(row, j)] = share;
+                }
+            }
         }
     }
 

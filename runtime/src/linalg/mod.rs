@@ -134,6 +134,12 @@ pub(crate) fn definite<T: Real>() -> T {
     T::EPSILON * T::from_f64(4096.0)
 }
 
+/// Share of a coordinate in a row, relative to the largest, below which the masses
+/// alone can make rows look weak.
+pub(crate) fn disproportionate<T: Real>() -> T {
+    weak::<T>() * weak()
+}
+
 /// Constraint error, in units of the round-off of the coordinates, at which a
 /// position is on the constraints.
 pub(crate) fn on_constraint<T: Real>() -> T {
