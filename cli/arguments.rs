@@ -192,7 +192,7 @@ pub struct Simulate {
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub columns: Vec<String>,
     /// Where the rows go [default: standard output, or nowhere with --plot]
-    #[arg(long, value_name = "FILE.csv")]
+    #[arg(long, value_name = "FILE.csv|.parquet")]
     pub out: Option<PathBuf>,
     /// Where checkpoints of the run go; --resume goes on from them
     #[arg(long, value_name = "FILE")]
@@ -202,7 +202,7 @@ pub struct Simulate {
     #[arg(long, value_name = "FILE", conflicts_with = "plot")]
     pub resume: Option<PathBuf>,
     /// Draw coordinates and added columns over time
-    #[arg(long, value_name = "FILE.svg")]
+    #[arg(long, value_name = "FILE.svg|.html")]
     pub plot: Option<PathBuf>,
 }
 

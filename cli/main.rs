@@ -21,6 +21,7 @@ mod list;
 mod mechanism;
 mod new;
 mod output;
+mod parquet;
 mod plot;
 mod progress;
 mod reproduce;

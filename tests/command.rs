@@ -172,10 +172,16 @@ fn files_that_cannot_be_written_are_found_out_before_the_run() {
     check_refused(&missing, 1, &["could not write /nonexistent/run.csv"]);
     let missing = [&name[..], &["--plot", "/nonexistent/run.svg"]].concat();
     check_refused(&missing, 1, &["could not write /nonexistent/run.svg"]);
-    let parquet = [&name[..], &["--out", "run.parquet"]].concat();
-    check_refused(&parquet, 2, &["run.parquet", "--out run.csv"]);
-    let html = [&name[..], &["--plot", "run.html"]].concat();
-    check_refused(&html, 2, &["run.html", "--plot run.svg"]);
+    let missing = [&name[..], &["--out", "/nonexistent/run.parquet"]].concat();
+    check_refused(&missing, 1, &["could not write /nonexistent/run.parquet"]);
+    let resumed = [
+        &name[..],
+        &["--out", "run.parquet", "--checkpoint", "run.json"],
+    ]
+    .concat();
+    check_refused(&resumed, 2, &["run.parquet", "checkpoint", "--out run.csv"]);
+    let pdf = [&name[..], &["--plot", "run.pdf"]].concat();
+    check_refused(&pdf, 2, &["run.pdf", "--plot run.svg", "--plot run.html"]);
     check_refused(
         &["reproduce", "--out", "/proc/figures"],
         1,

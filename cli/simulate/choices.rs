@@ -1,5 +1,6 @@
 //! How to integrate, from the options of the command line.
 
+use super::record::is_parquet;
 use crate::arguments::{MethodName, Simulate};
 use crate::column::Column;
 use crate::error::CommandError;
@@ -101,15 +102,23 @@ pub fn check_files(arguments: &Simulate) -> Result<(), CommandError> {
             instead,
         })
     };
+    let unfinished = arguments.checkpoint.is_some() || arguments.resume.is_some();
     if let Some(out) = &arguments.out
-        && kind(out).is_some_and(|kind| kind == "parquet")
+        && is_parquet(out)
+        && unfinished
     {
-        return refuse(out, "rows are written as CSV; write `--out run.csv`");
+        return refuse(
+            out,
+            "rows can't be added to Parquet after a checkpoint; write `--out run.csv`",
+        );
     }
     if let Some(plot) = &arguments.plot
-        && kind(plot).is_none_or(|kind| kind != "svg")
+        && kind(plot).is_none_or(|kind| kind != "svg" && kind != "html")
     {
-        return refuse(plot, "plots are drawn as SVG; write `--plot run.svg`");
+        return refuse(
+            plot,
+            "plots are drawn as SVG, alone or in a page; write `--plot run.svg` or `--plot run.html`",
+        );
     }
     Ok(())
 }

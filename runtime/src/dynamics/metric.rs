@@ -10,7 +10,7 @@
 //!
 //! Nor is `M` alone a good metric where a row connects masses that differ by many
 //! orders of magnitude: what the lightest contributes to `A M⁻¹ Aᵀ` drowns the rest,
-//! and rows look dependent that are not. With the weights of the heaviest masses,
+//! and rows look dependent that are not. With weights of the heaviest masses,
 //! `M + AᵀWA` brings all contributions to one size.
 
 use super::Rows;
@@ -56,6 +56,11 @@ impl<T: Real, const N: usize> Metric<T, N> {
                 *inertia = mass[(j, j)];
             }
         }
+    }
+
+    /// The largest inertia that each coordinate had.
+    pub(crate) fn inertia(&self) -> &[T; N] {
+        &self.inertia
     }
 
     /// Whether the mass matrix alone is a metric.

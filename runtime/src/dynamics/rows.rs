@@ -23,7 +23,7 @@ pub(crate) struct Rows<T, const R: usize> {
     /// Weights `W` of the rows in an augmented metric; zero until known.
     weight: [T; R],
     /// Whether they are those of the heaviest masses.
-    heavy: bool,
+    uneven: bool,
     holonomic: [bool; R],
     active: [usize; R],
     active_count: usize,
@@ -40,7 +40,7 @@ impl<T: Real, const R: usize> Rows<T, R> {
             size: [T::zero(); R],
             scale: [T::zero(); R],
             weight: [T::zero(); R],
-            heavy: false,
+            uneven: false,
             holonomic: core::array::from_fn(holonomic),
             active: core::array::from_fn(|row| row),
             active_count: 0,
@@ -157,39 +157,45 @@ impl<T: Real, const R: usize> Rows<T, R> {
         self.weight[row]
     }
 
-    /// Gives rows the weights of the heaviest masses that they connect, if those differ
-    /// so much from the lightest that rows look dependent which are not.
-    pub(crate) fn weigh_by_heaviest<const N: usize>(
+    /// Gives rows the weights of the heaviest masses, if the masses differ so much that
+    /// rows look dependent which are not. From the squares of the entries of `A` and the
+    /// inertia of the coordinates.
+    pub(crate) fn weigh_unevenly<const N: usize>(
         &mut self,
-        mobility: &SMatrix<T, R, N>,
+        levers: &SMatrix<T, R, N>,
+        inertia: &[T; N],
     ) -> bool {
-        let mut weight = [T::zero(); R];
-        for (row, weight) in weight.iter_mut().enumerate() {
-            let shares = || {
-                mobility
-                    .row(row)
-                    .into_iter()
-                    .copied()
-                    .filter(|share| *share > T::zero())
-            };
-            let most = shares().fold(T::zero(), |most, share| most.max(share));
-            let least = shares().fold(most, |least, share| least.min(share));
-            if least > T::zero() {
-                *weight = T::one() / least;
+        let share = |row: usize, j: usize| levers[(row, j)] / inertia[j];
+        let most = |row: usize| (0..N).fold(T::zero(), |most: T, j| most.max(share(row, j)));
+        let largest: [T; R] = core::array::from_fn(most);
+        let mut least = T::one();
+        for j in 0..N {
+            // Next to others a lever may be short, so the row counts in which it matters.
+            let shares = (0..R).filter(|row| largest[*row] > T::zero());
+            let best = shares.fold(T::zero(), |best: T, row| {
+                best.max(share(row, j) / largest[row])
+            });
+            // Levers of round-off are none.
+            if best > T::EPSILON * T::EPSILON {
+                least = least.min(best);
             }
-            self.heavy |= least < disproportionate::<T>() * most;
         }
-        if self.heavy {
-            self.weight = weight;
+        self.uneven = least < disproportionate::<T>() * disproportionate();
+        if self.uneven {
+            let least = least.max(T::EPSILON.sqrt());
+            self.weight = largest.map(|most| match most > T::zero() {
+                true => T::one() / (least * most),
+                false => T::zero(),
+            });
         }
-        self.heavy
+        self.uneven
     }
 
     /// Takes note of weights: `1 / Σ aⱼ²/mⱼⱼ` over the coordinates with inertia, so
     /// that the row weighs as much as the masses it connects. Where a row vanishes
     /// the weight stays what it was.
     pub(crate) fn weigh<const N: usize>(&mut self, inertia: &[T; N], jacobian: &SMatrix<T, R, N>) {
-        if self.heavy {
+        if self.uneven {
             return;
         }
         for row in 0..R {

@@ -56,30 +56,23 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let coordinates = mechanism.structure().coordinates;
         self.metric = Metric::default();
         let mut definite = false;
-        let mut mobility = SMatrix::<T, R, N>::zeros();
+        let mut levers = SMatrix::<T, R, N>::zeros();
         for sample in 1..=SAMPLES {
             let turned = turned(state, coordinates, sample);
             mechanism.position(&turned, &mut self.position);
             self.metric.observe(&self.position.mass);
             definite |= is_definite(&self.position.mass);
-            self.observe_mobility(&mut mobility);
-        }
-        let uneven = self.rows.weigh_by_heaviest(&mobility);
-        if !definite || uneven {
-            self.metric.augment();
-        }
-    }
-
-    /// Takes note of how much of each row each coordinate provides: `aⱼ²/mⱼⱼ`.
-    fn observe_mobility(&self, mobility: &mut SMatrix<T, R, N>) {
-        for j in 0..N {
-            for row in 0..R {
-                let entry = self.position.jacobian[(row, j)];
-                let share = entry * entry / self.position.mass[(j, j)];
-                if share > mobility[(row, j)] && share.is_finite() {
-                    mobility[(row, j)] = share;
+            let squares = self.position.jacobian.map(|entry| entry * entry);
+            levers = levers.zip_map(&squares, |most, square| {
+                if square > most && square.is_finite() {
+                    square
+                } else {
+                    most
                 }
-            }
+            });
+        }
+        if !definite || self.rows.weigh_unevenly(&levers, self.metric.inertia()) {
+            self.metric.augment();
         }
     }
 

@@ -134,10 +134,10 @@ pub(crate) fn definite<T: Real>() -> T {
     T::EPSILON * T::from_f64(4096.0)
 }
 
-/// Share of a coordinate in a row, relative to the largest, below which the masses
-/// alone can make rows look weak.
+/// Length of a coordinate's share in every row, relative to the largest share, below
+/// which the masses alone make rows look weak.
 pub(crate) fn disproportionate<T: Real>() -> T {
-    weak::<T>() * weak()
+    weak()
 }
 
 /// Constraint error, in units of the round-off of the coordinates, at which a

@@ -1,0 +1,166 @@
+//! Where the rows of a run go.
+//!
+//! In:  rows of numbers.
+//! Out: a table in a file or on standard output, a plot.
+
+use crate::arguments::Simulate;
+use crate::checkpoint::{Checkpoint, Rows};
+use crate::column::{Column, header};
+use crate::error::CommandError;
+use crate::figure::overview;
+use crate::output::{CsvWriter, probe};
+use crate::parquet::ParquetWriter;
+use crate::plot::{Times, panels};
+use crate::run::RowSink;
+use bricard_runtime::Structure;
+use std::path::Path;
+
+/// A table on its way out.
+enum Table {
+    Csv(CsvWriter),
+    Parquet(ParquetWriter),
+}
+
+impl Table {
+    fn new(path: Option<&Path>, header: &[String]) -> Result<Self, CommandError> {
+        match path {
+            Some(path) if is_parquet(path) => Ok(Self::Parquet(ParquetWriter::new(path, header)?)),
+            path => Ok(Self::Csv(CsvWriter::new(path, header)?)),
+        }
+    }
+
+    fn row(&mut self, values: &[f64]) -> Result<(), CommandError> {
+        match self {
+            Self::Csv(writer) => writer.row(values),
+            Self::Parquet(writer) => writer.row(values),
+        }
+    }
+
+    fn finish(&mut self) -> Result<(), CommandError> {
+        match self {
+            Self::Csv(writer) => writer.finish(),
+            Self::Parquet(writer) => writer.finish(),
+        }
+    }
+
+    fn destination(&self) -> String {
+        match self {
+            Self::Csv(writer) => writer.destination(),
+            Self::Parquet(writer) => writer.destination(),
+        }
+    }
+}
+
+/// Whether a file of this name holds Parquet.
+pub fn is_parquet(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|kind| kind.eq_ignore_ascii_case("parquet"))
+}
+
+/// Where the rows go.
+pub struct Record {
+    table: Option<Table>,
+    rows: Option<Vec<Vec<f64>>>,
+    count: usize,
+    last: f64,
+}
+
+impl Record {
+    /// What the command line asks for.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Write`] if a file can't be written.
+    pub fn open(
+        arguments: &Simulate,
+        structure: &Structure,
+        columns: &[Column],
+    ) -> Result<Self, CommandError> {
+        if let Some(plot) = &arguments.plot {
+            probe(plot)?;
+        }
+        let wanted = arguments.out.is_some() || arguments.plot.is_none();
+        let open = || Table::new(arguments.out.as_deref(), &header(structure, columns));
+        Ok(Self {
+            table: wanted.then(open).transpose()?,
+            rows: arguments.plot.is_some().then(Vec::new),
+            count: 0,
+            last: 0.0,
+        })
+    }
+
+    /// Goes on after the rows of a checkpoint.
+    pub fn go_on(&mut self, checkpoint: &Checkpoint) {
+        self.count = usize::try_from(checkpoint.rows.count).unwrap_or(usize::MAX);
+        if let Some(Table::Csv(csv)) = &mut self.table {
+            csv.go_on(checkpoint.rows);
+        }
+    }
+
+    /// Writes what is still to be written. Returns what to say of the rows if
+    /// the run failed.
+    ///
+    /// # Errors
+    ///
+    /// A [`CommandError`] if a file can't be written to its end.
+    pub fn close(
+        &mut self,
+        arguments: &Simulate,
+        passages: &[f64],
+        structure: &Structure,
+        columns: &[Column],
+    ) -> Result<String, CommandError> {
+        let mut places = Vec::new();
+        if let Some(table) = &mut self.table {
+            table.finish()?;
+            places.push(table.destination());
+        }
+        if let (Some(path), Some(rows)) = (&arguments.plot, &self.rows)
+            && self.count > 0
+        {
+            let values: Vec<f64> = rows.iter().filter_map(|row| row.first().copied()).collect();
+            let times = Times {
+                values: &values,
+                marks: passages,
+                marked: "singular position",
+            };
+            panels(
+                path,
+                &arguments.name,
+                times,
+                &overview(structure, columns, rows),
+            )?;
+            places.push(path.display().to_string());
+        }
+        Ok(match self.count {
+            0 => "\nno rows were computed, and nothing was written".to_string(),
+            count => format!(
+                "\nthe {count} rows computed before, up to t = {} s, are kept: {}",
+                self.last,
+                places.join(", ")
+            ),
+        })
+    }
+}
+
+impl RowSink for Record {
+    fn row(&mut self, values: &[f64]) -> Result<(), CommandError> {
+        if let Some(table) = &mut self.table {
+            table.row(values)?;
+        }
+        if let Some(rows) = &mut self.rows {
+            rows.push(values.to_vec());
+        }
+        self.count += 1;
+        self.last = values.first().copied().unwrap_or(0.0);
+        Ok(())
+    }
+
+    fn settle(&mut self) -> Result<Rows, CommandError> {
+        match &mut self.table {
+            Some(Table::Csv(csv)) => csv.settle(),
+            // Checkpoints of a run that writes Parquet are refused.
+            Some(Table::Parquet(_)) | None => Ok(Rows::default()),
+        }
+    }
+}
