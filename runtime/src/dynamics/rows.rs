@@ -10,7 +10,7 @@
 //! It is compared with the largest size it had so far.
 
 use crate::Real;
-use crate::linalg::{disproportionate, independent_rows, weak};
+use crate::linalg::{disproportionate, even, independent_rows, weak};
 use nalgebra::SMatrix;
 
 /// Sizes, weights and choice of rows.
@@ -184,7 +184,7 @@ impl<T: Real, const R: usize> Rows<T, R> {
         if self.uneven {
             let least = least.max(T::EPSILON.sqrt());
             self.weight = largest.map(|most| match most > T::zero() {
-                true => T::one() / (least * most),
+                true => even::<T>() / (least * most),
                 false => T::zero(),
             });
         }

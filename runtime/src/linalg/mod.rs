@@ -140,6 +140,12 @@ pub(crate) fn disproportionate<T: Real>() -> T {
     weak()
 }
 
+/// The square of such a share in a metric that weighs rows by the heaviest masses: well
+/// above the guard, and no larger, for the digits that the light parts lose by it.
+pub(crate) fn even<T: Real>() -> T {
+    T::from_f64(1e-2)
+}
+
 /// Constraint error, in units of the round-off of the coordinates, at which a
 /// position is on the constraints.
 pub(crate) fn on_constraint<T: Real>() -> T {
