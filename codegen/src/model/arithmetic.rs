@@ -17,7 +17,7 @@ pub type Part = (bool, Scalar, Span);
 impl Evaluator {
     /// `-x`
     pub fn negative(&mut self, inside: &Expr) -> Option<Value> {
-        let value = self.evaluate(inside)?;
+        let value = self.evaluate(inside)?.operand();
         if let Value::Array(_) = value {
             return self.no_array(inside.span);
         }
@@ -40,7 +40,7 @@ impl Evaluator {
     fn parts(&mut self, parts: &[(bool, Expr)]) -> Option<Vec<(bool, Value, Span)>> {
         let values: Vec<_> = parts
             .iter()
-            .map(|(flag, part)| Some((*flag, self.evaluate(part)?, part.span)))
+            .map(|(flag, part)| Some((*flag, self.evaluate(part)?.operand(), part.span)))
             .collect();
         values.into_iter().collect()
     }
@@ -236,7 +236,9 @@ impl Evaluator {
         let bounds = self.bounds(range)?;
         let mut values = Vec::new();
         for i in bounds {
-            let value = self.with_index(range, i, |this| this.evaluate(term))?;
+            let value = self
+                .with_index(range, i, |this| this.evaluate(term))?
+                .operand();
             values.push((false, value, term.span));
         }
         if values.is_empty() {

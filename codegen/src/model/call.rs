@@ -100,7 +100,7 @@ impl Evaluator {
             .map(|argument| self.evaluate(argument))
             .collect();
         let mut values = values.into_iter().collect::<Option<Vec<_>>>()?;
-        if matches!(name, "dot" | "norm" | "norm2") {
+        if matches!(name, "dot" | "norm" | "norm2" | "cross") {
             values = values.into_iter().map(Value::array_to_vector).collect();
         }
         match (name, values.as_slice()) {
@@ -109,7 +109,7 @@ impl Evaluator {
                 self.inner(a, b, span).map(Value::Scalar)
             }
             ("cross", [Value::Vector(a), Value::Vector(b)])
-                if a.len() == b.len() && a.len() < 4 =>
+                if a.len() == b.len() && matches!(a.len(), 2 | 3) =>
             {
                 self.cross(a, b, span)
             }

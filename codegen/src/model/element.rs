@@ -44,7 +44,10 @@ impl Evaluator {
 
     /// `[a, b, c]`
     pub fn vector(&mut self, parts: &[Expr], span: Span) -> Option<Value> {
-        let values: Vec<_> = parts.iter().map(|part| self.evaluate(part)).collect();
+        let values = parts
+            .iter()
+            .map(|part| Some(self.evaluate(part)?.operand()));
+        let values: Vec<_> = values.collect();
         let values = values.into_iter().collect::<Option<Vec<_>>>()?;
         if !(2..=4).contains(&values.len()) {
             let message = format!(
@@ -72,7 +75,7 @@ impl Evaluator {
 
     /// `.x`, `.y`, `.z`
     pub fn component(&mut self, inside: &Expr, axis: usize, span: Span) -> Option<Value> {
-        let value = self.evaluate(inside)?;
+        let value = self.evaluate(inside)?.operand();
         match &value {
             Value::Vector(parts) => match parts.get(axis) {
                 Some(scalar) => Some(Value::Scalar(*scalar)),

@@ -214,7 +214,7 @@ impl Evaluator {
             return self.evaluate(if holds { then } else { otherwise });
         }
         let (yes, no) = (self.evaluate(then), self.evaluate(otherwise));
-        let (yes, no) = (yes?, no?);
+        let (yes, no) = (yes?.operand(), no?.operand());
         if !yes.same_shape(&no) {
             let message = format!(
                 "one side of this choice is {}, the other {}",

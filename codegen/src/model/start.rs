@@ -136,14 +136,17 @@ impl Lowering<'_> {
 
     /// A point, or the points of an array.
     fn points(&mut self, e: &Expr) -> Option<Vec<Point>> {
-        let value = self.evaluator.evaluate(e)?;
+        let value = self.evaluator.evaluate(e)?.operand();
         let parts = match &value {
             Value::Array(array) => array.items.clone(),
             _ => vec![value],
         };
         let mut points = Vec::new();
         for part in parts {
-            let Some(components) = part.as_vector().filter(|parts| parts.len() <= 3) else {
+            let Some(components) = part
+                .as_vector()
+                .filter(|parts| matches!(parts.len(), 2 | 3))
+            else {
                 let message = format!(
                     "a point is written `[x, y]` or `[x, y, z]`, this is {}",
                     part.shape()

@@ -112,7 +112,7 @@ impl Lowering<'_> {
 
     fn force(&mut self, force: &Expr, on: &Expr, span: Span) -> Option<()> {
         let (strength, point) = (self.evaluator.evaluate(force), self.evaluator.evaluate(on));
-        let (strength, point) = (strength?, point?);
+        let (strength, point) = (strength?.operand(), point?.operand());
         let fits =
             matches!(point, Value::Scalar(_) | Value::Vector(_)) && strength.same_shape(&point);
         if !fits {
@@ -168,7 +168,7 @@ impl Lowering<'_> {
             self.evaluator.evaluate(left),
             self.evaluator.evaluate(right),
         );
-        let (a, b) = (a?, b?);
+        let (a, b) = (a?.operand(), b?.operand());
         let (a, b) = (self.spread(&a, &b), self.spread(&b, &a));
         let vectors = matches!(a, Value::Scalar(_) | Value::Vector(_)) && a.same_shape(&b);
         if !vectors {

@@ -82,13 +82,25 @@ impl Value {
         }
     }
 
-    /// An array of numbers as the vector that it is too; other values stay.
+    /// An array of numbers as the vector that it is too; other values stay, and so
+    /// does an array whose last elements are not known yet.
     pub fn array_to_vector(self) -> Value {
         let Value::Array(array) = &self else {
             return self;
         };
-        let parts: Option<Vec<Scalar>> = array.items.iter().map(Value::as_scalar).collect();
-        parts.map_or(self, Value::Vector)
+        let known = array.items.iter().map(Value::as_scalar);
+        let parts: Option<Vec<Scalar>> = known.collect();
+        let whole = array.items.len() as i64 == array.end - array.first;
+        parts.filter(|_| whole).map_or(self.clone(), Value::Vector)
+    }
+
+    /// [`Value::array_to_vector`] where the components are counted from 0 again, so
+    /// that an array counted from elsewhere would change the meaning of its indices.
+    pub fn operand(self) -> Value {
+        match &self {
+            Value::Array(array) if array.first != 0 => self,
+            _ => self.array_to_vector(),
+        }
     }
 
     /// Its scalars in order; those of a matrix row by row.

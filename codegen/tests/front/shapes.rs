@@ -114,8 +114,20 @@ fn indices_are_whole_numbers_in_range() {
         "known when the code is generated",
     );
     refuse_saying(
-        &with("coord p[3]; let a = 2*p;"),
+        &with("let p[i in 0..3] = [q, i]; let a = 2*p;"),
         "a whole array can't be calculated with",
+    );
+    refuse_saying(
+        &with("let p[i in 1..3] = i*q; let a = 2*p;"),
+        "a whole array can't be calculated with",
+    );
+    refuse_saying(
+        &with("let p[i in 0..3] = norm2(p);"),
+        "`norm2` takes a vector, this is an array of 3",
+    );
+    refuse_saying(
+        &with("coord p[1]; let a = cross(p, p);"),
+        "`cross` takes two",
     );
     refuse_saying(&with("coord p[0];"), "an array of 0 coordinates");
     refuse_saying(&with("coord p[100000];"), "more than 10000 coordinates");
