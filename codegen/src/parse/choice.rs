@@ -29,7 +29,18 @@ impl Cursor<'_> {
         })
     }
 
+    /// Reads a comparison, which may stand in parentheses of its own.
     fn condition(&mut self, help: &str) -> Parsed<Condition> {
+        if !self.parentheses_end_before("then") {
+            return self.comparison(help);
+        }
+        self.advance();
+        let condition = self.deeper(|cursor| cursor.condition(help))?;
+        self.expect_symbol(")", help)?;
+        Ok(condition)
+    }
+
+    fn comparison(&mut self, help: &str) -> Parsed<Condition> {
         let left = self.expression()?;
         let operator = self.peek().clone();
         let (comparison, exchanged) = match operator.kind {

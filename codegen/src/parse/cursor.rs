@@ -97,6 +97,22 @@ impl<'a> Cursor<'a> {
         self.tokens.list[self.at.saturating_sub(1)].span
     }
 
+    /// A token that was read some places ago.
+    pub fn behind(&self, back: usize) -> &Token {
+        &self.tokens.list[self.at.saturating_sub(back)]
+    }
+
+    /// Whether a parenthesis comes next that is closed in front of a word.
+    pub fn parentheses_end_before(&self, word: &str) -> bool {
+        if !self.at_symbol("(") {
+            return false;
+        }
+        let mut inside = self.tokens.list[self.at + 1..].iter();
+        let depth = self.depth();
+        inside.by_ref().find(|token| token.depth <= depth);
+        matches!(inside.next(), Some(Token { kind: TokenKind::Word(text), .. }) if text == word)
+    }
+
     /// Reads a token.
     pub fn advance(&mut self) -> Token {
         let token = self.peek().clone();

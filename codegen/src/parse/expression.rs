@@ -102,10 +102,32 @@ impl Cursor<'_> {
         let help = "a component is written `.x`, `.y` or `.z`, or with an index: `[0]`";
         let axis = ["x", "y", "z"].iter().position(|axis| self.at_word(axis));
         let Some(axis) = axis else {
+            if let Some(error) = self.broken_number() {
+                return Err(self.fail(error));
+            }
             return Err(self.unexpected("`x`, `y` or `z` behind the dot", help));
         };
         self.advance();
         Ok(axis)
+    }
+
+    /// `2.e3` and `1.5.2`, in which the dot belongs to a number.
+    fn broken_number(&self) -> Option<Diagnostic> {
+        let before = self.behind(2);
+        let digits = matches!(before.kind, TokenKind::Number(_));
+        let next = self.peek();
+        let touching =
+            before.span.end == self.last_span().start && next.span.start == self.last_span().end;
+        let goes_on = match &next.kind {
+            TokenKind::Number(_) => true,
+            TokenKind::Word(word) => word.starts_with(['e', 'E']),
+            _ => false,
+        };
+        (digits && touching && goes_on).then(|| {
+            let span = before.span.to(next.span);
+            let message = format!("`{}` is not a number", span.text(self.source));
+            Diagnostic::error(span, message).help("numbers are written like `12`, `0.5` or `1e-3`")
+        })
     }
 
     fn atom(&mut self) -> Parsed<Expr> {
@@ -122,6 +144,9 @@ impl Cursor<'_> {
             TokenKind::Symbol("(") => self.parenthesis(),
             TokenKind::Symbol("[") => self.vector(),
             TokenKind::Symbol(".") => self.dot(token.span),
+            TokenKind::Symbol("|") => {
+                Err(self.unexpected("a formula", "a size is written `abs(x)` or `norm(v)`"))
+            }
             _ => Err(self.unexpected("a formula", "")),
         }
     }

@@ -7,6 +7,17 @@ use super::token::TokenKind;
 use crate::diagnostic::{Diagnostic, nearest};
 
 const FILE: &str = "a description is written `mechanism Name { … }`";
+/// Operators of other languages, and what is written instead.
+const ELSEWHERE: [(&str, &str); 5] = [
+    ("&&", "put one `if` inside the other"),
+    ("||", "put one `if` inside the other"),
+    ("&", "put one `if` inside the other"),
+    (
+        "|",
+        "the size of a number is `abs(x)`, that of a vector `norm(v)`",
+    ),
+    ("%", "there is no remainder; angles may grow beyond a turn"),
+];
 const FOR: &str = "repetition is written `for i in 0..K { … }`";
 
 impl Cursor<'_> {
@@ -22,7 +33,11 @@ impl Cursor<'_> {
         if self.peek().kind != TokenKind::End {
             let message = "nothing can follow the mechanism";
             let error = Diagnostic::error(self.span(), message);
-            return Err(self.fail(error.help("a file holds one mechanism; write another file")));
+            let help = match self.at_symbol(";") {
+                true => "remove it",
+                false => "a file holds one mechanism; write another file",
+            };
+            return Err(self.fail(error.help(help)));
         }
         Ok(model)
     }
@@ -124,11 +139,18 @@ impl Cursor<'_> {
             TokenKind::Symbol(symbol) => *symbol == "(",
             TokenKind::End => false,
         };
-        if same_line && goes_on {
+        if same_line && goes_on && word != "coord" {
             let [left, right] = [self.last_span(), next.span].map(|span| span.text(self.source));
+            let left = if left == ")" { "(…)" } else { left };
             let right = if right == "(" { "(…)" } else { right };
             let help = format!("a product is written with `*`: `{left}*{right}`");
             return Err(self.unexpected("an operator or `;`", &help));
+        }
+        if let TokenKind::Symbol(symbol) = next.kind
+            && let Some((_, help)) = ELSEWHERE.iter().find(|(sign, _)| *sign == symbol)
+        {
+            let message = format!("`{symbol}` is not an operator");
+            return Err(self.fail(Diagnostic::error(self.span(), message).help(*help)));
         }
         Err(self.unexpected("`;`", &example(word)))
     }

@@ -27,6 +27,10 @@ pub fn read_number(text: &str, span: Span) -> Result<Number, Box<Diagnostic>> {
             format!("write `{number}*{name}`, or give the unit behind `:`"),
         ));
     }
+    if text.matches(['e', 'E']).count() > 1 {
+        let message = format!("`{}` has two exponents", shorten(text));
+        return Err(refuse(message, "write one: `1e-3`".into()));
+    }
     let number = Number::parse_literal(text);
     let digits = text.split(['e', 'E']).next().unwrap_or("");
     let vanished = |n: &Number| n.is_zero() && digits.contains(|c: char| ('1'..='9').contains(&c));

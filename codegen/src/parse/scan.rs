@@ -236,6 +236,7 @@ fn instead(character: char) -> String {
         '≥' => write(">="),
         '≠' => write("!="),
         '√' => write("sqrt(…)"),
+        '?' => "a choice is written `if a < b then x else y`".into(),
         c if greek(c).is_some() => write(greek(c).unwrap_or_default()),
         c if c.is_alphabetic() => {
             "names are made of the letters a–z and A–Z, digits and `_`".into()
