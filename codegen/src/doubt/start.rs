@@ -12,8 +12,28 @@ const HOLDS: f64 = 1e-8;
 /// An error smaller than this, relative to the largest one, is what the search left.
 const ROUND_OFF: f64 = 1e-6;
 
+/// Warns of start values that are no numbers with the parameters at their defaults;
+/// whether there are any.
+fn not_finite(numbers: &Numbers, found: &mut Diagnostics) -> bool {
+    let (guess, _) = numbers.start();
+    let mut any = false;
+    for start in &numbers.mechanism.starts {
+        if numbers.values(&[start.value], &guess)[0].is_finite() {
+            continue;
+        }
+        any = true;
+        let message = "this start value is not finite at the defaults of the parameters";
+        let help = "a divisor is zero there, or a root or logarithm has no value";
+        found.push(Diagnostic::warning(start.span, message).help(help));
+    }
+    any
+}
+
 /// Warns of a start that can't be assembled, with what each equation lacks.
 pub fn unassembled(numbers: &Numbers, found: &mut Diagnostics) {
+    if not_finite(numbers, found) {
+        return;
+    }
     let rows = numbers.positions();
     let (guess, held) = numbers.start();
     let free: Vec<usize> = (0..held.len()).filter(|&i| !held[i]).collect();

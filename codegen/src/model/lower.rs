@@ -9,7 +9,7 @@ use super::{Mechanism, statement::Named};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::parse::Model;
-use crate::parse::ast::Name;
+use crate::parse::ast::{Item, ItemKind};
 
 /// The work in progress.
 pub struct Lowering<'a> {
@@ -51,7 +51,7 @@ pub fn lower(
     lowering.changes_fit(model);
     lowering.declare(&model.items);
     lowering.statements(&model.items);
-    lowering.whole(&model.name);
+    lowering.whole(model);
     let Lowering {
         mut evaluator,
         mut mechanism,
@@ -71,9 +71,10 @@ impl Lowering<'_> {
     }
 
     /// What concerns the mechanism as a whole.
-    fn whole(&mut self, name: &Name) {
-        let at = name.span;
-        if self.mechanism.coordinates.is_empty() {
+    fn whole(&mut self, model: &Model) {
+        let (name, at) = (&model.name, model.name.span);
+        let declared = |item: &Item| matches!(item.kind, ItemKind::Coordinate { .. });
+        if !model.items.iter().any(declared) {
             let error = Diagnostic::error(at, format!("`{}` has no coordinates", name.text));
             self.report::<()>(error.help("declare what moves, for example `coord q1: rad;`"));
         }
