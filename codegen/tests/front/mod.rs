@@ -1,5 +1,6 @@
 //! The front end: from text to a checked mechanism, and the messages on the way.
 
+mod accepted;
 mod build;
 mod documentation;
 mod doubts;
