@@ -1,6 +1,6 @@
 //! The equations of motion: the trait implementation, and the separate functions.
 
-use super::linearised::linearised;
+use super::linearised::{argument, linearised};
 use super::{Method, Subject, Written};
 use crate::derive::coriolis_matrix;
 use crate::expr::ExprId;
@@ -91,6 +91,7 @@ fn regular(subject: &mut Subject, terms: &Wanted) -> TokenStream {
     };
     let written = subject.written(&program);
     let writes = solved(&written, &program);
+    let out = argument("out", &writes);
     let Written {
         statements,
         state,
@@ -103,7 +104,7 @@ fn regular(subject: &mut Subject, terms: &Wanted) -> TokenStream {
         /// Schur complement `A M⁻¹ Aᵀ`.
         ///
         #[doc = #cost]
-        fn regular(&self, #state: &State<T, #n>, out: &mut Regular<T, #n, #r>) -> bool {
+        fn regular(&self, #state: &State<T, #n>, #out: &mut Regular<T, #n, #r>) -> bool {
             #statements
             #writes
             true
@@ -125,6 +126,7 @@ fn correction(subject: &mut Subject) -> TokenStream {
     };
     let written = subject.written(&program);
     let writes = solved(&written, &program);
+    let out = argument("out", &writes);
     let Written {
         statements,
         state,
@@ -137,7 +139,7 @@ fn correction(subject: &mut Subject) -> TokenStream {
         /// the constraints are regular.
         ///
         #[doc = #cost]
-        fn correction(&self, #state: &State<T, #n>, out: &mut Correction<T, #n, #r>) -> bool {
+        fn correction(&self, #state: &State<T, #n>, #out: &mut Correction<T, #n, #r>) -> bool {
             #statements
             #writes
             true

@@ -7,7 +7,7 @@ use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use quote::quote;
 
 /// The name of an argument, or that it is not read.
-fn argument(name: &str, statements: &TokenStream) -> Ident {
+pub(super) fn argument(name: &str, statements: &TokenStream) -> Ident {
     let is_name = |token| matches!(token, TokenTree::Ident(ident) if ident == name);
     let read = statements.clone().into_iter().any(is_name);
     let name = if read {

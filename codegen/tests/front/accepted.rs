@@ -8,6 +8,7 @@ use super::accept;
 use bricard_codegen::derive::derive;
 use bricard_codegen::expr::Symbol;
 use bricard_codegen::model::Mechanism;
+use bricard_codegen::{Settings, compile_source};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -129,6 +130,23 @@ fn a_shorthand_gives_the_equations_that_are_written_by_hand() {
             for ((what, found), (_, expected)) in sides {
                 same(name, what, &found, &expected);
             }
+        }
+    }
+}
+
+#[test]
+fn generated_functions_write_to_what_they_are_given_or_leave_it_unnamed() {
+    for (name, source) in descriptions() {
+        let compiled = compile_source(&source, &name, &name, &Settings::default());
+        let code = compiled.map(|compiled| compiled.code);
+        let code = code.unwrap_or_else(|errors| panic!("{}", errors.render(&name, &source)));
+        for function in code.split("fn ").skip(1) {
+            let named = function.contains(" out: &mut");
+            let written = function.contains("out.") || function.contains("out[");
+            assert!(
+                !named || written,
+                "{name}: the compiler warns of\nfn {function}"
+            );
         }
     }
 }
