@@ -1,10 +1,22 @@
-//! Choices and the comparisons in them.
+//! Choices and the comparisons in them, and operators that there are not.
 
 use super::ast::{Condition, Expr, ExprKind};
 use super::cursor::{Cursor, Parsed};
 use super::token::TokenKind;
 use crate::diagnostic::Diagnostic;
 use crate::expr::Comparison;
+
+/// Operators of other languages, and what is written instead.
+const ELSEWHERE: [(&str, &str); 5] = [
+    ("&&", "put one `if` inside the other"),
+    ("||", "put one `if` inside the other"),
+    ("&", "put one `if` inside the other"),
+    (
+        "|",
+        "the size of a number is `abs(x)`, that of a vector `norm(v)`",
+    ),
+    ("%", "there is no remainder; angles may grow beyond a turn"),
+];
 
 impl Cursor<'_> {
     /// Reads `if condition then a else b`.
@@ -90,5 +102,14 @@ impl Cursor<'_> {
         }
         let error = Diagnostic::error(self.span(), "a comparison stands only behind `if`");
         Err(self.fail(error.help("write `if a < b then x else y`, or `=` for an equation")))
+    }
+
+    /// Refuses an operator of another language where a formula has ended.
+    pub fn no_foreign_operator(&mut self) -> Parsed<()> {
+        let Some((sign, help)) = ELSEWHERE.iter().find(|(sign, _)| self.at_symbol(sign)) else {
+            return Ok(());
+        };
+        let message = format!("`{sign}` is not an operator");
+        Err(self.fail(Diagnostic::error(self.span(), message).help(*help)))
     }
 }

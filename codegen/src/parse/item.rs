@@ -7,17 +7,6 @@ use super::token::TokenKind;
 use crate::diagnostic::{Diagnostic, nearest};
 
 const FILE: &str = "a description is written `mechanism Name { … }`";
-/// Operators of other languages, and what is written instead.
-const ELSEWHERE: [(&str, &str); 5] = [
-    ("&&", "put one `if` inside the other"),
-    ("||", "put one `if` inside the other"),
-    ("&", "put one `if` inside the other"),
-    (
-        "|",
-        "the size of a number is `abs(x)`, that of a vector `norm(v)`",
-    ),
-    ("%", "there is no remainder; angles may grow beyond a turn"),
-];
 const FOR: &str = "repetition is written `for i in 0..K { … }`";
 
 impl Cursor<'_> {
@@ -146,12 +135,7 @@ impl Cursor<'_> {
             let help = format!("a product is written with `*`: `{left}*{right}`");
             return Err(self.unexpected("an operator or `;`", &help));
         }
-        if let TokenKind::Symbol(symbol) = next.kind
-            && let Some((_, help)) = ELSEWHERE.iter().find(|(sign, _)| *sign == symbol)
-        {
-            let message = format!("`{symbol}` is not an operator");
-            return Err(self.fail(Diagnostic::error(self.span(), message).help(*help)));
-        }
+        self.no_foreign_operator()?;
         Err(self.unexpected("`;`", &example(word)))
     }
 
