@@ -49,9 +49,9 @@ pub trait Real:
     fn sin_cos(self) -> (Self, Self);
     /// Sines and cosines of several angles (rad): the first array holds the sines.
     #[inline(always)]
-    fn sin_cos_all<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
+    fn sin_cos_all<const K: usize>(angles: &[Self; K]) -> ([Self; K], [Self; K]) {
         let mut both = ([Self::zero(); K], [Self::zero(); K]);
-        for (i, angle) in angles.into_iter().enumerate() {
+        for (i, angle) in angles.iter().enumerate() {
             (both.0[i], both.1[i]) = angle.sin_cos();
         }
         both
@@ -123,9 +123,8 @@ macro_rules! real_for_float {
                 (sin as $float, cos as $float)
             }
             #[inline(always)]
-            fn sin_cos_all<const K: usize>(angles: [Self; K]) -> ([Self; K], [Self; K]) {
-                let (sines, cosines) = sincos::sin_cos_all(angles.map(f64::from));
-                (sines.map(|x| x as $float), cosines.map(|x| x as $float))
+            fn sin_cos_all<const K: usize>(angles: &[Self; K]) -> ([Self; K], [Self; K]) {
+                real_for_float!(@batch $float, angles)
             }
             real_for_float!(@unary $float: tan asin acos atan sinh cosh tanh exp ln sqrt);
             #[inline]
@@ -154,6 +153,13 @@ macro_rules! real_for_float {
             }
         }
     };
+    (@batch f64, $angles:ident) => {
+        sincos::sin_cos_all($angles)
+    };
+    (@batch f32, $angles:ident) => {{
+        let (sines, cosines) = sincos::sin_cos_all(&$angles.map(f64::from));
+        (sines.map(|x| x as f32), cosines.map(|x| x as f32))
+    }};
     (@unary $float:ident: $($name:ident)*) => {
         $(
             #[inline]

@@ -64,7 +64,6 @@ struct Table {
     cosine: [Block; 6],
     half: Block,
     one: Block,
-    largest_squared: Block,
     /// The bit of the sign.
     sign: Block,
 }
@@ -87,7 +86,6 @@ const NUMBERS: Table = Table {
     cosine: every(COSINE),
     half: [0.5; LANES],
     one: [1.0; LANES],
-    largest_squared: [LARGEST * LARGEST; LANES],
     sign: [-0.0; LANES],
 };
 static TABLE: Table = NUMBERS;
@@ -123,10 +121,10 @@ fn in_lane(x: f64, table: &Table, lane: usize) -> (f64, f64) {
     let (odd, third) = (quarter << 63, quarter << 62);
     let swap = (odd as i64) < 0;
     let (s, c) = if swap { (cosine, sine) } else { (sine, cosine) };
-    let sign = table.sign[lane].to_bits();
+    let sign = third & table.sign[lane].to_bits();
     (
-        f64::from_bits(s.to_bits() ^ (third & sign)),
-        f64::from_bits(c.to_bits() ^ ((third ^ odd) & sign)),
+        f64::from_bits(s.to_bits() ^ sign),
+        f64::from_bits(c.to_bits() ^ sign ^ odd),
     )
 }
 
@@ -162,15 +160,19 @@ type Block = [f64; LANES];
 
 /// Sines and cosines of several angles.
 #[inline(always)]
-pub(crate) fn sin_cos_all<const K: usize>(angles: [f64; K]) -> ([f64; K], [f64; K]) {
-    let mut both = ([0.0; K], [0.0; K]);
+pub(crate) fn sin_cos_all<const K: usize>(angles: &[f64; K]) -> ([f64; K], [f64; K]) {
     if K > LANES {
-        in_blocks(&angles, &mut both.0, &mut both.1);
-        return both;
+        // In one piece, which is cleared at once.
+        let mut both = [[0.0; K]; 2];
+        let [sines, cosines] = &mut both;
+        in_blocks(angles, sines, cosines);
+        let [sines, cosines] = both;
+        return (sines, cosines);
     }
-    let (mut block, mut sines, mut cosines) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-    block[..K].copy_from_slice(&angles);
-    in_block(&block, &mut sines, &mut cosines);
+    let mut block = [0.0; LANES];
+    block[..K].copy_from_slice(angles);
+    let (sines, cosines) = in_block(&block);
+    let mut both = ([0.0; K], [0.0; K]);
     both.0.copy_from_slice(&sines[..K]);
     both.1.copy_from_slice(&cosines[..K]);
     both
@@ -180,45 +182,80 @@ pub(crate) fn sin_cos_all<const K: usize>(angles: [f64; K]) -> ([f64; K], [f64; 
 /// one may take in some of the one before it.
 #[inline(never)]
 fn in_blocks(angles: &[f64], sines: &mut [f64], cosines: &mut [f64]) {
-    let mut inside = true;
+    // No angle is larger than the root of the sum of all squares.
+    let mut squares = [0.0; LANES];
     let (blocks, rest) = angles.as_chunks::<LANES>();
-    let sine_blocks = sines.as_chunks_mut::<LANES>().0;
-    let cosine_blocks = cosines.as_chunks_mut::<LANES>().0;
-    for ((block, sines), cosines) in blocks.iter().zip(sine_blocks).zip(cosine_blocks) {
-        inside &= lanes(block, black_box(&TABLE), sines, cosines);
+    let outputs = sines
+        .as_chunks_mut()
+        .0
+        .iter_mut()
+        .zip(cosines.as_chunks_mut().0);
+    for (block, (sines, cosines)) in blocks.iter().zip(outputs) {
+        add_squares(block, &mut squares);
+        lanes(block, black_box(&TABLE), sines, cosines);
     }
-    if !inside {
-        one_by_one(angles, sines, cosines);
-    } else if !rest.is_empty()
+    if !rest.is_empty()
         && let Some(block) = angles.last_chunk()
         && let (Some(sines), Some(cosines)) = (sines.last_chunk_mut(), cosines.last_chunk_mut())
     {
-        in_block(block, sines, cosines);
+        add_squares(block, &mut squares);
+        lanes(block, black_box(&TABLE), sines, cosines);
+    }
+    if !are_small(&squares) {
+        one_by_one(angles, sines, cosines);
     }
 }
 
 /// One block, in a function of its own: inlined into a long one the same lines go
 /// through the lanes one after the other.
 #[inline(never)]
-fn in_block(block: &Block, sines: &mut Block, cosines: &mut Block) {
-    if !lanes(block, black_box(&TABLE), sines, cosines) {
-        one_by_one(block, sines, cosines);
+fn in_block(block: &Block) -> (Block, Block) {
+    let mut squares = [0.0; LANES];
+    let (mut sines, mut cosines) = (squares, squares);
+    add_squares(block, &mut squares);
+    lanes(block, black_box(&TABLE), &mut sines, &mut cosines);
+    if are_small(&squares) {
+        (sines, cosines)
+    } else {
+        block_one_by_one(block)
     }
 }
 
-/// A block; `false` if one of its angles is larger than [`LARGEST`] or not a
-/// number, and what was written is not to be used.
+#[cold]
+#[inline(never)]
+fn block_one_by_one(block: &Block) -> (Block, Block) {
+    let (mut sines, mut cosines) = ([0.0; LANES], [0.0; LANES]);
+    one_by_one(block, &mut sines, &mut cosines);
+    (sines, cosines)
+}
+
 #[inline(always)]
-fn lanes(block: &Block, table: &Table, sines: &mut Block, cosines: &mut Block) -> bool {
-    let mut inside = true;
+fn add_squares(block: &Block, squares: &mut Block) {
+    for (angle, sum) in block.iter().zip(squares) {
+        *sum = fused(*angle, *angle, *sum);
+    }
+}
+
+/// Whether sums of squares tell that no angle is larger than [`LARGEST`], or not a
+/// number.
+#[inline(always)]
+fn are_small(squares: &Block) -> bool {
+    let mut small = true;
+    for sum in squares {
+        small &= *sum <= LARGEST * LARGEST;
+    }
+    small
+}
+
+/// A block of small angles.
+#[inline(always)]
+fn lanes(block: &Block, table: &Table, sines: &mut Block, cosines: &mut Block) {
     for lane in 0..LANES {
         (sines[lane], cosines[lane]) = in_lane(block[lane], table, lane);
-        inside &= block[lane] * block[lane] <= table.largest_squared[lane];
     }
-    inside
 }
 
-/// Angles of which some are too large for the fast path.
+/// Angles of which some may be too large for the fast path.
 #[cold]
 #[inline(never)]
 fn one_by_one(angles: &[f64], sines: &mut [f64], cosines: &mut [f64]) {
@@ -280,6 +317,28 @@ mod tests {
             }
         }
         assert!(worst <= WORST, "{worst} units");
+    }
+
+    #[test]
+    fn a_batch_gives_what_each_angle_gives_alone_however_large_some_are() {
+        fn same<const K: usize>(angles: [f64; K]) {
+            let (sines, cosines) = sin_cos_all(&angles);
+            for (i, angle) in angles.into_iter().enumerate() {
+                let (sine, cosine) = crate::real::sin_cos(angle);
+                assert_eq!((sines[i], cosines[i]), (sine, cosine), "{angle}");
+            }
+        }
+        same([0.3, -2.0, 4.0]);
+        same([0.3, -2.0, 1e6]);
+        same([0.3, -2.0, 4.0, -7.5, 99.0, 1e4]);
+        same([0.3, -2.0, 9e4, -9e4, 8e4, 9.9e4]);
+        same([0.3, -2.0, 4.0, 1e300, 99.0, 1e4]);
+    }
+
+    #[test]
+    fn a_batch_with_no_number_in_it_has_that_one_only() {
+        let (sines, _) = sin_cos_all(&[0.3, f64::NAN, 4.0, -7.5, 99.0]);
+        assert_eq!(sines.map(f64::is_nan), [false, true, false, false, false]);
     }
 
     #[test]

@@ -7,18 +7,21 @@
 //! same for all; the kernel `call` is that surrounding alone.
 
 use bricard_runtime::{
-    Correction, Interface, Mechanism, Pace, Regular, Scheme, Settings, State, Stepper, Terms,
-    assemble,
+    Correction, Interface, Mechanism, Pace, Regular, Scheme, Settings, Solver, State, Stepper,
+    System, Terms, assemble,
 };
 use instructions::hand::{self, ByHand};
 use instructions::mechanism as generated;
 use std::error::Error;
+use std::f64::consts::FRAC_PI_2;
 use std::hint::black_box;
 
 /// Calls in a round.
 pub const ROUND: u64 = 16;
 /// Length of a step (s).
 const STEP: f64 = 0.01;
+/// How far rods are from lying in one line (rad), at least.
+const NEAR: f64 = 1e-4;
 /// Distance of the states from which steps begin (s).
 const APART: f64 = 0.02;
 
@@ -32,6 +35,9 @@ enum Work {
     Regular,
     Correction,
     Step,
+    /// An acceleration and the way back onto the constraints, near the position where
+    /// all rods of a row lie in one line.
+    Robust,
     Run(Scheme),
 }
 
@@ -68,9 +74,11 @@ pub const SHORT: &[&str] = &[
     "row_10/terms",
     "row_10/regular",
     "row_10/step",
+    "row_10/robust",
     "row_40/terms",
     "row_40/regular",
     "row_40/step",
+    "row_40/robust",
 ];
 
 /// What the long form counts besides.
@@ -78,15 +86,19 @@ pub const LONG: &[&str] = &[
     "row_2/terms",
     "row_2/regular",
     "row_2/step",
+    "row_2/robust",
     "row_5/terms",
     "row_5/regular",
     "row_5/step",
+    "row_5/robust",
     "row_20/terms",
     "row_20/regular",
     "row_20/step",
+    "row_20/robust",
     "row_80/terms",
     "row_80/regular",
     "row_80/step",
+    "row_80/robust",
     "slider_crank/run_rk4",
     "slider_crank/run_dop853",
     "double_four_bar/run_rk4",
@@ -95,7 +107,8 @@ pub const LONG: &[&str] = &[
 
 /// Calls of a kernel in a round.
 pub fn calls(name: &str) -> u64 {
-    if name.contains("/run_") { 1 } else { ROUND }
+    let is_long = name.contains("/run_") || name.contains("/robust");
+    if is_long { 1 } else { ROUND }
 }
 
 /// Runs a kernel.
@@ -111,6 +124,7 @@ pub fn run(name: &str, rounds: u64) -> Result<(), Failed> {
         "regular" => Work::Regular,
         "correction" => Work::Correction,
         "step" => Work::Step,
+        "robust" => Work::Robust,
         "run_rk4" => Work::Run(Scheme::Rk4),
         "run_dop853" => Work::Run(Scheme::Dop853),
         _ => return Err(format!("there is no kernel `{work}`").into()),
@@ -200,6 +214,16 @@ where
     Ok(states)
 }
 
+/// A state of a row of parallelograms that has almost fallen into one line.
+fn in_line<const N: usize>(k: u64) -> State<f64, N> {
+    let mut state = State::default();
+    for crank in 0..=N / 2 {
+        state.q[crank] = FRAC_PI_2 - NEAR * (k + 1) as f64;
+        state.v[crank] = 1.0;
+    }
+    state
+}
+
 /// Steps of 0.01 s, or as long as an error of 1e-9 allows.
 fn stepper<const N: usize, const R: usize>(
     scheme: Scheme,
@@ -255,6 +279,16 @@ where
                 }
             }
         }
+        Work::Robust => {
+            let mut solver = Box::new(Solver::new(Settings::default()));
+            let mut system = solver.on(mechanism);
+            for k in 0..rounds {
+                let mut state = in_line(k);
+                black_box(system.acceleration(&state)?);
+                system.project(&mut state)?;
+                black_box(&state);
+            }
+        }
         Work::Run(scheme) => {
             for _ in 0..rounds {
                 let mut state = assemble(mechanism, &mechanism.start(), 0.0)
@@ -305,7 +339,7 @@ where
             &mut State::default(),
             hand_step::<H, N, R>,
         ),
-        Work::Call | Work::Run(_) => return Err("not written by hand".into()),
+        Work::Call | Work::Robust | Work::Run(_) => return Err("not written by hand".into()),
     }
     Ok(())
 }

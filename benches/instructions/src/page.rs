@@ -15,7 +15,9 @@ Instructions of one call in the steady state, counted by callgrind on code built
 x86-64-v3, beside other generators and code written by hand. One evaluation is everything
 that an acceleration needs: the mass matrix, the forces, the constraints' Jacobian and
 their right-hand side. A step is one of Runge and Kutta's classical method, four
-accelerations, with positions and velocities brought back onto the constraints.
+accelerations, with positions and velocities brought back onto the constraints. `robust`
+is one acceleration and the way back onto the constraints of a row that has fallen into
+one line up to 2e-4 rad, where half of its constraints lose their rank.
 
 This page is written by `cargo run --release -p instructions -- table`, in `benches/`,
 from `benches/recorded.json`; `short` counts again and compares, as CI does. The figures

@@ -75,7 +75,7 @@ pub fn growth(counts: &Counts) -> String {
     let mut text = String::from(
         "\n| loops in a row | 2 | 5 | 10 | 20 | 40 | 80 | exponent 10–80 |\n|---|--:|--:|--:|--:|--:|--:|--:|\n",
     );
-    for work in ["terms", "regular", "step"] {
+    for work in ["terms", "regular", "step", "robust"] {
         let at = |n: u32| counts.get(&format!("row_{n}/{work}")).copied();
         let cells = [2, 5, 10, 20, 40, 80]
             .map(|n| at(n).map_or("–".to_string(), |count| format!("{count:.0}")));

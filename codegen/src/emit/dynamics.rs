@@ -1,11 +1,12 @@
 //! The equations of motion: the trait implementation, and the separate functions.
 
+use super::function::Body;
 use super::linearised::{argument, linearised};
-use super::{Method, Subject, Written};
+use super::{Method, Subject, Written, entry};
 use crate::derive::coriolis_matrix;
 use crate::expr::ExprId;
-use crate::optimise::{Program, Slot, Value, regular_acceleration, regular_correction};
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use crate::optimise::{Slot, regular_acceleration, regular_correction};
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
 /// An entry wanted of an array.
@@ -89,15 +90,13 @@ fn regular(subject: &mut Subject, terms: &Wanted) -> TokenStream {
     let Some(program) = regular_acceleration(&subject.program(terms), n, r) else {
         return TokenStream::new();
     };
-    let written = subject.written(&program);
-    let writes = solved(&written, &program);
-    let out = argument("out", &writes);
     let Written {
-        statements,
+        body: Body { statements, .. },
         state,
         cost,
         ..
-    } = &written;
+    } = subject.written(&program, &solved);
+    let out = argument("out", &statements);
     let (n, r) = subject.sizes();
     quote! {
         /// The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
@@ -106,7 +105,6 @@ fn regular(subject: &mut Subject, terms: &Wanted) -> TokenStream {
         #[doc = #cost]
         fn regular(&self, #state: &State<T, #n>, #out: &mut Regular<T, #n, #r>) -> bool {
             #statements
-            #writes
             true
         }
     }
@@ -124,15 +122,13 @@ fn correction(subject: &mut Subject) -> TokenStream {
     let Some(program) = regular_correction(&subject.program(&wanted), n, r) else {
         return TokenStream::new();
     };
-    let written = subject.written(&program);
-    let writes = solved(&written, &program);
-    let out = argument("out", &writes);
     let Written {
-        statements,
+        body: Body { statements, .. },
         state,
         cost,
         ..
-    } = &written;
+    } = subject.written(&program, &solved);
+    let out = argument("out", &statements);
     let (n, r) = subject.sizes();
     quote! {
         /// The least corrections of position and velocity in the kinetic metric, where
@@ -141,26 +137,21 @@ fn correction(subject: &mut Subject) -> TokenStream {
         #[doc = #cost]
         fn correction(&self, #state: &State<T, #n>, #out: &mut Correction<T, #n, #r>) -> bool {
             #statements
-            #writes
             true
         }
     }
 }
 
-/// Assignments of what a solve computes; pivots have a struct of their own.
-fn solved(written: &Written, program: &Program) -> TokenStream {
-    let write = |(slot, _): &(Slot, Value)| {
-        let value = written.body.output(*slot);
-        let row = Literal::usize_unsuffixed(slot.row);
-        let field = Ident::new(slot.array, Span::call_site());
-        match slot.array {
-            "mass_pivots" | "mass_diagonal" | "row_pivots" | "row_squares" => {
-                quote!(out.pivots.#field.data.0[0][#row] = #value;)
-            }
-            _ => quote!(out.#field.data.0[0][#row] = #value;),
+/// Where a solve writes an entry; pivots have a struct of their own.
+fn solved(slot: &Slot) -> Option<TokenStream> {
+    let field = Ident::new(slot.array, Span::call_site());
+    let array = match slot.array {
+        "mass_pivots" | "mass_diagonal" | "row_pivots" | "row_squares" => {
+            quote!(out.pivots.#field)
         }
+        _ => quote!(out.#field),
     };
-    program.outputs.iter().map(write).collect()
+    Some(entry(array, slot))
 }
 
 /// What a mechanism with constraints provides besides.
@@ -213,7 +204,7 @@ fn energy(subject: &mut Subject) -> TokenStream {
         energies.power,
     ];
     let wanted = vector("energy", &fields);
-    let written = subject.body(&wanted);
+    let written = subject.body(&wanted, &|_| None);
     let [kinetic, potential, balance, power] = [0, 1, 2, 3].map(|row| {
         written.body.output(Slot {
             array: "energy",
@@ -221,7 +212,7 @@ fn energy(subject: &mut Subject) -> TokenStream {
             column: 0,
         })
     });
-    let (statements, state, cost) = (&written.statements, &written.state, &written.cost);
+    let (statements, state, cost) = (&written.body.statements, &written.state, &written.cost);
     let n = subject.sizes().0;
     quote! {
         /// Energies and the power supplied from outside.

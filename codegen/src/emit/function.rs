@@ -1,7 +1,8 @@
 //! A program to the body of a function.
 //!
 //! In:  a [`Program`] and names for its symbols.
-//! Out: `let` statements, and an expression for each output. A value that is read
+//! Out: `let` statements, assignments of those outputs that have a place, directly after
+//!      what they need, and an expression for each of the others. A value that is read
 //!      once is written where it is read, as long as the line stays short; the
 //!      others get a name. Nothing is computed here.
 
@@ -12,29 +13,37 @@ use crate::optimise::{Operation, Program, Slot, Value};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 use rustc_hash::FxHashMap;
+use std::collections::BTreeSet;
 
 /// The most operands that one emitted expression has.
 const OPERANDS_MAX: usize = 9;
 
 /// How tightly an emitted piece holds together.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Binding {
+pub(super) enum Binding {
     Sum,
     Product,
     Atom,
 }
 
 #[derive(Clone)]
-struct Piece {
-    tokens: TokenStream,
+pub(super) struct Piece {
+    pub(super) tokens: TokenStream,
     binding: Binding,
     operands: usize,
     /// A product in two parts: each stands anywhere, the second only inside brackets.
     factors: Option<(TokenStream, TokenStream)>,
 }
 
+/// Where an output is assigned; `None` if whoever asks for the body does that.
+pub(super) type Place<'a> = &'a dyn Fn(&Slot) -> Option<TokenStream>;
+
 /// The names of the symbols of a mechanism inside function bodies.
 pub(super) trait Symbols {
+    /// Statements that bring symbols into scope.
+    fn prelude(&self, used: &BTreeSet<Symbol>) -> TokenStream;
+    /// The array of all coordinates, if there are as many as this.
+    fn all_coordinates(&self, count: usize) -> Option<TokenStream>;
     /// The local variable that holds a symbol.
     fn local(&self, symbol: Symbol) -> Ident;
     /// The expression for an input that has a law.
@@ -51,36 +60,41 @@ pub(super) struct Body {
 impl Body {
     /// The expression for an output; zero where the program leaves it out.
     pub fn output(&self, slot: Slot) -> TokenStream {
-        self.written(slot).unwrap_or_else(|| quote!(T::zero()))
-    }
-
-    /// The expression for an output, if the program computes it.
-    pub fn written(&self, slot: Slot) -> Option<TokenStream> {
-        self.outputs.get(&slot).cloned()
+        let written = self.outputs.get(&slot).cloned();
+        written.unwrap_or_else(|| quote!(T::zero()))
     }
 
     /// Writes a program; `names` are the names that are taken.
-    pub fn of(program: &Program, symbols: &dyn Symbols, names: Names) -> Self {
-        let uses = program.uses();
+    pub fn of(program: &Program, symbols: &dyn Symbols, names: Names, place: Place) -> Self {
         let mut writer = Writer {
             program,
             symbols,
             names,
-            uses,
+            uses: program.uses(),
             pieces: vec![None; program.len()],
             nothing: atom(quote!(T::zero())),
             angles: FxHashMap::default(),
             statements: TokenStream::new(),
         };
-        writer.place_angles();
+        let bound = writer.place_angles();
+        // Bound after the call for the angles, symbols need not be kept during it.
+        let rest = &writer.symbols_read() - &bound;
+        writer.statements.extend(symbols.prelude(&rest));
+        let mut slots: Vec<Vec<Slot>> = vec![Vec::new(); program.len()];
+        for (slot, value) in &program.outputs {
+            slots[value.index()].push(*slot);
+        }
+        let mut outputs = FxHashMap::default();
         for (value, _) in program.operations() {
             writer.place(value);
+            for slot in &slots[value.index()] {
+                let tokens = writer.piece(value).tokens.clone();
+                if let Some(place) = place(slot) {
+                    writer.statements.extend(quote!(#place = #tokens;));
+                }
+                outputs.insert(*slot, tokens);
+            }
         }
-        let outputs = program
-            .outputs
-            .iter()
-            .map(|(slot, value)| (*slot, writer.piece(*value).tokens.clone()))
-            .collect();
         Body {
             statements: writer.statements,
             outputs,
@@ -88,29 +102,39 @@ impl Body {
     }
 }
 
-struct Writer<'a> {
-    program: &'a Program,
-    symbols: &'a dyn Symbols,
-    names: Names,
-    uses: Vec<usize>,
+pub(super) struct Writer<'a> {
+    pub(super) program: &'a Program,
+    pub(super) symbols: &'a dyn Symbols,
+    pub(super) names: Names,
+    pub(super) uses: Vec<usize>,
     pieces: Vec<Option<Piece>>,
     nothing: Piece,
-    angles: FxHashMap<Value, (Ident, Ident)>,
-    statements: TokenStream,
+    /// The names of the sines and cosines of the angles that have them already.
+    pub(super) angles: FxHashMap<Value, (Ident, Ident)>,
+    pub(super) statements: TokenStream,
 }
 
 impl Writer<'_> {
     /// Writes a value whose operands are written, unless it is written already.
-    fn place(&mut self, value: Value) {
+    pub(super) fn place(&mut self, value: Value) {
         if self.pieces[value.index()].is_none() {
             let piece = self.written(value);
             self.pieces[value.index()] = Some(piece);
         }
     }
 
-    fn piece(&self, value: Value) -> &Piece {
+    pub(super) fn piece(&self, value: Value) -> &Piece {
         // Operands come before their users, so the piece is there.
         self.pieces[value.index()].as_ref().unwrap_or(&self.nothing)
+    }
+
+    /// The symbols that the program reads.
+    pub(super) fn symbols_read(&self) -> BTreeSet<Symbol> {
+        let symbol = |(_, operation): (Value, &Operation)| match operation {
+            Operation::Symbol(symbol) => Some(*symbol),
+            _ => None,
+        };
+        self.program.operations().filter_map(symbol).collect()
     }
 
     fn written(&mut self, value: Value) -> Piece {
@@ -171,91 +195,7 @@ impl Writer<'_> {
         }
     }
 
-    /// One call for all angles that are known from the start: a batch runs in the
-    /// lanes of the processor.
-    fn place_angles(&mut self) {
-        let mut early = vec![false; self.program.len()];
-        let mut angles: Vec<Value> = Vec::new();
-        for (value, operation) in self.program.operations() {
-            early[value.index()] = match operation {
-                Operation::Function(Function::Sin | Function::Cos, x) => {
-                    if early[x.index()] && !angles.contains(x) {
-                        angles.push(*x);
-                    }
-                    false
-                }
-                Operation::Function(..)
-                | Operation::Function2(..)
-                | Operation::Select(..)
-                | Operation::Input(..) => false,
-                _ => operation
-                    .operands()
-                    .iter()
-                    .all(|operand| early[operand.index()]),
-            };
-        }
-        if angles.len() < 2 {
-            return;
-        }
-        for angle in &angles {
-            self.place_with_operands(*angle);
-        }
-        let arguments: Vec<TokenStream> = angles
-            .iter()
-            .map(|angle| self.piece(*angle).tokens.clone())
-            .collect();
-        let names: Vec<(Ident, Ident)> =
-            angles.iter().map(|angle| self.pair_names(*angle)).collect();
-        let sines = names.iter().map(|(sin, _)| pattern(sin));
-        let cosines = names.iter().map(|(_, cos)| pattern(cos));
-        self.statements.extend(quote! {
-            let ([#(#sines),*], [#(#cosines),*]) = T::sin_cos_all([#(#arguments),*]);
-        });
-        self.angles.extend(angles.into_iter().zip(names));
-    }
-
-    fn place_with_operands(&mut self, value: Value) {
-        for operand in self.program.operation(value).operands() {
-            self.place_with_operands(operand);
-        }
-        self.place(value);
-    }
-
-    /// One call for both, wherever the first of them is met.
-    fn sine_and_cosine(&mut self, x: Value) -> (Ident, Ident) {
-        if let Some(names) = self.angles.get(&x) {
-            return names.clone();
-        }
-        let angle = self.bound(x, Binding::Atom);
-        let names = self.pair_names(x);
-        let (sin, cos) = (pattern(&names.0), pattern(&names.1));
-        self.statements
-            .extend(quote!(let (#sin, #cos) = #angle.sin_cos();));
-        self.angles.insert(x, names.clone());
-        names
-    }
-
-    /// Names for the sine and cosine of an angle; `_` for the one nobody reads.
-    fn pair_names(&mut self, x: Value) -> (Ident, Ident) {
-        let text = match self.program.operation(x) {
-            Operation::Symbol(_) => self.piece(x).tokens.to_string(),
-            _ => "angle".into(),
-        };
-        let read = |function| {
-            let wanted = Operation::Function(function, x);
-            self.program
-                .operations()
-                .any(|(_, operation)| *operation == wanted)
-        };
-        let (has_sin, has_cos) = (read(Function::Sin), read(Function::Cos));
-        let mut name = |has: bool, prefix: &str| match has {
-            true => self.names.unique(&format!("{prefix}_{text}")),
-            false => Ident::new("_", Span::call_site()),
-        };
-        (name(has_sin, "sin"), name(has_cos, "cos"))
-    }
-
-    fn bound(&self, value: Value, context: Binding) -> TokenStream {
+    pub(super) fn bound(&self, value: Value, context: Binding) -> TokenStream {
         let Piece {
             tokens, binding, ..
         } = self.piece(value);
@@ -417,7 +357,7 @@ fn atom(tokens: TokenStream) -> Piece {
 }
 
 /// A name in a pattern; `_` is not an identifier to the parser.
-fn pattern(name: &Ident) -> TokenStream {
+pub(super) fn pattern(name: &Ident) -> TokenStream {
     if name == "_" {
         quote!(_)
     } else {

@@ -110,9 +110,8 @@ fn start(subject: &mut Subject) -> TokenStream {
         .enumerate()
         .map(entry)
         .collect();
-    let Written {
-        statements, body, ..
-    } = subject.body(&wanted);
+    let Written { body, .. } = subject.body(&wanted, &|_| None);
+    let statements = &body.statements;
     let initial = |coordinate: usize, velocity: bool| {
         let given = subject.mechanism.starts.iter().enumerate();
         let found = given
@@ -160,12 +159,9 @@ fn list(subject: &mut Subject, name: &'static str, entries: &[ExprId]) -> TokenS
         .map(|(row, &e)| (slot(row), e))
         .collect();
     let Written {
-        statements,
-        body,
-        state,
-        cost,
-        ..
-    } = subject.body(&wanted);
+        body, state, cost, ..
+    } = subject.body(&wanted, &|_| None);
+    let statements = &body.statements;
     let computed = (0..entries.len()).map(|row| body.output(slot(row)));
     quote! {
         #[doc = #cost]
@@ -196,12 +192,8 @@ fn draw(subject: &mut Subject) -> TokenStream {
         .enumerate()
         .map(|(row, &e)| (slot(row), e))
         .collect();
-    let Written {
-        statements,
-        body,
-        state,
-        ..
-    } = subject.body(&wanted);
+    let Written { body, state, .. } = subject.body(&wanted, &|_| None);
+    let statements = &body.statements;
     let mut next = 0..;
     let mut take = || body.output(slot(next.next().unwrap_or(usize::MAX)));
     let calls: TokenStream = shapes.iter().map(|shape| call(shape, &mut take)).collect();

@@ -1,7 +1,8 @@
 //! The linearised equations of motion: a method of the trait implementation.
 
 use super::dynamics::matrix;
-use super::{Subject, Written};
+use super::function::Body;
+use super::{Subject, Written, entry_of_field};
 use crate::derive::linearise;
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use quote::quote;
@@ -37,17 +38,14 @@ pub(super) fn linearised(subject: &mut Subject) -> TokenStream {
         return TokenStream::new();
     }
     let Written {
-        statements,
-        body,
+        body: Body { statements, .. },
+        is_zero,
         state,
         cost,
         ..
-    } = subject.beside_derived(&wanted, subject.written(&program));
-    let writes = subject.writes(&wanted, &body, &|array| {
-        let field = Ident::new(array, Span::call_site());
-        quote!(out.#field)
-    });
-    let out = argument("out", &writes);
+    } = subject.beside_derived(&wanted, subject.written(&program, &entry_of_field));
+    let out = if is_zero { "_out" } else { "out" };
+    let out = Ident::new(out, Span::call_site());
     let acceleration = argument("acceleration", &statements);
     let multiplier = argument("multiplier", &statements);
     let (n, r) = subject.sizes();
@@ -70,7 +68,6 @@ pub(super) fn linearised(subject: &mut Subject) -> TokenStream {
             #out: &mut Linearised<T, #n, #r>,
         ) -> bool {
             #statements
-            #writes
             true
         }
     }

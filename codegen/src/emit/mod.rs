@@ -6,6 +6,7 @@
 //!
 //! Not here: mathematics. What is computed was decided by `optimise`.
 
+mod angles;
 mod dynamics;
 mod function;
 mod interface;
@@ -22,7 +23,7 @@ use crate::derive::Equations;
 use crate::expr::{ExprId, Symbol};
 use crate::model::Mechanism;
 use crate::optimise::{Cost, Program, Slot, cost, derived_cost, optimise};
-use function::Body;
+use function::{Body, Place};
 use proc_macro2::{Ident, Literal, Span, TokenStream, TokenTree};
 use quote::quote;
 use symbol::SymbolNames;
@@ -69,8 +70,9 @@ struct Method {
 
 /// A function body and what its signature needs to know.
 struct Written {
-    statements: TokenStream,
     body: Body,
+    /// No output differs from zero.
+    is_zero: bool,
     /// `state`, or `_state` where the body does not read it.
     state: Ident,
     counts: Cost,
@@ -312,7 +314,7 @@ impl Subject<'_> {
         };
         let write = |(row, e): (usize, ExprId)| {
             let program = crate::optimise::plain(&self.mechanism.graph, &[(slot(row), e)]);
-            let body = Body::of(&program, &self.names, self.names.taken.clone());
+            let body = Body::of(&program, &self.names, self.names.taken.clone(), &|_| None);
             let (statements, value) = (&body.statements, body.output(slot(row)));
             if statements.is_empty() {
                 value
@@ -334,9 +336,9 @@ impl Subject<'_> {
         optimise(&mut self.mechanism.graph, &laws, wanted)
     }
 
-    fn body(&mut self, wanted: &[(Slot, ExprId)]) -> Written {
+    fn body(&mut self, wanted: &[(Slot, ExprId)], place: Place) -> Written {
         let program = self.program(wanted);
-        self.beside_derived(wanted, self.written(&program))
+        self.beside_derived(wanted, self.written(&program, place))
     }
 
     /// Says besides what the program would cost as it was derived.
@@ -348,17 +350,15 @@ impl Subject<'_> {
         written
     }
 
-    fn written(&self, program: &Program) -> Written {
-        let body = Body::of(program, &self.names, self.names.taken.clone());
-        let prelude = self.names.prelude(program);
-        let written = &body.statements;
+    fn written(&self, program: &Program, place: Place) -> Written {
+        let body = Body::of(program, &self.names, self.names.taken.clone(), place);
         let state = if SymbolNames::reads_state(program) {
             "state"
         } else {
             "_state"
         };
         Written {
-            statements: quote!(#prelude #written),
+            is_zero: program.outputs.is_empty(),
             state: Ident::new(state, Span::call_site()),
             counts: cost(program),
             cost: format!(" Costs {}.", cost(program)),
@@ -375,20 +375,14 @@ impl Subject<'_> {
             wanted,
         } = method;
         let Written {
-            statements,
-            body,
+            body: Body { statements, .. },
+            is_zero,
             state,
             cost,
             ..
-        } = self.body(&wanted);
-        let writes = self.writes(&wanted, &body, &|array| {
-            let field = Ident::new(array, Span::call_site());
-            quote!(out.#field)
-        });
-        let out = Ident::new(
-            if writes.is_empty() { "_out" } else { "out" },
-            Span::call_site(),
-        );
+        } = self.body(&wanted, &entry_of_field);
+        let out = if is_zero { "_out" } else { "out" };
+        let out = Ident::new(out, Span::call_site());
         let (docs, name) = (doc_lines(docs), Ident::new(name, Span::call_site()));
         let n = self.sizes().0;
         quote! {
@@ -397,7 +391,6 @@ impl Subject<'_> {
             #[doc = #cost]
             fn #name(&self, #state: &State<T, #n>, #out: &mut #buffer) {
                 #statements
-                #writes
             }
         }
     }
@@ -411,13 +404,12 @@ impl Subject<'_> {
             wanted,
         } = method;
         let Written {
-            statements,
-            body,
+            body: Body { statements, .. },
+            is_zero,
             state,
             cost,
             ..
-        } = self.body(&wanted);
-        let writes = self.writes(&wanted, &body, &|_| quote!(out));
+        } = self.body(&wanted, &|slot| Some(entry(quote!(out), slot)));
         let (docs, name) = (doc_lines(docs), Ident::new(name, Span::call_site()));
         let n = self.sizes().0;
         let kind = if buffer.to_string().starts_with("SVector") {
@@ -425,40 +417,32 @@ impl Subject<'_> {
         } else {
             quote!(SMatrix)
         };
-        let result = if writes.is_empty() {
+        let result = if is_zero {
             quote!(#kind::zeros())
         } else {
-            quote!(let mut out = #kind::zeros(); #writes out)
+            quote!(let mut out = #kind::zeros(); #statements out)
         };
         quote! {
             #(#[doc = #docs])*
             ///
             #[doc = #cost]
             pub fn #name(&self, #state: &State<T, #n>) -> #buffer {
-                #statements
                 #result
             }
         }
     }
+}
 
-    /// Assignments of the entries that can differ from zero. Arrays are indexed by
-    /// literals below nalgebra's own indexing, so the compiler checks the bounds.
-    fn writes(
-        &self,
-        wanted: &[(Slot, ExprId)],
-        body: &Body,
-        place: &dyn Fn(&str) -> TokenStream,
-    ) -> TokenStream {
-        let graph = &self.mechanism.graph;
-        let written = wanted
-            .iter()
-            .filter(|(_, e)| !graph.is_zero(*e))
-            .filter_map(|(slot, _)| {
-                let (array, value) = (place(slot.array), body.written(*slot)?);
-                let row = Literal::usize_unsuffixed(slot.row);
-                let column = Literal::usize_unsuffixed(slot.column);
-                Some(quote!(#array.data.0[#column][#row] = #value;))
-            });
-        written.collect()
-    }
+/// An entry of an array. Arrays are indexed by literals below nalgebra's own indexing, so
+/// the compiler checks the bounds.
+fn entry(array: TokenStream, slot: &Slot) -> TokenStream {
+    let row = Literal::usize_unsuffixed(slot.row);
+    let column = Literal::usize_unsuffixed(slot.column);
+    quote!(#array.data.0[#column][#row])
+}
+
+/// An entry of the buffer's field of the array's name.
+fn entry_of_field(slot: &Slot) -> Option<TokenStream> {
+    let field = Ident::new(slot.array, Span::call_site());
+    Some(entry(quote!(out.#field), slot))
 }

@@ -94,15 +94,8 @@ impl SymbolNames {
         }
     }
 
-    /// Statements that bring into scope what a program reads.
-    pub fn prelude(&self, program: &Program) -> TokenStream {
-        let used: BTreeSet<Symbol> = program
-            .operations()
-            .filter_map(|(_, operation)| match operation {
-                Operation::Symbol(symbol) => Some(*symbol),
-                _ => None,
-            })
-            .collect();
+    /// Statements that bring symbols into scope.
+    fn bindings(&self, used: &BTreeSet<Symbol>) -> TokenStream {
         let time = &self.time;
         let mut statements = TokenStream::new();
         if used.contains(&Symbol::Time) {
@@ -128,8 +121,8 @@ impl SymbolNames {
         if let Some(names) = chosen(&self.multipliers, Symbol::Multiplier) {
             statements.extend(quote!(let [#(#names),*] = multiplier.data.0[0];));
         }
-        statements.extend(self.parameter_prelude(&used));
-        statements.extend(self.follows_prelude(&used));
+        statements.extend(self.parameter_prelude(used));
+        statements.extend(self.follows_prelude(used));
         statements
     }
 
@@ -183,6 +176,14 @@ impl SymbolNames {
 }
 
 impl Symbols for SymbolNames {
+    fn prelude(&self, used: &BTreeSet<Symbol>) -> TokenStream {
+        self.bindings(used)
+    }
+
+    fn all_coordinates(&self, count: usize) -> Option<TokenStream> {
+        (self.coordinates.len() == count).then(|| quote!(state.q.data.0[0]))
+    }
+
     fn local(&self, symbol: Symbol) -> Ident {
         match symbol {
             Symbol::Time => self.time.clone(),

@@ -9,6 +9,7 @@
 //! 2. `schedule`: to a program, each shared expression once.
 //! 3. `factor`: common factors of terms, and pairs of factors that products share.
 //! 4. `dead`: what nobody reads.
+//! 5. `order`: outputs of the same coordinates one after the other.
 //!
 //! `solve` appends the solve for the accelerations to a program.
 
@@ -16,6 +17,7 @@ mod count;
 mod dead;
 mod factor;
 mod interpret;
+mod order;
 mod pass;
 mod program;
 mod schedule;
@@ -49,7 +51,7 @@ pub fn optimise(graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -
     let mut chosen = wanted.to_vec();
     let scheduled = schedule::schedule(graph, laws, &chosen);
     if scheduled.len() > REWRITTEN_MAX {
-        return checked(scheduled);
+        return checked(order::arranged(&scheduled));
     }
     let mut best = factor::factor(&scheduled);
     let mut reduced = wanted.to_vec();
@@ -73,7 +75,7 @@ pub fn optimise(graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -
             (chosen, best) = (candidate, program);
         }
     }
-    checked(best)
+    checked(order::arranged(&best))
 }
 
 /// The program for the accelerations by the regular path, from the program for

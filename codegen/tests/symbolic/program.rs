@@ -155,3 +155,24 @@ fn a_shared_expression_is_computed_once() {
     assert_eq!(cost(&program).sums, 1);
     assert_eq!(cost(&program).products, 2);
 }
+
+/// A row of bodies: the first half of the outputs asks for each body and the next one,
+/// the second half again in the same order.
+#[test]
+fn outputs_that_read_the_same_coordinates_follow_one_another() {
+    const BODIES: u32 = 6;
+    let mut graph = Graph::new();
+    let mut pair = |i: u32, symbol: fn(u32) -> Symbol| {
+        let (a, b) = (graph.symbol(symbol(i)), graph.symbol(symbol(i + 1)));
+        graph.mul(a, b)
+    };
+    let first = (0..BODIES).map(|i| pair(i, Symbol::Coordinate));
+    let mut wanted: Vec<ExprId> = first.collect();
+    wanted.extend((0..BODIES).map(|i| pair(i, Symbol::Velocity)));
+    let program = optimise(&mut graph, &[], &slots(&wanted));
+    let rows: Vec<usize> = program.outputs.iter().map(|(slot, _)| slot.row).collect();
+    let bodies: Vec<usize> = rows.iter().map(|row| row % BODIES as usize).collect();
+    let forth = bodies.is_sorted();
+    let back = bodies.iter().rev().is_sorted();
+    assert!(forth || back, "{rows:?}");
+}

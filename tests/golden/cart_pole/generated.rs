@@ -144,15 +144,15 @@ pub mod cart_pole {
             let [_, phi] = state.q.data.0[0];
             let [x_dot, phi_dot] = state.v.data.0[0];
             let Parameters { m1, m2, e, j, d } = self.parameters;
-            let (sin_phi, cos_phi) = phi.sin_cos();
-            let m2_e = m2 * e;
-            let product = cos_phi * m2_e;
-            let u = self.inputs.u.unwrap_or(T::zero());
-            let product_2 = m2_e * sin_phi;
             out.mass.data.0[0][0] = m1 + m2;
+            let m2_e = m2 * e;
+            out.mass.data.0[1][1] = e.mul_add(m2_e, j);
+            let (sin_phi, cos_phi) = phi.sin_cos();
+            let product = m2_e * cos_phi;
             out.mass.data.0[0][1] = product;
             out.mass.data.0[1][0] = product;
-            out.mass.data.0[1][1] = e.mul_add(m2_e, j);
+            let u = self.inputs.u.unwrap_or(T::zero());
+            let product_2 = m2_e * sin_phi;
             out.force.data.0[0][0] = (-d)
                 .mul_add(x_dot, (phi_dot * phi_dot).mul_add(product_2, u));
             out.force.data.0[0][1] = T::constant(9.81, -4.973799150320702e-16)
@@ -175,18 +175,18 @@ pub mod cart_pole {
             let product_2 = m2_e * cos_phi;
             let product_3 = quotient * product_2;
             let sum_2 = e.mul_add(m2_e, j);
+            out.pivots.mass_diagonal.data.0[0][1] = sum_2;
             let sum_3 = (-product_2).mul_add(product_3, sum_2);
+            out.pivots.mass_pivots.data.0[0][1] = sum_3;
             let product_4 = (T::one() / sum_3)
                 * (-sum)
                     .mul_add(
                         product_3,
                         T::constant(9.81, -4.973799150320702e-16) * product,
                     );
+            out.acceleration.data.0[0][1] = product_4;
             out.acceleration.data.0[0][0] = (-product_3)
                 .mul_add(product_4, sum * quotient);
-            out.acceleration.data.0[0][1] = product_4;
-            out.pivots.mass_pivots.data.0[0][1] = sum_3;
-            out.pivots.mass_diagonal.data.0[0][1] = sum_2;
             true
         }
         /// Energies and the power supplied from outside.
@@ -196,11 +196,12 @@ pub mod cart_pole {
             let [_, phi] = state.q.data.0[0];
             let [x_dot, phi_dot] = state.v.data.0[0];
             let Parameters { m1, m2, e, j, d } = self.parameters;
+            let u = self.inputs.u.unwrap_or(T::zero());
+            let x_dot_x_dot = x_dot * x_dot;
             let (_, cos_phi) = phi.sin_cos();
             let m2_e = m2 * e;
             let product = cos_phi * m2_e;
             let product_2 = x_dot * phi_dot * product;
-            let x_dot_x_dot = x_dot * x_dot;
             let product_3 = T::from_f64(0.5) * x_dot_x_dot;
             let product_4 = m1 * product_3;
             let product_5 = T::from_f64(0.5) * (phi_dot * phi_dot);
@@ -208,7 +209,6 @@ pub mod cart_pole {
             let product_7 = e * m2_e * product_5;
             let product_8 = m2 * product_3;
             let product_9 = T::constant(9.81, -4.973799150320702e-16) * product;
-            let u = self.inputs.u.unwrap_or(T::zero());
             Energy {
                 kinetic: product_2 + product_4 + product_6 + product_7 + product_8,
                 potential: product_9,
@@ -238,6 +238,7 @@ pub mod cart_pole {
             let [_, phi_dot] = state.v.data.0[0];
             let [x_ddot, phi_ddot] = acceleration.data.0[0];
             let Parameters { m2, e, d, .. } = self.parameters;
+            out.force_by_velocity.data.0[0][0] = -d;
             let (sin_phi, cos_phi) = phi.sin_cos();
             let m2_e = m2 * e;
             let product = cos_phi * m2_e;
@@ -249,7 +250,6 @@ pub mod cart_pole {
                     -4.973799150320702e-16,
                 )
                 .mul_add(product, product_2 * x_ddot);
-            out.force_by_velocity.data.0[0][0] = -d;
             out.force_by_velocity.data.0[1][0] = T::from_f64(2.0) * phi_dot * product_2;
             true
         }
@@ -260,26 +260,26 @@ pub mod cart_pole {
         ///
         /// Costs 3 products, 2 sums, 1 sine–cosine pair. As derived: 12 products, 3 sums, 1 sine–cosine pair.
         pub fn mass_matrix(&self, state: &State<T, 2>) -> SMatrix<T, 2, 2> {
+            let mut out = SMatrix::zeros();
             let [_, phi] = state.q.data.0[0];
             let Parameters { m1, m2, e, j, .. } = self.parameters;
-            let (_, cos_phi) = phi.sin_cos();
-            let m2_e = m2 * e;
-            let product = cos_phi * m2_e;
-            let mut out = SMatrix::zeros();
             out.data.0[0][0] = m1 + m2;
+            let m2_e = m2 * e;
+            out.data.0[1][1] = e.mul_add(m2_e, j);
+            let (_, cos_phi) = phi.sin_cos();
+            let product = m2_e * cos_phi;
             out.data.0[0][1] = product;
             out.data.0[1][0] = product;
-            out.data.0[1][1] = e.mul_add(m2_e, j);
             out
         }
         /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
         ///
         /// Costs 3 products, 1 sum, 1 sine–cosine pair.
         pub fn potential_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
+            let mut out = SVector::zeros();
             let [_, phi] = state.q.data.0[0];
             let Parameters { m2, e, .. } = self.parameters;
             let (sin_phi, _) = phi.sin_cos();
-            let mut out = SVector::zeros();
             out.data.0[0][1] = -T::constant(9.81, -4.973799150320702e-16) * m2 * e
                 * sin_phi;
             out
@@ -288,10 +288,10 @@ pub mod cart_pole {
         ///
         /// Costs 1 product, 1 sum.
         pub fn applied_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
+            let mut out = SVector::zeros();
             let [x_dot, _] = state.v.data.0[0];
             let Parameters { d, .. } = self.parameters;
             let u = self.inputs.u.unwrap_or(T::zero());
-            let mut out = SVector::zeros();
             out.data.0[0][0] = (-d).mul_add(x_dot, u);
             out
         }
@@ -300,11 +300,11 @@ pub mod cart_pole {
         ///
         /// Costs 4 products, 1 sum, 1 sine–cosine pair. As derived: 35 products, 7 sums, 1 sine–cosine pair.
         pub fn coriolis_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
+            let mut out = SVector::zeros();
             let [_, phi] = state.q.data.0[0];
             let [_, phi_dot] = state.v.data.0[0];
             let Parameters { m2, e, .. } = self.parameters;
             let (sin_phi, _) = phi.sin_cos();
-            let mut out = SVector::zeros();
             out.data.0[0][0] = -m2 * e * phi_dot * phi_dot * sin_phi;
             out
         }
@@ -313,11 +313,11 @@ pub mod cart_pole {
         ///
         /// Costs 3 products, 1 sum, 1 sine–cosine pair.
         pub fn coriolis_matrix(&self, state: &State<T, 2>) -> SMatrix<T, 2, 2> {
+            let mut out = SMatrix::zeros();
             let [_, phi] = state.q.data.0[0];
             let [_, phi_dot] = state.v.data.0[0];
             let Parameters { m2, e, .. } = self.parameters;
             let (sin_phi, _) = phi.sin_cos();
-            let mut out = SMatrix::zeros();
             out.data.0[1][0] = -m2 * e * phi_dot * sin_phi;
             out
         }
@@ -390,18 +390,18 @@ pub mod cart_pole {
         fn draw(&self, state: &State<T, 2>, canvas: &mut dyn Canvas<T>) {
             let [x, phi] = state.q.data.0[0];
             let Parameters { e, .. } = self.parameters;
-            let sum = x - T::constant(0.15, 5.551115123125783e-18);
-            let sum_2 = -T::constant(0.08, -1.6653345369377347e-18);
+            let sum = -T::constant(0.08, -1.6653345369377347e-18);
+            let sum_2 = x - T::constant(0.15, 5.551115123125783e-18);
             let sum_3 = x + T::constant(0.15, 5.551115123125783e-18);
             let (sin_phi, cos_phi) = phi.sin_cos();
             let product = T::from_f64(2.0) * e;
             canvas
                 .polygon(
                     &[
-                        [sum, sum_2, T::zero()],
-                        [sum_3, sum_2, T::zero()],
+                        [sum_2, sum, T::zero()],
+                        [sum_3, sum, T::zero()],
                         [sum_3, T::zero(), T::zero()],
-                        [sum, T::zero(), T::zero()],
+                        [sum_2, T::zero(), T::zero()],
                     ],
                 );
             canvas

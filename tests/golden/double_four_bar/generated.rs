@@ -310,7 +310,20 @@ pub mod double_four_bar {
         ///
         /// Costs 71 products, 34 sums, 5 sine–cosine pairs. As derived: 251 products, 74 sums, 5 sine–cosine pairs.
         fn terms(&self, state: &State<T, 5>, out: &mut Terms<T, 5, 4>) {
-            let [q1, q2, q3, q4, q5] = state.q.data.0[0];
+            let (
+                [sin_q1,
+                sin_q2,
+                sin_q3,
+                sin_q4,
+                sin_q5,
+                ],
+                [cos_q1,
+                cos_q2,
+                cos_q3,
+                cos_q4,
+                cos_q5,
+                ],
+            ) = T::sin_cos_all(&state.q.data.0[0]);
             let [q1_dot, q2_dot, q3_dot, q4_dot, q5_dot] = state.v.data.0[0];
             let Parameters {
                 l1,
@@ -335,108 +348,107 @@ pub mod double_four_bar {
                 j5,
                 ..
             } = self.parameters;
-            let (
-                [sin_q1,
-                sin_q2,
-                sin_q3,
-                sin_q4,
-                sin_q5,
-                ],
-                [cos_q1,
-                cos_q2,
-                cos_q3,
-                cos_q4,
-                cos_q5,
-                ],
-            ) = T::sin_cos_all([q1, q2, q3, q4, q5]);
             let e1_m1 = e1 * m1;
             let l1_m2 = l1 * m2;
-            let product = l1_m2 * e2 * sin_q1.mul_add(sin_q2, cos_q1 * cos_q2);
+            out.mass.data.0[0][0] = l1.mul_add(l1_m2, e1.mul_add(e1_m1, j1));
             let m2_e2 = m2 * e2;
+            out.mass.data.0[1][1] = e2.mul_add(m2_e2, j2);
             let e3_m3 = e3 * m3;
             let l3_m4 = l3 * m4;
-            let product_2 = l3_m4 * e4 * sin_q3.mul_add(sin_q4, cos_q3 * cos_q4);
+            out.mass.data.0[2][2] = l3.mul_add(l3_m4, e3.mul_add(e3_m3, j3));
             let m4_e4 = m4 * e4;
+            out.mass.data.0[3][3] = e4.mul_add(m4_e4, j4);
             let e5_m5 = e5 * m5;
-            let cos_q1_sin_q2 = cos_q1 * sin_q2;
-            let cos_q2_sin_q1 = cos_q2 * sin_q1;
-            let q2_dot_q2_dot = q2_dot * q2_dot;
-            let product_3 = T::constant(9.81, -4.973799150320702e-16) * cos_q1;
-            let product_4 = q1_dot * (l1 * q1_dot);
-            let cos_q3_sin_q4 = cos_q3 * sin_q4;
-            let cos_q4_sin_q3 = cos_q4 * sin_q3;
-            let q4_dot_q4_dot = q4_dot * q4_dot;
-            let product_5 = T::constant(9.81, -4.973799150320702e-16) * cos_q3;
-            let product_6 = q3_dot * (l3 * q3_dot);
-            let sin_q2_l2 = sin_q2 * l2;
-            let cos_q2_l2 = cos_q2 * l2;
-            let l3_sin_q3 = l3 * sin_q3;
-            let l3_cos_q3 = l3 * cos_q3;
-            let sin_q4_l4 = sin_q4 * l4;
-            let cos_q4_l4 = cos_q4 * l4;
-            let l5_sin_q5 = l5 * sin_q5;
-            let cos_q5_l5 = cos_q5 * l5;
-            let product_7 = cos_q3 * product_6;
-            let product_8 = sin_q3 * product_6;
-            let q5_dot_q5_dot = q5_dot * q5_dot;
-            out.mass.data.0[0][0] = l1.mul_add(l1_m2, e1.mul_add(e1_m1, j1));
+            out.mass.data.0[4][4] = e5.mul_add(e5_m5, j5);
+            out.jacobian.data.0[0][0] = -l1 * sin_q1;
+            out.jacobian.data.0[0][1] = l1 * cos_q1;
+            let product = l1_m2 * e2 * sin_q1.mul_add(sin_q2, cos_q1 * cos_q2);
             out.mass.data.0[0][1] = product;
             out.mass.data.0[1][0] = product;
-            out.mass.data.0[1][1] = e2.mul_add(m2_e2, j2);
-            out.mass.data.0[2][2] = l3.mul_add(l3_m4, e3.mul_add(e3_m3, j3));
-            out.mass.data.0[2][3] = product_2;
-            out.mass.data.0[3][2] = product_2;
-            out.mass.data.0[3][3] = e4.mul_add(m4_e4, j4);
-            out.mass.data.0[4][4] = e5.mul_add(e5_m5, j5);
+            let cos_q1_sin_q2 = cos_q1 * sin_q2;
+            let sin_q1_cos_q2 = sin_q1 * cos_q2;
+            let q2_dot_q2_dot = q2_dot * q2_dot;
+            let product_2 = T::constant(9.81, -4.973799150320702e-16) * cos_q1;
             out.force.data.0[0][0] = (-e1_m1)
                 .mul_add(
-                    product_3,
+                    product_2,
                     l1_m2
-                        * (e2 * (cos_q1_sin_q2 - cos_q2_sin_q1) * q2_dot_q2_dot
-                            - product_3),
+                        * (e2 * (cos_q1_sin_q2 - sin_q1_cos_q2) * q2_dot_q2_dot
+                            - product_2),
                 );
+            let product_3 = q1_dot * (l1 * q1_dot);
             out.force.data.0[0][1] = m2_e2
                 * (-T::constant(9.81, -4.973799150320702e-16))
-                    .mul_add(cos_q2, (cos_q2_sin_q1 - cos_q1_sin_q2) * product_4);
+                    .mul_add(cos_q2, (sin_q1_cos_q2 - cos_q1_sin_q2) * product_3);
+            let sin_q2_l2 = sin_q2 * l2;
+            out.jacobian.data.0[1][0] = -sin_q2_l2;
+            let cos_q2_l2 = cos_q2 * l2;
+            out.jacobian.data.0[1][1] = cos_q2_l2;
+            let l3_sin_q3 = l3 * sin_q3;
+            out.jacobian.data.0[2][0] = l3_sin_q3;
+            let l3_cos_q3 = l3 * cos_q3;
+            out.jacobian.data.0[2][3] = l3_cos_q3;
+            out.jacobian.data.0[2][1] = -l3_cos_q3;
+            out.jacobian.data.0[2][2] = -l3_sin_q3;
+            let product_4 = q3_dot * (l3 * q3_dot);
+            let product_5 = cos_q3 * product_4;
+            out.bias.data.0[0][0] = q2_dot_q2_dot.mul_add(cos_q2_l2, cos_q1 * product_3)
+                - product_5;
+            let product_6 = sin_q3 * product_4;
+            out.bias.data.0[0][1] = q2_dot_q2_dot.mul_add(sin_q2_l2, sin_q1 * product_3)
+                - product_6;
+            let product_7 = l3_m4 * e4 * sin_q3.mul_add(sin_q4, cos_q3 * cos_q4);
+            out.mass.data.0[2][3] = product_7;
+            out.mass.data.0[3][2] = product_7;
+            let cos_q3_sin_q4 = cos_q3 * sin_q4;
+            let sin_q3_cos_q4 = sin_q3 * cos_q4;
+            let q4_dot_q4_dot = q4_dot * q4_dot;
+            let product_8 = T::constant(9.81, -4.973799150320702e-16) * cos_q3;
             out.force.data.0[0][2] = (-e3_m3)
                 .mul_add(
-                    product_5,
+                    product_8,
                     l3_m4
-                        * (e4 * (cos_q3_sin_q4 - cos_q4_sin_q3) * q4_dot_q4_dot
-                            - product_5),
+                        * (e4 * (cos_q3_sin_q4 - sin_q3_cos_q4) * q4_dot_q4_dot
+                            - product_8),
                 );
             out.force.data.0[0][3] = m4_e4
                 * (-T::constant(9.81, -4.973799150320702e-16))
-                    .mul_add(cos_q4, (cos_q4_sin_q3 - cos_q3_sin_q4) * product_6);
+                    .mul_add(cos_q4, product_4 * (sin_q3_cos_q4 - cos_q3_sin_q4));
+            let sin_q4_l4 = sin_q4 * l4;
+            out.jacobian.data.0[3][2] = -sin_q4_l4;
+            let cos_q4_l4 = cos_q4 * l4;
+            out.jacobian.data.0[3][3] = cos_q4_l4;
             out.force.data.0[0][4] = -T::constant(9.81, -4.973799150320702e-16) * e5_m5
                 * cos_q5;
-            out.jacobian.data.0[0][0] = -l1 * sin_q1;
-            out.jacobian.data.0[0][1] = l1 * cos_q1;
-            out.jacobian.data.0[1][0] = -sin_q2_l2;
-            out.jacobian.data.0[1][1] = cos_q2_l2;
-            out.jacobian.data.0[2][0] = l3_sin_q3;
-            out.jacobian.data.0[2][1] = -l3_cos_q3;
-            out.jacobian.data.0[2][2] = -l3_sin_q3;
-            out.jacobian.data.0[2][3] = l3_cos_q3;
-            out.jacobian.data.0[3][2] = -sin_q4_l4;
-            out.jacobian.data.0[3][3] = cos_q4_l4;
+            let l5_sin_q5 = l5 * sin_q5;
             out.jacobian.data.0[4][2] = l5_sin_q5;
+            let cos_q5_l5 = cos_q5 * l5;
             out.jacobian.data.0[4][3] = -cos_q5_l5;
-            out.bias.data.0[0][0] = q2_dot_q2_dot.mul_add(cos_q2_l2, cos_q1 * product_4)
-                - product_7;
-            out.bias.data.0[0][1] = q2_dot_q2_dot.mul_add(sin_q2_l2, sin_q1 * product_4)
-                - product_8;
+            let q5_dot_q5_dot = q5_dot * q5_dot;
             out.bias.data.0[0][2] = (-cos_q5_l5)
-                .mul_add(q5_dot_q5_dot, q4_dot_q4_dot.mul_add(cos_q4_l4, product_7));
+                .mul_add(q5_dot_q5_dot, q4_dot_q4_dot.mul_add(cos_q4_l4, product_5));
             out.bias.data.0[0][3] = (-l5_sin_q5)
-                .mul_add(q5_dot_q5_dot, q4_dot_q4_dot.mul_add(sin_q4_l4, product_8));
+                .mul_add(q5_dot_q5_dot, q4_dot_q4_dot.mul_add(sin_q4_l4, product_6));
         }
         /// The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
         /// Schur complement `A M⁻¹ Aᵀ`.
         ///
         /// Costs 181 products, 106 sums, 9 quotients, 5 sine–cosine pairs.
         fn regular(&self, state: &State<T, 5>, out: &mut Regular<T, 5, 4>) -> bool {
-            let [q1, q2, q3, q4, q5] = state.q.data.0[0];
+            let (
+                [sin_q1,
+                sin_q2,
+                sin_q3,
+                sin_q4,
+                sin_q5,
+                ],
+                [cos_q1,
+                cos_q2,
+                cos_q3,
+                cos_q4,
+                cos_q5,
+                ],
+            ) = T::sin_cos_all(&state.q.data.0[0]);
             let [q1_dot, q2_dot, q3_dot, q4_dot, q5_dot] = state.v.data.0[0];
             let Parameters {
                 l1,
@@ -461,32 +473,18 @@ pub mod double_four_bar {
                 j5,
                 ..
             } = self.parameters;
-            let (
-                [sin_q1,
-                sin_q2,
-                sin_q3,
-                sin_q4,
-                sin_q5,
-                ],
-                [cos_q1,
-                cos_q2,
-                cos_q3,
-                cos_q4,
-                cos_q5,
-                ],
-            ) = T::sin_cos_all([q1, q2, q3, q4, q5]);
             let e1_m1 = e1 * m1;
             let l1_m2 = l1 * m2;
             let quotient = T::one() / l1.mul_add(l1_m2, e1.mul_add(e1_m1, j1));
             let cos_q1_sin_q2 = cos_q1 * sin_q2;
-            let cos_q2_sin_q1 = cos_q2 * sin_q1;
+            let sin_q1_cos_q2 = sin_q1 * cos_q2;
             let q2_dot_q2_dot = q2_dot * q2_dot;
             let product = T::constant(9.81, -4.973799150320702e-16) * cos_q1;
             let sum = (-e1_m1)
                 .mul_add(
                     product,
                     l1_m2
-                        * (e2 * (cos_q1_sin_q2 - cos_q2_sin_q1) * q2_dot_q2_dot
+                        * (e2 * (cos_q1_sin_q2 - sin_q1_cos_q2) * q2_dot_q2_dot
                             - product),
                 );
             let l1_sin_q1 = l1 * sin_q1;
@@ -497,7 +495,9 @@ pub mod double_four_bar {
             let sum_2 = l1_sin_q1 * product_4 - sin_q2_l2;
             let m2_e2 = m2 * e2;
             let sum_3 = e2.mul_add(m2_e2, j2);
+            out.pivots.mass_diagonal.data.0[0][1] = sum_3;
             let sum_4 = (-product_3).mul_add(product_4, sum_3);
+            out.pivots.mass_pivots.data.0[0][1] = sum_4;
             let quotient_2 = T::one() / sum_4;
             let product_5 = sum_2 * quotient_2;
             let l3_sin_q3 = l3 * sin_q3;
@@ -511,7 +511,9 @@ pub mod double_four_bar {
             let product_10 = l3_sin_q3 * product_9;
             let m4_e4 = m4 * e4;
             let sum_5 = e4.mul_add(m4_e4, j4);
+            out.pivots.mass_diagonal.data.0[0][3] = sum_5;
             let sum_6 = (-product_8).mul_add(product_9, sum_5);
+            out.pivots.mass_pivots.data.0[0][3] = sum_6;
             let quotient_4 = T::one() / sum_6;
             let product_11 = product_10 * quotient_4;
             let sum_7 = product_10
@@ -519,6 +521,8 @@ pub mod double_four_bar {
                     product_11,
                     sum_2.mul_add(product_5, l1_sin_q1.mul_add(product_2, product_7)),
                 );
+            out.pivots.row_pivots.data.0[0][0] = sum_7;
+            out.pivots.row_squares.data.0[0][0] = sum_7;
             let quotient_5 = T::one() / sum_7;
             let product_12 = q1_dot * (l1 * q1_dot);
             let sum_8 = (-sum)
@@ -528,7 +532,7 @@ pub mod double_four_bar {
                         * (-T::constant(9.81, -4.973799150320702e-16))
                             .mul_add(
                                 cos_q2,
-                                (cos_q2_sin_q1 - cos_q1_sin_q2) * product_12,
+                                (sin_q1_cos_q2 - cos_q1_sin_q2) * product_12,
                             ),
                 );
             let cos_q3_sin_q4 = cos_q3 * sin_q4;
@@ -588,7 +592,9 @@ pub mod double_four_bar {
                     product_24,
                     sum_12.mul_add(product_21, l1_cos_q1.mul_add(product_20, product_23)),
                 );
+            out.pivots.row_squares.data.0[0][1] = sum_14;
             let sum_15 = (-sum_13).mul_add(product_19, sum_14);
+            out.pivots.row_pivots.data.0[0][1] = sum_15;
             let quotient_6 = T::one() / sum_15;
             let product_25 = sin_q3 * product_15;
             let product_26 = sum_9 * product_22;
@@ -611,8 +617,10 @@ pub mod double_four_bar {
             let product_30 = l5_sin_q5 * quotient_7;
             let sum_21 = l5_sin_q5
                 .mul_add(product_30, sum_18.mul_add(product_29, product_7));
+            out.pivots.row_squares.data.0[0][2] = sum_21;
             let sum_22 = (-sum_20)
                 .mul_add(product_28, (-sum_19).mul_add(product_27, sum_21));
+            out.pivots.row_pivots.data.0[0][2] = sum_22;
             let quotient_8 = T::one() / sum_22;
             let cos_q4_l4 = cos_q4 * l4;
             let l5_cos_q5 = l5 * cos_q5;
@@ -650,11 +658,13 @@ pub mod double_four_bar {
             let product_36 = quotient_7 * l5_cos_q5;
             let sum_29 = l5_cos_q5
                 .mul_add(product_36, sum_25.mul_add(product_35, product_23));
+            out.pivots.row_squares.data.0[0][3] = sum_29;
             let sum_30 = (-sum_28)
                 .mul_add(
                     product_34,
                     (-sum_27).mul_add(product_33, (-sum_26).mul_add(product_32, sum_29)),
                 );
+            out.pivots.row_pivots.data.0[0][3] = sum_30;
             let sum_31 = product_31
                 .mul_add(product_36, sum_10.mul_add(product_35, product_26))
                 - (-l5_sin_q5)
@@ -683,6 +693,13 @@ pub mod double_four_bar {
                 );
             let product_38 = quotient_2
                 * (-sum_12).mul_add(sum_33, (-sum_2).mul_add(sum_34, sum_8));
+            out.acceleration.data.0[0][1] = product_38;
+            out.acceleration.data.0[0][0] = (-product_4)
+                .mul_add(
+                    product_38,
+                    quotient
+                        * (-l1_cos_q1).mul_add(sum_33, l1_sin_q1.mul_add(sum_34, sum)),
+                );
             let product_39 = quotient_3
                 * (-l3_cos_q3)
                     .mul_add(
@@ -705,29 +722,10 @@ pub mod double_four_bar {
                                     .mul_add(sum_33, product_10.mul_add(sum_34, sum_10)),
                             ),
                     );
-            out.acceleration.data.0[0][0] = (-product_4)
-                .mul_add(
-                    product_38,
-                    quotient
-                        * (-l1_cos_q1).mul_add(sum_33, l1_sin_q1.mul_add(sum_34, sum)),
-                );
-            out.acceleration.data.0[0][1] = product_38;
-            out.acceleration.data.0[0][2] = (-product_9).mul_add(product_40, product_39);
             out.acceleration.data.0[0][3] = product_40;
+            out.acceleration.data.0[0][2] = (-product_9).mul_add(product_40, product_39);
             out.acceleration.data.0[0][4] = quotient_7
                 * (l5_cos_q5 * product_37 - l5_sin_q5.mul_add(sum_32, product_31));
-            out.pivots.mass_pivots.data.0[0][1] = sum_4;
-            out.pivots.mass_diagonal.data.0[0][1] = sum_3;
-            out.pivots.mass_pivots.data.0[0][3] = sum_6;
-            out.pivots.mass_diagonal.data.0[0][3] = sum_5;
-            out.pivots.row_pivots.data.0[0][0] = sum_7;
-            out.pivots.row_squares.data.0[0][0] = sum_7;
-            out.pivots.row_pivots.data.0[0][1] = sum_15;
-            out.pivots.row_squares.data.0[0][1] = sum_14;
-            out.pivots.row_pivots.data.0[0][2] = sum_22;
-            out.pivots.row_squares.data.0[0][2] = sum_21;
-            out.pivots.row_pivots.data.0[0][3] = sum_30;
-            out.pivots.row_squares.data.0[0][3] = sum_29;
             true
         }
         /// Everything a projection needs: `A Δq = −g`, `A q̇ + b = 0`, in the metric `M`.
@@ -741,7 +739,20 @@ pub mod double_four_bar {
         ///
         /// Costs 32 products, 25 sums, 5 sine–cosine pairs. As derived: 76 products, 29 sums, 5 sine–cosine pairs.
         fn position(&self, state: &State<T, 5>, out: &mut Position<T, 5, 4>) {
-            let [q1, q2, q3, q4, q5] = state.q.data.0[0];
+            let (
+                [sin_q1,
+                sin_q2,
+                sin_q3,
+                sin_q4,
+                sin_q5,
+                ],
+                [cos_q1,
+                cos_q2,
+                cos_q3,
+                cos_q4,
+                cos_q5,
+                ],
+            ) = T::sin_cos_all(&state.q.data.0[0]);
             let Parameters {
                 l1,
                 l2,
@@ -766,6 +777,55 @@ pub mod double_four_bar {
                 j4,
                 j5,
             } = self.parameters;
+            let l1_m2 = l1 * m2;
+            out.mass.data.0[0][0] = l1.mul_add(l1_m2, (e1 * e1).mul_add(m1, j1));
+            out.mass.data.0[1][1] = (m2 * e2).mul_add(e2, j2);
+            let l3_m4 = l3 * m4;
+            out.mass.data.0[2][2] = l3.mul_add(l3_m4, (e3 * e3).mul_add(m3, j3));
+            out.mass.data.0[3][3] = (m4 * e4).mul_add(e4, j4);
+            out.mass.data.0[4][4] = (e5 * e5).mul_add(m5, j5);
+            let l1_sin_q1 = l1 * sin_q1;
+            out.jacobian.data.0[0][0] = -l1_sin_q1;
+            let l1_cos_q1 = l1 * cos_q1;
+            out.jacobian.data.0[0][1] = l1_cos_q1;
+            let product = l1_m2 * e2 * sin_q1.mul_add(sin_q2, cos_q1 * cos_q2);
+            out.mass.data.0[0][1] = product;
+            out.mass.data.0[1][0] = product;
+            let sin_q2_l2 = sin_q2 * l2;
+            out.jacobian.data.0[1][0] = -sin_q2_l2;
+            let cos_q2_l2 = cos_q2 * l2;
+            out.jacobian.data.0[1][1] = cos_q2_l2;
+            let l3_cos_q3 = l3 * cos_q3;
+            out.jacobian.data.0[2][3] = l3_cos_q3;
+            out.residual.data.0[0][0] = l1_cos_q1 + cos_q2_l2 - l3_cos_q3 - l01;
+            let l3_sin_q3 = l3 * sin_q3;
+            out.jacobian.data.0[2][0] = l3_sin_q3;
+            out.residual.data.0[0][1] = l1_sin_q1 + sin_q2_l2 - l3_sin_q3;
+            out.jacobian.data.0[2][1] = -l3_cos_q3;
+            out.jacobian.data.0[2][2] = -l3_sin_q3;
+            let product_2 = l3_m4 * e4 * sin_q3.mul_add(sin_q4, cos_q3 * cos_q4);
+            out.mass.data.0[2][3] = product_2;
+            out.mass.data.0[3][2] = product_2;
+            let sin_q4_l4 = sin_q4 * l4;
+            out.jacobian.data.0[3][2] = -sin_q4_l4;
+            let cos_q4_l4 = cos_q4 * l4;
+            out.jacobian.data.0[3][3] = cos_q4_l4;
+            let l5_cos_q5 = l5 * cos_q5;
+            out.residual.data.0[0][2] = l3_cos_q3 + cos_q4_l4 - l5_cos_q5 - l02;
+            let l5_sin_q5 = l5 * sin_q5;
+            out.jacobian.data.0[4][2] = l5_sin_q5;
+            out.residual.data.0[0][3] = l3_sin_q3 + sin_q4_l4 - l5_sin_q5;
+            out.jacobian.data.0[4][3] = -l5_cos_q5;
+        }
+        /// The least corrections of position and velocity in the kinetic metric, where
+        /// the constraints are regular.
+        ///
+        /// Costs 185 products, 122 sums, 9 quotients, 5 sine–cosine pairs.
+        fn correction(
+            &self,
+            state: &State<T, 5>,
+            out: &mut Correction<T, 5, 4>,
+        ) -> bool {
             let (
                 [sin_q1,
                 sin_q2,
@@ -779,57 +839,7 @@ pub mod double_four_bar {
                 cos_q4,
                 cos_q5,
                 ],
-            ) = T::sin_cos_all([q1, q2, q3, q4, q5]);
-            let l1_m2 = l1 * m2;
-            let product = l1_m2 * e2 * sin_q1.mul_add(sin_q2, cos_q1 * cos_q2);
-            let l3_m4 = l3 * m4;
-            let product_2 = l3_m4 * e4 * sin_q3.mul_add(sin_q4, cos_q3 * cos_q4);
-            let l1_cos_q1 = l1 * cos_q1;
-            let cos_q2_l2 = cos_q2 * l2;
-            let l3_cos_q3 = l3 * cos_q3;
-            let l1_sin_q1 = l1 * sin_q1;
-            let sin_q2_l2 = sin_q2 * l2;
-            let l3_sin_q3 = l3 * sin_q3;
-            let cos_q4_l4 = cos_q4 * l4;
-            let l5_cos_q5 = l5 * cos_q5;
-            let sin_q4_l4 = sin_q4 * l4;
-            let l5_sin_q5 = l5 * sin_q5;
-            out.mass.data.0[0][0] = l1.mul_add(l1_m2, (e1 * e1).mul_add(m1, j1));
-            out.mass.data.0[0][1] = product;
-            out.mass.data.0[1][0] = product;
-            out.mass.data.0[1][1] = (m2 * e2).mul_add(e2, j2);
-            out.mass.data.0[2][2] = l3.mul_add(l3_m4, (e3 * e3).mul_add(m3, j3));
-            out.mass.data.0[2][3] = product_2;
-            out.mass.data.0[3][2] = product_2;
-            out.mass.data.0[3][3] = (m4 * e4).mul_add(e4, j4);
-            out.mass.data.0[4][4] = (e5 * e5).mul_add(m5, j5);
-            out.residual.data.0[0][0] = l1_cos_q1 + cos_q2_l2 - l3_cos_q3 - l01;
-            out.residual.data.0[0][1] = l1_sin_q1 + sin_q2_l2 - l3_sin_q3;
-            out.residual.data.0[0][2] = l3_cos_q3 + cos_q4_l4 - l5_cos_q5 - l02;
-            out.residual.data.0[0][3] = l3_sin_q3 + sin_q4_l4 - l5_sin_q5;
-            out.jacobian.data.0[0][0] = -l1_sin_q1;
-            out.jacobian.data.0[0][1] = l1_cos_q1;
-            out.jacobian.data.0[1][0] = -sin_q2_l2;
-            out.jacobian.data.0[1][1] = cos_q2_l2;
-            out.jacobian.data.0[2][0] = l3_sin_q3;
-            out.jacobian.data.0[2][1] = -l3_cos_q3;
-            out.jacobian.data.0[2][2] = -l3_sin_q3;
-            out.jacobian.data.0[2][3] = l3_cos_q3;
-            out.jacobian.data.0[3][2] = -sin_q4_l4;
-            out.jacobian.data.0[3][3] = cos_q4_l4;
-            out.jacobian.data.0[4][2] = l5_sin_q5;
-            out.jacobian.data.0[4][3] = -l5_cos_q5;
-        }
-        /// The least corrections of position and velocity in the kinetic metric, where
-        /// the constraints are regular.
-        ///
-        /// Costs 185 products, 122 sums, 9 quotients, 5 sine–cosine pairs.
-        fn correction(
-            &self,
-            state: &State<T, 5>,
-            out: &mut Correction<T, 5, 4>,
-        ) -> bool {
-            let [q1, q2, q3, q4, q5] = state.q.data.0[0];
+            ) = T::sin_cos_all(&state.q.data.0[0]);
             let [q1_dot, q2_dot, q3_dot, q4_dot, q5_dot] = state.v.data.0[0];
             let Parameters {
                 l1,
@@ -855,34 +865,24 @@ pub mod double_four_bar {
                 j4,
                 j5,
             } = self.parameters;
-            let (
-                [sin_q1,
-                sin_q2,
-                sin_q3,
-                sin_q4,
-                sin_q5,
-                ],
-                [cos_q1,
-                cos_q2,
-                cos_q3,
-                cos_q4,
-                cos_q5,
-                ],
-            ) = T::sin_cos_all([q1, q2, q3, q4, q5]);
             let l1_cos_q1 = l1 * cos_q1;
             let cos_q2_l2 = cos_q2 * l2;
             let l3_cos_q3 = l3 * cos_q3;
             let sum = l1_cos_q1 + cos_q2_l2 - l3_cos_q3 - l01;
+            out.residual.data.0[0][0] = sum;
             let l1_sin_q1 = l1 * sin_q1;
             let l2_sin_q2 = l2 * sin_q2;
             let l3_sin_q3 = l3 * sin_q3;
             let sum_2 = l1_sin_q1 + l2_sin_q2 - l3_sin_q3;
+            out.residual.data.0[0][1] = sum_2;
             let cos_q4_l4 = cos_q4 * l4;
             let l5_cos_q5 = l5 * cos_q5;
             let sum_3 = l3_cos_q3 + cos_q4_l4 - l5_cos_q5 - l02;
+            out.residual.data.0[0][2] = sum_3;
             let l4_sin_q4 = l4 * sin_q4;
             let l5_sin_q5 = l5 * sin_q5;
             let sum_4 = l3_sin_q3 + l4_sin_q4 - l5_sin_q5;
+            out.residual.data.0[0][3] = sum_4;
             let l1_m2 = l1 * m2;
             let quotient = T::one() / l1.mul_add(l1_m2, (e1 * e1).mul_add(m1, j1));
             let product = l1_sin_q1 * quotient;
@@ -890,7 +890,9 @@ pub mod double_four_bar {
             let product_3 = quotient * product_2;
             let sum_5 = l1_sin_q1 * product_3 - l2_sin_q2;
             let sum_6 = (m2 * e2).mul_add(e2, j2);
+            out.pivots.mass_diagonal.data.0[0][1] = sum_6;
             let sum_7 = (-product_2).mul_add(product_3, sum_6);
+            out.pivots.mass_pivots.data.0[0][1] = sum_7;
             let quotient_2 = T::one() / sum_7;
             let product_4 = sum_5 * quotient_2;
             let l3_m4 = l3 * m4;
@@ -901,7 +903,9 @@ pub mod double_four_bar {
             let product_8 = quotient_3 * product_7;
             let product_9 = l3_sin_q3 * product_8;
             let sum_8 = (m4 * e4).mul_add(e4, j4);
+            out.pivots.mass_diagonal.data.0[0][3] = sum_8;
             let sum_9 = (-product_7).mul_add(product_8, sum_8);
+            out.pivots.mass_pivots.data.0[0][3] = sum_9;
             let quotient_4 = T::one() / sum_9;
             let product_10 = product_9 * quotient_4;
             let sum_10 = product_9
@@ -909,6 +913,8 @@ pub mod double_four_bar {
                     product_10,
                     sum_5.mul_add(product_4, l1_sin_q1.mul_add(product, product_6)),
                 );
+            out.pivots.row_pivots.data.0[0][0] = sum_10;
+            out.pivots.row_squares.data.0[0][0] = sum_10;
             let quotient_5 = T::one() / sum_10;
             let sum_11 = (-l1_cos_q1).mul_add(product_3, cos_q2_l2);
             let product_11 = l3_cos_q3 * product_5;
@@ -931,7 +937,9 @@ pub mod double_four_bar {
                             l1_cos_q1.mul_add(l1_cos_q1 * quotient, product_15),
                         ),
                 );
+            out.pivots.row_squares.data.0[0][1] = sum_13;
             let sum_14 = (-sum_12).mul_add(product_13, sum_13);
+            out.pivots.row_pivots.data.0[0][1] = sum_14;
             let quotient_6 = T::one() / sum_14;
             let sum_15 = (-sum).mul_add(product_13, sum_2);
             let sum_16 = product_9 - l4_sin_q4;
@@ -945,8 +953,10 @@ pub mod double_four_bar {
             let product_20 = l5_sin_q5 * quotient_7;
             let sum_19 = l5_sin_q5
                 .mul_add(product_20, sum_16.mul_add(product_19, product_6));
+            out.pivots.row_squares.data.0[0][2] = sum_19;
             let sum_20 = (-sum_18)
                 .mul_add(product_18, (-sum_17).mul_add(product_17, sum_19));
+            out.pivots.row_pivots.data.0[0][2] = sum_20;
             let quotient_8 = T::one() / sum_20;
             let sum_21 = (-sum_15).mul_add(product_18, sum.mul_add(product_17, sum_3));
             let sum_22 = cos_q4_l4 - product_12;
@@ -970,11 +980,13 @@ pub mod double_four_bar {
                     l5_cos_q5 * quotient_7,
                     sum_22.mul_add(quotient_4 * sum_22, product_15),
                 );
+            out.pivots.row_squares.data.0[0][3] = sum_26;
             let sum_27 = (-sum_25)
                 .mul_add(
                     product_23,
                     (-sum_24).mul_add(product_22, (-sum_23).mul_add(product_21, sum_26)),
                 );
+            out.pivots.row_pivots.data.0[0][3] = sum_27;
             let quotient_9 = T::one() / sum_27;
             let product_24 = quotient_9
                 * (-sum_21)
@@ -997,6 +1009,8 @@ pub mod double_four_bar {
                     product_25,
                     quotient * (-l1_cos_q1).mul_add(sum_29, l1_sin_q1 * sum_30),
                 );
+            out.position.data.0[0][0] = sum_31;
+            out.position.data.0[0][1] = -product_25;
             let product_26 = quotient_4
                 * (-sum_22)
                     .mul_add(
@@ -1007,6 +1021,7 @@ pub mod double_four_bar {
                                 (-product_12).mul_add(sum_29, product_9 * sum_30),
                             ),
                     );
+            out.position.data.0[0][3] = product_26;
             let sum_32 = (-product_8)
                 .mul_add(
                     product_26,
@@ -1021,8 +1036,10 @@ pub mod double_four_bar {
                                     ),
                             ),
                 );
+            out.position.data.0[0][2] = sum_32;
             let product_27 = quotient_7
                 * (-l5_sin_q5).mul_add(sum_28, l5_cos_q5 * product_24);
+            out.position.data.0[0][4] = product_27;
             let product_28 = l3_sin_q3 * q3_dot;
             let product_29 = l1_sin_q1 * q1_dot;
             let product_30 = l2_sin_q2 * q2_dot;
@@ -1090,6 +1107,12 @@ pub mod double_four_bar {
                         ),
                 );
             let product_41 = quotient_2 * sum_11.mul_add(sum_39, sum_5 * sum_40);
+            out.velocity.data.0[0][0] = product_3
+                .mul_add(
+                    product_41,
+                    quotient * (-l1_cos_q1).mul_add(sum_39, l1_sin_q1 * sum_40),
+                );
+            out.velocity.data.0[0][1] = -product_41;
             let product_42 = quotient_4
                 * (-sum_22)
                     .mul_add(
@@ -1100,6 +1123,7 @@ pub mod double_four_bar {
                                 (-product_12).mul_add(sum_39, product_9 * sum_40),
                             ),
                     );
+            out.velocity.data.0[0][3] = product_42;
             let sum_41 = (-product_8)
                 .mul_add(
                     product_42,
@@ -1114,37 +1138,9 @@ pub mod double_four_bar {
                                     ),
                             ),
                 );
-            out.residual.data.0[0][0] = sum;
-            out.residual.data.0[0][1] = sum_2;
-            out.residual.data.0[0][2] = sum_3;
-            out.residual.data.0[0][3] = sum_4;
-            out.position.data.0[0][0] = sum_31;
-            out.position.data.0[0][1] = -product_25;
-            out.position.data.0[0][2] = sum_32;
-            out.position.data.0[0][3] = product_26;
-            out.position.data.0[0][4] = product_27;
-            out.velocity.data.0[0][0] = product_3
-                .mul_add(
-                    product_41,
-                    quotient * (-l1_cos_q1).mul_add(sum_39, l1_sin_q1 * sum_40),
-                );
-            out.velocity.data.0[0][1] = -product_41;
             out.velocity.data.0[0][2] = sum_41;
-            out.velocity.data.0[0][3] = product_42;
             out.velocity.data.0[0][4] = quotient_7
                 * (-l5_sin_q5).mul_add(sum_38, l5_cos_q5 * product_40);
-            out.pivots.mass_pivots.data.0[0][1] = sum_7;
-            out.pivots.mass_diagonal.data.0[0][1] = sum_6;
-            out.pivots.mass_pivots.data.0[0][3] = sum_9;
-            out.pivots.mass_diagonal.data.0[0][3] = sum_8;
-            out.pivots.row_pivots.data.0[0][0] = sum_10;
-            out.pivots.row_squares.data.0[0][0] = sum_10;
-            out.pivots.row_pivots.data.0[0][1] = sum_14;
-            out.pivots.row_squares.data.0[0][1] = sum_13;
-            out.pivots.row_pivots.data.0[0][2] = sum_20;
-            out.pivots.row_squares.data.0[0][2] = sum_19;
-            out.pivots.row_pivots.data.0[0][3] = sum_27;
-            out.pivots.row_squares.data.0[0][3] = sum_26;
             true
         }
         /// The constraints differentiated once more: `A q⃛ + K q̈ = κ`.
@@ -1156,9 +1152,6 @@ pub mod double_four_bar {
         ///
         /// Costs 40 products, 16 sums, 5 sine–cosine pairs. As derived: 70 products, 20 sums, 5 sine–cosine pairs.
         fn branch(&self, state: &State<T, 5>, out: &mut Branch<T, 5, 4>) {
-            let [q1, q2, q3, q4, q5] = state.q.data.0[0];
-            let [q1_dot, q2_dot, q3_dot, q4_dot, q5_dot] = state.v.data.0[0];
-            let Parameters { l1, l2, l3, l4, l5, .. } = self.parameters;
             let (
                 [sin_q1,
                 sin_q2,
@@ -1172,53 +1165,68 @@ pub mod double_four_bar {
                 cos_q4,
                 cos_q5,
                 ],
-            ) = T::sin_cos_all([q1, q2, q3, q4, q5]);
+            ) = T::sin_cos_all(&state.q.data.0[0]);
+            let [q1_dot, q2_dot, q3_dot, q4_dot, q5_dot] = state.v.data.0[0];
+            let Parameters { l1, l2, l3, l4, l5, .. } = self.parameters;
             let l1_q1_dot = l1 * q1_dot;
             let product = cos_q1 * l1_q1_dot;
+            out.slope.data.0[0][0] = -T::from_f64(3.0) * product;
             let product_2 = l1_q1_dot * sin_q1;
+            out.slope.data.0[0][1] = -T::from_f64(3.0) * product_2;
             let l2_q2_dot = l2 * q2_dot;
             let product_3 = T::from_f64(3.0) * l2_q2_dot;
+            out.slope.data.0[1][0] = -cos_q2 * product_3;
+            out.slope.data.0[1][1] = -product_3 * sin_q2;
             let l3_q3_dot = l3 * q3_dot;
             let product_4 = T::from_f64(3.0) * l3_q3_dot;
             let product_5 = cos_q3 * product_4;
-            let product_6 = product_4 * sin_q3;
-            let l4_q4_dot = l4 * q4_dot;
-            let product_7 = T::from_f64(3.0) * l4_q4_dot;
-            let l5_q5_dot = l5 * q5_dot;
-            let product_8 = T::from_f64(3.0) * l5_q5_dot;
-            let product_9 = l3_q3_dot * (q3_dot * q3_dot);
-            let product_10 = sin_q3 * product_9;
-            let q1_dot_q1_dot = q1_dot * q1_dot;
-            let product_11 = l2_q2_dot * (q2_dot * q2_dot);
-            let product_12 = cos_q3 * product_9;
-            let product_13 = l5_q5_dot * (q5_dot * q5_dot);
-            let product_14 = l4_q4_dot * (q4_dot * q4_dot);
-            out.slope.data.0[0][0] = -T::from_f64(3.0) * product;
-            out.slope.data.0[0][1] = -T::from_f64(3.0) * product_2;
-            out.slope.data.0[1][0] = -cos_q2 * product_3;
-            out.slope.data.0[1][1] = -product_3 * sin_q2;
             out.slope.data.0[2][0] = product_5;
+            let product_6 = product_4 * sin_q3;
             out.slope.data.0[2][1] = product_6;
             out.slope.data.0[2][2] = -product_5;
             out.slope.data.0[2][3] = -product_6;
-            out.slope.data.0[3][2] = -cos_q4 * product_7;
-            out.slope.data.0[3][3] = -product_7 * sin_q4;
-            out.slope.data.0[4][2] = cos_q5 * product_8;
-            out.slope.data.0[4][3] = product_8 * sin_q5;
+            let product_7 = l3_q3_dot * (q3_dot * q3_dot);
+            let product_8 = sin_q3 * product_7;
+            let q1_dot_q1_dot = q1_dot * q1_dot;
+            let product_9 = l2_q2_dot * (q2_dot * q2_dot);
             out.bias.data.0[0][0] = (-sin_q2)
-                .mul_add(product_11, (-product_2).mul_add(q1_dot_q1_dot, product_10));
-            out.bias.data.0[0][1] = cos_q2.mul_add(product_11, product * q1_dot_q1_dot)
-                - product_12;
+                .mul_add(product_9, (-product_2).mul_add(q1_dot_q1_dot, product_8));
+            let product_10 = cos_q3 * product_7;
+            out.bias.data.0[0][1] = cos_q2.mul_add(product_9, product * q1_dot_q1_dot)
+                - product_10;
+            let l4_q4_dot = l4 * q4_dot;
+            let product_11 = T::from_f64(3.0) * l4_q4_dot;
+            out.slope.data.0[3][2] = -cos_q4 * product_11;
+            out.slope.data.0[3][3] = -product_11 * sin_q4;
+            let l5_q5_dot = l5 * q5_dot;
+            let product_12 = T::from_f64(3.0) * l5_q5_dot;
+            out.slope.data.0[4][2] = cos_q5 * product_12;
+            out.slope.data.0[4][3] = product_12 * sin_q5;
+            let product_13 = l5_q5_dot * (q5_dot * q5_dot);
+            let product_14 = l4_q4_dot * (q4_dot * q4_dot);
             out.bias.data.0[0][2] = (-sin_q4)
-                .mul_add(product_14, sin_q5 * product_13 - product_10);
+                .mul_add(product_14, sin_q5 * product_13 - product_8);
             out.bias.data.0[0][3] = (-cos_q5)
-                .mul_add(product_13, cos_q4.mul_add(product_14, product_12));
+                .mul_add(product_13, cos_q4.mul_add(product_14, product_10));
         }
         /// Energies and the power supplied from outside.
         ///
         /// Costs 62 products, 43 sums, 5 sine–cosine pairs. As derived: 104 products, 35 sums, 5 sine–cosine pairs.
         fn energy(&self, state: &State<T, 5>) -> Energy<T> {
-            let [q1, q2, q3, q4, q5] = state.q.data.0[0];
+            let (
+                [sin_q1,
+                sin_q2,
+                sin_q3,
+                sin_q4,
+                sin_q5,
+                ],
+                [cos_q1,
+                cos_q2,
+                cos_q3,
+                cos_q4,
+                _,
+                ],
+            ) = T::sin_cos_all(&state.q.data.0[0]);
             let [q1_dot, q2_dot, q3_dot, q4_dot, q5_dot] = state.v.data.0[0];
             let Parameters {
                 l1,
@@ -1240,20 +1248,6 @@ pub mod double_four_bar {
                 j5,
                 ..
             } = self.parameters;
-            let (
-                [sin_q1,
-                sin_q2,
-                sin_q3,
-                sin_q4,
-                sin_q5,
-                ],
-                [cos_q1,
-                cos_q2,
-                cos_q3,
-                cos_q4,
-                _,
-                ],
-            ) = T::sin_cos_all([q1, q2, q3, q4, q5]);
             let e2_q2_dot = e2 * q2_dot;
             let l1_m2 = l1 * m2;
             let product = e2_q2_dot * (q1_dot * l1_m2);
@@ -1329,7 +1323,20 @@ pub mod double_four_bar {
             multiplier: &SVector<T, 4>,
             out: &mut Linearised<T, 5, 4>,
         ) -> bool {
-            let [q1, q2, q3, q4, q5] = state.q.data.0[0];
+            let (
+                [sin_q1,
+                sin_q2,
+                sin_q3,
+                sin_q4,
+                sin_q5,
+                ],
+                [cos_q1,
+                cos_q2,
+                cos_q3,
+                cos_q4,
+                cos_q5,
+                ],
+            ) = T::sin_cos_all(&state.q.data.0[0]);
             let [q1_dot, q2_dot, q3_dot, q4_dot, q5_dot] = state.v.data.0[0];
             let [q1_ddot, q2_ddot, q3_ddot, q4_ddot, q5_ddot] = acceleration.data.0[0];
             let [lambda_0, lambda_1, lambda_2, lambda_3] = multiplier.data.0[0];
@@ -1351,130 +1358,8 @@ pub mod double_four_bar {
                 m5,
                 ..
             } = self.parameters;
-            let (
-                [sin_q1,
-                sin_q2,
-                sin_q3,
-                sin_q4,
-                sin_q5,
-                ],
-                [cos_q1,
-                cos_q2,
-                cos_q3,
-                cos_q4,
-                cos_q5,
-                ],
-            ) = T::sin_cos_all([q1, q2, q3, q4, q5]);
-            let l1_cos_q1 = l1 * cos_q1;
-            let l1_sin_q1 = l1 * sin_q1;
-            let l1_m2 = l1 * m2;
-            let product = e2 * l1_m2;
-            let product_2 = sin_q1 * product;
-            let product_3 = cos_q2 * product_2;
-            let product_4 = q2_ddot * product_3;
-            let product_5 = T::constant(9.81, -4.973799150320702e-16) * sin_q1;
-            let product_6 = cos_q1 * product;
-            let cos_q2_q2_dot = cos_q2 * q2_dot;
-            let product_7 = q2_dot * product_6 * cos_q2_q2_dot;
-            let q2_dot_sin_q2 = q2_dot * sin_q2;
-            let product_8 = product_2 * q2_dot * q2_dot_sin_q2;
-            let product_9 = product_6 * sin_q2;
-            let product_10 = q2_ddot * product_9;
-            let sum = l1_m2
-                .mul_add(
-                    product_5,
-                    (e1 * m1)
-                        .mul_add(
-                            product_5,
-                            lambda_1
-                                .mul_add(l1_sin_q1, lambda_0.mul_add(l1_cos_q1, product_4)),
-                        ),
-                ) - product_7 - product_8 - product_10;
-            let q1_dot_q1_dot = q1_dot * q1_dot;
-            let product_11 = cos_q2 * product_6 * q1_dot_q1_dot;
-            let product_12 = product_2 * sin_q2 * q1_dot_q1_dot;
-            let product_13 = product_3 * q1_ddot;
-            let product_14 = product_9 * q1_ddot;
-            let cos_q2_l2 = cos_q2 * l2;
-            let sin_q2_l2 = sin_q2 * l2;
-            let sum_2 = (T::constant(9.81, -4.973799150320702e-16) * e2 * m2)
-                .mul_add(
-                    sin_q2,
-                    lambda_1.mul_add(sin_q2_l2, lambda_0.mul_add(cos_q2_l2, product_14)),
-                ) - product_11 - product_12 - product_13;
-            let l3_cos_q3 = l3 * cos_q3;
-            let l3_sin_q3 = l3 * sin_q3;
-            let l3_m4 = l3 * m4;
-            let product_15 = e4 * l3_m4;
-            let product_16 = sin_q3 * product_15;
-            let product_17 = cos_q4 * product_16;
-            let product_18 = q4_ddot * product_17;
-            let product_19 = T::constant(9.81, -4.973799150320702e-16) * sin_q3;
-            let product_20 = cos_q3 * product_15;
-            let cos_q4_q4_dot = cos_q4 * q4_dot;
-            let product_21 = q4_dot * product_20 * cos_q4_q4_dot;
-            let q4_dot_sin_q4 = q4_dot * sin_q4;
-            let product_22 = product_16 * q4_dot * q4_dot_sin_q4;
-            let product_23 = product_20 * sin_q4;
-            let product_24 = q4_ddot * product_23;
-            let sum_3 = (-lambda_1)
-                .mul_add(
-                    l3_sin_q3,
-                    (-lambda_0)
-                        .mul_add(
-                            l3_cos_q3,
-                            l3_m4
-                                .mul_add(
-                                    product_19,
-                                    (e3 * m3)
-                                        .mul_add(
-                                            product_19,
-                                            lambda_3
-                                                .mul_add(l3_sin_q3, lambda_2.mul_add(l3_cos_q3, product_18)),
-                                        ),
-                                ),
-                        ),
-                ) - product_21 - product_22 - product_24;
-            let q3_dot_q3_dot = q3_dot * q3_dot;
-            let product_25 = cos_q4 * product_20 * q3_dot_q3_dot;
-            let product_26 = product_16 * sin_q4 * q3_dot_q3_dot;
-            let product_27 = product_17 * q3_ddot;
-            let product_28 = product_23 * q3_ddot;
-            let cos_q4_l4 = cos_q4 * l4;
-            let sin_q4_l4 = sin_q4 * l4;
-            let sum_4 = (T::constant(9.81, -4.973799150320702e-16) * e4 * m4)
-                .mul_add(
-                    sin_q4,
-                    lambda_3.mul_add(sin_q4_l4, lambda_2.mul_add(cos_q4_l4, product_28)),
-                ) - product_25 - product_26 - product_27;
             let l5_cos_q5 = l5 * cos_q5;
             let sin_q5_l5 = sin_q5 * l5;
-            let product_29 = T::from_f64(2.0) * q1_dot;
-            let product_30 = T::from_f64(2.0) * q3_dot;
-            let q2_dot_l2 = q2_dot * l2;
-            let product_31 = l3_sin_q3 * q3_dot_q3_dot;
-            let product_32 = l3_cos_q3 * q3_ddot;
-            let product_33 = l3_cos_q3 * q3_dot_q3_dot;
-            let product_34 = l3_sin_q3 * q3_ddot;
-            let q4_dot_l4 = q4_dot * l4;
-            let q5_dot_q5_dot = q5_dot * q5_dot;
-            let product_35 = T::from_f64(2.0) * l2;
-            let product_36 = l3_cos_q3 * product_30;
-            let product_37 = l3_sin_q3 * product_30;
-            let product_38 = T::from_f64(2.0) * l4;
-            let product_39 = T::from_f64(2.0) * q5_dot;
-            out.force_by_position.data.0[0][0] = sum;
-            out.force_by_position.data.0[0][1] = product_11 + product_12 + product_13
-                - product_14;
-            out.force_by_position.data.0[1][0] = product_7 + product_8 + product_10
-                - product_4;
-            out.force_by_position.data.0[1][1] = sum_2;
-            out.force_by_position.data.0[2][2] = sum_3;
-            out.force_by_position.data.0[2][3] = product_25 + product_26 + product_27
-                - product_28;
-            out.force_by_position.data.0[3][2] = product_21 + product_22 + product_24
-                - product_18;
-            out.force_by_position.data.0[3][3] = sum_4;
             out.force_by_position.data.0[4][4] = (-lambda_3)
                 .mul_add(
                     sin_q5_l5,
@@ -1484,46 +1369,154 @@ pub mod double_four_bar {
                             T::constant(9.81, -4.973799150320702e-16) * e5 * m5 * sin_q5,
                         ),
                 );
-            out.force_by_velocity.data.0[0][1] = (-product_9)
-                .mul_add(product_29, product_3 * product_29);
-            out.force_by_velocity.data.0[1][0] = (-(T::from_f64(2.0) * product_2))
-                .mul_add(cos_q2_q2_dot, T::from_f64(2.0) * product_6 * q2_dot_sin_q2);
-            out.force_by_velocity.data.0[2][3] = (-product_23)
-                .mul_add(product_30, product_17 * product_30);
-            out.force_by_velocity.data.0[3][2] = (-(T::from_f64(2.0) * product_16))
-                .mul_add(cos_q4_q4_dot, T::from_f64(2.0) * product_20 * q4_dot_sin_q4);
-            out.row_by_position.data.0[0][0] = (-l1_sin_q1)
-                .mul_add(q1_dot_q1_dot, l1_cos_q1 * q1_ddot);
-            out.row_by_position.data.0[0][1] = l1_sin_q1
-                .mul_add(q1_ddot, l1_cos_q1 * q1_dot_q1_dot);
-            out.row_by_position.data.0[1][0] = (-q2_dot_sin_q2)
-                .mul_add(q2_dot_l2, q2_ddot * cos_q2_l2);
-            out.row_by_position.data.0[1][1] = q2_ddot
-                .mul_add(sin_q2_l2, cos_q2_q2_dot * q2_dot_l2);
-            out.row_by_position.data.0[2][0] = product_31 - product_32;
-            out.row_by_position.data.0[2][1] = -product_33 - product_34;
-            out.row_by_position.data.0[2][2] = product_32 - product_31;
-            out.row_by_position.data.0[2][3] = product_33 + product_34;
-            out.row_by_position.data.0[3][2] = (-q4_dot_sin_q4)
-                .mul_add(q4_dot_l4, q4_ddot * cos_q4_l4);
-            out.row_by_position.data.0[3][3] = q4_ddot
-                .mul_add(sin_q4_l4, cos_q4_q4_dot * q4_dot_l4);
+            let q5_dot_q5_dot = q5_dot * q5_dot;
             out.row_by_position.data.0[4][2] = (-l5_cos_q5)
                 .mul_add(q5_ddot, sin_q5_l5 * q5_dot_q5_dot);
             out.row_by_position.data.0[4][3] = (-sin_q5_l5)
                 .mul_add(q5_ddot, -l5_cos_q5 * q5_dot_q5_dot);
-            out.row_by_velocity.data.0[0][0] = l1_cos_q1 * product_29;
-            out.row_by_velocity.data.0[0][1] = l1_sin_q1 * product_29;
-            out.row_by_velocity.data.0[1][0] = cos_q2_q2_dot * product_35;
-            out.row_by_velocity.data.0[1][1] = q2_dot_sin_q2 * product_35;
-            out.row_by_velocity.data.0[2][0] = -product_36;
-            out.row_by_velocity.data.0[2][1] = -product_37;
-            out.row_by_velocity.data.0[2][2] = product_36;
-            out.row_by_velocity.data.0[2][3] = product_37;
-            out.row_by_velocity.data.0[3][2] = cos_q4_q4_dot * product_38;
-            out.row_by_velocity.data.0[3][3] = q4_dot_sin_q4 * product_38;
-            out.row_by_velocity.data.0[4][2] = -l5_cos_q5 * product_39;
-            out.row_by_velocity.data.0[4][3] = -sin_q5_l5 * product_39;
+            let product = T::from_f64(2.0) * q5_dot;
+            out.row_by_velocity.data.0[4][2] = -l5_cos_q5 * product;
+            out.row_by_velocity.data.0[4][3] = -sin_q5_l5 * product;
+            let l1_cos_q1 = l1 * cos_q1;
+            let l1_sin_q1 = l1 * sin_q1;
+            let q1_dot_q1_dot = q1_dot * q1_dot;
+            out.row_by_position.data.0[0][0] = (-l1_sin_q1)
+                .mul_add(q1_dot_q1_dot, l1_cos_q1 * q1_ddot);
+            out.row_by_position.data.0[0][1] = q1_ddot
+                .mul_add(l1_sin_q1, l1_cos_q1 * q1_dot_q1_dot);
+            let product_2 = T::from_f64(2.0) * q1_dot;
+            out.row_by_velocity.data.0[0][0] = l1_cos_q1 * product_2;
+            out.row_by_velocity.data.0[0][1] = l1_sin_q1 * product_2;
+            let l1_m2 = l1 * m2;
+            let product_3 = e2 * l1_m2;
+            let product_4 = sin_q1 * product_3;
+            let product_5 = cos_q2 * product_4;
+            let product_6 = q2_ddot * product_5;
+            let product_7 = T::constant(9.81, -4.973799150320702e-16) * sin_q1;
+            let product_8 = cos_q1 * product_3;
+            let cos_q2_q2_dot = cos_q2 * q2_dot;
+            let product_9 = q2_dot * product_8 * cos_q2_q2_dot;
+            let q2_dot_sin_q2 = q2_dot * sin_q2;
+            let product_10 = product_4 * q2_dot * q2_dot_sin_q2;
+            let product_11 = product_8 * sin_q2;
+            let product_12 = q2_ddot * product_11;
+            let sum = l1_m2
+                .mul_add(
+                    product_7,
+                    (e1 * m1)
+                        .mul_add(
+                            product_7,
+                            l1_sin_q1
+                                .mul_add(lambda_1, l1_cos_q1.mul_add(lambda_0, product_6)),
+                        ),
+                ) - product_9 - product_10 - product_12;
+            out.force_by_position.data.0[0][0] = sum;
+            let product_13 = q1_dot_q1_dot * cos_q2 * product_8;
+            let product_14 = q1_dot_q1_dot * product_4 * sin_q2;
+            let product_15 = q1_ddot * product_5;
+            let product_16 = q1_ddot * product_11;
+            out.force_by_position.data.0[0][1] = product_13 + product_14 + product_15
+                - product_16;
+            out.force_by_position.data.0[1][0] = product_9 + product_10 + product_12
+                - product_6;
+            let cos_q2_l2 = cos_q2 * l2;
+            let sin_q2_l2 = sin_q2 * l2;
+            let sum_2 = (T::constant(9.81, -4.973799150320702e-16) * e2 * m2)
+                .mul_add(
+                    sin_q2,
+                    lambda_1.mul_add(sin_q2_l2, lambda_0.mul_add(cos_q2_l2, product_16)),
+                ) - product_13 - product_14 - product_15;
+            out.force_by_position.data.0[1][1] = sum_2;
+            out.force_by_velocity.data.0[0][1] = (-product_2)
+                .mul_add(product_11, product_2 * product_5);
+            out.force_by_velocity.data.0[1][0] = (-(T::from_f64(2.0) * product_4))
+                .mul_add(cos_q2_q2_dot, T::from_f64(2.0) * product_8 * q2_dot_sin_q2);
+            let q2_dot_l2 = q2_dot * l2;
+            out.row_by_position.data.0[1][0] = (-q2_dot_sin_q2)
+                .mul_add(q2_dot_l2, q2_ddot * cos_q2_l2);
+            out.row_by_position.data.0[1][1] = q2_ddot
+                .mul_add(sin_q2_l2, cos_q2_q2_dot * q2_dot_l2);
+            let product_17 = T::from_f64(2.0) * l2;
+            out.row_by_velocity.data.0[1][0] = cos_q2_q2_dot * product_17;
+            out.row_by_velocity.data.0[1][1] = q2_dot_sin_q2 * product_17;
+            let l3_sin_q3 = l3 * sin_q3;
+            let q3_dot_q3_dot = q3_dot * q3_dot;
+            let product_18 = l3_sin_q3 * q3_dot_q3_dot;
+            let l3_cos_q3 = l3 * cos_q3;
+            let product_19 = l3_cos_q3 * q3_ddot;
+            out.row_by_position.data.0[2][0] = product_18 - product_19;
+            let product_20 = q3_dot_q3_dot * l3_cos_q3;
+            let product_21 = l3_sin_q3 * q3_ddot;
+            out.row_by_position.data.0[2][1] = -product_20 - product_21;
+            out.row_by_position.data.0[2][2] = product_19 - product_18;
+            out.row_by_position.data.0[2][3] = product_20 + product_21;
+            let product_22 = T::from_f64(2.0) * q3_dot;
+            let product_23 = l3_cos_q3 * product_22;
+            out.row_by_velocity.data.0[2][2] = product_23;
+            out.row_by_velocity.data.0[2][0] = -product_23;
+            let product_24 = l3_sin_q3 * product_22;
+            out.row_by_velocity.data.0[2][3] = product_24;
+            out.row_by_velocity.data.0[2][1] = -product_24;
+            let l3_m4 = l3 * m4;
+            let product_25 = e4 * l3_m4;
+            let product_26 = sin_q3 * product_25;
+            let product_27 = cos_q4 * product_26;
+            let product_28 = q4_ddot * product_27;
+            let product_29 = T::constant(9.81, -4.973799150320702e-16) * sin_q3;
+            let product_30 = cos_q3 * product_25;
+            let cos_q4_q4_dot = cos_q4 * q4_dot;
+            let product_31 = q4_dot * product_30 * cos_q4_q4_dot;
+            let q4_dot_sin_q4 = q4_dot * sin_q4;
+            let product_32 = product_26 * q4_dot * q4_dot_sin_q4;
+            let product_33 = product_30 * sin_q4;
+            let product_34 = q4_ddot * product_33;
+            let sum_3 = (-lambda_1)
+                .mul_add(
+                    l3_sin_q3,
+                    (-lambda_0)
+                        .mul_add(
+                            l3_cos_q3,
+                            l3_m4
+                                .mul_add(
+                                    product_29,
+                                    (e3 * m3)
+                                        .mul_add(
+                                            product_29,
+                                            lambda_3
+                                                .mul_add(l3_sin_q3, lambda_2.mul_add(l3_cos_q3, product_28)),
+                                        ),
+                                ),
+                        ),
+                ) - product_31 - product_32 - product_34;
+            out.force_by_position.data.0[2][2] = sum_3;
+            let product_35 = q3_dot_q3_dot * cos_q4 * product_30;
+            let product_36 = q3_dot_q3_dot * product_26 * sin_q4;
+            let product_37 = q3_ddot * product_27;
+            let product_38 = q3_ddot * product_33;
+            out.force_by_position.data.0[2][3] = product_35 + product_36 + product_37
+                - product_38;
+            out.force_by_position.data.0[3][2] = product_31 + product_32 + product_34
+                - product_28;
+            let cos_q4_l4 = cos_q4 * l4;
+            let sin_q4_l4 = sin_q4 * l4;
+            let sum_4 = (T::constant(9.81, -4.973799150320702e-16) * e4 * m4)
+                .mul_add(
+                    sin_q4,
+                    lambda_3.mul_add(sin_q4_l4, lambda_2.mul_add(cos_q4_l4, product_38)),
+                ) - product_35 - product_36 - product_37;
+            out.force_by_position.data.0[3][3] = sum_4;
+            out.force_by_velocity.data.0[2][3] = (-product_22)
+                .mul_add(product_33, product_22 * product_27);
+            out.force_by_velocity.data.0[3][2] = (-(T::from_f64(2.0) * product_26))
+                .mul_add(cos_q4_q4_dot, T::from_f64(2.0) * product_30 * q4_dot_sin_q4);
+            let q4_dot_l4 = q4_dot * l4;
+            out.row_by_position.data.0[3][2] = (-q4_dot_sin_q4)
+                .mul_add(q4_dot_l4, q4_ddot * cos_q4_l4);
+            out.row_by_position.data.0[3][3] = q4_ddot
+                .mul_add(sin_q4_l4, cos_q4_q4_dot * q4_dot_l4);
+            let product_39 = T::from_f64(2.0) * l4;
+            out.row_by_velocity.data.0[3][2] = cos_q4_q4_dot * product_39;
+            out.row_by_velocity.data.0[3][3] = q4_dot_sin_q4 * product_39;
             true
         }
     }
@@ -1533,7 +1526,11 @@ pub mod double_four_bar {
         ///
         /// Costs 22 products, 9 sums, 4 sine–cosine pairs. As derived: 66 products, 13 sums, 4 sine–cosine pairs.
         pub fn mass_matrix(&self, state: &State<T, 5>) -> SMatrix<T, 5, 5> {
+            let mut out = SMatrix::zeros();
             let [q1, q2, q3, q4, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2, sin_q3, sin_q4], [cos_q1, cos_q2, cos_q3, cos_q4]) = T::sin_cos_all(
+                &[q1, q2, q3, q4],
+            );
             let Parameters {
                 l1,
                 l3,
@@ -1554,43 +1551,31 @@ pub mod double_four_bar {
                 j5,
                 ..
             } = self.parameters;
-            let ([sin_q1, sin_q2, sin_q3, sin_q4], [cos_q1, cos_q2, cos_q3, cos_q4]) = T::sin_cos_all([
-                q1,
-                q2,
-                q3,
-                q4,
-            ]);
             let l1_m2 = l1 * m2;
-            let product = l1_m2 * e2 * sin_q1.mul_add(sin_q2, cos_q1 * cos_q2);
-            let l3_m4 = l3 * m4;
-            let product_2 = l3_m4 * e4 * sin_q3.mul_add(sin_q4, cos_q3 * cos_q4);
-            let mut out = SMatrix::zeros();
             out.data.0[0][0] = l1.mul_add(l1_m2, (e1 * e1).mul_add(m1, j1));
-            out.data.0[0][1] = product;
-            out.data.0[1][0] = product;
             out.data.0[1][1] = (m2 * e2).mul_add(e2, j2);
+            let l3_m4 = l3 * m4;
             out.data.0[2][2] = l3.mul_add(l3_m4, (e3 * e3).mul_add(m3, j3));
-            out.data.0[2][3] = product_2;
-            out.data.0[3][2] = product_2;
             out.data.0[3][3] = (m4 * e4).mul_add(e4, j4);
             out.data.0[4][4] = (e5 * e5).mul_add(m5, j5);
+            let product = l1_m2 * e2 * sin_q1.mul_add(sin_q2, cos_q1 * cos_q2);
+            out.data.0[0][1] = product;
+            out.data.0[1][0] = product;
+            let product_2 = l3_m4 * e4 * sin_q3.mul_add(sin_q4, cos_q3 * cos_q4);
+            out.data.0[2][3] = product_2;
+            out.data.0[3][2] = product_2;
             out
         }
         /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
         ///
         /// Costs 17 products, 2 sums, 5 sine–cosine pairs. As derived: 21 products, 2 sums, 5 sine–cosine pairs.
         pub fn potential_force(&self, state: &State<T, 5>) -> SVector<T, 5> {
-            let [q1, q2, q3, q4, q5] = state.q.data.0[0];
+            let mut out = SVector::zeros();
+            let ([_, _, _, _, _], [cos_q1, cos_q2, cos_q3, cos_q4, cos_q5]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
             let Parameters { l1, l3, e1, e2, e3, e4, e5, m1, m2, m3, m4, m5, .. } = self
                 .parameters;
-            let ([_, _, _, _, _], [cos_q1, cos_q2, cos_q3, cos_q4, cos_q5]) = T::sin_cos_all([
-                q1,
-                q2,
-                q3,
-                q4,
-                q5,
-            ]);
-            let mut out = SVector::zeros();
             out.data.0[0][0] = T::constant(9.81, -4.973799150320702e-16) * cos_q1
                 * l1.mul_add(m2, e1 * m1);
             out.data.0[0][1] = T::constant(9.81, -4.973799150320702e-16) * m2 * e2
@@ -1614,26 +1599,23 @@ pub mod double_four_bar {
         ///
         /// Costs 20 products, 4 sums, 4 sine–cosine pairs. As derived: 136 products, 32 sums, 4 sine–cosine pairs.
         pub fn coriolis_force(&self, state: &State<T, 5>) -> SVector<T, 5> {
+            let mut out = SVector::zeros();
             let [q1, q2, q3, q4, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2, sin_q3, sin_q4], [cos_q1, cos_q2, cos_q3, cos_q4]) = T::sin_cos_all(
+                &[q1, q2, q3, q4],
+            );
             let [q1_dot, q2_dot, q3_dot, q4_dot, _] = state.v.data.0[0];
             let Parameters { l1, l3, e2, e4, m2, m4, .. } = self.parameters;
-            let ([sin_q1, sin_q2, sin_q3, sin_q4], [cos_q1, cos_q2, cos_q3, cos_q4]) = T::sin_cos_all([
-                q1,
-                q2,
-                q3,
-                q4,
-            ]);
             let sin_q1_cos_q2 = sin_q1 * cos_q2;
             let cos_q1_sin_q2 = cos_q1 * sin_q2;
             let product = m2 * (l1 * e2);
-            let sin_q3_cos_q4 = sin_q3 * cos_q4;
-            let cos_q3_sin_q4 = cos_q3 * sin_q4;
-            let product_2 = m4 * (l3 * e4);
-            let mut out = SVector::zeros();
             out.data.0[0][0] = q2_dot * q2_dot * (sin_q1_cos_q2 - cos_q1_sin_q2)
                 * product;
             out.data.0[0][1] = product * q1_dot * q1_dot
                 * (cos_q1_sin_q2 - sin_q1_cos_q2);
+            let sin_q3_cos_q4 = sin_q3 * cos_q4;
+            let cos_q3_sin_q4 = cos_q3 * sin_q4;
+            let product_2 = m4 * (l3 * e4);
             out.data.0[0][2] = q4_dot * q4_dot * (sin_q3_cos_q4 - cos_q3_sin_q4)
                 * product_2;
             out.data.0[0][3] = product_2 * q3_dot * q3_dot
@@ -1645,24 +1627,21 @@ pub mod double_four_bar {
         ///
         /// Costs 16 products, 4 sums, 4 sine–cosine pairs. As derived: 28 products, 4 sums, 4 sine–cosine pairs.
         pub fn coriolis_matrix(&self, state: &State<T, 5>) -> SMatrix<T, 5, 5> {
+            let mut out = SMatrix::zeros();
             let [q1, q2, q3, q4, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2, sin_q3, sin_q4], [cos_q1, cos_q2, cos_q3, cos_q4]) = T::sin_cos_all(
+                &[q1, q2, q3, q4],
+            );
             let [q1_dot, q2_dot, q3_dot, q4_dot, _] = state.v.data.0[0];
             let Parameters { l1, l3, e2, e4, m2, m4, .. } = self.parameters;
-            let ([sin_q1, sin_q2, sin_q3, sin_q4], [cos_q1, cos_q2, cos_q3, cos_q4]) = T::sin_cos_all([
-                q1,
-                q2,
-                q3,
-                q4,
-            ]);
             let cos_q1_sin_q2 = cos_q1 * sin_q2;
             let sin_q1_cos_q2 = sin_q1 * cos_q2;
             let product = m2 * (l1 * e2);
+            out.data.0[0][1] = q1_dot * (cos_q1_sin_q2 - sin_q1_cos_q2) * product;
+            out.data.0[1][0] = product * q2_dot * (sin_q1_cos_q2 - cos_q1_sin_q2);
             let cos_q3_sin_q4 = cos_q3 * sin_q4;
             let sin_q3_cos_q4 = sin_q3 * cos_q4;
             let product_2 = m4 * (l3 * e4);
-            let mut out = SMatrix::zeros();
-            out.data.0[0][1] = q1_dot * (cos_q1_sin_q2 - sin_q1_cos_q2) * product;
-            out.data.0[1][0] = product * q2_dot * (sin_q1_cos_q2 - cos_q1_sin_q2);
             out.data.0[2][3] = q3_dot * (cos_q3_sin_q4 - sin_q3_cos_q4) * product_2;
             out.data.0[3][2] = product_2 * q4_dot * (sin_q3_cos_q4 - cos_q3_sin_q4);
             out
@@ -1671,8 +1650,7 @@ pub mod double_four_bar {
         ///
         /// Costs 10 products, 10 sums, 5 sine–cosine pairs.
         pub fn constraint_residual(&self, state: &State<T, 5>) -> SVector<T, 4> {
-            let [q1, q2, q3, q4, q5] = state.q.data.0[0];
-            let Parameters { l1, l2, l3, l4, l5, l01, l02, .. } = self.parameters;
+            let mut out = SVector::zeros();
             let (
                 [sin_q1,
                 sin_q2,
@@ -1686,11 +1664,11 @@ pub mod double_four_bar {
                 cos_q4,
                 cos_q5,
                 ],
-            ) = T::sin_cos_all([q1, q2, q3, q4, q5]);
+            ) = T::sin_cos_all(&state.q.data.0[0]);
+            let Parameters { l1, l2, l3, l4, l5, l01, l02, .. } = self.parameters;
             let l3_cos_q3 = l3 * cos_q3;
-            let l3_sin_q3 = l3 * sin_q3;
-            let mut out = SVector::zeros();
             out.data.0[0][0] = l2.mul_add(cos_q2, l1 * cos_q1) - l3_cos_q3 - l01;
+            let l3_sin_q3 = l3 * sin_q3;
             out.data.0[0][1] = l2.mul_add(sin_q2, l1 * sin_q1) - l3_sin_q3;
             out.data.0[0][2] = (-l5).mul_add(cos_q5, l4.mul_add(cos_q4, l3_cos_q3))
                 - l02;
@@ -1701,8 +1679,7 @@ pub mod double_four_bar {
         ///
         /// Costs 10 products, 6 sums, 5 sine–cosine pairs.
         pub fn constraint_jacobian(&self, state: &State<T, 5>) -> SMatrix<T, 4, 5> {
-            let [q1, q2, q3, q4, q5] = state.q.data.0[0];
-            let Parameters { l1, l2, l3, l4, l5, .. } = self.parameters;
+            let mut out = SMatrix::zeros();
             let (
                 [sin_q1,
                 sin_q2,
@@ -1716,18 +1693,18 @@ pub mod double_four_bar {
                 cos_q4,
                 cos_q5,
                 ],
-            ) = T::sin_cos_all([q1, q2, q3, q4, q5]);
-            let l3_sin_q3 = l3 * sin_q3;
-            let l3_cos_q3 = l3 * cos_q3;
-            let mut out = SMatrix::zeros();
+            ) = T::sin_cos_all(&state.q.data.0[0]);
+            let Parameters { l1, l2, l3, l4, l5, .. } = self.parameters;
             out.data.0[0][0] = -l1 * sin_q1;
             out.data.0[0][1] = l1 * cos_q1;
             out.data.0[1][0] = -l2 * sin_q2;
             out.data.0[1][1] = l2 * cos_q2;
+            let l3_sin_q3 = l3 * sin_q3;
             out.data.0[2][0] = l3_sin_q3;
+            let l3_cos_q3 = l3 * cos_q3;
+            out.data.0[2][3] = l3_cos_q3;
             out.data.0[2][1] = -l3_cos_q3;
             out.data.0[2][2] = -l3_sin_q3;
-            out.data.0[2][3] = l3_cos_q3;
             out.data.0[3][2] = -l4 * sin_q4;
             out.data.0[3][3] = l4 * cos_q4;
             out.data.0[4][2] = l5 * sin_q5;
@@ -1738,9 +1715,7 @@ pub mod double_four_bar {
         ///
         /// Costs 20 products, 8 sums, 5 sine–cosine pairs. As derived: 30 products, 12 sums, 5 sine–cosine pairs.
         pub fn constraint_bias(&self, state: &State<T, 5>) -> SVector<T, 4> {
-            let [q1, q2, q3, q4, q5] = state.q.data.0[0];
-            let [q1_dot, q2_dot, q3_dot, q4_dot, q5_dot] = state.v.data.0[0];
-            let Parameters { l1, l2, l3, l4, l5, .. } = self.parameters;
+            let mut out = SVector::zeros();
             let (
                 [sin_q1,
                 sin_q2,
@@ -1754,17 +1729,18 @@ pub mod double_four_bar {
                 cos_q4,
                 cos_q5,
                 ],
-            ) = T::sin_cos_all([q1, q2, q3, q4, q5]);
+            ) = T::sin_cos_all(&state.q.data.0[0]);
+            let [q1_dot, q2_dot, q3_dot, q4_dot, q5_dot] = state.v.data.0[0];
+            let Parameters { l1, l2, l3, l4, l5, .. } = self.parameters;
             let product = q1_dot * (q1_dot * l1);
             let product_2 = q2_dot * (q2_dot * l2);
             let product_3 = q3_dot * (q3_dot * l3);
             let product_4 = cos_q3 * product_3;
+            out.data.0[0][0] = cos_q2.mul_add(product_2, cos_q1 * product) - product_4;
             let product_5 = product_3 * sin_q3;
+            out.data.0[0][1] = product_2.mul_add(sin_q2, product * sin_q1) - product_5;
             let product_6 = q4_dot * (q4_dot * l4);
             let product_7 = q5_dot * (q5_dot * l5);
-            let mut out = SVector::zeros();
-            out.data.0[0][0] = cos_q2.mul_add(product_2, cos_q1 * product) - product_4;
-            out.data.0[0][1] = product_2.mul_add(sin_q2, product * sin_q1) - product_5;
             out.data.0[0][2] = (-cos_q5)
                 .mul_add(product_7, cos_q4.mul_add(product_6, product_4));
             out.data.0[0][3] = (-product_7)
@@ -1884,8 +1860,8 @@ pub mod double_four_bar {
         /// Costs 4 products, 2 sums, 2 sine–cosine pairs.
         fn outputs(&self, state: &State<T, 5>, values: &mut [T]) {
             let [q1, q2, _, _, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let Parameters { l1, e2, .. } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let computed = [
                 e2.mul_add(cos_q2, l1 * cos_q1),
                 e2.mul_add(sin_q2, l1 * sin_q1),
@@ -1897,30 +1873,28 @@ pub mod double_four_bar {
         fn events(&self, _state: &State<T, 5>, _values: &mut [T]) {}
         fn draw(&self, state: &State<T, 5>, canvas: &mut dyn Canvas<T>) {
             let [q1, _, q3, _, q5] = state.q.data.0[0];
+            let ([sin_q1, sin_q3, sin_q5], [cos_q1, cos_q3, cos_q5]) = T::sin_cos_all(
+                &[q1, q3, q5],
+            );
             let Parameters { l1, l3, l5, l01, l02, .. } = self.parameters;
-            let ([sin_q1, sin_q3, sin_q5], [cos_q1, cos_q3, cos_q5]) = T::sin_cos_all([
-                q1,
-                q3,
-                q5,
-            ]);
-            let sum = l3.mul_add(cos_q3, l01);
+            let sum = l01 + l02;
+            let sum_2 = l3.mul_add(cos_q3, l01);
             let l3_sin_q3 = l3 * sin_q3;
-            let sum_2 = l01 + l02;
             canvas
                 .line(
                     &[
                         [T::zero(), T::zero(), T::zero()],
                         [l1 * cos_q1, l1 * sin_q1, T::zero()],
-                        [sum, l3_sin_q3, T::zero()],
+                        [sum_2, l3_sin_q3, T::zero()],
                         [l01, T::zero(), T::zero()],
                     ],
                 );
             canvas
                 .line(
                     &[
-                        [sum, l3_sin_q3, T::zero()],
-                        [l5.mul_add(cos_q5, sum_2), l5 * sin_q5, T::zero()],
-                        [sum_2, T::zero(), T::zero()],
+                        [sum_2, l3_sin_q3, T::zero()],
+                        [l5.mul_add(cos_q5, sum), l5 * sin_q5, T::zero()],
+                        [sum, T::zero(), T::zero()],
                     ],
                 );
         }

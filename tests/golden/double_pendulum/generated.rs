@@ -137,13 +137,19 @@ pub mod double_pendulum {
         ///
         /// Costs 27 products, 9 sums, 2 sine–cosine pairs. As derived: 109 products, 28 sums, 2 sine–cosine pairs.
         fn terms(&self, state: &State<T, 2>, out: &mut Terms<T, 2, 0>) {
-            let [q1, q2] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
             let [q1_dot, q2_dot] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, j1, j2 } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
+            out.mass.data.0[0][0] = (l1 * l1)
+                .mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
             let m2_l2 = m2 * l2;
+            out.mass.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             let product = T::from_f64(0.5) * l1;
-            let product_2 = cos_q1.mul_add(cos_q2, sin_q1 * sin_q2) * m2_l2 * product;
+            let product_2 = m2_l2 * cos_q1.mul_add(cos_q2, sin_q1 * sin_q2) * product;
+            out.mass.data.0[0][1] = product_2;
+            out.mass.data.0[1][0] = product_2;
             let sin_q2_cos_q1 = sin_q2 * cos_q1;
             let sin_q1_cos_q2 = sin_q1 * cos_q2;
             let sum = (-(T::constant(4.905, -2.486899575160351e-16) * m1))
@@ -157,11 +163,6 @@ pub mod double_pendulum {
                                     * (sin_q2_cos_q1 - sin_q1_cos_q2),
                             ),
                 );
-            out.mass.data.0[0][0] = (l1 * l1)
-                .mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
-            out.mass.data.0[0][1] = product_2;
-            out.mass.data.0[1][0] = product_2;
-            out.mass.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             out.force.data.0[0][0] = l1 * sum;
             out.force.data.0[0][1] = m2_l2
                 * (-T::constant(4.905, -2.486899575160351e-16))
@@ -175,10 +176,11 @@ pub mod double_pendulum {
         ///
         /// Costs 33 products, 12 sums, 2 quotients, 2 sine–cosine pairs.
         fn regular(&self, state: &State<T, 2>, out: &mut Regular<T, 2, 0>) -> bool {
-            let [q1, q2] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
             let [q1_dot, q2_dot] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, j1, j2 } = self.parameters;
-            let ([sin_q2, sin_q1], [cos_q2, cos_q1]) = T::sin_cos_all([q2, q1]);
             let sin_q2_cos_q1 = sin_q2 * cos_q1;
             let sin_q1_cos_q2 = sin_q1 * cos_q2;
             let sum = (-(T::constant(4.905, -2.486899575160351e-16) * sin_q1))
@@ -197,10 +199,12 @@ pub mod double_pendulum {
                 / (l1 * l1).mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
             let m2_l2 = m2 * l2;
             let product_2 = T::from_f64(0.5) * l1;
-            let product_3 = cos_q1.mul_add(cos_q2, sin_q2 * sin_q1) * m2_l2 * product_2;
+            let product_3 = m2_l2 * cos_q1.mul_add(cos_q2, sin_q2 * sin_q1) * product_2;
             let product_4 = quotient * product_3;
             let sum_2 = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
+            out.pivots.mass_diagonal.data.0[0][1] = sum_2;
             let sum_3 = (-product_3).mul_add(product_4, sum_2);
+            out.pivots.mass_pivots.data.0[0][1] = sum_3;
             let sum_4 = (-product)
                 .mul_add(
                     product_4,
@@ -213,21 +217,20 @@ pub mod double_pendulum {
                             ),
                 );
             let product_5 = (T::one() / sum_3) * sum_4;
+            out.acceleration.data.0[0][1] = product_5;
             out.acceleration.data.0[0][0] = (-product_4)
                 .mul_add(product_5, product * quotient);
-            out.acceleration.data.0[0][1] = product_5;
-            out.pivots.mass_pivots.data.0[0][1] = sum_3;
-            out.pivots.mass_diagonal.data.0[0][1] = sum_2;
             true
         }
         /// Energies and the power supplied from outside.
         ///
         /// Costs 30 products, 18 sums, 2 sine–cosine pairs. As derived: 72 products, 19 sums, 2 sine–cosine pairs.
         fn energy(&self, state: &State<T, 2>) -> Energy<T> {
-            let [q1, q2] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
             let [q1_dot, q2_dot] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, j1, j2 } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let product = T::from_f64(0.5) * q1_dot;
             let product_2 = j1 * q1_dot * product;
             let product_3 = T::from_f64(0.5) * j2 * q2_dot * q2_dot;
@@ -273,11 +276,12 @@ pub mod double_pendulum {
             _multiplier: &SVector<T, 0>,
             out: &mut Linearised<T, 2, 0>,
         ) -> bool {
-            let [q1, q2] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
             let [q1_dot, q2_dot] = state.v.data.0[0];
             let [q1_ddot, q2_ddot] = acceleration.data.0[0];
             let Parameters { l1, l2, m1, m2, .. } = self.parameters;
-            let ([sin_q2, sin_q1], [cos_q2, cos_q1]) = T::sin_cos_all([q2, q1]);
             let l2_m2 = l2 * m2;
             let product = l1 * l2_m2;
             let product_2 = T::from_f64(0.5) * product;
@@ -298,14 +302,12 @@ pub mod double_pendulum {
                         .mul_add(m2, T::constant(4.905, -2.486899575160351e-16) * m1),
                     product_5 - product_7 - product_10 - product_12,
                 );
+            out.force_by_position.data.0[0][0] = sum;
             let q1_dot_q1_dot = q1_dot * q1_dot;
             let product_13 = product_6 * q1_dot_q1_dot;
             let product_14 = product_9 * q1_dot_q1_dot;
             let product_15 = product_4 * q1_ddot;
             let product_16 = product_11 * q1_ddot;
-            let cos_q2_sin_q1 = cos_q2 * sin_q1;
-            let sin_q2_cos_q1 = sin_q2 * cos_q1;
-            out.force_by_position.data.0[0][0] = sum;
             out.force_by_position.data.0[0][1] = product_13 + product_14 + product_15
                 - product_16;
             out.force_by_position.data.0[1][0] = product_7 + product_10 + product_12
@@ -315,6 +317,8 @@ pub mod double_pendulum {
                 -2.486899575160351e-16,
             ) * cos_q2))
                 .mul_add(l2_m2, product_16 - product_13 - product_14 - product_15);
+            let cos_q2_sin_q1 = cos_q2 * sin_q1;
+            let sin_q2_cos_q1 = sin_q2 * cos_q1;
             out.force_by_velocity.data.0[0][1] = product * q1_dot
                 * (cos_q2_sin_q1 - sin_q2_cos_q1);
             out.force_by_velocity.data.0[1][0] = product * q2_dot
@@ -328,27 +332,27 @@ pub mod double_pendulum {
         ///
         /// Costs 11 products, 4 sums, 2 sine–cosine pairs. As derived: 38 products, 7 sums, 2 sine–cosine pairs.
         pub fn mass_matrix(&self, state: &State<T, 2>) -> SMatrix<T, 2, 2> {
-            let [q1, q2] = state.q.data.0[0];
-            let Parameters { l1, l2, m1, m2, j1, j2 } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
-            let m2_l2 = m2 * l2;
-            let product = T::from_f64(0.5) * l1 * cos_q1.mul_add(cos_q2, sin_q1 * sin_q2)
-                * m2_l2;
             let mut out = SMatrix::zeros();
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
+            let Parameters { l1, l2, m1, m2, j1, j2 } = self.parameters;
             out.data.0[0][0] = (l1 * l1).mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
+            let m2_l2 = m2 * l2;
+            out.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
+            let product = T::from_f64(0.5) * l1 * m2_l2
+                * cos_q1.mul_add(cos_q2, sin_q1 * sin_q2);
             out.data.0[0][1] = product;
             out.data.0[1][0] = product;
-            out.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             out
         }
         /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
         ///
         /// Costs 7 products, 1 sum, 2 sine–cosine pairs. As derived: 9 products, 1 sum, 2 sine–cosine pairs.
         pub fn potential_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
-            let [q1, q2] = state.q.data.0[0];
-            let Parameters { l1, l2, m1, m2, .. } = self.parameters;
-            let ([sin_q1, sin_q2], [_, _]) = T::sin_cos_all([q1, q2]);
             let mut out = SVector::zeros();
+            let ([sin_q1, sin_q2], [_, _]) = T::sin_cos_all(&state.q.data.0[0]);
+            let Parameters { l1, l2, m1, m2, .. } = self.parameters;
             out.data.0[0][0] = l1 * sin_q1
                 * T::constant(9.81, -4.973799150320702e-16)
                     .mul_add(m2, T::constant(4.905, -2.486899575160351e-16) * m1);
@@ -367,14 +371,15 @@ pub mod double_pendulum {
         ///
         /// Costs 11 products, 2 sums, 2 sine–cosine pairs. As derived: 62 products, 16 sums, 2 sine–cosine pairs.
         pub fn coriolis_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
-            let [q1, q2] = state.q.data.0[0];
+            let mut out = SVector::zeros();
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
             let [q1_dot, q2_dot] = state.v.data.0[0];
             let Parameters { l1, l2, m2, .. } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let sin_q1_cos_q2 = sin_q1 * cos_q2;
             let cos_q1_sin_q2 = cos_q1 * sin_q2;
             let product = (l1 * l2) * (T::from_f64(0.5) * m2);
-            let mut out = SVector::zeros();
             out.data.0[0][0] = q2_dot * q2_dot * (sin_q1_cos_q2 - cos_q1_sin_q2)
                 * product;
             out.data.0[0][1] = product * q1_dot * q1_dot
@@ -386,13 +391,14 @@ pub mod double_pendulum {
         ///
         /// Costs 8 products, 2 sums, 2 sine–cosine pairs. As derived: 12 products, 2 sums, 2 sine–cosine pairs.
         pub fn coriolis_matrix(&self, state: &State<T, 2>) -> SMatrix<T, 2, 2> {
-            let [q1, q2] = state.q.data.0[0];
+            let mut out = SMatrix::zeros();
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
             let [q1_dot, q2_dot] = state.v.data.0[0];
             let Parameters { l1, l2, m2, .. } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let product = T::from_f64(0.5)
                 * (m2 * (l1 * l2 * (-cos_q1).mul_add(sin_q2, sin_q1 * cos_q2)));
-            let mut out = SMatrix::zeros();
             out.data.0[0][1] = -q1_dot * product;
             out.data.0[1][0] = product * q2_dot;
             out
@@ -453,9 +459,10 @@ pub mod double_pendulum {
         }
         /// Costs 4 products, 3 sums, 2 sine–cosine pairs.
         fn outputs(&self, state: &State<T, 2>, values: &mut [T]) {
-            let [q1, q2] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
             let Parameters { l1, l2, .. } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let computed = [
                 l2.mul_add(sin_q2, l1 * sin_q1),
                 (-l2).mul_add(cos_q2, -l1 * cos_q1),
@@ -466,9 +473,10 @@ pub mod double_pendulum {
         }
         fn events(&self, _state: &State<T, 2>, _values: &mut [T]) {}
         fn draw(&self, state: &State<T, 2>, canvas: &mut dyn Canvas<T>) {
-            let [q1, q2] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
             let Parameters { l1, l2, .. } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let l1_sin_q1 = l1 * sin_q1;
             let l1_cos_q1 = l1 * cos_q1;
             let sum = l2.mul_add(sin_q2, l1_sin_q1);

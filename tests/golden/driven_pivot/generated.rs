@@ -152,22 +152,22 @@ pub mod driven_pivot {
         fn terms(&self, state: &State<T, 2>, out: &mut Terms<T, 2, 1>) {
             let t = state.t;
             let [_, phi] = state.q.data.0[0];
-            let [_, phi_dot] = state.v.data.0[0];
             let Parameters { a, w, m, e, j, d } = self.parameters;
-            let ([sin_phi, _], [cos_phi, cos_angle]) = T::sin_cos_all([phi, w * t]);
-            let m_e = m * e;
-            let product = sin_phi * m_e;
-            let sum = -product;
+            let ([sin_phi, _], [cos_phi, cos_angle]) = T::sin_cos_all(&[phi, w * t]);
+            let [_, phi_dot] = state.v.data.0[0];
             out.mass.data.0[0][0] = m;
+            let m_e = m * e;
+            out.mass.data.0[1][1] = e.mul_add(m_e, j);
+            out.jacobian.data.0[0][0] = T::one();
+            out.bias.data.0[0][0] = -a * w * w * cos_angle;
+            let product = m_e * sin_phi;
+            let sum = -product;
             out.mass.data.0[0][1] = sum;
             out.mass.data.0[1][0] = sum;
-            out.mass.data.0[1][1] = e.mul_add(m_e, j);
             out.force.data.0[0][0] = (-T::constant(9.81, -4.973799150320702e-16))
                 .mul_add(m, m_e * phi_dot * phi_dot * cos_phi);
             out.force.data.0[0][1] = (-phi_dot)
                 .mul_add(d, T::constant(9.81, -4.973799150320702e-16) * product);
-            out.jacobian.data.0[0][0] = T::one();
-            out.bias.data.0[0][0] = -a * w * w * cos_angle;
         }
         /// The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
         /// Schur complement `A M⁻¹ Aᵀ`.
@@ -176,9 +176,9 @@ pub mod driven_pivot {
         fn regular(&self, state: &State<T, 2>, out: &mut Regular<T, 2, 1>) -> bool {
             let t = state.t;
             let [_, phi] = state.q.data.0[0];
-            let [_, phi_dot] = state.v.data.0[0];
             let Parameters { a, w, m, e, j, d } = self.parameters;
-            let ([sin_phi, _], [cos_phi, cos_angle]) = T::sin_cos_all([phi, w * t]);
+            let ([sin_phi, _], [cos_phi, cos_angle]) = T::sin_cos_all(&[phi, w * t]);
+            let [_, phi_dot] = state.v.data.0[0];
             let quotient = T::one() / m;
             let m_e = m * e;
             let sum = (-T::constant(9.81, -4.973799150320702e-16))
@@ -186,10 +186,14 @@ pub mod driven_pivot {
             let product = m_e * sin_phi;
             let product_2 = quotient * product;
             let sum_2 = e.mul_add(m_e, j);
+            out.pivots.mass_diagonal.data.0[0][1] = sum_2;
             let sum_3 = (-product).mul_add(product_2, sum_2);
+            out.pivots.mass_pivots.data.0[0][1] = sum_3;
             let quotient_2 = T::one() / sum_3;
             let product_3 = product_2 * quotient_2;
             let sum_4 = product_2.mul_add(product_3, quotient);
+            out.pivots.row_pivots.data.0[0][0] = sum_4;
+            out.pivots.row_squares.data.0[0][0] = sum_4;
             let sum_5 = sum
                 .mul_add(
                     product_2,
@@ -199,13 +203,9 @@ pub mod driven_pivot {
             let product_4 = (T::one() / sum_4)
                 * product_3.mul_add(sum_5, quotient.mul_add(sum, a * w * w * cos_angle));
             let product_5 = quotient_2 * (-product_2).mul_add(product_4, sum_5);
+            out.acceleration.data.0[0][1] = product_5;
             out.acceleration.data.0[0][0] = product_2
                 .mul_add(product_5, quotient * (sum - product_4));
-            out.acceleration.data.0[0][1] = product_5;
-            out.pivots.mass_pivots.data.0[0][1] = sum_3;
-            out.pivots.mass_diagonal.data.0[0][1] = sum_2;
-            out.pivots.row_pivots.data.0[0][0] = sum_4;
-            out.pivots.row_squares.data.0[0][0] = sum_4;
             true
         }
         /// Everything a projection needs: `A Δq = −g`, `A q̇ + b = 0`, in the metric `M`.
@@ -223,16 +223,16 @@ pub mod driven_pivot {
             let [y, phi] = state.q.data.0[0];
             let Parameters { a, w, m, e, j, .. } = self.parameters;
             let w_t = w * t;
-            let ([sin_phi, sin_angle], [_, cos_angle]) = T::sin_cos_all([phi, w_t]);
-            let m_e = m * e;
-            let sum = -sin_phi * m_e;
+            let ([sin_phi, sin_angle], [_, cos_angle]) = T::sin_cos_all(&[phi, w_t]);
             out.mass.data.0[0][0] = m;
-            out.mass.data.0[0][1] = sum;
-            out.mass.data.0[1][0] = sum;
+            let m_e = m * e;
             out.mass.data.0[1][1] = e.mul_add(m_e, j);
-            out.residual.data.0[0][0] = (-a).mul_add(cos_angle, y);
             out.jacobian.data.0[0][0] = T::one();
             out.drift.data.0[0][0] = a * w * sin_angle;
+            out.residual.data.0[0][0] = (-a).mul_add(cos_angle, y);
+            let sum = -m_e * sin_phi;
+            out.mass.data.0[0][1] = sum;
+            out.mass.data.0[1][0] = sum;
         }
         /// The least corrections of position and velocity in the kinetic metric, where
         /// the constraints are regular.
@@ -245,35 +245,35 @@ pub mod driven_pivot {
         ) -> bool {
             let t = state.t;
             let [y, phi] = state.q.data.0[0];
-            let [y_dot, _] = state.v.data.0[0];
             let Parameters { a, w, m, e, j, .. } = self.parameters;
             let w_t = w * t;
-            let ([sin_angle, sin_phi], [cos_angle, _]) = T::sin_cos_all([w_t, phi]);
+            let ([sin_phi, sin_angle], [_, cos_angle]) = T::sin_cos_all(&[phi, w_t]);
+            let [y_dot, _] = state.v.data.0[0];
             let sum = (-a).mul_add(cos_angle, y);
+            out.residual.data.0[0][0] = sum;
             let quotient = T::one() / m;
             let m_e = m * e;
-            let product = sin_phi * m_e;
+            let product = m_e * sin_phi;
             let product_2 = quotient * product;
             let sum_2 = e.mul_add(m_e, j);
+            out.pivots.mass_diagonal.data.0[0][1] = sum_2;
             let sum_3 = (-product).mul_add(product_2, sum_2);
+            out.pivots.mass_pivots.data.0[0][1] = sum_3;
             let quotient_2 = T::one() / sum_3;
             let sum_4 = product_2.mul_add(product_2 * quotient_2, quotient);
+            out.pivots.row_pivots.data.0[0][0] = sum_4;
+            out.pivots.row_squares.data.0[0][0] = sum_4;
             let quotient_3 = T::one() / sum_4;
             let product_3 = sum * quotient_3;
             let product_4 = quotient_2 * (product_2 * product_3);
-            let product_5 = quotient_3 * (a * w).mul_add(sin_angle, y_dot);
-            let product_6 = quotient_2 * (product_2 * product_5);
-            out.residual.data.0[0][0] = sum;
             out.position.data.0[0][0] = -product_2
                 .mul_add(product_4, quotient * product_3);
             out.position.data.0[0][1] = -product_4;
+            let product_5 = quotient_3 * (a * w).mul_add(sin_angle, y_dot);
+            let product_6 = quotient_2 * (product_2 * product_5);
             out.velocity.data.0[0][0] = -product_2
                 .mul_add(product_6, quotient * product_5);
             out.velocity.data.0[0][1] = -product_6;
-            out.pivots.mass_pivots.data.0[0][1] = sum_3;
-            out.pivots.mass_diagonal.data.0[0][1] = sum_2;
-            out.pivots.row_pivots.data.0[0][0] = sum_4;
-            out.pivots.row_squares.data.0[0][0] = sum_4;
             true
         }
         /// The constraints differentiated once more: `A q⃛ + K q̈ = κ`.
@@ -336,15 +336,15 @@ pub mod driven_pivot {
             let [_, phi_dot] = state.v.data.0[0];
             let [y_ddot, phi_ddot] = acceleration.data.0[0];
             let Parameters { m, e, d, .. } = self.parameters;
+            out.force_by_velocity.data.0[1][1] = -d;
             let (sin_phi, cos_phi) = phi.sin_cos();
             let m_e = m * e;
-            let product = cos_phi * m_e;
             out.force_by_position.data.0[1][0] = (-(phi_dot * phi_dot))
                 .mul_add(sin_phi, cos_phi * phi_ddot) * m_e;
+            let product = cos_phi * m_e;
             out.force_by_position.data.0[1][1] = (y_ddot
                 + T::constant(9.81, -4.973799150320702e-16)) * product;
             out.force_by_velocity.data.0[1][0] = T::from_f64(2.0) * phi_dot * product;
-            out.force_by_velocity.data.0[1][1] = -d;
             true
         }
     }
@@ -354,28 +354,28 @@ pub mod driven_pivot {
         ///
         /// Costs 3 products, 2 sums, 1 sine–cosine pair. As derived: 12 products, 3 sums, 1 sine–cosine pair.
         pub fn mass_matrix(&self, state: &State<T, 2>) -> SMatrix<T, 2, 2> {
+            let mut out = SMatrix::zeros();
             let [_, phi] = state.q.data.0[0];
             let Parameters { m, e, j, .. } = self.parameters;
-            let (sin_phi, _) = phi.sin_cos();
-            let m_e = m * e;
-            let sum = -sin_phi * m_e;
-            let mut out = SMatrix::zeros();
             out.data.0[0][0] = m;
+            let m_e = m * e;
+            out.data.0[1][1] = e.mul_add(m_e, j);
+            let (sin_phi, _) = phi.sin_cos();
+            let sum = -m_e * sin_phi;
             out.data.0[0][1] = sum;
             out.data.0[1][0] = sum;
-            out.data.0[1][1] = e.mul_add(m_e, j);
             out
         }
         /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
         ///
         /// Costs 3 products, 1 sum, 1 sine–cosine pair. As derived: 4 products, 1 sum, 1 sine–cosine pair.
         pub fn potential_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
+            let mut out = SVector::zeros();
             let [_, phi] = state.q.data.0[0];
             let Parameters { m, e, .. } = self.parameters;
             let product = T::constant(9.81, -4.973799150320702e-16) * m;
-            let (sin_phi, _) = phi.sin_cos();
-            let mut out = SVector::zeros();
             out.data.0[0][0] = product;
+            let (sin_phi, _) = phi.sin_cos();
             out.data.0[0][1] = -product * e * sin_phi;
             out
         }
@@ -383,9 +383,9 @@ pub mod driven_pivot {
         ///
         /// Costs 1 product, 1 sum.
         pub fn applied_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
+            let mut out = SVector::zeros();
             let [_, phi_dot] = state.v.data.0[0];
             let Parameters { d, .. } = self.parameters;
-            let mut out = SVector::zeros();
             out.data.0[0][1] = -d * phi_dot;
             out
         }
@@ -394,11 +394,11 @@ pub mod driven_pivot {
         ///
         /// Costs 4 products, 1 sum, 1 sine–cosine pair. As derived: 35 products, 6 sums, 1 sine–cosine pair.
         pub fn coriolis_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
+            let mut out = SVector::zeros();
             let [_, phi] = state.q.data.0[0];
             let [_, phi_dot] = state.v.data.0[0];
             let Parameters { m, e, .. } = self.parameters;
             let (_, cos_phi) = phi.sin_cos();
-            let mut out = SVector::zeros();
             out.data.0[0][0] = -m * e * phi_dot * phi_dot * cos_phi;
             out
         }
@@ -407,11 +407,11 @@ pub mod driven_pivot {
         ///
         /// Costs 3 products, 1 sum, 1 sine–cosine pair.
         pub fn coriolis_matrix(&self, state: &State<T, 2>) -> SMatrix<T, 2, 2> {
+            let mut out = SMatrix::zeros();
             let [_, phi] = state.q.data.0[0];
             let [_, phi_dot] = state.v.data.0[0];
             let Parameters { m, e, .. } = self.parameters;
             let (_, cos_phi) = phi.sin_cos();
-            let mut out = SMatrix::zeros();
             out.data.0[1][0] = -m * e * phi_dot * cos_phi;
             out
         }
@@ -419,11 +419,11 @@ pub mod driven_pivot {
         ///
         /// Costs 2 products, 1 sum, 1 sine–cosine pair.
         pub fn constraint_residual(&self, state: &State<T, 2>) -> SVector<T, 1> {
+            let mut out = SVector::zeros();
             let t = state.t;
             let [y, _] = state.q.data.0[0];
             let Parameters { a, w, .. } = self.parameters;
             let (_, cos_angle) = (w * t).sin_cos();
-            let mut out = SVector::zeros();
             out.data.0[0][0] = (-a).mul_add(cos_angle, y);
             out
         }
@@ -439,10 +439,10 @@ pub mod driven_pivot {
         ///
         /// Costs 4 products, 1 sum, 1 sine–cosine pair.
         pub fn constraint_bias(&self, state: &State<T, 2>) -> SVector<T, 1> {
+            let mut out = SVector::zeros();
             let t = state.t;
             let Parameters { a, w, .. } = self.parameters;
             let (_, cos_angle) = (w * t).sin_cos();
-            let mut out = SVector::zeros();
             out.data.0[0][0] = -a * w * w * cos_angle;
             out
         }

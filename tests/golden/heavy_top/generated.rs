@@ -176,51 +176,80 @@ pub mod heavy_top {
             let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let [e_0_dot, e_1_dot, e_2_dot, e_3_dot] = state.v.data.0[0];
             let Parameters { m, a, j3, j1, .. } = self.parameters;
-            let product = T::from_f64(4.0) * e_3;
-            let product_2 = e_3 * product;
+            out.jacobian.data.0[0][0] = T::from_f64(2.0) * e_0;
+            out.jacobian.data.0[1][0] = T::from_f64(2.0) * e_1;
+            let product = T::from_f64(4.0) * e_1;
             let a_m = a * m;
-            let product_3 = a * a_m;
-            let product_4 = T::from_f64(4.0) * e_0;
-            let product_5 = e_0 * product_4;
-            let product_6 = product_3 * product_5;
-            let product_7 = T::from_f64(4.0) * e_1;
-            let product_8 = e_1 * product_7;
-            let product_9 = product_3 * product_8;
-            let product_10 = T::from_f64(4.0) * e_2;
-            let product_11 = e_2 * product_10;
-            let product_12 = product_3 * product_11;
+            let product_2 = a * a_m;
+            let sum = product_2 - j3;
+            let product_3 = e_2 * sum;
+            let product_4 = product * product_3;
+            out.mass.data.0[1][2] = product_4;
+            out.mass.data.0[2][1] = product_4;
+            out.jacobian.data.0[2][0] = T::from_f64(2.0) * e_2;
+            let product_5 = T::from_f64(4.0) * e_3;
+            let product_6 = e_3 * product_5;
+            let product_7 = T::from_f64(4.0) * e_0;
+            let product_8 = e_0 * product_7;
+            let product_9 = product_2 * product_8;
+            let product_10 = e_1 * product;
+            let product_11 = product_2 * product_10;
+            let product_12 = T::from_f64(4.0) * e_2;
+            let product_13 = e_2 * product_12;
+            let product_14 = product_2 * product_13;
             let e_1_j1 = e_1 * j1;
-            let product_13 = product_7 * e_1_j1;
+            let product_15 = product * e_1_j1;
             let e_2_j1 = e_2 * j1;
-            let product_14 = product_10 * e_2_j1;
-            let product_15 = product * e_2_j1;
-            let sum = product_3 - j3;
-            let product_16 = e_2 * sum;
-            let product_17 = product_4 * e_1_j1;
-            let sum_2 = product.mul_add(product_16, product_15) - product_17;
-            let sum_3 = j3 - product_3;
-            let product_18 = product_4 * e_2_j1;
-            let product_19 = product * e_1_j1;
-            let sum_4 = product * e_1 * sum_3 - product_18 - product_19;
-            let product_20 = product * e_0 * sum;
-            let product_21 = product_2 * product_3;
-            let product_22 = product_5 * j1;
-            let product_23 = product_2 * j1;
-            let product_24 = product_7 * product_16;
-            let sum_5 = product_4 * e_2 * sum_3 - product_18 - product_19;
-            let sum_6 = (product_4 * e_1).mul_add(sum, product_17) - product_15;
+            let product_16 = product_12 * e_2_j1;
+            out.mass.data.0[0][0] = j3.mul_add(product_6, product_9) + product_11
+                + product_14 + product_15 + product_16;
+            let product_17 = product_5 * e_2_j1;
+            let product_18 = product_7 * e_1_j1;
+            let sum_2 = product_3.mul_add(product_5, product_17) - product_18;
+            out.mass.data.0[0][1] = sum_2;
+            out.mass.data.0[1][0] = sum_2;
+            let sum_3 = j3 - product_2;
+            let product_19 = product_7 * e_2_j1;
+            let product_20 = product_5 * e_1_j1;
+            let sum_4 = e_1 * product_5 * sum_3 - product_19 - product_20;
+            out.mass.data.0[0][2] = sum_4;
+            out.mass.data.0[2][0] = sum_4;
+            let product_21 = e_0 * sum * product_5;
+            out.mass.data.0[0][3] = product_21;
+            out.mass.data.0[3][0] = product_21;
+            let product_22 = product_2 * product_6;
+            let product_23 = product_8 * j1;
+            let product_24 = product_6 * j1;
+            out.mass.data.0[1][1] = j3.mul_add(product_13, product_9 + product_11)
+                + product_22 + product_23 + product_24;
+            let sum_5 = e_2 * product_7 * sum_3 - product_19 - product_20;
+            out.mass.data.0[1][3] = sum_5;
+            out.mass.data.0[3][1] = sum_5;
+            out.mass.data.0[2][2] = j3
+                .mul_add(
+                    product_10,
+                    product_9 + product_14 + product_22 + product_23 + product_24,
+                );
+            let sum_6 = (e_1 * sum).mul_add(product_7, product_18) - product_17;
+            out.mass.data.0[2][3] = sum_6;
+            out.mass.data.0[3][2] = sum_6;
+            out.mass.data.0[3][3] = j3
+                .mul_add(
+                    product_8,
+                    product_11 + product_14 + product_15 + product_16 + product_22,
+                );
             let e_0_e_3_dot = e_0 * e_3_dot;
             let e_2_e_1_dot = e_2 * e_1_dot;
             let e_1_e_2_dot = e_1 * e_2_dot;
             let e_3_e_0_dot = e_3 * e_0_dot;
             let product_25 = j3
                 * (e_0_e_3_dot + e_2_e_1_dot - e_1_e_2_dot - e_3_e_0_dot);
-            let sum_7 = product_3 + j1;
+            let sum_7 = product_2 + j1;
             let e_1_dot_e_1_dot = e_1_dot * e_1_dot;
             let e_2_dot_e_2_dot = e_2_dot * e_2_dot;
             let sum_8 = e_1_dot_e_1_dot + e_2_dot_e_2_dot;
             let sum_9 = e_2.mul_add(e_2_dot, e_1 * e_1_dot);
-            let product_26 = product_3 * sum_9;
+            let product_26 = product_2 * sum_9;
             let sum_10 = (-e_0_dot)
                 .mul_add(
                     product_26,
@@ -238,11 +267,12 @@ pub mod heavy_top {
                 * ((e_1_dot_e_1_dot + e_2_dot_e_2_dot - e_0_dot_e_0_dot
                     - e_3_dot_e_3_dot) * product_27
                     - T::constant(19.62, -9.947598300641404e-16));
+            out.force.data.0[0][0] = e_0.mul_add(product_28, T::from_f64(8.0) * sum_10);
             let product_29 = j3
                 * (e_1_e_2_dot + e_3_e_0_dot - e_0_e_3_dot - e_2_e_1_dot);
             let sum_11 = e_0_dot_e_0_dot + e_3_dot_e_3_dot;
             let sum_12 = e_3.mul_add(e_3_dot, e_0 * e_0_dot);
-            let product_30 = product_3 * sum_12;
+            let product_30 = product_2 * sum_12;
             let sum_13 = (-e_1_dot)
                 .mul_add(
                     product_30,
@@ -260,6 +290,7 @@ pub mod heavy_top {
                             - e_2_dot_e_2_dot,
                         T::constant(19.62, -9.947598300641404e-16),
                     );
+            out.force.data.0[0][1] = e_1.mul_add(product_31, T::from_f64(8.0) * sum_13);
             let sum_14 = (-e_2_dot)
                 .mul_add(
                     product_30,
@@ -270,6 +301,7 @@ pub mod heavy_top {
                                 * sum_7.mul_add(e_3_e_0_dot - e_0_e_3_dot, product_25),
                         ),
                 );
+            out.force.data.0[0][2] = e_2.mul_add(product_31, T::from_f64(8.0) * sum_14);
             let sum_15 = (-e_3_dot)
                 .mul_add(
                     product_26,
@@ -280,39 +312,7 @@ pub mod heavy_top {
                                 * sum_7.mul_add(e_2_e_1_dot - e_1_e_2_dot, product_29),
                         ),
                 );
-            out.mass.data.0[0][0] = j3.mul_add(product_2, product_6) + product_9
-                + product_12 + product_13 + product_14;
-            out.mass.data.0[0][1] = sum_2;
-            out.mass.data.0[0][2] = sum_4;
-            out.mass.data.0[0][3] = product_20;
-            out.mass.data.0[1][0] = sum_2;
-            out.mass.data.0[1][1] = j3.mul_add(product_11, product_6 + product_9)
-                + product_21 + product_22 + product_23;
-            out.mass.data.0[1][2] = product_24;
-            out.mass.data.0[1][3] = sum_5;
-            out.mass.data.0[2][0] = sum_4;
-            out.mass.data.0[2][1] = product_24;
-            out.mass.data.0[2][2] = j3
-                .mul_add(
-                    product_8,
-                    product_6 + product_12 + product_21 + product_22 + product_23,
-                );
-            out.mass.data.0[2][3] = sum_6;
-            out.mass.data.0[3][0] = product_20;
-            out.mass.data.0[3][1] = sum_5;
-            out.mass.data.0[3][2] = sum_6;
-            out.mass.data.0[3][3] = j3
-                .mul_add(
-                    product_5,
-                    product_9 + product_12 + product_13 + product_14 + product_21,
-                );
-            out.force.data.0[0][0] = e_0.mul_add(product_28, T::from_f64(8.0) * sum_10);
-            out.force.data.0[0][1] = e_1.mul_add(product_31, T::from_f64(8.0) * sum_13);
-            out.force.data.0[0][2] = e_2.mul_add(product_31, T::from_f64(8.0) * sum_14);
             out.force.data.0[0][3] = e_3.mul_add(product_28, T::from_f64(8.0) * sum_15);
-            out.jacobian.data.0[0][0] = T::from_f64(2.0) * e_0;
-            out.jacobian.data.0[1][0] = T::from_f64(2.0) * e_1;
-            out.jacobian.data.0[2][0] = T::from_f64(2.0) * e_2;
             out.jacobian.data.0[3][0] = T::from_f64(2.0) * e_3;
             out.bias.data.0[0][0] = -T::from_f64(2.0)
                 * (e_1_dot_e_1_dot + e_2_dot_e_2_dot + e_0_dot_e_0_dot
@@ -390,7 +390,9 @@ pub mod heavy_top {
             let product_27 = product_2 * j1;
             let sum_9 = j3.mul_add(product_11, product_6 + product_9) + product_25
                 + product_26 + product_27;
+            out.pivots.mass_diagonal.data.0[0][1] = sum_9;
             let sum_10 = (-sum_7).mul_add(product_24, sum_9);
+            out.pivots.mass_pivots.data.0[0][1] = sum_10;
             let quotient_2 = T::one() / sum_10;
             let product_28 = sum_8 * quotient_2;
             let sum_11 = j3 - product_3;
@@ -410,8 +412,10 @@ pub mod heavy_top {
                     product_8,
                     product_6 + product_12 + product_25 + product_26 + product_27,
                 );
+            out.pivots.mass_diagonal.data.0[0][2] = sum_15;
             let sum_16 = (-sum_13)
                 .mul_add(product_32, (-sum_12).mul_add(product_31, sum_15));
+            out.pivots.mass_pivots.data.0[0][2] = sum_16;
             let quotient_3 = T::one() / sum_16;
             let product_33 = sum_14 * quotient_3;
             let product_34 = product * e_0 * sum_6;
@@ -443,12 +447,14 @@ pub mod heavy_top {
                     product_5,
                     product_9 + product_12 + product_13 + product_14 + product_25,
                 );
+            out.pivots.mass_diagonal.data.0[0][3] = sum_20;
             let sum_21 = (-sum_18)
                 .mul_add(
                     product_37,
                     (-sum_17)
                         .mul_add(product_36, (-product_34).mul_add(product_35, sum_20)),
                 );
+            out.pivots.mass_pivots.data.0[0][3] = sum_21;
             let quotient_4 = T::one() / sum_21;
             let product_38 = sum_19 * quotient_4;
             let sum_22 = sum_19
@@ -460,6 +466,8 @@ pub mod heavy_top {
                             sum_8.mul_add(product_28, product_19 * product_20),
                         ),
                 );
+            out.pivots.row_pivots.data.0[0][0] = sum_22;
+            out.pivots.row_squares.data.0[0][0] = sum_22;
             let product_39 = j3
                 * (e_1_e_2_dot + e_3_e_0_dot - e_0_e_3_dot - e_2_e_1_dot);
             let sum_23 = e_0_dot_e_0_dot + e_3_dot_e_3_dot;
@@ -544,8 +552,10 @@ pub mod heavy_top {
                 );
             let product_42 = (T::one() / sum_22) * sum_31;
             let product_43 = quotient_4 * (-sum_19).mul_add(product_42, sum_30);
+            out.acceleration.data.0[0][3] = product_43;
             let sum_32 = (-product_37)
                 .mul_add(product_43, quotient_3 * (-sum_14).mul_add(product_42, sum_28));
+            out.acceleration.data.0[0][2] = sum_32;
             let sum_33 = (-product_36)
                 .mul_add(
                     product_43,
@@ -555,6 +565,7 @@ pub mod heavy_top {
                             quotient_2 * (-sum_8).mul_add(product_42, sum_26),
                         ),
                 );
+            out.acceleration.data.0[0][1] = sum_33;
             let sum_34 = (-product_35)
                 .mul_add(
                     product_43,
@@ -569,17 +580,6 @@ pub mod heavy_top {
                         ),
                 );
             out.acceleration.data.0[0][0] = sum_34;
-            out.acceleration.data.0[0][1] = sum_33;
-            out.acceleration.data.0[0][2] = sum_32;
-            out.acceleration.data.0[0][3] = product_43;
-            out.pivots.mass_pivots.data.0[0][1] = sum_10;
-            out.pivots.mass_diagonal.data.0[0][1] = sum_9;
-            out.pivots.mass_pivots.data.0[0][2] = sum_16;
-            out.pivots.mass_diagonal.data.0[0][2] = sum_15;
-            out.pivots.mass_pivots.data.0[0][3] = sum_21;
-            out.pivots.mass_diagonal.data.0[0][3] = sum_20;
-            out.pivots.row_pivots.data.0[0][0] = sum_22;
-            out.pivots.row_squares.data.0[0][0] = sum_22;
             true
         }
         /// Everything a projection needs: `A Δq = −g`, `A q̇ + b = 0`, in the metric `M`.
@@ -595,69 +595,69 @@ pub mod heavy_top {
         fn position(&self, state: &State<T, 4>, out: &mut Position<T, 4, 1>) {
             let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let Parameters { m, a, j3, j1, .. } = self.parameters;
-            let product = T::from_f64(4.0) * e_3;
-            let product_2 = e_3 * product;
-            let product_3 = a * (a * m);
-            let product_4 = T::from_f64(4.0) * e_0;
-            let product_5 = e_0 * product_4;
-            let product_6 = product_3 * product_5;
-            let product_7 = T::from_f64(4.0) * e_1;
-            let product_8 = e_1 * product_7;
-            let product_9 = product_3 * product_8;
+            out.jacobian.data.0[0][0] = T::from_f64(2.0) * e_0;
+            out.jacobian.data.0[1][0] = T::from_f64(2.0) * e_1;
+            let product = T::from_f64(4.0) * e_1;
+            let product_2 = a * (a * m);
+            let sum = product_2 - j3;
+            let product_3 = e_2 * sum;
+            let product_4 = product * product_3;
+            out.mass.data.0[1][2] = product_4;
+            out.mass.data.0[2][1] = product_4;
+            out.jacobian.data.0[2][0] = T::from_f64(2.0) * e_2;
+            let product_5 = T::from_f64(4.0) * e_3;
+            let product_6 = e_3 * product_5;
+            let product_7 = T::from_f64(4.0) * e_0;
+            let product_8 = e_0 * product_7;
+            let product_9 = product_2 * product_8;
+            let product_10 = e_1 * product;
+            let product_11 = product_2 * product_10;
             let e_2_e_2 = e_2 * e_2;
-            let product_10 = T::from_f64(4.0) * e_2_e_2;
-            let product_11 = product_3 * product_10;
+            let product_12 = T::from_f64(4.0) * e_2_e_2;
+            let product_13 = product_2 * product_12;
             let e_1_j1 = e_1 * j1;
-            let product_12 = product_7 * e_1_j1;
-            let product_13 = product_10 * j1;
+            let product_14 = product * e_1_j1;
+            let product_15 = product_12 * j1;
+            out.mass.data.0[0][0] = j3.mul_add(product_6, product_9) + product_11
+                + product_13 + product_14 + product_15;
             let e_2_j1 = e_2 * j1;
-            let product_14 = product * e_2_j1;
-            let sum = product_3 - j3;
-            let product_15 = e_2 * sum;
-            let product_16 = product_4 * e_1_j1;
-            let sum_2 = product.mul_add(product_15, product_14) - product_16;
-            let sum_3 = j3 - product_3;
-            let product_17 = product_4 * e_2_j1;
-            let product_18 = product * e_1_j1;
-            let sum_4 = product * e_1 * sum_3 - product_17 - product_18;
-            let product_19 = product * e_0 * sum;
-            let product_20 = product_2 * product_3;
-            let product_21 = product_5 * j1;
-            let product_22 = product_2 * j1;
-            let product_23 = product_7 * product_15;
-            let sum_5 = product_4 * e_2 * sum_3 - product_17 - product_18;
-            let sum_6 = (product_4 * e_1).mul_add(sum, product_16) - product_14;
-            out.mass.data.0[0][0] = j3.mul_add(product_2, product_6) + product_9
-                + product_11 + product_12 + product_13;
+            let product_16 = product_5 * e_2_j1;
+            let product_17 = product_7 * e_1_j1;
+            let sum_2 = product_3.mul_add(product_5, product_16) - product_17;
             out.mass.data.0[0][1] = sum_2;
-            out.mass.data.0[0][2] = sum_4;
-            out.mass.data.0[0][3] = product_19;
             out.mass.data.0[1][0] = sum_2;
-            out.mass.data.0[1][1] = j3.mul_add(product_10, product_6 + product_9)
-                + product_20 + product_21 + product_22;
-            out.mass.data.0[1][2] = product_23;
-            out.mass.data.0[1][3] = sum_5;
+            let sum_3 = j3 - product_2;
+            let product_18 = product_7 * e_2_j1;
+            let product_19 = product_5 * e_1_j1;
+            let sum_4 = e_1 * product_5 * sum_3 - product_18 - product_19;
+            out.mass.data.0[0][2] = sum_4;
             out.mass.data.0[2][0] = sum_4;
-            out.mass.data.0[2][1] = product_23;
+            let product_20 = e_0 * sum * product_5;
+            out.mass.data.0[0][3] = product_20;
+            out.mass.data.0[3][0] = product_20;
+            let product_21 = product_2 * product_6;
+            let product_22 = product_8 * j1;
+            let product_23 = product_6 * j1;
+            out.mass.data.0[1][1] = j3.mul_add(product_12, product_9 + product_11)
+                + product_21 + product_22 + product_23;
+            let sum_5 = e_2 * product_7 * sum_3 - product_18 - product_19;
+            out.mass.data.0[1][3] = sum_5;
+            out.mass.data.0[3][1] = sum_5;
             out.mass.data.0[2][2] = j3
                 .mul_add(
-                    product_8,
-                    product_6 + product_11 + product_20 + product_21 + product_22,
+                    product_10,
+                    product_9 + product_13 + product_21 + product_22 + product_23,
                 );
+            let sum_6 = (e_1 * sum).mul_add(product_7, product_17) - product_16;
             out.mass.data.0[2][3] = sum_6;
-            out.mass.data.0[3][0] = product_19;
-            out.mass.data.0[3][1] = sum_5;
             out.mass.data.0[3][2] = sum_6;
             out.mass.data.0[3][3] = j3
                 .mul_add(
-                    product_5,
-                    product_9 + product_11 + product_12 + product_13 + product_20,
+                    product_8,
+                    product_11 + product_13 + product_14 + product_15 + product_21,
                 );
             out.residual.data.0[0][0] = e_3
                 .mul_add(e_3, e_0.mul_add(e_0, e_1.mul_add(e_1, e_2_e_2))) - T::one();
-            out.jacobian.data.0[0][0] = T::from_f64(2.0) * e_0;
-            out.jacobian.data.0[1][0] = T::from_f64(2.0) * e_1;
-            out.jacobian.data.0[2][0] = T::from_f64(2.0) * e_2;
             out.jacobian.data.0[3][0] = T::from_f64(2.0) * e_3;
         }
         /// The least corrections of position and velocity in the kinetic metric, where
@@ -675,19 +675,20 @@ pub mod heavy_top {
             let e_2_e_2 = e_2 * e_2;
             let sum = e_3.mul_add(e_3, e_0.mul_add(e_0, e_1.mul_add(e_1, e_2_e_2)))
                 - T::one();
-            let product = T::from_f64(4.0) * e_3;
-            let product_2 = a * (a * m);
-            let sum_2 = product_2 - j3;
-            let product_3 = e_0 * product * sum_2;
-            let product_4 = e_3 * product;
+            out.residual.data.0[0][0] = sum;
+            let product = a * (a * m);
+            let sum_2 = product - j3;
+            let product_2 = T::from_f64(4.0) * e_3;
+            let product_3 = e_0 * sum_2 * product_2;
+            let product_4 = e_3 * product_2;
             let product_5 = T::from_f64(4.0) * e_0;
             let product_6 = e_0 * product_5;
-            let product_7 = product_2 * product_6;
+            let product_7 = product * product_6;
             let product_8 = T::from_f64(4.0) * e_1;
             let product_9 = e_1 * product_8;
-            let product_10 = product_2 * product_9;
+            let product_10 = product * product_9;
             let product_11 = T::from_f64(4.0) * e_2_e_2;
-            let product_12 = product_2 * product_11;
+            let product_12 = product * product_11;
             let e_1_j1 = e_1 * j1;
             let product_13 = product_8 * e_1_j1;
             let product_14 = product_11 * j1;
@@ -695,31 +696,34 @@ pub mod heavy_top {
                 / (j3.mul_add(product_4, product_7) + product_10 + product_12
                     + product_13 + product_14);
             let product_15 = product_3 * quotient;
-            let product_16 = product_2 * product_4;
+            let product_16 = product * product_4;
             let sum_3 = j3
                 .mul_add(
                     product_6,
                     product_10 + product_12 + product_13 + product_14 + product_16,
                 );
-            let sum_4 = j3 - product_2;
+            out.pivots.mass_diagonal.data.0[0][3] = sum_3;
+            let sum_4 = j3 - product;
             let e_2_j1 = e_2 * j1;
             let product_17 = product_5 * e_2_j1;
-            let product_18 = product * e_1_j1;
-            let product_19 = product * e_2_j1;
+            let product_18 = product_2 * e_1_j1;
+            let product_19 = product_2 * e_2_j1;
             let product_20 = e_2 * sum_2;
             let product_21 = product_5 * e_1_j1;
-            let sum_5 = product.mul_add(product_20, product_19) - product_21;
+            let sum_5 = product_2.mul_add(product_20, product_19) - product_21;
             let sum_6 = (-product_15)
                 .mul_add(sum_5, e_2 * product_5 * sum_4 - product_17 - product_18);
             let product_22 = product_6 * j1;
             let product_23 = product_4 * j1;
             let sum_7 = j3.mul_add(product_11, product_7 + product_10 + product_16)
                 + product_22 + product_23;
+            out.pivots.mass_diagonal.data.0[0][1] = sum_7;
             let product_24 = quotient * sum_5;
             let sum_8 = (-sum_5).mul_add(product_24, sum_7);
+            out.pivots.mass_pivots.data.0[0][1] = sum_8;
             let quotient_2 = T::one() / sum_8;
             let product_25 = sum_6 * quotient_2;
-            let sum_9 = e_1 * product * sum_4 - product_17 - product_18;
+            let sum_9 = e_1 * product_2 * sum_4 - product_17 - product_18;
             let product_26 = quotient * sum_9;
             let sum_10 = (-sum_5).mul_add(product_26, product_8 * product_20);
             let sum_11 = (-product_25)
@@ -736,9 +740,11 @@ pub mod heavy_top {
                     product_9,
                     product_7 + product_12 + product_16 + product_22 + product_23,
                 );
+            out.pivots.mass_diagonal.data.0[0][2] = sum_12;
             let product_27 = quotient_2 * sum_10;
             let sum_13 = (-sum_10)
                 .mul_add(product_27, (-sum_9).mul_add(product_26, sum_12));
+            out.pivots.mass_pivots.data.0[0][2] = sum_13;
             let quotient_3 = T::one() / sum_13;
             let product_28 = sum_11 * quotient_3;
             let sum_14 = (-sum_11)
@@ -746,6 +752,7 @@ pub mod heavy_top {
                     product_28,
                     (-sum_6).mul_add(product_25, (-product_3).mul_add(product_15, sum_3)),
                 );
+            out.pivots.mass_pivots.data.0[0][3] = sum_14;
             let quotient_4 = T::one() / sum_14;
             let product_29 = T::from_f64(2.0) * e_0;
             let sum_15 = (-product_24).mul_add(product_29, T::from_f64(2.0) * e_1);
@@ -776,19 +783,25 @@ pub mod heavy_top {
                                 ),
                         ),
                 );
+            out.pivots.row_pivots.data.0[0][0] = sum_18;
+            out.pivots.row_squares.data.0[0][0] = sum_18;
             let quotient_5 = T::one() / sum_18;
             let product_30 = sum * quotient_5;
             let product_31 = quotient_4 * (sum_17 * product_30);
             let sum_19 = (-quotient_3)
                 .mul_add(sum_16 * product_30, product_28 * product_31);
+            out.position.data.0[0][2] = sum_19;
             let sum_20 = product_25 * product_31
                 - product_27.mul_add(sum_19, quotient_2 * (sum_15 * product_30));
+            out.position.data.0[0][1] = sum_20;
             let sum_21 = product_15 * product_31
                 - product_26
                     .mul_add(
                         sum_19,
                         product_24.mul_add(sum_20, quotient * (product_29 * product_30)),
                     );
+            out.position.data.0[0][0] = sum_21;
+            out.position.data.0[0][3] = -product_31;
             let sum_22 = (-product_31)
                 .mul_add(
                     T::from_f64(2.0) * e_3_dot,
@@ -815,30 +828,17 @@ pub mod heavy_top {
             let product_33 = quotient_4 * (sum_17 * product_32);
             let sum_23 = (-quotient_3)
                 .mul_add(sum_16 * product_32, product_28 * product_33);
+            out.velocity.data.0[0][2] = sum_23;
             let sum_24 = product_25 * product_33
                 - product_27.mul_add(sum_23, quotient_2 * (sum_15 * product_32));
-            out.residual.data.0[0][0] = sum;
-            out.position.data.0[0][0] = sum_21;
-            out.position.data.0[0][1] = sum_20;
-            out.position.data.0[0][2] = sum_19;
-            out.position.data.0[0][3] = -product_31;
+            out.velocity.data.0[0][1] = sum_24;
             out.velocity.data.0[0][0] = product_15 * product_33
                 - product_26
                     .mul_add(
                         sum_23,
                         product_24.mul_add(sum_24, quotient * (product_29 * product_32)),
                     );
-            out.velocity.data.0[0][1] = sum_24;
-            out.velocity.data.0[0][2] = sum_23;
             out.velocity.data.0[0][3] = -product_33;
-            out.pivots.mass_pivots.data.0[0][1] = sum_8;
-            out.pivots.mass_diagonal.data.0[0][1] = sum_7;
-            out.pivots.mass_pivots.data.0[0][2] = sum_13;
-            out.pivots.mass_diagonal.data.0[0][2] = sum_12;
-            out.pivots.mass_pivots.data.0[0][3] = sum_14;
-            out.pivots.mass_diagonal.data.0[0][3] = sum_3;
-            out.pivots.row_pivots.data.0[0][0] = sum_18;
-            out.pivots.row_squares.data.0[0][0] = sum_18;
             true
         }
         /// The constraints differentiated once more: `A q⃛ + K q̈ = κ`.
@@ -987,6 +987,12 @@ pub mod heavy_top {
             let [e_0_ddot, e_1_ddot, e_2_ddot, e_3_ddot] = acceleration.data.0[0];
             let [lambda_0] = multiplier.data.0[0];
             let Parameters { m, a, j3, j1, .. } = self.parameters;
+            out.row_by_position.data.0[0][0] = -T::from_f64(2.0) * e_0_ddot;
+            out.row_by_velocity.data.0[0][0] = -T::from_f64(4.0) * e_0_dot;
+            out.row_by_position.data.0[1][0] = -T::from_f64(2.0) * e_1_ddot;
+            out.row_by_velocity.data.0[1][0] = -T::from_f64(4.0) * e_1_dot;
+            out.row_by_position.data.0[2][0] = -T::from_f64(2.0) * e_2_ddot;
+            out.row_by_velocity.data.0[2][0] = -T::from_f64(4.0) * e_2_dot;
             let product = T::from_f64(4.0) * j1;
             let product_2 = e_1 * product;
             let product_3 = e_1_ddot * product_2;
@@ -1014,7 +1020,7 @@ pub mod heavy_top {
             let product_20 = product_7 * e_3_dot_e_3_dot;
             let sum = (-product_6)
                 .mul_add(
-                    (T::from_f64(8.0) * e_0).mul_add(e_0_ddot, product_16),
+                    (T::from_f64(8.0) * e_0_ddot).mul_add(e_0, product_16),
                     j3
                         .mul_add(
                             T::from_f64(8.0).mul_add(e_3_dot_e_3_dot, product_16),
@@ -1022,10 +1028,11 @@ pub mod heavy_top {
                                 + product_14,
                         ) - product_17 - product_18 - product_19 - product_20,
                 );
+            out.force_by_position.data.0[0][0] = sum;
             let product_21 = T::from_f64(8.0) * product_6;
             let product_22 = e_2_dot * product_21;
             let product_23 = e_3_dot * product_22;
-            let product_24 = product_2 * e_0_ddot;
+            let product_24 = e_0_ddot * product_2;
             let product_25 = product_4 * e_3_ddot;
             let product_26 = product_13 * e_3_dot;
             let sum_2 = product_6 - j3;
@@ -1035,7 +1042,7 @@ pub mod heavy_top {
             let product_30 = e_3_dot * product_29;
             let product_31 = e_1_dot * product_21;
             let product_32 = e_0_dot * product_31;
-            let product_33 = product_11 * e_0_dot;
+            let product_33 = e_0_dot * product_11;
             let product_34 = T::from_f64(8.0) * (j1 + product_6);
             let product_35 = e_1_ddot * product_34;
             let sum_3 = (-e_0)
@@ -1047,15 +1054,16 @@ pub mod heavy_top {
                             product_23 + product_24 + product_25 + product_26,
                         ) - product_30 - product_32 - product_33,
                 );
+            out.force_by_position.data.0[0][1] = sum_3;
             let product_36 = e_1_dot * product_28;
             let product_37 = e_3_dot * product_36;
-            let product_38 = product_4 * e_0_ddot;
+            let product_38 = e_0_ddot * product_4;
             let sum_4 = j3 - product_6;
             let product_39 = T::from_f64(4.0) * e_1;
             let product_40 = e_3_dot * product_31;
             let product_41 = e_0_dot * product_22;
             let product_42 = product_2 * e_3_ddot;
-            let product_43 = product_13 * e_0_dot;
+            let product_43 = e_0_dot * product_13;
             let product_44 = product_11 * e_3_dot;
             let product_45 = e_2_ddot * product_34;
             let sum_5 = (-e_0)
@@ -1064,8 +1072,9 @@ pub mod heavy_top {
                     (e_3_ddot * sum_4).mul_add(product_39, product_37 + product_38)
                         - product_40 - product_41 - product_42 - product_43 - product_44,
                 );
+            out.force_by_position.data.0[0][2] = sum_5;
             let product_46 = e_2_ddot * j3 * product_39;
-            let product_47 = j3 * product_15 * e_0_ddot;
+            let product_47 = e_0_ddot * j3 * product_15;
             let e_1_ddot_e_2 = e_1_ddot * e_2;
             let product_48 = product_7 * e_1_ddot_e_2;
             let product_49 = product * e_1_ddot_e_2;
@@ -1073,16 +1082,17 @@ pub mod heavy_top {
             let product_51 = e_0_dot * product_50;
             let e_3_ddot_e_0 = e_3_ddot * e_0;
             let product_52 = T::from_f64(4.0) * j3 * e_1_ddot_e_2;
-            let e_1_e_2_ddot = e_1 * e_2_ddot;
-            let product_53 = product_7 * e_1_e_2_ddot;
-            let e_3_e_0_ddot = e_3 * e_0_ddot;
-            let product_54 = product_7 * e_3_e_0_ddot;
-            let product_55 = product_2 * e_2_ddot;
+            let e_2_ddot_e_1 = e_2_ddot * e_1;
+            let product_53 = product_7 * e_2_ddot_e_1;
+            let e_0_ddot_e_3 = e_0_ddot * e_3;
+            let product_54 = product_7 * e_0_ddot_e_3;
+            let product_55 = e_2_ddot * product_2;
             let sum_6 = (-product_28)
                 .mul_add(
                     e_3_ddot_e_0,
                     product_46 + product_47 + product_48 + product_49 - product_51,
                 ) - product_52 - product_53 - product_54 - product_55;
+            out.force_by_position.data.0[0][3] = sum_6;
             let product_56 = product * e_0;
             let product_57 = e_1_ddot * product_56;
             let product_58 = product * e_3;
@@ -1097,9 +1107,10 @@ pub mod heavy_top {
                             product_23 + product_26 + product_57 + product_59,
                         ) - product_30 - product_32 - product_33,
                 );
+            out.force_by_position.data.0[1][0] = sum_7;
             let product_61 = e_0_ddot * product_56;
             let product_62 = e_3_ddot * product_58;
-            let product_63 = product_10 * e_0_dot;
+            let product_63 = e_0_dot * product_10;
             let product_64 = e_0_dot * product_63;
             let product_65 = product_10 * e_3_dot;
             let product_66 = e_3_dot * product_65;
@@ -1114,6 +1125,7 @@ pub mod heavy_top {
                                 + product_62 + product_64 + product_66,
                         ) - product_8 - product_9 - product_17,
                 );
+            out.force_by_position.data.0[1][1] = sum_8;
             let product_68 = T::from_f64(4.0) * e_0;
             let product_69 = j3 * e_3_ddot * product_68;
             let product_70 = e_0_ddot * product_58;
@@ -1122,10 +1134,11 @@ pub mod heavy_top {
             let product_73 = e_3_ddot * product_56;
             let sum_9 = (-product_28)
                 .mul_add(
-                    e_1_e_2_ddot,
+                    e_2_ddot_e_1,
                     product_52 + product_54 + product_69 + product_70 - product_47
                         - product_48 - product_71,
                 ) - product_72 - product_73;
+            out.force_by_position.data.0[1][2] = sum_9;
             let product_74 = e_0_dot * product_29;
             let product_75 = e_1_ddot * product_58;
             let product_76 = e_2_ddot * product_56;
@@ -1135,6 +1148,7 @@ pub mod heavy_top {
                     (e_2_ddot * sum_4).mul_add(product_68, product_74 + product_75)
                         - product_40 - product_41 - product_43 - product_44 - product_76,
                 );
+            out.force_by_position.data.0[1][3] = sum_10;
             let product_77 = e_2 * product_34;
             let sum_11 = (-e_0_ddot)
                 .mul_add(
@@ -1142,12 +1156,14 @@ pub mod heavy_top {
                     (e_1_ddot * product_15).mul_add(sum_4, product_37 + product_76)
                         - product_40 - product_41 - product_43 - product_44 - product_75,
                 );
+            out.force_by_position.data.0[2][0] = sum_11;
             let sum_12 = (-product_28)
                 .mul_add(
                     e_1_ddot_e_2,
                     product_46 + product_47 + product_72 + product_73 - product_53
                         - product_54 - product_69 - product_70 - product_71,
                 );
+            out.force_by_position.data.0[2][1] = sum_12;
             let product_78 = e_1_ddot * product_39;
             let sum_13 = (-product_6)
                 .mul_add(
@@ -1159,6 +1175,7 @@ pub mod heavy_top {
                                 + product_62 + product_64 + product_66,
                         ) - product_8 - product_9 - product_17,
                 );
+            out.force_by_position.data.0[2][2] = sum_13;
             let product_79 = e_0_dot * product_36;
             let sum_14 = (-e_3_ddot)
                 .mul_add(
@@ -1169,18 +1186,21 @@ pub mod heavy_top {
                             product_32 + product_33 + product_57 + product_59,
                         ) - product_23 - product_26 - product_79,
                 );
+            out.force_by_position.data.0[2][3] = sum_14;
             let sum_15 = (-product_28)
                 .mul_add(
-                    e_3_e_0_ddot,
+                    e_0_ddot_e_3,
                     product_52 + product_53 + product_55 + product_69 - product_46
                         - product_48 - product_49 - product_51 - product_72,
                 );
+            out.force_by_position.data.0[3][0] = sum_15;
             let sum_16 = (-e_3)
                 .mul_add(
                     product_35,
                     (e_0_ddot * product_27).mul_add(sum_4, product_42 + product_74)
                         - product_38 - product_40 - product_41 - product_43 - product_44,
                 );
+            out.force_by_position.data.0[3][1] = sum_16;
             let sum_17 = (-e_3)
                 .mul_add(
                     product_45,
@@ -1190,6 +1210,7 @@ pub mod heavy_top {
                             product_24 + product_25 + product_32 + product_33,
                         ) - product_23 - product_26 - product_79,
                 );
+            out.force_by_position.data.0[3][2] = sum_17;
             let product_80 = e_0_ddot * product_68;
             let sum_18 = (-product_6)
                 .mul_add(
@@ -1201,12 +1222,15 @@ pub mod heavy_top {
                                 + product_14,
                         ) - product_17 - product_18 - product_19 - product_20,
                 );
+            out.force_by_position.data.0[3][3] = sum_18;
             let product_81 = e_0_dot * product_21;
             let product_82 = e_0 * product_81;
             let product_83 = e_1 * product_31;
             let product_84 = e_2 * product_22;
             let product_85 = e_1 * product_11;
             let product_86 = e_2 * product_13;
+            out.force_by_velocity.data.0[0][0] = -e_3 * product_50 - product_82
+                - product_83 - product_84 - product_85 - product_86;
             let product_87 = e_1 * product_81;
             let product_88 = T::from_f64(16.0) * j1;
             let product_89 = e_1 * product_88;
@@ -1214,12 +1238,20 @@ pub mod heavy_top {
             let product_91 = e_3 * product_22;
             let product_92 = product_11 * e_0;
             let product_93 = product_13 * e_3;
+            out.force_by_velocity.data.0[0][1] = e_0_dot
+                .mul_add(product_89, e_3.mul_add(product_29, product_87)) - product_90
+                - product_91 - product_92 - product_93;
             let product_94 = e_2 * product_81;
             let product_95 = e_3 * product_31;
             let product_96 = e_2 * product_88;
             let product_97 = product_11 * e_3;
             let product_98 = e_0 * product_22;
             let product_99 = product_13 * e_0;
+            out.force_by_velocity.data.0[0][2] = (-e_3)
+                .mul_add(
+                    product_36,
+                    e_0_dot.mul_add(product_96, product_94 + product_95) + product_97,
+                ) - product_98 - product_99;
             let product_100 = T::from_f64(16.0) * j3;
             let product_101 = e_1 * product_29;
             let product_102 = e_2 * product_31;
@@ -1229,80 +1261,51 @@ pub mod heavy_top {
             let product_106 = e_1 * product_22;
             let product_107 = e_3 * product_81;
             let product_108 = e_1 * product_13;
-            let sum_19 = (e_3 * e_0_dot).mul_add(product_100, product_101) + product_102
+            let sum_19 = (e_0_dot * e_3).mul_add(product_100, product_101) + product_102
                 + product_103 - product_104 - product_105 - product_106 - product_107
                 - product_108;
+            out.force_by_velocity.data.0[0][3] = sum_19;
             let product_109 = e_1_dot * product_88;
             let product_110 = e_1 * product_63;
             let product_111 = e_3_dot * product_21;
             let product_112 = e_2 * product_111;
             let product_113 = e_2 * product_65;
+            out.force_by_velocity.data.0[1][0] = e_0
+                .mul_add(product_109, e_2.mul_add(product_50, product_90)) - product_87
+                - product_110 - product_112 - product_113;
             let product_114 = e_3 * product_111;
             let product_115 = e_0 * product_63;
             let product_116 = e_3 * product_65;
+            out.force_by_velocity.data.0[1][1] = (-e_2)
+                .mul_add(product_29, -product_82 - product_83) - product_114
+                - product_115 - product_116;
             let product_117 = e_3 * product_63;
             let product_118 = e_0_dot * product_28;
             let product_119 = e_3 * product_118;
             let product_120 = e_0 * product_111;
             let product_121 = e_0 * product_65;
-            let sum_20 = (e_2 * e_1_dot).mul_add(product_100, product_105 + product_107)
+            let sum_20 = (e_1_dot * e_2).mul_add(product_100, product_105 + product_107)
                 + product_117 - product_101 - product_102 - product_119 - product_120
                 - product_121;
+            out.force_by_velocity.data.0[1][2] = sum_20;
             let product_122 = e_2 * product_63;
             let product_123 = e_1 * product_111;
             let product_124 = e_1 * product_65;
-            let product_125 = e_2_dot * product_88;
-            let sum_21 = (e_1 * e_2_dot)
-                .mul_add(product_100, product_119 + product_120 + product_121)
-                - product_104 - product_105 - product_106 - product_107 - product_117;
-            let sum_22 = (e_3_dot * e_0)
-                .mul_add(product_100, product_104 + product_106 + product_108)
-                - product_101 - product_102 - product_103 - product_119 - product_120;
-            out.force_by_position.data.0[0][0] = sum;
-            out.force_by_position.data.0[0][1] = sum_3;
-            out.force_by_position.data.0[0][2] = sum_5;
-            out.force_by_position.data.0[0][3] = sum_6;
-            out.force_by_position.data.0[1][0] = sum_7;
-            out.force_by_position.data.0[1][1] = sum_8;
-            out.force_by_position.data.0[1][2] = sum_9;
-            out.force_by_position.data.0[1][3] = sum_10;
-            out.force_by_position.data.0[2][0] = sum_11;
-            out.force_by_position.data.0[2][1] = sum_12;
-            out.force_by_position.data.0[2][2] = sum_13;
-            out.force_by_position.data.0[2][3] = sum_14;
-            out.force_by_position.data.0[3][0] = sum_15;
-            out.force_by_position.data.0[3][1] = sum_16;
-            out.force_by_position.data.0[3][2] = sum_17;
-            out.force_by_position.data.0[3][3] = sum_18;
-            out.force_by_velocity.data.0[0][0] = -e_3 * product_50 - product_82
-                - product_83 - product_84 - product_85 - product_86;
-            out.force_by_velocity.data.0[0][1] = e_0_dot
-                .mul_add(product_89, e_3.mul_add(product_29, product_87)) - product_90
-                - product_91 - product_92 - product_93;
-            out.force_by_velocity.data.0[0][2] = (-e_3)
-                .mul_add(
-                    product_36,
-                    e_0_dot.mul_add(product_96, product_94 + product_95) + product_97,
-                ) - product_98 - product_99;
-            out.force_by_velocity.data.0[0][3] = sum_19;
-            out.force_by_velocity.data.0[1][0] = e_0
-                .mul_add(product_109, e_2.mul_add(product_50, product_90)) - product_87
-                - product_110 - product_112 - product_113;
-            out.force_by_velocity.data.0[1][1] = (-e_2)
-                .mul_add(product_29, -product_82 - product_83) - product_114
-                - product_115 - product_116;
-            out.force_by_velocity.data.0[1][2] = sum_20;
             out.force_by_velocity.data.0[1][3] = (-e_2)
                 .mul_add(
                     product_118,
                     e_3.mul_add(product_109, product_94 + product_95 + product_122),
                 ) - product_123 - product_124;
+            let product_125 = e_2_dot * product_88;
             out.force_by_velocity.data.0[2][0] = (-e_1)
                 .mul_add(
                     product_50,
                     e_0.mul_add(product_125, product_98 + product_123 + product_124)
                         - product_94 - product_122,
                 );
+            let sum_21 = (e_2_dot * e_1)
+                .mul_add(product_100, product_119 + product_120 + product_121)
+                - product_104 - product_105 - product_106 - product_107 - product_117;
             out.force_by_velocity.data.0[2][1] = sum_21;
             out.force_by_velocity.data.0[2][2] = (-e_1)
                 .mul_add(
@@ -1312,6 +1315,9 @@ pub mod heavy_top {
             out.force_by_velocity.data.0[2][3] = e_3
                 .mul_add(product_125, e_1.mul_add(product_118, product_91)) - product_87
                 - product_110 - product_112 - product_113;
+            let sum_22 = (e_3_dot * e_0)
+                .mul_add(product_100, product_104 + product_106 + product_108)
+                - product_101 - product_102 - product_103 - product_119 - product_120;
             out.force_by_velocity.data.0[3][0] = sum_22;
             out.force_by_velocity.data.0[3][1] = (-e_0)
                 .mul_add(
@@ -1327,13 +1333,7 @@ pub mod heavy_top {
                     product_118,
                     -product_83 - product_84 - product_85 - product_86 - product_114,
                 );
-            out.row_by_position.data.0[0][0] = -T::from_f64(2.0) * e_0_ddot;
-            out.row_by_position.data.0[1][0] = -T::from_f64(2.0) * e_1_ddot;
-            out.row_by_position.data.0[2][0] = -T::from_f64(2.0) * e_2_ddot;
             out.row_by_position.data.0[3][0] = -T::from_f64(2.0) * e_3_ddot;
-            out.row_by_velocity.data.0[0][0] = -T::from_f64(4.0) * e_0_dot;
-            out.row_by_velocity.data.0[1][0] = -T::from_f64(4.0) * e_1_dot;
-            out.row_by_velocity.data.0[2][0] = -T::from_f64(4.0) * e_2_dot;
             out.row_by_velocity.data.0[3][0] = -T::from_f64(4.0) * e_3_dot;
             true
         }
@@ -1344,66 +1344,66 @@ pub mod heavy_top {
         ///
         /// Costs 39 products, 30 sums. As derived: 108 products, 30 sums.
         pub fn mass_matrix(&self, state: &State<T, 4>) -> SMatrix<T, 4, 4> {
+            let mut out = SMatrix::zeros();
             let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let Parameters { m, a, j3, j1, .. } = self.parameters;
-            let product = T::from_f64(4.0) * e_3;
-            let product_2 = e_3 * product;
-            let product_3 = a * (a * m);
-            let product_4 = T::from_f64(4.0) * e_0;
-            let product_5 = e_0 * product_4;
-            let product_6 = product_3 * product_5;
-            let product_7 = T::from_f64(4.0) * e_1;
-            let product_8 = e_1 * product_7;
-            let product_9 = product_3 * product_8;
-            let product_10 = T::from_f64(4.0) * e_2;
-            let product_11 = e_2 * product_10;
-            let product_12 = product_3 * product_11;
+            let product = T::from_f64(4.0) * e_1;
+            let product_2 = a * (a * m);
+            let sum = product_2 - j3;
+            let product_3 = e_2 * sum;
+            let product_4 = product * product_3;
+            out.data.0[1][2] = product_4;
+            out.data.0[2][1] = product_4;
+            let product_5 = T::from_f64(4.0) * e_3;
+            let product_6 = e_3 * product_5;
+            let product_7 = T::from_f64(4.0) * e_0;
+            let product_8 = e_0 * product_7;
+            let product_9 = product_2 * product_8;
+            let product_10 = e_1 * product;
+            let product_11 = product_2 * product_10;
+            let product_12 = T::from_f64(4.0) * e_2;
+            let product_13 = e_2 * product_12;
+            let product_14 = product_2 * product_13;
             let e_1_j1 = e_1 * j1;
-            let product_13 = product_7 * e_1_j1;
+            let product_15 = product * e_1_j1;
             let e_2_j1 = e_2 * j1;
-            let product_14 = product_10 * e_2_j1;
-            let product_15 = product * e_2_j1;
-            let sum = product_3 - j3;
-            let product_16 = e_2 * sum;
-            let product_17 = product_4 * e_1_j1;
-            let sum_2 = product.mul_add(product_16, product_15) - product_17;
-            let sum_3 = j3 - product_3;
-            let product_18 = product_4 * e_2_j1;
-            let product_19 = product * e_1_j1;
-            let sum_4 = product * e_1 * sum_3 - product_18 - product_19;
-            let product_20 = product * e_0 * sum;
-            let product_21 = product_2 * product_3;
-            let product_22 = product_5 * j1;
-            let product_23 = product_2 * j1;
-            let product_24 = product_7 * product_16;
-            let sum_5 = product_4 * e_2 * sum_3 - product_18 - product_19;
-            let sum_6 = (product_4 * e_1).mul_add(sum, product_17) - product_15;
-            let mut out = SMatrix::zeros();
-            out.data.0[0][0] = j3.mul_add(product_2, product_6) + product_9 + product_12
-                + product_13 + product_14;
+            let product_16 = product_12 * e_2_j1;
+            out.data.0[0][0] = j3.mul_add(product_6, product_9) + product_11 + product_14
+                + product_15 + product_16;
+            let product_17 = product_5 * e_2_j1;
+            let product_18 = product_7 * e_1_j1;
+            let sum_2 = product_3.mul_add(product_5, product_17) - product_18;
             out.data.0[0][1] = sum_2;
-            out.data.0[0][2] = sum_4;
-            out.data.0[0][3] = product_20;
             out.data.0[1][0] = sum_2;
-            out.data.0[1][1] = j3.mul_add(product_11, product_6 + product_9) + product_21
-                + product_22 + product_23;
-            out.data.0[1][2] = product_24;
-            out.data.0[1][3] = sum_5;
+            let sum_3 = j3 - product_2;
+            let product_19 = product_7 * e_2_j1;
+            let product_20 = product_5 * e_1_j1;
+            let sum_4 = e_1 * product_5 * sum_3 - product_19 - product_20;
+            out.data.0[0][2] = sum_4;
             out.data.0[2][0] = sum_4;
-            out.data.0[2][1] = product_24;
+            let product_21 = sum * product_5 * e_0;
+            out.data.0[0][3] = product_21;
+            out.data.0[3][0] = product_21;
+            let product_22 = product_2 * product_6;
+            let product_23 = product_8 * j1;
+            let product_24 = product_6 * j1;
+            out.data.0[1][1] = j3.mul_add(product_13, product_9 + product_11)
+                + product_22 + product_23 + product_24;
+            let sum_5 = e_2 * product_7 * sum_3 - product_19 - product_20;
+            out.data.0[1][3] = sum_5;
+            out.data.0[3][1] = sum_5;
             out.data.0[2][2] = j3
                 .mul_add(
-                    product_8,
-                    product_6 + product_12 + product_21 + product_22 + product_23,
+                    product_10,
+                    product_9 + product_14 + product_22 + product_23 + product_24,
                 );
+            let sum_6 = (e_1 * sum).mul_add(product_7, product_18) - product_17;
             out.data.0[2][3] = sum_6;
-            out.data.0[3][0] = product_20;
-            out.data.0[3][1] = sum_5;
             out.data.0[3][2] = sum_6;
             out.data.0[3][3] = j3
                 .mul_add(
-                    product_5,
-                    product_9 + product_12 + product_13 + product_14 + product_21,
+                    product_8,
+                    product_11 + product_14 + product_15 + product_16 + product_22,
                 );
             out
         }
@@ -1411,10 +1411,10 @@ pub mod heavy_top {
         ///
         /// Costs 6 products, 2 sums. As derived: 12 products, 2 sums.
         pub fn potential_force(&self, state: &State<T, 4>) -> SVector<T, 4> {
+            let mut out = SVector::zeros();
             let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let Parameters { m, a, .. } = self.parameters;
             let product = T::constant(19.62, -9.947598300641404e-16) * (m * a);
-            let mut out = SVector::zeros();
             out.data.0[0][0] = e_0 * product;
             out.data.0[0][1] = -product * e_1;
             out.data.0[0][2] = -product * e_2;
@@ -1432,6 +1432,7 @@ pub mod heavy_top {
         ///
         /// Costs 47 products, 37 sums. As derived: 244 products, 75 sums.
         pub fn coriolis_force(&self, state: &State<T, 4>) -> SVector<T, 4> {
+            let mut out = SVector::zeros();
             let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let [e_0_dot, e_1_dot, e_2_dot, e_3_dot] = state.v.data.0[0];
             let Parameters { m, a, j3, j1, .. } = self.parameters;
@@ -1461,6 +1462,7 @@ pub mod heavy_top {
             let product_6 = T::from_f64(4.0) * product_2;
             let product_7 = (e_0_dot_e_0_dot + e_3_dot_e_3_dot - e_1_dot_e_1_dot
                 - e_2_dot_e_2_dot) * product_6;
+            out.data.0[0][0] = e_0.mul_add(product_7, product_5);
             let product_8 = j3 * (e_3_dot_e_0 + e_1_dot_e_2 - e_1_e_2_dot - e_0_dot_e_3);
             let product_9 = sum * e_3_dot.mul_add(e_3, e_0_dot * e_0);
             let product_10 = j1 * (e_0_dot_e_0_dot + e_3_dot_e_3_dot);
@@ -1477,6 +1479,7 @@ pub mod heavy_top {
             let product_12 = product_6
                 * (e_1_dot_e_1_dot + e_2_dot_e_2_dot - e_0_dot_e_0_dot
                     - e_3_dot_e_3_dot);
+            out.data.0[0][1] = e_1.mul_add(product_12, product_11);
             let product_13 = T::from_f64(8.0)
                 * (-e_2)
                     .mul_add(
@@ -1487,6 +1490,7 @@ pub mod heavy_top {
                                 e_1_dot * sum.mul_add(e_3_dot_e_0 - e_0_dot_e_3, product),
                             ),
                     );
+            out.data.0[0][2] = e_2.mul_add(product_12, product_13);
             let product_14 = T::from_f64(8.0)
                 * (-e_3)
                     .mul_add(
@@ -1497,10 +1501,6 @@ pub mod heavy_top {
                                 e_0_dot * sum.mul_add(e_1_e_2_dot - e_1_dot_e_2, product_8),
                             ),
                     );
-            let mut out = SVector::zeros();
-            out.data.0[0][0] = e_0.mul_add(product_7, product_5);
-            out.data.0[0][1] = e_1.mul_add(product_12, product_11);
-            out.data.0[0][2] = e_2.mul_add(product_12, product_13);
             out.data.0[0][3] = e_3.mul_add(product_7, product_14);
             out
         }
@@ -1509,6 +1509,7 @@ pub mod heavy_top {
         ///
         /// Costs 95 products, 88 sums. As derived: 168 products, 88 sums.
         pub fn coriolis_matrix(&self, state: &State<T, 4>) -> SMatrix<T, 4, 4> {
+            let mut out = SMatrix::zeros();
             let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let [e_0_dot, e_1_dot, e_2_dot, e_3_dot] = state.v.data.0[0];
             let Parameters { m, a, j3, j1, .. } = self.parameters;
@@ -1523,6 +1524,8 @@ pub mod heavy_top {
             let product_9 = e_1_dot * product_8;
             let product_10 = T::from_f64(0.5) * product_7.mul_add(e_2, product_6 * e_2);
             let product_11 = e_2_dot * product_10;
+            out.data.0[0][0] = e_0_dot
+                .mul_add(product_5, e_3_dot.mul_add(product_2, product_9)) + product_11;
             let product_12 = e_3 * product_4;
             let product_13 = T::from_f64(4.0) * j1;
             let product_14 = e_3 * product_13;
@@ -1538,62 +1541,59 @@ pub mod heavy_top {
             let product_22 = T::from_f64(0.5) * e_0.mul_add(product_6, e_0 * product_7);
             let product_23 = e_1 * product_13;
             let sum_3 = product_8 + product_23;
+            out.data.0[0][1] = (-e_0_dot)
+                .mul_add(
+                    sum_3,
+                    e_1_dot.mul_add(product_22, e_3_dot.mul_add(sum_2, e_2_dot * sum)),
+                );
             let product_24 = product * e_1;
             let product_25 = product_4 * e_1;
             let product_26 = T::from_f64(0.5) * (product_24 - product_23 - product_25);
             let product_27 = T::from_f64(0.5) * (product_23 + product_25 - product_24);
             let sum_4 = product_26 + product_27;
             let sum_5 = product_10 + product_17;
-            let product_28 = product * e_0;
-            let sum_6 = product_20 - product_21;
-            let product_29 = e_1_dot * sum_6;
-            let sum_7 = product_26 - product_27;
-            let product_30 = e_2_dot * sum_7;
-            let sum_8 = product_15 + product_16;
-            let product_31 = e_0 * product_13;
-            let sum_9 = product_22 + product_31;
-            let product_32 = e_0_dot * product_22;
-            let product_33 = T::from_f64(0.5) * e_3.mul_add(product_6, e_3 * product_7);
-            let product_34 = e_3_dot * product_33;
-            let product_35 = e_0_dot * sum;
-            let product_36 = T::from_f64(0.5) * (product_28 - product_5 - product_31);
-            let product_37 = T::from_f64(0.5) * (product_5 + product_31 - product_28);
-            let sum_10 = product_36 - product_37;
-            let product_38 = e_3_dot * sum_10;
-            let sum_11 = product_36 + product_37;
-            let sum_12 = product_14 + product_33;
-            let mut out = SMatrix::zeros();
-            out.data.0[0][0] = e_0_dot
-                .mul_add(product_5, e_3_dot.mul_add(product_2, product_9)) + product_11;
-            out.data.0[0][1] = (-e_0_dot)
-                .mul_add(
-                    sum_3,
-                    e_1_dot.mul_add(product_22, e_3_dot.mul_add(sum_2, e_2_dot * sum)),
-                );
             out.data.0[0][2] = (-e_1_dot)
                 .mul_add(
                     sum,
                     (-e_0_dot)
                         .mul_add(sum_5, e_2_dot.mul_add(product_22, e_3_dot * sum_4)),
                 );
+            let product_28 = product * e_0;
+            let sum_6 = product_20 - product_21;
+            let product_29 = e_1_dot * sum_6;
+            let sum_7 = product_26 - product_27;
+            let product_30 = e_2_dot * sum_7;
             out.data.0[0][3] = (-e_0_dot)
                 .mul_add(
                     product_2 - (product_12 - product_2),
                     e_3_dot * product_28 - product_29 - product_30,
                 );
+            let sum_8 = product_15 + product_16;
+            let product_31 = e_0 * product_13;
+            let sum_9 = product_22 + product_31;
             out.data.0[1][0] = (-e_1_dot)
                 .mul_add(
                     sum_9,
                     e_0_dot.mul_add(product_8, e_3_dot.mul_add(sum_6, e_2_dot * sum_8)),
                 );
+            let product_32 = e_0_dot * product_22;
+            let product_33 = T::from_f64(0.5) * e_3.mul_add(product_6, e_3 * product_7);
+            let product_34 = e_3_dot * product_33;
             out.data.0[1][1] = e_1_dot
                 .mul_add(product_25, e_2_dot.mul_add(product_19, product_32))
                 + product_34;
+            let product_35 = e_0_dot * sum;
+            let product_36 = T::from_f64(0.5) * (product_28 - product_5 - product_31);
+            let product_37 = T::from_f64(0.5) * (product_5 + product_31 - product_28);
+            let sum_10 = product_36 - product_37;
+            let product_38 = e_3_dot * sum_10;
             out.data.0[1][2] = (-e_1_dot)
                 .mul_add(
                     product_19 - (product_18 - product_19),
                     e_2_dot * product_24 - product_35 - product_38,
                 );
+            let sum_11 = product_36 + product_37;
+            let sum_12 = product_14 + product_33;
             out.data.0[1][3] = (-e_1_dot)
                 .mul_add(
                     sum_12,
@@ -1648,8 +1648,8 @@ pub mod heavy_top {
         ///
         /// Costs 4 products, 4 sums.
         pub fn constraint_residual(&self, state: &State<T, 4>) -> SVector<T, 1> {
-            let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let mut out = SVector::zeros();
+            let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             out.data.0[0][0] = e_3
                 .mul_add(e_3, e_2.mul_add(e_2, e_0.mul_add(e_0, e_1 * e_1))) - T::one();
             out
@@ -1658,8 +1658,8 @@ pub mod heavy_top {
         ///
         /// Costs 4 products.
         pub fn constraint_jacobian(&self, state: &State<T, 4>) -> SMatrix<T, 1, 4> {
-            let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let mut out = SMatrix::zeros();
+            let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             out.data.0[0][0] = T::from_f64(2.0) * e_0;
             out.data.0[1][0] = T::from_f64(2.0) * e_1;
             out.data.0[2][0] = T::from_f64(2.0) * e_2;
@@ -1670,8 +1670,8 @@ pub mod heavy_top {
         ///
         /// Costs 5 products, 4 sums. As derived: 8 products, 4 sums.
         pub fn constraint_bias(&self, state: &State<T, 4>) -> SVector<T, 1> {
-            let [e_0_dot, e_1_dot, e_2_dot, e_3_dot] = state.v.data.0[0];
             let mut out = SVector::zeros();
+            let [e_0_dot, e_1_dot, e_2_dot, e_3_dot] = state.v.data.0[0];
             out.data.0[0][0] = -T::from_f64(2.0)
                 * e_3_dot
                     .mul_add(

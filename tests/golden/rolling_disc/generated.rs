@@ -144,53 +144,57 @@ pub mod rolling_disc {
         /// Costs 43 products, 14 sums, 2 sine–cosine pairs. As derived: 240 products, 51 sums, 2 sine–cosine pairs.
         fn terms(&self, state: &State<T, 5>, out: &mut Terms<T, 5, 2>) {
             let [_, _, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let [_, _, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
-            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all([
-                psi,
-                theta,
-            ]);
+            out.mass.data.0[0][0] = m;
+            out.mass.data.0[1][1] = m;
             let m_r = m * r;
+            let product = r * m_r;
+            out.mass.data.0[3][3] = T::from_f64(1.25) * product;
+            let product_2 = T::from_f64(0.5) * product;
+            out.mass.data.0[4][4] = product_2;
+            out.jacobian.data.0[0][0] = T::one();
+            out.jacobian.data.0[1][1] = T::one();
+            let r_cos_psi = r * cos_psi;
+            out.jacobian.data.0[4][0] = -r_cos_psi;
+            let r_sin_psi = r * sin_psi;
+            out.jacobian.data.0[4][1] = -r_sin_psi;
             let cos_psi_sin_theta = cos_psi * sin_theta;
-            let product = m_r * cos_psi_sin_theta;
-            let product_2 = m_r * cos_theta;
-            let product_3 = sin_psi * product_2;
-            let sin_theta_sin_psi = sin_theta * sin_psi;
-            let product_4 = m_r * sin_theta_sin_psi;
-            let sum = -cos_psi * product_2;
-            let product_5 = r * m_r;
-            let product_6 = T::from_f64(0.5) * product_5;
-            let product_7 = sin_theta * product_6;
+            let product_3 = m_r * cos_psi_sin_theta;
+            out.mass.data.0[0][2] = product_3;
+            out.mass.data.0[2][0] = product_3;
+            let product_4 = m_r * cos_theta;
+            let product_5 = sin_psi * product_4;
+            out.mass.data.0[0][3] = product_5;
+            out.mass.data.0[3][0] = product_5;
+            let sin_psi_sin_theta = sin_psi * sin_theta;
+            let product_6 = m_r * sin_psi_sin_theta;
+            out.mass.data.0[1][2] = product_6;
+            out.mass.data.0[2][1] = product_6;
+            let sum = -cos_psi * product_4;
+            out.mass.data.0[1][3] = sum;
+            out.mass.data.0[3][1] = sum;
+            out.mass.data.0[2][2] = product
+                * (-(T::from_f64(1.25) * cos_theta))
+                    .mul_add(cos_theta, T::from_f64(1.5));
+            let product_7 = product_2 * sin_theta;
+            out.mass.data.0[2][4] = product_7;
+            out.mass.data.0[4][2] = product_7;
             let sum_2 = theta_dot.mul_add(theta_dot, psi_dot * psi_dot);
             let cos_theta_psi_dot = cos_theta * psi_dot;
             let product_8 = theta_dot * cos_theta_psi_dot;
             let product_9 = T::from_f64(2.0) * product_8;
-            let sin_theta_psi_dot = sin_theta * psi_dot;
-            let product_10 = T::from_f64(0.5) * phi_dot;
-            let r_cos_psi = r * cos_psi;
-            let r_sin_psi = r * sin_psi;
-            let psi_dot_phi_dot = psi_dot * phi_dot;
-            out.mass.data.0[0][0] = m;
-            out.mass.data.0[0][2] = product;
-            out.mass.data.0[0][3] = product_3;
-            out.mass.data.0[1][1] = m;
-            out.mass.data.0[1][2] = product_4;
-            out.mass.data.0[1][3] = sum;
-            out.mass.data.0[2][0] = product;
-            out.mass.data.0[2][1] = product_4;
-            out.mass.data.0[2][2] = (-(T::from_f64(1.25) * cos_theta))
-                .mul_add(cos_theta, T::from_f64(1.5)) * product_5;
-            out.mass.data.0[2][4] = product_7;
-            out.mass.data.0[3][0] = product_3;
-            out.mass.data.0[3][1] = sum;
-            out.mass.data.0[3][3] = T::from_f64(1.25) * product_5;
-            out.mass.data.0[4][2] = product_7;
-            out.mass.data.0[4][4] = product_6;
             out.force.data.0[0][0] = m_r
-                * (-cos_psi).mul_add(product_9, sin_theta_sin_psi * sum_2);
+                * (-cos_psi).mul_add(product_9, sin_psi_sin_theta * sum_2);
             out.force.data.0[0][1] = -m_r
                 * cos_psi_sin_theta.mul_add(sum_2, sin_psi * product_9);
-            out.force.data.0[0][2] = -cos_theta * product_5 * theta_dot
+            out.force.data.0[0][4] = -product_2 * product_8;
+            let sin_theta_psi_dot = sin_theta * psi_dot;
+            let product_10 = T::from_f64(0.5) * phi_dot;
+            out.force.data.0[0][2] = -product * cos_theta * theta_dot
                 * T::from_f64(2.5).mul_add(sin_theta_psi_dot, product_10);
             out.force.data.0[0][3] = m_r
                 * (r * cos_theta_psi_dot)
@@ -198,11 +202,7 @@ pub mod rolling_disc {
                         T::from_f64(1.25).mul_add(sin_theta_psi_dot, product_10),
                         T::constant(9.81, -4.973799150320702e-16) * sin_theta,
                     );
-            out.force.data.0[0][4] = -product_6 * product_8;
-            out.jacobian.data.0[0][0] = T::one();
-            out.jacobian.data.0[1][1] = T::one();
-            out.jacobian.data.0[4][0] = -r_cos_psi;
-            out.jacobian.data.0[4][1] = -r_sin_psi;
+            let psi_dot_phi_dot = psi_dot * phi_dot;
             out.bias.data.0[0][0] = -r_sin_psi * psi_dot_phi_dot;
             out.bias.data.0[0][1] = r_cos_psi * psi_dot_phi_dot;
         }
@@ -212,20 +212,19 @@ pub mod rolling_disc {
         /// Costs 113 products, 57 sums, 6 quotients, 2 sine–cosine pairs.
         fn regular(&self, state: &State<T, 5>, out: &mut Regular<T, 5, 2>) -> bool {
             let [_, _, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let [_, _, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
-            let ([sin_theta, sin_psi], [cos_theta, cos_psi]) = T::sin_cos_all([
-                theta,
-                psi,
-            ]);
             let quotient = T::one() / m;
             let m_r = m * r;
-            let sin_theta_sin_psi = sin_theta * sin_psi;
+            let sin_psi_sin_theta = sin_psi * sin_theta;
             let sum = theta_dot.mul_add(theta_dot, psi_dot * psi_dot);
             let psi_dot_cos_theta = psi_dot * cos_theta;
             let product = theta_dot * psi_dot_cos_theta;
             let product_2 = T::from_f64(2.0) * product;
-            let product_3 = m_r * (-cos_psi).mul_add(product_2, sin_theta_sin_psi * sum);
+            let product_3 = m_r * (-cos_psi).mul_add(product_2, sin_psi_sin_theta * sum);
             let r_cos_psi = r * cos_psi;
             let product_4 = r * m_r;
             let product_5 = T::from_f64(0.5) * product_4;
@@ -239,7 +238,8 @@ pub mod rolling_disc {
             let product_10 = product_4
                 * (-(T::from_f64(1.25) * cos_theta))
                     .mul_add(cos_theta, T::from_f64(1.5));
-            let product_11 = m_r * sin_theta_sin_psi;
+            out.pivots.mass_diagonal.data.0[0][2] = product_10;
+            let product_11 = m_r * sin_psi_sin_theta;
             let product_12 = quotient * product_11;
             let sum_3 = (-product_11)
                 .mul_add(
@@ -247,6 +247,7 @@ pub mod rolling_disc {
                     (-product_8)
                         .mul_add(product_9, (-product_6).mul_add(product_7, product_10)),
                 );
+            out.pivots.mass_pivots.data.0[0][2] = sum_3;
             let quotient_3 = T::one() / sum_3;
             let product_13 = sum_2 * quotient_3;
             let product_14 = m_r * cos_theta;
@@ -258,6 +259,7 @@ pub mod rolling_disc {
             let product_19 = quotient_3 * sum_4;
             let sum_5 = sum_2.mul_add(product_19, product_16);
             let product_20 = T::from_f64(1.25) * product_4;
+            out.pivots.mass_diagonal.data.0[0][3] = product_20;
             let sum_6 = (-sum_4)
                 .mul_add(
                     product_19,
@@ -267,6 +269,7 @@ pub mod rolling_disc {
                             (-product_15).mul_add(product_16, product_20),
                         ),
                 );
+            out.pivots.mass_pivots.data.0[0][3] = sum_6;
             let quotient_4 = T::one() / sum_6;
             let product_21 = sum_5 * quotient_4;
             let product_22 = r_cos_psi * quotient_2;
@@ -275,6 +278,8 @@ pub mod rolling_disc {
                     product_22,
                     sum_5.mul_add(product_21, sum_2.mul_add(product_13, quotient)),
                 );
+            out.pivots.row_pivots.data.0[0][0] = sum_7;
+            out.pivots.row_squares.data.0[0][0] = sum_7;
             let quotient_5 = T::one() / sum_7;
             let r_sin_psi = r * sin_psi;
             let psi_dot_phi_dot = psi_dot * phi_dot;
@@ -330,7 +335,9 @@ pub mod rolling_disc {
                     product_29,
                     sum_14.mul_add(product_28, sum_13.mul_add(product_27, quotient)),
                 );
+            out.pivots.row_squares.data.0[0][1] = sum_16;
             let sum_17 = (-sum_15).mul_add(product_26, sum_16);
+            out.pivots.row_pivots.data.0[0][1] = sum_17;
             let sum_18 = (-quotient)
                 .mul_add(
                     product_25,
@@ -348,12 +355,14 @@ pub mod rolling_disc {
             let sum_19 = (-product_26).mul_add(product_30, quotient_5 * sum_12);
             let product_31 = quotient_4
                 * (-sum_14).mul_add(product_30, sum_5.mul_add(sum_19, sum_11));
+            out.acceleration.data.0[0][3] = product_31;
             let sum_20 = (-product_19)
                 .mul_add(
                     product_31,
                     quotient_3
                         * (-sum_13).mul_add(product_30, (-sum_2).mul_add(sum_19, sum_9)),
                 );
+            out.acceleration.data.0[0][2] = sum_20;
             out.acceleration.data.0[0][0] = (-product_16)
                 .mul_add(
                     product_31,
@@ -361,22 +370,12 @@ pub mod rolling_disc {
                 );
             out.acceleration.data.0[0][1] = product_18 * product_31
                 - product_12.mul_add(sum_20, quotient * (product_25 + product_30));
-            out.acceleration.data.0[0][2] = sum_20;
-            out.acceleration.data.0[0][3] = product_31;
             out.acceleration.data.0[0][4] = (-product_7)
                 .mul_add(
                     sum_20,
                     quotient_2
                         * r_sin_psi.mul_add(product_30, r_cos_psi * sum_19 - product_23),
                 );
-            out.pivots.mass_pivots.data.0[0][2] = sum_3;
-            out.pivots.mass_diagonal.data.0[0][2] = product_10;
-            out.pivots.mass_pivots.data.0[0][3] = sum_6;
-            out.pivots.mass_diagonal.data.0[0][3] = product_20;
-            out.pivots.row_pivots.data.0[0][0] = sum_7;
-            out.pivots.row_squares.data.0[0][0] = sum_7;
-            out.pivots.row_pivots.data.0[0][1] = sum_17;
-            out.pivots.row_squares.data.0[0][1] = sum_16;
             true
         }
         /// Everything a projection needs: `A Δq = −g`, `A q̇ + b = 0`, in the metric `M`.
@@ -391,42 +390,41 @@ pub mod rolling_disc {
         /// Costs 16 products, 4 sums, 2 sine–cosine pairs. As derived: 66 products, 9 sums, 2 sine–cosine pairs.
         fn position(&self, state: &State<T, 5>, out: &mut Position<T, 5, 2>) {
             let [_, _, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let Parameters { r, m } = self.parameters;
-            let ([sin_theta, sin_psi], [cos_theta, cos_psi]) = T::sin_cos_all([
-                theta,
-                psi,
-            ]);
-            let m_r = m * r;
-            let product = cos_psi * m_r;
-            let product_2 = sin_theta * product;
-            let product_3 = m_r * sin_psi;
-            let product_4 = cos_theta * product_3;
-            let product_5 = sin_theta * product_3;
-            let sum = -product * cos_theta;
-            let product_6 = r * m_r;
-            let product_7 = T::from_f64(1.25) * product_6;
-            let product_8 = T::from_f64(0.5) * product_6;
-            let product_9 = sin_theta * product_8;
             out.mass.data.0[0][0] = m;
-            out.mass.data.0[0][2] = product_2;
-            out.mass.data.0[0][3] = product_4;
             out.mass.data.0[1][1] = m;
-            out.mass.data.0[1][2] = product_5;
-            out.mass.data.0[1][3] = sum;
-            out.mass.data.0[2][0] = product_2;
-            out.mass.data.0[2][1] = product_5;
-            out.mass.data.0[2][2] = (-(cos_theta * cos_theta))
-                .mul_add(product_7, T::from_f64(1.5) * product_6);
-            out.mass.data.0[2][4] = product_9;
-            out.mass.data.0[3][0] = product_4;
-            out.mass.data.0[3][1] = sum;
-            out.mass.data.0[3][3] = product_7;
-            out.mass.data.0[4][2] = product_9;
-            out.mass.data.0[4][4] = product_8;
+            let m_r = m * r;
+            let product = r * m_r;
+            let product_2 = T::from_f64(1.25) * product;
+            out.mass.data.0[3][3] = product_2;
+            let product_3 = T::from_f64(0.5) * product;
+            out.mass.data.0[4][4] = product_3;
             out.jacobian.data.0[0][0] = T::one();
             out.jacobian.data.0[1][1] = T::one();
-            out.jacobian.data.0[4][0] = -cos_psi * r;
+            out.jacobian.data.0[4][0] = -r * cos_psi;
             out.jacobian.data.0[4][1] = -r * sin_psi;
+            let product_4 = m_r * cos_psi;
+            let product_5 = sin_theta * product_4;
+            out.mass.data.0[0][2] = product_5;
+            out.mass.data.0[2][0] = product_5;
+            let product_6 = m_r * sin_psi;
+            let product_7 = cos_theta * product_6;
+            out.mass.data.0[0][3] = product_7;
+            out.mass.data.0[3][0] = product_7;
+            let product_8 = sin_theta * product_6;
+            out.mass.data.0[1][2] = product_8;
+            out.mass.data.0[2][1] = product_8;
+            let sum = -product_4 * cos_theta;
+            out.mass.data.0[1][3] = sum;
+            out.mass.data.0[3][1] = sum;
+            out.mass.data.0[2][2] = (-(product_2 * cos_theta))
+                .mul_add(cos_theta, T::from_f64(1.5) * product);
+            let product_9 = product_3 * sin_theta;
+            out.mass.data.0[2][4] = product_9;
+            out.mass.data.0[4][2] = product_9;
         }
         /// The least corrections of position and velocity in the kinetic metric, where
         /// the constraints are regular.
@@ -438,21 +436,22 @@ pub mod rolling_disc {
             out: &mut Correction<T, 5, 2>,
         ) -> bool {
             let [_, _, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let [x_dot, y_dot, _, _, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
-            let ([sin_theta, sin_psi], [cos_theta, cos_psi]) = T::sin_cos_all([
-                theta,
-                psi,
-            ]);
             let m_r = m * r;
-            let product = cos_psi * m_r;
+            let product = m_r * cos_psi;
             let product_2 = sin_theta * product;
             let quotient = T::one() / m;
             let product_3 = product_2 * quotient;
             let product_4 = r * m_r;
             let product_5 = T::from_f64(1.25) * product_4;
-            let sum = (-(cos_theta * cos_theta))
-                .mul_add(product_5, T::from_f64(1.5) * product_4);
+            out.pivots.mass_diagonal.data.0[0][3] = product_5;
+            let sum = (-(product_5 * cos_theta))
+                .mul_add(cos_theta, T::from_f64(1.5) * product_4);
+            out.pivots.mass_diagonal.data.0[0][2] = sum;
             let product_6 = T::from_f64(0.5) * product_4;
             let product_7 = sin_theta * product_6;
             let quotient_2 = T::one() / product_6;
@@ -465,10 +464,11 @@ pub mod rolling_disc {
                     product_11,
                     (-product_2).mul_add(product_3, (-product_7).mul_add(product_8, sum)),
                 );
+            out.pivots.mass_pivots.data.0[0][2] = sum_2;
             let quotient_3 = T::one() / sum_2;
-            let cos_psi_r = cos_psi * r;
-            let sum_3 = product_8 * cos_psi_r - product_3;
-            let sum_4 = (-cos_psi_r).mul_add(phi_dot, x_dot);
+            let r_cos_psi = r * cos_psi;
+            let sum_3 = product_8 * r_cos_psi - product_3;
+            let sum_4 = (-r_cos_psi).mul_add(phi_dot, x_dot);
             let product_12 = quotient_3 * sum_3;
             let product_13 = cos_theta * product_9;
             let product_14 = quotient * product_13;
@@ -486,14 +486,17 @@ pub mod rolling_disc {
                             (-product_13).mul_add(product_14, product_5),
                         ),
                 );
+            out.pivots.mass_pivots.data.0[0][3] = sum_7;
             let quotient_4 = T::one() / sum_7;
             let product_18 = sum_6 * quotient_4;
-            let product_19 = quotient_2 * cos_psi_r;
-            let sum_8 = cos_psi_r
+            let product_19 = quotient_2 * r_cos_psi;
+            let sum_8 = r_cos_psi
                 .mul_add(
                     product_19,
                     sum_6.mul_add(product_18, sum_3.mul_add(product_12, quotient)),
                 );
+            out.pivots.row_pivots.data.0[0][0] = sum_8;
+            out.pivots.row_squares.data.0[0][0] = sum_8;
             let quotient_5 = T::one() / sum_8;
             let r_sin_psi = r * sin_psi;
             let sum_9 = product_8 * r_sin_psi - product_11;
@@ -510,11 +513,14 @@ pub mod rolling_disc {
                             sum_9.mul_add(quotient_3 * sum_9, quotient),
                         ),
                 );
+            out.pivots.row_squares.data.0[0][1] = sum_12;
             let sum_13 = (-sum_11).mul_add(product_20, sum_12);
+            out.pivots.row_pivots.data.0[0][1] = sum_13;
             let product_21 = (T::one() / sum_13)
                 * (-sum_4).mul_add(product_20, (-phi_dot).mul_add(r_sin_psi, y_dot));
             let sum_14 = (-product_20).mul_add(product_21, sum_4 * quotient_5);
             let product_22 = quotient_4 * (-sum_10).mul_add(product_21, sum_6 * sum_14);
+            out.velocity.data.0[0][3] = product_22;
             let sum_15 = product_17
                 .mul_add(
                     product_22,
@@ -528,20 +534,11 @@ pub mod rolling_disc {
                     (-quotient).mul_add(product_21, product_11 * sum_15),
                 );
             out.velocity.data.0[0][2] = -sum_15;
-            out.velocity.data.0[0][3] = product_22;
             out.velocity.data.0[0][4] = product_8
                 .mul_add(
                     sum_15,
-                    quotient_2 * r_sin_psi.mul_add(product_21, cos_psi_r * sum_14),
+                    quotient_2 * r_sin_psi.mul_add(product_21, r_cos_psi * sum_14),
                 );
-            out.pivots.mass_pivots.data.0[0][2] = sum_2;
-            out.pivots.mass_diagonal.data.0[0][2] = sum;
-            out.pivots.mass_pivots.data.0[0][3] = sum_7;
-            out.pivots.mass_diagonal.data.0[0][3] = product_5;
-            out.pivots.row_pivots.data.0[0][0] = sum_8;
-            out.pivots.row_squares.data.0[0][0] = sum_8;
-            out.pivots.row_pivots.data.0[0][1] = sum_13;
-            out.pivots.row_squares.data.0[0][1] = sum_12;
             true
         }
         /// The constraints differentiated once more: `A q⃛ + K q̈ = κ`.
@@ -557,60 +554,59 @@ pub mod rolling_disc {
             let [_, _, psi_dot, _, phi_dot] = state.v.data.0[0];
             let Parameters { r, .. } = self.parameters;
             let (sin_psi, cos_psi) = psi.sin_cos();
+            let product = T::from_f64(2.0) * (r * psi_dot);
+            out.slope.data.0[4][0] = sin_psi * product;
+            out.slope.data.0[4][1] = -product * cos_psi;
             let r_phi_dot = r * phi_dot;
-            let product = sin_psi * r_phi_dot;
-            let product_2 = r_phi_dot * cos_psi;
-            let product_3 = T::from_f64(2.0) * (r * psi_dot);
+            let product_2 = sin_psi * r_phi_dot;
+            out.slope.data.0[2][0] = product_2;
+            let product_3 = cos_psi * r_phi_dot;
+            out.slope.data.0[2][1] = -product_3;
             let psi_dot_psi_dot = psi_dot * psi_dot;
-            out.slope.data.0[2][0] = product;
-            out.slope.data.0[2][1] = -product_2;
-            out.slope.data.0[4][0] = sin_psi * product_3;
-            out.slope.data.0[4][1] = -cos_psi * product_3;
-            out.bias.data.0[0][0] = -product_2 * psi_dot_psi_dot;
-            out.bias.data.0[0][1] = -product * psi_dot_psi_dot;
+            out.bias.data.0[0][0] = -product_3 * psi_dot_psi_dot;
+            out.bias.data.0[0][1] = -product_2 * psi_dot_psi_dot;
         }
         /// Energies and the power supplied from outside.
         ///
         /// Costs 34 products, 21 sums, 2 sine–cosine pairs. As derived: 89 products, 22 sums, 2 sine–cosine pairs.
         fn energy(&self, state: &State<T, 5>) -> Energy<T> {
             let [_, _, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let [x_dot, y_dot, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
-            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all([
-                psi,
-                theta,
-            ]);
             let r_m = r * m;
+            let product = r_m * cos_theta;
+            let product_2 = T::constant(9.81, -4.973799150320702e-16) * product;
             let psi_dot_sin_theta = psi_dot * sin_theta;
-            let product = r_m * psi_dot_sin_theta;
-            let product_2 = x_dot * cos_psi * product;
-            let product_3 = r_m * cos_theta;
-            let product_4 = theta_dot * product_3;
-            let product_5 = x_dot * sin_psi * product_4;
-            let product_6 = product * sin_psi * y_dot;
-            let product_7 = r * r_m;
-            let product_8 = phi_dot * product_7;
-            let product_9 = T::from_f64(0.5) * psi_dot_sin_theta * product_8;
+            let product_3 = r_m * psi_dot_sin_theta;
+            let product_4 = x_dot * cos_psi * product_3;
+            let product_5 = product * theta_dot;
+            let product_6 = x_dot * sin_psi * product_5;
+            let product_7 = product_3 * sin_psi * y_dot;
+            let product_8 = r * r_m;
+            let product_9 = phi_dot * product_8;
+            let product_10 = T::from_f64(0.5) * psi_dot_sin_theta * product_9;
             let psi_dot_psi_dot = psi_dot * psi_dot;
-            let product_10 = T::from_f64(0.75) * product_7 * psi_dot_psi_dot;
-            let product_11 = T::from_f64(0.625) * product_7;
-            let product_12 = theta_dot * theta_dot * product_11;
-            let product_13 = T::from_f64(0.25) * phi_dot * product_8;
-            let product_14 = T::from_f64(0.5) * m;
-            let product_15 = x_dot * x_dot * product_14;
-            let product_16 = y_dot * y_dot * product_14;
-            let product_17 = cos_psi * product_4 * y_dot;
-            let product_18 = cos_theta * cos_theta * psi_dot_psi_dot * product_11;
-            let sum = product_2 + product_5 + product_6 + product_9 + product_10
-                + product_12 + product_13 + product_15 + product_16 - product_17
-                - product_18;
-            let product_19 = T::constant(9.81, -4.973799150320702e-16) * product_3;
-            let sum_2 = product_2 + product_5 + product_6 + product_9 + product_10
-                + product_12 + product_13 + product_15 + product_16 + product_19
-                - product_17 - product_18;
+            let product_11 = T::from_f64(0.75) * product_8 * psi_dot_psi_dot;
+            let product_12 = T::from_f64(0.625) * product_8;
+            let product_13 = theta_dot * theta_dot * product_12;
+            let product_14 = T::from_f64(0.25) * phi_dot * product_9;
+            let product_15 = T::from_f64(0.5) * m;
+            let product_16 = x_dot * x_dot * product_15;
+            let product_17 = y_dot * y_dot * product_15;
+            let product_18 = cos_psi * product_5 * y_dot;
+            let product_19 = cos_theta * cos_theta * psi_dot_psi_dot * product_12;
+            let sum = product_4 + product_6 + product_7 + product_10 + product_11
+                + product_13 + product_14 + product_16 + product_17 - product_18
+                - product_19;
+            let sum_2 = product_2 + product_4 + product_6 + product_7 + product_10
+                + product_11 + product_13 + product_14 + product_16 + product_17
+                - product_18 - product_19;
             Energy {
                 kinetic: sum,
-                potential: product_19,
+                potential: product_2,
                 balance: sum_2,
                 power: T::zero(),
             }
@@ -633,22 +629,28 @@ pub mod rolling_disc {
             out: &mut Linearised<T, 5, 2>,
         ) -> bool {
             let [_, _, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let [_, _, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let [x_ddot, y_ddot, psi_ddot, theta_ddot, phi_ddot] = acceleration
                 .data
                 .0[0];
             let [lambda_0, lambda_1] = multiplier.data.0[0];
             let Parameters { r, m } = self.parameters;
-            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all([
-                psi,
-                theta,
-            ]);
+            let cos_psi_r = cos_psi * r;
+            let r_sin_psi = r * sin_psi;
+            out.force_by_position.data.0[2][4] = (-lambda_0)
+                .mul_add(r_sin_psi, lambda_1 * cos_psi_r);
+            let r_psi_dot = r * psi_dot;
+            out.row_by_velocity.data.0[4][0] = -sin_psi * r_psi_dot;
+            out.row_by_velocity.data.0[4][1] = cos_psi * r_psi_dot;
             let r_m = r * m;
             let product = sin_theta * r_m;
             let product_2 = cos_psi * product;
             let psi_dot_psi_dot = psi_dot * psi_dot;
             let product_3 = product_2 * theta_dot;
-            let product_4 = product * sin_psi;
+            let product_4 = sin_psi * product;
             let product_5 = T::from_f64(2.0) * psi_dot;
             let product_6 = r_m * cos_theta;
             let product_7 = theta_dot * product_6;
@@ -667,6 +669,7 @@ pub mod rolling_disc {
                                 ),
                         ),
                 );
+            out.force_by_position.data.0[2][0] = sum;
             let product_10 = theta_dot * product_4;
             let product_11 = sin_psi * product_6;
             let product_12 = cos_psi * product_7;
@@ -683,12 +686,13 @@ pub mod rolling_disc {
                                 ),
                         ),
                 );
+            out.force_by_position.data.0[2][1] = sum_2;
             let product_13 = product_4 * x_ddot;
             let product_14 = product_2 * y_ddot;
+            out.force_by_position.data.0[2][2] = product_13 - product_14;
             let product_15 = product_9 * x_ddot;
             let product_16 = product_11 * y_ddot;
-            let cos_psi_r = cos_psi * r;
-            let r_sin_psi = r * sin_psi;
+            out.force_by_position.data.0[2][3] = -product_15 - product_16;
             let sum_3 = (-psi_ddot)
                 .mul_add(
                     product_9,
@@ -702,6 +706,7 @@ pub mod rolling_disc {
                                 ),
                         ),
                 );
+            out.force_by_position.data.0[3][0] = sum_3;
             let sum_4 = (-theta_dot)
                 .mul_add(
                     product_12,
@@ -715,85 +720,73 @@ pub mod rolling_disc {
                                 ),
                         ),
                 );
-            let r_psi_dot = r * psi_dot;
-            let product_17 = r_m * r_psi_dot;
+            out.force_by_position.data.0[3][1] = sum_4;
+            let product_17 = product * theta_dot;
             let product_18 = T::from_f64(0.5) * r;
-            let product_19 = product * theta_dot;
-            let product_20 = product_6 * product_18;
-            let product_21 = T::from_f64(2.5) * sin_theta;
-            let product_22 = r * product_21;
-            let sum_5 = (-(psi_ddot * product_6))
+            let product_19 = product_6 * product_18;
+            out.force_by_position.data.0[3][4] = (-psi_ddot)
+                .mul_add(product_19, T::from_f64(0.5) * r_psi_dot * product_17);
+            out.force_by_velocity.data.0[2][0] = (-T::from_f64(2.0))
+                .mul_add(product_12, product_4 * product_5);
+            out.force_by_velocity.data.0[2][1] = (-T::from_f64(2.0))
+                .mul_add(product_8, -product_2 * product_5);
+            let product_20 = T::from_f64(2.5) * sin_theta;
+            let product_21 = r * product_20;
+            out.force_by_velocity.data.0[2][2] = -product_7 * product_21;
+            let sum_5 = -product_7 * product_18;
+            out.force_by_velocity.data.0[2][4] = sum_5;
+            out.force_by_velocity.data.0[4][2] = sum_5;
+            out.force_by_velocity.data.0[3][0] = (-product_5)
+                .mul_add(product_9, T::from_f64(2.0) * product_10);
+            out.force_by_velocity.data.0[3][1] = (-T::from_f64(2.0))
+                .mul_add(product_3, -product_5 * product_11);
+            let product_22 = r_psi_dot * product_6;
+            let product_23 = T::from_f64(0.5) * product_22;
+            out.force_by_velocity.data.0[4][3] = product_23;
+            out.force_by_velocity.data.0[3][4] = -product_23;
+            let product_24 = r_psi_dot * r_m;
+            let sum_6 = (-(psi_ddot * product_6))
                 .mul_add(
-                    product_22,
-                    (-phi_ddot)
+                    product_21,
+                    (-product_19)
                         .mul_add(
-                            product_20,
-                            (-(T::from_f64(5.0) * cos_theta * product_7))
+                            phi_ddot,
+                            (-(T::from_f64(5.0) * r_psi_dot * cos_theta))
                                 .mul_add(
-                                    r_psi_dot,
-                                    (phi_dot * product_18)
-                                        .mul_add(
-                                            product_19,
-                                            T::from_f64(2.5) * theta_dot * product_17,
-                                        ) - product_15 - product_16,
+                                    product_7,
+                                    (product_17 * product_18)
+                                        .mul_add(phi_dot, T::from_f64(2.5) * theta_dot * product_24)
+                                        - product_15 - product_16,
                                 ),
                         ),
                 );
-            let product_23 = product_6 * r_psi_dot;
-            let product_24 = r_psi_dot * phi_dot;
-            let sum_6 = (-(T::from_f64(1.25) * psi_dot))
+            out.force_by_position.data.0[3][2] = sum_6;
+            let product_25 = r_psi_dot * phi_dot;
+            let sum_7 = (-(T::from_f64(1.25) * psi_dot))
                 .mul_add(
-                    product_17,
+                    product_24,
                     (-(T::from_f64(0.5) * product))
                         .mul_add(
-                            product_24,
+                            product_25,
                             (T::from_f64(2.5) * psi_dot * cos_theta)
                                 .mul_add(
-                                    product_23,
+                                    product_22,
                                     T::constant(9.81, -4.973799150320702e-16)
                                         .mul_add(product_6, product_13),
                                 ) - product_14,
                         ),
                 );
-            let product_25 = product_21 * product_23;
-            let product_26 = phi_dot * product_20;
-            let sum_7 = -product_7 * product_18;
-            let product_27 = T::from_f64(0.5) * product_23;
-            out.force_by_position.data.0[2][0] = sum;
-            out.force_by_position.data.0[2][1] = sum_2;
-            out.force_by_position.data.0[2][2] = product_13 - product_14;
-            out.force_by_position.data.0[2][3] = -product_15 - product_16;
-            out.force_by_position.data.0[2][4] = (-lambda_0)
-                .mul_add(r_sin_psi, lambda_1 * cos_psi_r);
-            out.force_by_position.data.0[3][0] = sum_3;
-            out.force_by_position.data.0[3][1] = sum_4;
-            out.force_by_position.data.0[3][2] = sum_5;
-            out.force_by_position.data.0[3][3] = sum_6;
-            out.force_by_position.data.0[3][4] = (-psi_ddot)
-                .mul_add(product_20, T::from_f64(0.5) * r_psi_dot * product_19);
-            out.force_by_velocity.data.0[2][0] = (-T::from_f64(2.0))
-                .mul_add(product_12, product_4 * product_5);
-            out.force_by_velocity.data.0[2][1] = (-T::from_f64(2.0))
-                .mul_add(product_8, -product_2 * product_5);
-            out.force_by_velocity.data.0[2][2] = -product_7 * product_22;
-            out.force_by_velocity.data.0[2][3] = product_25 + product_26;
-            out.force_by_velocity.data.0[2][4] = sum_7;
-            out.force_by_velocity.data.0[3][0] = (-product_5)
-                .mul_add(product_9, T::from_f64(2.0) * product_10);
-            out.force_by_velocity.data.0[3][1] = (-T::from_f64(2.0))
-                .mul_add(product_3, -product_5 * product_11);
-            out.force_by_velocity.data.0[3][2] = -product_25 - product_26;
-            out.force_by_velocity.data.0[3][4] = -product_27;
-            out.force_by_velocity.data.0[4][2] = sum_7;
-            out.force_by_velocity.data.0[4][3] = product_27;
+            out.force_by_position.data.0[3][3] = sum_7;
+            let product_26 = product_20 * product_22;
+            let product_27 = product_19 * phi_dot;
+            out.force_by_velocity.data.0[2][3] = product_26 + product_27;
+            out.force_by_velocity.data.0[3][2] = -product_26 - product_27;
             out.row_by_position.data.0[2][0] = (-r_sin_psi)
-                .mul_add(phi_ddot, -cos_psi * product_24);
+                .mul_add(phi_ddot, -cos_psi * product_25);
             out.row_by_position.data.0[2][1] = (-sin_psi)
-                .mul_add(product_24, cos_psi_r * phi_ddot);
+                .mul_add(product_25, cos_psi_r * phi_ddot);
             out.row_by_velocity.data.0[2][0] = -r_sin_psi * phi_dot;
             out.row_by_velocity.data.0[2][1] = cos_psi_r * phi_dot;
-            out.row_by_velocity.data.0[4][0] = -sin_psi * r_psi_dot;
-            out.row_by_velocity.data.0[4][1] = cos_psi * r_psi_dot;
             true
         }
     }
@@ -803,50 +796,49 @@ pub mod rolling_disc {
         ///
         /// Costs 14 products, 2 sums, 2 sine–cosine pairs. As derived: 64 products, 7 sums, 2 sine–cosine pairs.
         pub fn mass_matrix(&self, state: &State<T, 5>) -> SMatrix<T, 5, 5> {
-            let [_, _, psi, theta, _] = state.q.data.0[0];
-            let Parameters { r, m } = self.parameters;
-            let ([sin_theta, sin_psi], [cos_theta, cos_psi]) = T::sin_cos_all([
-                theta,
-                psi,
-            ]);
-            let m_r = m * r;
-            let product = cos_psi * m_r;
-            let product_2 = sin_theta * product;
-            let product_3 = m_r * sin_psi;
-            let product_4 = cos_theta * product_3;
-            let product_5 = sin_theta * product_3;
-            let sum = -product * cos_theta;
-            let product_6 = r * m_r;
-            let product_7 = T::from_f64(1.25) * product_6;
-            let product_8 = T::from_f64(0.5) * product_6;
-            let product_9 = sin_theta * product_8;
             let mut out = SMatrix::zeros();
+            let [_, _, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
+            let Parameters { r, m } = self.parameters;
             out.data.0[0][0] = m;
-            out.data.0[0][2] = product_2;
-            out.data.0[0][3] = product_4;
             out.data.0[1][1] = m;
-            out.data.0[1][2] = product_5;
+            let m_r = m * r;
+            let product = r * m_r;
+            let product_2 = T::from_f64(1.25) * product;
+            out.data.0[3][3] = product_2;
+            let product_3 = T::from_f64(0.5) * product;
+            out.data.0[4][4] = product_3;
+            let product_4 = m_r * cos_psi;
+            let product_5 = sin_theta * product_4;
+            out.data.0[0][2] = product_5;
+            out.data.0[2][0] = product_5;
+            let product_6 = m_r * sin_psi;
+            let product_7 = cos_theta * product_6;
+            out.data.0[0][3] = product_7;
+            out.data.0[3][0] = product_7;
+            let product_8 = sin_theta * product_6;
+            out.data.0[1][2] = product_8;
+            out.data.0[2][1] = product_8;
+            let sum = -product_4 * cos_theta;
             out.data.0[1][3] = sum;
-            out.data.0[2][0] = product_2;
-            out.data.0[2][1] = product_5;
-            out.data.0[2][2] = (-(cos_theta * cos_theta))
-                .mul_add(product_7, T::from_f64(1.5) * product_6);
-            out.data.0[2][4] = product_9;
-            out.data.0[3][0] = product_4;
             out.data.0[3][1] = sum;
-            out.data.0[3][3] = product_7;
+            out.data.0[2][2] = (-(product_2 * cos_theta))
+                .mul_add(cos_theta, T::from_f64(1.5) * product);
+            let product_9 = product_3 * sin_theta;
+            out.data.0[2][4] = product_9;
             out.data.0[4][2] = product_9;
-            out.data.0[4][4] = product_8;
             out
         }
         /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
         ///
         /// Costs 3 products, 1 sum, 1 sine–cosine pair.
         pub fn potential_force(&self, state: &State<T, 5>) -> SVector<T, 5> {
+            let mut out = SVector::zeros();
             let [_, _, _, theta, _] = state.q.data.0[0];
             let Parameters { r, m } = self.parameters;
             let (sin_theta, _) = theta.sin_cos();
-            let mut out = SVector::zeros();
             out.data.0[0][3] = -T::constant(9.81, -4.973799150320702e-16) * r * m
                 * sin_theta;
             out
@@ -862,22 +854,18 @@ pub mod rolling_disc {
         ///
         /// Costs 27 products, 7 sums, 2 sine–cosine pairs. As derived: 165 products, 36 sums, 2 sine–cosine pairs.
         pub fn coriolis_force(&self, state: &State<T, 5>) -> SVector<T, 5> {
+            let mut out = SVector::zeros();
             let [_, _, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let [_, _, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
-            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all([
-                psi,
-                theta,
-            ]);
             let theta_dot_cos_theta = theta_dot * cos_theta;
             let product = T::from_f64(2.0) * theta_dot_cos_theta;
             let psi_dot_sin_theta = psi_dot * sin_theta;
             let product_2 = sin_theta * (theta_dot * theta_dot);
             let r_m = r * m;
-            let product_3 = T::from_f64(0.5) * phi_dot;
-            let product_4 = r * r_m;
-            let product_5 = psi_dot * product_4;
-            let mut out = SVector::zeros();
             out.data.0[0][0] = (-sin_psi)
                 .mul_add(
                     product_2,
@@ -889,11 +877,14 @@ pub mod rolling_disc {
                         product.mul_add(sin_psi, cos_psi * psi_dot_sin_theta),
                         cos_psi * product_2,
                     );
-            out.data.0[0][2] = theta_dot_cos_theta
-                * T::from_f64(2.5).mul_add(psi_dot_sin_theta, product_3) * product_4;
-            out.data.0[0][3] = -cos_theta
-                * T::from_f64(1.25).mul_add(psi_dot_sin_theta, product_3) * product_5;
-            out.data.0[0][4] = T::from_f64(0.5) * theta_dot_cos_theta * product_5;
+            let product_3 = r * r_m;
+            let product_4 = psi_dot * product_3;
+            out.data.0[0][4] = T::from_f64(0.5) * theta_dot_cos_theta * product_4;
+            let product_5 = T::from_f64(0.5) * phi_dot;
+            out.data.0[0][2] = theta_dot_cos_theta * product_3
+                * T::from_f64(2.5).mul_add(psi_dot_sin_theta, product_5);
+            out.data.0[0][3] = -cos_theta * product_4
+                * T::from_f64(1.25).mul_add(psi_dot_sin_theta, product_5);
             out
         }
         /// Coriolis matrix `C` by Christoffel symbols, `N × N`: `Ṁ − 2C` is skew-symmetric; the
@@ -901,43 +892,42 @@ pub mod rolling_disc {
         ///
         /// Costs 24 products, 8 sums, 2 sine–cosine pairs. As derived: 77 products, 13 sums, 2 sine–cosine pairs.
         pub fn coriolis_matrix(&self, state: &State<T, 5>) -> SMatrix<T, 5, 5> {
+            let mut out = SMatrix::zeros();
             let [_, _, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let [_, _, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
-            let ([sin_theta, sin_psi], [cos_theta, cos_psi]) = T::sin_cos_all([
-                theta,
-                psi,
-            ]);
             let r_m = r * m;
             let product = cos_theta * r_m;
             let theta_dot_cos_psi = theta_dot * cos_psi;
             let product_2 = r_m * sin_theta;
             let psi_dot_sin_psi = psi_dot * sin_psi;
-            let cos_psi_psi_dot = cos_psi * psi_dot;
-            let theta_dot_sin_psi = theta_dot * sin_psi;
-            let product_3 = r * product;
-            let product_4 = product_3 * (T::from_f64(1.25) * sin_theta);
-            let product_5 = psi_dot * product_4;
-            let product_6 = T::from_f64(0.25) * product_3;
-            let product_7 = phi_dot * product_6;
-            let product_8 = theta_dot * product_6;
-            let product_9 = psi_dot * product_6;
-            let mut out = SMatrix::zeros();
             out.data.0[2][0] = (-product_2)
                 .mul_add(psi_dot_sin_psi, product * theta_dot_cos_psi);
+            let cos_psi_psi_dot = cos_psi * psi_dot;
+            let theta_dot_sin_psi = theta_dot * sin_psi;
             out.data.0[2][1] = product
                 .mul_add(theta_dot_sin_psi, product_2 * cos_psi_psi_dot);
+            let product_3 = r * product;
+            let product_4 = product_3 * (T::from_f64(1.25) * sin_theta);
             out.data.0[2][2] = theta_dot * product_4;
-            out.data.0[2][3] = -product_5 - product_7;
-            out.data.0[2][4] = product_8;
+            let product_5 = T::from_f64(0.25) * product_3;
+            let product_6 = theta_dot * product_5;
+            out.data.0[2][4] = product_6;
+            out.data.0[4][2] = product_6;
             out.data.0[3][0] = (-product_2)
                 .mul_add(theta_dot_sin_psi, product * cos_psi_psi_dot);
             out.data.0[3][1] = theta_dot_cos_psi
                 .mul_add(product_2, product * psi_dot_sin_psi);
-            out.data.0[3][2] = product_5 + product_7;
-            out.data.0[3][4] = product_9;
-            out.data.0[4][2] = product_8;
-            out.data.0[4][3] = -product_9;
+            let product_7 = psi_dot * product_5;
+            out.data.0[3][4] = product_7;
+            out.data.0[4][3] = -product_7;
+            let product_8 = psi_dot * product_4;
+            let product_9 = product_5 * phi_dot;
+            out.data.0[2][3] = -product_8 - product_9;
+            out.data.0[3][2] = product_8 + product_9;
             out
         }
         /// Constraints `g`, `R`, each in the unit it is written in; zero for velocity constraints.
@@ -950,12 +940,12 @@ pub mod rolling_disc {
         ///
         /// Costs 2 products, 2 sums, 1 sine–cosine pair.
         pub fn constraint_jacobian(&self, state: &State<T, 5>) -> SMatrix<T, 2, 5> {
+            let mut out = SMatrix::zeros();
             let [_, _, psi, _, _] = state.q.data.0[0];
             let Parameters { r, .. } = self.parameters;
-            let (sin_psi, cos_psi) = psi.sin_cos();
-            let mut out = SMatrix::zeros();
             out.data.0[0][0] = T::one();
             out.data.0[1][1] = T::one();
+            let (sin_psi, cos_psi) = psi.sin_cos();
             out.data.0[4][0] = -r * cos_psi;
             out.data.0[4][1] = -r * sin_psi;
             out
@@ -964,12 +954,12 @@ pub mod rolling_disc {
         ///
         /// Costs 4 products, 1 sum, 1 sine–cosine pair. As derived: 6 products, 1 sum, 1 sine–cosine pair.
         pub fn constraint_bias(&self, state: &State<T, 5>) -> SVector<T, 2> {
+            let mut out = SVector::zeros();
             let [_, _, psi, _, _] = state.q.data.0[0];
             let [_, _, psi_dot, _, phi_dot] = state.v.data.0[0];
             let Parameters { r, .. } = self.parameters;
             let (sin_psi, cos_psi) = psi.sin_cos();
             let product = phi_dot * (r * psi_dot);
-            let mut out = SVector::zeros();
             out.data.0[0][0] = -sin_psi * product;
             out.data.0[0][1] = product * cos_psi;
             out
@@ -1046,11 +1036,10 @@ pub mod rolling_disc {
         /// Costs 4 products, 2 sums, 2 sine–cosine pairs. As derived: 5 products, 2 sums, 2 sine–cosine pairs.
         fn outputs(&self, state: &State<T, 5>, values: &mut [T]) {
             let [x, y, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let Parameters { r, .. } = self.parameters;
-            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all([
-                psi,
-                theta,
-            ]);
             let r_sin_theta = r * sin_theta;
             let computed = [
                 sin_psi.mul_add(r_sin_theta, x),
@@ -1064,37 +1053,35 @@ pub mod rolling_disc {
         fn events(&self, _state: &State<T, 5>, _values: &mut [T]) {}
         fn draw(&self, state: &State<T, 5>, canvas: &mut dyn Canvas<T>) {
             let [x, y, psi, theta, phi] = state.q.data.0[0];
+            let ([sin_psi, sin_theta, sin_phi], [cos_psi, cos_theta, cos_phi]) = T::sin_cos_all(
+                &[psi, theta, phi],
+            );
             let Parameters { r, .. } = self.parameters;
-            let ([sin_psi, sin_theta, sin_phi], [cos_psi, cos_theta, cos_phi]) = T::sin_cos_all([
-                psi,
-                theta,
-                phi,
-            ]);
             let r_sin_theta = r * sin_theta;
             let product = sin_psi * r_sin_theta;
             let sum = x + product;
-            let product_2 = r_sin_theta * cos_psi;
-            let sum_2 = y - product_2;
             let r_cos_theta = r * cos_theta;
             let r_sin_phi = r * sin_phi;
-            let sum_3 = sum + product.mul_add(cos_phi, cos_psi * r_sin_phi);
-            let sum_4 = sum_2 + (-product_2).mul_add(cos_phi, sin_psi * r_sin_phi);
-            let sum_5 = r_cos_theta.mul_add(cos_phi, r_cos_theta);
+            let sum_2 = sum + product.mul_add(cos_phi, cos_psi * r_sin_phi);
+            let sum_3 = r_cos_theta.mul_add(cos_phi, r_cos_theta);
+            let product_2 = r_sin_theta * cos_psi;
+            let sum_4 = y - product_2;
+            let sum_5 = sum_4 + (-cos_phi).mul_add(product_2, sin_psi * r_sin_phi);
             canvas
                 .line(
                     &[
                         [x, y, T::zero()],
-                        [sum, sum_2, r_cos_theta],
-                        [sum_3, sum_4, sum_5],
+                        [sum, sum_4, r_cos_theta],
+                        [sum_2, sum_5, sum_3],
                     ],
                 );
             canvas
                 .circle(
-                    [sum, sum_2, r_cos_theta],
+                    [sum, sum_4, r_cos_theta],
                     T::constant(0.01, -2.0816681711721684e-19),
                 );
             canvas.trace([x, y, T::zero()]);
-            canvas.trace([sum_3, sum_4, sum_5]);
+            canvas.trace([sum_2, sum_5, sum_3]);
         }
     }
 }

@@ -169,21 +169,23 @@ pub mod slider_crank {
         /// Costs 35 products, 15 sums, 2 sine–cosine pairs. As derived: 112 products, 35 sums, 2 sine–cosine pairs.
         fn terms(&self, state: &State<T, 3>, out: &mut Terms<T, 3, 2>) {
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
-            let m2_l2 = m2 * l2;
-            let product = T::from_f64(0.5) * l1
-                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2) * m2_l2;
-            let product_2 = q2_dot * (l2 * q2_dot);
-            let product_3 = T::from_f64(0.5) * sin_q1.mul_add(cos_q2, sin_q2 * cos_q1);
-            let product_4 = q1_dot * (l1 * q1_dot);
             out.mass.data.0[0][0] = (l1 * l1)
                 .mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
-            out.mass.data.0[0][1] = product;
-            out.mass.data.0[1][0] = product;
+            let m2_l2 = m2 * l2;
             out.mass.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             out.mass.data.0[2][2] = m3;
+            out.jacobian.data.0[2][0] = -T::one();
+            out.jacobian.data.0[0][0] = -l1 * sin_q1;
+            out.jacobian.data.0[0][1] = l1 * cos_q1;
+            let product = T::from_f64(0.5) * l1 * m2_l2
+                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2);
+            out.mass.data.0[0][1] = product;
+            out.mass.data.0[1][0] = product;
+            let product_2 = q2_dot * (l2 * q2_dot);
+            let product_3 = T::from_f64(0.5) * sin_q1.mul_add(cos_q2, cos_q1 * sin_q2);
             out.force.data.0[0][0] = -l1
                 * m2
                     .mul_add(
@@ -194,17 +196,15 @@ pub mod slider_crank {
                             ),
                         T::constant(4.905, -2.486899575160351e-16) * m1 * cos_q1,
                     );
+            let product_4 = q1_dot * (l1 * q1_dot);
             out.force.data.0[0][1] = m2_l2
                 * (-product_3)
                     .mul_add(
                         product_4,
                         T::constant(4.905, -2.486899575160351e-16) * cos_q2,
                     );
-            out.jacobian.data.0[0][0] = -l1 * sin_q1;
-            out.jacobian.data.0[0][1] = l1 * cos_q1;
-            out.jacobian.data.0[1][0] = -sin_q2 * l2;
-            out.jacobian.data.0[1][1] = -cos_q2 * l2;
-            out.jacobian.data.0[2][0] = -T::one();
+            out.jacobian.data.0[1][0] = -l2 * sin_q2;
+            out.jacobian.data.0[1][1] = -l2 * cos_q2;
             out.bias.data.0[0][0] = cos_q2.mul_add(product_2, cos_q1 * product_4);
             out.bias.data.0[0][1] = (-sin_q2).mul_add(product_2, sin_q1 * product_4);
         }
@@ -214,24 +214,28 @@ pub mod slider_crank {
         /// Costs 68 products, 30 sums, 5 quotients, 2 sine–cosine pairs.
         fn regular(&self, state: &State<T, 3>, out: &mut Regular<T, 3, 2>) -> bool {
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let quotient = T::one()
                 / (l1 * l1).mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
             let l1_sin_q1 = l1 * sin_q1;
             let quotient_2 = T::one() / m3;
             let product = quotient * l1_sin_q1;
             let m2_l2 = m2 * l2;
-            let product_2 = T::from_f64(0.5) * l1
-                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2) * m2_l2;
+            let product_2 = T::from_f64(0.5) * l1 * m2_l2
+                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2);
             let product_3 = quotient * product_2;
-            let sum = (-sin_q2).mul_add(l2, l1_sin_q1 * product_3);
+            let sum = (-l2).mul_add(sin_q2, l1_sin_q1 * product_3);
             let sum_2 = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
+            out.pivots.mass_diagonal.data.0[0][1] = sum_2;
             let sum_3 = (-product_2).mul_add(product_3, sum_2);
+            out.pivots.mass_pivots.data.0[0][1] = sum_3;
             let quotient_3 = T::one() / sum_3;
             let product_4 = sum * quotient_3;
             let sum_4 = sum.mul_add(product_4, l1_sin_q1.mul_add(product, quotient_2));
+            out.pivots.row_pivots.data.0[0][0] = sum_4;
+            out.pivots.row_squares.data.0[0][0] = sum_4;
             let quotient_4 = T::one() / sum_4;
             let product_5 = q2_dot * (l2 * q2_dot);
             let product_6 = T::from_f64(0.5) * sin_q1.mul_add(cos_q2, sin_q2 * cos_q1);
@@ -259,13 +263,15 @@ pub mod slider_crank {
             let sum_6 = product_4.mul_add(sum_5, product * product_7)
                 - cos_q2.mul_add(product_5, cos_q1 * product_8);
             let l1_cos_q1 = l1 * cos_q1;
-            let sum_7 = product_3.mul_add(l1_cos_q1, cos_q2 * l2);
+            let sum_7 = product_3.mul_add(l1_cos_q1, l2 * cos_q2);
             let sum_8 = product_4.mul_add(sum_7, product * l1_cos_q1);
             let product_9 = quotient_4 * sum_8;
             let product_10 = quotient * l1_cos_q1;
             let product_11 = quotient_3 * sum_7;
             let sum_9 = sum_7.mul_add(product_11, l1_cos_q1 * product_10);
+            out.pivots.row_squares.data.0[0][1] = sum_9;
             let sum_10 = (-sum_8).mul_add(product_9, sum_9);
+            out.pivots.row_pivots.data.0[0][1] = sum_10;
             let sum_11 = sum_6 * product_9
                 - sum_5
                     .mul_add(
@@ -280,6 +286,7 @@ pub mod slider_crank {
             let sum_12 = product_9.mul_add(product_12, quotient_4 * sum_6);
             let product_13 = quotient_3
                 * sum_7.mul_add(product_12, (-sum).mul_add(sum_12, sum_5));
+            out.acceleration.data.0[0][1] = product_13;
             out.acceleration.data.0[0][0] = (-product_3)
                 .mul_add(
                     product_13,
@@ -287,14 +294,7 @@ pub mod slider_crank {
                         * (-l1_cos_q1)
                             .mul_add(product_12, l1_sin_q1 * sum_12 - product_7),
                 );
-            out.acceleration.data.0[0][1] = product_13;
             out.acceleration.data.0[0][2] = quotient_2 * sum_12;
-            out.pivots.mass_pivots.data.0[0][1] = sum_3;
-            out.pivots.mass_diagonal.data.0[0][1] = sum_2;
-            out.pivots.row_pivots.data.0[0][0] = sum_4;
-            out.pivots.row_squares.data.0[0][0] = sum_4;
-            out.pivots.row_pivots.data.0[0][1] = sum_10;
-            out.pivots.row_squares.data.0[0][1] = sum_9;
             true
         }
         /// Everything a projection needs: `A Δq = −g`, `A q̇ + b = 0`, in the metric `M`.
@@ -309,28 +309,28 @@ pub mod slider_crank {
         /// Costs 15 products, 11 sums, 2 sine–cosine pairs. As derived: 35 products, 13 sums, 2 sine–cosine pairs.
         fn position(&self, state: &State<T, 3>, out: &mut Position<T, 3, 2>) {
             let [q1, q2, q3] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
-            let m2_l2 = m2 * l2;
-            let product = T::from_f64(0.5) * l1
-                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2) * m2_l2;
-            let l1_cos_q1 = l1 * cos_q1;
-            let cos_q2_l2 = cos_q2 * l2;
-            let l1_sin_q1 = l1 * sin_q1;
-            let sin_q2_l2 = sin_q2 * l2;
             out.mass.data.0[0][0] = (l1 * l1)
                 .mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
-            out.mass.data.0[0][1] = product;
-            out.mass.data.0[1][0] = product;
+            let m2_l2 = m2 * l2;
             out.mass.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             out.mass.data.0[2][2] = m3;
-            out.residual.data.0[0][0] = l1_cos_q1 + cos_q2_l2 - q3;
-            out.residual.data.0[0][1] = l1_sin_q1 - sin_q2_l2;
-            out.jacobian.data.0[0][0] = -l1_sin_q1;
-            out.jacobian.data.0[0][1] = l1_cos_q1;
-            out.jacobian.data.0[1][0] = -sin_q2_l2;
-            out.jacobian.data.0[1][1] = -cos_q2_l2;
             out.jacobian.data.0[2][0] = -T::one();
+            let l1_sin_q1 = l1 * sin_q1;
+            out.jacobian.data.0[0][0] = -l1_sin_q1;
+            let l1_cos_q1 = l1 * cos_q1;
+            out.jacobian.data.0[0][1] = l1_cos_q1;
+            let product = T::from_f64(0.5) * l1 * m2_l2
+                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2);
+            out.mass.data.0[0][1] = product;
+            out.mass.data.0[1][0] = product;
+            let l2_sin_q2 = l2 * sin_q2;
+            out.residual.data.0[0][1] = l1_sin_q1 - l2_sin_q2;
+            out.jacobian.data.0[1][0] = -l2_sin_q2;
+            let l2_cos_q2 = l2 * cos_q2;
+            out.jacobian.data.0[1][1] = -l2_cos_q2;
+            out.residual.data.0[0][0] = l1_cos_q1 + l2_cos_q2 - q3;
         }
         /// The least corrections of position and velocity in the kinetic metric, where
         /// the constraints are regular.
@@ -342,49 +342,60 @@ pub mod slider_crank {
             out: &mut Correction<T, 3, 2>,
         ) -> bool {
             let [q1, q2, q3] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, q3_dot] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
-            let l1_cos_q1 = l1 * cos_q1;
-            let cos_q2_l2 = cos_q2 * l2;
-            let sum = l1_cos_q1 + cos_q2_l2 - q3;
             let l1_sin_q1 = l1 * sin_q1;
             let l2_sin_q2 = l2 * sin_q2;
-            let sum_2 = l1_sin_q1 - l2_sin_q2;
+            let sum = l1_sin_q1 - l2_sin_q2;
+            out.residual.data.0[0][1] = sum;
+            let l1_cos_q1 = l1 * cos_q1;
+            let l2_cos_q2 = l2 * cos_q2;
+            let sum_2 = l1_cos_q1 + l2_cos_q2 - q3;
+            out.residual.data.0[0][0] = sum_2;
             let quotient = T::one()
                 / (l1 * l1).mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
             let quotient_2 = T::one() / m3;
             let product = l1_sin_q1 * quotient;
             let l2_m2 = l2 * m2;
-            let product_2 = T::from_f64(0.5) * l1
-                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2) * l2_m2;
+            let product_2 = T::from_f64(0.5) * l1 * l2_m2
+                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2);
             let product_3 = quotient * product_2;
             let sum_3 = l1_sin_q1 * product_3 - l2_sin_q2;
             let sum_4 = (T::from_f64(0.25) * l2).mul_add(l2_m2, j2);
+            out.pivots.mass_diagonal.data.0[0][1] = sum_4;
             let sum_5 = (-product_2).mul_add(product_3, sum_4);
+            out.pivots.mass_pivots.data.0[0][1] = sum_5;
             let quotient_3 = T::one() / sum_5;
             let product_4 = sum_3 * quotient_3;
             let sum_6 = sum_3.mul_add(product_4, l1_sin_q1.mul_add(product, quotient_2));
+            out.pivots.row_pivots.data.0[0][0] = sum_6;
+            out.pivots.row_squares.data.0[0][0] = sum_6;
             let quotient_4 = T::one() / sum_6;
-            let sum_7 = l1_cos_q1.mul_add(product_3, cos_q2_l2);
+            let sum_7 = l1_cos_q1.mul_add(product_3, l2_cos_q2);
             let sum_8 = product_4.mul_add(sum_7, l1_cos_q1 * product);
             let product_5 = quotient_4 * sum_8;
             let sum_9 = sum_7
                 .mul_add(quotient_3 * sum_7, l1_cos_q1 * (l1_cos_q1 * quotient));
+            out.pivots.row_squares.data.0[0][1] = sum_9;
             let sum_10 = (-sum_8).mul_add(product_5, sum_9);
+            out.pivots.row_pivots.data.0[0][1] = sum_10;
             let quotient_5 = T::one() / sum_10;
-            let product_6 = quotient_5 * sum.mul_add(product_5, sum_2);
-            let sum_11 = product_5.mul_add(product_6, sum * quotient_4);
+            let product_6 = quotient_5 * sum_2.mul_add(product_5, sum);
+            let sum_11 = product_5.mul_add(product_6, sum_2 * quotient_4);
             let product_7 = quotient_3 * (-sum_3).mul_add(sum_11, sum_7 * product_6);
+            out.position.data.0[0][1] = product_7;
             let sum_12 = (-product_3)
                 .mul_add(
                     product_7,
                     quotient * (-l1_cos_q1).mul_add(product_6, l1_sin_q1 * sum_11),
                 );
+            out.position.data.0[0][0] = sum_12;
+            out.position.data.0[0][2] = quotient_2 * sum_11;
             let product_8 = l1_sin_q1 * q1_dot;
             let product_9 = l2_sin_q2 * q2_dot;
             let product_10 = l1_cos_q1 * q1_dot;
-            let product_11 = cos_q2_l2 * q2_dot;
+            let product_11 = l2_cos_q2 * q2_dot;
             let sum_13 = (-product_7)
                 .mul_add(
                     product_11,
@@ -402,24 +413,13 @@ pub mod slider_crank {
                     );
             let sum_14 = product_5.mul_add(product_12, quotient_4 * sum_13);
             let product_13 = quotient_3 * (-sum_3).mul_add(sum_14, sum_7 * product_12);
-            out.residual.data.0[0][0] = sum;
-            out.residual.data.0[0][1] = sum_2;
-            out.position.data.0[0][0] = sum_12;
-            out.position.data.0[0][1] = product_7;
-            out.position.data.0[0][2] = quotient_2 * sum_11;
+            out.velocity.data.0[0][1] = product_13;
             out.velocity.data.0[0][0] = (-product_3)
                 .mul_add(
                     product_13,
                     quotient * (-l1_cos_q1).mul_add(product_12, l1_sin_q1 * sum_14),
                 );
-            out.velocity.data.0[0][1] = product_13;
             out.velocity.data.0[0][2] = quotient_2 * sum_14;
-            out.pivots.mass_pivots.data.0[0][1] = sum_5;
-            out.pivots.mass_diagonal.data.0[0][1] = sum_4;
-            out.pivots.row_pivots.data.0[0][0] = sum_6;
-            out.pivots.row_squares.data.0[0][0] = sum_6;
-            out.pivots.row_pivots.data.0[0][1] = sum_10;
-            out.pivots.row_squares.data.0[0][1] = sum_9;
             true
         }
         /// The constraints differentiated once more: `A q⃛ + K q̈ = κ`.
@@ -432,20 +432,20 @@ pub mod slider_crank {
         /// Costs 16 products, 6 sums, 2 sine–cosine pairs. As derived: 28 products, 7 sums, 2 sine–cosine pairs.
         fn branch(&self, state: &State<T, 3>, out: &mut Branch<T, 3, 2>) {
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, .. } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let l1_q1_dot = l1 * q1_dot;
             let product = cos_q1 * l1_q1_dot;
+            out.slope.data.0[0][0] = -T::from_f64(3.0) * product;
             let product_2 = l1_q1_dot * sin_q1;
+            out.slope.data.0[0][1] = -T::from_f64(3.0) * product_2;
             let l2_q2_dot = l2 * q2_dot;
             let product_3 = T::from_f64(3.0) * l2_q2_dot;
-            let q1_dot_q1_dot = q1_dot * q1_dot;
-            let product_4 = l2_q2_dot * (q2_dot * q2_dot);
-            out.slope.data.0[0][0] = -T::from_f64(3.0) * product;
-            out.slope.data.0[0][1] = -T::from_f64(3.0) * product_2;
             out.slope.data.0[1][0] = -cos_q2 * product_3;
             out.slope.data.0[1][1] = product_3 * sin_q2;
+            let q1_dot_q1_dot = q1_dot * q1_dot;
+            let product_4 = l2_q2_dot * (q2_dot * q2_dot);
             out.bias.data.0[0][0] = (-sin_q2)
                 .mul_add(product_4, -product_2 * q1_dot_q1_dot);
             out.bias.data.0[0][1] = (-cos_q2)
@@ -456,34 +456,35 @@ pub mod slider_crank {
         /// Costs 33 products, 19 sums, 2 sine–cosine pairs. As derived: 54 products, 17 sums, 2 sine–cosine pairs.
         fn energy(&self, state: &State<T, 3>) -> Energy<T> {
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, q3_dot] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
-            let product = T::from_f64(0.5) * j2 * q2_dot * q2_dot;
-            let product_2 = T::from_f64(0.5) * m3 * q3_dot * q3_dot;
-            let q2_dot_l2 = q2_dot * l2;
-            let product_3 = T::from_f64(0.5) * q1_dot;
-            let l1_m2 = l1 * m2;
-            let product_4 = product_3 * l1_m2;
-            let product_5 = q2_dot_l2 * product_4;
-            let product_6 = sin_q1 * sin_q2 * product_5;
-            let q1_dot_l1 = q1_dot * l1;
             let l1_m1 = l1 * m1;
-            let product_7 = T::from_f64(0.125) * q1_dot * q1_dot_l1 * l1_m1;
-            let product_8 = product_4 * q1_dot_l1;
-            let l2_m2 = l2 * m2;
-            let product_9 = T::from_f64(0.125) * q2_dot * q2_dot_l2 * l2_m2;
-            let product_10 = q1_dot * product_3 * j1;
-            let product_11 = product_5 * cos_q1 * cos_q2;
-            let product_12 = T::constant(4.905, -2.486899575160351e-16) * sin_q1 * l1_m1;
-            let product_13 = T::constant(9.81, -4.973799150320702e-16) * sin_q1 * l1_m2;
-            let product_14 = T::constant(4.905, -2.486899575160351e-16) * sin_q2 * l2_m2;
-            let sum = product + product_2 + product_6 + product_7 + product_8 + product_9
-                + product_10 + product_12 + product_13 - product_11 - product_14;
+            let product = T::constant(4.905, -2.486899575160351e-16) * sin_q1 * l1_m1;
+            let l1_m2 = l1 * m2;
+            let product_2 = T::constant(9.81, -4.973799150320702e-16) * sin_q1 * l1_m2;
+            let m2_l2 = m2 * l2;
+            let product_3 = T::constant(4.905, -2.486899575160351e-16) * sin_q2 * m2_l2;
+            let product_4 = T::from_f64(0.5) * j2 * q2_dot * q2_dot;
+            let product_5 = T::from_f64(0.5) * m3 * q3_dot * q3_dot;
+            let l2_q2_dot = l2 * q2_dot;
+            let product_6 = T::from_f64(0.5) * q1_dot;
+            let product_7 = l1_m2 * product_6;
+            let product_8 = l2_q2_dot * product_7;
+            let product_9 = sin_q1 * sin_q2 * product_8;
+            let l1_q1_dot = l1 * q1_dot;
+            let product_10 = T::from_f64(0.125) * l1_m1 * q1_dot * l1_q1_dot;
+            let product_11 = product_7 * l1_q1_dot;
+            let product_12 = T::from_f64(0.125) * m2_l2 * q2_dot * l2_q2_dot;
+            let product_13 = q1_dot * product_6 * j1;
+            let product_14 = product_8 * cos_q1 * cos_q2;
+            let sum = product + product_2 + product_4 + product_5 + product_9
+                + product_10 + product_11 + product_12 + product_13 - product_3
+                - product_14;
             Energy {
-                kinetic: product + product_2 + product_6 + product_7 + product_8
-                    + product_9 + product_10 - product_11,
-                potential: product_12 + product_13 - product_14,
+                kinetic: product_4 + product_5 + product_9 + product_10 + product_11
+                    + product_12 + product_13 - product_14,
+                potential: product + product_2 - product_3,
                 balance: sum,
                 power: T::zero(),
             }
@@ -506,24 +507,32 @@ pub mod slider_crank {
             out: &mut Linearised<T, 3, 2>,
         ) -> bool {
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let [q1_ddot, q2_ddot, _] = acceleration.data.0[0];
             let [lambda_0, lambda_1] = multiplier.data.0[0];
             let Parameters { l1, l2, m1, m2, .. } = self.parameters;
-            let ([sin_q2, sin_q1], [cos_q2, cos_q1]) = T::sin_cos_all([q2, q1]);
+            let q1_dot_q1_dot = q1_dot * q1_dot;
+            out.row_by_position.data.0[0][0] = l1
+                * (-sin_q1).mul_add(q1_dot_q1_dot, cos_q1 * q1_ddot);
+            out.row_by_position.data.0[0][1] = l1
+                * q1_ddot.mul_add(sin_q1, cos_q1 * q1_dot_q1_dot);
+            let product = T::from_f64(2.0) * (l1 * q1_dot);
+            out.row_by_velocity.data.0[0][0] = cos_q1 * product;
+            out.row_by_velocity.data.0[0][1] = sin_q1 * product;
             let q2_dot_q2_dot = q2_dot * q2_dot;
-            let product = l2 * (l1 * m2);
-            let product_2 = T::from_f64(0.5) * product;
-            let product_3 = sin_q1 * product_2;
-            let product_4 = sin_q2 * product_3;
-            let product_5 = q2_dot_q2_dot * product_4;
-            let product_6 = product_2 * cos_q1;
-            let product_7 = q2_dot_q2_dot * cos_q2;
-            let product_8 = product_6 * product_7;
+            let product_2 = l2 * (l1 * m2);
+            let product_3 = T::from_f64(0.5) * product_2;
+            let product_4 = sin_q1 * product_3;
+            let product_5 = sin_q2 * product_4;
+            let product_6 = q2_dot_q2_dot * product_5;
+            let product_7 = cos_q1 * product_3;
+            let product_8 = q2_dot_q2_dot * cos_q2;
+            let product_9 = product_7 * product_8;
             let sin_q2_q2_ddot = sin_q2 * q2_ddot;
-            let product_9 = product_6 * sin_q2_q2_ddot;
+            let product_10 = product_7 * sin_q2_q2_ddot;
             let cos_q2_q2_ddot = cos_q2 * q2_ddot;
-            let product_10 = product_3 * cos_q2_q2_ddot;
+            let product_11 = product_4 * cos_q2_q2_ddot;
             let sum = l1
                 .mul_add(
                     sin_q1
@@ -536,13 +545,17 @@ pub mod slider_crank {
                                 ),
                             cos_q1 * lambda_0,
                         ),
-                    product_5,
-                ) - product_8 - product_9 - product_10;
-            let q1_dot_q1_dot = q1_dot * q1_dot;
-            let product_11 = product_4 * q1_dot_q1_dot;
-            let product_12 = product_6 * cos_q2 * q1_dot_q1_dot;
-            let product_13 = sin_q2 * product_6 * q1_ddot;
-            let product_14 = product_3 * cos_q2 * q1_ddot;
+                    product_6,
+                ) - product_9 - product_10 - product_11;
+            out.force_by_position.data.0[0][0] = sum;
+            let product_12 = q1_dot_q1_dot * product_5;
+            let product_13 = q1_dot_q1_dot * product_7 * cos_q2;
+            let product_14 = q1_ddot * sin_q2 * product_7;
+            let product_15 = q1_ddot * product_4 * cos_q2;
+            out.force_by_position.data.0[0][1] = product_12 - product_13 - product_14
+                - product_15;
+            out.force_by_position.data.0[1][0] = product_6 - product_9 - product_10
+                - product_11;
             let sum_2 = l2
                 .mul_add(
                     (-sin_q2)
@@ -551,28 +564,16 @@ pub mod slider_crank {
                                 .mul_add(m2, lambda_1),
                             lambda_0 * cos_q2,
                         ),
-                    product_11,
-                ) - product_12 - product_13 - product_14;
-            let product_15 = product * sin_q1.mul_add(cos_q2, sin_q2 * cos_q1);
-            let product_16 = T::from_f64(2.0) * (l1 * q1_dot);
-            let product_17 = T::from_f64(2.0) * (q2_dot * l2);
-            out.force_by_position.data.0[0][0] = sum;
-            out.force_by_position.data.0[0][1] = product_11 - product_12 - product_13
-                - product_14;
-            out.force_by_position.data.0[1][0] = product_5 - product_8 - product_9
-                - product_10;
+                    product_12,
+                ) - product_13 - product_14 - product_15;
             out.force_by_position.data.0[1][1] = sum_2;
-            out.force_by_velocity.data.0[0][1] = -q1_dot * product_15;
-            out.force_by_velocity.data.0[1][0] = -q2_dot * product_15;
-            out.row_by_position.data.0[0][0] = l1
-                * (-sin_q1).mul_add(q1_dot_q1_dot, cos_q1 * q1_ddot);
-            out.row_by_position.data.0[0][1] = l1
-                * sin_q1.mul_add(q1_ddot, cos_q1 * q1_dot_q1_dot);
+            let product_16 = product_2 * sin_q1.mul_add(cos_q2, cos_q1 * sin_q2);
+            out.force_by_velocity.data.0[0][1] = -q1_dot * product_16;
+            out.force_by_velocity.data.0[1][0] = -q2_dot * product_16;
             out.row_by_position.data.0[1][0] = l2
                 * (-q2_dot_q2_dot).mul_add(sin_q2, cos_q2_q2_ddot);
-            out.row_by_position.data.0[1][1] = -l2 * (product_7 + sin_q2_q2_ddot);
-            out.row_by_velocity.data.0[0][0] = cos_q1 * product_16;
-            out.row_by_velocity.data.0[0][1] = sin_q1 * product_16;
+            out.row_by_position.data.0[1][1] = -l2 * (product_8 + sin_q2_q2_ddot);
+            let product_17 = T::from_f64(2.0) * (q2_dot * l2);
             out.row_by_velocity.data.0[1][0] = cos_q2 * product_17;
             out.row_by_velocity.data.0[1][1] = -sin_q2 * product_17;
             true
@@ -584,28 +585,28 @@ pub mod slider_crank {
         ///
         /// Costs 11 products, 4 sums, 2 sine–cosine pairs. As derived: 31 products, 6 sums, 2 sine–cosine pairs.
         pub fn mass_matrix(&self, state: &State<T, 3>) -> SMatrix<T, 3, 3> {
-            let [q1, q2, _] = state.q.data.0[0];
-            let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
-            let m2_l2 = m2 * l2;
-            let product = T::from_f64(0.5) * l1
-                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2) * m2_l2;
             let mut out = SMatrix::zeros();
+            let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
+            let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
             out.data.0[0][0] = (l1 * l1).mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
-            out.data.0[0][1] = product;
-            out.data.0[1][0] = product;
+            let m2_l2 = m2 * l2;
             out.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             out.data.0[2][2] = m3;
+            let product = T::from_f64(0.5) * l1 * m2_l2
+                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2);
+            out.data.0[0][1] = product;
+            out.data.0[1][0] = product;
             out
         }
         /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
         ///
         /// Costs 7 products, 2 sums, 2 sine–cosine pairs. As derived: 9 products, 2 sums, 2 sine–cosine pairs.
         pub fn potential_force(&self, state: &State<T, 3>) -> SVector<T, 3> {
-            let [q1, q2, _] = state.q.data.0[0];
-            let Parameters { l1, l2, m1, m2, .. } = self.parameters;
-            let ([_, _], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let mut out = SVector::zeros();
+            let [q1, q2, _] = state.q.data.0[0];
+            let ([_, _], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
+            let Parameters { l1, l2, m1, m2, .. } = self.parameters;
             out.data.0[0][0] = l1 * cos_q1
                 * T::constant(9.81, -4.973799150320702e-16)
                     .mul_add(m2, T::constant(4.905, -2.486899575160351e-16) * m1);
@@ -624,13 +625,13 @@ pub mod slider_crank {
         ///
         /// Costs 10 products, 1 sum, 2 sine–cosine pairs. As derived: 62 products, 16 sums, 2 sine–cosine pairs.
         pub fn coriolis_force(&self, state: &State<T, 3>) -> SVector<T, 3> {
+            let mut out = SVector::zeros();
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, m2, .. } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let product = (T::from_f64(0.5) * m2)
                 * (sin_q1.mul_add(cos_q2, cos_q1 * sin_q2) * (l1 * l2));
-            let mut out = SVector::zeros();
             out.data.0[0][0] = q2_dot * q2_dot * product;
             out.data.0[0][1] = product * q1_dot * q1_dot;
             out
@@ -640,13 +641,13 @@ pub mod slider_crank {
         ///
         /// Costs 8 products, 1 sum, 2 sine–cosine pairs. As derived: 12 products, 1 sum, 2 sine–cosine pairs.
         pub fn coriolis_matrix(&self, state: &State<T, 3>) -> SMatrix<T, 3, 3> {
+            let mut out = SMatrix::zeros();
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, m2, .. } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let product = T::from_f64(0.5)
                 * (m2 * (l1 * l2 * sin_q1.mul_add(cos_q2, cos_q1 * sin_q2)));
-            let mut out = SMatrix::zeros();
             out.data.0[0][1] = q1_dot * product;
             out.data.0[1][0] = product * q2_dot;
             out
@@ -655,40 +656,40 @@ pub mod slider_crank {
         ///
         /// Costs 4 products, 3 sums, 2 sine–cosine pairs.
         pub fn constraint_residual(&self, state: &State<T, 3>) -> SVector<T, 2> {
-            let [q1, q2, q3] = state.q.data.0[0];
-            let Parameters { l1, l2, .. } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let mut out = SVector::zeros();
-            out.data.0[0][0] = l2.mul_add(cos_q2, l1 * cos_q1) - q3;
+            let [q1, q2, q3] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
+            let Parameters { l1, l2, .. } = self.parameters;
             out.data.0[0][1] = (-l2).mul_add(sin_q2, l1 * sin_q1);
+            out.data.0[0][0] = l2.mul_add(cos_q2, l1 * cos_q1) - q3;
             out
         }
         /// Constraint Jacobian `A = ∂g/∂q`, `R × N`; unit of the row per unit of the coordinate.
         ///
         /// Costs 4 products, 4 sums, 2 sine–cosine pairs.
         pub fn constraint_jacobian(&self, state: &State<T, 3>) -> SMatrix<T, 2, 3> {
-            let [q1, q2, _] = state.q.data.0[0];
-            let Parameters { l1, l2, .. } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let mut out = SMatrix::zeros();
+            let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
+            let Parameters { l1, l2, .. } = self.parameters;
+            out.data.0[2][0] = -T::one();
             out.data.0[0][0] = -l1 * sin_q1;
             out.data.0[0][1] = l1 * cos_q1;
             out.data.0[1][0] = -l2 * sin_q2;
             out.data.0[1][1] = -l2 * cos_q2;
-            out.data.0[2][0] = -T::one();
             out
         }
         /// `p₂ = −(Ȧ q̇ + ḃ)`, `R`: the constraints ask for `A q̈ = p₂`; unit of the row per s².
         ///
         /// Costs 8 products, 2 sums, 2 sine–cosine pairs. As derived: 12 products, 5 sums, 2 sine–cosine pairs.
         pub fn constraint_bias(&self, state: &State<T, 3>) -> SVector<T, 2> {
+            let mut out = SVector::zeros();
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, .. } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let product = q1_dot * (q1_dot * l1);
             let product_2 = q2_dot * (q2_dot * l2);
-            let mut out = SVector::zeros();
             out.data.0[0][0] = cos_q2.mul_add(product_2, cos_q1 * product);
             out.data.0[0][1] = (-product_2).mul_add(sin_q2, product * sin_q1);
             out
@@ -759,8 +760,8 @@ pub mod slider_crank {
         /// Costs 5 products, 2 sums, 2 sine–cosine pairs. As derived: 6 products, 2 sums, 2 sine–cosine pairs.
         fn outputs(&self, state: &State<T, 3>, values: &mut [T]) {
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let Parameters { l1, l2, .. } = self.parameters;
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all([q1, q2]);
             let product = T::from_f64(0.5) * l2;
             let computed = [
                 cos_q2.mul_add(product, l1 * cos_q1),
@@ -774,9 +775,9 @@ pub mod slider_crank {
         fn draw(&self, state: &State<T, 3>, canvas: &mut dyn Canvas<T>) {
             let [q1, _, q3] = state.q.data.0[0];
             let Parameters { l1, .. } = self.parameters;
+            let sum = -T::constant(0.03, 1.1102230246251566e-18);
             let (sin_q1, cos_q1) = q1.sin_cos();
-            let sum = q3 - T::constant(0.05, -2.7755575615628915e-18);
-            let sum_2 = -T::constant(0.03, 1.1102230246251566e-18);
+            let sum_2 = q3 - T::constant(0.05, -2.7755575615628915e-18);
             let sum_3 = q3 + T::constant(0.05, -2.7755575615628915e-18);
             canvas
                 .line(
@@ -789,10 +790,10 @@ pub mod slider_crank {
             canvas
                 .polygon(
                     &[
-                        [sum, sum_2, T::zero()],
-                        [sum_3, sum_2, T::zero()],
+                        [sum_2, sum, T::zero()],
+                        [sum_3, sum, T::zero()],
                         [sum_3, T::constant(0.03, 1.1102230246251566e-18), T::zero()],
-                        [sum, T::constant(0.03, 1.1102230246251566e-18), T::zero()],
+                        [sum_2, T::constant(0.03, 1.1102230246251566e-18), T::zero()],
                     ],
                 );
         }

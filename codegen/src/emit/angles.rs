@@ -1,0 +1,159 @@
+//! Sines and cosines in emitted functions.
+//!
+//! In:  a program that is being written.
+//! Out: one call for all angles that are known from the start, since a batch runs in the
+//!      lanes of the processor; a call of its own for each of the others.
+
+use super::function::{Binding, Writer, pattern};
+use crate::expr::{Function, Symbol};
+use crate::optimise::{Operation, Value};
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::quote;
+use std::collections::BTreeSet;
+use std::mem::discriminant;
+
+impl Writer<'_> {
+    /// Writes the call for all angles that are known from the start; the symbols that
+    /// are in scope after it, or not needed any more.
+    pub(super) fn place_angles(&mut self) -> BTreeSet<Symbol> {
+        let angles = self.early_angles();
+        if angles.len() < 2 {
+            return BTreeSet::new();
+        }
+        let (arguments, bound) = match self.whole(&angles) {
+            Some(coordinates) => {
+                let read = |angle: &Value| self.only_as_angle(*angle);
+                (coordinates, angles.iter().filter_map(read).collect())
+            }
+            None => {
+                let bound = self.bind(&angles);
+                let arguments = angles.iter().map(|angle| {
+                    self.place_with_operands(*angle);
+                    self.piece(*angle).tokens.clone()
+                });
+                let arguments: Vec<TokenStream> = arguments.collect();
+                (quote!([#(#arguments),*]), bound)
+            }
+        };
+        let names: Vec<(Ident, Ident)> =
+            angles.iter().map(|angle| self.pair_names(*angle)).collect();
+        let sines = names.iter().map(|(sin, _)| pattern(sin));
+        let cosines = names.iter().map(|(_, cos)| pattern(cos));
+        self.statements.extend(quote! {
+            let ([#(#sines),*], [#(#cosines),*]) = T::sin_cos_all(&#arguments);
+        });
+        self.angles.extend(angles.into_iter().zip(names));
+        bound
+    }
+
+    /// Angles that no other function has to be called for: coordinates first, in their
+    /// order, since what lies side by side is loaded at once.
+    fn early_angles(&self) -> Vec<Value> {
+        let mut early = vec![false; self.program.len()];
+        let mut angles: Vec<Value> = Vec::new();
+        for (value, operation) in self.program.operations() {
+            early[value.index()] = match operation {
+                Operation::Function(Function::Sin | Function::Cos, x) => {
+                    if early[x.index()] && !angles.contains(x) {
+                        angles.push(*x);
+                    }
+                    false
+                }
+                Operation::Function(..)
+                | Operation::Function2(..)
+                | Operation::Select(..)
+                | Operation::Input(..) => false,
+                _ => operation
+                    .operands()
+                    .iter()
+                    .all(|operand| early[operand.index()]),
+            };
+        }
+        angles.sort_by_key(|angle| match self.program.operation(*angle) {
+            Operation::Symbol(Symbol::Coordinate(i)) => *i,
+            _ => u32::MAX,
+        });
+        angles
+    }
+
+    /// The array of coordinates, if the angles are all of them.
+    fn whole(&self, angles: &[Value]) -> Option<TokenStream> {
+        let is_coordinate = |angle: &Value| {
+            let operation = self.program.operation(*angle);
+            matches!(operation, Operation::Symbol(Symbol::Coordinate(_)))
+        };
+        let coordinates = self.symbols.all_coordinates(angles.len())?;
+        angles.iter().all(is_coordinate).then_some(coordinates)
+    }
+
+    /// The symbol that an angle is, if nothing but its sine and cosine is read.
+    fn only_as_angle(&self, angle: Value) -> Option<Symbol> {
+        let calls = [Function::Sin, Function::Cos].map(|f| self.has(f, angle));
+        let calls = calls.into_iter().filter(|call| *call).count();
+        match self.program.operation(angle) {
+            Operation::Symbol(symbol) if self.uses[angle.index()] == calls => Some(*symbol),
+            _ => None,
+        }
+    }
+
+    /// Brings into scope what the angles read, and all else that comes from the same
+    /// arrays.
+    fn bind(&mut self, angles: &[Value]) -> BTreeSet<Symbol> {
+        let mut kinds = Vec::new();
+        let mut pending = angles.to_vec();
+        while let Some(value) = pending.pop() {
+            let operation = self.program.operation(value);
+            if let Operation::Symbol(symbol) = operation {
+                kinds.push(discriminant(symbol));
+            }
+            pending.extend(operation.operands());
+        }
+        let mut bound = self.symbols_read();
+        bound.retain(|symbol| kinds.contains(&discriminant(symbol)));
+        let prelude = self.symbols.prelude(&bound);
+        self.statements.extend(prelude);
+        bound
+    }
+
+    fn place_with_operands(&mut self, value: Value) {
+        for operand in self.program.operation(value).operands() {
+            self.place_with_operands(operand);
+        }
+        self.place(value);
+    }
+
+    /// One call for both, wherever the first of them is met.
+    pub(super) fn sine_and_cosine(&mut self, x: Value) -> (Ident, Ident) {
+        if let Some(names) = self.angles.get(&x) {
+            return names.clone();
+        }
+        let angle = self.bound(x, Binding::Atom);
+        let names = self.pair_names(x);
+        let (sin, cos) = (pattern(&names.0), pattern(&names.1));
+        self.statements
+            .extend(quote!(let (#sin, #cos) = #angle.sin_cos();));
+        self.angles.insert(x, names.clone());
+        names
+    }
+
+    /// Names for the sine and cosine of an angle; `_` for the one nobody reads.
+    fn pair_names(&mut self, x: Value) -> (Ident, Ident) {
+        let text = match self.program.operation(x) {
+            Operation::Symbol(symbol) => self.symbols.local(*symbol).to_string(),
+            _ => "angle".into(),
+        };
+        let [has_sin, has_cos] = [Function::Sin, Function::Cos].map(|f| self.has(f, x));
+        let mut name = |has: bool, prefix: &str| match has {
+            true => self.names.unique(&format!("{prefix}_{text}")),
+            false => Ident::new("_", Span::call_site()),
+        };
+        (name(has_sin, "sin"), name(has_cos, "cos"))
+    }
+
+    fn has(&self, function: Function, x: Value) -> bool {
+        let wanted = Operation::Function(function, x);
+        self.program
+            .operations()
+            .any(|(_, operation)| *operation == wanted)
+    }
+}
