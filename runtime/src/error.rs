@@ -24,6 +24,8 @@ pub enum DynamicsError<T> {
         form: Form,
         /// How many rows of the Jacobian are independent here.
         rank: usize,
+        /// The mechanism, for the names.
+        structure: &'static Structure,
     },
     /// Constraints that were declared to be regular are not.
     NotRegular {
@@ -31,6 +33,8 @@ pub enum DynamicsError<T> {
         t: T,
         /// How many rows of the Jacobian are independent here.
         rank: usize,
+        /// The mechanism, for the names.
+        structure: &'static Structure,
     },
     /// The mass matrix is singular in a direction that no constraint restricts,
     /// or negative.
@@ -77,18 +81,28 @@ impl<T: Real> Display for DynamicsError<T> {
                  look for a force or an input that grows without bound, or take a smaller step",
                 t = Number(t)
             ),
-            Self::SingularPosition { t, form, rank } => write!(
-                f,
-                "at t = {t} s only {rank} constraint equations are independent, and the form \
-                 `{form}` cannot pass a singular position; use the form `reduced` or `full`",
-                t = Number(t)
-            ),
-            Self::NotRegular { t, rank } => write!(
-                f,
-                "at t = {t} s only {rank} constraint equations are independent, though the \
-                 mechanism was declared to be regular; generate it without that declaration",
-                t = Number(t)
-            ),
+            Self::SingularPosition {
+                t,
+                form,
+                rank,
+                structure,
+            } => {
+                write!(f, "at t = {t} s ", t = Number(t))?;
+                structure.write_rank(f, *rank)?;
+                write!(
+                    f,
+                    ", and the form `{form}` cannot pass a singular position; use the form \
+                     `reduced` or `full`"
+                )
+            }
+            Self::NotRegular { t, rank, structure } => {
+                write!(f, "at t = {t} s ", t = Number(t))?;
+                structure.write_rank(f, *rank)?;
+                f.write_str(
+                    ", though the mechanism was declared to be regular; generate it without that \
+                     declaration",
+                )
+            }
             Self::MassSingular {
                 t,
                 coordinate,

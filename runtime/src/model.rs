@@ -303,6 +303,29 @@ impl Structure {
             None => write!(f, "{row}"),
         }
     }
+
+    /// Writes how many of the constraint equations are independent, and which they are
+    /// if they are few.
+    pub(crate) fn write_rank(
+        &self,
+        f: &mut core::fmt::Formatter<'_>,
+        rank: usize,
+    ) -> core::fmt::Result {
+        const FEW: usize = 4;
+        let rows = self.constraints.len();
+        let verb = if rank == 1 { "is" } else { "are" };
+        write!(
+            f,
+            "only {rank} of the {rows} constraint equations {verb} independent"
+        )?;
+        if rows <= FEW {
+            for row in 0..rows {
+                f.write_str(if row == 0 { ": " } else { ", " })?;
+                self.write_constraint(f, row)?;
+            }
+        }
+        Ok(())
+    }
 }
 
 /// Receives the picture of a mechanism, one shape at a time. Points are

@@ -1,7 +1,7 @@
 //! Errors speak of coordinates and constraints as the description does.
 
 use crate::mechanisms::structure;
-use bricard_runtime::{ConstraintRow, DynamicsError, Quantity, Structure};
+use bricard_runtime::{ConstraintRow, DynamicsError, Form, Quantity, Structure};
 
 static CRANK: Structure = structure(
     &[
@@ -47,5 +47,19 @@ fn a_constraint_that_comes_apart_is_named_with_its_line() {
     };
     let said = error.to_string();
     let expected = "at t = 1.5 s the constraint `pin = [x, 0] [y]` (line 17) is violated by 0.25";
+    assert!(said.starts_with(expected), "{said}");
+}
+
+#[test]
+fn constraints_that_depend_on_each_other_are_named() {
+    let error = DynamicsError::SingularPosition {
+        t: 1.5,
+        form: Form::Multipliers,
+        rank: 0,
+        structure: &CRANK,
+    };
+    let said = error.to_string();
+    let expected = "at t = 1.5 s only 0 of the 1 constraint equations are independent: \
+                    `pin = [x, 0] [y]` (line 17), and the form `multipliers`";
     assert!(said.starts_with(expected), "{said}");
 }

@@ -52,6 +52,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             t: state.t,
             form: self.settings.form,
             rank,
+            structure: mechanism.structure(),
         })
     }
 }

@@ -195,7 +195,11 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             tangent.take_strong(floor, limit).map_err(not_finite)?;
             let rank = tangent.rank(useless());
             return match declared && known != Known::Nothing && rank < limit {
-                true => Err(DynamicsError::NotRegular { t: state.t, rank }),
+                true => Err(DynamicsError::NotRegular {
+                    t: state.t,
+                    rank,
+                    structure: mechanism.structure(),
+                }),
                 false => Ok(tangent),
             };
         }

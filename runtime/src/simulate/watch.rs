@@ -180,6 +180,7 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
                     t,
                     form: self.form,
                     rank,
+                    structure: probe.structure(),
                 };
                 Err(IntegrateError::Dynamics(error).into())
             }
