@@ -3,7 +3,7 @@
 //!
 //! `BRICARD_LONG=1` takes forty loops in a row for 20 s instead of ten for 5 s.
 
-use crate::mechanisms::{FourBars, Passing, SliderCrank};
+use crate::mechanisms::{FourBars, Passing, Reduced, Reduction, SliderCrank};
 use bricard_runtime::{Dop853, Integrator, Settings, Solver, State, System, Tolerance};
 
 /// Accelerations in and beside the singular position, against the exact reduction.
@@ -36,6 +36,20 @@ fn accelerations_in_singular_positions_are_exact_without_rank_decisions() {
     check::<_, 11, 10>(&FourBars);
 }
 
+/// The error that the method makes at the same tolerance without any constraints.
+fn own_error(reduction: Reduction, start: f64, span: f64) -> f64 {
+    let (angle, _) = reduction.after(span, (start, 0.0));
+    let mechanism = Reduced(reduction);
+    let mut solver: Solver<f64, 1, 0> = Solver::new(Settings::default());
+    let mut system = solver.on(&mechanism);
+    let mut method = Dop853::adaptive(Tolerance::uniform(1e-12, 1e-12).unwrap());
+    let mut state = State::new(0.0, [start].into(), [0.0].into());
+    while state.t < span {
+        state = *method.step(&mut system, &state, span).unwrap().end();
+    }
+    (state.q[0] - angle).abs()
+}
+
 /// Loops in a row, from rest at 80°, against the exact reduction.
 fn follow<const N: usize, const R: usize>(span: f64) {
     let start = Passing::<N, R>::state(&FourBars, 0.0, 80.0_f64.to_radians(), 0.0);
@@ -48,11 +62,12 @@ fn follow<const N: usize, const R: usize>(span: f64) {
     while state.t < span {
         state = *method.step(&mut system, &state, span).unwrap().end();
     }
+    let own = own_error(reduction, start.q[0], span);
     for i in 0..N {
         let exact = if i.is_multiple_of(2) { angle } else { 0.0 };
         let parallel = if i.is_multiple_of(2) { state.q[0] } else { 0.0 };
         assert!(
-            (state.q[i] - exact).abs() < 1e-9,
+            (state.q[i] - exact).abs() < 1e-9 + 2.0 * own,
             "{i}: {}",
             state.q[i] - exact
         );
