@@ -14,6 +14,9 @@ use core::hint::black_box;
 /// of π/2 then have at most 17 bits.
 pub(crate) const LARGEST: f64 = 1.0e5;
 
+/// The multiple of π/2 up to which angles are small: less than [`LARGEST`] by a quarter.
+const MULTIPLE: f64 = 63_661.0;
+
 /// Whether a product and a sum are one operation of the processor.
 const FUSED: bool = cfg!(all(feature = "std", target_feature = "fma"));
 
@@ -93,12 +96,12 @@ static TABLE: Table = NUMBERS;
 /// Sine and cosine of `x`, `|x| ≤` [`LARGEST`].
 #[inline(always)]
 pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
-    in_lane(x, &NUMBERS, 0)
+    in_lane(x, &NUMBERS, 0).0
 }
 
-/// Sine and cosine of the angle in a lane.
+/// Sine and cosine of the angle in a lane, and the multiple of π/2 that is nearest to it.
 #[inline(always)]
-fn in_lane(x: f64, table: &Table, lane: usize) -> (f64, f64) {
+fn in_lane(x: f64, table: &Table, lane: usize) -> ((f64, f64), f64) {
     let shifted = fused(x, table.quarters[lane], table.round[lane]);
     let quarter = shifted.to_bits();
     let n = shifted - table.round[lane];
@@ -122,10 +125,9 @@ fn in_lane(x: f64, table: &Table, lane: usize) -> (f64, f64) {
     let swap = (odd as i64) < 0;
     let (s, c) = if swap { (cosine, sine) } else { (sine, cosine) };
     let sign = third & table.sign[lane].to_bits();
-    (
-        f64::from_bits(s.to_bits() ^ sign),
-        f64::from_bits(c.to_bits() ^ sign ^ odd),
-    )
+    let sine = f64::from_bits(s.to_bits() ^ sign);
+    let cosine = f64::from_bits(c.to_bits() ^ sign ^ odd);
+    ((sine, cosine), n)
 }
 
 /// `x − n·π/2`, and what its rounding loses: nothing is said of that where products are
@@ -162,8 +164,9 @@ type Block = [f64; LANES];
 #[inline(always)]
 pub(crate) fn sin_cos_all<const K: usize>(angles: &[f64; K]) -> ([f64; K], [f64; K]) {
     if K > LANES {
-        // In one piece, which is cleared at once.
-        let mut both = [[0.0; K]; 2];
+        // All of it is written over. Ones are stored here, side by side; zeros are left to
+        // a function that clears memory, and its call costs more.
+        let mut both = [[1.0; K]; 2];
         let [sines, cosines] = &mut both;
         in_blocks(angles, sines, cosines);
         let [sines, cosines] = both;
@@ -182,7 +185,7 @@ pub(crate) fn sin_cos_all<const K: usize>(angles: &[f64; K]) -> ([f64; K], [f64;
 /// one may take in some of the one before it.
 #[inline(never)]
 fn in_blocks(angles: &[f64], sines: &mut [f64], cosines: &mut [f64]) {
-    // No angle is larger than the root of the sum of all squares.
+    // No multiple is larger than the root of the sum of all squares.
     let mut squares = [0.0; LANES];
     let (blocks, rest) = angles.as_chunks::<LANES>();
     let outputs = sines
@@ -191,15 +194,15 @@ fn in_blocks(angles: &[f64], sines: &mut [f64], cosines: &mut [f64]) {
         .iter_mut()
         .zip(cosines.as_chunks_mut().0);
     for (block, (sines, cosines)) in blocks.iter().zip(outputs) {
-        add_squares(block, &mut squares);
-        lanes(block, black_box(&TABLE), sines, cosines);
+        let multiples = lanes(block, black_box(&TABLE), sines, cosines);
+        add_squares(&multiples, &mut squares);
     }
     if !rest.is_empty()
         && let Some(block) = angles.last_chunk()
         && let (Some(sines), Some(cosines)) = (sines.last_chunk_mut(), cosines.last_chunk_mut())
     {
-        add_squares(block, &mut squares);
-        lanes(block, black_box(&TABLE), sines, cosines);
+        let multiples = lanes(block, black_box(&TABLE), sines, cosines);
+        add_squares(&multiples, &mut squares);
     }
     if !are_small(&squares) {
         one_by_one(angles, sines, cosines);
@@ -210,11 +213,9 @@ fn in_blocks(angles: &[f64], sines: &mut [f64], cosines: &mut [f64]) {
 /// through the lanes one after the other.
 #[inline(never)]
 fn in_block(block: &Block) -> (Block, Block) {
-    let mut squares = [0.0; LANES];
-    let (mut sines, mut cosines) = (squares, squares);
-    add_squares(block, &mut squares);
-    lanes(block, black_box(&TABLE), &mut sines, &mut cosines);
-    if are_small(&squares) {
+    let (mut sines, mut cosines) = ([0.0; LANES], [0.0; LANES]);
+    let multiples = lanes(block, black_box(&TABLE), &mut sines, &mut cosines);
+    if are_small(&multiples.map(|n| n * n)) {
         (sines, cosines)
     } else {
         block_one_by_one(block)
@@ -230,29 +231,31 @@ fn block_one_by_one(block: &Block) -> (Block, Block) {
 }
 
 #[inline(always)]
-fn add_squares(block: &Block, squares: &mut Block) {
-    for (angle, sum) in block.iter().zip(squares) {
-        *sum = fused(*angle, *angle, *sum);
+fn add_squares(multiples: &Block, squares: &mut Block) {
+    for (n, sum) in multiples.iter().zip(squares) {
+        *sum = fused(*n, *n, *sum);
     }
 }
 
-/// Whether sums of squares tell that no angle is larger than [`LARGEST`], or not a
+/// Whether sums of squares tell that no multiple is larger than [`MULTIPLE`], or not a
 /// number.
 #[inline(always)]
 fn are_small(squares: &Block) -> bool {
     let mut small = true;
     for sum in squares {
-        small &= *sum <= LARGEST * LARGEST;
+        small &= *sum <= MULTIPLE * MULTIPLE;
     }
     small
 }
 
-/// A block of small angles.
+/// A block of small angles; the multiples of π/2 that are nearest to them.
 #[inline(always)]
-fn lanes(block: &Block, table: &Table, sines: &mut Block, cosines: &mut Block) {
+fn lanes(block: &Block, table: &Table, sines: &mut Block, cosines: &mut Block) -> Block {
+    let mut multiples = [0.0; LANES];
     for lane in 0..LANES {
-        (sines[lane], cosines[lane]) = in_lane(block[lane], table, lane);
+        ((sines[lane], cosines[lane]), multiples[lane]) = in_lane(block[lane], table, lane);
     }
+    multiples
 }
 
 /// Angles of which some may be too large for the fast path.
