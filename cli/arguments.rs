@@ -53,6 +53,10 @@ pub struct Show {
     /// Print LaTeX instead of the notation of descriptions
     #[arg(long)]
     pub latex: bool,
+    /// Leave out the coordinates that constraints give explicitly, as
+    /// `Builder::eliminate` does
+    #[arg(long)]
+    pub eliminate: bool,
 }
 
 /// Arguments of `check`.

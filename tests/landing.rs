@@ -28,7 +28,7 @@ const RATES: [(Reduction, f64); 3] = [
 
 /// Stages of a step of RK4: abscissa, and how the stage is reached.
 #[derive(Clone, Copy, Debug)]
-enum Stage {
+pub enum Stage {
     First,
     Second,
     Third,
@@ -36,15 +36,17 @@ enum Stage {
 }
 
 /// All landings with one step size.
-struct Landings {
+pub struct Landings {
     reduction: Reduction,
     rate: f64,
     steps: usize,
 }
 
+/// The errors of all landings, with the stage and the distance.
+pub type Errors = Vec<(f64, Stage, f64)>;
+
 impl Visitor<f64> for Landings {
-    /// The errors of all landings, with the stage and the distance.
-    type Output = Vec<(f64, Stage, f64)>;
+    type Output = Errors;
 
     fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
     where
@@ -162,38 +164,50 @@ impl Landings {
     }
 }
 
+/// What is wrong with the landings of a mechanism; `visited` shows it to them.
+pub fn judged(
+    reduction: Reduction,
+    rate: f64,
+    visited: &dyn Fn(Landings) -> Errors,
+) -> Vec<String> {
+    let mut failures = Vec::new();
+    let mut medians = Vec::new();
+    for steps in [20, 40, 80, 160] {
+        let mut errors = visited(Landings {
+            reduction,
+            rate,
+            steps,
+        });
+        errors.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let median = errors[errors.len() / 2].0;
+        let (worst, stage, distance) = errors[errors.len() - 1];
+        if worst > SPREAD * median {
+            failures.push(format!(
+                "{}, {steps} steps: median {median:.1e}, worst {worst:.1e} where stage \
+                 {stage:?} lands at {distance:e}",
+                reduction.name()
+            ));
+        }
+        medians.push(median);
+    }
+    let order = (medians[0] / medians[3]).log2() / 3.0;
+    if order < ORDER {
+        failures.push(format!(
+            "{}: order {order:.2}, {medians:?}",
+            reduction.name()
+        ));
+    }
+    failures
+}
+
 #[test]
 fn no_landing_is_much_worse_than_the_median_and_the_median_is_of_order_four() {
     let mut failures = Vec::new();
     for (reduction, rate) in RATES {
-        let mut medians = Vec::new();
-        for steps in [20, 40, 80, 160] {
-            let landings = Landings {
-                reduction,
-                rate,
-                steps,
-            };
+        failures.extend(judged(reduction, rate, &|landings| {
             let errors = bricard::visit::<f64, _>(reduction.name(), landings);
-            let mut errors = errors.expect("a name of the catalogue");
-            errors.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let median = errors[errors.len() / 2].0;
-            let (worst, stage, distance) = errors[errors.len() - 1];
-            if worst > SPREAD * median {
-                failures.push(format!(
-                    "{}, {steps} steps: median {median:.1e}, worst {worst:.1e} where stage \
-                     {stage:?} lands at {distance:e}",
-                    reduction.name()
-                ));
-            }
-            medians.push(median);
-        }
-        let order = (medians[0] / medians[3]).log2() / 3.0;
-        if order < ORDER {
-            failures.push(format!(
-                "{}: order {order:.2}, {medians:?}",
-                reduction.name()
-            ));
-        }
+            errors.expect("a name of the catalogue")
+        }));
     }
     assert!(failures.is_empty(), "\n{}", failures.join("\n"));
 }

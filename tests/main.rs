@@ -11,6 +11,7 @@ mod derivation;
 mod double_double;
 mod dual;
 mod editors;
+mod eliminated;
 mod files;
 mod golden;
 mod identities;

@@ -18,21 +18,28 @@ use crate::list::first_sentence;
 use crate::mechanism::{find, source};
 use crate::output::print;
 use bricard_codegen::expr::{Notation, Symbol};
-use bricard_codegen::model::Mechanism;
+use bricard_codegen::model::{Described, Mechanism};
 use bricard_codegen::{Settings, analyse, derive};
 use std::path::Path;
 
 /// Prints the equations of motion.
 pub fn show(arguments: &Show) -> Result<(), CommandError> {
-    let subject = Subject::of(&arguments.subject)?;
+    let mut subject = Subject::of(&arguments.subject)?;
     let rendered = |errors: bricard_codegen::Diagnostics| {
         CommandError::Description(errors.render(&subject.file, &subject.source))
     };
     let (mut mechanism, _warnings) =
         analyse(&subject.source, &Settings::default()).map_err(rendered)?;
+    if arguments.eliminate {
+        mechanism = derive::eliminate(mechanism).map_err(rendered)?;
+    }
     let equations = derive::derive(&mut mechanism).map_err(rendered)?;
     let sections = sections::sections(&mut mechanism, &equations);
     let costs = cost::costs(&mut mechanism, &equations);
+    if !mechanism.described.is_empty() {
+        // The rank at the start is that of all constraints.
+        subject.start = None;
+    }
     let heading = heading(&mechanism, &subject);
     // The names are the mechanism's, so its graph has to stand apart to be added to.
     let mut graph = std::mem::take(&mut mechanism.graph);
@@ -127,7 +134,16 @@ fn heading(mechanism: &Mechanism, subject: &Subject) -> String {
             constraint.text
         ));
     }
+    lines.extend(mechanism.described.iter().filter_map(given));
     lines.join("\n") + "\n"
+}
+
+/// Where a coordinate that was eliminated comes from.
+fn given(coordinate: &Described) -> Option<String> {
+    let row = coordinate.given_by.as_ref()?;
+    let name = &coordinate.quantity.name;
+    let line = row.span.start.line;
+    Some(format!("{name} is given by line {line}: {}", row.text))
 }
 
 /// The entry as it is, or as a reduced polynomial in sines and cosines:

@@ -97,6 +97,18 @@ impl Builder {
         self
     }
 
+    /// Eliminates coordinates that constraints give explicitly (`q3 = L1*cos(q1) + …`),
+    /// with those constraints. The state has the others; `Interface::described` gives all
+    /// that were declared back, with their velocities, accelerations and reactions.
+    ///
+    /// A coordinate goes if a holonomic constraint is linear in it with a number for its
+    /// coefficient, and the start holds neither its value nor its velocity; its guesses
+    /// have no part in the assembly any more.
+    pub fn eliminate(mut self, wanted: bool) -> Self {
+        self.settings.eliminate = wanted;
+        self
+    }
+
     /// Writes to another folder than `OUT_DIR`.
     pub fn out_dir(mut self, folder: impl Into<PathBuf>) -> Self {
         self.out_dir = Some(folder.into());

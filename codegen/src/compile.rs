@@ -12,6 +12,8 @@ pub struct Settings {
     pub constants: Vec<(String, f64)>,
     /// Parameters that become constants at their default.
     pub frozen: Vec<String>,
+    /// Whether coordinates that constraints give explicitly are eliminated.
+    pub eliminate: bool,
     /// What to emit besides the necessary.
     pub options: Options,
 }
@@ -42,6 +44,9 @@ pub fn compile_source(
 ) -> Result<Compiled, Diagnostics> {
     let (mut mechanism, mut warnings) = analyse(source, settings)?;
     warnings.append_elsewhere(doubt::doubts(mechanism.clone()));
+    if settings.eliminate {
+        mechanism = derive::eliminate(mechanism)?;
+    }
     let equations = derive::derive(&mut mechanism)?;
     if let Some(warning) = derive::swell(&mechanism, &equations) {
         warnings.push(warning);

@@ -27,8 +27,9 @@ pub use integrator::{
     Dop853, Dp5, IntegrateError, Integrator, Radau5, Radau9, Rk4, Step, Tolerance,
 };
 pub use model::{
-    Branch, Canvas, ConstraintRow, Correction, Direction, Energy, Event, Initial, Interface,
-    Linearised, Mechanism, Pivots, Position, Quantity, Regular, Start, Structure, Terms, Whole,
+    Branch, Canvas, ConstraintRow, Correction, Declared, Described, Direction, Energy, Event,
+    Initial, Interface, Linearised, Mechanism, Pivots, Position, Quantity, Regular, Start,
+    Structure, Terms, Whole,
 };
 pub use nalgebra;
 #[cfg(feature = "std")]

@@ -86,6 +86,16 @@ pub trait Interface<T: Real, const N: usize> {
     fn events(&self, state: &State<T, N>, values: &mut [T]);
     /// Draws the mechanism at a state.
     fn draw(&self, state: &State<T, N>, canvas: &mut dyn Canvas<T>);
+    /// Writes the coordinates that the description declares, in the order of
+    /// [`Structure::described`], as many as `values` has room for; nothing where all of
+    /// them are coordinates of the state.
+    fn described(
+        &self,
+        _state: &State<T, N>,
+        _acceleration: &SVector<T, N>,
+        _values: &mut [Described<T>],
+    ) {
+    }
 }
 
 /// A mechanism and what a program needs to handle it, as one object.
@@ -328,6 +338,23 @@ impl Structure {
     }
 }
 
+/// A coordinate that the description declares, at a motion of the coordinates that were
+/// kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Described<T> {
+    /// Its value (SI).
+    pub position: T,
+    /// Its velocity (SI).
+    pub velocity: T,
+    /// Its acceleration (SI).
+    pub acceleration: T,
+    /// The generalized reaction force at it, `r = p₁ − M q̈` (N or N·m), of all
+    /// constraints that the description has. For a coordinate in no other constraint than
+    /// the one that gives it: the multiplier of that one times the coordinate's
+    /// coefficient.
+    pub reaction: T,
+}
+
 /// Receives the picture of a mechanism, one shape at a time. Points are
 /// `(x, y, z)` in metres, `z = 0` in the plane.
 pub trait Canvas<T> {
@@ -371,6 +398,16 @@ pub struct ConstraintRow {
     pub holonomic: bool,
 }
 
+/// A coordinate as the description declares it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Declared {
+    /// Name, unit, docs.
+    pub quantity: Quantity,
+    /// The constraint that gives it explicitly, if it was eliminated; else it is one of
+    /// the coordinates of the state.
+    pub given_by: Option<ConstraintRow>,
+}
+
 /// An event and the direction that counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Event {
@@ -402,6 +439,9 @@ pub struct Structure {
     pub file: &'static str,
     /// Generalized coordinates, in the order of `q`.
     pub coordinates: &'static [Quantity],
+    /// All coordinates that the description declares, where constraints gave some of them
+    /// and they were eliminated; empty where all are in `coordinates`.
+    pub described: &'static [Declared],
     /// Run-time parameters.
     pub parameters: &'static [Quantity],
     /// External signals.

@@ -100,6 +100,7 @@ static PLAIN: Structure = Structure {
     docs: "",
     file: "",
     coordinates: &[],
+    described: &[],
     parameters: &[],
     inputs: &[],
     outputs: &[],

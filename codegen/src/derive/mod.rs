@@ -11,13 +11,16 @@
 mod branch;
 mod christoffel;
 mod closure;
+mod eliminate;
 mod energy;
+mod explicit;
 mod force;
 mod linearised;
 mod mass;
 mod swell;
 
 pub use christoffel::coriolis_matrix;
+pub use eliminate::eliminate;
 pub use linearised::{Linearised, linearise};
 pub use swell::{EXPRESSIONS_MAX, SWELL, swell};
 
@@ -86,8 +89,20 @@ pub fn derive(mechanism: &mut Mechanism) -> Result<Equations, Diagnostics> {
     equations(mechanism).ok_or_else(|| swell::refusal(mechanism))
 }
 
-/// The equations, or nothing as soon as they are too long.
-fn equations(mechanism: &mut Mechanism) -> Option<Equations> {
+/// What comes of the energies and forces alone.
+struct Motion {
+    kinetic: ExprId,
+    potential: ExprId,
+    momenta: Vec<ExprId>,
+    mass: Matrix,
+    coriolis: Vec<ExprId>,
+    gravity: Vec<ExprId>,
+    applied: Vec<ExprId>,
+    force: Vec<ExprId>,
+}
+
+/// `M` and `p₁` with its parts, or nothing as soon as they are too long.
+fn motion(mechanism: &mut Mechanism) -> Option<Motion> {
     let n = mechanism.coordinates.len();
     let graph = &mut mechanism.graph;
     let kinetic = graph.sum(mechanism.kinetic.iter().map(|summand| summand.value));
@@ -102,6 +117,32 @@ fn equations(mechanism: &mut Mechanism) -> Option<Equations> {
     let gravity = force::potential_force(graph, potential, n);
     let applied = force::applied(graph, &mechanism.forces, dissipation, n);
     let force = force::total(graph, &applied, &coriolis, &gravity);
+    Some(Motion {
+        kinetic,
+        potential,
+        momenta,
+        mass,
+        coriolis,
+        gravity,
+        applied,
+        force,
+    })
+}
+
+/// The equations, or nothing as soon as they are too long.
+fn equations(mechanism: &mut Mechanism) -> Option<Equations> {
+    let n = mechanism.coordinates.len();
+    let Motion {
+        kinetic,
+        potential,
+        momenta,
+        mass,
+        coriolis,
+        gravity,
+        applied,
+        force,
+    } = motion(mechanism)?;
+    let graph = &mut mechanism.graph;
 
     within_bounds(graph)?;
     let closure = closure::closure(graph, &mechanism.constraints, n);

@@ -1,5 +1,6 @@
 //! `impl Interface`: parameters by place, start, outputs, events, the picture.
 
+use super::described::described;
 use super::{Subject, Written};
 use crate::expr::ExprId;
 use crate::model::{Point, Shape};
@@ -18,6 +19,7 @@ pub(super) fn interface(subject: &mut Subject) -> TokenStream {
     let events: Vec<ExprId> = subject.mechanism.events.iter().map(|e| e.value).collect();
     let events = list(subject, "events", &events);
     let draw = draw(subject);
+    let described = described(subject);
     let name = subject.type_name();
     quote! {
         impl<T: Real> Interface<T, #n> for #name<T> {
@@ -28,6 +30,7 @@ pub(super) fn interface(subject: &mut Subject) -> TokenStream {
             #outputs
             #events
             #draw
+            #described
         }
     }
 }

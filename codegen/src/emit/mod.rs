@@ -7,6 +7,7 @@
 //! Not here: mathematics. What is computed was decided by `optimise`.
 
 mod angles;
+mod described;
 mod dynamics;
 mod function;
 mod interface;
@@ -164,6 +165,9 @@ fn module_docs(subject: &Subject, origin: Origin) -> Vec<String> {
         " Generated from `{}`: {n} coordinates, {r} constraint equations.",
         origin.file
     ));
+    if let Some(eliminated) = described::docs(subject) {
+        lines.extend([String::new(), eliminated]);
+    }
     if !constants.is_empty() {
         let folded: Vec<String> = constants
             .iter()
@@ -260,12 +264,16 @@ fn imports(subject: &Subject, dynamics: &TokenStream) -> TokenStream {
     if !subject.mechanism.constraints.is_empty() {
         names.extend(["Branch", "ConstraintRow", "Correction", "Position"]);
     }
+    if !subject.mechanism.described.is_empty() {
+        names.extend(["ConstraintRow", "Declared", "Described"]);
+    }
     if !subject.mechanism.events.is_empty() {
         names.extend(["Direction", "Event"]);
     }
     let optional = ["Correction", "Linearised", "Regular"];
     names.retain(|name| !optional.contains(name) || mentions(dynamics, name));
     names.sort_unstable();
+    names.dedup();
     let names = names
         .into_iter()
         .map(|name| Ident::new(name, Span::call_site()));

@@ -1,9 +1,9 @@
 //! The static description of a mechanism, and the structs of its parameters and
 //! inputs.
 
-use super::{Subject, doc_lines};
+use super::{Subject, described, doc_lines};
 use crate::expr::{ExprId, Symbol};
-use crate::model::{Direction, Input, Quantity};
+use crate::model::{Constraint, Direction, Input, Quantity};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -17,11 +17,8 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
     let parameters = quantities(mechanism.parameters.iter().map(|p| &p.quantity));
     let inputs = quantities(mechanism.inputs.iter().map(|i| &i.quantity));
     let outputs = quantities(mechanism.outputs.iter().map(|o| &o.quantity));
-    let constraints = mechanism.constraints.iter().map(|row| {
-        let (text, holonomic) = (&row.text, row.holonomic);
-        let line = Literal::u32_unsuffixed(row.span.start.line);
-        quote!(ConstraintRow { text: #text, line: #line, holonomic: #holonomic })
-    });
+    let described = described::table(subject);
+    let constraints = mechanism.constraints.iter().map(constraint_row);
     let events = mechanism.events.iter().map(|event| {
         let name = &event.name;
         let direction = match event.direction {
@@ -40,6 +37,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
             docs: #docs,
             file: #file,
             coordinates: &[#(#coordinates),*],
+            described: &[#(#described),*],
             parameters: &[#(#parameters),*],
             inputs: &[#(#inputs),*],
             outputs: &[#(#outputs),*],
@@ -56,11 +54,22 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
 fn quantities<'a>(
     quantities: impl IntoIterator<Item = &'a Quantity>,
 ) -> impl Iterator<Item = TokenStream> {
-    quantities.into_iter().map(
-        |Quantity {
-             name, unit, docs, ..
-         }| { quote!(Quantity { name: #name, unit: #unit, docs: #docs }) },
-    )
+    quantities.into_iter().map(quantity)
+}
+
+/// A `Quantity`.
+pub(super) fn quantity(quantity: &Quantity) -> TokenStream {
+    let Quantity {
+        name, unit, docs, ..
+    } = quantity;
+    quote!(Quantity { name: #name, unit: #unit, docs: #docs })
+}
+
+/// A `ConstraintRow`.
+pub(super) fn constraint_row(row: &Constraint) -> TokenStream {
+    let (text, holonomic) = (&row.text, row.holonomic);
+    let line = Literal::u32_unsuffixed(row.span.start.line);
+    quote!(ConstraintRow { text: #text, line: #line, holonomic: #holonomic })
 }
 
 fn constant_mass(subject: &Subject) -> bool {

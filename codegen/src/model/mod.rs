@@ -70,6 +70,27 @@ pub struct Mechanism {
     pub events: Vec<Event>,
     /// The picture.
     pub shapes: Vec<Shape>,
+    /// The coordinates that were declared, where some of them were eliminated; empty
+    /// where all are among `coordinates`.
+    pub described: Vec<Described>,
+}
+
+/// A coordinate as the description declares it, in terms of those that were kept.
+#[derive(Clone, Debug)]
+pub struct Described {
+    /// Name, unit, docs.
+    pub quantity: Quantity,
+    /// The constraint that gives it, if it was eliminated.
+    pub given_by: Option<Constraint>,
+    /// Its value.
+    pub position: ExprId,
+    /// Its velocity.
+    pub velocity: ExprId,
+    /// Its acceleration, of the accelerations of those that were kept.
+    pub acceleration: ExprId,
+    /// The generalized reaction force at it, of all constraints that were written;
+    /// likewise.
+    pub reaction: ExprId,
 }
 
 /// A named quantity with the unit and the doc comment it was given.
@@ -231,6 +252,7 @@ impl Mechanism {
             outputs: Vec::new(),
             events: Vec::new(),
             shapes: Vec::new(),
+            described: Vec::new(),
         }
     }
 

@@ -4,6 +4,7 @@ mod accepted;
 mod build;
 mod documentation;
 mod doubts;
+mod eliminated;
 mod forms;
 mod grammar;
 mod legality;

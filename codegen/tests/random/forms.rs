@@ -29,6 +29,7 @@ static NAMELESS: Structure = Structure {
     docs: "",
     file: "",
     coordinates: &[],
+    described: &[],
     parameters: &[],
     inputs: &[],
     outputs: &[],

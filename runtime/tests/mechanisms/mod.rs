@@ -46,6 +46,7 @@ pub const fn structure(
         docs: "",
         file: "",
         coordinates,
+        described: &[],
         parameters: &[],
         inputs: &[],
         outputs: &[],

@@ -205,6 +205,7 @@ pub const PLAIN: Structure = Structure {
     docs: "",
     file: "",
     coordinates: &[],
+    described: &[],
     parameters: &[],
     inputs: &[],
     outputs: &[],

@@ -29,6 +29,7 @@ pub mod cart_pole {
                 docs: "angle of the pole, from the upward vertical",
             },
         ],
+        described: &[],
         parameters: &[
             Quantity {
                 name: "m1",

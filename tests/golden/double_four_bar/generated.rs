@@ -49,6 +49,7 @@ pub mod double_four_bar {
                 docs: "angle of the third crank",
             },
         ],
+        described: &[],
         parameters: &[
             Quantity {
                 name: "L1",

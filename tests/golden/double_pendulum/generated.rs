@@ -29,6 +29,7 @@ pub mod double_pendulum {
                 docs: "angle of the lower rod, from the vertical",
             },
         ],
+        described: &[],
         parameters: &[
             Quantity {
                 name: "L1",

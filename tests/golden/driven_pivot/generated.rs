@@ -33,6 +33,7 @@ pub mod driven_pivot {
                 docs: "angle of the rod, from the upward vertical",
             },
         ],
+        described: &[],
         parameters: &[
             Quantity {
                 name: "A",

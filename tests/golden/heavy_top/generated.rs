@@ -42,6 +42,7 @@ pub mod heavy_top {
                 docs: "Euler parameters",
             },
         ],
+        described: &[],
         parameters: &[
             Quantity {
                 name: "m",

@@ -48,6 +48,7 @@ pub mod rolling_disc {
                 docs: "angle of rolling",
             },
         ],
+        described: &[],
         parameters: &[
             Quantity {
                 name: "r",

@@ -38,6 +38,7 @@ pub mod slider_crank {
                 docs: "position of the slider",
             },
         ],
+        described: &[],
         parameters: &[
             Quantity {
                 name: "L1",

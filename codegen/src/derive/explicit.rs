@@ -1,0 +1,82 @@
+//! Coordinates that constraints give explicitly.
+//!
+//! In:  a mechanism.
+//! Out: which coordinate is which function of the others, by which constraint.
+//!
+//! `c(q, t) = s q_k + (what is free of q_k) = 0` with a number `s` gives `q_k = f(q, t)`,
+//! whatever the position: nothing is lost by leaving `q_k` out. A coefficient that has a
+//! parameter or a coordinate in it may vanish, so it does not count.
+
+use crate::expr::{ExprId, Graph, Number, Symbol};
+use crate::model::Mechanism;
+use std::collections::BTreeSet;
+
+/// A coordinate that a constraint gives.
+pub(super) struct Explicit {
+    /// The coordinate, by its place.
+    pub coordinate: usize,
+    /// The constraint, by its place.
+    pub row: usize,
+    /// What the coordinate is, in time and coordinates that no constraint gives.
+    pub value: ExprId,
+}
+
+/// Which coordinates can go, and what they are. Stays: what the start holds at a value,
+/// and at least one coordinate.
+pub(super) fn explicit(mechanism: &mut Mechanism) -> Vec<Explicit> {
+    let held = mechanism.starts.iter().filter(|start| start.held);
+    let held: BTreeSet<usize> = held.map(|start| start.coordinate).collect();
+    let graph = &mut mechanism.graph;
+    let rows = mechanism.constraints.iter();
+    let mut residuals: Vec<ExprId> = rows.map(|row| row.residual).collect();
+    let mut found: Vec<Explicit> = Vec::new();
+    for (row, constraint) in mechanism.constraints.iter().enumerate() {
+        if found.len() + 1 == mechanism.coordinates.len() {
+            break;
+        }
+        if !constraint.holonomic {
+            continue;
+        }
+        let Some((coordinate, value)) = solved(graph, residuals[row], &held) else {
+            continue;
+        };
+        let mut insert = |e: &mut ExprId| *e = inserted(graph, *e, coordinate, value);
+        residuals.iter_mut().for_each(&mut insert);
+        // Earlier ones may contain it: a chain in any order.
+        found.iter_mut().for_each(|e| insert(&mut e.value));
+        found.push(Explicit {
+            coordinate,
+            row,
+            value,
+        });
+    }
+    found
+}
+
+/// The coordinate that an equation gives; of several the one declared last, since
+/// descriptions go from the ground outwards.
+fn solved(graph: &mut Graph, residual: ExprId, held: &BTreeSet<usize>) -> Option<(usize, ExprId)> {
+    let symbols = graph.symbols(residual);
+    let candidates = symbols.into_iter().rev().filter_map(|symbol| match symbol {
+        Symbol::Coordinate(k) => Some((symbol, k as usize)),
+        _ => None,
+    });
+    for (symbol, k) in candidates.filter(|(_, k)| !held.contains(k)) {
+        let slope = graph.differentiate(residual, symbol);
+        let inverse = graph.as_number(slope).and_then(|slope| slope.powi(-1));
+        if let Some(inverse) = inverse.filter(|_| !graph.is_zero(slope)) {
+            let zero = graph.integer(0);
+            let rest = inserted(graph, residual, k, zero);
+            return Some((k, graph.scale(rest, Number::MINUS_ONE * inverse)));
+        }
+    }
+    None
+}
+
+/// An expression with a coordinate replaced.
+fn inserted(graph: &mut Graph, e: ExprId, coordinate: usize, value: ExprId) -> ExprId {
+    graph.substitute(e, &|symbol| match symbol {
+        Symbol::Coordinate(i) if i as usize == coordinate => Some(value),
+        _ => None,
+    })
+}

@@ -1,0 +1,94 @@
+//! The coordinates that the description declares, where some of them were eliminated.
+//!
+//! In:  a mechanism.
+//! Out: their table for the structure, the method of the interface that computes them,
+//!      and a line for the documentation.
+
+use super::linearised::argument;
+use super::structure::{constraint_row, quantity};
+use super::{Subject, Written};
+use crate::expr::ExprId;
+use crate::optimise::Slot;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// The entries of `Structure::described`.
+pub(super) fn table(subject: &Subject) -> Vec<TokenStream> {
+    let declared = subject.mechanism.described.iter();
+    let entry = |coordinate: &crate::model::Described| {
+        let quantity = quantity(&coordinate.quantity);
+        let given_by = match &coordinate.given_by {
+            Some(row) => {
+                let row = constraint_row(row);
+                quote!(Some(#row))
+            }
+            None => quote!(None),
+        };
+        quote!(Declared { quantity: #quantity, given_by: #given_by })
+    };
+    declared.map(entry).collect()
+}
+
+/// `fn described`; nothing where all coordinates are in the state.
+pub(super) fn described(subject: &mut Subject) -> TokenStream {
+    let coordinates = &subject.mechanism.described;
+    if coordinates.is_empty() {
+        return TokenStream::new();
+    }
+    let parts = |c: &crate::model::Described| {
+        [c.position, c.velocity, c.acceleration, c.reaction].into_iter()
+    };
+    let parts: Vec<ExprId> = coordinates.iter().flat_map(parts).collect();
+    let slot = |row| Slot {
+        array: "described",
+        row,
+        column: 0,
+    };
+    let wanted: Vec<_> = (0..).map(slot).zip(parts).collect();
+    let Written {
+        body, state, cost, ..
+    } = subject.body(&wanted, &|_| None);
+    let statements = &body.statements;
+    let computed: Vec<TokenStream> = (0..subject.mechanism.described.len())
+        .map(|i| {
+            let [position, velocity, acceleration, reaction] =
+                [0, 1, 2, 3].map(|part| body.output(slot(4 * i + part)));
+            quote!(Described {
+                position: #position,
+                velocity: #velocity,
+                acceleration: #acceleration,
+                reaction: #reaction,
+            })
+        })
+        .collect();
+    let acceleration = argument("acceleration", statements);
+    let n = subject.sizes().0;
+    quote! {
+        #[doc = #cost]
+        fn described(
+            &self,
+            #state: &State<T, #n>,
+            #acceleration: &SVector<T, #n>,
+            values: &mut [Described<T>],
+        ) {
+            #statements
+            let computed = [#(#computed),*];
+            for (place, value) in values.iter_mut().zip(computed) {
+                *place = value;
+            }
+        }
+    }
+}
+
+/// What was eliminated, and what it is; nothing if nothing was.
+pub(super) fn docs(subject: &Subject) -> Option<String> {
+    let mechanism = &*subject.mechanism;
+    let gone = mechanism.described.iter().filter(|c| c.given_by.is_some());
+    let equations: Vec<String> = gone
+        .map(|c| {
+            let value = mechanism.graph.text(c.position, &|s| subject.text(s));
+            format!("`{} = {value}`", c.quantity.name)
+        })
+        .collect();
+    (!equations.is_empty()).then(|| format!(" Eliminated: {}.", equations.join(", ")))
+}
