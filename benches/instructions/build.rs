@@ -7,6 +7,8 @@ use std::{env, fs, io};
 
 const LIBRARY: &str = "../../mechanisms";
 const OWN: &str = "mechanisms";
+/// Mechanisms with constraints that give a coordinate.
+const EXPLICIT: [&str; 3] = ["slider_crank", "scotch_yoke", "quick_return"];
 const ROWS: [u32; 2] = [10, 40];
 /// Rows that the long form counts besides.
 const MORE_ROWS: [u32; 4] = [2, 5, 20, 80];
@@ -25,6 +27,15 @@ fn main() -> Result<(), BuildError> {
         frozen(Builder::new(), &path)?
             .out_dir(folder("folded")?)
             .compile(&path)?;
+    }
+    for name in EXPLICIT {
+        let path = format!("{LIBRARY}/{name}.mech");
+        for (way, wanted) in [("folded", false), ("eliminated", true)] {
+            frozen(Builder::new(), &path)?
+                .eliminate(wanted)
+                .out_dir(folder(way)?)
+                .compile(&path)?;
+        }
     }
     let path = format!("{LIBRARY}/benchmarks/andrews.mech");
     frozen(Builder::new(), &path)?

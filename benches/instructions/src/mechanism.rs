@@ -26,6 +26,16 @@ generated! {
     slider_crank_open: "open" / "slider_crank";
     /// Parameters set when the program runs.
     double_four_bar_open: "open" / "double_four_bar";
+    /// Parameters folded, all coordinates in the state.
+    scotch_yoke: "folded" / "scotch_yoke";
+    /// Parameters folded, all coordinates in the state.
+    quick_return: "folded" / "quick_return";
+    /// Parameters folded, coordinates that constraints give left out.
+    slider_crank_eliminated: "eliminated" / "slider_crank";
+    /// Parameters folded, coordinates that constraints give left out.
+    scotch_yoke_eliminated: "eliminated" / "scotch_yoke";
+    /// Parameters folded, coordinates that constraints give left out.
+    quick_return_eliminated: "eliminated" / "quick_return";
     /// 10 parallelograms.
     row_10: "row_10" / "n_four_bar";
     /// 40 parallelograms.

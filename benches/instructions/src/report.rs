@@ -87,3 +87,26 @@ pub fn growth(counts: &Counts) -> String {
     }
     text
 }
+
+/// What leaving out the coordinates that constraints give saves.
+pub fn eliminated(counts: &Counts) -> String {
+    let mut text =
+        String::from("\n| | evaluation | q̈ | correction | step |\n|---|--:|--:|--:|--:|\n");
+    let subjects = [
+        ("slider–crank, 3 → 2 coordinates", "slider_crank"),
+        ("quick return, 5 → 4", "quick_return"),
+        ("scotch yoke, 3 → 1", "scotch_yoke"),
+    ];
+    for (name, subject) in subjects {
+        let cells = ["terms", "regular", "correction", "step"].map(|work| {
+            let [all, less] = ["", "_eliminated"]
+                .map(|suffix| counts.get(&format!("{subject}{suffix}/{work}")).copied());
+            match all.zip(less) {
+                Some((all, less)) => format!("{all:.0} → {less:.0}"),
+                None => "–".to_string(),
+            }
+        });
+        let _infallible = writeln!(text, "| {name} | {} |", cells.join(" | "));
+    }
+    text
+}
