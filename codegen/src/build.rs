@@ -102,8 +102,8 @@ impl Builder {
     /// that were declared back, with their velocities, accelerations and reactions.
     ///
     /// A coordinate goes if a holonomic constraint is linear in it with a number for its
-    /// coefficient, and the start holds neither its value nor its velocity; its guesses
-    /// have no part in the assembly any more.
+    /// coefficient, the start holds neither its value nor its velocity, and its guess is
+    /// not the only one that tells where the coordinates are that it is made of.
     pub fn eliminate(mut self, wanted: bool) -> Self {
         self.settings.eliminate = wanted;
         self

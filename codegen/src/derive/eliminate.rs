@@ -18,8 +18,7 @@ use crate::expr::{ExprId, Graph, Number, Symbol};
 use crate::model::{Described, Mechanism, Shape};
 
 /// The mechanism without the coordinates that its constraints give explicitly; as it is
-/// if there are none. Stays: a coordinate whose value or velocity the start holds, and at
-/// least one.
+/// if there are none. Stays: a coordinate that decides the start, and at least one.
 ///
 /// # Errors
 ///

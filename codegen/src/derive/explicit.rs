@@ -21,11 +21,42 @@ pub(super) struct Explicit {
     pub value: ExprId,
 }
 
-/// Which coordinates can go, and what they are. Stays: what the start holds at a value,
-/// and at least one coordinate.
+/// What the start says of coordinates, by their places.
+struct Starts {
+    /// Their values or velocities are held.
+    held: BTreeSet<usize>,
+    /// Their values are held or guessed.
+    placed: BTreeSet<usize>,
+}
+
+impl Starts {
+    fn of(mechanism: &Mechanism) -> Self {
+        let held = mechanism.starts.iter().filter(|start| start.held);
+        let placed = mechanism.starts.iter().filter(|start| !start.velocity);
+        Self {
+            held: held.map(|start| start.coordinate).collect(),
+            placed: placed.map(|start| start.coordinate).collect(),
+        }
+    }
+
+    /// Whether a coordinate can go that is this: not if its guess is the only one that
+    /// tells where the others are.
+    fn spares(&self, graph: &Graph, coordinate: usize, value: ExprId) -> bool {
+        let place = |symbol| match symbol {
+            Symbol::Coordinate(i) => Some(i as usize),
+            _ => None,
+        };
+        let others = graph.symbols(value).into_iter().filter_map(place);
+        let others: Vec<usize> = others.collect();
+        let told = others.is_empty() || others.iter().any(|i| self.placed.contains(i));
+        !self.held.contains(&coordinate) && (told || !self.placed.contains(&coordinate))
+    }
+}
+
+/// Which coordinates can go, and what they are. Stays: what decides the start, and at
+/// least one coordinate.
 pub(super) fn explicit(mechanism: &mut Mechanism) -> Vec<Explicit> {
-    let held = mechanism.starts.iter().filter(|start| start.held);
-    let held: BTreeSet<usize> = held.map(|start| start.coordinate).collect();
+    let starts = Starts::of(mechanism);
     let graph = &mut mechanism.graph;
     let rows = mechanism.constraints.iter();
     let mut residuals: Vec<ExprId> = rows.map(|row| row.residual).collect();
@@ -37,7 +68,7 @@ pub(super) fn explicit(mechanism: &mut Mechanism) -> Vec<Explicit> {
         if !constraint.holonomic {
             continue;
         }
-        let Some((coordinate, value)) = solved(graph, residuals[row], &held) else {
+        let Some((coordinate, value)) = solved(graph, residuals[row], &starts) else {
             continue;
         };
         let mut insert = |e: &mut ExprId| *e = inserted(graph, *e, coordinate, value);
@@ -55,19 +86,22 @@ pub(super) fn explicit(mechanism: &mut Mechanism) -> Vec<Explicit> {
 
 /// The coordinate that an equation gives; of several the one declared last, since
 /// descriptions go from the ground outwards.
-fn solved(graph: &mut Graph, residual: ExprId, held: &BTreeSet<usize>) -> Option<(usize, ExprId)> {
+fn solved(graph: &mut Graph, residual: ExprId, starts: &Starts) -> Option<(usize, ExprId)> {
     let symbols = graph.symbols(residual);
     let candidates = symbols.into_iter().rev().filter_map(|symbol| match symbol {
         Symbol::Coordinate(k) => Some((symbol, k as usize)),
         _ => None,
     });
-    for (symbol, k) in candidates.filter(|(_, k)| !held.contains(k)) {
+    for (symbol, k) in candidates {
         let slope = graph.differentiate(residual, symbol);
         let inverse = graph.as_number(slope).and_then(|slope| slope.powi(-1));
         if let Some(inverse) = inverse.filter(|_| !graph.is_zero(slope)) {
             let zero = graph.integer(0);
             let rest = inserted(graph, residual, k, zero);
-            return Some((k, graph.scale(rest, Number::MINUS_ONE * inverse)));
+            let value = graph.scale(rest, Number::MINUS_ONE * inverse);
+            if starts.spares(graph, k, value) {
+                return Some((k, value));
+            }
         }
     }
     None

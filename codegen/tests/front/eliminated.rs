@@ -80,6 +80,17 @@ fn what_may_vanish_or_is_no_position_or_is_held_stays() {
 }
 
 #[test]
+fn a_guess_that_alone_tells_where_others_are_keeps_its_coordinate() {
+    assert_eq!(left("constraint x = sin(phi); start { x ~ 0.5; }").len(), 4);
+    assert_eq!(
+        left("constraint x = sin(phi); start { x ~ 0.5; phi ~ 0.5; }").len(),
+        3
+    );
+    assert_eq!(left("constraint x = sin(t); start { x ~ 0.5; }").len(), 3);
+    assert_eq!(left("constraint x = sin(phi);").len(), 3);
+}
+
+#[test]
 fn one_coordinate_stays_whatever_the_constraints_say() {
     let driven = "constraint x = sin(t); constraint y = cos(t); constraint z = t; \
                   constraint phi = x + y;";

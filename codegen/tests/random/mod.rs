@@ -8,6 +8,7 @@ mod derivatives;
 mod description;
 #[path = "../../../tests/dual.rs"]
 mod dual;
+mod eliminated;
 mod forms;
 mod identities;
 mod invariances;
