@@ -182,7 +182,7 @@ pub fn run(name: &str, rounds: u64) -> Result<(), Failed> {
             job,
         ),
         "scotch_yoke" => ours(
-            &generated::scotch_yoke::scotch_yoke::ScotchYoke::default(),
+            &generated::scotch_yoke_folded::scotch_yoke::ScotchYoke::default(),
             job,
         ),
         "scotch_yoke_eliminated" => ours(
@@ -190,7 +190,7 @@ pub fn run(name: &str, rounds: u64) -> Result<(), Failed> {
             job,
         ),
         "quick_return" => ours(
-            &generated::quick_return::quick_return::QuickReturn::default(),
+            &generated::quick_return_folded::quick_return::QuickReturn::default(),
             job,
         ),
         "quick_return_eliminated" => ours(

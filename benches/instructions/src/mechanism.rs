@@ -27,9 +27,9 @@ generated! {
     /// Parameters set when the program runs.
     double_four_bar_open: "open" / "double_four_bar";
     /// Parameters folded, all coordinates in the state.
-    scotch_yoke: "folded" / "scotch_yoke";
+    scotch_yoke_folded: "folded" / "scotch_yoke";
     /// Parameters folded, all coordinates in the state.
-    quick_return: "folded" / "quick_return";
+    quick_return_folded: "folded" / "quick_return";
     /// Parameters folded, coordinates that constraints give left out.
     slider_crank_eliminated: "eliminated" / "slider_crank";
     /// Parameters folded, coordinates that constraints give left out.
