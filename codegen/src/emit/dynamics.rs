@@ -103,6 +103,7 @@ fn regular(subject: &mut Subject, terms: &Wanted) -> TokenStream {
         /// Schur complement `A M⁻¹ Aᵀ`.
         ///
         #[doc = #cost]
+        #[inline(always)]
         fn regular(&self, #state: &State<T, #n>, #out: &mut Regular<T, #n, #r>) -> bool {
             #statements
             true
@@ -135,6 +136,7 @@ fn correction(subject: &mut Subject) -> TokenStream {
         /// the constraints are regular.
         ///
         #[doc = #cost]
+        #[inline(always)]
         fn correction(&self, #state: &State<T, #n>, #out: &mut Correction<T, #n, #r>) -> bool {
             #statements
             true

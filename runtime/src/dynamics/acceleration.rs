@@ -12,8 +12,22 @@ use nalgebra::SVector;
 
 impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// The acceleration in the form of the settings.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn acceleration<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        if let Some(acceleration) = self.expected_acceleration(mechanism, state) {
+            self.counters.cheap_accelerations += 1;
+            return Ok(acceleration);
+        }
+        self.careful_acceleration(mechanism, state)
+    }
+
+    /// The same where nothing is expected.
+    #[inline(never)]
+    fn careful_acceleration<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
@@ -23,13 +37,13 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         }
         if let Some(acceleration) = self.emitted_acceleration(mechanism, state) {
             self.counters.cheap_accelerations += 1;
+            self.expect_regular();
             return Ok(acceleration);
         }
         self.general_acceleration(mechanism, state)
     }
 
     /// The acceleration by the runtime's own solves.
-    #[inline(never)]
     fn general_acceleration<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,

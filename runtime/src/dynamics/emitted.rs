@@ -8,11 +8,17 @@
 //! Not here: what happens elsewhere, and for mechanisms whose rows are redundant
 //! everywhere, whose pivots are never safe.
 
-use super::Solver;
+use super::{Rows, Solver};
 use crate::linalg::{definite, guard, passes, straight, weak};
 use crate::state::all_finite;
-use crate::{DynamicsError, Form, Mechanism, Pivots, Real, Stabilisation, State};
+use crate::{
+    Correction, DynamicsError, Form, Mechanism, Pivots, Real, Regular, Stabilisation, State,
+};
 use nalgebra::SVector;
+
+/// Largest ratio of a pivot and the square of its row at earlier states: the rows of the
+/// stages of a step are somewhat larger than those at its start.
+const MOST_RATIO: f64 = 2.0;
 
 /// Corrections after which the general projection takes over.
 const MAX_ITERATIONS: usize = 8;
@@ -27,8 +33,27 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             && self.metric.is_of_mass_alone()
     }
 
-    /// The acceleration by emitted code, if there is any and it is safe here.
+    /// Decides whether emitted code may be called before anything else is asked.
+    pub(crate) fn expect_regular(&mut self) {
+        self.expected = !self.near && self.sine.is_some() && self.asks_emitted();
+    }
+
+    /// The acceleration by emitted code where it is expected to be safe and is.
     #[inline(always)]
+    pub(super) fn expected_acceleration<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Option<SVector<T, N>> {
+        if !self.expected {
+            return None;
+        }
+        let mut acceleration = SVector::zeros();
+        let squared = self.evaluate(mechanism, state, &mut acceleration);
+        passes(squared, guard()).then_some(acceleration)
+    }
+
+    /// The acceleration by emitted code, if there is any and it is safe here.
     pub(super) fn emitted_acceleration<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -37,16 +62,42 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         if !self.asks_emitted() || self.near && !self.is_safe_at(state) {
             return None;
         }
-        self.emitted = mechanism.regular(state, &mut self.regular);
+        let mut acceleration = SVector::zeros();
+        let squared = self.evaluate(mechanism, state, &mut acceleration);
         if !self.emitted {
             return None;
         }
-        let squared = squared_sine(&self.regular.pivots, &mut self.rows);
-        self.observe_lowest(squared);
         self.begin(squared);
         let trusted = passes(squared, guard()) || passes(squared, weak()) && self.is_safe_at(state);
-        let acceleration = &self.regular.acceleration;
-        (trusted && all_finite(acceleration)).then_some(*acceleration)
+        trusted.then_some(acceleration)
+    }
+
+    /// The acceleration by emitted code, and the smallest squared sine that its pivots
+    /// show: zero if something is not definite or not finite, or there is no such code.
+    ///
+    /// What it is inlined into keeps the pivots in registers, but it is long enough to
+    /// stand in one place.
+    #[inline(never)]
+    fn evaluate<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        acceleration: &mut SVector<T, N>,
+    ) -> T {
+        let mut regular = Regular::default();
+        self.emitted = mechanism.regular(state, &mut regular);
+        if !self.emitted {
+            return T::zero();
+        }
+        let mut squared = squared_sine(&regular.pivots, &self.rows);
+        if squared < self.lowest {
+            self.lowest = squared;
+        }
+        if !all_finite(&regular.acceleration) {
+            squared = T::zero();
+        }
+        *acceleration = regular.acceleration;
+        squared
     }
 
     /// Brings a state onto the constraints by emitted code and returns the squared
@@ -61,22 +112,26 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         }
         let mut before = None;
         for _ in 0..MAX_ITERATIONS {
-            if !mechanism.correction(state, &mut self.correction) {
+            let mut correction = Correction::default();
+            if !mechanism.correction(state, &mut correction) {
                 return None;
             }
-            let squared = squared_sine(&self.correction.pivots, &mut self.rows);
+            for row in 0..R {
+                self.rows.observe(row, correction.pivots.row_squares[row]);
+            }
+            let squared = squared_sine(&correction.pivots, &self.rows);
             self.observe_lowest(squared);
-            let (worst, _) = self.residual(&self.correction.residual);
-            if !passes(squared, weak()) || !worst.is_finite() {
+            let worst = self.worst(&correction.residual)?;
+            if !passes(squared, weak()) {
                 return None;
             }
             let landed = self.is_on_constraints(worst, before);
             if !landed {
                 self.counters.projection_iterations += 1;
-                state.q += self.correction.position;
+                state.q += correction.position;
             }
-            if landed || self.is_straight(worst, squared, &state.v) {
-                state.v += self.correction.velocity;
+            if landed || self.is_straight(worst, squared, &correction.velocity, &state.v) {
+                state.v += correction.velocity;
                 self.safe_at(state, false);
                 return Some(squared);
             }
@@ -85,11 +140,32 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         None
     }
 
+    /// The largest constraint error as a length in the metric, if all are finite.
+    #[inline(always)]
+    fn worst(&self, residual: &SVector<T, R>) -> Option<T> {
+        let [residual] = &residual.data.0;
+        let (mut worst, mut sum) = (T::zero(), T::zero());
+        for (row, residual) in residual.iter().enumerate() {
+            let size = (*residual * self.rows.scale(row)).abs();
+            sum += size;
+            if size > worst {
+                worst = size;
+            }
+        }
+        sum.is_finite().then_some(worst)
+    }
+
     /// Whether the constraints are straight, to round-off, over the corrections of the
     /// residual and of the velocities, so that the state is on them after one.
     #[inline]
-    fn is_straight(&self, worst: T, squared_sine: T, velocities: &SVector<T, N>) -> bool {
-        let [corrections] = &self.correction.velocity.data.0;
+    fn is_straight(
+        &self,
+        worst: T,
+        squared_sine: T,
+        corrections: &SVector<T, N>,
+        velocities: &SVector<T, N>,
+    ) -> bool {
+        let [corrections] = &corrections.data.0;
         let [velocities] = &velocities.data.0;
         let (mut turned, mut whole) = (T::zero(), T::zero());
         for ((weight, dv), v) in self.weights.iter().zip(corrections).zip(velocities) {
@@ -139,24 +215,22 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 }
 
 /// The smallest squared sine that emitted pivots show, zero if the mass matrix is
-/// not safely definite; takes note of the sizes of the rows.
-#[inline]
+/// not safely definite or a row is far larger than any that was landed on.
+#[inline(always)]
 fn squared_sine<T: Real, const N: usize, const R: usize>(
     pivots: &Pivots<T, N, R>,
-    rows: &mut super::Rows<T, R>,
+    rows: &Rows<T, R>,
 ) -> T {
     let mut sound = true;
     // Pivots that are diagonal entries themselves are not written.
-    let [masses] = &pivots.mass_pivots.data.0;
-    let [diagonal] = &pivots.mass_diagonal.data.0;
-    for (pivot, whole) in masses.iter().zip(diagonal) {
-        sound &= *pivot >= definite::<T>() * *whole;
+    for i in 0..N {
+        let whole = pivots.mass_diagonal.data.0[0][i];
+        sound &= pivots.mass_pivots.data.0[0][i] >= definite::<T>() * whole;
     }
     let mut smallest = T::one();
     for row in 0..R {
-        rows.observe(row, pivots.row_squares.data.0[0][row]);
-        let ratio = pivots.row_pivots.data.0[0][row] / rows.size(row);
-        sound &= ratio.is_finite();
+        let ratio = pivots.row_pivots.data.0[0][row] * rows.inverse_size(row);
+        sound &= ratio <= T::from_f64(MOST_RATIO);
         if ratio < smallest {
             smallest = ratio;
         }

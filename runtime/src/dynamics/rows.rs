@@ -18,6 +18,8 @@ use nalgebra::SMatrix;
 pub(crate) struct Rows<T, const R: usize> {
     /// Squared reference sizes.
     size: [T; R],
+    /// Their inverses.
+    inverse_size: [T; R],
     /// What rows are multiplied by to have size one.
     scale: [T; R],
     /// Weights `W` of the rows in an augmented metric; zero until known.
@@ -38,6 +40,7 @@ impl<T: Real, const R: usize> Rows<T, R> {
     pub(crate) fn new(holonomic: impl Fn(usize) -> bool) -> Self {
         Self {
             size: [T::zero(); R],
+            inverse_size: [T::one() / T::zero(); R],
             scale: [T::zero(); R],
             weight: [T::zero(); R],
             uneven: false,
@@ -62,6 +65,7 @@ impl<T: Real, const R: usize> Rows<T, R> {
     fn grow(&mut self, row: usize, size: T) {
         if size.is_finite() {
             self.size[row] = size;
+            self.inverse_size[row] = T::one() / size;
             self.scale[row] = T::one() / size.sqrt();
         }
     }
@@ -70,6 +74,12 @@ impl<T: Real, const R: usize> Rows<T, R> {
     #[inline]
     pub(crate) fn size(&self, row: usize) -> T {
         self.size[row]
+    }
+
+    /// Its inverse; infinite for a row that was never anything but zero.
+    #[inline]
+    pub(crate) fn inverse_size(&self, row: usize) -> T {
+        self.inverse_size[row]
     }
 
     /// What a row is multiplied by to have size one; zero for a row that was

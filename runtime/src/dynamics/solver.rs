@@ -11,10 +11,7 @@ use crate::linalg::{
     Breakdown, NotDefinite, first_guard, guard, independent, passes, safe_steps, truncation,
     useless, weak,
 };
-use crate::{
-    Branch, Correction, Counters, DynamicsError, Mechanism, Position, Real, Regular, Settings,
-    State, Terms,
-};
+use crate::{Branch, Counters, DynamicsError, Mechanism, Position, Real, Settings, State, Terms};
 use nalgebra::{SMatrix, SVector};
 
 /// By which factor a coordinate grows before the length of the coordinates is measured
@@ -39,10 +36,10 @@ pub struct Solver<T, const N: usize, const R: usize> {
     pub(crate) metric: Metric<T, N>,
     pub(crate) rows: Rows<T, R>,
     pub(crate) lifted: Lifted<T, N, R>,
-    pub(crate) regular: Regular<T, N, R>,
-    pub(crate) correction: Correction<T, N, R>,
-    /// Whether the mechanism provides the last two, as far as is known.
+    /// Whether the mechanism provides the regular path, as far as is known.
     pub(crate) emitted: bool,
+    /// Whether emitted code may be called before anything else is asked.
+    pub(crate) expected: bool,
     /// The time and position that is known to be on the constraints, with rows that
     /// are safely independent.
     pub(crate) safe: Option<(T, SVector<T, N>)>,
@@ -59,7 +56,7 @@ pub struct Solver<T, const N: usize, const R: usize> {
     /// The inverse squares of those sizes; zero where a coordinate has only been zero.
     pub(crate) weights: [T; N],
     /// The sine of the constraints at the last accepted state.
-    sine: Option<T>,
+    pub(crate) sine: Option<T>,
     /// The smallest squared sine since then.
     pub(crate) lowest: T,
     /// Whether the step from there comes near a singular position. Then all of its
@@ -88,9 +85,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             metric: Metric::default(),
             rows: Rows::new(|_| true),
             lifted: Lifted::default(),
-            regular: Regular::default(),
-            correction: Correction::default(),
             emitted: true,
+            expected: false,
             safe: None,
             bridged: None,
             shared: false,
@@ -113,6 +109,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.metric.forget();
         self.safe = None;
         self.bridged = None;
+        self.expect_regular();
         ConstrainedSystem::new(mechanism, self)
     }
 
@@ -128,6 +125,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         source: Source,
         t: T,
     ) -> Result<(), DynamicsError<T>> {
+        self.expected = false;
         let structure = mechanism.structure();
         let constant = structure.constant_mass;
         let (mass, jacobian) = match source {

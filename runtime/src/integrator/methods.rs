@@ -1,18 +1,16 @@
 //! The methods, at a fixed pace or at one that follows a tolerance.
 //!
 //! In:  nothing, or a [`Tolerance`].
-//! Out: [`Rk4`], [`Dp5`], [`Dop853`], [`Radau5`], [`Radau9`].
+//! Out: [`Dp5`], [`Dop853`], [`Radau5`], [`Radau9`].
 
 use super::explicit::Explicit;
 use super::pace::{Inside, Paced, Trial};
 use super::radau::Radau;
 use super::step::Step;
-use super::tableau::{DOP853, DP5, RADAU5, RADAU9, RK4};
+use super::tableau::{DOP853, DP5, RADAU5, RADAU9};
 use super::{IntegrateError, Integrator, Tolerance};
 use crate::{Real, State, System};
 
-/// Slots of RK4: four stages and the slope at the end.
-const SLOTS_RK4: usize = 5;
 /// Slots of DP5: six stages and the slope at the end.
 const SLOTS_DP5: usize = 7;
 /// Slots of DOP853: twelve stages, the slope at the end, three extra stages.
@@ -66,13 +64,6 @@ macro_rules! adaptive {
 }
 
 method!(
-    /// The classical Runge–Kutta method of order 4: four accelerations a step.
-    ///
-    /// Between the ends, the quintic Hermite polynomial for `q` and the cubic one
-    /// for `q̇`.
-    Rk4, Explicit<T, N, SLOTS_RK4>
-);
-method!(
     /// The pair of orders 5 and 4 of Dormand and Prince: six accelerations a
     /// step, interpolant of order 4.
     Dp5, Explicit<T, N, SLOTS_DP5>
@@ -82,19 +73,6 @@ method!(
     /// twelve accelerations a step, three more for the interpolant of order 7.
     Dop853, Explicit<T, N, SLOTS_DOP853>
 );
-
-impl<T: Real, const N: usize> Rk4<T, N> {
-    /// The method: each step goes to its bound at once.
-    pub fn new() -> Self {
-        Self(Paced::fixed(Explicit::new(&RK4)))
-    }
-}
-
-impl<T: Real, const N: usize> Default for Rk4<T, N> {
-    fn default() -> Self {
-        Self::new()
-    }
-}
 
 adaptive!(Dp5, Explicit::new(&DP5));
 adaptive!(Dop853, Explicit::new(&DOP853));

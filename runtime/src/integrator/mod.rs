@@ -13,6 +13,7 @@
 //!
 //! Not here: what is done with the steps ([`crate::simulate`]).
 
+mod classical;
 mod collocation;
 mod control;
 mod dop853;
@@ -29,9 +30,10 @@ mod slopes;
 mod step;
 mod tableau;
 
+pub use classical::Rk4;
 pub use control::Tolerance;
 pub use error::IntegrateError;
-pub use methods::{Dop853, Dp5, Radau5, Radau9, Rk4};
+pub use methods::{Dop853, Dp5, Radau5, Radau9};
 pub(crate) use pace::Inside;
 pub use step::Step;
 

@@ -61,29 +61,6 @@ impl Tableau {
     }
 }
 
-/// The classical method of order 4.
-///
-/// Source: Kutta, Zeitschrift für Mathematik und Physik 46 (1901) 435–453.
-pub(crate) static RK4: Tableau = Tableau {
-    order: 4,
-    error_order: 5,
-    looks: 1,
-    jumps: (1.0, 1.0),
-    gains: Gains::CALM,
-    nodes: &[(0.0, 0.0), (0.5, 0.0), (0.5, 0.0), (1.0, 0.0)],
-    rows: &[&[], &[(0, 0.5, 0.0)], &[(1, 0.5, 0.0)], &[(2, 1.0, 0.0)]],
-    weights: &[
-        (0, 0.16666666666666666, 9.25185853854297e-18),
-        (1, 0.3333333333333333, 1.850371707708594e-17),
-        (2, 0.3333333333333333, 1.850371707708594e-17),
-        (3, 0.16666666666666666, 9.25185853854297e-18),
-    ],
-    errors: &[],
-    extra_nodes: &[],
-    extra_rows: &[],
-    dense: &[],
-};
-
 /// The pair of orders 5 and 4 of Dormand and Prince, with the interpolant of
 /// order 4.
 ///

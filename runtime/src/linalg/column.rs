@@ -44,7 +44,7 @@ pub(crate) fn norm<T: Real, const L: usize>(a: &[T; L]) -> T {
 #[inline(always)]
 pub(crate) fn add_scaled<T: Real, const L: usize>(target: &mut [T; L], factor: T, column: &[T; L]) {
     for i in 0..L {
-        target[i] += factor * column[i];
+        target[i] = factor.mul_add(column[i], target[i]);
     }
 }
 

@@ -35,8 +35,13 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         }
         self.counters.projections += 1;
         self.observe_reach(mechanism, state);
-        let squared = self.land(mechanism, state)?;
+        (self.safe, self.bridged) = (None, None);
+        let squared = match self.emitted_landing(mechanism, state) {
+            Some(squared) => squared,
+            None => self.land_without_emitted(mechanism, state)?,
+        };
         self.observe_sine(squared);
+        self.expect_regular();
         if self.safe.is_none() {
             self.counters.robust_projections += 1;
             if self.bridged.is_none() {
@@ -59,7 +64,20 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         state: &mut State<T, N>,
     ) -> Result<T, DynamicsError<T>> {
         (self.safe, self.bridged) = (None, None);
-        if let Some(squared) = self.land_regular(mechanism, state)? {
+        match self.emitted_landing(mechanism, state) {
+            Some(squared) => Ok(squared),
+            None => self.land_without_emitted(mechanism, state),
+        }
+    }
+
+    /// As [`land`](Self::land), where emitted code does not serve.
+    #[inline(never)]
+    fn land_without_emitted<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &mut State<T, N>,
+    ) -> Result<T, DynamicsError<T>> {
+        if let Some(squared) = self.land_by_iteration(mechanism, state)? {
             return Ok(squared);
         }
         if self.bridge(mechanism, state)? {
@@ -76,9 +94,18 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         mechanism: &M,
         state: &mut State<T, N>,
     ) -> Result<Option<T>, DynamicsError<T>> {
-        if let Some(squared) = self.emitted_landing(mechanism, state) {
-            return Ok(Some(squared));
+        match self.emitted_landing(mechanism, state) {
+            Some(squared) => Ok(Some(squared)),
+            None => self.land_by_iteration(mechanism, state),
         }
+    }
+
+    /// As [`land_regular`](Self::land_regular), without emitted code.
+    fn land_by_iteration<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &mut State<T, N>,
+    ) -> Result<Option<T>, DynamicsError<T>> {
         if self.project_position(mechanism, state)? {
             self.factorise_metric(mechanism, Source::Position, state.t)?;
             let squared = self.factorise_constraints(Source::Position, Which::All);

@@ -25,10 +25,11 @@ pub(super) struct Grid<T> {
 
 impl<T: Real> Grid<T> {
     pub(super) fn new(start: T, until: T, pace: Pace<T>) -> Result<Self, SimulateError<T>> {
-        if !(until.is_finite() && start.is_finite() && until >= start) {
+        let span = until - start;
+        // Infinite or not a number if either end is.
+        if !(span >= T::zero() && span.is_finite()) {
             return Err(SimulateError::BadEnd { start, until });
         }
-        let span = until - start;
         let step = match pace {
             Pace::Adaptive { .. } => span,
             Pace::Fixed { step } => step,

@@ -61,8 +61,8 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
         let grid = Grid::new(state.t, state.t + span, self.pace)?;
         self.driver.forget();
         let mut system = self.solver.on(mechanism);
-        for i in 1..=grid.intervals() {
-            let bound = grid.time(i);
+        for i in 0..grid.intervals() {
+            let bound = grid.time(i + 1);
             while state.t < bound {
                 *state = *self.driver.step(&mut system, state, bound)?.end();
             }

@@ -1,0 +1,153 @@
+//! The classical Runge–Kutta method, written out.
+//!
+//! In:  a [`System`], the state at the start of the step.
+//! Out: the projected state at its end.
+//!
+//! A step of it is so short that walking through the table of a method would cost as
+//! much as the accelerations of a small mechanism.
+//!
+//! Source: Kutta, Zeitschrift für Mathematik und Physik 46 (1901) 435–453.
+//!
+//! Not here: methods that estimate their error ([`super::explicit`]).
+
+use super::control::check_bound;
+use super::pace::Inside;
+use super::step::Step;
+use super::{IntegrateError, Integrator};
+use crate::linalg::add_scaled;
+use crate::{DynamicsError, Real, State, System};
+use nalgebra::SVector;
+
+/// Times within a step at which it is looked at.
+const LOOKS: u8 = 1;
+/// Accelerations of a step, but for that at its start.
+const STAGES: u32 = 3;
+
+/// The classical Runge–Kutta method of order 4: four accelerations a step.
+///
+/// Between the ends, the quintic Hermite polynomial for `q` and the cubic one
+/// for `q̇`.
+#[derive(Clone, Debug)]
+pub struct Rk4<T, const N: usize> {
+    inside: Inside,
+    step: Step<T, N>,
+    /// The acceleration at the step's end, where it is known.
+    last: Option<SVector<T, N>>,
+}
+
+impl<T: Real, const N: usize> Rk4<T, N> {
+    /// The method: each step goes to its bound at once.
+    pub fn new() -> Self {
+        Self {
+            inside: Inside::Full,
+            step: Step::new(LOOKS),
+            last: None,
+        }
+    }
+
+    /// Forgets the acceleration at the last step's end, because the system has changed
+    /// since.
+    pub fn forget(&mut self) {
+        self.last = None;
+    }
+
+    pub(crate) fn keep(&mut self, inside: Inside) {
+        self.inside = inside;
+    }
+
+    /// The polynomials between the ends, if anyone wants them.
+    fn complete<Y: System<T, N> + ?Sized>(
+        &mut self,
+        system: &mut Y,
+        first: &SVector<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        let last = system.acceleration(&self.step.end)?;
+        self.step.evaluations += 1;
+        let h = self.step.set_ends(first, &last);
+        self.step.interpolant.complete_hermite(h, first, &last);
+        self.last = Some(last);
+        Ok(())
+    }
+}
+
+impl<T: Real, const N: usize> Default for Rk4<T, N> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<T: Real, const N: usize> Integrator<T, N> for Rk4<T, N> {
+    #[inline]
+    fn step<Y: System<T, N> + ?Sized>(
+        &mut self,
+        system: &mut Y,
+        state: &State<T, N>,
+        bound: T,
+    ) -> Result<&Step<T, N>, IntegrateError<T>> {
+        check_bound(state.t, bound)?;
+        let known = self.last.take().filter(|_| self.step.end == *state);
+        self.step.evaluations = STAGES + u32::from(known.is_none());
+        let first = match known {
+            Some(acceleration) => acceleration,
+            None => system.acceleration(state)?,
+        };
+        self.step.start = *state;
+        let mut end = classical(system, state, &first, bound)?;
+        system.project(&mut end)?;
+        self.step.end = end;
+        if self.inside != Inside::Nothing {
+            self.complete(system, &first)?;
+        }
+        Ok(&self.step)
+    }
+}
+
+/// The state at the end of a step, not yet projected.
+#[inline(always)]
+fn classical<T: Real, Y: System<T, N> + ?Sized, const N: usize>(
+    system: &mut Y,
+    start: &State<T, N>,
+    first: &SVector<T, N>,
+    end: T,
+) -> Result<State<T, N>, DynamicsError<T>> {
+    let h = end - start.t;
+    let half = h * T::from_f64(0.5);
+    let second = ahead(start, start.t + half, half, &start.v, first);
+    let a2 = system.acceleration(&second)?;
+    let third = ahead(start, start.t + half, half, &second.v, &a2);
+    let a3 = system.acceleration(&third)?;
+    let fourth = ahead(start, end, h, &third.v, &a3);
+    let a4 = system.acceleration(&fourth)?;
+    let v = mean(&start.v, &second.v, &third.v, &fourth.v);
+    let a = mean(first, &a2, &a3, &a4);
+    Ok(ahead(start, end, h / T::from_f64(6.0), &v, &a))
+}
+
+/// `y + h·y'` at a time.
+#[inline(always)]
+fn ahead<T: Real, const N: usize>(
+    start: &State<T, N>,
+    t: T,
+    h: T,
+    v: &SVector<T, N>,
+    a: &SVector<T, N>,
+) -> State<T, N> {
+    let mut state = State { t, ..*start };
+    add_scaled(&mut state.q.data.0[0], h, &v.data.0[0]);
+    add_scaled(&mut state.v.data.0[0], h, &a.data.0[0]);
+    state
+}
+
+/// Six times the mean slope of the stages.
+#[inline(always)]
+fn mean<T: Real, const N: usize>(
+    first: &SVector<T, N>,
+    second: &SVector<T, N>,
+    third: &SVector<T, N>,
+    fourth: &SVector<T, N>,
+) -> SVector<T, N> {
+    let mut sum = first + fourth;
+    let middle = second + third;
+    add_scaled(&mut sum.data.0[0], T::from_f64(2.0), &middle.data.0[0]);
+    sum
+}
