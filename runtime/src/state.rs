@@ -23,15 +23,23 @@ impl<T: Real, const N: usize> State<T, N> {
 
     /// Whether every number of the state is finite.
     pub fn is_finite(&self) -> bool {
-        self.t.is_finite() && all_finite(&self.q) && all_finite(&self.v)
+        let sum = nothing(self.t * T::zero(), &self.q);
+        nothing(sum, &self.v) == T::zero()
     }
 }
 
-/// Whether every entry is finite; all are looked at, side by side.
+/// Whether every entry is finite: zero times anything else is not a number.
 #[inline]
 pub(crate) fn all_finite<T: Real, const N: usize>(vector: &SVector<T, N>) -> bool {
+    nothing(T::zero(), vector) == T::zero()
+}
+
+/// Adds zero to a sum, or what is not a number if an entry is not finite.
+#[inline(always)]
+fn nothing<T: Real, const N: usize>(sum: T, vector: &SVector<T, N>) -> T {
     let [entries] = &vector.data.0;
-    entries.iter().fold(true, |all, x| all & x.is_finite())
+    let add = |sum, x: &T| x.mul_add(T::zero(), sum);
+    entries.iter().fold(sum, add)
 }
 
 impl<T: Real, const N: usize> Default for State<T, N> {

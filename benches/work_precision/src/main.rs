@@ -3,13 +3,14 @@
 //!
 //! `work_precision [OUT [ANGLES]]` prints Markdown and draws a diagram for each
 //! mechanism into the folder OUT (`target/work_precision`), with ANGLES (200) start
-//! angles around the paper's.
+//! angles around the paper's. Forty loops in a row follow, by the change of energy.
 
 mod index_one;
 mod joints;
 mod ours;
 mod plot;
 mod problem;
+mod row;
 mod run;
 mod scan;
 mod work;
@@ -34,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         work_table(problem, &out)?;
         scan_table(problem, angles)?;
     }
-    Ok(())
+    row::table()
 }
 
 /// Methods that the problem can be given to.

@@ -1,7 +1,7 @@
 //! Time and error from the nominal start.
 
 use crate::problem::Problem;
-use crate::run::{End, Failed, Method};
+use crate::run::{Failed, Method};
 use rustix::time::{ClockId, clock_gettime};
 use std::time::Duration;
 
@@ -53,7 +53,12 @@ fn clock() -> Duration {
     Duration::from_secs(seconds) + Duration::from_nanos(nanoseconds)
 }
 
-fn timed(run: impl Fn() -> Result<End, Failed>) -> Result<(End, f64), Failed> {
+/// What a run gives, and the median of its processor time (s).
+///
+/// # Errors
+///
+/// A run that fails.
+pub fn timed<E>(run: impl Fn() -> Result<E, Failed>) -> Result<(E, f64), Failed> {
     let mut times = Vec::new();
     let mut together = Duration::ZERO;
     loop {

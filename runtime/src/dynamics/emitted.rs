@@ -11,14 +11,16 @@
 use super::{Rows, Solver};
 use crate::linalg::{definite, guard, passes, straight, weak};
 use crate::state::all_finite;
-use crate::{
-    Correction, DynamicsError, Form, Mechanism, Pivots, Real, Regular, Stabilisation, State,
-};
+use crate::{DynamicsError, Form, Mechanism, Pivots, Real, Regular, Stabilisation, State};
 use nalgebra::SVector;
 
 /// Largest ratio of a pivot and the square of its row at earlier states: the rows of the
 /// stages of a step are somewhat larger than those at its start.
 const MOST_RATIO: f64 = 2.0;
+
+/// Coordinates and constraint equations of a mechanism whose pivots fit into registers;
+/// those of a larger one have a buffer that need not be cleared.
+const IN_REGISTERS: usize = 16;
 
 /// Corrections after which the general projection takes over.
 const MAX_ITERATIONS: usize = 8;
@@ -75,8 +77,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// The acceleration by emitted code, and the smallest squared sine that its pivots
     /// show: zero if something is not definite or not finite, or there is no such code.
     ///
-    /// What it is inlined into keeps the pivots in registers, but it is long enough to
-    /// stand in one place.
+    /// The code is long enough to be inlined in one place only.
     #[inline(never)]
     fn evaluate<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
@@ -84,8 +85,13 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         state: &State<T, N>,
         acceleration: &mut SVector<T, N>,
     ) -> T {
-        let mut regular = Regular::default();
-        self.emitted = mechanism.regular(state, &mut regular);
+        let mut small = Regular::default();
+        let regular = if N + R <= IN_REGISTERS {
+            &mut small
+        } else {
+            &mut self.regular
+        };
+        self.emitted = mechanism.regular(state, regular);
         if !self.emitted {
             return T::zero();
         }
@@ -112,26 +118,28 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         }
         let mut before = None;
         for _ in 0..MAX_ITERATIONS {
-            let mut correction = Correction::default();
-            if !mechanism.correction(state, &mut correction) {
+            if !mechanism.correction(state, &mut self.correction) {
                 return None;
             }
+            let pivots = &self.correction.pivots;
             for row in 0..R {
-                self.rows.observe(row, correction.pivots.row_squares[row]);
+                self.rows.observe(row, pivots.row_squares[row]);
             }
-            let squared = squared_sine(&correction.pivots, &self.rows);
-            self.observe_lowest(squared);
-            let worst = self.worst(&correction.residual)?;
+            let squared = squared_sine(pivots, &self.rows);
+            if squared < self.lowest {
+                self.lowest = squared;
+            }
+            let worst = self.worst(&self.correction.residual)?;
             if !passes(squared, weak()) {
                 return None;
             }
             let landed = self.is_on_constraints(worst, before);
             if !landed {
                 self.counters.projection_iterations += 1;
-                state.q += correction.position;
+                state.q += self.correction.position;
             }
-            if landed || self.is_straight(worst, squared, &correction.velocity, &state.v) {
-                state.v += correction.velocity;
+            if landed || self.is_straight(worst, squared, &state.v) {
+                state.v += self.correction.velocity;
                 self.safe_at(state, false);
                 return Some(squared);
             }
@@ -158,14 +166,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// Whether the constraints are straight, to round-off, over the corrections of the
     /// residual and of the velocities, so that the state is on them after one.
     #[inline]
-    fn is_straight(
-        &self,
-        worst: T,
-        squared_sine: T,
-        corrections: &SVector<T, N>,
-        velocities: &SVector<T, N>,
-    ) -> bool {
-        let [corrections] = &corrections.data.0;
+    fn is_straight(&self, worst: T, squared_sine: T, velocities: &SVector<T, N>) -> bool {
+        let [corrections] = &self.correction.velocity.data.0;
         let [velocities] = &velocities.data.0;
         let (mut turned, mut whole) = (T::zero(), T::zero());
         for ((weight, dv), v) in self.weights.iter().zip(corrections).zip(velocities) {
@@ -176,13 +178,6 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let (moved, reach) = (worst * worst, squared_sine * self.reach * self.reach);
         let (most, round_off) = (straight::<T>(), T::EPSILON);
         moved <= most * most * reach && moved * turned <= round_off * round_off * reach * whole
-    }
-
-    #[inline]
-    fn observe_lowest(&mut self, squared: T) {
-        if squared < self.lowest {
-            self.lowest = squared;
-        }
     }
 
     /// An acceleration at a state on the constraints, where the rows are safely

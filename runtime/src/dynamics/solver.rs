@@ -11,7 +11,10 @@ use crate::linalg::{
     Breakdown, NotDefinite, first_guard, guard, independent, passes, safe_steps, truncation,
     useless, weak,
 };
-use crate::{Branch, Counters, DynamicsError, Mechanism, Position, Real, Settings, State, Terms};
+use crate::{
+    Branch, Correction, Counters, DynamicsError, Mechanism, Position, Real, Regular, Settings,
+    State, Terms,
+};
 use nalgebra::{SMatrix, SVector};
 
 /// By which factor a coordinate grows before the length of the coordinates is measured
@@ -36,7 +39,9 @@ pub struct Solver<T, const N: usize, const R: usize> {
     pub(crate) metric: Metric<T, N>,
     pub(crate) rows: Rows<T, R>,
     pub(crate) lifted: Lifted<T, N, R>,
-    /// Whether the mechanism provides the regular path, as far as is known.
+    pub(crate) regular: Regular<T, N, R>,
+    pub(crate) correction: Correction<T, N, R>,
+    /// Whether the mechanism provides the last two, as far as is known.
     pub(crate) emitted: bool,
     /// Whether emitted code may be called before anything else is asked.
     pub(crate) expected: bool,
@@ -85,6 +90,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             metric: Metric::default(),
             rows: Rows::new(|_| true),
             lifted: Lifted::default(),
+            regular: Regular::default(),
+            correction: Correction::default(),
             emitted: true,
             expected: false,
             safe: None,
@@ -306,9 +313,16 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             return self.begin(squared);
         }
         let sine = squared.sqrt();
-        let lowest = sine.min(self.lowest.sqrt());
-        let before = self.sine.unwrap_or(sine);
-        let change = (before - lowest).max(sine - lowest);
+        let lowest = if self.lowest < squared {
+            self.lowest.sqrt()
+        } else {
+            sine
+        };
+        let highest = match self.sine {
+            Some(before) if before > sine => before,
+            _ => sine,
+        };
+        let change = highest - lowest;
         self.lowest = T::one();
         self.near = sine < guard::<T>() + safe_steps::<T>() * change;
         self.sine = Some(sine);
