@@ -335,11 +335,18 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         mechanism: &M,
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
+        let alike = self.rows.all_holonomic();
         for which in [Which::Holonomic, Which::All] {
+            if alike && which == Which::Holonomic {
+                continue;
+            }
             let tangent =
                 self.tangent(mechanism, state, Source::Position, which, Known::Nothing)?;
             if tangent.used > self.rows.regular(which) {
                 self.rows.observe_rank(tangent.used, which);
+                if alike {
+                    self.rows.observe_rank(tangent.used, Which::Holonomic);
+                }
             }
             if which == Which::All && tangent.strong == self.rows.regular(which) {
                 self.choose_rows(tangent.rows());

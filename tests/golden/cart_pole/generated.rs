@@ -163,6 +163,7 @@ pub mod cart_pole {
         /// Schur complement `A M⁻¹ Aᵀ`.
         ///
         /// Costs 14 products, 7 sums, 2 quotients, 1 sine–cosine pair.
+        #[inline(always)]
         fn regular(&self, state: &State<T, 2>, out: &mut Regular<T, 2, 0>) -> bool {
             let [_, phi] = state.q.data.0[0];
             let [x_dot, phi_dot] = state.v.data.0[0];

@@ -435,6 +435,7 @@ pub mod double_four_bar {
         /// Schur complement `A M⁻¹ Aᵀ`.
         ///
         /// Costs 181 products, 106 sums, 9 quotients, 5 sine–cosine pairs.
+        #[inline(always)]
         fn regular(&self, state: &State<T, 5>, out: &mut Regular<T, 5, 4>) -> bool {
             let (
                 [sin_q1,
@@ -822,6 +823,7 @@ pub mod double_four_bar {
         /// the constraints are regular.
         ///
         /// Costs 185 products, 122 sums, 9 quotients, 5 sine–cosine pairs.
+        #[inline(always)]
         fn correction(
             &self,
             state: &State<T, 5>,

@@ -176,6 +176,7 @@ pub mod double_pendulum {
         /// Schur complement `A M⁻¹ Aᵀ`.
         ///
         /// Costs 33 products, 12 sums, 2 quotients, 2 sine–cosine pairs.
+        #[inline(always)]
         fn regular(&self, state: &State<T, 2>, out: &mut Regular<T, 2, 0>) -> bool {
             let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
                 &state.q.data.0[0],

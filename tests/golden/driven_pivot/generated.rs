@@ -174,6 +174,7 @@ pub mod driven_pivot {
         /// Schur complement `A M⁻¹ Aᵀ`.
         ///
         /// Costs 25 products, 11 sums, 3 quotients, 2 sine–cosine pairs.
+        #[inline(always)]
         fn regular(&self, state: &State<T, 2>, out: &mut Regular<T, 2, 1>) -> bool {
             let t = state.t;
             let [_, phi] = state.q.data.0[0];
@@ -239,6 +240,7 @@ pub mod driven_pivot {
         /// the constraints are regular.
         ///
         /// Costs 21 products, 11 sums, 3 quotients, 2 sine–cosine pairs.
+        #[inline(always)]
         fn correction(
             &self,
             state: &State<T, 2>,

@@ -323,6 +323,7 @@ pub mod heavy_top {
         /// Schur complement `A M⁻¹ Aᵀ`.
         ///
         /// Costs 152 products, 115 sums, 5 quotients.
+        #[inline(always)]
         fn regular(&self, state: &State<T, 4>, out: &mut Regular<T, 4, 1>) -> bool {
             let [e_0, e_1, e_2, e_3] = state.q.data.0[0];
             let [e_0_dot, e_1_dot, e_2_dot, e_3_dot] = state.v.data.0[0];
@@ -665,6 +666,7 @@ pub mod heavy_top {
         /// the constraints are regular.
         ///
         /// Costs 119 products, 74 sums, 5 quotients.
+        #[inline(always)]
         fn correction(
             &self,
             state: &State<T, 4>,

@@ -211,6 +211,7 @@ pub mod rolling_disc {
         /// Schur complement `A M⁻¹ Aᵀ`.
         ///
         /// Costs 113 products, 57 sums, 6 quotients, 2 sine–cosine pairs.
+        #[inline(always)]
         fn regular(&self, state: &State<T, 5>, out: &mut Regular<T, 5, 2>) -> bool {
             let [_, _, psi, theta, _] = state.q.data.0[0];
             let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
@@ -431,6 +432,7 @@ pub mod rolling_disc {
         /// the constraints are regular.
         ///
         /// Costs 74 products, 35 sums, 6 quotients, 2 sine–cosine pairs.
+        #[inline(always)]
         fn correction(
             &self,
             state: &State<T, 5>,

@@ -213,6 +213,7 @@ pub mod slider_crank {
         /// Schur complement `A M⁻¹ Aᵀ`.
         ///
         /// Costs 68 products, 30 sums, 5 quotients, 2 sine–cosine pairs.
+        #[inline(always)]
         fn regular(&self, state: &State<T, 3>, out: &mut Regular<T, 3, 2>) -> bool {
             let [q1, q2, _] = state.q.data.0[0];
             let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
@@ -337,6 +338,7 @@ pub mod slider_crank {
         /// the constraints are regular.
         ///
         /// Costs 63 products, 33 sums, 5 quotients, 2 sine–cosine pairs.
+        #[inline(always)]
         fn correction(
             &self,
             state: &State<T, 3>,
