@@ -23,13 +23,19 @@ use proptest::test_runner::{Config, RngSeed, TestCaseError};
 const CASES: u32 = 2000;
 const LONG_CASES: u32 = 100_000;
 
+/// How many descriptions may be thrown away, on average, for each that is tried: more,
+/// and a filter lets next to nothing pass.
+const REJECTS_PER_CASE: u32 = 16;
+
 /// What values may differ by, relative to the sizes of what was added up.
 const ROUND_OFF: f64 = 1e-11;
 
 fn config() -> Config {
     let long = std::env::var_os("BRICARD_LONG").is_some();
+    let cases = if long { LONG_CASES } else { CASES };
     Config {
-        cases: if long { LONG_CASES } else { CASES },
+        cases,
+        max_local_rejects: REJECTS_PER_CASE * cases,
         failure_persistence: None,
         rng_seed: RngSeed::Fixed(19_840_223),
         ..Config::default()
