@@ -70,6 +70,7 @@ fn an_interrupted_run_goes_on_to_the_same_bytes() {
             "{arguments:?}: {err}"
         );
         let torn = fs::read(&parts).expect("rows are kept");
+        check_damaged(arguments, &folder, &file);
         let on = run(arguments, &parts, &["--resume", &file]);
         let ran = bricard(&words(&on));
         assert_eq!(ran.status, Some(0), "{}", ran.err);
@@ -79,6 +80,21 @@ fn an_interrupted_run_goes_on_to_the_same_bytes() {
             "{arguments:?} was over before it was interrupted"
         );
         assert!(one == two, "{arguments:?}: the bytes differ");
+    }
+}
+
+/// A run doesn't go on from a checkpoint in which something was changed or lost.
+fn check_damaged(arguments: &[&str], folder: &Path, file: &str) {
+    let text = fs::read_to_string(file).expect("a checkpoint is kept");
+    let [damaged, rows] = ["damaged.checkpoint", "damaged.csv"].map(|name| folder.join(name));
+    let path = damaged.to_string_lossy().into_owned();
+    let on = run(arguments, &rows, &["--resume", &path]);
+    let half = &text[..text.len() / 2];
+    let one_step_more = text.replacen("\"steps\": ", "\"steps\": 1", 1);
+    for (text, said) in [(half, "no checkpoint"), (&one_step_more, "damaged")] {
+        fs::write(&damaged, text).expect("a file can be written");
+        check_refused(&words(&on), 2, &["can't go on from", said]);
+        assert!(!rows.exists(), "rows were written");
     }
 }
 
@@ -143,6 +159,6 @@ fn checkpoints_of_other_runs_are_refused() {
         fs::write(&file, text).expect("a file can be written");
         check_refused(&go_on, 2, &["can't go on from", "no checkpoint"]);
     }
-    fs::write(&file, r#"{"format": 1, "run": "another"}"#).expect("a file can be written");
+    fs::write(&file, r#"{"format": 2, "run": "another"}"#).expect("a file can be written");
     check_refused(&go_on, 2, &["another run", "same mechanism and options"]);
 }

@@ -13,6 +13,10 @@ const MARGIN: f64 = 0.06;
 const FLAT: f64 = 1e-3;
 /// The same for what is constant altogether.
 const CONSTANT: f64 = 0.1;
+/// Values larger than this have no place on an axis, whose length would be infinite.
+const LARGEST: f64 = 1e300;
+/// A range smaller than this is as good as none.
+const SMALLEST: f64 = 1e-290;
 /// Points of a curve before it is thinned: about two for each pixel.
 const POINTS: usize = 1600;
 
@@ -45,7 +49,7 @@ pub fn curves(times: &[f64], series: &[Series], scale: Scale) -> (Vec<Curve>, (f
     let curve = |(i, names): (usize, Vec<&str>)| {
         let points = times.iter().copied().zip(scaled[i].iter().copied());
         let points = points
-            .filter(|(t, y)| t.is_finite() && y.is_finite())
+            .filter(|(t, y)| has_place(*t) && y.is_finite())
             .collect();
         Curve {
             name: names.join(", "),
@@ -55,9 +59,15 @@ pub fn curves(times: &[f64], series: &[Series], scale: Scale) -> (Vec<Curve>, (f
     (kept.into_iter().map(curve).collect(), range)
 }
 
-/// Where a value lies on the axis.
+/// Whether a number can be drawn.
+pub fn has_place(value: f64) -> bool {
+    value.abs() <= LARGEST
+}
+
+/// Where a value lies on the axis; NaN if it has no place there.
 fn place(value: f64, scale: Scale) -> f64 {
     match scale {
+        _ if !has_place(value) => f64::NAN,
         Scale::Linear => value,
         Scale::Logarithmic { low, .. } => value.abs().log10().max(f64::from(low)),
     }
@@ -75,7 +85,7 @@ fn range(scaled: &[Vec<f64>], scale: Scale) -> (f64, f64) {
         Scale::Linear => {
             let size = low.abs().max(high.abs());
             let flat = if low == high { CONSTANT } else { FLAT };
-            let least = if size == 0.0 { 1.0 } else { flat * size };
+            let least = if size < SMALLEST { 1.0 } else { flat * size };
             let margin = (MARGIN * (high - low)).max(0.5 * (least - (high - low)));
             (low - margin, high + margin)
         }
@@ -116,6 +126,7 @@ fn thinned(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::{curves, thinned};
+    use crate::figure::ERRORS;
     use crate::plot::{Scale, Series};
 
     #[test]
@@ -129,6 +140,24 @@ mod tests {
         let (curves, _) = curves(&times, &all, Scale::Linear);
         let names: Vec<_> = curves.iter().map(|curve| curve.name.as_str()).collect();
         assert_eq!(names, ["a, c", "b"]);
+    }
+
+    #[test]
+    fn what_is_no_number_or_too_large_for_an_axis_is_left_out() {
+        let odd = [f64::NAN, f64::INFINITY, -f64::MAX, 1.0, -1e300, 5e-324];
+        let times = [0.0, 1.0, 2.0, f64::NAN, 4.0, 5.0];
+        for (scale, drawn) in [
+            (Scale::Linear, [(4.0, -1e300), (5.0, 5e-324)]),
+            (ERRORS, [(4.0, 300.0), (5.0, -18.0)]),
+        ] {
+            let series = Series {
+                name: "odd".to_string(),
+                values: odd.to_vec(),
+            };
+            let (curves, (low, high)) = curves(&times, &[series], scale);
+            assert_eq!(curves[0].points, drawn);
+            assert!((high - low).is_finite() && high > low);
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Configurations of a mechanism, side by side.
 
+use super::curve::has_place;
 use super::style::{DETAIL, FONT, GHOST, GRID, HEADING, INK, TEXT, colour};
 use super::svg::{self, Area, Drawn};
 use crate::error::CommandError;
@@ -30,6 +31,18 @@ pub struct Frame {
     pub before: Vec<Vec<Shape>>,
 }
 
+impl Shape {
+    /// Whether all of it can be drawn.
+    fn has_place(&self) -> bool {
+        let placed = |point: &[f64; 2]| point.iter().all(|x| has_place(*x));
+        match self {
+            Self::Line(points) | Self::Polygon(points) => points.iter().all(placed),
+            Self::Circle(centre, radius) => placed(centre) && has_place(*radius),
+            Self::Trace(point) => placed(point),
+        }
+    }
+}
+
 /// Frames in a row.
 const COLUMNS: usize = 3;
 /// Width of a frame (pixels).
@@ -40,6 +53,9 @@ const TITLE: u32 = 36;
 const CAPTION: u32 = 26;
 /// Empty border around what is drawn, as a fraction of its size.
 const BORDER: f64 = 0.08;
+/// What is smaller than this, relative to its place, is drawn as if it were so large
+/// (one at the origin: in metres).
+const SMALLEST: f64 = 1e-9;
 
 /// Draws configurations in one scale, equal in both directions.
 ///
@@ -116,7 +132,8 @@ fn bounds(frames: &[Frame]) -> ([f64; 2], [f64; 2]) {
     };
     let all = frames
         .iter()
-        .flat_map(|frame| frame.before.iter().flatten().chain(&frame.now));
+        .flat_map(|frame| frame.before.iter().flatten().chain(&frame.now))
+        .filter(|shape| shape.has_place());
     for shape in all {
         match shape {
             Shape::Line(points) | Shape::Polygon(points) => {
@@ -126,12 +143,14 @@ fn bounds(frames: &[Frame]) -> ([f64; 2], [f64; 2]) {
             Shape::Trace(point) => include(*point, 0.0),
         }
     }
-    if !corners.0.iter().chain(&corners.1).all(|x| x.is_finite()) {
+    let numbers = || corners.0.iter().chain(&corners.1);
+    if !numbers().all(|x| x.is_finite()) {
         return ([-1.0; 2], [1.0; 2]);
     }
+    let farthest = numbers().fold(1.0, |most: f64, x| most.max(x.abs()));
     let longest = (corners.1[0] - corners.0[0])
         .max(corners.1[1] - corners.0[1])
-        .max(1e-9);
+        .max(SMALLEST * farthest);
     let border = BORDER * longest;
     (corners.0.map(|x| x - border), corners.1.map(|x| x + border))
 }
@@ -151,11 +170,11 @@ fn draw(area: &Area, frame: &Frame, projection: &Projection) -> Drawn {
         (0, 6 * edge(DETAIL)),
         style,
     ))?;
-    for shape in frame.before.iter().flatten() {
+    for shape in frame.before.iter().flatten().filter(|s| s.has_place()) {
         draw_shape(area, shape, projection, GHOST, 1)?;
     }
     let mut lines = 0;
-    for shape in &frame.now {
+    for shape in frame.now.iter().filter(|s| s.has_place()) {
         let ink = colour(lines);
         lines += usize::from(matches!(shape, Shape::Line(_)));
         draw_shape(area, shape, projection, ink, 3)?;

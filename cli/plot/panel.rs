@@ -1,7 +1,7 @@
 //! Panels of curves over time, one below the other.
 
 use super::axis::{power_of_ten, px, short};
-use super::curve::{Curve, curves};
+use super::curve::{Curve, curves, has_place};
 use super::style::{DETAIL, DOT, FONT, GRID, HEADING, INK, MARK, STROKE, TEXT, colour};
 use super::svg::{self, Area, Drawn};
 use super::{Panel, Scale};
@@ -22,6 +22,8 @@ const TIME_AXIS: u32 = 44;
 const LABELS: u32 = 78;
 /// Width of a letter of the legend (pixels), generously.
 const LETTER: u32 = 9;
+/// Spans of time shorter than this part of the time itself are not drawn.
+const SHORTEST: f64 = 1e-9;
 /// Lines of the grid, about.
 const TICKS: usize = 6;
 
@@ -64,10 +66,9 @@ pub fn panels(
     let legend = 56 + LETTER * longest.min(30);
     let count = u32::try_from(panels.len()).unwrap_or(1);
     let size = (WIDTH + legend, TITLE + PANEL * count + TIME_AXIS);
-    let time = (
-        times.values.first().copied().unwrap_or(0.0),
-        times.values.last().copied().unwrap_or(1.0),
-    );
+    let mut known = times.values.iter().copied().filter(|t| has_place(*t));
+    let from = known.next().unwrap_or(0.0);
+    let time = widened((from, known.last().unwrap_or(from)));
     svg::write(path, size, |root| {
         let (head, mut rest) = root.split_vertically(TITLE * DETAIL);
         heading(&head, title)?;
@@ -101,7 +102,6 @@ fn diagram(
     (time, range): (Range, Range),
     (marks, last): (&[f64], bool),
 ) -> Drawn {
-    let time = widened(time);
     let mut chart = ChartBuilder::on(area)
         .margin_top(12 * DETAIL)
         .margin_bottom(10 * DETAIL)
@@ -137,7 +137,8 @@ fn diagram(
         .draw()?;
     let line =
         |t: f64| PathElement::new(vec![(t, range.0), (t, range.1)], MARK.stroke_width(DETAIL));
-    chart.draw_series(marks.iter().map(|t| line(*t)))?;
+    let shown = marks.iter().filter(|t| (time.0..=time.1).contains(*t));
+    chart.draw_series(shown.map(|t| line(*t)))?;
     for (i, curve) in curves.iter().enumerate() {
         let points = curve.points.iter().copied();
         match panel.scale {
@@ -152,9 +153,13 @@ fn diagram(
     Ok(())
 }
 
-/// A range that is not empty.
+/// A range that is not empty, nor lost in the round-off of its ends.
 fn widened((from, to): Range) -> Range {
-    (from, if to > from { to } else { from + 1.0 })
+    let size = from.abs().max(to.abs());
+    match to - from > SHORTEST * size {
+        true => (from, to),
+        false => (from, from + size.max(1.0)),
+    }
 }
 
 /// The text at a tick of the vertical axis.

@@ -77,15 +77,19 @@ fn range(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
     low..high
 }
 
-/// Error and time as exponents.
-fn exponents((error, time): (f64, f64)) -> (f64, f64) {
-    (error.max(LEAST_ERROR).log10(), time.log10())
+/// Error and time of the points as exponents; those that are no numbers have no place.
+fn exponents(cloud: &Cloud) -> Vec<(f64, f64)> {
+    let drawn = |(error, time): &&(f64, f64)| {
+        error.is_finite() && time.is_finite() && *time >= f64::MIN_POSITIVE
+    };
+    let place = |(error, time): &(f64, f64)| (error.max(LEAST_ERROR).log10(), time.log10());
+    cloud.points.iter().filter(drawn).map(place).collect()
 }
 
 fn diagram(area: &Area, clouds: &[Cloud]) -> Drawn {
-    let all = || clouds.iter().flat_map(|cloud| &cloud.points).copied();
-    let errors = range(all().map(|point| exponents(point).0));
-    let times = range(all().map(|point| exponents(point).1));
+    let placed: Vec<_> = clouds.iter().map(exponents).collect();
+    let errors = range(placed.iter().flatten().map(|point| point.0));
+    let times = range(placed.iter().flatten().map(|point| point.1));
     let ticks = |range: &std::ops::Range<f64>| (range.end - range.start) as usize + 1;
     let (across, up) = (ticks(&errors), ticks(&times));
     let text = TextStyle::from((FONT, TEXT).into_font()).color(&INK);
@@ -112,8 +116,7 @@ fn diagram(area: &Area, clouds: &[Cloud]) -> Drawn {
         .x_label_formatter(&|x| power_of_ten(*x))
         .y_label_formatter(&|y| power_of_ten(*y))
         .draw()?;
-    for cloud in clouds {
-        let points: Vec<_> = cloud.points.iter().copied().map(exponents).collect();
+    for (cloud, points) in clouds.iter().zip(&placed) {
         let line = colour(cloud.colour).mix(0.55).stroke_width(STROKE);
         chart.draw_series(LineSeries::new(points.iter().copied(), line))?;
         let paint = colour(cloud.colour);

@@ -5,14 +5,17 @@
 //!
 //! Compiled once for each pair of sizes.
 
+mod report;
 mod writer;
+
+pub use report::Report;
 
 use crate::checkpoint::{Keeper, Legs, Rows};
 use crate::column::Column;
 use crate::error::CommandError;
 use crate::mechanism::state_of;
-use bricard_runtime::{Counters, Options, Passage, Start, Summary, Whole, assemble, simulate};
-use std::time::{Duration, Instant};
+use bricard_runtime::{Options, Start, Whole, assemble, simulate};
+use std::time::Instant;
 use writer::Writer;
 
 /// How to integrate and what to record.
@@ -62,27 +65,6 @@ pub trait RowSink {
     }
 }
 
-/// What was done in a run, and how well.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Report {
-    /// Accepted steps.
-    pub steps: u64,
-    /// Steps that were tried and thrown away.
-    pub rejected: u64,
-    /// Time it took.
-    pub wall: Duration,
-    /// The largest error of a constraint equation, in its unit.
-    pub constraint_error: f64,
-    /// The largest difference between the energy and what it should be (J).
-    pub energy_error: f64,
-    /// Passages through singular positions.
-    pub passages: Vec<Passage<f64>>,
-    /// Events: the name and the time (s) of each.
-    pub events: Vec<(&'static str, f64)>,
-    /// Work by kind.
-    pub counters: Counters,
-}
-
 /// A run that could not begin or ended early.
 #[derive(Debug)]
 pub struct Stopped {
@@ -92,18 +74,6 @@ pub struct Stopped {
     pub time: Option<f64>,
     /// What was done before.
     pub report: Option<Box<Report>>,
-}
-
-impl Report {
-    /// Adds what was done in a leg.
-    fn add<const N: usize>(&mut self, summary: &Summary<f64, N>) {
-        self.steps += summary.steps;
-        self.rejected += summary.rejected;
-        let constraint = summary.constraint_error.map_or(0.0, |error| error.position);
-        self.constraint_error = self.constraint_error.max(constraint);
-        self.energy_error = self.energy_error.max(summary.energy_error.unwrap_or(0.0));
-        self.counters += summary.counters;
-    }
 }
 
 fn failed(reason: String) -> CommandError {

@@ -1,0 +1,121 @@
+//! Checkpoints: where a run can be taken up again, to the same bits.
+//!
+//! In:  a state at the end of a leg and what was done until then.
+//! Out: a file, written whole or not at all, and what is read back from it.
+//!
+//! Not here: what stands in the file ([`text`]).
+//!
+//! A run with checkpoints is divided into legs of [`LEG_STEPS`] steps. Each begins
+//! with nothing but a state and the beginning of the run, so that the bits of the next
+//! leg do not depend on whether the program was ended in between.
+
+#[cfg(test)]
+mod tests;
+mod text;
+
+pub use text::{Checkpoint, Rows};
+
+use crate::error::CommandError;
+use bricard_runtime::Structure;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Steps of a leg.
+pub const LEG_STEPS: u64 = 1000;
+/// Steps by which a leg is longer where it would end next to a singular position.
+pub const EXTRA_STEPS: u64 = 100;
+/// A leg doesn't end where constraints are independent by less than this sine: a
+/// passage through a singular position belongs to one leg.
+pub const CALM_SINE: f64 = 0.3;
+/// How often the file is written while the run goes on.
+const PERIOD: Duration = Duration::from_secs(5);
+
+/// Which checkpoints a run writes, and which it begins with.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Legs {
+    /// What the run is, in words: a checkpoint of another one is refused.
+    pub run: String,
+    /// Where checkpoints go.
+    pub file: Option<PathBuf>,
+    /// Where the run goes on.
+    pub from: Option<Checkpoint>,
+}
+
+/// Writes checkpoints, not too often.
+#[derive(Debug)]
+pub struct Keeper<'a> {
+    legs: &'a Legs,
+    written: Instant,
+    last: Option<Checkpoint>,
+}
+
+impl<'a> Keeper<'a> {
+    /// Nothing written yet.
+    pub fn new(legs: &'a Legs) -> Self {
+        Self {
+            legs,
+            written: Instant::now(),
+            last: None,
+        }
+    }
+
+    /// Takes a checkpoint, and writes it if the last one is some time ago.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Write`].
+    pub fn take(&mut self, checkpoint: Checkpoint) -> Result<(), CommandError> {
+        self.last = Some(checkpoint);
+        match self.written.elapsed() >= PERIOD {
+            true => self.write(),
+            false => Ok(()),
+        }
+    }
+
+    /// Writes the last checkpoint that was taken.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Write`].
+    pub fn write(&mut self) -> Result<(), CommandError> {
+        if let (Some(file), Some(checkpoint)) = (&self.legs.file, &self.last) {
+            let text = checkpoint.text(&self.legs.run);
+            replace(file, &text).map_err(|error| CommandError::write(file, error))?;
+        }
+        self.written = Instant::now();
+        Ok(())
+    }
+}
+
+/// Replaces a file as a whole: whoever reads it sees the old text or the new one.
+fn replace(path: &Path, text: &str) -> io::Result<()> {
+    let mut beside = path.as_os_str().to_owned();
+    beside.push(".new");
+    let written = File::create(&beside).and_then(|mut file| {
+        file.write_all(text.as_bytes())?;
+        file.sync_all()
+    });
+    match written.and_then(|()| fs::rename(&beside, path)) {
+        Ok(()) => Ok(()),
+        Err(error) => {
+            let _not_there = fs::remove_file(&beside);
+            Err(error)
+        }
+    }
+}
+
+/// Reads the checkpoint of a run.
+///
+/// # Errors
+///
+/// [`CommandError::Read`], and [`CommandError::Checkpoint`] if the file is none, or one
+/// of another run.
+pub fn read(path: &Path, run: &str, structure: &Structure) -> Result<Checkpoint, CommandError> {
+    let text = fs::read_to_string(path).map_err(|e| CommandError::Read(path.to_path_buf(), e))?;
+    Checkpoint::read(&text, run, structure).map_err(|reason| CommandError::Checkpoint {
+        path: path.to_path_buf(),
+        reason,
+    })
+}
