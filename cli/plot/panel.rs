@@ -68,7 +68,7 @@ pub fn panels(
     let size = (WIDTH + legend, TITLE + PANEL * count + TIME_AXIS);
     let mut known = times.values.iter().copied().filter(|t| has_place(*t));
     let from = known.next().unwrap_or(0.0);
-    let time = widened((from, known.last().unwrap_or(from)));
+    let time = widened((from, known.next_back().unwrap_or(from)));
     svg::write(path, size, |root| {
         let (head, mut rest) = root.split_vertically(TITLE * DETAIL);
         heading(&head, title)?;

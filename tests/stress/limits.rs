@@ -13,16 +13,6 @@ const INPUTS: Case = Case {
     ..Case::USUAL
 };
 
-/// Not found is not right: these are to become right answers.
-const LIMITS: Case = Case {
-    kind: "Limits: motions that exist and are not found",
-    mechanism: "four_bar",
-    wanted: Wanted::Refused {
-        words: &["at t = ", "infinite or NaN"],
-    },
-    ..Case::USUAL
-};
-
 /// The cases.
 pub const CASES: &[Case] = &[
     Case {
@@ -118,12 +108,5 @@ pub const CASES: &[Case] = &[
             end: 1e-6,
         },
         ..INPUTS
-    },
-    Case {
-        what: "a triangle closed to 1e-9 m, at rest next to its singular position",
-        set: &[("L0", 1.15 - 1e-9)],
-        hold: &[("der(q1)", 0.0)],
-        until: 0.01,
-        ..LIMITS
     },
 ];

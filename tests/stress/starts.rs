@@ -28,6 +28,18 @@ const CRANK: Case = Case {
     until: 0.5,
     ..SINGULAR
 };
+const TRIANGLE: Case = Case {
+    mechanism: "four_bar",
+    hold: &[("der(q1)", 0.0)],
+    until: 0.01,
+    ..SINGULAR
+};
+/// Two degrees of freedom: nothing can be interpolated along the one motion there is.
+const HUNG: Case = Case {
+    mechanism: "hung_slider",
+    until: 0.5,
+    ..SINGULAR
+};
 const CONTRARY: Case = Case {
     kind: "Inconsistent and over-determined starts",
     mechanism: "four_bar",
@@ -80,6 +92,44 @@ pub const CASES: &[Case] = &[
         what: "slider–crank 1e-8 rad from upright, turning",
         hold: &[("q1", FRAC_PI_2 - 1e-8), ("der(q1)", 3.0)],
         ..CRANK
+    },
+    Case {
+        what: "slider–crank 1e-2 rad from upright, at rest",
+        hold: &[("q1", FRAC_PI_2 - 1e-2)],
+        ..CRANK
+    },
+    Case {
+        what: "slider–crank 1e-5 rad from upright, at rest",
+        hold: &[("q1", FRAC_PI_2 - 1e-5)],
+        ..CRANK
+    },
+    Case {
+        what: "a pendulum on its slider, 1e-2 rad from upright, at rest",
+        hold: &[("q1", FRAC_PI_2 - 1e-2)],
+        ..HUNG
+    },
+    Case {
+        what: "a pendulum on its slider, 1e-4 rad from upright, at rest",
+        hold: &[("q1", FRAC_PI_2 - 1e-4)],
+        ..HUNG
+    },
+    Case {
+        what: "a triangle closed to 1e-5 m, at rest",
+        set: &[("L0", 1.15 - 1e-5)],
+        wanted: Wanted::Right {
+            energy: 1e-7,
+            end: 1e-6,
+        },
+        ..TRIANGLE
+    },
+    Case {
+        what: "a triangle closed to 1e-9 m, at rest",
+        set: &[("L0", 1.15 - 1e-9)],
+        wanted: Wanted::Right {
+            energy: 1e-6,
+            end: 1e-6,
+        },
+        ..TRIANGLE
     },
     Case {
         what: "positions that no loop has",

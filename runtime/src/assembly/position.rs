@@ -20,9 +20,6 @@ use nalgebra::SVector;
 const CONTRADICTION: f64 = 4096.0;
 /// Trial steps of one descent.
 const MOST_TRIALS: usize = 300;
-/// Smallest damping that is worth having, relative to the largest singular
-/// value squared.
-const LEAST_DAMPING: f64 = 1e-6;
 /// Damping at which steps are too short to change anything.
 const MOST_DAMPING: f64 = 1e14;
 /// How fast damping comes and goes.
@@ -122,8 +119,7 @@ impl<'a, T: Real, const N: usize, const R: usize> Descent<'a, T, N, R> {
             if self.damping == T::zero() && self.is_satisfied() {
                 break;
             }
-            let least = T::from_f64(LEAST_DAMPING);
-            self.damping = (self.damping * T::from_f64(DAMPING_FACTOR)).max(least);
+            self.damping = (self.damping * T::from_f64(DAMPING_FACTOR)).max(least_damping());
         }
         Ok(())
     }
@@ -156,7 +152,7 @@ impl<'a, T: Real, const N: usize, const R: usize> Descent<'a, T, N, R> {
         mechanism.position(state, &mut self.at);
         self.merit = merit(&self.at, self.scales);
         self.damping /= T::from_f64(DAMPING_FACTOR);
-        if self.damping < T::from_f64(LEAST_DAMPING) {
+        if self.damping < least_damping() {
             self.damping = T::zero();
         }
         true
@@ -203,6 +199,13 @@ impl<'a, T: Real, const N: usize, const R: usize> Descent<'a, T, N, R> {
             conflicting,
         }
     }
+}
+
+/// Smallest damping that is worth having, relative to the largest singular value
+/// squared: that of the smallest singular value that counts. Between two roots next to
+/// each other more would make steps too short ever to reach one.
+fn least_damping<T: Real>() -> T {
+    truncation::<T>() * truncation()
 }
 
 /// Sum of the squares of the scaled constraint errors.

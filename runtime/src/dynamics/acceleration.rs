@@ -99,7 +99,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// `w = L⁻¹p₁`: the acceleration that the forces alone would give, in
     /// coordinates in which the kinetic energy is half the square of the velocity.
     #[inline]
-    pub(super) fn free_acceleration(&self, bias: &SVector<T, R>) -> [T; N] {
+    pub(crate) fn free_acceleration(&self, bias: &SVector<T, R>) -> [T; N] {
         let mut w = self
             .metric
             .force(&self.terms.force, &self.terms.jacobian, bias, &self.rows);

@@ -11,7 +11,7 @@
 //! motion `A` changes by less than `K`. What is left out is of order `σ⁴`.
 
 use super::{Known, Metric, Solver, Source, Tangent, Which};
-use crate::linalg::{add_scaled, crackle_span, dot, jerk_span};
+use crate::linalg::{add_scaled, crackle_span, dot, jerk_span, norm};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::{SMatrix, SVector};
 
@@ -87,7 +87,42 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         if here.tangent.strong == self.rows.regular(Which::All) {
             self.choose_rows(here.tangent.rows());
         }
-        self.with_jerk(mechanism, state, &here)
+        if !self.turns_at_once(state, &here.tangent, &here.free) {
+            let found = self.with_jerk(mechanism, state, &here)?;
+            let lifted = here.metric.factor.transposed_product(&found.data.0[0]);
+            if !self.turns_at_once(state, &here.tangent, &lifted) {
+                return Ok(found);
+            }
+        }
+        self.acceleration_by_rows(mechanism, state)
+    }
+
+    /// Whether an acceleration `w` in the metric changes the velocity altogether in the
+    /// time over which branch rows look along the motion, as next to rest. They are of
+    /// no use then, and hardly needed: round-off `ε` of the position makes no more than
+    /// `ε v²/σ³` in a row of size `σ`.
+    pub(crate) fn turns_at_once(
+        &self,
+        state: &State<T, N>,
+        tangent: &Tangent<T, N, R>,
+        w: &[T; N],
+    ) -> bool {
+        let speed = self.metric.factor.length(&state.v.data.0[0]);
+        // False for NaN, too.
+        let goes_on = norm(w) * crackle_span() <= speed * tangent.rate();
+        tangent.branch > tangent.strong && !goes_on
+    }
+
+    /// The acceleration by the rows alone, however weak, as long as they say anything.
+    fn acceleration_by_rows<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        let aimed = self.local(mechanism, state, Known::Landed)?.tangent.aimed;
+        let strong = aimed;
+        let here = self.local(mechanism, state, Known::Beside { strong, aimed })?;
+        Ok(here.affine(self).constant)
     }
 
     /// The equations of motion at one state.

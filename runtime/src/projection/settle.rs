@@ -33,6 +33,8 @@ struct Scene<T> {
     settled: T,
     /// The size of the velocity in the metric.
     speed: T,
+    /// Singular value below which branch rows take the place of a row.
+    floor: T,
 }
 
 impl<T: Real> Scene<T> {
@@ -64,12 +66,13 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             self.finite_residual(state)?;
             self.factorise_metric(mechanism, Source::Position, state.t)?;
             self.counters.projection_iterations += 1;
+            let mut tangent = self.tangent_here(mechanism, state, Which::All)?;
             let scene = Scene {
                 round_off: self.round_off(),
                 settled: T::EPSILON.sqrt() * self.reach,
                 speed: self.metric.factor.length(&state.v.data.0[0]),
+                floor: self.floor(mechanism, state, &tangent),
             };
-            let mut tangent = self.tangent_here(mechanism, state, Which::All)?;
             let across = if self.rows.all_holonomic() {
                 self.position_change(state, &scene, &mut tangent)?
             } else {
@@ -114,7 +117,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             let floor = if tangent.any_weak(&gap, far) {
                 T::one()
             } else {
-                useless()
+                scene.floor
             };
             self.refine(tangent, floor, state)?;
             tangent.close_rows(&mut w, &gap, |_, size| size > meaning);
@@ -142,7 +145,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             .round_off
             .max(self.residual(&self.position.residual).0);
         if off <= scene.settled && norm(&w) <= T::EPSILON.sqrt() * scene.speed {
-            self.refine(tangent, useless(), state)?;
+            self.refine(tangent, scene.floor, state)?;
             let (rate, noise) = (tangent.rate(), T::EPSILON * scene.speed);
             // Across the branch the position is known only to `off/σ`, for which the
             // velocity level has an error that no velocity is to blame for.
@@ -161,6 +164,22 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             }
         }
         Ok(self.lower(w).data.0[0])
+    }
+
+    /// Singular value below which branch rows take the place of a row; none where the
+    /// motion turns at once, of which they say nothing.
+    fn floor<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        tangent: &Tangent<T, N, R>,
+    ) -> T {
+        mechanism.terms(state, &mut self.terms);
+        let free = self.free_acceleration(&self.terms.bias);
+        match self.turns_at_once(state, tangent, &free) {
+            true => -T::one(),
+            false => useless(),
+        }
     }
 
     /// `p₂ − A q̈`, scaled, at a state: zero in the weak rows on the branch.
