@@ -24,7 +24,7 @@ where
             found[0] - exact
         );
     }
-    let learning = 2;
+    let learning = 1;
     assert_eq!(system.counters().rank_decisions, learning);
 }
 

@@ -25,6 +25,16 @@ const IN_REGISTERS: usize = 16;
 /// Corrections after which the general projection takes over.
 const MAX_ITERATIONS: usize = 8;
 
+/// What one correction by emitted code came to.
+enum Landing<T> {
+    /// The state is on the constraints, with this squared sine.
+    There(T),
+    /// It was off them by this much, a length in the metric.
+    Off(T),
+    /// There is no such code, or it is not safe.
+    Lost,
+}
+
 impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// Whether emitted code may be asked for accelerations and projections.
     fn asks_emitted(&self) -> bool {
@@ -38,21 +48,6 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// Decides whether emitted code may be called before anything else is asked.
     pub(crate) fn expect_regular(&mut self) {
         self.expected = !self.near && self.sine.is_some() && self.asks_emitted();
-    }
-
-    /// The acceleration by emitted code where it is expected to be safe and is.
-    #[inline(always)]
-    pub(super) fn expected_acceleration<M: Mechanism<T, N, R> + ?Sized>(
-        &mut self,
-        mechanism: &M,
-        state: &State<T, N>,
-    ) -> Option<SVector<T, N>> {
-        if !self.expected {
-            return None;
-        }
-        let mut acceleration = SVector::zeros();
-        let squared = self.evaluate(mechanism, state, &mut acceleration);
-        passes(squared, guard()).then_some(acceleration)
     }
 
     /// The acceleration by emitted code, if there is any and it is safe here.
@@ -79,7 +74,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     ///
     /// The code is long enough to be inlined in one place only.
     #[inline(never)]
-    fn evaluate<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn evaluate<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
@@ -108,44 +103,62 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// Brings a state onto the constraints by emitted code and returns the squared
     /// sine there; none if there is no such code or it is not safe.
+    #[inline(always)]
     pub(crate) fn emitted_landing<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &mut State<T, N>,
     ) -> Option<T> {
-        if !self.asks_emitted() {
+        if !self.expected && !self.asks_emitted() {
             return None;
         }
         let mut before = None;
         for _ in 0..MAX_ITERATIONS {
-            if !mechanism.correction(state, &mut self.correction) {
-                return None;
+            match self.correct(mechanism, state, before) {
+                Landing::There(squared) => return Some(squared),
+                Landing::Off(worst) => before = Some(worst),
+                Landing::Lost => return None,
             }
-            let pivots = &self.correction.pivots;
-            for row in 0..R {
-                self.rows.observe(row, pivots.row_squares[row]);
-            }
-            let squared = squared_sine(pivots, &self.rows);
-            if squared < self.lowest {
-                self.lowest = squared;
-            }
-            let worst = self.worst(&self.correction.residual)?;
-            if !passes(squared, weak()) {
-                return None;
-            }
-            let landed = self.is_on_constraints(worst, before);
-            if !landed {
-                self.counters.projection_iterations += 1;
-                state.q += self.correction.position;
-            }
-            if landed || self.is_straight(worst, squared, &state.v) {
-                state.v += self.correction.velocity;
-                self.safe_at(state, false);
-                return Some(squared);
-            }
-            before = Some(worst);
         }
         None
+    }
+
+    /// One correction by emitted code of a state that was off by `before` until the last
+    /// one. A function of its own: most states need one, and what a loop keeps at hand
+    /// for the next would be for nothing.
+    #[inline(never)]
+    fn correct<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &mut State<T, N>,
+        before: Option<T>,
+    ) -> Landing<T> {
+        if !mechanism.correction(state, &mut self.correction) {
+            return Landing::Lost;
+        }
+        let pivots = &self.correction.pivots;
+        for row in 0..R {
+            self.rows.observe(row, pivots.row_squares[row]);
+        }
+        let squared = squared_sine(pivots, &self.rows);
+        if squared < self.lowest {
+            self.lowest = squared;
+        }
+        let worst = match self.worst(&self.correction.residual) {
+            Some(worst) if passes(squared, weak()) => worst,
+            _ => return Landing::Lost,
+        };
+        let landed = self.is_on_constraints(worst, before);
+        if !landed {
+            self.counters.projection_iterations += 1;
+            state.q += self.correction.position;
+        }
+        if landed || self.is_straight(worst, squared, &state.v) {
+            state.v += self.correction.velocity;
+            self.safe_at(state, false);
+            return Landing::There(squared);
+        }
+        Landing::Off(worst)
     }
 
     /// The largest constraint error as a length in the metric, if all are finite.

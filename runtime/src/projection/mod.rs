@@ -36,12 +36,14 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.counters.projections += 1;
         self.observe_reach(mechanism, state);
         (self.safe, self.bridged) = (None, None);
-        let squared = match self.emitted_landing(mechanism, state) {
-            Some(squared) => squared,
-            None => self.land_without_emitted(mechanism, state)?,
-        };
-        self.observe_sine(squared);
-        self.expect_regular();
+        if let Some(squared) = self.emitted_landing(mechanism, state) {
+            self.observe_sine(squared);
+            self.expected = !self.near;
+        } else {
+            let squared = self.land_without_emitted(mechanism, state)?;
+            self.observe_sine(squared);
+            self.expect_regular();
+        }
         if self.safe.is_none() {
             self.counters.robust_projections += 1;
             if self.bridged.is_none() {

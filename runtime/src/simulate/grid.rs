@@ -34,7 +34,9 @@ impl<T: Real> Grid<T> {
             Pace::Adaptive { .. } => span,
             Pace::Fixed { step } => step,
         };
-        let smallest = T::EPSILON * T::from_f64(SMALLEST_STEP) * start.abs().max(until.abs());
+        let (begin, end) = (start.abs(), until.abs());
+        let farthest = if begin > end { begin } else { end };
+        let smallest = T::EPSILON * T::from_f64(SMALLEST_STEP) * farthest;
         if span > T::zero() && step < smallest {
             return Err(SimulateError::StepLost { step, smallest });
         }

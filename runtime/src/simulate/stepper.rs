@@ -8,7 +8,7 @@
 use super::options::{Driver, Pace, Scheme};
 use super::{Grid, SimulateError};
 use crate::integrator::Inside;
-use crate::{Counters, Integrator, Mechanism, Real, Settings, Solver, State};
+use crate::{Counters, Integrator, Mechanism, Real, Settings, Solver, State, System};
 
 /// Makes steps on demand and does not hold the mechanism in between, so that a
 /// program can set its inputs.
@@ -58,16 +58,14 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
     where
         M: Mechanism<T, N, R> + ?Sized,
     {
-        let grid = Grid::new(state.t, state.t + span, self.pace)?;
+        let until = state.t + span;
+        let grid = Grid::new(state.t, until, self.pace)?;
         self.driver.forget();
         let mut system = self.solver.on(mechanism);
-        for i in 0..grid.intervals() {
-            let bound = grid.time(i + 1);
-            while state.t < bound {
-                *state = *self.driver.step(&mut system, state, bound)?.end();
-            }
+        for i in 1..grid.intervals() {
+            go(&mut self.driver, &mut system, state, grid.time(i))?;
         }
-        Ok(())
+        go(&mut self.driver, &mut system, state, until)
     }
 
     /// What the solver did so far.
@@ -79,4 +77,18 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
     pub fn solver(&mut self) -> &mut Solver<T, N, R> {
         &mut self.solver
     }
+}
+
+/// Moves `state` on to a time, in as many steps as the method wants.
+#[inline(always)]
+fn go<T: Real, Y: System<T, N>, const N: usize>(
+    driver: &mut Driver<T, N>,
+    system: &mut Y,
+    state: &mut State<T, N>,
+    until: T,
+) -> Result<(), SimulateError<T>> {
+    while state.t < until {
+        *state = *driver.step(system, state, until)?.end();
+    }
+    Ok(())
 }
