@@ -21,7 +21,9 @@ pub fn counts(counts: &Counts, recorded: Option<&Recorded>) -> String {
         |value: Option<f64>| value.map_or("–".to_string(), |value| format!("{value:.0}"));
     for (kernel, count) in counts {
         let (subject, work) = kernel.split_once('/').unwrap_or((kernel, ""));
-        let subject = subject.trim_end_matches("_open");
+        let subject = subject
+            .trim_end_matches("_open")
+            .trim_end_matches("_eliminated");
         let by_hand = counts.get(&format!("{subject}_hand/{work}")).copied();
         let ratio = by_hand.map_or("–".to_string(), |by_hand| {
             format!("{:.2}", count / by_hand)
