@@ -15,6 +15,31 @@ implicit method, which shares no coefficients with the one used, ends in the sam
 The test `stress` runs every case and writes this table.
 ";
 
+/// What other tests check.
+const CONCLUSION: &str = "
+## Long runs
+
+The test `long` of this package makes a thousandth of them every day, and all with
+`BRICARD_LONG=1`.
+
+| case | mechanism | comes to |
+|---|---|---|
+| 1e9 steps of RK4, 1e-3 s each, energy kept | pendulum | right: energy to 1e-9 of itself |
+| 1e6 s by DOP853, energy kept | pendulum, point_pendulum | right: energy to 1e-7 of itself |
+
+## Interrupted runs
+
+The tests `command` and `resume` of the package `bricard` run the command and break it off.
+
+| case | comes to |
+|---|---|
+| Ctrl-C | the rows are kept, how many and up to when is said, status 130 |
+| a full disk | error: could not write … to its end, and how many rows it holds at most; status 1 |
+| a reader of standard output that has gone | the run ends in silence |
+| taken up again from a checkpoint | the same bytes as in one piece |
+| a checkpoint that is cut off, changed, or of another run | error: can't go on from …, and why; no row is written, status 2 |
+";
+
 /// Characters of a number that are shown.
 const LONGEST: usize = 8;
 /// Below this, a number in a message only round-off decides.
@@ -44,6 +69,7 @@ fn every_case_ends_in_a_right_answer_or_an_error_that_says_when_and_why() {
             Err(complaint) => broken.push(complaint),
         }
     }
+    text += CONCLUSION;
     assert!(broken.is_empty(), "{}", broken.join("\n"));
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/stress.md");
     if std::env::var_os("BRICARD_BLESS").is_some() {
