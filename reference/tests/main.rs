@@ -1,5 +1,7 @@
 //! The scalar: functions against values of 40 digits, text, edges of the range.
 
+mod sines;
+
 use bricard_reference::DoubleDouble;
 use bricard_runtime::Real;
 use num_traits::{Num, Zero};
