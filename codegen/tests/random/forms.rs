@@ -1,13 +1,13 @@
 //! The forms of the equations of motion, solved for random mechanisms with loops.
 
-use super::description::{Manner, Random, any, state};
+use super::description::{BODIES_MAX, Body, Joint, Manner, Random, any, state};
 use super::{Case, config};
 use bricard_codegen::derive::{Energies, Equations};
 use bricard_codegen::expr::ExprId;
 use bricard_runtime::nalgebra::{SMatrix, SVector};
 use bricard_runtime::{
-    Branch, Energy, Form, Initial, Mechanism, Position, Settings, Solver, Start, State, Structure,
-    Terms, assemble,
+    Branch, Energy, Form, Initial, Mechanism, Position, Quantity, Settings, Solver, Start, State,
+    Structure, Terms, assemble,
 };
 use proptest::prelude::*;
 
@@ -24,22 +24,41 @@ const FORMS_OF_THE_EQUATIONS: [Form; 4] = [
     Form::Partitioning,
 ];
 
-static NAMELESS: Structure = Structure {
-    name: "Random",
+/// A coordinate as random descriptions have them: without a unit. Like those of any
+/// mechanism they are turned to find out which rows and masses are small everywhere,
+/// and which only at one position.
+const COORDINATE: Quantity = Quantity {
+    name: "q",
+    unit: "",
     docs: "",
-    file: "",
-    coordinates: &[],
-    described: &[],
-    parameters: &[],
-    inputs: &[],
-    outputs: &[],
-    events: &[],
-    constraints: &[],
-    constant_mass: false,
-    conservative: true,
-    drawn: false,
-    regular: false,
 };
+
+/// What is known about mechanisms with one coordinate, with two, and so on.
+static NAMELESS: [Structure; BODIES_MAX] = [
+    nameless(&[COORDINATE]),
+    nameless(&[COORDINATE; 2]),
+    nameless(&[COORDINATE; 3]),
+    nameless(&[COORDINATE; 4]),
+];
+
+const fn nameless(coordinates: &'static [Quantity]) -> Structure {
+    Structure {
+        name: "Random",
+        docs: "",
+        file: "",
+        coordinates,
+        described: &[],
+        parameters: &[],
+        inputs: &[],
+        outputs: &[],
+        events: &[],
+        constraints: &[],
+        constant_mass: false,
+        conservative: true,
+        drawn: false,
+        regular: false,
+    }
+}
 
 /// A mechanism whose equations are evaluated, not compiled.
 struct Interpreted<'a>(&'a Case);
@@ -69,7 +88,7 @@ fn matrix<const K: usize, const L: usize>(
 
 impl<const N: usize, const R: usize> Mechanism<f64, N, R> for Interpreted<'_> {
     fn structure(&self) -> &'static Structure {
-        &NAMELESS
+        &NAMELESS[N - 1]
     }
 
     fn terms(&self, state: &State<f64, N>, out: &mut Terms<f64, N, R>) {
@@ -127,15 +146,25 @@ impl<const N: usize, const R: usize> Mechanism<f64, N, R> for Interpreted<'_> {
 }
 
 /// Directions that the rows leave free: what Gram and Schmidt leave of the axes.
-fn null_space<const N: usize, const R: usize>(rows: &SMatrix<f64, R, N>) -> Vec<SVector<f64, N>> {
+///
+/// Angles are those of the metric of the kinetic energy, `M = L Lᵀ`, like those of
+/// [`Rank::sine`](bricard_runtime::Rank): in coordinates as they are, two rows may
+/// differ by less by the square root of the condition of `M`.
+fn null_space<const N: usize, const R: usize>(
+    rows: &SMatrix<f64, R, N>,
+    lower: &SMatrix<f64, N, N>,
+) -> Vec<SVector<f64, N>> {
     let mut taken: Vec<SVector<f64, N>> = Vec::new();
     let left = |taken: &[SVector<f64, N>], vector: SVector<f64, N>| {
         let once = |vector: SVector<f64, N>| taken.iter().fold(vector, |x, e| x - e * e.dot(&x));
         once(once(vector))
     };
     for row in rows.row_iter() {
-        let rest = left(&taken, row.transpose());
-        if rest.norm() > REGULAR_SINE * row.norm() * 0.1 {
+        let lifted = lower
+            .solve_lower_triangular(&row.transpose())
+            .expect("M is definite");
+        let rest = left(&taken, lifted);
+        if rest.norm() > REGULAR_SINE * lifted.norm() * 0.1 {
             taken.push(rest.normalize());
         }
     }
@@ -146,7 +175,9 @@ fn null_space<const N: usize, const R: usize>(rows: &SMatrix<f64, R, N>) -> Vec<
         let longest = axes.max_by(|a, b| a.norm().total_cmp(&b.norm()));
         taken.extend(longest.map(|axis| axis.normalize()));
     }
-    taken.split_off(fixed)
+    let back = |w| lower.tr_solve_lower_triangular(&w).expect("M is definite");
+    let free = taken.split_off(fixed).into_iter();
+    free.map(|w| back(w).normalize()).collect()
 }
 
 /// Whether the mechanism can be assembled at a regular position near the state; if so,
@@ -174,7 +205,9 @@ fn forms_agree<const N: usize, const R: usize>(case: &Case) -> Result<bool, Test
     }
     let mut terms = Terms::<f64, N, R>::default();
     mechanism.terms(&state, &mut terms);
-    let free = null_space(&terms.jacobian);
+    let metric = terms.mass.cholesky();
+    let metric = metric.ok_or_else(|| TestCaseError::fail("M is not definite"))?;
+    let free = null_space(&terms.jacobian, &metric.l());
     prop_assert_eq!(free.len(), N - R);
     let mut first: Option<SVector<f64, N>> = None;
     for form in FORMS_OF_THE_EQUATIONS {
@@ -239,6 +272,38 @@ proptest! {
         let rows = case.equations.residual.len();
         compared(&case, random.n(), rows)?;
     }
+}
+
+/// The rows differ by an angle of 0.04 degrees in the metric of the kinetic energy: two
+/// bodies have short levers in them here, but not elsewhere.
+#[test]
+fn a_position_next_to_a_singular_one_is_not_taken_for_regular() {
+    let body = |parent, length, mass, inertia| Body {
+        parent,
+        joint: Joint::Hinge('z'),
+        length,
+        mass,
+        inertia,
+    };
+    let random = Random {
+        bodies: vec![
+            body(0, 14, 1, 1),
+            body(1, 12, 7, 3),
+            body(1, 18, 2, 1),
+            body(2, 2, 4, 14),
+        ],
+        loops: vec![(3, 0, 16), (0, 1, 4)],
+    };
+    let q = [
+        0.661_881_188_640_822,
+        0.858_750_613_912_074_9,
+        0.918_210_226_484_534,
+        -0.105_414_635_057_841,
+    ];
+    let case = Case::new(&random.text(Manner::PLAIN), q.to_vec(), vec![0.0; 4]);
+    let case = case.expect("a mechanism");
+    let is_compared = compared(&case, 4, 2).expect("no contradiction");
+    assert!(!is_compared, "it was taken for regular");
 }
 
 #[test]
