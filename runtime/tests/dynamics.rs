@@ -341,7 +341,7 @@ fn eighty_one_coordinates_and_eighty_constraints_fit_on_a_small_stack() {
             }
         }
     };
-    let thread = std::thread::Builder::new().stack_size(6 << 20).spawn(work);
+    let thread = std::thread::Builder::new().stack_size(5 << 20).spawn(work);
     thread.unwrap().join().unwrap();
 }
 

@@ -99,7 +99,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.terms.bias - velocity * (alpha + alpha) - self.position.residual * (beta * beta)
     }
 
-    /// `w = L⁻¹p₁`: the acceleration that the forces alone would give, in
+    /// `w = U⁻¹p₁`: the acceleration that the forces alone would give, in
     /// coordinates in which the kinetic energy is half the square of the velocity.
     #[inline]
     pub(crate) fn free_acceleration(&self, bias: &SVector<T, R>) -> [T; N] {
@@ -110,7 +110,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         w
     }
 
-    /// `L⁻ᵀw`: back to the mechanism's own coordinates.
+    /// `U⁻ᵀw`: back to the mechanism's own coordinates.
     #[inline]
     pub(crate) fn lower(&self, mut w: [T; N]) -> SVector<T, N> {
         self.metric.factor.backward(&mut w);

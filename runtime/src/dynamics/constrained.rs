@@ -4,7 +4,7 @@
 //! Out: accelerations, reactions, projections, rank, constraint errors.
 
 use super::solver::{Known, Source};
-use super::{Solver, Which};
+use super::{Solver, Tangent, Which};
 use crate::linalg::{passes, reported_rank, weak};
 use crate::{Counters, DynamicsError, Mechanism, Real, Slope, State, System};
 use nalgebra::SVector;
@@ -110,13 +110,9 @@ where
                 sine: squared.sqrt(),
             });
         }
-        let mut tangent = solver.tangent(
-            self.mechanism,
-            state,
-            Source::Position,
-            Which::All,
-            Known::Rank,
-        )?;
+        let (mut tangent, known) = (Tangent::default(), Known::Rank);
+        let (source, all) = (Source::Position, Which::All);
+        solver.tangent(self.mechanism, state, source, all, known, &mut tangent)?;
         let not_finite = |_| DynamicsError::NotFinite { t: state.t };
         tangent.refine(-T::one()).map_err(not_finite)?;
         let values = tangent.values();

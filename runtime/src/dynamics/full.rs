@@ -33,7 +33,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let bias = self.stabilised_bias(mechanism, &state);
         self.safe = None;
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
-        let tangent = self.tangent(mechanism, &state, Source::Terms, Which::All, known)?;
+        let mut tangent = Tangent::default();
+        let all = Which::All;
+        self.tangent(mechanism, &state, Source::Terms, all, known, &mut tangent)?;
         let unit = self.units();
         let mut triangle = Triangle::default();
         self.insert_motion(&mut triangle, &unit);
@@ -109,7 +111,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         unit: &SVector<T, N>,
         tangent: &Tangent<T, N, R>,
     ) {
-        for direction in tangent.free() {
+        let (free, count) = tangent.free();
+        for direction in &free.data.0[..count] {
             let motion = self.lower(*direction);
             let row = core::array::from_fn(|j| motion[j] / unit[j]);
             triangle.insert([T::zero(); N], row, T::zero());

@@ -1,6 +1,6 @@
 //! The cheap path: constraints factorised where they are far from singular.
 //!
-//! In:  `A` and the metric `M = L Lᵀ`.
+//! In:  `A` and the metric `M = U Uᵀ`.
 //! Out: the Schur complement `S = A M⁻¹ Aᵀ` of independent rows as LDLᵀ, with the
 //!      squared sine that tells whether it may be used.
 //!
@@ -11,7 +11,7 @@ use crate::Real;
 use crate::linalg::{Gram, add_scaled, dot};
 use nalgebra::{SMatrix, SVector};
 
-/// Independent rows in the metric, `L⁻¹Aᵀ`, and the factor of their Gram matrix.
+/// Independent rows in the metric, `U⁻¹Aᵀ`, and the factor of their Gram matrix.
 #[derive(Clone, Debug)]
 pub(crate) struct Lifted<T, const N: usize, const R: usize> {
     vectors: SMatrix<T, N, R>,
@@ -51,7 +51,7 @@ impl<T: Real, const N: usize, const R: usize> Lifted<T, N, R> {
             .factorise(&self.vectors, count, |k| rows.size(list[k]))
     }
 
-    /// Adds to `w` the shortest change after which `A L⁻ᵀ w = right`.
+    /// Adds to `w` the shortest change after which `A U⁻ᵀ w = right`.
     #[inline]
     pub(crate) fn correct(&self, w: &mut [T; N], right: &SVector<T, R>) {
         let multiplier = self.steps(w, right);
@@ -71,7 +71,7 @@ impl<T: Real, const N: usize, const R: usize> Lifted<T, N, R> {
         multiplier
     }
 
-    /// How far to go along each row for `A L⁻ᵀ w = right`.
+    /// How far to go along each row for `A U⁻ᵀ w = right`.
     #[inline]
     fn steps(&self, w: &[T; N], right: &SVector<T, R>) -> [T; R] {
         let mut steps = [T::zero(); R];

@@ -1,7 +1,7 @@
 //! The metric of the kinetic energy, in which all lengths and angles are taken.
 //!
 //! In:  `M` (`N × N`), and `A`, `p₁`, `p₂` where `M` alone is not definite.
-//! Out: its Cholesky factor `L`; `p₁` to go with it.
+//! Out: its Cholesky factor `U`; `p₁` to go with it.
 //!
 //! A mass matrix may be semi-definite (Euler parameters, coordinates without
 //! inertia) as long as `M` and `A` have no common null direction. `M + AᵀWA` with
@@ -131,7 +131,7 @@ impl<T: Real, const N: usize> Metric<T, N> {
         force
     }
 
-    /// `L⁻¹aᵀ` for one row `a` of a matrix: its components in coordinates in which
+    /// `U⁻¹aᵀ` for one row `a` of a matrix: its components in coordinates in which
     /// the kinetic energy is half the square of the velocity.
     #[inline]
     pub(crate) fn lift<const R: usize>(&self, matrix: &SMatrix<T, R, N>, row: usize) -> [T; N] {

@@ -13,6 +13,7 @@ mod acceleration;
 mod across;
 mod bridge;
 mod constrained;
+mod decide;
 mod emitted;
 mod full;
 mod lifted;
@@ -25,6 +26,7 @@ mod settings;
 mod singular;
 mod sizes;
 mod slope;
+mod solid;
 mod solver;
 mod tangent;
 

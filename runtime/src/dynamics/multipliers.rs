@@ -6,7 +6,7 @@
 //! Source: Phong & Hoang (2012), eq. 2.10. The matrix is singular where rows of
 //! `A` are dependent; a Schur complement of all rows shows how near that is.
 
-use super::{Known, Solver, Source, Which};
+use super::{Known, Solver, Source, Tangent, Which};
 use crate::linalg::{passes, weak};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
@@ -46,7 +46,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             return Ok(());
         }
         let (all, known) = (Which::All, Known::Rank);
-        let tangent = self.tangent(mechanism, state, Source::Terms, all, known)?;
+        let mut tangent = Tangent::default();
+        self.tangent(mechanism, state, Source::Terms, all, known, &mut tangent)?;
         let rank = tangent.strong;
         Err(DynamicsError::SingularPosition {
             t: state.t,

@@ -4,8 +4,8 @@
 //! Out: `q̈ = A⁺p₂ + D z` with `DᵀMD z = Dᵀ(p₁ − M A⁺p₂)`.
 //!
 //! Source: Phong & Hoang (2012), section 3. In the metric of the kinetic energy,
-//! `w = Lᵀq̈`, it reads: of all `w` that satisfy the constraints the one nearest to
-//! `L⁻¹p₁`. Where the rows of `A` are safely independent a Schur complement gives
+//! `w = Uᵀq̈`, it reads: of all `w` that satisfy the constraints the one nearest to
+//! `U⁻¹p₁`. Where the rows of `A` are safely independent a Schur complement gives
 //! that directly; elsewhere it is built from the tangent space.
 
 use super::{Solver, Source, Which};

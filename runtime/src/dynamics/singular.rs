@@ -10,7 +10,7 @@
 //! the motion, which need it too, and its changes: a contraction, since along the
 //! motion `A` changes by less than `K`. What is left out is of order `σ⁴`.
 
-use super::{Known, Metric, Solver, Source, Tangent, Which};
+use super::{Known, Solver, Source, Tangent, Which};
 use crate::linalg::{add_scaled, crackle_span, dot, jerk_span, norm};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::{SMatrix, SVector};
@@ -26,15 +26,6 @@ const JERK_SHARE: f64 = 0.75;
 const SNAP_SHARE: f64 = 0.6;
 /// As [`JERK_SHARE`], for the crackle.
 const CRACKLE_SHARE: f64 = 0.5;
-
-/// The equations of motion at one state, solved but for the jerk.
-struct Local<T, const N: usize, const R: usize> {
-    metric: Metric<T, N>,
-    jacobian: SMatrix<T, R, N>,
-    tangent: Tangent<T, N, R>,
-    right: [T; R],
-    free: [T; N],
-}
 
 impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// The acceleration at the nearest state on the constraints; on the branch that
@@ -61,7 +52,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
-    ) -> Result<(State<T, N>, Known), DynamicsError<T>> {
+    ) -> Result<(State<T, N>, Known<'static, T, N, R>), DynamicsError<T>> {
         let mut landed = *state;
         if !self.settings.branch_rows {
             return Ok((landed, Known::Rank));
@@ -81,16 +72,17 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
-        known: Known,
+        known: Known<T, N, R>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        let here = self.local(mechanism, state, known)?;
-        if here.tangent.strong == self.rows.regular(Which::All) {
-            self.choose_rows(here.tangent.rows());
+        let (mut tangent, mut here) = (Tangent::default(), Affine::default());
+        self.decide(mechanism, state, known, &mut tangent, &mut here)?;
+        if tangent.strong == self.rows.regular(Which::All) {
+            self.choose_rows(tangent.rows());
         }
-        if !self.turns_at_once(state, &here.tangent, &here.free) {
-            let found = self.with_jerk(mechanism, state, &here)?;
-            let lifted = here.metric.factor.transposed_product(&found.data.0[0]);
-            if !self.turns_at_once(state, &here.tangent, &lifted) {
+        if !self.turns_at_once(state, &tangent, &here.free) {
+            let found = self.with_jerk(mechanism, state, &tangent, &here)?;
+            let lifted = self.metric.factor.transposed_product(&found.data.0[0]);
+            if !self.turns_at_once(state, &tangent, &lifted) {
                 return Ok(found);
             }
         }
@@ -114,83 +106,126 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// The acceleration by the rows alone, however weak, as long as they say anything.
+    #[inline(never)]
     fn acceleration_by_rows<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        let aimed = self.local(mechanism, state, Known::Landed)?.tangent.aimed;
-        let strong = aimed;
-        let here = self.local(mechanism, state, Known::Beside { strong, aimed })?;
-        Ok(here.affine(self).constant)
+        let (mut like, mut here) = (Tangent::default(), Affine::default());
+        self.decide(mechanism, state, Known::Landed, &mut like, &mut here)?;
+        let strong = like.aimed;
+        let known = Known::Beside {
+            like: &like,
+            strong,
+        };
+        let mut tangent = Tangent::default();
+        self.decide(mechanism, state, known, &mut tangent, &mut here)?;
+        Ok(here.constant)
     }
 
-    /// The equations of motion at one state.
-    fn local<M: Mechanism<T, N, R> + ?Sized>(
+    /// Decides what the constraints leave free at a state and solves the equations of
+    /// motion there but for the jerk. Never inlined: what it needs on the stack is needed
+    /// once.
+    #[inline(never)]
+    fn decide<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
-        known: Known,
-    ) -> Result<Local<T, N, R>, DynamicsError<T>> {
+        known: Known<T, N, R>,
+        tangent: &mut Tangent<T, N, R>,
+        out: &mut Affine<T, N, R>,
+    ) -> Result<(), DynamicsError<T>> {
         mechanism.terms(state, &mut self.terms);
         let bias = self.stabilised_bias(mechanism, state);
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
-        let tangent = self.tangent(mechanism, state, Source::Terms, Which::All, known)?;
-        Ok(Local {
-            free: self.free_acceleration(&bias),
-            right: self.scaled(&bias),
-            metric: self.metric.clone(),
-            jacobian: self.terms.jacobian,
-            tangent,
-        })
+        self.tangent(mechanism, state, Source::Terms, Which::All, known, tangent)?;
+        self.solve_but_for_jerk(tangent, &bias, out);
+        Ok(())
+    }
+
+    /// `q̈` as a function of the jerk, by the terms in the buffer.
+    fn solve_but_for_jerk(
+        &self,
+        tangent: &Tangent<T, N, R>,
+        bias: &SVector<T, R>,
+        out: &mut Affine<T, N, R>,
+    ) {
+        out.free = self.free_acceleration(bias);
+        out.constant = self.lower(tangent.solve(&self.scaled(bias), &out.free));
+        out.terms = tangent.branch - tangent.strong;
+        for k in 0..out.terms {
+            let (left, across) = tangent.across(tangent.strong + k);
+            out.across.set_column(k, &self.lower(across));
+            let scaled = SVector::from_fn(|row, _| left[row] * self.rows.scale(row));
+            let weights = self.terms.jacobian.tr_mul(&scaled);
+            out.weights.set_column(k, &weights);
+        }
     }
 
     /// The acceleration with the jerk that the branch rows need, if they are used.
+    #[inline(never)]
     fn with_jerk<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
-        here: &Local<T, N, R>,
+        like: &Tangent<T, N, R>,
+        here: &Affine<T, N, R>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        let rate = here.tangent.rate();
-        let affine = here.affine(self);
-        if here.tangent.branch == here.tangent.strong || rate <= T::zero() {
-            return Ok(affine.constant);
+        let rate = like.rate();
+        if like.branch == like.strong || rate <= T::zero() {
+            return Ok(here.constant);
         }
-        let (strong, aimed) = (here.tangent.strong, here.tangent.aimed);
-        let beside = Known::Beside { strong, aimed };
-        let span = jerk_span::<T>() / rate;
-        let mut motion = Motion::new(affine.constant);
-        let beside = |solver: &mut Self, motion: &Motion<T, N>, span: T| {
+        let strong = like.strong;
+        let known = Known::Beside { like, strong };
+        let mut tangent = Tangent::default();
+        let mut beside = |motion: &Motion<T, N>, span: T, out: &mut Affine<T, N, R>| {
             let state = motion.after(state, span);
-            Ok(solver.local(mechanism, &state, beside)?.affine(solver))
+            self.decide(mechanism, &state, known, &mut tangent, out)
         };
-        let next = beside(self, &motion, span)?;
-        motion.find_jerk(&affine, &next, span);
-        let around = [beside(self, &motion, -span)?, beside(self, &motion, span)?];
-        motion.find_snap(&affine, &around, span);
+        let mut motion = Motion::new(here.constant);
+        let mut around: [Affine<T, N, R>; 4] = core::array::from_fn(|_| Affine::default());
+        let [before, behind, ahead, after] = &mut around;
+        let span = jerk_span::<T>() / rate;
+        beside(&motion, span, ahead)?;
+        motion.find_jerk(here, ahead, span);
+        beside(&motion, -span, behind)?;
+        beside(&motion, span, ahead)?;
+        motion.find_snap(here, [behind, ahead], span);
         let span = crackle_span::<T>() / rate;
-        let around = [
-            beside(self, &motion, -(span + span))?,
-            beside(self, &motion, -span)?,
-            beside(self, &motion, span)?,
-            beside(self, &motion, span + span)?,
-        ];
-        motion.find_crackle(&affine, &around, span);
+        beside(&motion, -(span + span), before)?;
+        beside(&motion, -span, behind)?;
+        beside(&motion, span, ahead)?;
+        beside(&motion, span + span, after)?;
+        motion.find_crackle(here, &around, span);
         Ok(motion.acceleration)
     }
 }
 
 /// The acceleration at a state, as far as it depends on the jerk there:
 /// `q̈ = constant − Σ across_k (weights_k · q⃛)`, a term for each branch direction.
-struct Affine<T, const N: usize> {
+struct Affine<T, const N: usize, const R: usize> {
     constant: SVector<T, N>,
-    across: SMatrix<T, N, N>,
-    weights: SMatrix<T, N, N>,
+    across: SMatrix<T, N, R>,
+    weights: SMatrix<T, N, R>,
     terms: usize,
+    /// What the forces alone would give, in the metric.
+    free: [T; N],
 }
 
-impl<T: Real, const N: usize> Affine<T, N> {
+impl<T: Real, const N: usize, const R: usize> Default for Affine<T, N, R> {
+    fn default() -> Self {
+        Self {
+            constant: SVector::zeros(),
+            across: SMatrix::zeros(),
+            weights: SMatrix::zeros(),
+            terms: 0,
+            free: [T::zero(); N],
+        }
+    }
+}
+
+impl<T: Real, const N: usize, const R: usize> Affine<T, N, R> {
     fn at(&self, jerk: &SVector<T, N>) -> SVector<T, N> {
         let mut acceleration = self.constant;
         for k in 0..self.terms {
@@ -237,7 +272,12 @@ impl<T: Real, const N: usize> Motion<T, N> {
     }
 
     /// The jerk by the acceleration at the next state, `span` later.
-    fn find_jerk(&mut self, here: &Affine<T, N>, next: &Affine<T, N>, span: T) {
+    fn find_jerk<const R: usize>(
+        &mut self,
+        here: &Affine<T, N, R>,
+        next: &Affine<T, N, R>,
+        span: T,
+    ) {
         for _ in 0..ROUNDS {
             let jerk = (next.at(&self.jerk) - self.acceleration) / span;
             self.jerk += (jerk - self.jerk) * T::from_f64(JERK_SHARE);
@@ -246,7 +286,12 @@ impl<T: Real, const N: usize> Motion<T, N> {
     }
 
     /// Jerk and snap by the accelerations `span` before and after.
-    fn find_snap(&mut self, here: &Affine<T, N>, around: &[Affine<T, N>; 2], span: T) {
+    fn find_snap<const R: usize>(
+        &mut self,
+        here: &Affine<T, N, R>,
+        around: [&Affine<T, N, R>; 2],
+        span: T,
+    ) {
         for _ in 0..ROUNDS {
             let [behind, ahead] = [-span, span].map(|at| self.jerk_after(at));
             let (behind, ahead) = (around[0].at(&behind), around[1].at(&ahead));
@@ -260,7 +305,12 @@ impl<T: Real, const N: usize> Motion<T, N> {
     }
 
     /// Jerk, snap and crackle by the accelerations at −2, −1, 1 and 2 times `span`.
-    fn find_crackle(&mut self, here: &Affine<T, N>, around: &[Affine<T, N>; 4], span: T) {
+    fn find_crackle<const R: usize>(
+        &mut self,
+        here: &Affine<T, N, R>,
+        around: &[Affine<T, N, R>; 4],
+        span: T,
+    ) {
         let number = T::from_f64;
         for _ in 0..ROUNDS {
             let at = |i: usize, steps: f64| around[i].at(&self.jerk_after(span * number(steps)));
@@ -278,28 +328,5 @@ impl<T: Real, const N: usize> Motion<T, N> {
             self.crackle += (crackle - self.crackle) * number(CRACKLE_SHARE);
             self.acceleration = here.at(&self.jerk);
         }
-    }
-}
-
-impl<T: Real, const N: usize, const R: usize> Local<T, N, R> {
-    /// `q̈` as a function of the jerk.
-    fn affine(&self, solver: &Solver<T, N, R>) -> Affine<T, N> {
-        let tangent = &self.tangent;
-        let mut constant = tangent.solve(&self.right, &self.free);
-        self.metric.factor.backward(&mut constant);
-        let mut affine = Affine {
-            constant: SVector::from(constant),
-            across: SMatrix::zeros(),
-            weights: SMatrix::zeros(),
-            terms: tangent.branch - tangent.strong,
-        };
-        for k in 0..affine.terms {
-            let (left, mut across) = tangent.across(tangent.strong + k);
-            self.metric.factor.backward(&mut across);
-            affine.across.data.0[k] = across;
-            let scaled = SVector::from_fn(|row, _| left[row] * solver.rows.scale(row));
-            affine.weights.data.0[k] = self.jacobian.tr_mul(&scaled).data.0[0];
-        }
-        affine
     }
 }

@@ -175,43 +175,52 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// Decides which directions the constraints leave free at the state whose
     /// terms are in a buffer and whose metric is factorised.
+    ///
+    /// A tangent space is large, so it is written into one that is at hand.
+    #[inline(never)]
     pub(crate) fn tangent<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
         source: Source,
         which: Which,
-        known: Known,
-    ) -> Result<Tangent<T, N, R>, DynamicsError<T>> {
+        known: Known<T, N, R>,
+        tangent: &mut Tangent<T, N, R>,
+    ) -> Result<(), DynamicsError<T>> {
         let jacobian = match source {
             Source::Terms => &self.terms.jacobian,
             Source::Position => &self.position.jacobian,
         };
         self.counters.rank_decisions += 1;
         let not_finite = |Breakdown| DynamicsError::NotFinite { t: state.t };
-        let mut tangent = Tangent::new(&self.metric, &mut self.rows, jacobian, which);
         let regular = self.rows.regular(which);
         let (limit, floor) = match known {
             Known::Nothing => (N.min(R), independent()),
             _ => (regular, truncation()),
         };
+        let (metric, rows) = (&self.metric, &mut self.rows);
+        match known {
+            Known::Beside { like, .. } => tangent.begin_like(like, metric, rows, jacobian, limit),
+            _ => tangent.begin(metric, rows, jacobian, which, limit),
+        }
         let declared = mechanism.structure().regular;
         if declared || !self.settings.branch_rows {
             tangent.take_strong(floor, limit).map_err(not_finite)?;
             let rank = tangent.rank(useless());
-            return match declared && known != Known::Nothing && rank < limit {
+            let required = declared && !matches!(known, Known::Nothing);
+            return match required && rank < limit {
                 true => Err(DynamicsError::NotRegular {
                     t: state.t,
                     rank,
                     structure: mechanism.structure(),
                 }),
-                false => Ok(tangent),
+                false => Ok(()),
             };
         }
         match known {
             Known::Rank | Known::Nothing => tangent.take_strong(weak(), limit),
             Known::Landed => tangent.take_landed(limit),
-            Known::Beside { strong, aimed } => tangent.take_counted(strong, aimed),
+            Known::Beside { like, strong } => tangent.take_counted(strong, like.aimed),
         }
         .map_err(not_finite)?;
         if tangent.strong < limit {
@@ -229,7 +238,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             };
             self.counters.undetermined += u64::from(undetermined);
         }
-        Ok(tangent)
+        Ok(())
     }
 
     /// Whether nothing is to be learned before the first state.
@@ -340,8 +349,16 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             if alike && which == Which::Holonomic {
                 continue;
             }
-            let tangent =
-                self.tangent(mechanism, state, Source::Position, which, Known::Nothing)?;
+            let mut tangent = Tangent::default();
+            let known = Known::Nothing;
+            self.tangent(
+                mechanism,
+                state,
+                Source::Position,
+                which,
+                known,
+                &mut tangent,
+            )?;
             if tangent.used > self.rows.regular(which) {
                 self.rows.observe_rank(tangent.used, which);
                 if alike {
@@ -365,20 +382,20 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 }
 
 /// What is known about the state of a rank decision.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Known {
+#[derive(Clone, Copy)]
+pub(crate) enum Known<'a, T, const N: usize, const R: usize> {
     /// The rank at regular positions; the state may be off the constraints.
     Rank,
     /// The same, and that the state is on the constraints to round-off, so that even
     /// small rows tell the truth.
     Landed,
-    /// The same as at a state nearby, and how many directions are strong there, and
-    /// how many are aimed at by the rows: what is compared must be decided alike.
+    /// The same as at a state nearby, and how many directions are strong: what is
+    /// compared must be decided alike.
     Beside {
-        /// [`Tangent::strong`] there.
+        /// What was decided there.
+        like: &'a Tangent<T, N, R>,
+        /// How many directions are strong.
         strong: usize,
-        /// [`Tangent::aimed`] there.
-        aimed: usize,
     },
     /// Nothing but that the state is on the constraints to round-off; how many rows
     /// are independent is the question.

@@ -2,209 +2,207 @@
 //!
 //! In:  rows `Â` of the constraints in the metric and scaled to size one, and
 //!      branch rows `K̂`, scaled likewise.
-//! Out: an orthonormal basis of the metric space: strong directions, which the
-//!      rows decide; branch directions, which the rows differentiated once more
-//!      decide where the rows themselves vanish; what the vanishing rows still
-//!      decide; and the free rest, the tangent space of the motion.
+//! Out: what is decided in the metric space: by the solid rows, which are plainly
+//!      independent ([`Solid`]); and by combinations of the others, with an orthonormal
+//!      direction each: strong directions, which the rows decide; branch directions,
+//!      which the rows differentiated once more decide where the rows themselves
+//!      vanish; what the vanishing rows still decide. What is at right angles to all
+//!      that is free, the tangent space of the motion.
 //!
 //! Rows that are redundant everywhere decide nothing in either and drop out. At
 //! rest in a singular position there are no branch rows (they are linear in the
 //! velocities), and the tangent space is the whole null space of `A`, as in
 //! Phong & Hoang (2012).
 
+use super::solid::Solid;
 use super::{Metric, Rows, Which};
-use crate::linalg::{
-    Breakdown, add_scaled, branch_rank, dot, independent, norm, orthogonalise, tangible, useless,
-};
-use crate::{Branch, Real};
+use crate::Real;
+use crate::linalg::{add_scaled, dot, independent, independent_rows, norm, scaled};
+use core::ops::Range;
 use nalgebra::{SMatrix, SVector};
 
-/// The basis and what was decided about it.
+/// What was decided, and by what.
 ///
-/// Columns `0..strong` of `basis` are strong directions, `strong..branch` branch
-/// directions, `branch..used` what else is decided, `used..N` free. Each decided
-/// column has a left vector and a singular value.
+/// Of the decisions, `0..solid` are those of the solid rows. `solid..strong` are strong
+/// directions, `strong..branch` branch directions, `branch..used` what else is decided:
+/// each has a direction, a left vector and a singular value. The left vectors from
+/// `used` to `end` complete an orthonormal basis of the combinations of other rows.
 pub(crate) struct Tangent<T, const N: usize, const R: usize> {
-    pub(super) basis: SMatrix<T, N, N>,
-    pub(super) left: SMatrix<T, R, R>,
-    pub(super) values: SVector<T, N>,
-    /// `Â` and `K̂`, a row in each column.
+    /// `Â` and `K̂`, a row in each column. What solid rows contribute to the others is
+    /// subtracted from the latter, as it is from what left vectors combine.
     pub(super) rows: SMatrix<T, N, R>,
     pub(super) slopes: SMatrix<T, N, R>,
-    slope_bias: [T; R],
-    which: Which,
+    pub(super) slope_bias: [T; R],
+    pub(super) rate: T,
+    pub(super) solid: Solid<T, R>,
+    /// The rows that are not solid.
+    pub(super) others: [usize; R],
+    pub(super) directions: SMatrix<T, N, R>,
+    pub(super) left: SMatrix<T, R, R>,
+    pub(super) values: SVector<T, R>,
+    pub(super) which: Which,
+    pub(super) end: usize,
     pub(crate) strong: usize,
-    /// How many of the decided columns, the strong ones among them, the rows alone
-    /// point to.
+    /// How many of the decisions, the strong ones among them, the rows alone point to.
     pub(crate) aimed: usize,
     pub(crate) branch: usize,
     pub(crate) used: usize,
 }
 
-impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
-    /// Lifts and scales the rows; decides nothing yet.
-    pub(crate) fn new(
-        metric: &Metric<T, N>,
-        rows: &mut Rows<T, R>,
-        jacobian: &SMatrix<T, R, N>,
-        which: Which,
-    ) -> Self {
-        let mut lifted = SMatrix::zeros();
-        for row in 0..R {
-            if !rows.takes_part(row, which) {
-                continue;
-            }
-            let vector = metric.lift(jacobian, row);
-            rows.observe(row, dot(&vector, &vector));
-            add_scaled(&mut lifted.data.0[row], rows.scale(row), &vector);
-        }
-        let mut basis: SMatrix<T, N, N> = SMatrix::zeros();
-        basis.fill_diagonal(T::one());
+impl<T: Real, const N: usize, const R: usize> Default for Tangent<T, N, R> {
+    fn default() -> Self {
         Self {
-            basis,
-            left: SMatrix::zeros(),
-            values: SVector::zeros(),
-            rows: lifted,
+            rows: SMatrix::zeros(),
             slopes: SMatrix::zeros(),
             slope_bias: [T::zero(); R],
-            which,
+            rate: T::zero(),
+            solid: Solid::default(),
+            others: [0; R],
+            directions: SMatrix::zeros(),
+            left: SMatrix::zeros(),
+            values: SVector::zeros(),
+            which: Which::All,
+            end: 0,
             strong: 0,
             aimed: 0,
             branch: 0,
             used: 0,
         }
     }
+}
 
-    /// Takes the directions that the rows decide with singular values above
-    /// `threshold`, at most `limit`.
-    pub(crate) fn take_strong(&mut self, threshold: T, limit: usize) -> Result<(), Breakdown> {
-        let rows = self.rows;
-        self.take(&rows, 0, N, threshold, limit)?;
-        self.strong = self.used;
-        self.aimed = self.used;
-        self.branch = self.used;
-        Ok(())
-    }
+/// What left vectors combine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Level {
+    /// `Â`.
+    Rows,
+    /// `K̂`.
+    Slopes,
+}
 
-    /// As [`take_strong`](Self::take_strong) at a state on the constraints: rows are
-    /// strong down to where round-off is too large in them. The rows below still say
-    /// which directions are free, better than the branch rows, which then only say
-    /// what happens in the others.
-    ///
-    /// A group of singular values of nearly one size is not divided.
-    pub(crate) fn take_landed(&mut self, limit: usize) -> Result<(), Breakdown> {
-        self.take_strong(tangible(), limit)?;
-        self.aimed = self.used;
-        let together = T::from_f64(1.5);
-        while self.strong > 0 {
-            let value = self.values[self.strong - 1];
-            let below = self.strong < self.used && value < self.values[self.strong] * together;
-            if value >= useless() && !below {
-                break;
-            }
-            self.strong -= 1;
-        }
-        self.branch = self.strong;
-        Ok(())
-    }
-
-    /// As at a state nearby where `strong` and `aimed` directions were taken.
-    pub(crate) fn take_counted(&mut self, strong: usize, aimed: usize) -> Result<(), Breakdown> {
-        self.take_strong(T::zero(), strong)?;
-        let rows = self.rows;
-        self.take(&rows, self.strong, N, T::zero(), aimed)?;
-        self.aimed = self.used;
-        Ok(())
-    }
-
-    /// Takes the directions that branch rows decide among those that are not strong.
-    pub(crate) fn take_branch(
+impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
+    /// Lifts and scales the rows and takes those that are solid, at most `limit`.
+    pub(crate) fn begin(
         &mut self,
         metric: &Metric<T, N>,
-        rows: &Rows<T, R>,
-        branch: &Branch<T, N, R>,
+        rows: &mut Rows<T, R>,
+        jacobian: &SMatrix<T, R, N>,
+        which: Which,
         limit: usize,
-    ) -> Result<(), Breakdown> {
-        let mut largest = T::zero();
-        for row in (0..R).filter(|&row| rows.takes_part(row, self.which)) {
-            let vector = metric.lift(&branch.slope, row);
-            add_scaled(&mut self.slopes.data.0[row], rows.scale(row), &vector);
-            self.slope_bias[row] = rows.scale(row) * branch.bias[row];
-            largest = largest.max(norm(&self.slopes.data.0[row]));
-        }
-        let slopes = self.slopes;
-        let threshold = branch_rank::<T>() * largest;
-        self.take(&slopes, self.used, N, threshold, limit)?;
-        let end = self.used;
-        self.used = self.strong;
-        self.take(&slopes, self.strong, end, threshold, end)?;
-        self.branch = self.used;
-        Ok(())
+    ) {
+        self.lift_rows(metric, rows, jacobian, which);
+        self.choose_solid(rows, limit);
+        self.forget();
     }
 
-    /// Takes what the vanishing rows still decide above `threshold`.
-    pub(crate) fn take_rest(&mut self, threshold: T, limit: usize) -> Result<(), Breakdown> {
-        let rows = self.rows;
-        self.take(&rows, self.used, N, threshold, limit)
-    }
-
-    /// Orthogonalises `matrix · basis` in the columns `from..to` after removing
-    /// the left vectors already used, and takes the columns above `threshold`.
-    pub(super) fn take(
+    /// As at a state nearby: the same rows are solid, and the others are combined
+    /// likewise at first.
+    pub(crate) fn begin_like(
         &mut self,
-        matrix: &SMatrix<T, N, R>,
-        from: usize,
-        to: usize,
-        threshold: T,
+        like: &Self,
+        metric: &Metric<T, N>,
+        rows: &mut Rows<T, R>,
+        jacobian: &SMatrix<T, R, N>,
         limit: usize,
-    ) -> Result<(), Breakdown> {
-        let mut images: SMatrix<T, R, N> = SMatrix::zeros();
-        for j in from..to {
-            let image = &mut images.data.0[j];
-            for (entry, row) in image.iter_mut().zip(&matrix.data.0) {
-                *entry = dot(row, &self.basis.data.0[j]);
+    ) {
+        self.lift_rows(metric, rows, jacobian, like.which);
+        if self.solid.take_again(&self.rows, like.solid.list()) {
+            (self.others, self.end) = (like.others, like.end);
+            self.left = like.left;
+        } else {
+            self.choose_solid(rows, limit);
+        }
+        self.forget();
+    }
+
+    /// The rows that take part, in the metric and scaled to size one.
+    fn lift_rows(
+        &mut self,
+        metric: &Metric<T, N>,
+        rows: &mut Rows<T, R>,
+        jacobian: &SMatrix<T, R, N>,
+        which: Which,
+    ) {
+        self.which = which;
+        for row in 0..R {
+            let mut vector = [T::zero(); N];
+            if rows.takes_part(row, which) {
+                vector = metric.lift(jacobian, row);
+                rows.observe(row, dot(&vector, &vector));
+                vector = scaled(rows.scale(row), &vector);
             }
-            for left in &self.left.data.0[..self.used.min(R)] {
-                add_scaled(image, -dot(left, image), left);
+            self.rows.data.0[row] = vector;
+        }
+    }
+
+    /// Takes solid rows, and the others one by one for combinations of them.
+    fn choose_solid(&mut self, rows: &Rows<T, R>, limit: usize) {
+        let which = self.which;
+        let known = || (0..R).filter(|&row| rows.takes_part(row, which));
+        self.solid.choose(&self.rows, known(), limit);
+        self.end = self.first();
+        for row in known() {
+            if !self.solid.list().contains(&row) {
+                self.others[self.end] = row;
+                let left = &mut self.left.data.0[self.end];
+                *left = [T::zero(); R];
+                left[row] = T::one();
+                self.end += 1;
             }
         }
-        orthogonalise(
-            &mut images.data.0[from..to],
-            &mut self.basis.data.0[from..to],
-        )?;
-        for image in &images.data.0[from..to] {
-            let size = norm(image);
-            let enough = size > threshold && self.used < limit.min(R);
-            if !enough {
-                break;
-            }
-            let mut left = [T::zero(); R];
-            if size > T::zero() {
-                add_scaled(&mut left, T::one() / size, image);
-            }
-            self.left.data.0[self.used] = left;
-            self.values[self.used] = size;
-            self.used += 1;
+    }
+
+    /// Forgets what was decided but by the solid rows.
+    fn forget(&mut self) {
+        let count = self.first();
+        for k in 0..count {
+            self.values[k] = self.solid.sine(k);
         }
-        Ok(())
+        (self.strong, self.aimed) = (count, count);
+        (self.branch, self.used) = (count, count);
+        self.slopes.fill(T::zero());
+        self.rate = T::zero();
+    }
+
+    /// How many decisions are those of solid rows.
+    pub(super) fn first(&self) -> usize {
+        self.solid.list().len()
+    }
+
+    /// Subtracts from a vector its part along all that is decided. Twice: the first
+    /// time leaves round-off of what it takes away.
+    pub(super) fn remove_decided(&self, x: &mut [T; N]) {
+        for _ in 0..2 {
+            self.solid.satisfy(&self.rows, x, &[T::zero(); R]);
+            for direction in &self.directions.data.0[self.first()..self.used] {
+                add_scaled(x, -dot(direction, x), direction);
+            }
+        }
+    }
+
+    pub(super) fn matrix(&self, level: Level) -> &SMatrix<T, N, R> {
+        match level {
+            Level::Rows => &self.rows,
+            Level::Slopes => &self.slopes,
+        }
+    }
+
+    /// The rows that are not solid.
+    pub(super) fn others(&self) -> &[usize] {
+        &self.others[self.first()..self.end]
     }
 
     /// The `w` nearest to `free` that satisfies what was decided: `Â w = right` in
     /// the strong directions, `K̂ w = κ̂` in the branch directions. The latter lacks
     /// `Â` times the jerk, see [`across`](Self::across).
     pub(crate) fn solve(&self, right: &[T; R], free: &[T; N]) -> [T; N] {
-        let mut w = [T::zero(); N];
-        self.advance(&mut w, &self.rows, right, 0..self.strong);
-        for direction in &self.basis.data.0[self.used..] {
-            add_scaled(&mut w, dot(direction, free), direction);
-        }
-        self.advance(
-            &mut w,
-            &self.slopes,
-            &self.slope_bias,
-            self.strong..self.branch,
-        );
-        self.advance(&mut w, &self.rows, right, self.branch..self.used);
+        let mut w = *free;
+        self.remove_decided(&mut w);
+        self.solid.satisfy(&self.rows, &mut w, right);
+        self.advance(&mut w, Level::Rows, right, self.first()..self.strong);
+        let bias = &self.slope_bias;
+        self.advance(&mut w, Level::Slopes, bias, self.strong..self.branch);
+        self.advance(&mut w, Level::Rows, right, self.branch..self.used);
         w
     }
 
@@ -213,35 +211,66 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
     /// vector with `Â` times the jerk.
     pub(crate) fn across(&self, j: usize) -> ([T; R], [T; N]) {
         let mut w = [T::zero(); N];
-        add_scaled(&mut w, T::one() / self.values[j], &self.basis.data.0[j]);
-        if self.branch < self.used {
-            self.advance(&mut w, &self.rows, &[T::zero(); R], self.branch..self.used);
+        add_scaled(
+            &mut w,
+            T::one() / self.values[j],
+            &self.directions.data.0[j],
+        );
+        let rest = self.branch..self.used;
+        self.advance(&mut w, Level::Rows, &[T::zero(); R], rest);
+        let mut left = self.left.data.0[j];
+        let mut whole = [T::zero(); N];
+        for &row in self.others() {
+            add_scaled(&mut whole, left[row], &self.rows.data.0[row]);
         }
-        (self.left.data.0[j], w)
+        let shares = self.solid.shares(&self.rows, &whole);
+        for (share, &row) in shares.iter().zip(self.solid.list()) {
+            left[row] = -*share;
+        }
+        (left, w)
     }
 
-    /// Moves `w` along some decided directions until their rows are satisfied.
-    pub(super) fn advance(
-        &self,
-        w: &mut [T; N],
-        matrix: &SMatrix<T, N, R>,
-        right: &[T; R],
-        range: core::ops::Range<usize>,
-    ) {
-        let mut gap = *right;
-        for (entry, row) in gap.iter_mut().zip(&matrix.data.0) {
-            *entry -= dot(row, w);
+    /// Moves `w`, which satisfies the solid rows, along some decided directions until
+    /// their rows are satisfied.
+    fn advance(&self, w: &mut [T; N], level: Level, right: &[T; R], range: Range<usize>) {
+        if range.is_empty() {
+            return;
         }
+        let gap = self.gap(level, right, w);
         for j in range {
             let share = dot(&self.left.data.0[j], &gap) / self.values[j];
-            add_scaled(w, share, &self.basis.data.0[j]);
+            add_scaled(w, share, &self.directions.data.0[j]);
         }
+    }
+
+    /// What `w`, which satisfies the solid rows, leaves of the right-hand sides of the
+    /// other rows; zero for the solid ones.
+    pub(super) fn gap(&self, level: Level, right: &[T; R], w: &[T; N]) -> [T; R] {
+        let mut gap = [T::zero(); R];
+        for &row in self.others() {
+            gap[row] = right[row] - dot(&self.matrix(level).data.0[row], w);
+        }
+        gap
+    }
+
+    /// The shortest change that closes `gap` in the solid rows.
+    pub(super) fn close_solid(&self, gap: &[T; R]) -> [T; N] {
+        let mut w = [T::zero(); N];
+        self.solid.satisfy(&self.rows, &mut w, gap);
+        w
+    }
+
+    /// The shortest change that closes `gap` in the strong directions.
+    pub(crate) fn close_strong(&self, gap: &[T; R]) -> [T; N] {
+        let mut w = self.close_solid(gap);
+        self.advance(&mut w, Level::Rows, gap, self.first()..self.strong);
+        w
     }
 
     /// How many directions are decided with singular values above `threshold`.
     pub(crate) fn rank(&self, threshold: T) -> usize {
-        let decided = self.values.data.0[0][..self.used].iter();
-        decided.filter(|value| **value > threshold).count()
+        let above = |value: &&T| **value > threshold;
+        self.values().iter().filter(above).count()
     }
 
     /// Whether rows that are not zero elsewhere vanish here, and the velocity does not
@@ -256,23 +285,43 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
         (0..R).any(vanished)
     }
 
+    /// How fast the weak rows change along the motion: the largest row of `K̂`
+    /// (1/s), zero where no branch rows were needed.
+    pub(crate) fn rate(&self) -> T {
+        self.rate
+    }
+
     /// The scaled rows in the metric.
     pub(crate) fn rows(&self) -> &SMatrix<T, N, R> {
         &self.rows
     }
 
-    /// The decided directions.
+    /// Vectors that span the decided directions.
     pub(crate) fn decided(&self) -> impl Iterator<Item = &[T; N]> {
-        self.basis.data.0[..self.used].iter()
+        let solid = self.solid.list().iter();
+        let rest = &self.directions.data.0[self.first()..self.used];
+        solid.map(|&row| &self.rows.data.0[row]).chain(rest)
     }
 
-    /// The free directions.
-    pub(crate) fn free(&self) -> impl Iterator<Item = &[T; N]> {
-        self.basis.data.0[self.used..].iter()
+    /// An orthonormal basis of the free directions, in as many columns as come first.
+    pub(crate) fn free(&self) -> (SMatrix<T, N, N>, usize) {
+        let mut axes: SMatrix<T, N, N> = SMatrix::identity();
+        for axis in &mut axes.data.0 {
+            self.remove_decided(axis);
+        }
+        let mut chosen = [0; N];
+        let count = N - self.used;
+        let found = independent_rows(&mut axes, count, |_| false, T::zero(), &mut chosen);
+        let mut free = SMatrix::zeros();
+        for (k, &j) in chosen[..found].iter().enumerate() {
+            let axis = &axes.data.0[j];
+            free.data.0[k] = scaled(T::one() / norm(axis), axis);
+        }
+        (free, found)
     }
 
-    /// Singular values of the decided directions, in falling order within each
-    /// kind.
+    /// Sines of the solid rows, then singular values of the decided directions, in
+    /// falling order within each kind.
     pub(crate) fn values(&self) -> &[T] {
         &self.values.data.0[0][..self.used]
     }

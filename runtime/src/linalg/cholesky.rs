@@ -1,8 +1,14 @@
 //! Cholesky factor of a symmetric positive definite matrix.
 //!
 //! In:  `M`, `N × N`.
-//! Out: `L` with `M = L Lᵀ`, or the pivot that is not safely positive; products
-//!      with `L⁻¹`, `L⁻ᵀ` and `Lᵀ`; whether `M` is safely definite at all.
+//! Out: `U` with `M = U Uᵀ`, or the pivot that is not safely positive; products
+//!      with `U⁻¹`, `U⁻ᵀ` and `Uᵀ`; whether `M` is safely definite at all.
+//!
+//! The factor is upper and begins with the last row, since coordinates are mostly
+//! written from the ground outwards: bodies on different branches of a tree have no
+//! entry in common then, and get none. Source: Featherstone, *Efficient factorization
+//! of the joint-space inertia matrix for branched kinematic trees*, Int. J. Robotics
+//! Research 24 (2005).
 //!
 //! Not here: what to do with a matrix that is only semi-definite.
 
@@ -47,13 +53,16 @@ pub(crate) fn is_definite<T: Real, const N: usize>(matrix: &SMatrix<T, N, N>) ->
     true
 }
 
-/// The lower factor `L`; entries above the diagonal are not used.
+/// Size from which on it pays to look for zeros.
+const LONG: usize = 16;
+
+/// The upper factor `U`; entries below the diagonal are not used.
 #[derive(Clone, Debug)]
 pub(crate) struct Cholesky<T, const N: usize> {
-    lower: SMatrix<T, N, N>,
+    upper: SMatrix<T, N, N>,
 }
 
-/// The first row whose pivot is not safely positive.
+/// The row whose pivot is not safely positive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct NotDefinite {
     pub(crate) row: usize,
@@ -62,27 +71,36 @@ pub(crate) struct NotDefinite {
 impl<T: Real, const N: usize> Default for Cholesky<T, N> {
     fn default() -> Self {
         Self {
-            lower: SMatrix::zeros(),
+            upper: SMatrix::zeros(),
         }
     }
 }
 
+/// Whether what is multiplied by an entry can be left out.
+#[inline(always)]
+fn is_skipped<T: Real, const N: usize>(entry: T) -> bool {
+    N >= LONG && entry == T::zero()
+}
+
 impl<T: Real, const N: usize> Cholesky<T, N> {
-    /// Factorises `matrix`, of which the lower triangle is read.
+    /// Factorises `matrix`, of which the upper triangle is read.
     ///
     /// A pivot is compared with its diagonal entry, so the decision does not
     /// depend on the units of the rows. NaN and infinity are not definite.
     pub(crate) fn factorise(&mut self, matrix: &SMatrix<T, N, N>) -> Result<(), NotDefinite> {
-        let lower = &mut self.lower.data.0;
+        let upper = &mut self.upper.data.0;
         let source = &matrix.data.0;
-        for j in 0..N {
-            let (done, rest) = lower.split_at_mut(j);
-            let column = &mut rest[0];
-            column[j..].copy_from_slice(&source[j][j..]);
-            for earlier in done.iter() {
-                let factor = earlier[j];
-                for i in j..N {
-                    column[i] -= factor * earlier[i];
+        for j in (0..N).rev() {
+            let (rest, done) = upper.split_at_mut(j + 1);
+            let column = &mut rest[j];
+            column[..=j].copy_from_slice(&source[j][..=j]);
+            for later in done.iter() {
+                let factor = later[j];
+                if is_skipped::<T, N>(factor) {
+                    continue;
+                }
+                for i in 0..=j {
+                    column[i] -= factor * later[i];
                 }
             }
             let pivot = column[j];
@@ -92,44 +110,47 @@ impl<T: Real, const N: usize> Cholesky<T, N> {
             let root = pivot.sqrt();
             let inverse = T::one() / root;
             column[j] = root;
-            for entry in &mut column[j + 1..] {
+            for entry in &mut column[..j] {
                 *entry *= inverse;
             }
         }
         Ok(())
     }
 
-    /// `x := L⁻¹ x`.
+    /// `x := U⁻¹ x`.
     #[inline]
     pub(crate) fn forward(&self, x: &mut [T; N]) {
-        let lower = &self.lower.data.0;
-        for j in 0..N {
-            let value = x[j] / lower[j][j];
+        let upper = &self.upper.data.0;
+        for j in (0..N).rev() {
+            if is_skipped::<T, N>(x[j]) {
+                continue;
+            }
+            let value = x[j] / upper[j][j];
             x[j] = value;
-            for i in j + 1..N {
-                x[i] -= value * lower[j][i];
+            for i in 0..j {
+                x[i] -= value * upper[j][i];
             }
         }
     }
 
-    /// `x := L⁻ᵀ x`.
+    /// `x := U⁻ᵀ x`.
     #[inline]
     pub(crate) fn backward(&self, x: &mut [T; N]) {
-        let lower = &self.lower.data.0;
-        for j in (0..N).rev() {
+        let upper = &self.upper.data.0;
+        for j in 0..N {
             let mut value = x[j];
-            for i in j + 1..N {
-                value -= lower[j][i] * x[i];
+            for i in 0..j {
+                value -= upper[j][i] * x[i];
             }
-            x[j] = value / lower[j][j];
+            x[j] = value / upper[j][j];
         }
     }
 
-    /// `L x`.
+    /// `U x`.
     pub(crate) fn product(&self, x: &[T; N]) -> [T; N] {
         let mut product = [T::zero(); N];
-        for (j, column) in self.lower.data.0.iter().enumerate() {
-            for i in j..N {
+        for (j, column) in self.upper.data.0.iter().enumerate() {
+            for i in 0..=j {
                 product[i] += x[j] * column[i];
             }
         }
@@ -141,11 +162,11 @@ impl<T: Real, const N: usize> Cholesky<T, N> {
         norm(&self.transposed_product(x))
     }
 
-    /// `Lᵀ x`.
+    /// `Uᵀ x`.
     pub(crate) fn transposed_product(&self, x: &[T; N]) -> [T; N] {
         let mut product = [T::zero(); N];
-        for (j, column) in self.lower.data.0.iter().enumerate() {
-            for i in j..N {
+        for (j, column) in self.upper.data.0.iter().enumerate() {
+            for i in 0..=j {
                 product[j] += column[i] * x[i];
             }
         }

@@ -48,6 +48,12 @@ pub(crate) fn add_scaled<T: Real, const L: usize>(target: &mut [T; L], factor: T
     }
 }
 
+/// `factor · column`.
+#[inline(always)]
+pub(crate) fn scaled<T: Real, const L: usize>(factor: T, column: &[T; L]) -> [T; L] {
+    column.map(|entry| factor * entry)
+}
+
 /// Turns two columns about each other: `(c a − s b, s a + c b)`.
 #[inline(always)]
 pub(super) fn turn<T: Real, const L: usize>(a: &mut [T; L], b: &mut [T; L], c: T, s: T) {

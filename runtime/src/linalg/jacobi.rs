@@ -54,10 +54,11 @@ fn sweep<T: Real, const K: usize, const N: usize>(
     let threshold = T::EPSILON * T::from_f64(K as f64);
     let mut rotated = false;
     for i in 0..count {
+        let mut aa = dot(&g[i], &g[i]);
         for j in i + 1..count {
             let (left, right) = g.split_at_mut(j);
             let (a, b) = (&mut left[i], &mut right[0]);
-            let (aa, bb, ab) = (dot(a, a), dot(b, b), dot(a, b));
+            let (bb, ab) = (dot(b, b), dot(a, b));
             if ab.abs() <= threshold * aa.sqrt() * bb.sqrt() || aa.max(bb) <= floor {
                 continue;
             }
@@ -68,6 +69,7 @@ fn sweep<T: Real, const K: usize, const N: usize>(
             // A column of noise beside a large one can keep a product above the
             // threshold for ever; turning it is right, waiting for it is not.
             rotated |= aa.min(bb) > floor;
+            aa = dot(&g[i], &g[i]);
         }
     }
     rotated

@@ -22,7 +22,7 @@ mod tests;
 mod triangle;
 
 pub(crate) use cholesky::{Cholesky, NotDefinite, is_definite};
-pub(crate) use column::{add_scaled, dot, norm};
+pub(crate) use column::{add_scaled, dot, norm, scaled};
 pub(crate) use elimination::Elimination;
 pub(crate) use gram::Gram;
 pub(crate) use jacobi::{Breakdown, orthogonalise};
@@ -38,6 +38,12 @@ use crate::Real;
 /// they have away from singular positions.
 pub(crate) fn weak<T: Real>() -> T {
     T::from_f64(1e-2)
+}
+
+/// Sine of the same angle above which a row is plainly independent of those before it,
+/// so that no singular value is needed to say so.
+pub(crate) fn solid<T: Real>() -> T {
+    T::from_f64(0.1)
 }
 
 /// Sine of the same angle below which an acceleration is taken at the nearest state

@@ -61,12 +61,13 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     ) -> Result<(), DynamicsError<T>> {
         let mut before: Option<(T, T)> = None;
         let mut acceleration = None;
+        let mut tangent = Tangent::default();
         for _ in 0..MAX_ITERATIONS {
             mechanism.position(state, &mut self.position);
             self.finite_residual(state)?;
             self.factorise_metric(mechanism, Source::Position, state.t)?;
             self.counters.projection_iterations += 1;
-            let mut tangent = self.tangent_here(mechanism, state, Which::All)?;
+            self.tangent_here(mechanism, state, Which::All, &mut tangent)?;
             let scene = Scene {
                 round_off: self.round_off(),
                 settled: T::EPSILON.sqrt() * self.reach,
@@ -76,7 +77,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             let across = if self.rows.all_holonomic() {
                 self.position_change(state, &scene, &mut tangent)?
             } else {
-                let mut holonomic = self.tangent_here(mechanism, state, Which::Holonomic)?;
+                let mut holonomic = Tangent::default();
+                self.tangent_here(mechanism, state, Which::Holonomic, &mut holonomic)?;
                 self.position_change(state, &scene, &mut holonomic)?
             };
             let faster =
@@ -205,8 +207,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         mechanism: &M,
         state: &State<T, N>,
         which: Which,
-    ) -> Result<Tangent<T, N, R>, DynamicsError<T>> {
-        self.tangent(mechanism, state, Source::Position, which, Known::Rank)
+        out: &mut Tangent<T, N, R>,
+    ) -> Result<(), DynamicsError<T>> {
+        self.tangent(mechanism, state, Source::Position, which, Known::Rank, out)
     }
 
     fn refine(
