@@ -7,7 +7,8 @@
 //!      only where it was written as one.
 //!
 //! A polynomial that grows past [`TERMS_MAX`] terms leaves the expression as it
-//! was: multiplying out pays for planar linkages, not for long spatial chains.
+//! was: multiplying out pays for planar linkages, not for long spatial chains. So does
+//! one with a coefficient that overflows, and the inverse of one that is zero.
 
 use crate::expr::{ExprId, Function, Graph, Node, Number};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -23,7 +24,7 @@ const POWER_MAX: u32 = 8;
 type Monomial = Vec<(ExprId, i32)>;
 type Polynomial = BTreeMap<Monomial, Number>;
 
-/// The expression as a reduced polynomial, or unchanged where that is too long.
+/// The expression as a reduced polynomial, or unchanged where that is refused.
 pub fn in_trig_ring(graph: &mut Graph, e: ExprId) -> ExprId {
     Ring::new(graph).reduced(e)
 }
@@ -32,8 +33,8 @@ pub fn in_trig_ring(graph: &mut Graph, e: ExprId) -> ExprId {
 pub(super) struct Ring<'a> {
     graph: &'a mut Graph,
     known: FxHashMap<ExprId, Polynomial>,
-    /// What is too long, and everything that has it in it.
-    too_long: FxHashSet<ExprId>,
+    /// What is too long or has no finite coefficients, and everything that has it in it.
+    refused: FxHashSet<ExprId>,
 }
 
 impl<'a> Ring<'a> {
@@ -41,14 +42,14 @@ impl<'a> Ring<'a> {
         Ring {
             graph,
             known: FxHashMap::default(),
-            too_long: FxHashSet::default(),
+            refused: FxHashSet::default(),
         }
     }
 
-    /// The expression as a reduced polynomial, or unchanged where that is too long.
+    /// The expression as a reduced polynomial, or unchanged where that is refused.
     pub fn reduced(&mut self, e: ExprId) -> ExprId {
         if self.expand(e).is_none() {
-            self.too_long.insert(e);
+            self.refused.insert(e);
             return e;
         }
         let polynomial = self.known[&e].clone();
@@ -58,16 +59,17 @@ impl<'a> Ring<'a> {
     fn expand(&mut self, e: ExprId) -> Option<()> {
         let mut pending = vec![(e, false)];
         while let Some((node, ready)) = pending.pop() {
-            if self.too_long.contains(&node) {
+            if self.refused.contains(&node) {
                 return None;
             }
             if self.known.contains_key(&node) {
                 continue;
             }
             if ready {
-                let polynomial = self.expand_node(node);
+                let is_sound = |p: &Polynomial| p.values().all(|number| number.is_finite());
+                let polynomial = self.expand_node(node).filter(is_sound);
                 if polynomial.is_none() {
-                    self.too_long.insert(node);
+                    self.refused.insert(node);
                 }
                 self.known.insert(node, polynomial?);
             } else {
@@ -137,6 +139,10 @@ impl<'a> Ring<'a> {
                 product = self.times(&product, &factor)?;
             }
             return Some(product);
+        }
+        // Zero was not seen to be zero before: its inverse stays as it was written.
+        if factor.is_empty() {
+            return None;
         }
         // The inverse of one term is a term; the inverse of a sum is an atom.
         let inverse = match factor.iter().next() {

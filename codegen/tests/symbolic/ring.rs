@@ -3,7 +3,7 @@
 use super::recipe::{self, evaluated};
 use super::{agree, config};
 use bricard_codegen::expr::{ExprId, Function, Graph, Node, Number, Symbol};
-use bricard_codegen::optimise::in_trig_ring;
+use bricard_codegen::optimise::{Slot, in_trig_ring, optimise, verify};
 use proptest::prelude::*;
 
 /// The arguments of all sines and cosines.
@@ -98,4 +98,38 @@ fn the_squared_length_of_a_turned_vector_is_that_of_the_vector() {
     let squares = [graph.powi(a, 2), graph.powi(b, 2)];
     let still = graph.sum(squares);
     assert_eq!(in_trig_ring(&mut graph, turned), still);
+}
+
+/// What would be infinite is left for the run to find, with the time and the state.
+#[test]
+fn the_inverse_of_what_turns_out_to_be_zero_stays_as_it_was_written() {
+    let mut graph = Graph::new();
+    let x = graph.symbol(Symbol::Coordinate(0));
+    let (sin, cos) = (
+        graph.function(Function::Sin, x),
+        graph.function(Function::Cos, x),
+    );
+    let squares = [graph.powi(sin, 2), graph.powi(cos, 2)];
+    let sum = graph.sum(squares);
+    let one = graph.number(Number::ONE);
+    let zero = graph.sub(sum, one);
+    let inverse = graph.powi(zero, -3);
+    assert_eq!(in_trig_ring(&mut graph, inverse), inverse);
+    let place = Slot {
+        array: "out",
+        row: 0,
+        column: 0,
+    };
+    let program = optimise(&mut graph, &[], &[(place, inverse)]);
+    assert_eq!(verify(&program), Ok(()));
+}
+
+#[test]
+fn a_coefficient_that_overflows_leaves_an_expression_as_it_was() {
+    let mut graph = Graph::new();
+    let [x, y] = [Symbol::Coordinate(0), Symbol::Coordinate(1)].map(|s| graph.symbol(s));
+    let large = Number::float(1e300);
+    let sum = graph.weighted_sum(Number::ZERO, &[(x, large), (y, Number::ONE)]);
+    let square = graph.powi(sum, 2);
+    assert_eq!(in_trig_ring(&mut graph, square), square);
 }
