@@ -12,6 +12,10 @@ const EXPLICIT: [&str; 3] = ["slider_crank", "scotch_yoke", "quick_return"];
 const ROWS: [u32; 2] = [10, 40];
 /// Rows that the long form counts besides.
 const MORE_ROWS: [u32; 4] = [2, 5, 20, 80];
+/// Chains with several degrees of freedom, with the numbers of loops in both forms.
+const CHAINS: [&str; 2] = ["swings", "hung_row"];
+const LOOPS: [u32; 1] = [10];
+const MORE_LOOPS: [u32; 2] = [20, 40];
 
 fn main() -> Result<(), BuildError> {
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
@@ -53,6 +57,15 @@ fn main() -> Result<(), BuildError> {
             .constant("N", n)
             .out_dir(folder(&format!("row_{n}"))?);
         frozen(builder, &path)?.compile(&path)?;
+    }
+    let more = if long { &MORE_LOOPS[..] } else { &[] };
+    for n in LOOPS.iter().chain(more).copied() {
+        for name in CHAINS {
+            Builder::new()
+                .constant("N", n)
+                .out_dir(folder(&format!("chain_{n}"))?)
+                .compile(format!("{OWN}/{name}.mech"))?;
+        }
     }
     Ok(())
 }

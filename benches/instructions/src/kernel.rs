@@ -38,6 +38,8 @@ enum Work {
     /// An acceleration and the way back onto the constraints, near the position where
     /// all rods of a row lie in one line.
     Robust,
+    /// The same near the position where the rods of one swing of many do.
+    Turning,
     Run(Scheme),
 }
 
@@ -83,6 +85,8 @@ pub const SHORT: &[&str] = &[
     "row_40/regular",
     "row_40/step",
     "row_40/robust",
+    "swings_10/turning",
+    "hung_10/robust",
 ];
 
 /// What the long form counts besides.
@@ -103,6 +107,10 @@ pub const LONG: &[&str] = &[
     "row_80/regular",
     "row_80/step",
     "row_80/robust",
+    "swings_20/turning",
+    "swings_40/turning",
+    "hung_20/robust",
+    "hung_40/robust",
     "scotch_yoke/terms",
     "scotch_yoke/regular",
     "scotch_yoke/correction",
@@ -127,7 +135,7 @@ pub const LONG: &[&str] = &[
 
 /// Calls of a kernel in a round.
 pub fn calls(name: &str) -> u64 {
-    let is_long = name.contains("/run_") || name.contains("/robust");
+    let is_long = name.contains("/run_") || name.contains("/robust") || name.contains("/turning");
     if is_long { 1 } else { ROUND }
 }
 
@@ -145,6 +153,7 @@ pub fn run(name: &str, rounds: u64) -> Result<(), Failed> {
         "correction" => Work::Correction,
         "step" => Work::Step,
         "robust" => Work::Robust,
+        "turning" => Work::Turning,
         "run_rk4" => Work::Run(Scheme::Rk4),
         "run_dop853" => Work::Run(Scheme::Dop853),
         _ => return Err(format!("there is no kernel `{work}`").into()),
@@ -216,6 +225,16 @@ pub fn run(name: &str, rounds: u64) -> Result<(), Failed> {
         "row_40" => ours(&generated::row_40::n_four_bar::NFourBar::default(), job),
         #[cfg(feature = "long")]
         "row_80" => ours(&generated::row_80::n_four_bar::NFourBar::default(), job),
+        "swings_10" => ours(&generated::swings_10::swings::Swings::default(), job),
+        "hung_10" => ours(&generated::hung_10::hung_row::HungRow::default(), job),
+        #[cfg(feature = "long")]
+        "swings_20" => ours(&generated::swings_20::swings::Swings::default(), job),
+        #[cfg(feature = "long")]
+        "swings_40" => ours(&generated::swings_40::swings::Swings::default(), job),
+        #[cfg(feature = "long")]
+        "hung_20" => ours(&generated::hung_20::hung_row::HungRow::default(), job),
+        #[cfg(feature = "long")]
+        "hung_40" => ours(&generated::hung_40::hung_row::HungRow::default(), job),
         _ => Err(format!("there is no mechanism `{subject}`").into()),
     }
 }
@@ -255,11 +274,29 @@ where
 }
 
 /// A state of a row of parallelograms that has almost fallen into one line.
-fn in_line<const N: usize>(k: u64) -> State<f64, N> {
+fn in_line<const N: usize, const R: usize>(k: u64) -> State<f64, N> {
     let mut state = State::default();
-    for crank in 0..=N / 2 {
+    for crank in 0..=R / 2 {
         state.q[crank] = FRAC_PI_2 - NEAR * (k + 1) as f64;
         state.v[crank] = 1.0;
+    }
+    state
+}
+
+/// A state of swings of which the one in the middle has almost fallen into one line.
+fn one_in_line<const N: usize>(k: u64) -> State<f64, N> {
+    let mut state = State::default();
+    let swings = N / 3;
+    for swing in 0..swings {
+        let angle = if swing == swings / 2 {
+            FRAC_PI_2 - NEAR * (k + 1) as f64
+        } else {
+            0.7 + 0.01 * swing as f64
+        };
+        for crank in [swing, swings + swing] {
+            state.q[crank] = angle;
+            state.v[crank] = 1.0;
+        }
     }
     state
 }
@@ -319,16 +356,8 @@ where
                 }
             }
         }
-        Work::Robust => {
-            let mut solver = Box::new(Solver::new(Settings::default()));
-            let mut system = solver.on(mechanism);
-            for k in 0..rounds {
-                let mut state = in_line(k);
-                black_box(system.acceleration(&state)?);
-                system.project(&mut state)?;
-                black_box(&state);
-            }
-        }
+        Work::Robust => weak(mechanism, rounds, in_line::<N, R>)?,
+        Work::Turning => weak(mechanism, rounds, one_in_line::<N>)?,
         Work::Run(scheme) => {
             for _ in 0..rounds {
                 let mut state = assemble(mechanism, &mechanism.start(), 0.0)
@@ -337,6 +366,26 @@ where
                 black_box(&state);
             }
         }
+    }
+    Ok(())
+}
+
+/// An acceleration and the way back onto the constraints at states where some are weak.
+fn weak<M, const N: usize, const R: usize>(
+    mechanism: &M,
+    rounds: u64,
+    state: fn(u64) -> State<f64, N>,
+) -> Result<(), Failed>
+where
+    M: Mechanism<f64, N, R>,
+{
+    let mut solver = Box::new(Solver::new(Settings::default()));
+    let mut system = solver.on(mechanism);
+    for k in 0..rounds {
+        let mut state = state(k);
+        black_box(system.acceleration(&state)?);
+        system.project(&mut state)?;
+        black_box(&state);
     }
     Ok(())
 }
@@ -379,7 +428,9 @@ where
             &mut State::default(),
             hand_step::<H, N, R>,
         ),
-        Work::Call | Work::Robust | Work::Run(_) => return Err("not written by hand".into()),
+        Work::Call | Work::Robust | Work::Turning | Work::Run(_) => {
+            return Err("not written by hand".into());
+        }
     }
     Ok(())
 }

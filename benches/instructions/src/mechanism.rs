@@ -40,6 +40,10 @@ generated! {
     row_10: "row_10" / "n_four_bar";
     /// 40 parallelograms.
     row_40: "row_40" / "n_four_bar";
+    /// 10 swings.
+    swings_10: "chain_10" / "swings";
+    /// 10 parallelograms and a pendulum.
+    hung_10: "chain_10" / "hung_row";
 }
 
 #[cfg(feature = "long")]
@@ -52,4 +56,12 @@ generated! {
     row_20: "row_20" / "n_four_bar";
     /// 80 parallelograms.
     row_80: "row_80" / "n_four_bar";
+    /// 20 swings.
+    swings_20: "chain_20" / "swings";
+    /// 40 swings.
+    swings_40: "chain_40" / "swings";
+    /// 20 parallelograms and a pendulum.
+    hung_20: "chain_20" / "hung_row";
+    /// 40 parallelograms and a pendulum.
+    hung_40: "chain_40" / "hung_row";
 }

@@ -17,7 +17,12 @@ that an acceleration needs: the mass matrix, the forces, the constraints' Jacobi
 their right-hand side. A step is one of Runge and Kutta's classical method, four
 accelerations, with positions and velocities brought back onto the constraints. `robust`
 is one acceleration and the way back onto the constraints of a row that has fallen into
-one line up to 2e-4 rad, where half of its constraints lose their rank.
+one line up to 2e-4 rad, where half of its constraints lose their rank; the same of
+parallelograms side by side, each with its own degree of freedom, of which one has fallen
+into its line; and of a row with a pendulum on it. What has more than one degree of freedom
+is not interpolated: of its singular values only those of weak loops are taken, so that one
+of them among many costs the square of their number at most, and the cube is that of the
+loops that are weak at once.
 
 This page is written by `cargo run --release -p instructions -- table`, in `benches/`,
 from `benches/recorded.json`; `short` counts again and compares, as CI does. The figures

@@ -72,20 +72,30 @@ pub fn peers(counts: &Counts) -> String {
     text
 }
 
-/// How counts grow with the number of loops: the exponent from 10 to 80.
+/// How counts grow with the number of loops: the exponent from 10 on.
 pub fn growth(counts: &Counts) -> String {
     let mut text = String::from(
-        "\n| loops in a row | 2 | 5 | 10 | 20 | 40 | 80 | exponent 10–80 |\n|---|--:|--:|--:|--:|--:|--:|--:|\n",
+        "\n| loops | 2 | 5 | 10 | 20 | 40 | 80 | exponent |\n|---|--:|--:|--:|--:|--:|--:|--:|\n",
     );
-    for work in ["terms", "regular", "step", "robust"] {
-        let at = |n: u32| counts.get(&format!("row_{n}/{work}")).copied();
+    for (name, chain, work) in [
+        ("evaluation", "row", "terms"),
+        ("q̈", "row", "regular"),
+        ("step", "row", "step"),
+        ("robust", "row", "robust"),
+        ("robust, one loop of them weak", "swings", "turning"),
+        ("robust, two degrees of freedom", "hung", "robust"),
+    ] {
+        let at = |n: u32| counts.get(&format!("{chain}_{n}/{work}")).copied();
         let cells = [2, 5, 10, 20, 40, 80]
             .map(|n| at(n).map_or("–".to_string(), |count| format!("{count:.0}")));
-        let exponent = match (at(10), at(80)) {
-            (Some(few), Some(many)) => format!("{:.2}", (many / few).log2() / 3.0),
+        let last = [80, 40].into_iter().find_map(|n| Some((n, at(n)?)));
+        let exponent = match (at(10), last) {
+            (Some(few), Some((n, many))) => {
+                format!("{:.2}", (many / few).ln() / (f64::from(n) / 10.0).ln())
+            }
             _ => "–".to_string(),
         };
-        let _infallible = writeln!(text, "| {work} | {} | {exponent} |", cells.join(" | "));
+        let _infallible = writeln!(text, "| {name} | {} | {exponent} |", cells.join(" | "));
     }
     text
 }

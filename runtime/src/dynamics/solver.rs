@@ -13,7 +13,7 @@ use crate::linalg::{
 };
 use crate::{
     Branch, Correction, Counters, DynamicsError, Mechanism, Position, Real, Regular, Settings,
-    State, Terms,
+    State, Structure, Terms,
 };
 use nalgebra::{SMatrix, SVector};
 
@@ -203,18 +203,12 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             Known::Beside { like, .. } => tangent.begin_like(like, metric, rows, jacobian, limit),
             _ => tangent.begin(metric, rows, jacobian, which, limit),
         }
-        let declared = mechanism.structure().regular;
-        if declared || !self.settings.branch_rows {
+        let structure = mechanism.structure();
+        if structure.regular || !self.settings.branch_rows {
             tangent.take_strong(floor, limit).map_err(not_finite)?;
-            let rank = tangent.rank(useless());
-            let required = declared && !matches!(known, Known::Nothing);
-            return match required && rank < limit {
-                true => Err(DynamicsError::NotRegular {
-                    t: state.t,
-                    rank,
-                    structure: mechanism.structure(),
-                }),
-                false => Ok(()),
+            return match known {
+                Known::Nothing => Ok(()),
+                _ => as_declared(structure, state.t, tangent.rank(useless()), limit),
             };
         }
         match known {
@@ -379,6 +373,19 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             self.rows.choose(*rows);
         }
     }
+}
+
+/// An error if a mechanism that was declared to be regular has a lower rank than that.
+fn as_declared<T: Real>(
+    structure: &'static Structure,
+    t: T,
+    rank: usize,
+    regular: usize,
+) -> Result<(), DynamicsError<T>> {
+    if structure.regular && rank < regular {
+        return Err(DynamicsError::NotRegular { t, rank, structure });
+    }
+    Ok(())
 }
 
 /// What is known about the state of a rank decision.
