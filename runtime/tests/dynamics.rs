@@ -1,7 +1,9 @@
 //! Accelerations, reactions and projections: the forms against each other, against
 //! exact motions, at singular positions and beside them.
 
-use crate::mechanisms::{FourBars, Hung, Parallelogram, Passing, Sled, SliderCrank, Spring, Twice};
+use crate::mechanisms::{
+    COUNT, FourBars, Hung, Parallelogram, Passing, Side, Sled, SliderCrank, Spring, Twice,
+};
 use crate::toys::{Framed, PLAIN};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
@@ -322,6 +324,35 @@ fn changes_of_units_change_no_acceleration() {
         let (once, _) = solve(&SliderCrank::default(), Settings::default(), &state).unwrap();
         let (twice, _) = solve::<_, 3, 4>(&mechanism, Settings::default(), &state).unwrap();
         assert!((once - twice).amax() < 1e-9, "{away}: {}", once - twice);
+    }
+}
+
+/// Some weak loops among others that are not: each moves as it would alone, however far
+/// from its own singular position it is.
+#[test]
+fn weak_loops_among_others_move_as_they_would_alone() {
+    let crank = SliderCrank::default();
+    let (angle, rate) = Passing::<3, 2>::singular(&crank);
+    for away in [
+        [0.4, 1e-3, 0.7, -0.5],
+        [1e-6, 0.3, 0.8, 0.5],
+        [0.4, -0.6, 0.7, 0.0],
+        [2e-3, 0.5, 1e-5, -0.4],
+        [1e-3, -1e-3, 1e-7, 0.0],
+        [0.6, 0.5, 0.4, 0.3],
+    ] {
+        let rates = [rate, 0.7 * rate, 1.3 * rate, -rate];
+        let each: [_; COUNT] = core::array::from_fn(|k| {
+            Passing::<3, 2>::state(&crank, 0.0, angle + away[k], rates[k])
+        });
+        for which in [Form::Reduced, Form::Full] {
+            let (found, _) = solve(&Side, form(which), &Side::state(each)).unwrap();
+            for k in 0..COUNT {
+                let alone = exact::<_, 3, 2>(&crank, (angle + away[k], rates[k]));
+                let error = (found.fixed_rows::<3>(3 * k) - alone).amax();
+                assert!(error < 1e-8, "{which}, {k} of {away:?}: {error}");
+            }
+        }
     }
 }
 

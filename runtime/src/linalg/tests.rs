@@ -98,6 +98,46 @@ fn gram_of_dependent_or_infinite_rows_passes_nowhere() {
     }
 }
 
+#[test]
+fn a_gram_matrix_that_grows_row_by_row_is_the_same() {
+    for round in 0..20 {
+        let mut random = Random(SEED + round);
+        let mut vectors: SMatrix<f64, 6, 4> = random.matrix();
+        if round % 2 == 1 {
+            // Vectors of different parts of a mechanism have no product.
+            vectors.fixed_view_mut::<3, 2>(0, 0).fill(0.0);
+            vectors.fixed_view_mut::<3, 2>(3, 2).fill(0.0);
+        }
+        let products = |k: usize| -> [f64; 4] {
+            core::array::from_fn(|i| vectors.column(i).dot(&vectors.column(k)))
+        };
+        let mut gram = Gram::default();
+        for k in 0..4 {
+            let square = products(k)[k];
+            let twice = products(k).map(|product| 2.0 * product);
+            assert!(gram.extend(k, products(k), square, 0.0));
+            assert!(
+                !gram.extend(k + 1, twice, 4.0 * square, 1e-12),
+                "seed {SEED} + {round}: {k} was taken twice"
+            );
+        }
+        assert!(gram.extend(3, products(3), products(3)[3], 0.0));
+        let mut whole = Gram::default();
+        whole.factorise(&vectors, 4, |_| 1.0);
+        let x: [f64; 4] = core::array::from_fn(|_| random.number());
+        let (mut found, mut exact) = (x, x);
+        gram.solve(&mut found);
+        whole.solve(&mut exact);
+        let scale = exact.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
+        for (found, exact) in found.iter().zip(exact) {
+            assert!(
+                (found - exact).abs() < 1e-10 * scale,
+                "seed {SEED} + {round}"
+            );
+        }
+    }
+}
+
 /// Rotates the columns of `matrix` and checks that nothing was lost.
 fn check_rotations<const K: usize, const N: usize>(matrix: SMatrix<f64, K, N>) -> Vec<f64> {
     let mut images = matrix;
