@@ -23,11 +23,13 @@ fn angles() -> usize {
     }
 }
 
-/// Distance of a value from the exact one, in units in the last place of that.
+/// Distance of a value from the exact one, in units in the last place of that; infinite
+/// for what is no number.
 fn units(value: f64, exact: DoubleDouble) -> f64 {
     let size = exact.to_f64().abs();
     let unit = f64::from_bits(size.to_bits() + 1) - size;
-    (DoubleDouble::from_f64(value) - exact).to_f64().abs() / unit
+    let off = (DoubleDouble::from_f64(value) - exact).to_f64().abs() / unit;
+    if off.is_nan() { f64::INFINITY } else { off }
 }
 
 /// The largest error of the sines and cosines of some angles.
@@ -51,7 +53,8 @@ fn worst_of(angles: impl Iterator<Item = f64>) -> f64 {
             worst_yet = worst_yet.max(worst(&block));
         }
     }
-    worst_yet
+    // The last few, and others of the block before.
+    worst_yet.max(worst(&block))
 }
 
 #[test]

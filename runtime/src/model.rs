@@ -462,3 +462,23 @@ pub struct Structure {
     /// The constraints were declared to be regular: there are no branch rows.
     pub regular: bool,
 }
+
+impl Structure {
+    /// A structure that says nothing: what a mechanism written by hand begins with.
+    pub const PLAIN: Self = Self {
+        name: "",
+        docs: "",
+        file: "",
+        coordinates: &[],
+        described: &[],
+        parameters: &[],
+        inputs: &[],
+        outputs: &[],
+        events: &[],
+        constraints: &[],
+        constant_mass: false,
+        conservative: false,
+        drawn: false,
+        regular: false,
+    };
+}

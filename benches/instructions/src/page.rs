@@ -21,8 +21,8 @@ one line up to 2e-4 rad, where half of its constraints lose their rank; the same
 parallelograms side by side, each with its own degree of freedom, of which one has fallen
 into its line; and of a row with a pendulum on it. What has more than one degree of freedom
 is not interpolated: of its singular values only those of weak loops are taken, so that one
-of them among many costs the square of their number at most, and the cube is that of the
-loops that are weak at once.
+of them among many costs about the square of their number, and the cube is that of the loops
+that are weak at once.
 
 This page is written by `cargo run --release -p instructions -- table`, in `benches/`,
 from `benches/recorded.json`; `short` counts again and compares, as CI does. The figures

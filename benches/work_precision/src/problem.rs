@@ -97,19 +97,7 @@ const G: f64 = 9.81;
 
 static PLAIN: Structure = Structure {
     name: "Reduced",
-    docs: "",
-    file: "",
-    coordinates: &[],
-    described: &[],
-    parameters: &[],
-    inputs: &[],
-    outputs: &[],
-    events: &[],
-    constraints: &[],
-    constant_mass: false,
-    conservative: false,
-    drawn: false,
-    regular: false,
+    ..Structure::PLAIN
 };
 
 /// The equation of one degree of freedom.

@@ -44,19 +44,9 @@ static NAMELESS: [Structure; BODIES_MAX] = [
 const fn nameless(coordinates: &'static [Quantity]) -> Structure {
     Structure {
         name: "Random",
-        docs: "",
-        file: "",
         coordinates,
-        described: &[],
-        parameters: &[],
-        inputs: &[],
-        outputs: &[],
-        events: &[],
-        constraints: &[],
-        constant_mass: false,
         conservative: true,
-        drawn: false,
-        regular: false,
+        ..Structure::PLAIN
     }
 }
 

@@ -74,12 +74,8 @@ impl<T: Real, const N: usize, const R: usize> Lifted<T, N, R> {
     /// How far to go along each row for `A U⁻ᵀ w = right`.
     #[inline]
     fn steps(&self, w: &[T; N], right: &SVector<T, R>) -> [T; R] {
-        let mut steps = [T::zero(); R];
-        let vectors = &self.vectors.data.0[..self.count];
-        for ((entry, vector), &row) in steps.iter_mut().zip(vectors).zip(&self.list) {
-            *entry = right[row] - dot(vector, w);
-        }
-        self.gram.solve(&mut steps);
-        steps
+        let vectors = self.vectors.data.0[..self.count].iter().zip(&self.list);
+        let with_right = vectors.map(|(vector, &row)| (vector, right[row]));
+        self.gram.steps(with_right, w)
     }
 }

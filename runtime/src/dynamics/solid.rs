@@ -14,7 +14,6 @@ use nalgebra::SMatrix;
 /// Some rows, and the factor of their Gram matrix.
 pub(super) struct Solid<T, const R: usize> {
     list: [usize; R],
-    count: usize,
     gram: Gram<T, R>,
 }
 
@@ -22,7 +21,6 @@ impl<T: Real, const R: usize> Default for Solid<T, R> {
     fn default() -> Self {
         Self {
             list: [0; R],
-            count: 0,
             gram: Gram::default(),
         }
     }
@@ -37,9 +35,9 @@ impl<T: Real, const R: usize> Solid<T, R> {
         limit: usize,
     ) {
         let spans = core::array::from_fn(|row| span(&rows.data.0[row]));
-        self.count = 0;
+        self.gram.clear();
         for row in candidates {
-            if self.count < limit.min(R) {
+            if self.gram.count() < limit.min(R) {
                 self.try_row(rows, &spans, row, solid());
             }
         }
@@ -53,11 +51,11 @@ impl<T: Real, const R: usize> Solid<T, R> {
         list: &[usize],
     ) -> bool {
         let spans = core::array::from_fn(|row| span(&rows.data.0[row]));
-        self.count = 0;
+        self.gram.clear();
         for &row in list {
             self.try_row(rows, &spans, row, T::zero());
         }
-        self.count == list.len()
+        self.gram.count() == list.len()
     }
 
     /// Takes a row if the sine of its angle to those before it is above `least`.
@@ -77,18 +75,15 @@ impl<T: Real, const R: usize> Solid<T, R> {
             }
         }
         let square = dot(&x[row], &x[row]);
-        if self
-            .gram
-            .extend(self.count, products, square, least * least)
-        {
-            self.list[self.count] = row;
-            self.count += 1;
+        let count = self.gram.count();
+        if self.gram.extend(products, square, least * least) {
+            self.list[count] = row;
         }
     }
 
     /// Which rows, in the order in which they were taken.
     pub(super) fn list(&self) -> &[usize] {
-        &self.list[..self.count]
+        &self.list[..self.gram.count()]
     }
 
     /// The sine of the angle of a row to those before it, in the same order.
@@ -96,20 +91,13 @@ impl<T: Real, const R: usize> Solid<T, R> {
         self.gram.pivot(k).sqrt()
     }
 
-    /// How far to go along each of these rows so that they change by `change`, which
-    /// is in the order of the list.
-    fn steps(&self, mut change: [T; R]) -> [T; R] {
-        self.gram.solve(&mut change);
-        change
-    }
-
     /// The shares of these rows in a vector, in the order of the list.
     pub(super) fn shares<const N: usize>(&self, rows: &SMatrix<T, N, R>, x: &[T; N]) -> [T; R] {
-        let mut change = [T::zero(); R];
-        for (entry, &row) in change.iter_mut().zip(self.list()) {
-            *entry = dot(&rows.data.0[row], x);
-        }
-        self.steps(change)
+        let left = self
+            .list()
+            .iter()
+            .map(|&row| (&rows.data.0[row], T::zero()));
+        self.gram.steps(left, x).map(|step| -step)
     }
 
     /// Adds to `w` the shortest change after which these rows have the values `right`.
@@ -119,11 +107,12 @@ impl<T: Real, const R: usize> Solid<T, R> {
         w: &mut [T; N],
         right: &[T; R],
     ) {
-        let mut change = [T::zero(); R];
-        for (entry, &row) in change.iter_mut().zip(self.list()) {
-            *entry = right[row] - dot(&rows.data.0[row], w);
-        }
-        for (step, &row) in self.steps(change).iter().zip(self.list()) {
+        let wanted = self
+            .list()
+            .iter()
+            .map(|&row| (&rows.data.0[row], right[row]));
+        let steps = self.gram.steps(wanted, w);
+        for (step, &row) in steps.iter().zip(self.list()) {
             add_scaled(w, *step, &rows.data.0[row]);
         }
     }

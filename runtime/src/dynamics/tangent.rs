@@ -210,12 +210,7 @@ impl<T: Real, const N: usize, const R: usize> Tangent<T, N, R> {
     /// first, the solution moves by minus the second, times the product of the left
     /// vector with `Â` times the jerk.
     pub(crate) fn across(&self, j: usize) -> ([T; R], [T; N]) {
-        let mut w = [T::zero(); N];
-        add_scaled(
-            &mut w,
-            T::one() / self.values[j],
-            &self.directions.data.0[j],
-        );
+        let mut w = scaled(T::one() / self.values[j], &self.directions.data.0[j]);
         let rest = self.branch..self.used;
         self.advance(&mut w, Level::Rows, &[T::zero(); R], rest);
         let mut left = self.left.data.0[j];

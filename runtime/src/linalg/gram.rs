@@ -74,16 +74,21 @@ impl<T: Real, const R: usize> Gram<T, R> {
         smallest
     }
 
-    /// Adds a vector to the first `count`, by its products with them and its square, if
-    /// the square of its distance from their span is above `least`.
-    pub(crate) fn extend(
-        &mut self,
-        count: usize,
-        mut products: [T; R],
-        square: T,
-        least: T,
-    ) -> bool {
-        self.count = count;
+    /// Forgets all vectors.
+    pub(crate) fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    /// How many vectors there are.
+    #[inline]
+    pub(crate) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Adds a vector, by its products with those that there are and its square, if the
+    /// square of its distance from their span is above `least`.
+    pub(crate) fn extend(&mut self, mut products: [T; R], square: T, least: T) -> bool {
+        let count = self.count;
         let mut pivot = square;
         let f = &mut self.factor.data.0;
         for k in 0..count {
@@ -136,5 +141,20 @@ impl<T: Real, const R: usize> Gram<T, R> {
             }
             x[j] = value;
         }
+    }
+    /// How far to go along each vector so that its product with `w` becomes what stands
+    /// beside it.
+    #[inline]
+    pub(crate) fn steps<'a, const N: usize>(
+        &self,
+        vectors: impl Iterator<Item = (&'a [T; N], T)>,
+        w: &[T; N],
+    ) -> [T; R] {
+        let mut steps = [T::zero(); R];
+        for (step, (vector, right)) in steps.iter_mut().zip(vectors) {
+            *step = right - dot(vector, w);
+        }
+        self.solve(&mut steps);
+        steps
     }
 }

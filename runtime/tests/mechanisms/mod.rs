@@ -45,19 +45,10 @@ pub const fn structure(
 ) -> Structure {
     Structure {
         name: "ByHand",
-        docs: "",
-        file: "",
         coordinates,
-        described: &[],
-        parameters: &[],
-        inputs: &[],
-        outputs: &[],
-        events: &[],
         constraints,
-        constant_mass: false,
         conservative: true,
-        drawn: false,
-        regular: false,
+        ..Structure::PLAIN
     }
 }
 

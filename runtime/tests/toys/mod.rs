@@ -202,19 +202,7 @@ pub static MOVING_BEAD: Structure = Structure {
 /// A structure that says nothing.
 pub const PLAIN: Structure = Structure {
     name: "Toy",
-    docs: "",
-    file: "",
-    coordinates: &[],
-    described: &[],
-    parameters: &[],
-    inputs: &[],
-    outputs: &[],
-    events: &[],
-    constraints: &[],
-    constant_mass: false,
-    conservative: false,
-    drawn: false,
-    regular: false,
+    ..Structure::PLAIN
 };
 
 impl Mechanism<f64, 2, 1> for Bead {
