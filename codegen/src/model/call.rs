@@ -245,10 +245,9 @@ impl Evaluator {
         let mut flow = std::mem::take(&mut self.flow);
         let id = self.graph.derivative_along(scalar.id, &mut flow);
         self.flow = flow;
-        // What a bare number made sizes may be a length, so its rate may be a speed.
+        // Zero fits every unit.
         let unit = match scalar.unit {
             Unit::Number if self.graph.is_zero(id) => Unit::Number,
-            Unit::Number => Unit::Unchecked,
             unit => unit.times(Unit::Known(PER_SECOND)),
         };
         Some(Scalar {

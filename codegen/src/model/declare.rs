@@ -84,14 +84,16 @@ impl Lowering<'_> {
     pub fn fits(&mut self, declaration: &Declaration, unit: Unit, value: Scalar) -> Option<()> {
         match unit.meet(value.unit) {
             Ok(_) => Some(()),
-            Err((declared, found)) => {
-                let (name, declared) = (&declaration.name.text, declared.text());
-                let found = found.said();
+            Err((declared, dimension)) => {
+                let (name, unit_name) = (&declaration.name.text, declared.text());
+                let found = dimension.said();
                 let value = found.replacen("this", "its value", 1);
-                let message = format!("`{name}` is declared in {declared}, {value}");
+                let message = format!("`{name}` is declared in {unit_name}, {value}");
                 let unit = declaration.unit.as_ref();
                 let place = unit.map_or(declaration.name.span, |unit| unit.span);
                 let error = Diagnostic::error(declaration.value.span, message);
+                let units = [declared, dimension];
+                let error = (self.evaluator).declare_bare(error, &declaration.value, units);
                 self.report(error.labelled(found).also(place, "declared here"))
             }
         }
@@ -233,7 +235,9 @@ impl Lowering<'_> {
                 None => self.evaluator.evaluate(&lets[i].value),
                 Some(range) => self.evaluator.array(&lets[i].name, range, &lets[i].value),
             };
+            let bare = self.evaluator.bare(&lets[i].value);
             self.evaluator.scope.set(&lets[i].name.text, value);
+            self.evaluator.scope.set_bare(&lets[i].name.text, bare);
         }
     }
 

@@ -179,6 +179,9 @@ impl Evaluator {
     }
 
     fn undeclared(&mut self, name: &str, span: Span) -> Option<Value> {
+        if self.scope.unreadable.contains(name) {
+            return None;
+        }
         let built_in = BUILT_IN.iter().map(|(name, _)| *name);
         let near = nearest(name, self.scope.names().chain(built_in)).map(str::to_string);
         let help = if let Some(near) = near {

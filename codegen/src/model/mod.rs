@@ -7,6 +7,7 @@
 //! Not here: mechanics. Mass matrix and constraint Jacobian are `derive`'s.
 
 mod arithmetic;
+mod bare;
 mod call;
 mod check;
 mod constant;

@@ -2,7 +2,7 @@
 
 use super::lower::Lowering;
 use super::scope::{Kind, twice};
-use super::unit::{Dimension, ENERGY, Unit};
+use super::unit::{Dimension, ENERGY, NONE, Unit};
 use super::value::{Scalar, Value};
 use super::{Constraint, Direction, Event, Force, Output, Summand};
 use crate::diagnostic::{Diagnostic, Span};
@@ -154,10 +154,16 @@ impl Lowering<'_> {
         let wanted = ENERGY.times(place);
         match strength {
             Unit::Known(found) if found != wanted => {
+                let units = [wanted, found];
                 let (found, wanted) = (found.text(), wanted.text());
                 let message = format!("this force is in {found}, here it has to be in {wanted}");
-                let target = place.power(-1.0).map_or(String::new(), Dimension::said);
-                self.report(Diagnostic::error(force.span, message).also(on.span, target))
+                let target = match place {
+                    NONE => "this is in rad".to_string(),
+                    _ => place.power(-1.0).map_or(String::new(), Dimension::said),
+                };
+                let error = Diagnostic::error(force.span, message).also(on.span, target);
+                let error = self.evaluator.declare_bare(error, force, units);
+                self.report(error)
             }
             _ => Some(()),
         }

@@ -26,7 +26,7 @@ impl Cursor<'_> {
                 true => "remove it",
                 false => "a file holds one mechanism; write another file",
             };
-            return Err(self.fail(error.help(help)));
+            let _reported = self.fail(error.help(help));
         }
         Ok(model)
     }
@@ -39,9 +39,8 @@ impl Cursor<'_> {
             if self.take_symbol(";") {
                 continue;
             }
-            match self.item() {
-                Ok(item) => add(item),
-                Err(_) => self.recover(depth),
+            if let Some(item) = self.statement(depth, Self::item, is_block) {
+                add(item);
             }
         }
         self.expect_symbol("}", "")
@@ -256,6 +255,11 @@ impl Cursor<'_> {
         let arguments = self.arguments(")")?;
         Ok(ItemKind::Draw { shape, arguments })
     }
+}
+
+/// Whether a statement has statements or entries inside.
+fn is_block(item: &Item) -> bool {
+    matches!(item.kind, ItemKind::For(..) | ItemKind::Start(_))
 }
 
 /// How a statement is written.

@@ -40,6 +40,8 @@ pub struct Model {
     pub(crate) docs: String,
     /// What stands between its braces.
     pub(crate) items: Vec<Item>,
+    /// Names that unreadable statements may have declared.
+    pub(crate) unreadable: Vec<String>,
     /// What was no formula, no unit or no name.
     faults: ModelError,
 }
@@ -58,6 +60,7 @@ impl Model {
             name,
             docs,
             items: Vec::new(),
+            unreadable: Vec::new(),
             faults: ModelError::default(),
         }
     }

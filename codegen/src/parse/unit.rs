@@ -15,7 +15,7 @@ type Factors = Vec<(Name, i32)>;
 
 /// Reads a unit that stands by itself.
 pub fn read(text: &str) -> Result<UnitExpr, Diagnostics> {
-    scan::scan(text)?;
+    scan::clean(text)?;
     let mut cursor = Cursor::new(text, tokenize(text)?);
     let unit = cursor.unit();
     if unit.is_ok() && cursor.peek().kind != TokenKind::End {
