@@ -1,7 +1,7 @@
 //! What is legal in a description but probably not meant, found with numbers.
 //!
 //! In:  a checked [`Mechanism`].
-//! Out: warnings: coordinates without inertia, equations whose derivatives vanish
+//! Out: warnings: kinetic energy that is negative, coordinates without inertia, equations whose derivatives vanish
 //!      where they hold, a start that can't be assembled ([`doubts`]); equations
 //!      that follow from others ([`redundancies`]).
 //!
@@ -15,6 +15,7 @@
 mod basis;
 mod inertia;
 mod least_squares;
+mod negative;
 mod numbers;
 mod rows;
 mod start;
@@ -23,7 +24,7 @@ use crate::diagnostic::Diagnostics;
 use crate::model::Mechanism;
 use numbers::Numbers;
 
-/// Warns of what will hinder a simulation: a coordinate that moves without kinetic
+/// Warns of what will hinder a simulation: a negative kinetic energy, a coordinate that moves without kinetic
 /// energy and that no constraint restricts, an equation whose derivatives vanish
 /// where it holds, a start that can't be assembled.
 pub fn doubts(mechanism: Mechanism) -> Diagnostics {
@@ -32,7 +33,9 @@ pub fn doubts(mechanism: Mechanism) -> Diagnostics {
         start::unassembled(&numbers, &mut found);
         let flat = rows::flat(&numbers);
         rows::warn_of_flat(&numbers, &flat, &mut found);
-        inertia::massless(&numbers, &mut found);
+        if !negative::energy(&numbers, &mut found) {
+            inertia::massless(&numbers, &mut found);
+        }
     }
     found
 }

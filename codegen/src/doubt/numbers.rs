@@ -102,9 +102,15 @@ impl Numbers {
 
     /// Values of expressions at a place, at rest.
     pub fn values(&self, roots: &[ExprId], place: &Place) -> Vec<f64> {
+        self.moving(roots, place, &[])
+    }
+
+    /// Values of expressions at a place, at velocities; those behind the last are zero.
+    pub fn moving(&self, roots: &[ExprId], place: &Place, v: &[f64]) -> Vec<f64> {
         let value = |symbol| match symbol {
             Symbol::Time => place.t,
             Symbol::Coordinate(i) => place.q[i as usize],
+            Symbol::Velocity(i) => v.get(i as usize).copied().unwrap_or(0.0),
             Symbol::Parameter(i) => self.parameters[i as usize],
             _ => 0.0,
         };

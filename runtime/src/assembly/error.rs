@@ -45,6 +45,13 @@ pub enum AssemblyError<T, const N: usize, const R: usize> {
         /// Which velocities are held.
         held: [bool; N],
     },
+    /// The mechanism can move with a negative kinetic energy.
+    NegativeInertia {
+        /// The mechanism, for the names.
+        structure: &'static Structure,
+        /// The coordinate whose motion has it.
+        coordinate: usize,
+    },
 }
 
 impl<T: Real, const N: usize, const R: usize> Display for AssemblyError<T, N, R> {
@@ -80,6 +87,17 @@ impl<T: Real, const N: usize, const R: usize> Display for AssemblyError<T, N, R>
                      has the held velocities",
                 )?;
                 advice(f, structure.coordinates, held, ("der(", ")"))
+            }
+            Self::NegativeInertia {
+                structure,
+                coordinate,
+            } => {
+                f.write_str("at the start the kinetic energy is negative where ")?;
+                structure.write_coordinate(f, *coordinate)?;
+                f.write_str(
+                    " moves; check the signs of masses and moments of inertia among the \
+                     parameters, and of the terms of `kinetic`",
+                )
             }
         }
     }

@@ -44,11 +44,15 @@ where
     let mut scales = measured.clone();
     scales.hold(held);
     let free = Decomposition::new(&at.jacobian, &scales).map_err(|_| failure)?;
+    let guessed = speed(&state.v, &measured);
     correct(state, &at, &scales, &free);
     if !state.is_finite() {
         return Err(failure);
     }
-    check(mechanism, state, &at, &measured, held)?;
+    // The corrections are as good as the velocities are that they begin with, which may be
+    // far larger than those that they end with.
+    let speed = guessed.max(speed(&state.v, &measured));
+    check(mechanism, (state, speed), &at, &measured, held)?;
     let whole = Decomposition::new(&at.jacobian, &measured).map_err(|_| failure)?;
     if whole.rank(independent()) == R {
         return Ok(());
@@ -88,10 +92,24 @@ fn correct<T: Real, const N: usize, const R: usize>(
     }
 }
 
-/// Refuses velocities that contradict the constraints.
+/// The size of velocities in the kinetic metric, where a row of norm one turns a speed of
+/// one into an error of one.
+fn speed<T: Real, const N: usize, const R: usize>(
+    v: &SVector<T, N>,
+    measured: &Scales<T, N, R>,
+) -> T {
+    let squares = (0..N).fold(T::zero(), |sum, j| {
+        let x = v[j] / measured.columns[j];
+        sum + x * x
+    });
+    squares.sqrt()
+}
+
+/// Refuses velocities that contradict the constraints. The speed is the largest that took
+/// part in finding them.
 fn check<T, M, const N: usize, const R: usize>(
     mechanism: &M,
-    state: &State<T, N>,
+    (state, speed): (&State<T, N>, T),
     at: &Position<T, N, R>,
     measured: &Scales<T, N, R>,
     held: &[bool; N],
@@ -101,16 +119,10 @@ where
     M: Mechanism<T, N, R> + ?Sized,
 {
     let error = at.jacobian * state.v + at.drift;
-    // In the kinetic metric, where a row of norm one turns a speed of one into
-    // an error of one.
-    let speed = (0..N).fold(T::zero(), |sum, j| {
-        let x = state.v[j] / measured.columns[j];
-        sum + x * x
-    });
     // Rows that count as dependent may be off by what they are.
     let slack = T::EPSILON * T::from_f64(CONTRADICTION) + independent();
     let residual = SVector::<T, R>::from_fn(|k, _| {
-        let most = slack * (speed.sqrt() / measured.rows[k] + at.drift[k].abs());
+        let most = slack * (speed / measured.rows[k] + at.drift[k].abs());
         if error[k].abs() <= most {
             T::zero()
         } else {
