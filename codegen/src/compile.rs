@@ -12,7 +12,7 @@ pub struct Settings {
     pub constants: Vec<(String, f64)>,
     /// Parameters that become constants at their default.
     pub frozen: Vec<String>,
-    /// Whether coordinates that constraints give explicitly are eliminated.
+    /// Whether dependent coordinates, which constraints give explicitly, are eliminated.
     pub eliminate: bool,
     /// What to emit besides the necessary.
     pub options: Options,
@@ -76,7 +76,12 @@ pub fn analyse(source: &str, settings: &Settings) -> Result<(Mechanism, Diagnost
     let Some(tree) = tree else {
         return Err(wrong);
     };
-    let lowered = model::lower(&tree, &settings.constants, &settings.frozen, wrong.is_empty());
+    let lowered = model::lower(
+        &tree,
+        &settings.constants,
+        &settings.frozen,
+        wrong.is_empty(),
+    );
     if wrong.is_empty() {
         return lowered;
     }

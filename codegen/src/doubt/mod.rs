@@ -1,7 +1,8 @@
 //! What is legal in a description but probably not meant, found with numbers.
 //!
 //! In:  a checked [`Mechanism`].
-//! Out: warnings: kinetic energy that is negative, coordinates without inertia, equations whose derivatives vanish
+//! Out: warnings: kinetic energy that is negative, statements that are not finite where the motion
+//!      begins, coordinates without inertia, equations whose derivatives vanish
 //!      where they hold, a start that can't be assembled ([`doubts`]); equations
 //!      that follow from others ([`redundancies`]).
 //!
@@ -13,6 +14,7 @@
 //! Not here: errors. A run decides about each position by itself.
 
 mod basis;
+mod finite;
 mod inertia;
 mod least_squares;
 mod negative;
@@ -29,8 +31,9 @@ use numbers::Numbers;
 /// where it holds, a start that can't be assembled.
 pub fn doubts(mechanism: Mechanism) -> Diagnostics {
     let mut found = Diagnostics::new();
-    if let Some(numbers) = Numbers::new(mechanism) {
+    if let Some(mut numbers) = Numbers::new(mechanism) {
         start::unassembled(&numbers, &mut found);
+        finite::statements(&mut numbers, &mut found);
         let flat = rows::flat(&numbers);
         rows::warn_of_flat(&numbers, &flat, &mut found);
         if !negative::energy(&numbers, &mut found) {

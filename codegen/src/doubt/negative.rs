@@ -57,7 +57,10 @@ fn direction(mass: &[Vec<f64>]) -> Option<Vec<f64>> {
     let mut directions: Vec<Vec<f64>> = (0..n).map(unit).collect();
     let scaled = |i: usize| (0..n).map(|j| size(i) * mass[i][j] * size(j)).collect();
     let mut rest: Vec<Vec<f64>> = (0..n).map(scaled).collect();
-    let largest = rest.iter().flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let largest = rest
+        .iter()
+        .flatten()
+        .fold(0.0, |most: f64, x| most.max(x.abs()));
     let floor = ROUND_OFF * largest;
     let mut left: Vec<usize> = (0..n).collect();
     while let Some(place) = (0..left.len()).max_by(|&a, &b| {

@@ -10,7 +10,7 @@ use crate::parse::ast::{Expr, Name};
 
 /// Functions of more than one number or of something else than a number: name,
 /// number of arguments, how they are written.
-const OTHERS: [(&str, usize, &str); 14] = [
+const OTHERS: [(&str, usize, &str); 15] = [
     ("atan2", 2, "atan2(y, x)"),
     ("min", 2, "min(a, b)"),
     ("max", 2, "max(a, b)"),
@@ -20,6 +20,7 @@ const OTHERS: [(&str, usize, &str); 14] = [
     ("norm", 1, "norm(v)"),
     ("norm2", 1, "norm2(v)"),
     ("transpose", 1, "transpose(R)"),
+    ("rot", 2, "rot(angle)` in the plane, `rot(axis, angle)"),
     ("rotx", 1, "rotx(angle)"),
     ("roty", 1, "roty(angle)"),
     ("rotz", 1, "rotz(angle)"),
@@ -28,7 +29,14 @@ const OTHERS: [(&str, usize, &str); 14] = [
 ];
 
 /// Names that other languages have for the same.
-const ELSEWHERE: [(&str, &str); 14] = [
+const ELSEWHERE: [(&str, &str); 21] = [
+    ("sqr", "x^2"),
+    ("square", "x^2"),
+    ("len", "norm(v)"),
+    ("mag", "norm(v)"),
+    ("magnitude", "norm(v)"),
+    ("dist", "norm(a - b)"),
+    ("fabs", "abs(x)"),
     ("arcsin", "asin(x)"),
     ("arccos", "acos(x)"),
     ("arctan", "atan(x)"),
@@ -65,6 +73,9 @@ impl Evaluator {
             (None, Some((_, arity, form))) => (*arity, (*form).to_string()),
             (None, None) => return self.unknown_function(name),
         };
+        if let ("rot", [angle]) = (name.text.as_str(), arguments) {
+            return self.plane_rotation(angle);
+        }
         if arguments.len() != arity {
             let message = format!(
                 "`{}` takes {}, here {}",
@@ -89,6 +100,7 @@ impl Evaluator {
 
     fn geometric(&mut self, name: &str, arguments: &[Expr], span: Span) -> Option<Value> {
         match name {
+            "rot" => return self.rotation_about(&arguments[0], &arguments[1], span),
             "rotx" => return self.rotation(0, &arguments[0]),
             "roty" => return self.rotation(1, &arguments[0]),
             "rotz" => return self.rotation(2, &arguments[0]),
@@ -220,8 +232,23 @@ impl Evaluator {
         })
     }
 
+    /// Warns of the derivative of a single number that has symbols in it, none of which
+    /// moves. A point at rest among moving ones is meant.
+    fn still(&mut self, value: &Value, span: Span) {
+        let Some(scalar) = value.as_scalar() else {
+            return;
+        };
+        let facts = self.facts(scalar.id);
+        if facts.value.is_none() && !facts.coordinate && !facts.time && !facts.input {
+            let warning = Diagnostic::warning(span, "this derivative is zero");
+            let help = "nothing in it moves; coordinates are declared with `coord`";
+            self.diagnostics.push(warning.help(help));
+        }
+    }
+
     /// `der(x)`: the total derivative in time.
     pub fn derivative(&mut self, value: &Value, span: Span) -> Option<Value> {
+        self.still(value, span);
         let rates: Vec<_> = value
             .scalars()
             .into_iter()

@@ -1,6 +1,6 @@
 //! What a formula may contain where it stands.
 //!
-//! Energies and constraints are differentiated, so they have no kinks; the
+//! Energies and constraints are differentiated, so they are smooth; the
 //! kinetic energy is a polynomial of degree two or less in the velocities, a
 //! velocity constraint one of degree one; potentials know no velocities; signals
 //! act through forces alone.
@@ -30,7 +30,7 @@ impl Lowering<'_> {
         let facts = self.evaluator.facts(value.id);
         if facts.kinked {
             let span = self.culprit(e, |facts| facts.kinked);
-            let message = format!("{what} has to be differentiable, this has a kink");
+            let message = format!("{what} has to be smooth, this is non-smooth");
             return self.report(Diagnostic::error(span, message).help(SMOOTH));
         }
         if facts.input && kind != Energy::Dissipation {
@@ -141,7 +141,7 @@ impl Lowering<'_> {
 
     fn legal_row(&mut self, facts: Facts, sides: [&Expr; 2]) -> Option<()> {
         let (bad, message, help): (fn(&Facts) -> bool, _, _) = if facts.kinked {
-            let message = "a constraint has to be differentiable, this has a kink";
+            let message = "a constraint has to be smooth, this is non-smooth";
             (|facts| facts.kinked, message, SMOOTH)
         } else if facts.input {
             let help = "what is prescribed is written with `t`; an input acts by `force`";

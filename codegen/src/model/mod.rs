@@ -10,6 +10,7 @@ mod arithmetic;
 mod bare;
 mod call;
 mod check;
+mod choice;
 mod constant;
 mod declare;
 mod element;
@@ -30,7 +31,7 @@ mod value;
 pub(crate) use call::other_functions;
 pub use lower::lower;
 pub(crate) use scope::built_in;
-pub(crate) use si::units;
+pub(crate) use si::{scaled_units, units};
 
 use crate::diagnostic::Span;
 use crate::expr::{ExprId, Graph, Symbol};

@@ -16,6 +16,7 @@ use rustc_hash::FxHashMap;
 pub struct Named {
     outputs: FxHashMap<String, Span>,
     events: FxHashMap<String, Span>,
+    constraints: FxHashMap<String, Span>,
     /// Start entries: coordinate, whether the velocity is meant.
     pub starts: FxHashMap<(u32, bool), Span>,
 }
@@ -37,7 +38,13 @@ impl Lowering<'_> {
             ItemKind::Let(_) => Some(()),
             ItemKind::Energy(kind, value) => self.energy(*kind, value),
             ItemKind::Force { force, on } => self.force(force, on, item.span),
-            ItemKind::Constraint { left, right, text } => {
+            ItemKind::Constraint {
+                name,
+                left,
+                right,
+                text,
+            } => {
+                self.constraint_name(name.as_ref())?;
                 self.constraint(left, right, text, item.span)
             }
             ItemKind::Start(entries) => self.start(entries),
@@ -166,6 +173,18 @@ impl Lowering<'_> {
                 self.report(error)
             }
             _ => Some(()),
+        }
+    }
+
+    /// Refuses two constraints of one name; in a loop the index belongs to it.
+    fn constraint_name(&mut self, name: Option<&Name>) -> Option<()> {
+        let Some(name) = name else {
+            return Some(());
+        };
+        let full = self.indexed(&name.text);
+        match self.named.constraints.insert(full, name.span) {
+            Some(first) => self.report(twice(name, first)),
+            None => Some(()),
         }
     }
 

@@ -31,7 +31,18 @@ pub const STATEMENTS: [(&str, &str); 14] = [
 ];
 
 /// Words that hold statements and formulas together.
-pub const CONNECTIVES: [&str; 7] = ["mechanism", "for", "in", "on", "if", "then", "else"];
+pub const CONNECTIVES: [&str; 10] = [
+    "mechanism",
+    "for",
+    "in",
+    "on",
+    "if",
+    "then",
+    "else",
+    "and",
+    "or",
+    "not",
+];
 
 /// What `draw` draws.
 pub const SHAPES: [(&str, Drawing); 4] = [
@@ -108,15 +119,20 @@ impl<'a> Cursor<'a> {
         &self.tokens.list[self.at.saturating_sub(back)]
     }
 
-    /// Whether a parenthesis comes next that is closed in front of a word.
-    pub fn parentheses_end_before(&self, word: &str) -> bool {
+    /// Whether a parenthesis comes next that holds a condition: behind it the condition ends
+    /// or is joined with another, where a formula would go on to be compared.
+    pub fn parentheses_hold_a_condition(&self) -> bool {
         if !self.at_symbol("(") {
             return false;
         }
         let mut inside = self.tokens.list[self.at + 1..].iter();
         let depth = self.depth();
         inside.by_ref().find(|token| token.depth <= depth);
-        matches!(inside.next(), Some(Token { kind: TokenKind::Word(text), .. }) if text == word)
+        match inside.next().map(|token| &token.kind) {
+            Some(TokenKind::Word(word)) => ["then", "and", "or"].contains(&word.as_str()),
+            Some(TokenKind::Symbol(sign)) => *sign == ")",
+            _ => false,
+        }
     }
 
     /// Reads a token.

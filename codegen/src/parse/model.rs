@@ -130,6 +130,7 @@ impl Model {
         self.statement(ItemKind::Let(Let {
             name: here(name),
             range: None,
+            unit: None,
             value,
         }))
     }
@@ -161,7 +162,12 @@ impl Model {
         let left = self.faults.accept(left.into());
         let right = self.faults.accept(right.into());
         let text = format!("{} = {}", print::formula(&left), print::formula(&right));
-        self.statement(ItemKind::Constraint { left, right, text })
+        self.statement(ItemKind::Constraint {
+            name: None,
+            left,
+            right,
+            text,
+        })
     }
 
     /// An entry `target = value;` of `start`: held.

@@ -29,6 +29,10 @@ pub struct Scanned {
     pub readable: bool,
 }
 
+/// What to write instead of a tick behind a bracket.
+const TRANSPOSED: &str = "the square of a vector's length is `norm2(v)`, a product of two vectors \
+                          `dot(a, b)`, a transposed matrix `transpose(R)`";
+
 struct Scanner<'a> {
     text: &'a str,
     characters: Peekable<CharIndices<'a>>,
@@ -304,7 +308,8 @@ impl Scanner<'_> {
         self.next();
         let span = self.span_from(start);
         let error = Diagnostic::error(span, format!("{} has no meaning here", shown(sign)));
-        self.diagnostics.push(error.help("comments begin with `//`"));
+        self.diagnostics
+            .push(error.help("comments begin with `//`"));
         while self.peek().is_some_and(|c| c != '\n') {
             self.next();
         }
@@ -341,8 +346,13 @@ impl Scanner<'_> {
     fn stray(&mut self, character: char, start: Position) {
         let span = self.span_from(start);
         let message = format!("{} has no meaning here", shown(character));
+        let text = self.text.get(..span.range().start).unwrap_or("");
+        let help = match (character, text.ends_with([')', ']'])) {
+            ('\'' | '’', true) => TRANSPOSED.to_string(),
+            _ => instead(character),
+        };
         self.diagnostics
-            .push(Diagnostic::error(span, message).help(instead(character)));
+            .push(Diagnostic::error(span, message).help(help));
         self.blank(span);
     }
 }

@@ -19,7 +19,7 @@ pub fn shown(character: char) -> String {
 pub fn instead(character: char) -> String {
     let write = |text: &str| format!("write `{text}`");
     match character {
-        '\'' => "the velocity of a coordinate `q` is written `der(q)`".into(),
+        '\'' | '’' => "the velocity of a coordinate `q` is written `der(q)`".into(),
         '"' => "there is no quoted text; comments begin with `//`, doc comments with `///`".into(),
         '·' | '×' | '∗' | '⋅' => write("*"),
         '÷' | '∕' => write("/"),

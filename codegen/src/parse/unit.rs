@@ -33,6 +33,11 @@ impl Cursor<'_> {
         if !self.take_symbol(":") {
             return Ok(None);
         }
+        if self.at_symbol("=") && self.span().start == self.last_span().end {
+            let error =
+                Diagnostic::error(self.last_span().to(self.span()), "`:=` is not used here");
+            return Err(self.fail(error.help("write `=`; behind `:` stands a unit")));
+        }
         self.unit().map(Some)
     }
 
