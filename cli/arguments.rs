@@ -144,6 +144,7 @@ pub struct Validate {
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Values are in SI units and may be formulas of constants: 80*deg, pi/4, 1/100.
+Put quotes around what has brackets, stars or ~: --start 'der(q1)=80*deg'.
 
 Columns of the CSV: t, the coordinates by name, their velocities as der(NAME), then \
 what --columns asks for. Numbers read back to the same bits.

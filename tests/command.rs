@@ -611,7 +611,7 @@ fn values_that_would_do_silently_what_nobody_wants_are_refused() {
         (&["--out", "x.xlsx"], &["x.xlsx", "--out run.csv"]),
         (
             &["--out", "x.svg", "--plot", "x.svg"],
-            &["x.svg", "--out run.csv"],
+            &["--out and --plot", "x.svg"],
         ),
         (
             &["--out", "x.csv", "--checkpoint", "x.csv"],

@@ -121,11 +121,6 @@ fn diagram(
         )
         .build_cartesian_2d(time.0..time.1, range.0..range.1)?;
     let label = |y: &f64| tick(*y, panel.scale, range);
-    let ticks = match panel.scale {
-        Scale::Linear => TICKS,
-        Scale::Whole => TICKS.min((range.1 - range.0) as usize + 1),
-        Scale::Logarithmic { .. } => ((range.1 - range.0) / 2.0).ceil() as usize + 1,
-    };
     chart
         .configure_mesh()
         .disable_x_mesh()
@@ -136,7 +131,7 @@ fn diagram(
         .axis_desc_style(TextStyle::from((FONT, TEXT).into_font()).color(&INK))
         .set_tick_mark_size(LabelAreaPosition::Left, 5 * DETAIL)
         .set_tick_mark_size(LabelAreaPosition::Bottom, 5 * DETAIL)
-        .y_labels(ticks)
+        .y_labels(ticks(panel.scale, range))
         .x_labels(9)
         .y_desc(panel.axis.as_str())
         .x_desc("time t [s]")
@@ -172,6 +167,15 @@ fn widened((from, to): Range) -> Range {
     match to - from > SHORTEST * size {
         true => (from, to),
         false => (from, from + size.max(1.0)),
+    }
+}
+
+/// How many ticks the vertical axis has, about.
+fn ticks(scale: Scale, range: Range) -> usize {
+    match scale {
+        Scale::Linear => TICKS,
+        Scale::Whole => TICKS.min((range.1 - range.0) as usize + 1),
+        Scale::Logarithmic { .. } => ((range.1 - range.0) / 2.0).ceil() as usize + 1,
     }
 }
 

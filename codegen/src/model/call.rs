@@ -2,11 +2,12 @@
 
 use super::evaluate::Evaluator;
 use super::linear::transposed;
+use super::scope::Kind;
 use super::unit::{PER_SECOND, Unit};
 use super::value::{Matrix, Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::expr::{Function, Function2};
-use crate::parse::ast::{Expr, Name};
+use crate::parse::ast::{Expr, ExprKind, Name};
 
 /// Functions of more than one number or of something else than a number: name,
 /// number of arguments, how they are written.
@@ -116,7 +117,10 @@ impl Evaluator {
             values = values.into_iter().map(Value::array_to_vector).collect();
         }
         match (name, values.as_slice()) {
-            ("der", [value]) => self.derivative(value, span),
+            ("der", [value]) => {
+                self.still(&arguments[0], span);
+                self.derivative(value, span)
+            }
             ("dot", [Value::Vector(a), Value::Vector(b)]) if a.len() == b.len() => {
                 self.inner(a, b, span).map(Value::Scalar)
             }
@@ -232,23 +236,22 @@ impl Evaluator {
         })
     }
 
-    /// Warns of the derivative of a single number that has symbols in it, none of which
-    /// moves. A point at rest among moving ones is meant.
-    fn still(&mut self, value: &Value, span: Span) {
-        let Some(scalar) = value.as_scalar() else {
+    /// Warns of the derivative of a parameter. That of a formula may be zero for some
+    /// indices of a loop and not for others.
+    fn still(&mut self, argument: &Expr, span: Span) {
+        let ExprKind::Name(name) = &argument.kind else {
             return;
         };
-        let facts = self.facts(scalar.id);
-        if facts.value.is_none() && !facts.coordinate && !facts.time && !facts.input {
+        let entry = self.scope.get(name);
+        if entry.is_some_and(|entry| matches!(entry.kind, Kind::Parameter | Kind::Constant)) {
             let warning = Diagnostic::warning(span, "this derivative is zero");
-            let help = "nothing in it moves; coordinates are declared with `coord`";
+            let help = format!("`{name}` does not move; coordinates are declared with `coord`");
             self.diagnostics.push(warning.help(help));
         }
     }
 
     /// `der(x)`: the total derivative in time.
     pub fn derivative(&mut self, value: &Value, span: Span) -> Option<Value> {
-        self.still(value, span);
         let rates: Vec<_> = value
             .scalars()
             .into_iter()

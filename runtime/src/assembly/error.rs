@@ -59,7 +59,7 @@ impl<T: Real, const N: usize, const R: usize> Display for AssemblyError<T, N, R>
         match self {
             Self::NotFinite { t } => write!(
                 f,
-                "the start at t = {t} s, or a constraint evaluated there, is infinite or NaN; \
+                "the start at t = {t} s, or a constraint or the mass matrix there, is infinite or NaN; \
                  check the values in `start` and the parameters",
                 t = Number(t)
             ),

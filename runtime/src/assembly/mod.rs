@@ -34,7 +34,7 @@ use nalgebra::SVector;
 /// # Errors
 ///
 /// - [`AssemblyError::NotFinite`] if a value of `start`, or a constraint at the
-///   guess, is infinite or NaN.
+///   guess or the mass matrix, is infinite or NaN.
 /// - [`AssemblyError::Positions`] and [`AssemblyError::Velocities`] if the held
 ///   values contradict the constraints; with the error of each constraint.
 /// - [`AssemblyError::NegativeInertia`] if the kinetic energy is negative for some
