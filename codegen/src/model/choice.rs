@@ -58,9 +58,7 @@ impl Evaluator {
     /// looked at.
     fn truth(&mut self, condition: &Condition) -> Option<Truth> {
         Some(match condition {
-            Condition::Compare(comparison, left, right) => {
-                self.compare(*comparison, [left, right])?
-            }
+            Condition::Compare(comparison, sides) => self.compare(*comparison, sides)?,
             Condition::Not(inside) => match self.truth(inside)? {
                 Truth::Known(holds) => Truth::Known(!holds),
                 open => Truth::Not(Box::new(open)),
@@ -86,9 +84,9 @@ impl Evaluator {
         })
     }
 
-    fn compare(&mut self, comparison: Comparison, sides: [&Expr; 2]) -> Option<Truth> {
-        let left = self.scalar(sides[0], "the side of a comparison")?;
-        let right = self.scalar(sides[1], "the side of a comparison")?;
+    fn compare(&mut self, comparison: Comparison, sides: &[Expr; 2]) -> Option<Truth> {
+        let left = self.scalar(&sides[0], "the side of a comparison")?;
+        let right = self.scalar(&sides[1], "the side of a comparison")?;
         let placed = [(left, sides[0].span), (right, sides[1].span)];
         self.same_unit(placed, "this comparison")?;
         let numbers = (

@@ -38,7 +38,7 @@ pub enum ItemKind {
         unit: Option<UnitExpr>,
     },
     /// `let n[range] = value;`
-    Let(Let),
+    Let(Box<Let>),
     /// `kinetic`, `potential` or `dissipation`.
     Energy(Energy, Expr),
     /// `force F on x;`
@@ -225,7 +225,7 @@ pub enum ExprKind {
 #[derive(Clone, Debug)]
 pub enum Condition {
     /// `left ⋈ right`; `a > b` is kept as `b < a`.
-    Compare(Comparison, Expr, Expr),
+    Compare(Comparison, Box<[Expr; 2]>),
     /// `not a`
     Not(Box<Condition>),
     /// `a and b`
@@ -238,7 +238,7 @@ impl Condition {
     /// The formulas that are compared.
     pub fn sides(&self) -> Vec<&Expr> {
         match self {
-            Condition::Compare(_, left, right) => vec![left, right],
+            Condition::Compare(_, sides) => sides.iter().collect(),
             Condition::Not(inside) => inside.sides(),
             Condition::And(a, b) | Condition::Or(a, b) => [a.sides(), b.sides()].concat(),
         }

@@ -114,10 +114,11 @@ impl Cursor<'_> {
         self.advance();
         let right = self.expression()?;
         self.no_foreign_operator()?;
-        Ok(match exchanged {
-            true => Condition::Compare(comparison, right, left),
-            false => Condition::Compare(comparison, left, right),
-        })
+        let sides = match exchanged {
+            true => [right, left],
+            false => [left, right],
+        };
+        Ok(Condition::Compare(comparison, Box::new(sides)))
     }
 
     /// Refuses a comparison where a formula has ended.

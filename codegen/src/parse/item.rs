@@ -237,12 +237,12 @@ impl Cursor<'_> {
         let unit = self.optional_unit()?;
         self.expect_symbol("=", &example("let"))?;
         let value = self.expression()?;
-        Ok(ItemKind::Let(Let {
+        Ok(ItemKind::Let(Box::new(Let {
             name,
             range,
             unit,
             value,
-        }))
+        })))
     }
 
     fn force(&mut self) -> Parsed<ItemKind> {

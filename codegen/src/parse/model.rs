@@ -127,12 +127,12 @@ impl Model {
     pub fn quantity(mut self, name: &str, value: impl Into<Formula>) -> Self {
         self.check_name(name);
         let value = self.faults.accept(value.into());
-        self.statement(ItemKind::Let(Let {
+        self.statement(ItemKind::Let(Box::new(Let {
             name: here(name),
             range: None,
             unit: None,
             value,
-        }))
+        })))
     }
 
     /// `kinetic value;`

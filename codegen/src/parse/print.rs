@@ -238,14 +238,14 @@ fn binding(e: &Expr) -> Binding {
 
 fn condition(condition: &Condition) -> String {
     match condition {
-        Condition::Compare(comparison, left, right) => {
+        Condition::Compare(comparison, sides) => {
             let sign = match comparison {
                 Comparison::Less => "<",
                 Comparison::LessEqual => "<=",
                 Comparison::Equal => "==",
                 Comparison::NotEqual => "!=",
             };
-            let [left, right] = [left, right].map(|side| within(side, Binding::Sum));
+            let [left, right] = sides.each_ref().map(|side| within(side, Binding::Sum));
             format!("{left} {sign} {right}")
         }
         Condition::Not(inside) => format!("not {}", joined(inside)),
