@@ -197,7 +197,7 @@ pub const CASES: &[Case] = &[
             ("J3", -1.0),
         ],
         wanted: Wanted::Refused {
-            words: &["at t = 0 s", "without kinetic energy"],
+            words: &["at t = 0 s", "kinetic energy is negative"],
         },
         ..DEGENERATE
     },

@@ -47,6 +47,8 @@ pub enum AssemblyError<T, const N: usize, const R: usize> {
     },
     /// The mechanism can move with a negative kinetic energy.
     NegativeInertia {
+        /// Time of the start (s).
+        t: T,
         /// The mechanism, for the names.
         structure: &'static Structure,
         /// The coordinate whose motion has it.
@@ -89,10 +91,15 @@ impl<T: Real, const N: usize, const R: usize> Display for AssemblyError<T, N, R>
                 advice(f, structure.coordinates, held, ("der(", ")"))
             }
             Self::NegativeInertia {
+                t,
                 structure,
                 coordinate,
             } => {
-                f.write_str("at the start the kinetic energy is negative where ")?;
+                write!(
+                    f,
+                    "at t = {t} s the kinetic energy is negative where ",
+                    t = Number(t)
+                )?;
                 structure.write_coordinate(f, *coordinate)?;
                 f.write_str(
                     " moves; check the signs of masses and moments of inertia among the \

@@ -79,6 +79,7 @@ where
     }
     match inertia::negative(&at.mass) {
         Some(coordinate) => Err(AssemblyError::NegativeInertia {
+            t: state.t,
             structure: mechanism.structure(),
             coordinate,
         }),
