@@ -44,6 +44,17 @@ impl Changes {
         Ok(changes)
     }
 
+    /// What is set to a negative mass or moment of inertia. The kinetic energy may be
+    /// positive all the same, by what else moves.
+    pub fn negative_inertia<'a>(&self, structure: &'a Structure) -> Vec<&'a str> {
+        let quantity = |(index, value): &(usize, f64)| {
+            let quantity = structure.parameters.get(*index)?;
+            let inertia = ["kg", "kg*m^2"].contains(&quantity.unit);
+            (inertia && *value < 0.0).then_some(quantity.name)
+        };
+        self.parameters.iter().filter_map(quantity).collect()
+    }
+
     /// Changes a mechanism.
     pub fn apply(&self, mechanism: &mut dyn AnyMechanism) {
         for (index, value) in &self.parameters {

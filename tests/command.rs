@@ -595,6 +595,20 @@ fn a_negative_mass_is_refused_by_its_coordinate() {
     let arguments = ["simulate", "slider_crank", "--set", "m3=-3"];
     let said = ["kinetic energy is negative where `q3` moves", "parameters"];
     check_refused(&arguments, 1, &said);
+    // The second link moves with the first one, so that the energy stays positive.
+    let ran = bricard(&[
+        "simulate",
+        "slider_crank",
+        "--until",
+        "0.1",
+        "--set",
+        "m1=-3",
+    ]);
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    assert!(
+        ran.err
+            .contains("warning: `m1` is an inertia, and negative")
+    );
 }
 
 #[test]

@@ -27,6 +27,9 @@ pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
     let mut mechanism = find(&arguments.name)?;
     let structure = mechanism.structure();
     let changes = Changes::find(structure, &arguments.name, &arguments.set, &arguments.start)?;
+    for name in changes.negative_inertia(structure) {
+        say(&format!("warning: `{name}` is an inertia, and negative"));
+    }
     changes.apply(mechanism.as_mut());
     let columns = columns(&arguments.columns, structure, &arguments.name)?;
     let mut plan = choices::plan(arguments, columns.clone())?;
