@@ -29,6 +29,7 @@ pub use count::{Cost, cost};
 pub use interpret::interpret;
 pub use pass::{Pass, alone};
 pub use program::{Operation, Program, Slot, Value};
+pub use solve::{Solved, Way};
 pub use trig::in_trig_ring;
 pub use verify::verify;
 
@@ -85,8 +86,8 @@ pub fn optimise(graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -
 /// # Panics
 ///
 /// As [`optimise`].
-pub fn regular_acceleration(terms: &Program, n: usize, r: usize) -> Option<Program> {
-    solve::with_acceleration(terms, n, r).map(checked)
+pub fn regular_acceleration(terms: &Program, n: usize, r: usize) -> Option<Solved> {
+    solve::with_acceleration(terms, n, r).map(sound)
 }
 
 /// The program for the least corrections of position and velocity, from the
@@ -96,8 +97,13 @@ pub fn regular_acceleration(terms: &Program, n: usize, r: usize) -> Option<Progr
 /// # Panics
 ///
 /// As [`optimise`].
-pub fn regular_correction(terms: &Program, n: usize, r: usize) -> Option<Program> {
-    solve::with_correction(terms, n, r).map(checked)
+pub fn regular_correction(terms: &Program, n: usize, r: usize) -> Option<Solved> {
+    solve::with_correction(terms, n, r).map(sound)
+}
+
+fn sound(solved: Solved) -> Solved {
+    let program = checked(solved.program);
+    Solved { program, ..solved }
 }
 
 fn checked(program: Program) -> Program {
