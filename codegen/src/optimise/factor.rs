@@ -1,30 +1,25 @@
-//! Shares pairs of factors between products, and takes common factors out of sums.
+//! Takes common factors out of sums, and shares pairs of factors between products.
 //!
 //! In:  a program.
 //! Out: the cheaper of two: with common factors taken out of the sums first, and
-//!      without. Then the pair of factors that most products have becomes a
-//!      product of its own, again and again while two products have one.
+//!      without; then with pairs shared (`share.rs`).
 
 use super::count::cost;
 use super::dead::ordered;
 use super::program::{Operation, Program, Slot, Value};
+use super::share::share_pairs;
 use crate::expr::Number;
-use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The program with factors shared; never costlier.
 pub(super) fn factor(program: &Program) -> Program {
     let shared = share_pairs(program);
     let collected = share_pairs(&collect_factors(program));
-    let candidates = [shared, collected, program.clone()];
-    let [first, rest @ ..] = candidates;
-    rest.into_iter().fold(first, |best, other| {
-        if cost(&other).weight() < cost(&best).weight() {
-            other
-        } else {
-            best
-        }
-    })
+    if cost(&collected).weight() < cost(&shared).weight() {
+        collected
+    } else {
+        shared
+    }
 }
 
 /// Operations that grow at the end; equal ones are one.
@@ -139,7 +134,7 @@ fn commonest(terms: &[Term]) -> Option<Value> {
 }
 
 /// The program with some of its values replaced everywhere.
-fn redirected(
+pub(super) fn redirected(
     operations: &[Operation],
     outputs: &[(Slot, Value)],
     moved: &BTreeMap<Value, Value>,
@@ -165,111 +160,4 @@ fn redirected(
         .map(|(slot, value)| (*slot, target(value)))
         .collect();
     ordered(&operations, &outputs)
-}
-
-type Pair = (Value, Value);
-
-/// Products, by the pairs of factors they have.
-struct Pairs {
-    products: BTreeMap<usize, Vec<Value>>,
-    having: BTreeMap<Pair, BTreeSet<usize>>,
-    /// The pairs, those that most products have first.
-    ranking: BTreeSet<(Reverse<usize>, Pair)>,
-}
-
-impl Pairs {
-    fn of(operations: &[Operation]) -> Self {
-        let mut pairs = Pairs {
-            products: BTreeMap::new(),
-            having: BTreeMap::new(),
-            ranking: BTreeSet::new(),
-        };
-        for (i, operation) in operations.iter().enumerate() {
-            if let Operation::Product(factors) = operation {
-                pairs.insert(i, factors.clone());
-            }
-        }
-        pairs
-    }
-
-    fn insert(&mut self, product: usize, mut factors: Vec<Value>) {
-        factors.sort_unstable();
-        for pair in distinct_pairs(&factors) {
-            self.change(pair, |products| products.insert(product));
-        }
-        self.products.insert(product, factors);
-    }
-
-    fn remove(&mut self, product: usize) -> Vec<Value> {
-        let factors = self.products.remove(&product).unwrap_or_default();
-        for pair in distinct_pairs(&factors) {
-            self.change(pair, |products| products.remove(&product));
-        }
-        factors
-    }
-
-    /// Changes which products have a pair, and its rank with that.
-    fn change(&mut self, pair: Pair, by: impl FnOnce(&mut BTreeSet<usize>) -> bool) {
-        let products = self.having.entry(pair).or_default();
-        self.ranking.remove(&(Reverse(products.len()), pair));
-        by(products);
-        if products.is_empty() {
-            self.having.remove(&pair);
-        } else {
-            self.ranking.insert((Reverse(products.len()), pair));
-        }
-    }
-
-    /// The pair that most products have, if two have it; the first of equals.
-    fn commonest(&self) -> Option<Pair> {
-        let (Reverse(most), pair) = self.ranking.first()?;
-        (*most > 1).then_some(*pair)
-    }
-}
-
-fn distinct_pairs(sorted: &[Value]) -> BTreeSet<Pair> {
-    let mut pairs = BTreeSet::new();
-    for (i, a) in sorted.iter().enumerate() {
-        pairs.extend(sorted[i + 1..].iter().map(|b| (*a, *b)));
-    }
-    pairs
-}
-
-/// The commonest pair of factors becomes a product of its own, again and again.
-pub(super) fn share_pairs(program: &Program) -> Program {
-    let mut operations: Vec<Operation> = program.operations().map(|(_, o)| o.clone()).collect();
-    let mut pairs = Pairs::of(&operations);
-    // Products that turned out to be another one: the same factors in another order.
-    let mut moved: BTreeMap<Value, Value> = BTreeMap::new();
-    while let Some(pair @ (a, b)) = pairs.commonest() {
-        let products: Vec<usize> = pairs.having[&pair].iter().copied().collect();
-        let is_pair = |product: &&usize| pairs.products[product] == [a, b];
-        let shared = products
-            .iter()
-            .find(is_pair)
-            .copied()
-            .unwrap_or(operations.len());
-        if shared == operations.len() {
-            operations.push(Operation::Product(vec![a, b]));
-        }
-        for product in products {
-            let mut factors = pairs.remove(product);
-            if product == shared {
-                continue;
-            }
-            for value in [a, b] {
-                if let Some(i) = factors.iter().position(|f| *f == value) {
-                    factors.remove(i);
-                }
-            }
-            if factors.is_empty() {
-                moved.insert(Value::at(product), Value::at(shared));
-                continue;
-            }
-            factors.push(Value::at(shared));
-            operations[product] = Operation::Product(factors.clone());
-            pairs.insert(product, factors);
-        }
-    }
-    redirected(&operations, &program.outputs, &moved)
 }

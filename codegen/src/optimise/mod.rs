@@ -7,7 +7,8 @@
 //! 1. `trig`: each expression in the ring of the sines and cosines it has, where
 //!    that is cheaper. Works on expressions.
 //! 2. `schedule`: to a program, each shared expression once.
-//! 3. `factor`: common factors of terms, and pairs of factors that products share.
+//! 3. `factor`, `share`: common factors of terms, and pairs of factors that products
+//!    share.
 //! 4. `dead`: what nobody reads.
 //! 5. `order`: outputs of the same coordinates one after the other.
 //!
@@ -21,6 +22,7 @@ mod order;
 mod pass;
 mod program;
 mod schedule;
+mod share;
 mod solve;
 mod trig;
 mod verify;
