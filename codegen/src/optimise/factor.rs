@@ -6,10 +6,10 @@
 
 use super::count::cost;
 use super::dead::ordered;
-use super::program::{Operation, Program, Slot, Value};
+use super::program::{Operation, Program, Value};
 use super::share::share_pairs;
 use crate::expr::Number;
-use std::collections::{BTreeMap, BTreeSet};
+use rustc_hash::FxHashMap;
 
 /// The program with factors shared; never costlier.
 pub(super) fn factor(program: &Program) -> Program {
@@ -36,7 +36,7 @@ pub(super) fn collect_factors(program: &Program) -> Program {
     let mut builder = Builder {
         program: program.clone(),
     };
-    let mut moved: BTreeMap<Value, Value> = BTreeMap::new();
+    let mut moved: FxHashMap<Value, Value> = FxHashMap::default();
     for (value, operation) in program.operations() {
         let Operation::Sum(terms) = operation else {
             continue;
@@ -48,14 +48,14 @@ pub(super) fn collect_factors(program: &Program) -> Program {
                 _ => (*minus, vec![*x]),
             })
             .collect();
-        let collected = builder.collected(parts.clone());
-        if collected != parts {
+        if commonest(&parts).is_some() {
+            let collected = builder.collected(parts);
             moved.insert(value, builder.sum(collected));
         }
     }
     let grown = builder.program;
-    let operations: Vec<Operation> = grown.operations().map(|(_, o)| o.clone()).collect();
-    redirected(&operations, &grown.outputs, &moved)
+    let instead = |value: Value| moved.get(&value).copied().unwrap_or(value);
+    ordered(grown.list(), &grown.outputs, &instead)
 }
 
 impl Builder {
@@ -119,45 +119,23 @@ impl Builder {
 
 /// The factor that most terms have, if two have it; the oldest of equals.
 fn commonest(terms: &[Term]) -> Option<Value> {
-    let mut counts: BTreeMap<Value, usize> = BTreeMap::new();
+    let mut all: Vec<Value> = Vec::new();
     for (_, factors) in terms {
-        let distinct: BTreeSet<Value> = factors.iter().copied().collect();
-        distinct
-            .into_iter()
-            .for_each(|f| *counts.entry(f).or_insert(0) += 1);
-    }
-    let most = counts.values().copied().max().filter(|most| *most > 1)?;
-    counts
-        .into_iter()
-        .find(|(_, count)| *count == most)
-        .map(|(factor, _)| factor)
-}
-
-/// The program with some of its values replaced everywhere.
-pub(super) fn redirected(
-    operations: &[Operation],
-    outputs: &[(Slot, Value)],
-    moved: &BTreeMap<Value, Value>,
-) -> Program {
-    let target = |value: &Value| moved.get(value).copied().unwrap_or(*value);
-    let operations: Vec<Operation> = operations
-        .iter()
-        .map(|operation| match operation {
-            Operation::Sum(terms) => {
-                Operation::Sum(terms.iter().map(|(minus, x)| (*minus, target(x))).collect())
+        for (i, factor) in factors.iter().enumerate() {
+            if !factors[..i].contains(factor) {
+                all.push(*factor);
             }
-            Operation::Product(factors) => Operation::Product(factors.iter().map(target).collect()),
-            Operation::Quotient(x, y) => Operation::Quotient(target(x), target(y)),
-            Operation::Function(f, x) => Operation::Function(*f, target(x)),
-            Operation::Function2(f, x, y) => Operation::Function2(*f, target(x), target(y)),
-            Operation::Select(c, parts) => Operation::Select(*c, parts.map(|x| target(&x))),
-            Operation::Input(i, law) => Operation::Input(*i, target(law)),
-            Operation::Number(_) | Operation::Pi | Operation::Symbol(_) => operation.clone(),
-        })
-        .collect();
-    let outputs: Vec<_> = outputs
-        .iter()
-        .map(|(slot, value)| (*slot, target(value)))
-        .collect();
-    ordered(&operations, &outputs)
+        }
+    }
+    all.sort_unstable();
+    let (mut common, mut most, mut from) = (None, 1, 0);
+    for (i, factor) in all.iter().enumerate() {
+        if all[from] != *factor {
+            from = i;
+        }
+        if i + 1 - from > most {
+            (common, most) = (Some(*factor), i + 1 - from);
+        }
+    }
+    common
 }

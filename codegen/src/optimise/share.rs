@@ -8,11 +8,14 @@
 //! compiled without optimisation: a pair that changes is counted anew, the others are
 //! left alone, and what a pair was counted as before is forgotten when it is met.
 
-use super::factor::redirected;
+use super::dead::ordered;
 use super::program::{Operation, Program, Value};
 use rustc_hash::FxHashMap;
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::BinaryHeap;
+
+/// The place behind the end of a list.
+const END: usize = usize::MAX;
 
 /// Two factors, the older one first.
 type Pair = (Value, Value);
@@ -26,8 +29,10 @@ struct Pairs {
     pairs: Vec<Pair>,
     /// How many products have a pair.
     counts: Vec<usize>,
-    /// Those that have it, and some that had.
-    having: Vec<Vec<usize>>,
+    /// Where the list of those that have it, and some that had, begins in `links`.
+    having: Vec<usize>,
+    /// Products, each with the place of the next one of its list; see [`END`].
+    links: Vec<(usize, usize)>,
     /// The pairs, those that most products have first, the oldest of equals; an entry is
     /// out of date where the count is another one by now.
     ranking: BinaryHeap<(usize, Reverse<Pair>, usize)>,
@@ -43,6 +48,7 @@ impl Pairs {
             pairs: Vec::new(),
             counts: Vec::new(),
             having: Vec::new(),
+            links: Vec::new(),
             ranking: BinaryHeap::new(),
             grown: Vec::new(),
         };
@@ -72,10 +78,11 @@ impl Pairs {
         if place == next {
             self.pairs.push(pair);
             self.counts.push(0);
-            self.having.push(Vec::new());
+            self.having.push(END);
         }
         self.counts[place] += 1;
-        self.having[place].push(product);
+        self.links.push((product, self.having[place]));
+        self.having[place] = self.links.len() - 1;
         place
     }
 
@@ -85,7 +92,12 @@ impl Pairs {
             let (said, Reverse(pair), place) = self.ranking.pop()?;
             let count = self.counts[place];
             if count == said {
-                let mut products = std::mem::take(&mut self.having[place]);
+                let mut products = Vec::with_capacity(count);
+                let mut link = std::mem::replace(&mut self.having[place], END);
+                while let Some(&(product, next)) = self.links.get(link) {
+                    products.push(product);
+                    link = next;
+                }
                 products.sort_unstable();
                 products.dedup();
                 products.retain(|product| has(&self.products[*product], pair));
@@ -145,7 +157,10 @@ impl Pairs {
         let place = self.places[&pair];
         products.retain(|product| has(&self.products[*product], pair));
         self.counts[place] = products.len();
-        self.having[place] = products;
+        for product in products {
+            self.links.push((product, self.having[place]));
+            self.having[place] = self.links.len() - 1;
+        }
         self.grown.push(place);
         self.grown.sort_unstable();
         self.grown.dedup();
@@ -179,10 +194,10 @@ fn has(factors: &[Value], (a, b): Pair) -> bool {
 
 /// The commonest pair of factors becomes a product of its own, again and again.
 pub(super) fn share_pairs(program: &Program) -> Program {
-    let mut operations: Vec<Operation> = program.operations().map(|(_, o)| o.clone()).collect();
+    let mut operations: Vec<Operation> = program.list().to_vec();
     let mut pairs = Pairs::of(&operations);
     // Products that turned out to be another one: the same factors in another order.
-    let mut moved: BTreeMap<Value, Value> = BTreeMap::new();
+    let mut moved: FxHashMap<Value, Value> = FxHashMap::default();
     while let Some((pair @ (a, b), products)) = pairs.commonest() {
         let is_pair = |product: &&usize| pairs.products[**product] == [a, b];
         let known = products.iter().find(is_pair).copied();
@@ -204,5 +219,6 @@ pub(super) fn share_pairs(program: &Program) -> Program {
         }
         pairs.done(pair, products);
     }
-    redirected(&operations, &program.outputs, &moved)
+    let instead = |value: Value| moved.get(&value).copied().unwrap_or(value);
+    ordered(&operations, &program.outputs, &instead)
 }

@@ -19,7 +19,7 @@ mod schur;
 
 use super::count::cost;
 use super::dead::ordered;
-use super::program::{Operation, Program, Slot, Value};
+use super::program::{Program, Slot, Value};
 use algebra::{Algebra, Entry, Signed, Sparse};
 use saddle::Saddle;
 use schur::Schur;
@@ -209,8 +209,6 @@ impl System {
             write("row_pivots", row, Some(pivot));
             write("row_squares", row, Some(whole));
         }
-        let program = algebra.program;
-        let operations: Vec<Operation> = program.operations().map(|(_, o)| o.clone()).collect();
-        ordered(&operations, &outputs)
+        ordered(algebra.program.list(), &outputs, &|value| value)
     }
 }
