@@ -23,7 +23,7 @@ pub use write::{catalogue, render, write_if_changed};
 use crate::derive::Equations;
 use crate::expr::{ExprId, Symbol};
 use crate::model::Mechanism;
-use crate::optimise::{Cost, Program, Slot, cost, derived_cost, optimise};
+use crate::optimise::{Cost, Polynomials, Program, Slot, cost, derived_cost, optimise_among};
 use function::{Body, Place};
 use proc_macro2::{Ident, Literal, Span, TokenStream, TokenTree};
 use quote::quote;
@@ -55,6 +55,7 @@ pub struct Origin<'a> {
 struct Subject<'a> {
     mechanism: &'a mut Mechanism,
     equations: &'a Equations,
+    polynomials: Polynomials,
     names: SymbolNames,
     file: &'a str,
     options: Options,
@@ -96,6 +97,7 @@ pub fn module(
     let mut subject = Subject {
         mechanism,
         equations,
+        polynomials: Polynomials::default(),
         names,
         file: origin.file,
         options,
@@ -341,7 +343,8 @@ impl Subject<'_> {
 
     fn program(&mut self, wanted: &[(Slot, ExprId)]) -> Program {
         let laws = self.laws();
-        optimise(&mut self.mechanism.graph, &laws, wanted)
+        let graph = &mut self.mechanism.graph;
+        optimise_among(graph, &mut self.polynomials, &laws, wanted)
     }
 
     fn body(&mut self, wanted: &[(Slot, ExprId)], place: Place) -> Written {

@@ -18,6 +18,7 @@ mod count;
 mod dead;
 mod factor;
 mod interpret;
+mod monomial;
 mod order;
 mod pass;
 mod program;
@@ -32,7 +33,7 @@ pub use interpret::interpret;
 pub use pass::{Pass, alone};
 pub use program::{Operation, Program, Slot, Value};
 pub use solve::{Solved, Way};
-pub use trig::in_trig_ring;
+pub use trig::{Polynomials, in_trig_ring};
 pub use verify::verify;
 
 use crate::expr::{ExprId, Graph};
@@ -49,6 +50,20 @@ pub const REWRITTEN_MAX: usize = 30_000;
 /// If a pass leaves a program that breaks an invariant: a bug of this crate, with
 /// the program in the message.
 pub fn optimise(graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -> Program {
+    optimise_among(graph, &mut Polynomials::default(), laws, wanted)
+}
+
+/// As [`optimise`], with what is known of the graph from programs before.
+///
+/// # Panics
+///
+/// As [`optimise`].
+pub fn optimise_among(
+    graph: &mut Graph,
+    memory: &mut Polynomials,
+    laws: &[ExprId],
+    wanted: &[(Slot, ExprId)],
+) -> Program {
     let mut arrays: Vec<&str> = wanted.iter().map(|(slot, _)| slot.array).collect();
     arrays.dedup();
     let mut chosen = wanted.to_vec();
@@ -58,7 +73,7 @@ pub fn optimise(graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -
     }
     let mut best = factor::factor(&scheduled);
     let mut reduced = wanted.to_vec();
-    let mut ring = trig::Ring::new(graph);
+    let mut ring = trig::Ring::new(graph, memory);
     for (_, e) in &mut reduced {
         *e = ring.reduced(*e);
     }
