@@ -197,10 +197,10 @@ impl Add for Number {
 
     fn add(self, other: Number) -> Number {
         // Most numbers are whole, and those need no common divisor.
-        if let (Number::Exact(a, 1), Number::Exact(c, 1)) = (self, other) {
-            if let Some(sum) = a.checked_add(c) {
-                return Number::Exact(sum, 1);
-            }
+        if let (Number::Exact(a, 1), Number::Exact(c, 1)) = (self, other)
+            && let Some(sum) = a.checked_add(c)
+        {
+            return Number::Exact(sum, 1);
         }
         let exact = self.exact_with(other).and_then(|((a, b), (c, d))| {
             let left = a.checked_mul(d)?;
@@ -215,10 +215,10 @@ impl Mul for Number {
     type Output = Number;
 
     fn mul(self, other: Number) -> Number {
-        if let (Number::Exact(a, 1), Number::Exact(c, 1)) = (self, other) {
-            if let Some(product) = a.checked_mul(c) {
-                return Number::Exact(product, 1);
-            }
+        if let (Number::Exact(a, 1), Number::Exact(c, 1)) = (self, other)
+            && let Some(product) = a.checked_mul(c)
+        {
+            return Number::Exact(product, 1);
         }
         let exact = self
             .exact_with(other)
