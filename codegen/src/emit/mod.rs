@@ -56,6 +56,9 @@ struct Subject<'a> {
     mechanism: &'a mut Mechanism,
     equations: &'a Equations,
     polynomials: Polynomials,
+    /// What was wanted last, and its program: two functions follow one another that
+    /// compute the same.
+    last: (Vec<(Slot, ExprId)>, Program),
     names: SymbolNames,
     file: &'a str,
     options: Options,
@@ -98,6 +101,7 @@ pub fn module(
         mechanism,
         equations,
         polynomials: Polynomials::default(),
+        last: (Vec::new(), Program::default()),
         names,
         file: origin.file,
         options,
@@ -342,9 +346,13 @@ impl Subject<'_> {
     }
 
     fn program(&mut self, wanted: &[(Slot, ExprId)]) -> Program {
-        let laws = self.laws();
-        let graph = &mut self.mechanism.graph;
-        optimise_among(graph, &mut self.polynomials, &laws, wanted)
+        if self.last.0 != wanted {
+            let laws = self.laws();
+            let graph = &mut self.mechanism.graph;
+            let program = optimise_among(graph, &mut self.polynomials, &laws, wanted);
+            self.last = (wanted.to_vec(), program);
+        }
+        self.last.1.clone()
     }
 
     fn body(&mut self, wanted: &[(Slot, ExprId)], place: Place) -> Written {
