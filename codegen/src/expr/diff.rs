@@ -68,6 +68,9 @@ impl Graph {
 
     /// `Σ ∂e/∂symbol · dsymbol` over the seeds of a direction.
     pub fn derivative_along(&mut self, e: ExprId, direction: &mut Direction) -> ExprId {
+        if let Some(&known) = direction.memo.get(&e) {
+            return known;
+        }
         // Children come first.
         for node in self.reachable_but(&[e], &|e| direction.memo.contains_key(&e)) {
             let derivative = self.chain(node, direction);
