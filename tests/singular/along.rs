@@ -21,12 +21,12 @@ use bricard_runtime::{Interface, Mechanism, Position, State, assemble};
 
 type Vector = SVector<f64, 3>;
 
-/// Levels of the extrapolation: order 14.
-const LEVELS: usize = 7;
+/// Levels of the extrapolation: order 12.
+const LEVELS: usize = 6;
 /// Error of a step.
-const TOLERANCE: f64 = 1e-13;
+const TOLERANCE: f64 = 1e-12;
 /// Steps shorter than this (s) are not made.
-const SHORTEST: f64 = 1e-13;
+const SHORTEST: f64 = 1e-10;
 
 /// The curve, its energy, which way it is followed.
 struct Curve {
@@ -81,19 +81,15 @@ impl Curve {
     /// One step by extrapolation, and its error.
     fn step(&self, q: &Vector, step: f64) -> (Vector, f64) {
         let mut table = [Vector::zeros(); LEVELS];
-        let mut error = f64::INFINITY;
         for level in 0..LEVELS {
-            let mut value = self.midpoint(q, step, 2 * (level + 1));
+            table[level] = self.midpoint(q, step, 2 * (level + 1));
             for k in (0..level).rev() {
                 let ratio = (level + 1) as f64 / (k + 1) as f64;
-                let next = value + (value - table[k]) / (ratio * ratio - 1.0);
-                error = (next - value).norm();
-                (table[k], value) = (value, next);
+                let change = (table[k + 1] - table[k]) / (ratio * ratio - 1.0);
+                table[k] = table[k + 1] + change;
             }
-            table.copy_within(0..level, 0);
-            table[level] = value;
         }
-        (table[LEVELS - 1], error)
+        (table[0], (table[0] - table[1]).norm())
     }
 }
 
@@ -119,7 +115,7 @@ pub fn follow(set: &Set, times: &[f64]) -> Exact {
         while t < time {
             let step = f64::min(length, time - t);
             let (next, error) = curve.step(&q, step);
-            let grown = step * (TOLERANCE / error).powf(1.0 / 12.0) * 0.8;
+            let grown = step * (TOLERANCE / error).powf(1.0 / 11.0) * 0.8;
             if error <= TOLERANCE || step <= SHORTEST {
                 (t, q) = (if step < length { time } else { t + step }, next);
                 curve.back(&mut q);

@@ -95,7 +95,7 @@ pub fn print(lines: &[(Line, Vec<Ran>)], shown: bool) {
             println!("    {:?}: {trial}", verdict.score);
             let counts = verdict.passages.filter(|_| verdict.miscounted());
             let counts = counts.map(|(found, exact)| format!("{found} passages, not {exact}"));
-            println!("        {}{}", verdict.why, counts.unwrap_or_default());
+            println!("        {} {}", verdict.why, counts.unwrap_or_default());
         }
     }
 }
