@@ -95,7 +95,10 @@ fn reference(trial: &Trial, track: &Track) -> Option<Exact> {
     if times.is_empty() {
         return None;
     }
-    let reduced = |name: &str| exact(trial.mechanism, name, &trial.set, n, times);
+    let reduced = |name: &str| match &trial.planted {
+        Some(planted) => planted.exact(times),
+        None => exact(trial.mechanism, name, &trial.set, n, times),
+    };
     match trial.compare {
         Compare::Reduction(name) => Some(reduced(name)),
         Compare::Along => Some(along::follow(&trial.set, times)),
@@ -112,7 +115,7 @@ fn reference(trial: &Trial, track: &Track) -> Option<Exact> {
 
 /// Holds a run against the exact motion.
 pub fn verdict(trial: &Trial, track: &Track, moved: Option<&Exact>) -> Verdict {
-    let (error, last, when) = compared(track, moved);
+    let (error, last, when) = compared(trial, track, moved);
     let crossings = moved.and_then(|exact| exact.crossings);
     let counted = track.failed.is_none() && trial.passages.is_some();
     let passages = track.passages.zip(crossings).filter(|_| counted);
@@ -135,15 +138,21 @@ pub fn verdict(trial: &Trial, track: &Track, moved: Option<&Exact>) -> Verdict {
 }
 
 /// The largest error of a row, that of the last one, and when the largest occurred.
-fn compared(track: &Track, moved: Option<&Exact>) -> (f64, f64, f64) {
+fn compared(trial: &Trial, track: &Track, moved: Option<&Exact>) -> (f64, f64, f64) {
     let Some(exact) = moved.filter(|exact| !exact.numbers.is_empty()) else {
         return (0.0, 0.0, 0.0);
     };
     let width = 2 * track.rows.n;
+    // Along the curve velocities turn within the time in which errors are made; there the
+    // energy tells whether they are right.
+    let seen = match trial.compare {
+        Compare::Along => track.rows.n,
+        _ => width,
+    };
     let (mut worst, mut last, mut when) = (0.0, 0.0, 0.0);
     for (i, t) in track.rows.times.iter().enumerate() {
         let right = &exact.numbers[width * i..width * (i + 1)];
-        let pairs = track.rows.row(i).iter().zip(right);
+        let pairs = track.rows.row(i).iter().zip(right).take(seen);
         last = pairs.fold(0.0, |off, (a, b)| larger(off, (a - b).abs() / (1.0 + b.abs())));
         if !(last <= worst) {
             (worst, when) = (last, *t);

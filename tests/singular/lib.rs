@@ -8,6 +8,8 @@
 mod along;
 mod exact;
 mod judge;
+mod planted;
+mod planting;
 mod random;
 mod series;
 mod table;

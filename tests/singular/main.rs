@@ -1,7 +1,7 @@
 //! Prints the table of scores.
 //!
 //! `cargo run --release -p bricard-singular -- [--runs N] [--seed S] [--only NAME]
-//! [--rtol R]... [--brief]`
+//! [--index I] [--rtol R]... [--brief]`
 
 use bricard_singular::{SERIES, Series, line, print, run_all};
 use std::process::ExitCode;
@@ -10,6 +10,7 @@ use std::time::Instant;
 /// What was asked for.
 struct Asked {
     runs: Option<usize>,
+    index: Option<usize>,
     seed: u64,
     only: Vec<String>,
     tolerances: Vec<f64>,
@@ -32,6 +33,7 @@ fn main() -> ExitCode {
 fn asked() -> Result<Asked, String> {
     let mut asked = Asked {
         runs: None,
+        index: None,
         seed: 1,
         only: Vec::new(),
         tolerances: Vec::new(),
@@ -47,10 +49,11 @@ fn asked() -> Result<Asked, String> {
         let wrong = |what: &str| format!("{flag} {value}: not {what}");
         match flag.as_str() {
             "--runs" => asked.runs = Some(value.parse().map_err(|_| wrong("a number"))?),
+            "--index" => asked.index = Some(value.parse().map_err(|_| wrong("a number"))?),
             "--seed" => asked.seed = value.parse().map_err(|_| wrong("a number"))?,
             "--rtol" => asked.tolerances.push(value.parse().map_err(|_| wrong("a number"))?),
             "--only" => asked.only.push(value),
-            _ => return Err(format!("{flag}: --runs N, --seed S, --only NAME, --rtol R, --brief")),
+            _ => return Err(format!("{flag}: --runs N, --index I, --seed S, --only NAME, --rtol R, --brief")),
         }
     }
     Ok(asked)
@@ -64,7 +67,8 @@ fn show(asked: &Asked) {
     let mut lines = Vec::new();
     for series in SERIES.iter().filter(wanted) {
         let begun = Instant::now();
-        let runs = asked.runs.unwrap_or(series.runs);
+        let first = 0..asked.runs.unwrap_or(series.runs);
+        let runs = asked.index.map_or(first, |index| index..index + 1);
         let ran = run_all(series.trials(asked.seed, runs, &asked.tolerances));
         eprintln!("{}: {:.1} s", series.name, begun.elapsed().as_secs_f64());
         lines.push((line(series, &ran), ran));

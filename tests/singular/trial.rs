@@ -3,7 +3,9 @@
 //! In:  nothing.
 //! Out: [`Trial`].
 
+use crate::planting::Planting;
 use std::fmt::{Display, Formatter};
+use std::sync::Arc;
 
 /// Parameters with other values.
 pub type Set = Vec<(&'static str, f64)>;
@@ -49,6 +51,10 @@ pub struct Trial {
     /// Coordinates whose start values must stay to the last bit, with the parameters that
     /// hold them.
     pub held: &'static [(usize, &'static str)],
+    /// The mechanism itself, if it was made at run time.
+    pub planted: Option<Arc<Planting>>,
+    /// Series, seed and place, from which it can be made again.
+    pub made: (&'static str, u64, usize),
 }
 
 impl Trial {
@@ -62,6 +68,8 @@ impl Trial {
             compare: Compare::Reduction(reduced),
             passages: Some(reduced),
             held: &[],
+            planted: None,
+            made: ("", 0, 0),
         }
     }
 
@@ -83,6 +91,8 @@ impl Display for Trial {
         for (name, value) in &self.set {
             write!(f, " --set {name}={value:?}")?;
         }
-        write!(f, " --rtol {:e} --until {:?}", self.tolerance, self.until)
+        let (series, seed, index) = self.made;
+        write!(f, " --rtol {:e} --until {:?}", self.tolerance, self.until)?;
+        write!(f, "   [--only {series} --seed {seed} --index {index}]")
     }
 }

@@ -7,9 +7,11 @@ mod backwards;
 mod linkages;
 mod parallelograms;
 mod particles;
+mod random_loops;
 
 use crate::random::Random;
 use crate::trial::{Trial, Wanted};
+use std::ops::Range;
 
 /// A series of like trials.
 #[derive(Clone, Copy, Debug)]
@@ -64,6 +66,8 @@ pub const SERIES: &[Series] = &[
     series("driven", 60, 1000, USUAL, linkages::driven),
     series("driven_stops", 60, 600, USUAL, linkages::driven_stops),
     series("knife_edges", 30, 300, USUAL, linkages::knife_edges),
+    series("products", 100, 5000, USUAL, random_loops::products),
+    series("trees", 100, 5000, USUAL, random_loops::trees),
     series("duplicated", 30, 300, USUAL, linkages::duplicated),
 ];
 
@@ -105,8 +109,8 @@ pub fn find(name: &str) -> Option<&'static Series> {
 }
 
 impl Series {
-    /// The first trials of a seed. Other tolerances than the usual ones may be given.
-    pub fn trials(&self, seed: u64, runs: usize, tolerances: &[f64]) -> Vec<Trial> {
+    /// Trials of a seed. Other tolerances than the usual ones may be given.
+    pub fn trials(&self, seed: u64, runs: Range<usize>, tolerances: &[f64]) -> Vec<Trial> {
         let tolerances = if tolerances.is_empty() {
             self.tolerances
         } else {
@@ -118,8 +122,9 @@ impl Series {
             if !tolerances.is_empty() {
                 trial.tolerance = random.of_these(tolerances);
             }
+            trial.made = (self.name, seed, index);
             trial
         };
-        (0..runs).map(trial).collect()
+        runs.map(trial).collect()
     }
 }
