@@ -122,7 +122,9 @@ pub fn follow(set: &Set, times: &[f64]) -> Exact {
             }
             length = grown.clamp(0.1 * step, 0.02).max(SHORTEST);
         }
-        exact.numbers.extend(q.iter().chain(curve.velocity(&q).iter()));
+        exact
+            .numbers
+            .extend(q.iter().chain(curve.velocity(&q).iter()));
     }
     exact
 }

@@ -153,7 +153,9 @@ fn compared(trial: &Trial, track: &Track, moved: Option<&Exact>) -> (f64, f64, f
     for (i, t) in track.rows.times.iter().enumerate() {
         let right = &exact.numbers[width * i..width * (i + 1)];
         let pairs = track.rows.row(i).iter().zip(right).take(seen);
-        last = pairs.fold(0.0, |off, (a, b)| larger(off, (a - b).abs() / (1.0 + b.abs())));
+        last = pairs.fold(0.0, |off, (a, b)| {
+            larger(off, (a - b).abs() / (1.0 + b.abs()))
+        });
         if !(last <= worst) {
             (worst, when) = (last, *t);
         }
@@ -190,5 +192,8 @@ fn displaced(trial: &Trial, track: &Track) -> Option<String> {
         set.is_some_and(|(_, value)| value.to_bits() != first[place].to_bits())
     };
     let (place, name) = trial.held.iter().find(moved)?;
-    Some(format!("the held start value {name} became {:e}", first[*place]))
+    Some(format!(
+        "the held start value {name} became {:e}",
+        first[*place]
+    ))
 }

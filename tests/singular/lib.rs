@@ -17,6 +17,7 @@ mod track;
 mod trial;
 mod workers;
 
+pub use exact::{Exact, exact};
 pub use judge::{Score, Verdict, judge};
 pub use random::Random;
 pub use series::{SERIES, Series, find};

@@ -51,9 +51,15 @@ fn asked() -> Result<Asked, String> {
             "--runs" => asked.runs = Some(value.parse().map_err(|_| wrong("a number"))?),
             "--index" => asked.index = Some(value.parse().map_err(|_| wrong("a number"))?),
             "--seed" => asked.seed = value.parse().map_err(|_| wrong("a number"))?,
-            "--rtol" => asked.tolerances.push(value.parse().map_err(|_| wrong("a number"))?),
+            "--rtol" => asked
+                .tolerances
+                .push(value.parse().map_err(|_| wrong("a number"))?),
             "--only" => asked.only.push(value),
-            _ => return Err(format!("{flag}: --runs N, --index I, --seed S, --only NAME, --rtol R, --brief")),
+            _ => {
+                return Err(format!(
+                    "{flag}: --runs N, --index I, --seed S, --only NAME, --rtol R, --brief"
+                ));
+            }
         }
     }
     Ok(asked)
@@ -61,7 +67,11 @@ fn asked() -> Result<Asked, String> {
 
 fn show(asked: &Asked) {
     let wanted = |series: &&Series| {
-        asked.only.is_empty() || asked.only.iter().any(|name| series.name.contains(name.as_str()))
+        asked.only.is_empty()
+            || asked
+                .only
+                .iter()
+                .any(|name| series.name.contains(name.as_str()))
     };
     println!("seed {}", asked.seed);
     let mut lines = Vec::new();

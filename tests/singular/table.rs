@@ -41,7 +41,9 @@ pub fn line(series: &Series, ran: &[Ran]) -> Line {
     let right = ran.iter().filter(|ran| ran.verdict.score == Score::Right);
     let mut reasons: BTreeMap<String, usize> = BTreeMap::new();
     for ran in ran.iter().filter(|ran| !ran.verdict.why.is_empty()) {
-        *reasons.entry(without_numbers(&ran.verdict.why)).or_default() += 1;
+        *reasons
+            .entry(without_numbers(&ran.verdict.why))
+            .or_default() += 1;
     }
     let most = reasons.into_iter().max_by_key(|(_, count)| *count);
     Line {
@@ -59,7 +61,9 @@ pub fn line(series: &Series, ran: &[Ran]) -> Line {
 /// A message with its numbers left out, so that like ones are counted together.
 fn without_numbers(text: &str) -> String {
     let number = |word: &str| word.trim_end_matches([';', ',']).parse::<f64>().is_ok();
-    let words = text.split(' ').map(|word| if number(word) { "…" } else { word });
+    let words = text
+        .split(' ')
+        .map(|word| if number(word) { "…" } else { word });
     let text = words.collect::<Vec<_>>().join(" ");
     text.chars().take(WIDTH).collect()
 }

@@ -181,14 +181,16 @@ impl<const N: usize> Mechanism<f64, N, 0> for Reduced<N> {
         let ((x, t), (along, now)) = (slopes(state), paths(state));
         let mut points = ([Slope::of(0.0); POINTS], [Path::of(0.0); POINTS]);
         self.scene.points(&self.scene.lift(&x, t), &mut points.0);
-        self.scene.points(&self.scene.lift(&along, now), &mut points.1);
+        self.scene
+            .points(&self.scene.lift(&along, now), &mut points.1);
         inertia(&points.0[..=count], &points.1[..=count], out);
     }
 
     fn energy(&self, state: &State<f64, N>) -> Energy<f64> {
         let (along, now) = paths(state);
         let mut points = [Path::of(0.0); POINTS];
-        self.scene.points(&self.scene.lift(&along, now), &mut points);
+        self.scene
+            .points(&self.scene.lift(&along, now), &mut points);
         energy(&points[..=self.scene.count()])
     }
 }

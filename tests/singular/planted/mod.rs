@@ -34,8 +34,16 @@ pub enum Scene {
 }
 
 /// Freedoms and rows of products.
-const PRODUCTS: [(usize, usize); 8] =
-    [(1, 1), (2, 1), (3, 1), (4, 1), (1, 2), (2, 2), (3, 2), (4, 2)];
+const PRODUCTS: [(usize, usize); 8] = [
+    (1, 1),
+    (2, 1),
+    (3, 1),
+    (4, 1),
+    (1, 2),
+    (2, 2),
+    (3, 2),
+    (4, 2),
+];
 /// Parallelograms and other bodies of trees.
 const TREES: [(usize, usize); 6] = [(1, 0), (1, 1), (1, 2), (1, 3), (2, 0), (2, 1)];
 

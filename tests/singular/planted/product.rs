@@ -173,10 +173,18 @@ impl Product {
 
     /// Independent coordinates and velocities that lead towards a crossing.
     pub fn start(&self, random: &mut Random) -> ([f64; MOST], [f64; MOST]) {
-        let other = self.rows[0].other.as_ref().expect("the first row is a product");
+        let other = self.rows[0]
+            .other
+            .as_ref()
+            .expect("the first row is a product");
         let (back, speed) = (random.between(0.3, 0.8), random.between(1.0, 4.0));
         let part = |i: usize, size: f64| if i < self.sizes.1 { size } else { 0.0 };
-        let x = from_fn(|i| part(i, other.along[i] * (other.place - back) + 0.2 * random.within(1.0)));
+        let x = from_fn(|i| {
+            part(
+                i,
+                other.along[i] * (other.place - back) + 0.2 * random.within(1.0),
+            )
+        });
         let v = from_fn(|i| part(i, other.along[i] * speed + random.within(0.7)));
         (x, v)
     }

@@ -11,9 +11,7 @@ use core::ops::{Add, Mul, Sub};
 pub const MOST: usize = 8;
 
 /// A number that scenes are computed with.
-pub trait Smooth:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
-{
+pub trait Smooth: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     /// A constant.
     fn of(value: f64) -> Self;
     /// Sine and cosine.
@@ -89,7 +87,13 @@ impl Smooth for Slope {
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = self.value.sin_cos();
         let (up, down) = (self.by.map(|x| x * cos), self.by.map(|x| -x * sin));
-        (Self { value: sin, by: up }, Self { value: cos, by: down })
+        (
+            Self { value: sin, by: up },
+            Self {
+                value: cos,
+                by: down,
+            },
+        )
     }
 }
 

@@ -195,7 +195,11 @@ impl Tree {
         let (mut place, mut potential) = (0, S::of(0.0));
         for (i, body) in self.bodies.iter().enumerate() {
             for (at, root) in body.masses {
-                for (x, g) in self.point((&sines, &origins), i, at).into_iter().zip(GRAVITY) {
+                for (x, g) in self
+                    .point((&sines, &origins), i, at)
+                    .into_iter()
+                    .zip(GRAVITY)
+                {
                     potential = potential + S::of(g * root * root) * x;
                     out[place] = S::of(root) * x;
                     place += 1;

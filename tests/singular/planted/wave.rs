@@ -79,7 +79,13 @@ impl Warp {
                 rotation[j] = from_fn(|k| cos * b[k] - sin * a[k]);
             }
         }
-        let shears = from_fn(|i| if i > 0 { Wave::new(random, i, 0.4) } else { Wave::default() });
+        let shears = from_fn(|i| {
+            if i > 0 {
+                Wave::new(random, i, 0.4)
+            } else {
+                Wave::default()
+            }
+        });
         Self {
             n,
             rotation,

@@ -109,7 +109,11 @@ pub fn driven_stops(random: &mut Random, index: usize) -> Trial {
     ];
     let trial = crank(set).until(2.0);
     // Stopping there is no sign change, and no one could say whether it is a passage.
-    if beside == 0.0 { trial.uncounted() } else { trial }
+    if beside == 0.0 {
+        trial.uncounted()
+    } else {
+        trial
+    }
 }
 
 /// Two knife edges that turn past each other.

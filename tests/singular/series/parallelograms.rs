@@ -41,8 +41,16 @@ pub fn named(_: &mut Random, index: usize) -> Trial {
         }
         2 => (vec![("a0", 0.6), ("b0", 0.2), ("wb0", -1.0)], 1e-6, 1.5),
         3 => (vec![("a0", 0.6), ("b0", 0.2), ("wb0", -1.0)], 1e-9, 1.5),
-        4 => (turning_start(-0.00834469169738557, 0.7264071129000274, -5.0), 1e-9, 0.068),
-        _ => (turning_start(-0.00010289251993546345, 0.11891541994152778, -20.3046), 1e-12, 0.06),
+        4 => (
+            turning_start(-0.00834469169738557, 0.7264071129000274, -5.0),
+            1e-9,
+            0.068,
+        ),
+        _ => (
+            turning_start(-0.00010289251993546345, 0.11891541994152778, -20.3046),
+            1e-12,
+            0.06,
+        ),
     };
     let trial = Trial {
         tolerance,
@@ -72,7 +80,12 @@ fn beside(random: &mut Random, a: f64, w: f64) -> Trial {
     let span = random.decade(0.01, 0.1);
     let names = (PENDULUM, PENDULUM_REDUCED);
     let state = before(names, 4, &reached, &["w0", "wb0"], span);
-    let set = vec![("a0", state[0]), ("w0", state[4]), ("b0", state[3]), ("wb0", state[7])];
+    let set = vec![
+        ("a0", state[0]),
+        ("w0", state[4]),
+        ("b0", state[3]),
+        ("wb0", state[7]),
+    ];
     pendulum(set).until(2.0 * span)
 }
 

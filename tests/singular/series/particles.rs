@@ -22,7 +22,13 @@ fn surface(set: Set) -> Trial {
 
 /// Two parabolas that cross twice.
 fn parabolas(h0: f64) -> Set {
-    vec![("f1", 0.0), ("h1", 0.0), ("f2", 1.0), ("h2", -1.0), ("h0", h0)]
+    vec![
+        ("f1", 0.0),
+        ("h1", 0.0),
+        ("f2", 1.0),
+        ("h2", -1.0),
+        ("h0", h0),
+    ]
 }
 
 /// Two parabolas that cross twice, at distances from 0.14 to 1.
@@ -127,7 +133,12 @@ pub fn grazing(random: &mut Random, _: usize) -> Trial {
     let names = ("surfaces", "surface_reduced");
     let state = before(names, 3, &reached, &["vx0", "vy0"], span);
     let mut set = set;
-    set.extend([("x0", state[0]), ("y0", state[1]), ("vx0", state[3]), ("vy0", state[4])]);
+    set.extend([
+        ("x0", state[0]),
+        ("y0", state[1]),
+        ("vx0", state[3]),
+        ("vy0", state[4]),
+    ]);
     surface(set).until(2.0 * span)
 }
 
@@ -210,7 +221,9 @@ pub fn cone(random: &mut Random, index: usize) -> Trial {
         set.push(("c", random.decade(0.3, 3.0)));
         set.push(("y0", random.of_these(&[0.0, 0.5, -2.0])));
     }
-    Trial::short("cone", "cone_reduced", set).until(0.5).uncounted()
+    Trial::short("cone", "cone_reduced", set)
+        .until(0.5)
+        .uncounted()
 }
 
 /// A constraint that vanishes for an instant.
