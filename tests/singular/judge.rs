@@ -5,7 +5,7 @@
 
 use crate::along;
 use crate::exact::{Exact, exact};
-use crate::track::{Track, larger, run};
+use crate::track::{Track, exceeds, larger, run};
 use crate::trial::{Compare, Trial};
 
 /// What invariants may be off by, and constraints in their own units.
@@ -71,11 +71,13 @@ impl Trial {
         self.compare != Compare::Invariants || self.passages.is_some() || !self.held.is_empty()
     }
 
-    /// What a row may be off by.
-    fn bound(&self) -> f64 {
+    /// What a row may be off by: of a run that ended in an error as much as an
+    /// invariant, else as much as the tolerance says.
+    fn bound(&self, ended: bool) -> f64 {
         let floor = match self.compare {
             Compare::Along => 1e-6,
             Compare::Rest => return REST,
+            Compare::Reduction(_) | Compare::Invariants if ended => INVARIANT,
             Compare::Reduction(_) | Compare::Invariants => REFERENCE,
         };
         larger(MULTIPLE * self.tolerance, floor)
@@ -156,7 +158,7 @@ fn compared(trial: &Trial, track: &Track, moved: Option<&Exact>) -> (f64, f64, f
         last = pairs.fold(0.0, |off, (a, b)| {
             larger(off, (a - b).abs() / (1.0 + b.abs()))
         });
-        if !(last <= worst) {
+        if exceeds(last, worst) {
             (worst, when) = (last, *t);
         }
     }
@@ -177,7 +179,7 @@ fn complaint(trial: &Trial, track: &Track, (error, when): (f64, f64)) -> Option<
     if !within(track.energy, energy) {
         return Some(format!("the energy is off by {:.1e} J", track.energy));
     }
-    if !within(error, trial.bound()) {
+    if !within(error, trial.bound(track.failed.is_some())) {
         return Some(format!("off by {error:.1e} at t = {when:.4}"));
     }
     displaced(trial, track)

@@ -5,6 +5,7 @@
 //! Descriptions stand in `descriptions/`, each with a reduction to independent
 //! coordinates, without constraints, that the same generator compiles.
 
+mod agree;
 mod along;
 mod exact;
 mod judge;
@@ -17,6 +18,7 @@ mod track;
 mod trial;
 mod workers;
 
+pub use agree::contradiction;
 pub use exact::{Exact, exact};
 pub use judge::{Score, Verdict, judge};
 pub use random::Random;

@@ -3,7 +3,7 @@
 //! `cargo run --release -p bricard-singular -- [--runs N] [--seed S] [--only NAME]
 //! [--index I] [--rtol R]... [--brief]`
 
-use bricard_singular::{SERIES, Series, line, print, run_all};
+use bricard_singular::{SERIES, Series, find, line, print, run_all};
 use std::process::ExitCode;
 use std::time::Instant;
 
@@ -67,11 +67,12 @@ fn asked() -> Result<Asked, String> {
 
 fn show(asked: &Asked) {
     let wanted = |series: &&Series| {
-        asked.only.is_empty()
-            || asked
-                .only
-                .iter()
-                .any(|name| series.name.contains(name.as_str()))
+        // A whole name means that series alone, a part of one all that have it.
+        let fits = |name: &String| match find(name) {
+            Some(found) => found.name == series.name,
+            None => series.name.contains(name.as_str()),
+        };
+        asked.only.is_empty() || asked.only.iter().any(fits)
     };
     println!("seed {}", asked.seed);
     let mut lines = Vec::new();

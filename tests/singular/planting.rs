@@ -4,6 +4,7 @@
 //! In:  a [`Trial`] with a planting.
 //! Out: its track, its exact motion.
 
+use crate::agree::put;
 use crate::exact::{Exact, follow};
 use crate::planted::{Planted, Reduced, Scene, trial_structure};
 use crate::random::Random;
@@ -25,6 +26,25 @@ macro_rules! for_sizes {
             sizes => panic!("no scene has the sizes {sizes:?}"),
         }
     };
+    ($sizes:expr, $run:ident, $arguments:tt, whole) => {
+        for_sizes!(
+            $sizes,
+            $run,
+            $arguments,
+            [
+                (2, 1),
+                (3, 1),
+                (4, 1),
+                (5, 1),
+                (3, 2),
+                (4, 2),
+                (5, 2),
+                (6, 2),
+                (6, 4),
+                (7, 4)
+            ]
+        )
+    };
 }
 
 impl Planting {
@@ -42,23 +62,14 @@ impl Planting {
     /// Runs it with its constraints.
     pub fn run(&self, options: &Options<f64>) -> Track {
         let (n, _, rows) = self.scene.sizes();
-        for_sizes!(
-            (n, rows),
-            constrained,
-            (self, options),
-            [
-                (2, 1),
-                (3, 1),
-                (4, 1),
-                (5, 1),
-                (3, 2),
-                (4, 2),
-                (5, 2),
-                (6, 2),
-                (6, 4),
-                (7, 4)
-            ]
-        )
+        for_sizes!((n, rows), constrained, (self, options), whole)
+    }
+
+    /// What a motion is off by, put into its equations.
+    pub fn off(&self, times: &[f64], numbers: &[f64]) -> f64 {
+        let (n, _, rows) = self.scene.sizes();
+        let arguments = (self, times, numbers);
+        for_sizes!((n, rows), contradicts, (arguments), whole)
     }
 
     /// Runs it in independent coordinates.
@@ -74,15 +85,25 @@ impl Planting {
     }
 }
 
+fn whole<const N: usize, const R: usize>(planting: &Planting) -> Planted<N, R> {
+    Planted {
+        scene: planting.scene.clone(),
+        start: planting.start,
+        structure: trial_structure(N, R, planting.scene.conservative()),
+    }
+}
+
+fn contradicts<const N: usize, const R: usize>(
+    (planting, times, numbers): (&Planting, &[f64], &[f64]),
+) -> f64 {
+    put::<N, R>(&whole::<N, R>(planting), times, numbers)
+}
+
 fn constrained<const N: usize, const R: usize>(
     planting: &Planting,
     options: &Options<f64>,
 ) -> Track {
-    let mechanism = Planted::<N, R> {
-        scene: planting.scene.clone(),
-        start: planting.start,
-        structure: trial_structure(N, R, planting.scene.conservative()),
-    };
+    let mechanism = whole::<N, R>(planting);
     play::<N, R>(&mechanism, options, true)
 }
 

@@ -78,7 +78,7 @@ impl<const N: usize, const R: usize> Watch<'_, N, R> {
         let mut values = [0.0; OUTPUTS];
         self.mechanism.outputs(state, &mut values);
         let worst = values.iter().fold(0.0, |worst, x| larger(worst, x.abs()));
-        if !(worst <= self.track.off.0) {
+        if exceeds(worst, self.track.off.0) {
             self.track.off = (worst, state.t);
         }
         self.mechanism.position(state, &mut self.position);
@@ -93,6 +93,11 @@ impl<const N: usize, const R: usize> Watch<'_, N, R> {
             self.track.rows.push(state);
         }
     }
+}
+
+/// Whether a size is larger than another, or not a number at all.
+pub fn exceeds(a: f64, b: f64) -> bool {
+    a > b || a.is_nan()
 }
 
 /// The larger of two sizes; what is not a number stays.

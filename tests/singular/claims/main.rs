@@ -6,6 +6,7 @@
 mod accuracy;
 mod known;
 mod passages;
+mod references;
 mod scalar;
 mod scores;
 

@@ -156,10 +156,10 @@ impl<const N: usize, const R: usize> Mechanism<f64, N, R> for Planted<N, R> {
         }
         let mut rows = [Slope::of(0.0); MOST];
         self.scene.rows(&q, t, &mut rows);
-        for i in 0..R {
-            (out.residual[i], out.drift[i]) = (rows[i].value, rows[i].by[MOST]);
+        for (i, row) in rows.iter().enumerate().take(R) {
+            (out.residual[i], out.drift[i]) = (row.value, row.by[MOST]);
             for j in 0..N {
-                out.jacobian[(i, j)] = rows[i].by[j];
+                out.jacobian[(i, j)] = row.by[j];
             }
         }
     }

@@ -28,7 +28,7 @@ const POINTS: usize = 4 * MOST + 1;
 #[derive(Clone, Debug)]
 pub enum Scene {
     /// Products of surfaces in random coordinates.
-    Product(Product),
+    Product(Box<Product>),
     /// Parallelograms in a tree.
     Tree(Tree),
 }
@@ -51,7 +51,7 @@ impl Scene {
     /// The products of a seed.
     pub fn product(random: &mut Random) -> Self {
         let (n, k) = random.of_these(&PRODUCTS);
-        Self::Product(Product::new(random, n, k))
+        Self::Product(Box::new(Product::new(random, n, k)))
     }
 
     /// The tree of a seed.

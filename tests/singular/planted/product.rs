@@ -135,9 +135,10 @@ impl Product {
             Some(Some(other)) => off[i] * (off[i] - other.at(&x, n)),
             _ => off[i],
         });
-        for i in 0..k {
-            let terms = (0..k).map(|j| S::of(self.mixed[i][j]) * value[j]);
-            out[i] = terms.fold(S::of(0.0), |sum, term| sum + term);
+        for (out, mixed) in out.iter_mut().zip(&self.mixed).take(k) {
+            let terms = mixed.iter().zip(value).take(k);
+            let terms = terms.map(|(part, value)| S::of(*part) * value);
+            *out = terms.fold(S::of(0.0), |sum, term| sum + term);
         }
     }
 

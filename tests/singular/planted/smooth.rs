@@ -45,6 +45,11 @@ impl Slope {
     }
 }
 
+/// The product rule.
+fn rule((a, da): (f64, f64), (b, db): (f64, f64)) -> f64 {
+    da * b + a * db
+}
+
 impl Add for Slope {
     type Output = Self;
 
@@ -73,7 +78,7 @@ impl Mul for Slope {
     fn mul(self, other: Self) -> Self {
         Self {
             value: self.value * other.value,
-            by: from_fn(|i| self.by[i] * other.value + self.value * other.by[i]),
+            by: from_fn(|i| rule((self.value, self.by[i]), (other.value, other.by[i]))),
         }
     }
 }

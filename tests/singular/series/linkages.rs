@@ -9,7 +9,11 @@ use core::f64::consts::{FRAC_PI_2, PI};
 fn gap(index: usize, first: usize, last: usize) -> Trial {
     let tolerance = [1e-6, 1e-9, 1e-12][index % 3];
     let decade = first + index / 6 % (last - first + 1);
-    let sign = if index / 3 % 2 == 0 { 1.0 } else { -1.0 };
+    let sign = if (index / 3).is_multiple_of(2) {
+        1.0
+    } else {
+        -1.0
+    };
     let gap = sign * 10f64.powi(-(decade as i32));
     let trial = Trial::short("four_bar", "", vec![("gap", gap)]).uncounted();
     Trial {

@@ -189,7 +189,7 @@ pub fn tacnode(random: &mut Random, index: usize) -> Trial {
     ];
     // Every third begins where they touch.
     let there = index % 3 == 2;
-    if index % 2 == 0 {
+    if index.is_multiple_of(2) {
         set.push(("v0", random.between(1.0, 6.0)));
         set.push(("x0", if there { 0.0 } else { -1.0 }));
         return curve(set).until(0.6).uncounted();
