@@ -27,6 +27,8 @@ const LEVELS: usize = 6;
 const TOLERANCE: f64 = 1e-12;
 /// Steps shorter than this (s) are not made.
 const SHORTEST: f64 = 1e-10;
+/// Steps longer than this (s) are not made.
+const LONGEST: f64 = 0.02;
 
 /// The curve, its energy, which way it is followed.
 struct Curve {
@@ -78,7 +80,7 @@ impl Curve {
         (before + here + self.velocity(&here) * h) / 2.0
     }
 
-    /// One step by extrapolation, and its error.
+    /// One step by extrapolation, and its error; with no more levels than it needs.
     fn step(&self, q: &Vector, step: f64) -> (Vector, f64) {
         let mut table = [Vector::zeros(); LEVELS];
         for level in 0..LEVELS {
@@ -87,6 +89,10 @@ impl Curve {
                 let ratio = (level + 1) as f64 / (k + 1) as f64;
                 let change = (table[k + 1] - table[k]) / (ratio * ratio - 1.0);
                 table[k] = table[k + 1] + change;
+            }
+            let error = (table[0] - table[1]).norm();
+            if level > 0 && error <= TOLERANCE {
+                return (table[0], error);
             }
         }
         (table[0], (table[0] - table[1]).norm())
@@ -115,12 +121,16 @@ pub fn follow(set: &Set, times: &[f64]) -> Exact {
         while t < time {
             let step = f64::min(length, time - t);
             let (next, error) = curve.step(&q, step);
-            let grown = step * (TOLERANCE / error).powf(1.0 / 11.0) * 0.8;
             if error <= TOLERANCE || step <= SHORTEST {
                 (t, q) = (if step < length { time } else { t + step }, next);
                 curve.back(&mut q);
             }
-            length = grown.clamp(0.1 * step, 0.02).max(SHORTEST);
+            // A step that was cut at a row says nothing of how long the next may be.
+            length = match error <= TOLERANCE {
+                true => length.max(2.0 * step).min(LONGEST),
+                false => (step * (TOLERANCE / error).powf(1.0 / 11.0) * 0.8).max(0.1 * step),
+            };
+            length = length.max(SHORTEST);
         }
         exact
             .numbers

@@ -37,9 +37,9 @@ const MIDDLE: &[f64] = &[1e-6, 1e-9];
 
 /// All series.
 pub const SERIES: &[Series] = &[
-    series("pendulum_minute", 60, 1000, MIDDLE, parallelograms::minute),
+    series("pendulum_minute", 30, 1000, MIDDLE, parallelograms::minute),
     series("pendulum_named", 6, 6, &[], parallelograms::named),
-    series("cart_minute", 60, 1000, MIDDLE, parallelograms::cart_minute),
+    series("cart_minute", 30, 1000, MIDDLE, parallelograms::cart_minute),
     series("cart_short", 60, 1000, USUAL, parallelograms::cart_short),
     series("rhombus", 60, 1000, USUAL, parallelograms::rhombus),
     series("turning", 60, 1000, USUAL, parallelograms::turning),
