@@ -6,7 +6,7 @@ use crate::trial::{Compare, Set, Trial};
 
 /// Tolerances that cases with a name are run at.
 const TOLERANCES: [f64; 3] = [1e-6, 1e-9, 1e-12];
-/// How far from zero an error at a singular point may lead.
+/// The value and the tolerance at a place of a series that has every value at each.
 fn of_index(index: usize, values: &[f64]) -> (f64, f64) {
     let tolerance = TOLERANCES[index % 3];
     (values[index / 3 % values.len()], tolerance)
