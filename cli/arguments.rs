@@ -53,7 +53,7 @@ pub struct Show {
     /// Print LaTeX instead of the notation of descriptions
     #[arg(long)]
     pub latex: bool,
-    /// Leave out the coordinates that constraints give explicitly, as
+    /// Leave out the dependent coordinates, which constraints give explicitly, as
     /// `Builder::eliminate` does
     #[arg(long)]
     pub eliminate: bool,
@@ -75,7 +75,8 @@ pub struct Check {
 pub struct New {
     /// The name of the crate and of its folder
     pub name: String,
-    /// Depend on a checkout of bricard instead of the published packages
+    /// Depend on the checkout of bricard in this folder [default: the one that this command
+    /// was built from, if it is still there, else the published packages]
     #[arg(long, value_name = "DIR")]
     pub path: Option<PathBuf>,
 }
@@ -108,8 +109,9 @@ pub struct WorkPrecision {
     /// Change a parameter, or hold an input at a value
     #[arg(long, value_name = "NAME=VALUE", value_parser = formula::assignment)]
     pub set: Vec<Assignment>,
-    /// Hold a coordinate, or a velocity der(NAME), at a value at the start
-    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::assignment)]
+    /// Hold a coordinate, or a velocity der(NAME), at a value at the start (NAME=VALUE), or
+    /// guess it (NAME~VALUE)
+    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::start)]
     pub start: Vec<Assignment>,
     /// Draw time over error
     #[arg(long, value_name = "FILE.svg")]
@@ -142,6 +144,7 @@ pub struct Validate {
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Values are in SI units and may be formulas of constants: 80*deg, pi/4, 1/100.
+Put quotes around what has brackets, stars or ~: --start 'der(q1)=80*deg'.
 
 Columns of the CSV: t, the coordinates by name, their velocities as der(NAME), then \
 what --columns asks for. Numbers read back to the same bits.
@@ -177,10 +180,10 @@ pub struct Simulate {
     /// long runs
     #[arg(long)]
     pub keep_energy: bool,
-    /// Pass singular positions as published, without the constraints
-    /// differentiated once more (less accurate; for comparison)
-    #[arg(long)]
-    pub no_branch_rows: bool,
+    /// Pass singular positions as published, by a decision on the rank alone (less
+    /// accurate; for comparison)
+    #[arg(long, alias = "no-branch-rows")]
+    pub published: bool,
     /// Distance of the rows in time, in seconds [default: a row after each step;
     /// T/1000 for a plot by an adaptive method]
     #[arg(long, value_name = "dt", allow_hyphen_values = true, value_parser = formula::number)]
@@ -188,8 +191,9 @@ pub struct Simulate {
     /// Change a parameter, or hold an input at a value
     #[arg(long, value_name = "NAME=VALUE", value_parser = formula::assignment)]
     pub set: Vec<Assignment>,
-    /// Hold a coordinate, or a velocity der(NAME), at a value at the start
-    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::assignment)]
+    /// Hold a coordinate, or a velocity der(NAME), at a value at the start (NAME=VALUE), or
+    /// guess it (NAME~VALUE)
+    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::start)]
     pub start: Vec<Assignment>,
     /// Columns to add, with commas between them: energy, kinetic, potential,
     /// constraint_error, velocity_error, rank, reactions, or outputs by name

@@ -5,7 +5,7 @@
 
 use crate::error::CommandError;
 use crate::formula::Assignment;
-use crate::mechanism::{AnyMechanism, Held};
+use crate::mechanism::{AnyMechanism, Given};
 use bricard_runtime::{Quantity, Structure};
 
 /// What is changed.
@@ -15,8 +15,8 @@ pub struct Changes {
     pub parameters: Vec<(usize, f64)>,
     /// Inputs by place, and the values they are held at.
     pub inputs: Vec<(usize, f64)>,
-    /// Values held at the start.
-    pub held: Vec<Held>,
+    /// Values given at the start.
+    pub given: Vec<Given>,
 }
 
 impl Changes {
@@ -25,21 +25,34 @@ impl Changes {
     ///
     /// # Errors
     ///
-    /// [`CommandError::UnknownName`].
+    /// [`CommandError::UnknownName`], [`CommandError::Twice`].
     pub fn find(
         structure: &Structure,
         owner: &str,
         set: &[Assignment],
         start: &[Assignment],
     ) -> Result<Self, CommandError> {
+        once("--set", set)?;
+        once("--start", start)?;
         let mut changes = Self::default();
         for assignment in set {
             changes.set(structure, owner, assignment)?;
         }
         for assignment in start {
-            changes.held.push(held(structure, owner, assignment)?);
+            changes.given.push(given(structure, owner, assignment)?);
         }
         Ok(changes)
+    }
+
+    /// What is set to a negative mass or moment of inertia. The kinetic energy may be
+    /// positive all the same, by what else moves.
+    pub fn negative_inertia<'a>(&self, structure: &'a Structure) -> Vec<&'a str> {
+        let quantity = |(index, value): &(usize, f64)| {
+            let quantity = structure.parameters.get(*index)?;
+            let inertia = ["kg", "kg*m^2"].contains(&quantity.unit);
+            (inertia && *value < 0.0).then_some(quantity.name)
+        };
+        self.parameters.iter().filter_map(quantity).collect()
     }
 
     /// Changes a mechanism.
@@ -50,8 +63,8 @@ impl Changes {
         for (index, value) in &self.inputs {
             mechanism.hold_input(*index, *value);
         }
-        for held in &self.held {
-            mechanism.hold(*held);
+        for given in &self.given {
+            mechanism.begin(*given);
         }
     }
 
@@ -76,7 +89,23 @@ impl Changes {
     }
 }
 
-fn held(structure: &Structure, owner: &str, assignment: &Assignment) -> Result<Held, CommandError> {
+/// Refuses a name that is given two values, of which the last would win silently.
+fn once(option: &'static str, assignments: &[Assignment]) -> Result<(), CommandError> {
+    for (i, assignment) in assignments.iter().enumerate() {
+        let name = &assignment.name;
+        if assignments[..i].iter().any(|before| before.name == *name) {
+            let name = name.clone();
+            return Err(CommandError::Twice { option, name });
+        }
+    }
+    Ok(())
+}
+
+fn given(
+    structure: &Structure,
+    owner: &str,
+    assignment: &Assignment,
+) -> Result<Given, CommandError> {
     let inside = assignment
         .name
         .strip_prefix("der(")
@@ -93,9 +122,10 @@ fn held(structure: &Structure, owner: &str, assignment: &Assignment) -> Result<H
         };
         return Err(unknown("coordinate", owner, assignment, known));
     };
-    Ok(Held {
+    Ok(Given {
         coordinate,
         velocity: inside.is_some(),
+        held: assignment.held,
         value: assignment.value,
     })
 }

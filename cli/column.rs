@@ -67,10 +67,24 @@ pub fn columns(
             (None, None) if word == REACTIONS => {
                 columns.extend((0..structure.coordinates.len()).map(Column::Reaction));
             }
-            (None, None) => return Err(unknown(word, structure, mechanism)),
+            (None, None) => match components(word, structure) {
+                found if found.is_empty() => return Err(unknown(word, structure, mechanism)),
+                found => columns.extend(found),
+            },
         }
     }
     Ok(columns)
+}
+
+/// The components of an output that is a vector, a matrix or an array.
+fn components(word: &str, structure: &Structure) -> Vec<Column> {
+    let outputs = structure.outputs.iter().enumerate();
+    let of_word = |name: &str| {
+        let rest = name.strip_prefix(word);
+        rest.is_some_and(|rest| rest.starts_with(['.', '[']))
+    };
+    let found = outputs.filter(|(_, output)| of_word(output.name));
+    found.map(|(i, _)| Column::Output(i)).collect()
 }
 
 fn unknown(word: &str, structure: &Structure, mechanism: &str) -> CommandError {

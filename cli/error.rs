@@ -4,6 +4,7 @@
 //! Out: [`CommandError`]: a message and an exit status.
 
 use crate::interrupt::INTERRUPTED;
+use crate::output::exact;
 use bricard_codegen::diagnostic::nearest;
 use std::fmt::{self, Display, Formatter};
 use std::io;
@@ -35,7 +36,21 @@ pub enum CommandError {
         /// Its value.
         value: f64,
         /// What would make sense.
-        wanted: &'static str,
+        wanted: String,
+    },
+    /// A name that an option gives two values.
+    Twice {
+        /// The option.
+        option: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// A file that two options want to write.
+    SameFile {
+        /// The options.
+        options: [&'static str; 2],
+        /// The file.
+        path: PathBuf,
     },
     /// An option that the chosen method has no use for.
     UselessOption {
@@ -82,7 +97,7 @@ pub enum CommandError {
         /// The file.
         path: PathBuf,
         /// Why.
-        reason: &'static str,
+        reason: String,
     },
     /// A run that Ctrl-C ended.
     Interrupted {
@@ -132,6 +147,8 @@ impl CommandError {
         match self {
             Self::UnknownName { .. }
             | Self::OutOfRange { .. }
+            | Self::Twice { .. }
+            | Self::SameFile { .. }
             | Self::UselessOption { .. }
             | Self::FileKind { .. }
             | Self::Checkpoint { .. }
@@ -162,8 +179,12 @@ impl Display for CommandError {
                 value,
                 wanted,
             } => {
-                write!(f, "{option} must be {wanted}, not {value}")
+                write!(f, "{option} must be {wanted}, not {}", exact(*value))
             }
+            Self::Twice { option, name } => {
+                write!(f, "{option} gives `{name}` two values; leave one out")
+            }
+            Self::SameFile { options, path } => same_file(f, options, path),
             Self::UselessOption {
                 option,
                 method,
@@ -202,6 +223,14 @@ impl Display for CommandError {
             Self::NobodyReads => f.write_str("nobody reads standard output any more"),
         }
     }
+}
+
+fn same_file(f: &mut Formatter<'_>, [one, other]: &[&str; 2], path: &Path) -> fmt::Result {
+    let path = path.display();
+    write!(
+        f,
+        "{one} and {other} can't both be written to {path}; give them different names"
+    )
 }
 
 fn unknown_name(

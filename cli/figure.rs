@@ -9,6 +9,10 @@ use bricard_runtime::Structure;
 
 /// Curves in one panel, so that the legend fits beside it.
 const CURVES: usize = 9;
+/// The axis of angles.
+const ANGLE: &str = "angle [rad]";
+/// What spans more than two turns is drawn apart from what oscillates (rad).
+const TURNS: f64 = 4.0 * std::f64::consts::PI;
 /// The range of a panel of constraint errors, unless they are larger.
 pub const ERRORS: Scale = Scale::Logarithmic {
     low: -18,
@@ -26,6 +30,7 @@ pub fn overview(structure: &Structure, columns: &[Column], rows: &[Vec<f64>]) ->
             axis: axis(*column, structure),
             scale: match column {
                 Column::ConstraintError | Column::VelocityError => ERRORS,
+                Column::Rank => Scale::Whole,
                 _ => Scale::Linear,
             },
             series: series(column.name(structure), first + i, rows),
@@ -39,7 +44,7 @@ pub fn overview(structure: &Structure, columns: &[Column], rows: &[Vec<f64>]) ->
 pub fn coordinates(structure: &Structure, rows: &[Vec<f64>]) -> Vec<Panel> {
     let curve = |(i, coordinate): (usize, &bricard_runtime::Quantity)| Curve {
         axis: match coordinate.unit {
-            "rad" => "angle [rad]".to_string(),
+            "rad" => ANGLE.to_string(),
             "m" => "position [m]".to_string(),
             "" => "coordinate".to_string(),
             unit => format!("coordinate [{unit}]"),
@@ -47,14 +52,22 @@ pub fn coordinates(structure: &Structure, rows: &[Vec<f64>]) -> Vec<Panel> {
         scale: Scale::Linear,
         series: series(coordinate.name.to_string(), 1 + i, rows),
     };
-    grouped(
-        structure
-            .coordinates
-            .iter()
-            .enumerate()
-            .map(curve)
-            .collect(),
-    )
+    let all = structure.coordinates.iter().enumerate().map(curve);
+    // Beside an angle that goes on and on one that oscillates would look like a line.
+    let (turning, others): (Vec<Curve>, Vec<Curve>) =
+        all.partition(|curve| curve.axis == ANGLE && span(&curve.series) > TURNS);
+    let mut panels = grouped(others);
+    panels.extend(grouped(turning));
+    panels
+}
+
+/// How far apart the least and the greatest finite value of a series are.
+fn span(series: &Series) -> f64 {
+    let finite = series.values.iter().filter(|value| value.is_finite());
+    let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| {
+        (low.min(*y), high.max(*y))
+    });
+    high - low
 }
 
 /// A column of rows as a curve.
@@ -69,17 +82,23 @@ pub fn series(name: String, column: usize, rows: &[Vec<f64>]) -> Series {
 fn axis(column: Column, structure: &Structure) -> String {
     let unit = column.unit(structure);
     let what = match column {
-        Column::Energy | Column::Kinetic | Column::Potential => "energy",
-        Column::ConstraintError | Column::VelocityError => "constraint error",
-        Column::Rank => "rank",
-        Column::Reaction(_) => "reaction",
-        Column::Output(_) => "output",
+        Column::Energy | Column::Kinetic | Column::Potential => "energy".to_string(),
+        Column::ConstraintError | Column::VelocityError => "constraint error".to_string(),
+        Column::Rank => "rank".to_string(),
+        Column::Reaction(_) => "reaction".to_string(),
+        // The components of one output lie in one panel.
+        Column::Output(_) => whole(&column.name(structure)).to_string(),
     };
     if unit.is_empty() {
-        what.to_string()
+        what
     } else {
         format!("{what} [{unit}]")
     }
+}
+
+/// The name of the output that a component belongs to.
+fn whole(name: &str) -> &str {
+    name.split(['.', '[']).next().unwrap_or(name)
 }
 
 /// A curve and the panel that it belongs to.

@@ -9,27 +9,43 @@ use bricard_codegen::parse::{
     ast::{Expr, ExprKind},
 };
 
-/// `NAME=VALUE`.
+/// `NAME=VALUE` or `NAME~VALUE`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assignment {
     /// The name, without blanks.
     pub name: String,
     /// The value (SI).
     pub value: f64,
+    /// Whether the value is held (`=`), or a guess (`~`).
+    pub held: bool,
 }
 
 /// Reads `NAME=VALUE`.
 pub fn assignment(text: &str) -> Result<Assignment, String> {
-    let (name, value) = text
-        .split_once('=')
-        .ok_or("write NAME=VALUE, such as `L1=0.5` or `q1=80*deg`")?;
+    let split = text.split_once('=');
+    let (name, value) = split.ok_or("write NAME=VALUE, such as `L1=0.5` or `q1=80*deg`")?;
+    assigned(name, value, true)
+}
+
+/// Reads `NAME=VALUE`, a value that is held, or `NAME~VALUE`, a guess.
+pub fn start(text: &str) -> Result<Assignment, String> {
+    let place = text.find(['=', '~']);
+    let place =
+        place.ok_or("write NAME=VALUE, such as `q1=80*deg`, or `NAME~VALUE` for a guess")?;
+    let held = text.get(place..).is_some_and(|rest| rest.starts_with('='));
+    assigned(&text[..place], &text[place + 1..], held)
+}
+
+fn assigned(name: &str, value: &str, held: bool) -> Result<Assignment, String> {
+    let sign = if held { '=' } else { '~' };
     let name: String = name.split_whitespace().collect();
     if name.is_empty() {
-        return Err("there is no name before `=`".to_string());
+        return Err(format!("there is no name before `{sign}`"));
     }
     Ok(Assignment {
         name,
         value: number(value)?,
+        held,
     })
 }
 
@@ -37,8 +53,15 @@ pub fn assignment(text: &str) -> Result<Assignment, String> {
 ///
 /// Numbers are exact until the whole is evaluated: `80*deg` is 4/9 times π.
 pub fn number(text: &str) -> Result<f64, String> {
+    if let Some(message) = with_unit(text) {
+        return Err(message);
+    }
     let formula = parse::formula(text).map_err(|diagnostics| {
-        let first = diagnostics.sorted().first().map(|d| d.message.clone());
+        let sorted = diagnostics.sorted();
+        let first = sorted.first().map(|first| match &first.help {
+            Some(help) => format!("{}; {help}", first.message),
+            None => first.message.clone(),
+        });
         first.unwrap_or_else(|| "this is no formula".to_string())
     })?;
     let mut graph = Graph::new();
@@ -46,6 +69,42 @@ pub fn number(text: &str) -> Result<f64, String> {
     graph
         .constant_value(value)
         .ok_or_else(|| format!("`{}` is not a finite number", text.trim()))
+}
+
+/// What to write instead of a number with a unit behind it: `0.5m`, `60deg`, `2 s`.
+fn with_unit(text: &str) -> Option<String> {
+    let text = text.trim();
+    let is_letter = |c: char| c.is_ascii_alphabetic() || c == '°';
+    // The exponent of `1e-3` is no unit, and that of `1e2mm` no part of one.
+    let whole = text.trim_start_matches(|c| !is_letter(c));
+    let last = &text[text.trim_end_matches(is_letter).len()..];
+    let (number, unit) = [last, whole].into_iter().find_map(|unit| {
+        let number = text.strip_suffix(unit)?.trim_end();
+        number.parse::<f64>().ok().map(|_| (number, unit))
+    })?;
+    if unit.is_empty() {
+        return None;
+    }
+    Some(match unit {
+        "deg" | "°" | "degree" | "degrees" => format!("write `{number}*deg`"),
+        _ => match si(unit) {
+            Some("1") => {
+                format!("values are in SI units and have none behind them: write `{number}`")
+            }
+            Some(factor) => format!("values are in SI units: write `{number}*{factor}`"),
+            None => return None,
+        },
+    })
+}
+
+/// The factor that turns a unit into the SI unit.
+fn si(unit: &str) -> Option<&'static str> {
+    match bricard_codegen::words::units().any(|known| known == unit) {
+        true => Some("1"),
+        false => bricard_codegen::words::scaled_units()
+            .find(|(known, _)| *known == unit)
+            .map(|(_, factor)| factor),
+    }
 }
 
 fn lower(graph: &mut Graph, formula: &Expr) -> Result<ExprId, String> {
@@ -127,7 +186,7 @@ fn call(graph: &mut Graph, name: &str, arguments: &[ExprId]) -> Result<ExprId, S
 
 #[cfg(test)]
 mod tests {
-    use super::{assignment, number};
+    use super::{assignment, number, start};
 
     #[test]
     fn formulas_of_constants_are_numbers() {
@@ -149,9 +208,30 @@ mod tests {
     }
 
     #[test]
+    fn a_number_with_a_unit_is_answered_with_the_si_value() {
+        for (wrong, right) in [
+            ("60deg", "write `60*deg`"),
+            ("60°", "write `60*deg`"),
+            ("0.5m", "write `0.5`"),
+            ("2 s", "write `2`"),
+            ("-1.5e2mm", "write `-1.5e2*1e-3`"),
+            ("3 rpm", "write `3*2*pi/60`"),
+        ] {
+            assert!(number(wrong).is_err_and(|e| e.contains(right)), "{wrong}");
+        }
+        assert_eq!(number("1e-3"), Ok(1e-3));
+        assert!(number("2*pi").is_ok() && number("pi").is_ok());
+    }
+
+    #[test]
     fn an_assignment_may_have_blanks() {
         let read = assignment(" der(q1) = -2 ").map(|a| (a.name, a.value));
         assert_eq!(read, Ok(("der(q1)".to_string(), -2.0)));
+        let guess = start("q1 ~ 0.8").map(|a| (a.name, a.value, a.held));
+        assert_eq!(guess, Ok(("q1".to_string(), 0.8, false)));
+        assert!(start("q1=0.8").is_ok_and(|a| a.held));
+        assert!(start("~3").is_err_and(|e| e.contains("before `~`")));
+        assert!(assignment("q1~0.8").is_err());
         assert!(assignment("q1").is_err());
         assert!(assignment("=3").is_err());
     }

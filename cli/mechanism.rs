@@ -25,8 +25,8 @@ pub trait AnyMechanism {
     fn set_parameter(&mut self, index: usize, value: f64);
     /// Holds an input at a value, by its place.
     fn hold_input(&mut self, index: usize, value: f64);
-    /// Holds a coordinate or a velocity at the start.
-    fn hold(&mut self, held: Held);
+    /// Gives a coordinate or a velocity at the start.
+    fn begin(&mut self, given: Given);
     /// In words: rank of the constraints at the start, and what is left free.
     fn freedom(&self) -> String;
     /// Simulates.
@@ -51,13 +51,15 @@ pub struct Race {
     pub wall: Duration,
 }
 
-/// A value held at the start.
+/// A value given at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Held {
+pub struct Given {
     /// The coordinate, by its place.
     pub coordinate: usize,
-    /// Whether it is its velocity that is held.
+    /// Whether it is its velocity that is given.
     pub velocity: bool,
+    /// Whether it is held, or a guess.
+    pub held: bool,
     /// The value (SI).
     pub value: f64,
 }
@@ -100,32 +102,32 @@ impl Visitor<f64> for Forget {
         let mechanism: Box<dyn Whole<f64, N, R>> = Box::new(mechanism);
         Box::new(Sized {
             mechanism,
-            held: Vec::new(),
+            given: Vec::new(),
         })
     }
 }
 
-/// A mechanism of `N` coordinates and `R` constraint equations, and what is held
-/// at its start.
+/// A mechanism of `N` coordinates and `R` constraint equations, and what is given
+/// for its start.
 struct Sized<const N: usize, const R: usize> {
     mechanism: Box<dyn Whole<f64, N, R>>,
-    held: Vec<Held>,
+    given: Vec<Given>,
 }
 
 impl<const N: usize, const R: usize> Sized<N, R> {
-    /// The `start` block of the description, with what is held instead.
+    /// The `start` block of the description, with what is given instead.
     fn start(&self) -> Start<f64, N> {
         let mut start = self.mechanism.start();
-        for held in &self.held {
-            let entries = if held.velocity {
+        for given in &self.given {
+            let entries = if given.velocity {
                 &mut start.v
             } else {
                 &mut start.q
             };
-            if let Some(entry) = entries.get_mut(held.coordinate) {
+            if let Some(entry) = entries.get_mut(given.coordinate) {
                 *entry = Initial {
-                    value: held.value,
-                    held: true,
+                    value: given.value,
+                    held: given.held,
                 };
             }
         }
@@ -146,8 +148,8 @@ impl<const N: usize, const R: usize> AnyMechanism for Sized<N, R> {
         self.mechanism.set_input(index, Some(value));
     }
 
-    fn hold(&mut self, held: Held) {
-        self.held.push(held);
+    fn begin(&mut self, given: Given) {
+        self.given.push(given);
     }
 
     fn freedom(&self) -> String {

@@ -103,10 +103,11 @@ fn what_is_in_order_is_said_to_be_so_with_its_warnings() {
 fn a_new_crate_builds_without_a_network_and_simulates() {
     let folder = folder("new");
     let workspace = env!("CARGO_MANIFEST_DIR");
-    let arguments = ["new", "my-engine", "--path", workspace];
+    let arguments = ["new", "my-engine"];
     let (status, said, error) = bricard(&folder, &arguments);
     assert_eq!(status, Some(0), "{error}");
     assert!(said.contains("mechanisms/my_engine.mech"), "{said}");
+    assert!(said.contains(workspace), "{said}");
     let made = folder.join("my-engine");
     // The versions of the workspace, so that what it has built serves here too.
     let lock = Path::new(workspace).join("Cargo.lock");

@@ -569,3 +569,146 @@ fn landings_beside_a_singular_position_are_alike() {
         &["passes no singular position"],
     );
 }
+
+#[test]
+fn a_guess_can_be_given_on_the_command_line() {
+    let start = [
+        "simulate",
+        "slider_crank",
+        "--until",
+        "0.1",
+        "--every",
+        "0.1",
+    ];
+    let held = [&start[..], &["--start", "q3=0.6"]].concat();
+    let said = ["turn one of them into a guess", "--start 'NAME~VALUE'"];
+    check_refused(&held, 1, &said);
+    let ran = bricard(&[&held[..], &["--start", "q1~0.8"]].concat());
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    assert_eq!(column(&ran.out, "q3")[0], 0.6);
+    let angle = column(&ran.out, "q1")[0] - 0.6_f64.acos();
+    assert!(angle.abs() < 1e-14, "2 L cos(q1) = q3 is off by {angle}");
+}
+
+#[test]
+fn a_negative_mass_is_refused_by_its_coordinate() {
+    let arguments = ["simulate", "slider_crank", "--set", "m3=-3"];
+    let said = ["kinetic energy is negative where `q3` moves", "parameters"];
+    check_refused(&arguments, 1, &said);
+    // The second link moves with the first one, so that the energy stays positive.
+    let ran = bricard(&[
+        "simulate",
+        "slider_crank",
+        "--until",
+        "0.1",
+        "--set",
+        "m1=-3",
+    ]);
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    assert!(
+        ran.err
+            .contains("warning: `m1` is an inertia, and negative")
+    );
+}
+
+#[test]
+fn values_that_would_do_silently_what_nobody_wants_are_refused() {
+    let name = ["simulate", "slider_crank", "--until", "1"];
+    let wrong: [(&[&str], &[&str]); 9] = [
+        (
+            &["--every", "1e-12"],
+            &["--every must be at least 1e-10 s", "not 1e-12"],
+        ),
+        (&["--step", "1e-11"], &["--step must be at least 1e-10 s"]),
+        (&["--step", "100"], &["--step must be at most the 1 s"]),
+        (&["--rtol", "10"], &["--rtol must be less than 1"]),
+        (&["--out", "x.xlsx"], &["x.xlsx", "--out run.csv"]),
+        (
+            &["--out", "x.svg", "--plot", "x.svg"],
+            &["--out and --plot", "x.svg"],
+        ),
+        (
+            &["--out", "x.csv", "--checkpoint", "x.csv"],
+            &["--out and --checkpoint", "x.csv"],
+        ),
+        (
+            &["--set", "m1=2", "--set", "m1=3"],
+            &["--set gives `m1` two values"],
+        ),
+        (&["--start", "q1=60deg"], &["write `60*deg`"]),
+    ];
+    for (options, said) in wrong {
+        check_refused(&[&name[..], options].concat(), 2, said);
+    }
+}
+
+#[test]
+fn rows_at_intervals_have_decimal_times_and_the_end_of_the_run() {
+    let run = ["simulate", "slider_crank", "--every", "0.3", "--until"];
+    let times = |until: &str| column(&bricard(&[&run[..], &[until]].concat()).out, "t");
+    assert_eq!(times("1"), [0.0, 0.3, 0.6, 0.9, 1.0]);
+    assert_eq!(times("0.9"), [0.0, 0.3, 0.6, 0.9]);
+}
+
+#[test]
+fn a_held_velocity_is_written_as_it_was_given() {
+    let run = ["simulate", "peaucellier_lipkin", "--until", "0.01"];
+    let ran = bricard(&[&run[..], &["--start", "der(crank)=3"]].concat());
+    assert_eq!(column(&ran.out, "der(crank)")[0], 3.0, "{}", ran.err);
+}
+
+#[test]
+fn an_output_that_is_a_vector_is_asked_for_by_its_name() {
+    let run = ["simulate", "jansen_leg", "--until", "0.01", "--columns"];
+    let ran = bricard(&[&run[..], &["foot"]].concat());
+    let header = ran.out.lines().next().unwrap_or("");
+    assert!(header.ends_with(",foot.x,foot.y"), "{header}\n{}", ran.err);
+}
+
+#[test]
+fn a_file_that_is_not_utf_8_is_answered_with_the_line() {
+    let file = folder("bytes").join("latin.mech");
+    let text = b"mechanism P {\n    coord q: rad;\n    // gr\xfc\xdfe\n    kinetic der(q)^2;\n}\n";
+    fs::write(&file, text).expect("the folder is ours");
+    let said = [
+        "latin.mech",
+        "line 3 is not UTF-8",
+        "save the file as UTF-8",
+    ];
+    check_refused(&["check", &file.to_string_lossy()], 1, &said);
+}
+
+#[test]
+fn a_plot_names_outputs_marks_events_and_sets_turning_angles_apart() {
+    let file = folder("named").join("run.svg");
+    let path = file.to_string_lossy();
+    let run = ["simulate", "quick_return", "--until", "3", "--plot", &path];
+    let columns = ["--columns", "speed,rank", "--start", "der(crank)=9"];
+    let ran = bricard(&[&run[..], &columns].concat());
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    let svg = fs::read_to_string(&file).unwrap_or_default();
+    assert!(
+        svg.contains("speed [m/s]"),
+        "the axis has the output's name"
+    );
+    assert!(svg.contains("\nturn\n"), "events are explained");
+    assert!(!svg.contains("4.4"), "a rank is a whole number");
+    assert_eq!(svg.matches("angle [rad]").count(), 2, "the crank turns");
+}
+
+#[test]
+fn a_plot_is_drawn_though_the_reader_of_the_rows_has_gone() {
+    let file = folder("gone").join("run.svg");
+    let mut child = Command::new(env!("CARGO_BIN_EXE_bricard"))
+        .args(["simulate", "double_pendulum", "--until", "500"])
+        .args(["--step", "0.01", "--out", "-", "--plot"])
+        .arg(&file)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    drop(child.stdout.take());
+    let ran = read(child.wait_with_output().expect("the command ends"));
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    assert!(fs::read_to_string(file).is_ok_and(|svg| svg.contains("</svg>")));
+}

@@ -4,8 +4,8 @@ use crate::library::{Derived, Point, visit};
 use crate::random::Random;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Branch, Canvas, Correction, Interface, Linearised, Mechanism, Pivots, Position, Real, Regular,
-    State, Terms, Visitor,
+    Canvas, Correction, Interface, Linearised, Mechanism, Pivots, Position, Real, Regular, State,
+    Terms, Visitor,
 };
 use std::collections::BTreeMap;
 
@@ -123,10 +123,6 @@ fn equations<T, M, const N: usize, const R: usize>(
     mechanism.position(state, &mut position);
     answers.fill("residual", R, &position.residual);
     answers.fill("drift", R, &position.drift);
-    let mut branch = Branch::default();
-    mechanism.branch(state, &mut branch);
-    answers.fill("slope", R, &branch.slope);
-    answers.fill("branch bias", R, &branch.bias);
     let energy = mechanism.energy(state);
     let energies = [
         energy.kinetic,

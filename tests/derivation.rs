@@ -11,7 +11,7 @@ use crate::library::{Derived, Point, everything};
 use crate::random::Random;
 use bricard_codegen::derive::coriolis_matrix;
 use bricard_codegen::expr::{ExprId, Symbol};
-use num_dual::{Dual3_64, Dual64, HyperDual64};
+use num_dual::{Dual2_64, Dual64, HyperDual64};
 
 /// What values may differ by, relative to the largest of what was added up.
 const ROUND_OFF: f64 = 1e-12;
@@ -23,9 +23,8 @@ const STATES: usize = 40;
 struct Case<'a> {
     of: &'a Derived,
     point: Point,
-    /// `q̈` and `q⃛` of the path through the point.
+    /// `q̈` of the path through the point.
     acceleration: Vec<f64>,
-    jerk: Vec<f64>,
     seed: u64,
 }
 
@@ -36,12 +35,11 @@ fn check(claim: impl Fn(&Case)) {
             let mut random = Random::seeded(seed);
             let point = derived.point(&mut random);
             let n = derived.n();
-            let [acceleration, jerk] = [0, 1].map(|_| random.vector(n, -3.0, 3.0));
+            let acceleration = random.vector(n, -3.0, 3.0);
             claim(&Case {
                 of: &derived,
                 point,
                 acceleration,
-                jerk,
                 seed,
             });
         }
@@ -90,13 +88,13 @@ impl Case<'_> {
     }
 
     /// The derivatives of an expression along the path.
-    fn along(&self, e: ExprId) -> Dual3_64 {
+    fn along(&self, e: ExprId) -> Dual2_64 {
         let Point { q, v, t, .. } = &self.point;
-        let (a, j) = (&self.acceleration, &self.jerk);
-        let coordinate = |i: usize| Dual3_64::new(q[i], v[i], a[i], j[i]);
-        // No fourth derivative of the coordinates is asked for.
-        let velocity = |i: usize| Dual3_64::new(v[i], a[i], j[i], f64::NAN);
-        self.dual(e, coordinate, velocity, Dual3_64::new(*t, 1.0, 0.0, 0.0))
+        let a = &self.acceleration;
+        let coordinate = |i: usize| Dual2_64::new(q[i], v[i], a[i]);
+        // No third derivative of the coordinates is asked for.
+        let velocity = |i: usize| Dual2_64::new(v[i], a[i], f64::NAN);
+        self.dual(e, coordinate, velocity, Dual2_64::new(*t, 1.0, 0.0))
     }
 
     fn vector(&self, entries: &[ExprId]) -> Vec<f64> {
@@ -215,7 +213,6 @@ fn the_kinetic_energy_is_its_value_at_rest_its_slope_there_and_half_the_quadrati
         let rest = Case {
             point: resting,
             acceleration: vec![],
-            jerk: vec![],
             ..*case
         };
         let v = &case.point.v;
@@ -283,12 +280,10 @@ fn with_coriolis(claim: impl Fn(&Case, &[Vec<f64>])) {
         for seed in 0..STATES as u64 {
             let point = derived.point(&mut Random::seeded(seed));
             let coriolis = derived.matrix(&entries, &point);
-            let none = Vec::new;
             let case = Case {
                 of: &derived,
                 point,
-                acceleration: none(),
-                jerk: none(),
+                acceleration: Vec::new(),
                 seed,
             };
             claim(&case, &coriolis);
@@ -341,35 +336,29 @@ fn the_rate_of_the_mass_matrix_less_twice_the_coriolis_matrix_is_skew() {
 fn the_constraints_and_their_derivatives_are_those_along_any_path() {
     check(|case| {
         let equations = &case.of.equations;
-        let [jacobian, slope] =
-            [&equations.jacobian, &equations.branch_slope].map(|rows| case.matrix(rows));
-        let [bias, drift, speed, residual, branch] = [
+        let jacobian = case.matrix(&equations.jacobian);
+        let [bias, drift, speed, residual] = [
             &equations.bias,
             &equations.drift,
             &equations.speed,
             &equations.residual,
-            &equations.branch_bias,
         ]
         .map(|entries| case.vector(entries));
         for (i, constraint) in case.of.mechanism.constraints.iter().enumerate() {
             let path = case.along(constraint.residual);
             let levels = if constraint.holonomic {
                 case.same(residual[i], path.re, 0.0, &format!("g[{i}]"));
-                [path.v1, path.v2, path.v3]
+                [path.v1, path.v2]
             } else {
                 case.same(residual[i], 0.0, 0.0, &format!("g[{i}]"));
-                [path.re, path.v1, path.v2]
+                [path.re, path.v1]
             };
-            let (a, k) = (&jacobian[i], &slope[i]);
-            let Case {
-                acceleration, jerk, ..
-            } = case;
+            let (a, Case { acceleration, .. }) = (&jacobian[i], case);
             let found = [
                 dot(a, &case.point.v) + drift[i],
                 dot(a, acceleration) - bias[i],
-                dot(a, jerk) + dot(k, acceleration) - branch[i],
             ];
-            let scale = size(a, jerk) + size(k, acceleration) + branch[i].abs() + bias[i].abs();
+            let scale = size(a, acceleration) + bias[i].abs();
             for (order, (found, exact)) in found.into_iter().zip(levels).enumerate() {
                 case.same(
                     found,

@@ -7,7 +7,7 @@
 use crate::reduction::{Motion, Reduction};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Integrator, Interface, Mechanism, Rk4, Settings, Solver, State, System, Visitor, Whole,
+    Integrator, Interface, Mechanism, Rk4, Settings, Solver, State, Visitor, Whole,
 };
 
 /// How long a motion is followed (s).

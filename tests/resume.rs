@@ -71,6 +71,7 @@ fn an_interrupted_run_goes_on_to_the_same_bytes() {
         );
         let torn = fs::read(&parts).expect("rows are kept");
         check_damaged(arguments, &folder, &file);
+        check_passed(arguments, &folder, &file);
         let on = run(arguments, &parts, &["--resume", &file]);
         let ran = bricard(&words(&on));
         assert_eq!(ran.status, Some(0), "{}", ran.err);
@@ -96,6 +97,22 @@ fn check_damaged(arguments: &[&str], folder: &Path, file: &str) {
         check_refused(&words(&on), 2, &["can't go on from", said]);
         assert!(!rows.exists(), "rows were written");
     }
+}
+
+/// A run doesn't go on to a time that it has passed.
+fn check_passed(arguments: &[&str], folder: &Path, file: &str) {
+    let mut early = arguments.to_vec();
+    if let Some(until) = early.iter().position(|word| *word == "--until") {
+        early[until + 1] = "0.5";
+    }
+    let rows = folder.join("early.csv");
+    let on = run(&early, &rows, &["--resume", file]);
+    check_refused(
+        &words(&on),
+        2,
+        &["has come to t = ", "give a later --until"],
+    );
+    assert!(!rows.exists(), "rows were written");
 }
 
 /// Starts a run and presses Ctrl-C when some rows are written; what it says.
@@ -159,6 +176,6 @@ fn checkpoints_of_other_runs_are_refused() {
         fs::write(&file, text).expect("a file can be written");
         check_refused(&go_on, 2, &["can't go on from", "no checkpoint"]);
     }
-    fs::write(&file, r#"{"format": 2, "run": "another"}"#).expect("a file can be written");
+    fs::write(&file, r#"{"format": 3, "run": "another"}"#).expect("a file can be written");
     check_refused(&go_on, 2, &["another run", "same mechanism and options"]);
 }

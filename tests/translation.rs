@@ -44,12 +44,11 @@ fn places(derived: &Derived) -> Vec<(Place, ExprId)> {
     let picture: Vec<ExprId> = derived.mechanism.shapes.iter().flat_map(drawn).collect();
     let mut places = Vec::new();
     let linear = &derived.linearised;
-    let vectors: [(&'static str, &[ExprId]); 9] = [
+    let vectors: [(&'static str, &[ExprId]); 8] = [
         ("force", &equations.force),
         ("bias", &equations.bias),
         ("residual", &equations.residual),
         ("drift", &equations.drift),
-        ("branch bias", &equations.branch_bias),
         ("energy", &energies),
         ("outputs", &outputs),
         ("events", &events),
@@ -70,7 +69,6 @@ fn places(derived: &Derived) -> Vec<(Place, ExprId)> {
         ("row by v", &linear.row_by_velocity),
         ("mass", &equations.mass),
         ("jacobian", &equations.jacobian),
-        ("slope", &equations.branch_slope),
     ];
     for (array, rows) in matrices {
         for (row, entries) in rows.iter().enumerate() {

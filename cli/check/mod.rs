@@ -11,7 +11,6 @@ use crate::error::CommandError;
 use crate::output::{print, say};
 use bricard_codegen::model::Mechanism;
 use bricard_codegen::{Diagnostics, Settings, examine};
-use std::fs;
 use std::path::Path;
 
 /// Checks a description.
@@ -45,5 +44,6 @@ type Examined = Result<(Mechanism, Diagnostics), Diagnostics>;
 
 /// The text of a description.
 pub fn read(path: &Path) -> Result<String, CommandError> {
-    fs::read_to_string(path).map_err(|error| CommandError::Read(path.to_path_buf(), error))
+    bricard_codegen::read_description(path)
+        .map_err(|error| CommandError::Read(path.to_path_buf(), error))
 }

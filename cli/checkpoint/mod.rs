@@ -116,6 +116,6 @@ pub fn read(path: &Path, run: &str, structure: &Structure) -> Result<Checkpoint,
     let text = fs::read_to_string(path).map_err(|e| CommandError::Read(path.to_path_buf(), e))?;
     Checkpoint::read(&text, run, structure).map_err(|reason| CommandError::Checkpoint {
         path: path.to_path_buf(),
-        reason,
+        reason: reason.to_string(),
     })
 }

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use std::time::Duration;
 
 /// The version of the file.
-const FORMAT: u64 = 2;
+const FORMAT: u64 = 3;
 /// The time at which every run begins (s).
 const BEGINNING: f64 = 0.0;
 /// More steps, rows or seconds than any run comes to: sums of such numbers overflow
@@ -189,14 +189,13 @@ fn passage(entry: &Value) -> Option<Passage<f64>> {
     })
 }
 
-fn counts(counters: &Counters) -> [u64; 12] {
+fn counts(counters: &Counters) -> [u64; 11] {
     [
         counters.cheap_accelerations,
         counters.landed_accelerations,
         counters.robust_accelerations,
         counters.rank_decisions,
         counters.undetermined,
-        counters.branch_evaluations,
         counters.mass_factorisations,
         counters.constraint_factorisations,
         counters.row_choices,
@@ -208,14 +207,13 @@ fn counts(counters: &Counters) -> [u64; 12] {
 
 fn counters(value: &Value) -> Option<Counters> {
     let counts: Option<Vec<u64>> = value.as_array()?.iter().map(count).collect();
-    let counts: [u64; 12] = counts?.try_into().ok()?;
+    let counts: [u64; 11] = counts?.try_into().ok()?;
     let [
         cheap,
         landed,
         robust,
         decisions,
         undetermined,
-        branch,
         mass,
         rows,
         choices,
@@ -227,12 +225,11 @@ fn counters(value: &Value) -> Option<Counters> {
         robust_accelerations: robust,
         rank_decisions: decisions,
         undetermined,
-        branch_evaluations: branch,
         mass_factorisations: mass,
         constraint_factorisations: rows,
         row_choices: choices,
-        projections: counts[9],
-        projection_iterations: counts[10],
-        robust_projections: counts[11],
+        projections: counts[8],
+        projection_iterations: counts[9],
+        robust_projections: counts[10],
     })
 }

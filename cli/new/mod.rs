@@ -12,8 +12,8 @@ use crate::arguments::New;
 use crate::error::CommandError;
 use crate::output::print;
 use bricard_codegen::emit::{module_name, type_name};
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{env, fs};
 
 /// Names that Rust or cargo keep for themselves, and those that the program uses.
 const RESERVED: [&str; 12] = [
@@ -35,7 +35,10 @@ const RESERVED: [&str; 12] = [
 pub fn new(arguments: &New) -> Result<(), CommandError> {
     let name = arguments.name.as_str();
     let module = module(name)?;
-    let workspace = arguments.path.as_deref().map(workspace).transpose()?;
+    let workspace = match arguments.path.as_deref() {
+        Some(path) => Some(workspace(path)?),
+        None => checkout(),
+    };
     let folder = PathBuf::from(name);
     if folder.exists() {
         return Err(CommandError::Exists(folder));
@@ -57,8 +60,22 @@ pub fn new(arguments: &New) -> Result<(), CommandError> {
     print(&format!(
         "{name}/ holds a mechanism, its build script and a program that simulates it:\n\n    \
          cd {name}\n    cargo run --release\n\n\
-         The mechanism is in mechanisms/{module}.mech.\n"
+         The mechanism is in mechanisms/{module}.mech.\n{}",
+        origin(workspace.as_deref())
     ))
+}
+
+/// Where the crates come from, for a person.
+fn origin(workspace: Option<&Path>) -> String {
+    match workspace {
+        Some(folder) => format!(
+            "Its dependencies are those in {}; `Cargo.toml` names them.\n",
+            folder.display()
+        ),
+        None => "Its dependencies are the published packages; `bricard new NAME --path DIR` takes \
+                 those of a checkout in DIR.\n"
+            .to_string(),
+    }
 }
 
 /// The name of the module and of the description's file.
@@ -84,6 +101,16 @@ fn module(name: &str) -> Result<String, CommandError> {
         return refuse("it means something in Rust or to cargo");
     }
     Ok(module)
+}
+
+/// The checkout that this command was built from, or is called in, as long as it is there.
+/// Packages from a registry hold neither of the two crates.
+fn checkout() -> Option<PathBuf> {
+    let built = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    let here = env::current_dir().ok();
+    let around = here.iter().flat_map(|here| here.ancestors());
+    let mut folders = [built.as_path()].into_iter().chain(around);
+    folders.find_map(|folder| workspace(folder).ok())
 }
 
 /// The folder that holds the crates to depend on, in full.

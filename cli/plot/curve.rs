@@ -68,7 +68,7 @@ pub fn has_place(value: f64) -> bool {
 fn place(value: f64, scale: Scale) -> f64 {
     match scale {
         _ if !has_place(value) => f64::NAN,
-        Scale::Linear => value,
+        Scale::Linear | Scale::Whole => value,
         Scale::Logarithmic { low, .. } => value.abs().log10().max(f64::from(low)),
     }
 }
@@ -81,7 +81,8 @@ fn range(scaled: &[Vec<f64>], scale: Scale) -> (f64, f64) {
         (low.min(y), high.max(y))
     });
     match scale {
-        Scale::Linear if low > high => (0.0, 1.0),
+        Scale::Linear | Scale::Whole if low > high => (0.0, 1.0),
+        Scale::Whole => (low.floor() - 1.0, high.ceil() + 1.0),
         Scale::Linear => {
             let size = low.abs().max(high.abs());
             let flat = if low == high { CONSTANT } else { FLAT };
@@ -101,7 +102,8 @@ fn range(scaled: &[Vec<f64>], scale: Scale) -> (f64, f64) {
 
 fn coincide(a: &[f64], b: &[f64], range: (f64, f64), scale: Scale) -> bool {
     let near = SAME * (range.1 - range.0);
-    scale == Scale::Linear && a.iter().zip(b).all(|(x, y)| (x - y).abs() <= near)
+    matches!(scale, Scale::Linear | Scale::Whole)
+        && a.iter().zip(b).all(|(x, y)| (x - y).abs() <= near)
 }
 
 /// Keeps the lowest and the highest of neighbouring points, so that no peak is
@@ -158,6 +160,16 @@ mod tests {
             assert_eq!(curves[0].points, drawn);
             assert!((high - low).is_finite() && high > low);
         }
+    }
+
+    #[test]
+    fn what_is_counted_lies_between_whole_numbers() {
+        let rank = Series {
+            name: "rank".to_string(),
+            values: vec![9.0; 4],
+        };
+        let (_, range) = curves(&[0.0, 1.0, 2.0, 3.0], &[rank], Scale::Whole);
+        assert_eq!(range, (8.0, 10.0));
     }
 
     #[test]

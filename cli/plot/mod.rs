@@ -15,7 +15,7 @@ mod svg;
 mod work;
 
 pub use frames::{Frame, Shape, frames};
-pub use panel::{Times, panels};
+pub use panel::{Marks, Times, panels};
 pub use work::{Cloud, Mark, work_diagram};
 
 /// One diagram over time.
@@ -34,6 +34,8 @@ pub struct Panel {
 pub enum Scale {
     /// Evenly, over the range of the values.
     Linear,
+    /// Evenly, by whole numbers: for what is counted.
+    Whole,
     /// By powers of ten, from `10^low` to `10^high` or further up if values lie
     /// there. Smaller values, zero among them, are drawn at the lower edge. Values
     /// are drawn as points: round-off has no path from one to the next.

@@ -2,7 +2,7 @@
 
 use super::axis::{power_of_ten, px, short};
 use super::curve::{Curve, curves, has_place};
-use super::style::{DETAIL, DOT, FONT, GRID, HEADING, INK, MARK, STROKE, TEXT, colour};
+use super::style::{DETAIL, DOT, FONT, GRID, HEADING, INK, STROKE, TEXT, colour, mark};
 use super::svg::{self, Area, Drawn};
 use super::{Panel, Scale};
 use crate::error::CommandError;
@@ -32,10 +32,17 @@ const TICKS: usize = 6;
 pub struct Times<'a> {
     /// The time of each value (s).
     pub values: &'a [f64],
-    /// Times to mark by vertical lines (s).
-    pub marks: &'a [f64],
-    /// What happens at the marks.
-    pub marked: &'a str,
+    /// Times to mark by vertical lines.
+    pub marks: &'a [Marks],
+}
+
+/// Times at which something of one kind happens.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Marks {
+    /// When (s).
+    pub times: Vec<f64>,
+    /// What happens.
+    pub name: String,
 }
 
 /// Draws panels with a common axis of time (s).
@@ -57,12 +64,10 @@ pub fn panels(
         .iter()
         .flat_map(|(curves, _)| curves)
         .map(|c| c.name.chars().count());
-    let marked = if times.marks.is_empty() {
-        0
-    } else {
-        times.marked.chars().count()
-    };
-    let longest = u32::try_from(names.max().unwrap_or(0).max(marked)).unwrap_or(0);
+    let happens = times.marks.iter().filter(|marks| !marks.times.is_empty());
+    let happens: Vec<&Marks> = happens.collect();
+    let marked = happens.iter().map(|marks| marks.name.chars().count());
+    let longest = u32::try_from(names.chain(marked).max().unwrap_or(0)).unwrap_or(0);
     let legend = 56 + LETTER * longest.min(30);
     let count = u32::try_from(panels.len()).unwrap_or(1);
     let size = (WIDTH + legend, TITLE + PANEL * count + TIME_AXIS);
@@ -77,10 +82,12 @@ pub fn panels(
             let height = if last { PANEL + TIME_AXIS } else { PANEL };
             let (area, below) = rest.split_vertically(height * DETAIL);
             let (left, right) = area.split_horizontally(WIDTH * DETAIL);
-            diagram(&left, panel, curves, (time, *range), (times.marks, last))?;
+            diagram(&left, panel, curves, (time, *range), (&happens, last))?;
             explain(&right, curves)?;
-            if i == 0 && !times.marks.is_empty() {
-                explain_marks(&right, curves.len(), times.marked)?;
+            if i == 0 {
+                for (place, marks) in happens.iter().enumerate() {
+                    explain_marks(&right, curves.len() + place, (place, &marks.name))?;
+                }
             }
             rest = below;
         }
@@ -100,7 +107,7 @@ fn diagram(
     panel: &Panel,
     curves: &[Curve],
     (time, range): (Range, Range),
-    (marks, last): (&[f64], bool),
+    (marks, last): (&[&Marks], bool),
 ) -> Drawn {
     let mut chart = ChartBuilder::on(area)
         .margin_top(12 * DETAIL)
@@ -114,10 +121,6 @@ fn diagram(
         )
         .build_cartesian_2d(time.0..time.1, range.0..range.1)?;
     let label = |y: &f64| tick(*y, panel.scale, range);
-    let ticks = match panel.scale {
-        Scale::Linear => TICKS,
-        Scale::Logarithmic { .. } => ((range.1 - range.0) / 2.0).ceil() as usize + 1,
-    };
     chart
         .configure_mesh()
         .disable_x_mesh()
@@ -128,21 +131,26 @@ fn diagram(
         .axis_desc_style(TextStyle::from((FONT, TEXT).into_font()).color(&INK))
         .set_tick_mark_size(LabelAreaPosition::Left, 5 * DETAIL)
         .set_tick_mark_size(LabelAreaPosition::Bottom, 5 * DETAIL)
-        .y_labels(ticks)
+        .y_labels(ticks(panel.scale, range))
         .x_labels(9)
         .y_desc(panel.axis.as_str())
         .x_desc("time t [s]")
         .y_label_formatter(&label)
         .x_label_formatter(&|t| short(*t, time.1 - time.0))
         .draw()?;
-    let line =
-        |t: f64| PathElement::new(vec![(t, range.0), (t, range.1)], MARK.stroke_width(DETAIL));
-    let shown = marks.iter().filter(|t| (time.0..=time.1).contains(*t));
-    chart.draw_series(shown.map(|t| line(*t)))?;
+    for (place, marks) in marks.iter().enumerate() {
+        let style = mark(place).stroke_width(DETAIL);
+        let line = |t: f64| PathElement::new(vec![(t, range.0), (t, range.1)], style);
+        let shown = marks
+            .times
+            .iter()
+            .filter(|t| (time.0..=time.1).contains(*t));
+        chart.draw_series(shown.map(|t| line(*t)))?;
+    }
     for (i, curve) in curves.iter().enumerate() {
         let points = curve.points.iter().copied();
         match panel.scale {
-            Scale::Linear => {
+            Scale::Linear | Scale::Whole => {
                 chart.draw_series(LineSeries::new(points, colour(i).stroke_width(STROKE)))?;
             }
             Scale::Logarithmic { .. } => {
@@ -162,16 +170,27 @@ fn widened((from, to): Range) -> Range {
     }
 }
 
+/// How many ticks the vertical axis has, about.
+fn ticks(scale: Scale, range: Range) -> usize {
+    match scale {
+        Scale::Linear => TICKS,
+        Scale::Whole => TICKS.min((range.1 - range.0) as usize + 1),
+        Scale::Logarithmic { .. } => ((range.1 - range.0) / 2.0).ceil() as usize + 1,
+    }
+}
+
 /// The text at a tick of the vertical axis.
 fn tick(y: f64, scale: Scale, range: Range) -> String {
     match scale {
         Scale::Linear => short(y, range.1 - range.0),
+        Scale::Whole if (y - y.round()).abs() > 1e-9 => String::new(),
+        Scale::Whole => format!("{y:.0}"),
         Scale::Logarithmic { low, .. } if y <= f64::from(low) => format!("≤{}", power_of_ten(y)),
         Scale::Logarithmic { .. } => power_of_ten(y),
     }
 }
 
-fn explain_marks(area: &Area, place: usize, text: &str) -> Drawn {
+fn explain_marks(area: &Area, place: usize, (kind, text): (usize, &str)) -> Drawn {
     let anchor = Pos::new(HPos::Left, VPos::Center);
     let style = TextStyle::from((FONT, TEXT).into_font())
         .color(&INK)
@@ -179,7 +198,7 @@ fn explain_marks(area: &Area, place: usize, text: &str) -> Drawn {
     let y = 22 + 18 * u32::try_from(place).unwrap_or(0);
     area.draw(&PathElement::new(
         vec![px(20, y - 8), px(20, y + 8)],
-        MARK.stroke_width(DETAIL),
+        mark(kind).stroke_width(DETAIL),
     ))?;
     area.draw(&Text::new(text.to_string(), px(40, y), style))
 }

@@ -19,8 +19,14 @@ pub const FONT: &str = "sans-serif";
 pub const INK: RGBColor = RGBColor(38, 38, 38);
 /// Lines of the grid.
 pub const GRID: RGBColor = RGBColor(224, 224, 224);
-/// Marks of time.
-pub const MARK: RGBColor = RGBColor(190, 190, 190);
+/// Marks of time, by kind.
+const MARKS: [RGBColor; 5] = [
+    RGBColor(190, 190, 190),
+    RGBColor(230, 190, 150),
+    RGBColor(160, 205, 235),
+    RGBColor(160, 215, 190),
+    RGBColor(225, 190, 215),
+];
 /// What has been.
 pub const GHOST: RGBColor = RGBColor(196, 204, 212);
 
@@ -35,6 +41,11 @@ const COLOURS: [RGBColor; 7] = [
     RGBColor(86, 180, 233),
     RGBColor(90, 90, 90),
 ];
+
+/// The colour of marks of a kind.
+pub fn mark(kind: usize) -> RGBColor {
+    MARKS[kind % MARKS.len()]
+}
 
 /// The colour of a curve by its place.
 pub fn colour(place: usize) -> RGBColor {

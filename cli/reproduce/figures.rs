@@ -3,7 +3,7 @@
 use super::experiment::Outcome;
 use crate::error::CommandError;
 use crate::figure::{ERRORS, coordinates, series};
-use crate::plot::{Frame, Panel, Times, frames, panels};
+use crate::plot::{Frame, Marks, Panel, Times, frames, panels};
 use std::path::Path;
 
 /// Configurations that are drawn of the first second.
@@ -41,16 +41,14 @@ pub fn draw(folder: &Path, outcomes: &[Outcome]) -> Result<Vec<String>, CommandE
             .iter()
             .filter_map(|row| row.first().copied())
             .collect();
-        let marks: Vec<f64> = outcome
-            .report
-            .passages
-            .iter()
-            .map(|passage| passage.t)
-            .collect();
+        let passages = outcome.report.passages.iter();
+        let marks = [Marks {
+            times: passages.map(|passage| passage.t).collect(),
+            name: "singular position".to_string(),
+        }];
         let times = Times {
             values: &times,
             marks: &marks,
-            marked: "singular position",
         };
         panels(&path, title, times, &diagrams(outcome))?;
         written.push(path.display().to_string());

@@ -15,8 +15,8 @@ pub fn comparison(outcomes: &[Outcome], findings: &mut Findings) -> Result<Strin
     let mut rows = Vec::new();
     for outcome in outcomes {
         let experiment = outcome.experiment;
-        let published = difference(outcome, false)?;
-        let difference = difference(outcome, true)?;
+        let published = difference(outcome, true)?;
+        let difference = difference(outcome, false)?;
         let what = format!("{}: `full` and `reduced` differ", experiment.title);
         let most = difference.max(published);
         let verdict = findings.judge(&what, most, experiment.angle_bound);
@@ -33,7 +33,7 @@ pub fn comparison(outcomes: &[Outcome], findings: &mut Findings) -> Result<Strin
     let heading = [
         "forms",
         "full − reduced, as published",
-        "with branch rows",
+        "on the sheets",
         "bound",
         "multipliers",
         "partitioning",
@@ -51,12 +51,12 @@ pub fn comparison(outcomes: &[Outcome], findings: &mut Findings) -> Result<Strin
     ))
 }
 
-/// The largest difference of a coordinate between the two forms, with branch rows
-/// or without.
-fn difference(outcome: &Outcome, branch_rows: bool) -> Result<f64, CommandError> {
+/// The largest difference of a coordinate between the two forms, as published or on the
+/// sheets of the constraint set.
+fn difference(outcome: &Outcome, published: bool) -> Result<f64, CommandError> {
     let run = |form| {
         let mut plan = plan(outcome.experiment, STEP, form);
-        plan.options.settings.branch_rows = branch_rows;
+        plan.options.settings.published = published;
         let mut rows = Rows::default();
         outcome
             .mechanism

@@ -186,7 +186,9 @@ pub fn work(outcomes: &[Outcome]) -> String {
     let row = |outcome: &Outcome| {
         let report = &outcome.report;
         let counters = &report.counters;
-        let total = counters.cheap_accelerations + counters.robust_accelerations;
+        let total = counters.cheap_accelerations
+            + counters.landed_accelerations
+            + counters.robust_accelerations;
         vec![
             outcome.experiment.title.to_string(),
             report.steps.to_string(),

@@ -14,7 +14,7 @@ use crate::checkpoint::{Keeper, Legs, Rows};
 use crate::column::Column;
 use crate::error::CommandError;
 use crate::mechanism::state_of;
-use bricard_runtime::{Options, Start, Whole, assemble, simulate};
+use bricard_runtime::{AssemblyError, Options, Start, Whole, assemble, simulate};
 use std::time::Instant;
 use writer::Writer;
 
@@ -81,6 +81,15 @@ fn failed(reason: String) -> CommandError {
     CommandError::Run { reason, kept }
 }
 
+/// What a start lacks, and how a guess is written here.
+fn reason<const N: usize, const R: usize>(error: &AssemblyError<f64, N, R>) -> String {
+    let text = error.to_string();
+    match text.contains("(`~`)") {
+        true => format!("{text}; on the command line a guess is `--start 'NAME~VALUE'`"),
+        false => text,
+    }
+}
+
 /// Runs a mechanism from a start, or from the checkpoint of the plan.
 ///
 /// # Errors
@@ -100,9 +109,9 @@ pub fn run<const N: usize, const R: usize>(
     let from = plan.legs.as_ref().and_then(|legs| legs.from.as_ref());
     let mut state = match from {
         Some(checkpoint) => state_of(&checkpoint.state),
-        None => assemble(mechanism, start, 0.0).map_err(|error| refuse(error.to_string()))?,
+        None => assemble(mechanism, start, 0.0).map_err(|error| refuse(reason(&error)))?,
     };
-    let mut writer = Writer::new(plan, sink, state.t).map_err(|e| refuse(e.to_string()))?;
+    let mut writer = Writer::new(plan, sink, state).map_err(|e| refuse(e.to_string()))?;
     let mut keeper = plan.legs.as_ref().map(Keeper::new);
     let (begun, before) = (Instant::now(), writer.done.wall);
     loop {

@@ -21,6 +21,9 @@ use std::rc::Rc;
 type States<const N: usize> = Rc<RefCell<Vec<State<f64, N>>>>;
 type Collect<const N: usize> = Box<dyn FnMut(&State<f64, N>) -> ControlFlow<()>>;
 
+/// What is left of the last interval between rows is round-off up to this part of it.
+const SHORT: f64 = 1e-9;
+
 /// Turns states into rows, and takes note of what happened on the way.
 pub(super) struct Writer<'a, const N: usize> {
     sampler: Option<Sampler<f64, Collect<N>>>,
@@ -29,6 +32,12 @@ pub(super) struct Writer<'a, const N: usize> {
     sink: &'a mut dyn RowSink,
     rows: u64,
     progress: Progress,
+    /// The state that the run begins with, and the time at which it ends (s).
+    first: State<f64, N>,
+    until: f64,
+    /// The distance of the rows, and the time of the last one (s).
+    every: Option<f64>,
+    last: f64,
     /// Whether there are legs, and the steps of this one.
     leg: Option<u64>,
     /// Whether the run was broken off for the next leg.
@@ -42,11 +51,11 @@ pub(super) struct Writer<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Writer<'a, N> {
-    /// A writer of a plan's rows, from a time (s).
+    /// A writer of a plan's rows, from a state.
     pub(super) fn new(
         plan: &'a Plan,
         sink: &'a mut dyn RowSink,
-        t: f64,
+        first: State<f64, N>,
     ) -> Result<Self, BadInterval<f64>> {
         let sampled = States::default();
         let mut sampler = match plan.every {
@@ -70,7 +79,11 @@ impl<'a, const N: usize> Writer<'a, N> {
             columns: &plan.columns,
             sink,
             rows: from.map_or(0, |checkpoint| checkpoint.rows.count),
-            progress: Progress::new(t, plan.options.until, plan.watched),
+            first,
+            until: plan.options.until,
+            every: plan.every,
+            last: first.t,
+            progress: Progress::new(first.t, plan.options.until, plan.watched),
             leg: plan.legs.as_ref().map(|_| 0),
             leg_is_over: false,
             origin: from.map(|checkpoint| checkpoint.origin),
@@ -125,6 +138,18 @@ impl<'a, const N: usize> Writer<'a, N> {
             && (*steps >= LEG_STEPS + EXTRA_STEPS || probe.rank(state)?.sine >= CALM_SINE))
     }
 
+    /// Adds a row at the end of the run, where the last interval is a short one.
+    fn end(&mut self, state: &State<f64, N>) {
+        let Some(every) = self.every.filter(|_| state.t >= self.until) else {
+            return;
+        };
+        let mut sampled = self.sampled.borrow_mut();
+        let last = sampled.last().map_or(self.last, |row| row.t);
+        if state.t - last > every * SHORT {
+            sampled.push(*state);
+        }
+    }
+
     /// Hands the sampled states over as rows.
     fn write(
         &mut self,
@@ -138,6 +163,7 @@ impl<'a, const N: usize> Writer<'a, N> {
                 return Ok(ControlFlow::Break(()));
             }
             self.rows += 1;
+            self.last = state.t;
         }
         Ok(ControlFlow::Continue(()))
     }
@@ -161,11 +187,13 @@ impl<const N: usize> Observer<f64, N> for Writer<'_, N> {
             energy,
             supplied: 0.0,
         });
+        // The projection of the start may have moved what is held by its round-off.
+        let first = self.first;
         match &mut self.sampler {
             Some(sampler) => {
-                let _goes_on = sampler.begin(state, probe)?;
+                let _goes_on = sampler.begin(&first, probe)?;
             }
-            None => self.sampled.borrow_mut().push(*state),
+            None => self.sampled.borrow_mut().push(first),
         }
         self.write(probe)
     }
@@ -181,6 +209,7 @@ impl<const N: usize> Observer<f64, N> for Writer<'_, N> {
             }
             None => self.sampled.borrow_mut().push(*step.end()),
         }
+        self.end(step.end());
         self.progress.step(step.end().t);
         let flow = self.write(probe)?;
         if flow.is_break() {

@@ -33,11 +33,6 @@ pub fn costs(mechanism: &mut Mechanism, equations: &Equations) -> String {
             vector("b", &e.drift),
         ];
         functions.push(("a projection (M, g, G, b)", arrays.concat()));
-        let arrays = [
-            matrix("K", &e.branch_slope),
-            vector("kappa", &e.branch_bias),
-        ];
-        functions.push(("branch rows, near singular positions", arrays.concat()));
     }
     let energies = [
         e.energies.kinetic,

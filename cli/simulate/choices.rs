@@ -5,6 +5,7 @@ use crate::arguments::{MethodName, Simulate};
 use crate::column::Column;
 use crate::error::CommandError;
 use crate::run::Plan;
+use bricard_codegen::diagnostic::figure;
 use bricard_runtime::{Options, Pace, Settings};
 use std::path::Path;
 
@@ -12,6 +13,12 @@ use std::path::Path;
 const STEP: f64 = 0.01;
 /// Relative and absolute tolerance of an adaptive method, unless one is given.
 pub const TOLERANCE: f64 = 1e-9;
+
+/// Kinds of files that rows are written to; one without a kind is CSV.
+const ROWS: [&str; 4] = ["csv", "txt", "dat", "parquet"];
+
+/// More rows than this fill a disk: they are refused.
+const MOST_ROWS: f64 = 1e10;
 
 /// Intervals of a plot, unless their length is given: the steps of an adaptive
 /// method are too long for a smooth curve.
@@ -28,7 +35,7 @@ pub fn plan(arguments: &Simulate, columns: Vec<Column>) -> Result<Plan, CommandE
         return Err(CommandError::OutOfRange {
             option,
             value,
-            wanted: "zero or positive",
+            wanted: "zero or positive".to_string(),
         });
     }
     let every = positive("--every", arguments.every)?;
@@ -42,12 +49,13 @@ pub fn plan(arguments: &Simulate, columns: Vec<Column>) -> Result<Plan, CommandE
     options.settings = Settings {
         form: arguments.form.into(),
         stabilisation: arguments.stabilisation,
-        branch_rows: !arguments.no_branch_rows,
+        published: arguments.published,
     };
     options.keep_energy = arguments.keep_energy;
     let adaptive = matches!(options.pace, Pace::Adaptive { .. });
     let smooth = adaptive && arguments.plot.is_some() && arguments.until > 0.0;
     let every = every.or(smooth.then_some(arguments.until / PLOTTED));
+    bounded(arguments, every, options.pace)?;
     Ok(Plan {
         watched: true,
         ..Plan::new(options, every, columns)
@@ -57,6 +65,13 @@ pub fn plan(arguments: &Simulate, columns: Vec<Column>) -> Result<Plan, CommandE
 fn pace(arguments: &Simulate, method: MethodName) -> Result<Pace<f64>, CommandError> {
     let step = positive("--step", arguments.step)?;
     let relative = positive("--rtol", arguments.rtol)?;
+    if let Some(value) = relative.filter(|relative| *relative >= 1.0) {
+        return Err(CommandError::OutOfRange {
+            option: "--rtol",
+            value,
+            wanted: "less than 1: it is the part of a value that may be wrong".to_string(),
+        });
+    }
     let absolute = positive("--atol", arguments.atol)?;
     let fixed = step.or((method == MethodName::Rk4).then_some(STEP));
     let useless = |option| CommandError::UselessOption {
@@ -78,12 +93,44 @@ fn pace(arguments: &Simulate, method: MethodName) -> Result<Pace<f64>, CommandEr
     }
 }
 
+/// Refuses steps that are longer than the run, and more rows than can be meant.
+fn bounded(arguments: &Simulate, every: Option<f64>, pace: Pace<f64>) -> Result<(), CommandError> {
+    let until = arguments.until;
+    let refuse = |option, value, wanted| {
+        Err(CommandError::OutOfRange {
+            option,
+            value,
+            wanted,
+        })
+    };
+    if let Some(step) = arguments.step.filter(|step| *step > until && until > 0.0) {
+        return refuse("--step", step, format!("at most the {until} s of the run"));
+    }
+    let (option, distance) = match (every, pace) {
+        (Some(every), _) => ("--every", every),
+        (None, Pace::Fixed { step }) => ("--step", step),
+        (None, Pace::Adaptive { .. }) => return Ok(()),
+    };
+    let least = until / MOST_ROWS;
+    match distance < least {
+        true => refuse(
+            option,
+            distance,
+            format!(
+                "at least {} s, for a run of {until} s with at most {MOST_ROWS:e} rows",
+                figure(least)
+            ),
+        ),
+        false => Ok(()),
+    }
+}
+
 fn positive(option: &'static str, value: Option<f64>) -> Result<Option<f64>, CommandError> {
     match value {
         Some(value) if value <= 0.0 => Err(CommandError::OutOfRange {
             option,
             value,
-            wanted: "a positive number",
+            wanted: "a positive number".to_string(),
         }),
         _ => Ok(value),
     }
@@ -93,8 +140,9 @@ fn positive(option: &'static str, value: Option<f64>) -> Result<Option<f64>, Com
 ///
 /// # Errors
 ///
-/// [`CommandError::FileKind`].
+/// [`CommandError::FileKind`], [`CommandError::SameFile`].
 pub fn check_files(arguments: &Simulate) -> Result<(), CommandError> {
+    different(arguments)?;
     let kind = |path: &Path| path.extension().map(|kind| kind.to_ascii_lowercase());
     let refuse = |path: &Path, instead| {
         Err(CommandError::FileKind {
@@ -102,6 +150,14 @@ pub fn check_files(arguments: &Simulate) -> Result<(), CommandError> {
             instead,
         })
     };
+    if let Some(out) = &arguments.out
+        && kind(out).is_some_and(|kind| !ROWS.iter().any(|known| *known == kind))
+    {
+        return refuse(
+            out,
+            "rows are written as CSV or as Parquet; write `--out run.csv` or `--out run.parquet`",
+        );
+    }
     let unfinished = arguments.checkpoint.is_some() || arguments.resume.is_some();
     if let Some(out) = &arguments.out
         && is_parquet(out)
@@ -119,6 +175,25 @@ pub fn check_files(arguments: &Simulate) -> Result<(), CommandError> {
             plot,
             "plots are drawn as SVG, alone or in a page; write `--plot run.svg` or `--plot run.html`",
         );
+    }
+    Ok(())
+}
+
+/// Refuses one file for two purposes: the one would replace the other.
+fn different(arguments: &Simulate) -> Result<(), CommandError> {
+    let files = [
+        ("--out", &arguments.out),
+        ("--plot", &arguments.plot),
+        ("--checkpoint", &arguments.checkpoint),
+    ];
+    for (i, (option, file)) in files.iter().enumerate() {
+        let same = files[..i].iter().find(|(_, other)| other == file);
+        if let (Some((other, _)), Some(path)) = (same, file) {
+            return Err(CommandError::SameFile {
+                options: [other, option],
+                path: path.clone(),
+            });
+        }
     }
     Ok(())
 }

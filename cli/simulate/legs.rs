@@ -2,11 +2,12 @@
 
 use crate::arguments::Simulate;
 use crate::changes::Changes;
-use crate::checkpoint::{Legs, read};
+use crate::checkpoint::{Checkpoint, Legs, read};
 use crate::error::CommandError;
 use crate::output::{probe, say};
 use crate::run::Plan;
 use bricard_runtime::{Options, Structure};
+use std::path::Path;
 
 /// The checkpoints of a run, if it has some.
 ///
@@ -28,11 +29,25 @@ pub fn legs(
     let run = described(arguments, plan, changes);
     let from = arguments.resume.as_ref();
     let from = from.map(|file| read(file, &run, structure)).transpose()?;
+    if let (Some(file), Some(checkpoint)) = (&arguments.resume, &from) {
+        goes_further(arguments.until, file, checkpoint)?;
+    }
     Ok(Some(Legs {
         run,
         file: arguments.checkpoint.clone(),
         from,
     }))
+}
+
+/// Refuses an end that the run has passed already.
+fn goes_further(until: f64, file: &Path, checkpoint: &Checkpoint) -> Result<(), CommandError> {
+    match checkpoint.state.first() {
+        Some(&t) if until < t => Err(CommandError::Checkpoint {
+            path: file.to_path_buf(),
+            reason: format!("the run has come to t = {t} s already; give a later --until"),
+        }),
+        _ => Ok(()),
+    }
 }
 
 /// Everything that decides the bits of a run, in words. Its end is not among it: a run

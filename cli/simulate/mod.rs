@@ -17,7 +17,9 @@ use crate::error::CommandError;
 use crate::interrupt;
 use crate::mechanism::find;
 use crate::output::say;
-use crate::run::Stopped;
+use crate::plot::Marks;
+use crate::run::{Report, Stopped};
+use bricard_runtime::Structure;
 use record::Record;
 
 /// Simulates a mechanism.
@@ -25,6 +27,9 @@ pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
     let mut mechanism = find(&arguments.name)?;
     let structure = mechanism.structure();
     let changes = Changes::find(structure, &arguments.name, &arguments.set, &arguments.start)?;
+    for name in changes.negative_inertia(structure) {
+        say(&format!("warning: `{name}` is an inertia, and negative"));
+    }
     changes.apply(mechanism.as_mut());
     let columns = columns(&arguments.columns, structure, &arguments.name)?;
     let mut plan = choices::plan(arguments, columns.clone())?;
@@ -40,9 +45,10 @@ pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
         Ok(report) => Some(report),
         Err(stopped) => stopped.report.as_deref(),
     };
-    let passages = report.map_or(&[][..], |report| &report.passages);
-    let passages: Vec<f64> = passages.iter().map(|passage| passage.t).collect();
-    let kept = record.close(arguments, &passages, structure, &columns)?;
+    let marks = report
+        .map(|report| marks(report, structure))
+        .unwrap_or_default();
+    let kept = record.close(arguments, &marks, structure, &columns)?;
     if let Some(report) = report.filter(|report| result.is_ok() || report.steps > 0) {
         say(summary::summary(report, structure).trim_end());
     }
@@ -57,4 +63,21 @@ pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
             }
         }
     }
+}
+
+/// What is marked in a plot: singular positions, and the events by name.
+fn marks(report: &Report, structure: &Structure) -> Vec<Marks> {
+    let passages = report.passages.iter().map(|passage| passage.t);
+    let passages = Marks {
+        times: passages.collect(),
+        name: "singular position".to_string(),
+    };
+    let events = structure.events.iter().map(|event| {
+        let of_name = report.events.iter().filter(|(name, _)| *name == event.name);
+        Marks {
+            times: of_name.map(|(_, t)| *t).collect(),
+            name: event.name.to_string(),
+        }
+    });
+    std::iter::once(passages).chain(events).collect()
 }

@@ -10,7 +10,7 @@ use crate::error::CommandError;
 use crate::figure::overview;
 use crate::output::{CsvWriter, probe};
 use crate::parquet::ParquetWriter;
-use crate::plot::{Times, panels};
+use crate::plot::{Marks, Times, panels};
 use crate::run::RowSink;
 use bricard_runtime::Structure;
 use std::path::Path;
@@ -106,23 +106,21 @@ impl Record {
     pub fn close(
         &mut self,
         arguments: &Simulate,
-        passages: &[f64],
+        marks: &[Marks],
         structure: &Structure,
         columns: &[Column],
     ) -> Result<String, CommandError> {
         let mut places = Vec::new();
-        if let Some(table) = &mut self.table {
-            table.finish()?;
-            places.push(table.destination());
-        }
+        // A reader of the rows that has gone is no reason not to draw the picture.
+        let finished = self.table.as_mut().map_or(Ok(()), Table::finish);
+        places.extend(self.table.as_ref().map(Table::destination));
         if let (Some(path), Some(rows)) = (&arguments.plot, &self.rows)
             && self.count > 0
         {
             let values: Vec<f64> = rows.iter().filter_map(|row| row.first().copied()).collect();
             let times = Times {
                 values: &values,
-                marks: passages,
-                marked: "singular position",
+                marks,
             };
             panels(
                 path,
@@ -132,6 +130,7 @@ impl Record {
             )?;
             places.push(path.display().to_string());
         }
+        finished?;
         Ok(match self.count {
             0 => "\nno rows were computed, and nothing was written".to_string(),
             count => format!(

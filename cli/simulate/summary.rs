@@ -105,28 +105,24 @@ fn undetermined(counters: &Counters) -> Option<[String; 2]> {
 
 fn work(counters: &Counters) -> Vec<[String; 2]> {
     let Counters {
-        cheap_accelerations,
+        cheap_accelerations: cheap,
         landed_accelerations: landed,
         robust_accelerations: robust,
         ..
     } = *counters;
-    let cheap = cheap_accelerations + landed;
-    let total = (cheap + robust).max(1);
+    let total = (cheap + landed + robust).max(1);
     let share = 100.0 * cheap as f64 / total as f64;
     vec![
         [
             "accelerations".to_string(),
             format!(
-                "{cheap} by the cheap path ({share:.1} %, {landed} of them brought onto the \
-                 constraints first), {robust} by the robust path"
+                "{cheap} by the cheap path ({share:.1} %), {landed} beside singular positions, \
+                 {robust} across them"
             ),
         ],
         [
             "rank decisions".to_string(),
-            format!(
-                "{}, branch rows {} times",
-                counters.rank_decisions, counters.branch_evaluations
-            ),
+            counters.rank_decisions.to_string(),
         ],
         [
             "factorisations".to_string(),

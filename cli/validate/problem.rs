@@ -5,7 +5,7 @@
 
 use crate::column::{Column, header};
 use crate::error::CommandError;
-use crate::mechanism::{AnyMechanism, Held, find};
+use crate::mechanism::{AnyMechanism, Given, find};
 use crate::run::{Plan, Report, RowSink};
 use bricard_runtime::{Options, Pace, Scheme, Structure};
 
@@ -96,9 +96,10 @@ impl Problem {
         let coordinates = mechanism.structure().coordinates;
         for (name, value) in self.held {
             if let Some(coordinate) = coordinates.iter().position(|c| c.name == *name) {
-                mechanism.hold(Held {
+                mechanism.begin(Given {
                     coordinate,
                     velocity: false,
+                    held: true,
                     value: *value,
                 });
             }

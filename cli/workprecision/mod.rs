@@ -29,7 +29,7 @@ pub fn workprecision(arguments: &WorkPrecision) -> Result<(), CommandError> {
         return Err(CommandError::OutOfRange {
             option: "--until",
             value: arguments.until,
-            wanted: "a positive number",
+            wanted: "a positive number".to_string(),
         });
     }
     let mut mechanism = find(&arguments.name)?;

@@ -5,7 +5,7 @@
 
 use crate::changes::Changes;
 use crate::error::CommandError;
-use crate::mechanism::Held;
+use crate::mechanism::Given;
 use bricard_reference::{DoubleDouble, reference_from};
 use bricard_runtime::{Initial, Interface, Mechanism, Real, Visitor, Whole};
 
@@ -60,25 +60,25 @@ impl Visitor<DoubleDouble> for Compute<'_> {
             mechanism.set_input(*index, Some(wide(*value)));
         }
         let mechanism: Box<dyn Whole<DoubleDouble, N, R>> = Box::new(mechanism);
-        compute(&*mechanism, &self.changes.held, self.until)
+        compute(&*mechanism, &self.changes.given, self.until)
     }
 }
 
 fn compute<const N: usize, const R: usize>(
     mechanism: &dyn Whole<DoubleDouble, N, R>,
-    held: &[Held],
+    given: &[Given],
     until: f64,
 ) -> Result<Exact, String> {
     let mut start = mechanism.start();
-    for held in held {
-        let entries = if held.velocity {
+    for given in given {
+        let entries = if given.velocity {
             &mut start.v
         } else {
             &mut start.q
         };
-        if let Some(entry) = entries.get_mut(held.coordinate) {
-            let value = DoubleDouble::from_f64(held.value);
-            *entry = Initial { value, held: true };
+        if let Some(entry) = entries.get_mut(given.coordinate) {
+            let (value, held) = (DoubleDouble::from_f64(given.value), given.held);
+            *entry = Initial { value, held };
         }
     }
     let until = DoubleDouble::from_f64(until);

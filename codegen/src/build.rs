@@ -89,21 +89,21 @@ impl Builder {
         self
     }
 
-    /// Declares that no motion of the mechanism passes a singular position, so that no
-    /// branch rows are generated. A run that comes to one all the same, and has no
-    /// other way across, ends with an error.
+    /// Declares that no motion of the mechanism passes a singular configuration. A run
+    /// that comes to one all the same ends with an error.
     pub fn regular(mut self, declared: bool) -> Self {
         self.settings.options.regular = declared;
         self
     }
 
-    /// Eliminates coordinates that constraints give explicitly (`q3 = L1*cos(q1) + …`),
+    /// Eliminates dependent coordinates, those that constraints give explicitly
+    /// (`q3 = L1*cos(q1) + …`),
     /// with those constraints. The state has the others; `Interface::described` gives all
     /// that were declared back, with their velocities, accelerations and reactions.
     ///
     /// A coordinate goes if a holonomic constraint is linear in it with a number for its
     /// coefficient, the start holds neither its value nor its velocity, and its guess is
-    /// not the only one that tells where the coordinates are that it is made of.
+    /// not the only one that tells where the coordinates in its formula are.
     pub fn eliminate(mut self, wanted: bool) -> Self {
         self.settings.eliminate = wanted;
         self
@@ -210,7 +210,7 @@ impl Builder {
     fn one(&self, description: &Path, stem: &str) -> Result<(Compiled, String), BuildError> {
         let shown = description.display().to_string();
         let file_error = |error| BuildError::File(description.to_path_buf(), error);
-        let source = fs::read_to_string(description).map_err(file_error)?;
+        let source = read_description(description).map_err(file_error)?;
         self.text(&source, stem, &shown)
     }
 
@@ -314,3 +314,18 @@ impl fmt::Debug for BuildError {
 }
 
 impl std::error::Error for BuildError {}
+
+/// The text of a description.
+///
+/// # Errors
+///
+/// What the system says, or the line at which the text is no UTF-8.
+pub fn read_description(description: &Path) -> io::Result<String> {
+    String::from_utf8(fs::read(description)?).map_err(|error| {
+        let valid = error.utf8_error().valid_up_to();
+        let before = error.as_bytes().get(..valid).unwrap_or(&[]);
+        let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
+        let message = format!("line {line} is not UTF-8; save the file as UTF-8");
+        io::Error::new(io::ErrorKind::InvalidData, message)
+    })
+}

@@ -12,7 +12,7 @@ pub struct Settings {
     pub constants: Vec<(String, f64)>,
     /// Parameters that become constants at their default.
     pub frozen: Vec<String>,
-    /// Whether coordinates that constraints give explicitly are eliminated.
+    /// Whether dependent coordinates, which constraints give explicitly, are eliminated.
     pub eliminate: bool,
     /// What to emit besides the necessary.
     pub options: Options,
@@ -72,8 +72,24 @@ pub fn compile_source(
 ///
 /// As [`compile_source`].
 pub fn analyse(source: &str, settings: &Settings) -> Result<(Mechanism, Diagnostics), Diagnostics> {
-    let tree = parse::parse(source)?;
-    model::lower(&tree, &settings.constants, &settings.frozen)
+    let (tree, mut wrong) = parse::read(source);
+    let Some(tree) = tree else {
+        return Err(wrong);
+    };
+    let lowered = model::lower(
+        &tree,
+        &settings.constants,
+        &settings.frozen,
+        wrong.is_empty(),
+    );
+    if wrong.is_empty() {
+        return lowered;
+    }
+    // The statements that could be read have mistakes of their own.
+    if let Err(others) = lowered {
+        wrong.append(others);
+    }
+    Err(wrong)
 }
 
 /// [`analyse`] and everything else that can be said without generating code: also

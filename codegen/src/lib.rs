@@ -28,7 +28,7 @@ pub mod optimise;
 pub mod parse;
 pub mod words;
 
-pub use build::{BuildError, Builder, compile, compile_dir};
+pub use build::{BuildError, Builder, compile, compile_dir, read_description};
 pub use compile::{Compiled, Settings, analyse, compile_source, examine};
 pub use diagnostic::Diagnostics;
 pub use parse::ast::{Crossing, Drawing};

@@ -37,6 +37,11 @@ pub fn constants() -> impl Iterator<Item = &'static str> {
     model::built_in()
 }
 
+/// Units that hide a factor, and the factor that turns a number in them into SI.
+pub fn scaled_units() -> impl Iterator<Item = (&'static str, &'static str)> {
+    model::scaled_units()
+}
+
 /// Units.
 pub fn units() -> impl Iterator<Item = &'static str> {
     model::units()

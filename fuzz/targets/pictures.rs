@@ -11,7 +11,7 @@ mod interrupt;
 mod plot;
 
 use libfuzzer_sys::fuzz_target;
-use plot::{Cloud, Frame, Mark, Panel, Scale, Series, Shape, Times, frames, panels, work_diagram};
+use plot::{Cloud, Frame, Mark, Marks, Panel, Scale, Series, Shape, Times, frames, panels, work_diagram};
 use std::path::Path;
 
 /// Pictures go nowhere.
@@ -42,12 +42,15 @@ fn draw_panels(numbers: &[f64]) {
             series("b", &values[third..2 * third]),
         ],
     };
+    let marks = [Marks {
+        times: values[..third.min(2)].to_vec(),
+        name: "singular position".to_string(),
+    }];
     let times = Times {
         values: &times,
-        marks: &values[..third.min(2)],
-        marked: "singular position",
+        marks: &marks,
     };
-    let all = [panel(Scale::Linear), panel(ERRORS)];
+    let all = [panel(Scale::Linear), panel(Scale::Whole), panel(ERRORS)];
     panels(Path::new(NOWHERE), "fuzz", times, &all).expect("drawn");
 }
 

@@ -10,7 +10,7 @@
 use crate::DoubleDouble;
 use bricard_runtime::{
     AssemblyError, Dop853, IntegrateError, Integrator, Interface, Mechanism, Real, Settings,
-    SimulateError, Solver, Start, State, System, Tolerance, assemble,
+    SimulateError, Solver, Start, State, Tolerance, assemble,
 };
 use core::fmt::{Display, Formatter, Result as FmtResult};
 

@@ -7,6 +7,44 @@ use crate::number::Number;
 use crate::{Form, Real, Structure};
 use core::fmt::{Display, Formatter, Result};
 
+/// Kinds of singular configurations in which a motion ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Singularity {
+    /// The sheets of the constraint set cannot be told apart by the digits there are: they
+    /// nearly touch, or a gap keeps them apart that is not much more than round-off.
+    Unresolved,
+    /// The sheet turns faster than steps can follow, or the motion left it.
+    Turning,
+    /// Sheets touch without crossing, or more than two meet.
+    Touching,
+    /// At rest, or next to it, nothing tells which of the sheets that cross is meant.
+    Undetermined,
+}
+
+impl Display for Singularity {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        f.write_str(match self {
+            Self::Unresolved => {
+                "nearly depends on the others, and the branches of motion that meet there can't be \
+                 told apart by the digits of the numbers; if a length was meant to be exactly \
+                 that of another, write both by one parameter"
+            }
+            Self::Turning => {
+                "nearly depends on the others, and the branch of motion turns faster than steps \
+                 can follow; take a smaller tolerance or step"
+            }
+            Self::Touching => {
+                "depends on the others where branches of motion touch, so that the way on can't be \
+                 told; describe the branch that is meant by constraints of its own"
+            }
+            Self::Undetermined => {
+                "depends on the others, and nothing tells which of the branches of motion that \
+                 cross there is meant; begin next to this configuration, or with a velocity"
+            }
+        })
+    }
+}
+
 /// Why an acceleration or a projection could not be computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DynamicsError<T> {
@@ -24,6 +62,17 @@ pub enum DynamicsError<T> {
         form: Form,
         /// How many rows of the Jacobian are independent here.
         rank: usize,
+        /// The mechanism, for the names.
+        structure: &'static Structure,
+    },
+    /// A singular configuration that the motion cannot be followed through.
+    SingularConfiguration {
+        /// Time of the state (s).
+        t: T,
+        /// Of which kind it is.
+        kind: Singularity,
+        /// A row (constraint equation) that nearly depends on the others there.
+        row: usize,
         /// The mechanism, for the names.
         structure: &'static Structure,
     },
@@ -65,6 +114,7 @@ impl<T: Real> DynamicsError<T> {
         match *self {
             Self::NotFinite { t }
             | Self::SingularPosition { t, .. }
+            | Self::SingularConfiguration { t, .. }
             | Self::NotRegular { t, .. }
             | Self::MassSingular { t, .. }
             | Self::ProjectionFailed { t, .. } => t,
@@ -95,6 +145,12 @@ impl<T: Real> Display for DynamicsError<T> {
                      `reduced` or `full`"
                 )
             }
+            Self::SingularConfiguration {
+                t,
+                kind,
+                row,
+                structure,
+            } => write_singular(f, t, *kind, (*row, structure)),
             Self::NotRegular { t, rank, structure } => {
                 write!(f, "at t = {t} s ", t = Number(t))?;
                 structure.write_rank(f, *rank)?;
@@ -107,14 +163,7 @@ impl<T: Real> Display for DynamicsError<T> {
                 t,
                 coordinate,
                 structure,
-            } => {
-                write!(f, "at t = {t} s the coordinate ", t = Number(t))?;
-                structure.write_coordinate(f, *coordinate)?;
-                f.write_str(
-                    " can move without kinetic energy and no constraint restricts it; give it \
-                     inertia or a constraint",
-                )
-            }
+            } => write_massless(f, t, (*coordinate, structure)),
             Self::ProjectionFailed {
                 t,
                 residual,
@@ -133,6 +182,32 @@ impl<T: Real> Display for DynamicsError<T> {
             }
         }
     }
+}
+
+/// Which coordinate can move without kinetic energy.
+fn write_massless<T: Real>(
+    f: &mut Formatter<'_>,
+    t: &T,
+    (coordinate, structure): (usize, &Structure),
+) -> Result {
+    write!(f, "at t = {t} s the coordinate ", t = Number(t))?;
+    structure.write_coordinate(f, coordinate)?;
+    f.write_str(
+        " can move without kinetic energy and no constraint restricts it; give it inertia or a \
+         constraint",
+    )
+}
+
+/// Which constraint is concerned, and what is the matter with it.
+fn write_singular<T: Real>(
+    f: &mut Formatter<'_>,
+    t: &T,
+    kind: Singularity,
+    (row, structure): (usize, &Structure),
+) -> Result {
+    write!(f, "at t = {t} s the constraint ", t = Number(t))?;
+    structure.write_constraint(f, row)?;
+    write!(f, " {kind}")
 }
 
 impl<T: Real> core::error::Error for DynamicsError<T> {}

@@ -14,33 +14,35 @@ mod projection;
 mod real;
 mod simulate;
 mod sincos;
+mod singular;
 mod state;
 mod system;
+mod tolerance;
 
 pub use assembly::{AssemblyError, assemble};
 pub use catalogue::Visitor;
 pub use dynamics::{
     ConstrainedSystem, ConstraintError, Counters, Form, Rank, Settings, Solver, Stabilisation,
 };
-pub use error::DynamicsError;
+pub use error::{DynamicsError, Singularity};
 pub use integrator::{
     Dop853, Dp5, IntegrateError, Integrator, Radau5, Radau9, Rk4, Step, Tolerance,
 };
 pub use model::{
-    Branch, Canvas, ConstraintRow, Correction, Declared, Described, Direction, Energy, Event,
-    Initial, Interface, Linearised, Mechanism, Pivots, Position, Quantity, Regular, Start,
-    Structure, Terms, Whole,
+    Canvas, ConstraintRow, Correction, Declared, Described, Direction, Energy, Event, Initial,
+    Interface, Linearised, Mechanism, Pivots, Position, Quantity, Regular, Start, Structure, Terms,
+    Whole,
 };
 pub use nalgebra;
 #[cfg(feature = "std")]
 pub use observer::Recorder;
 pub use observer::{
-    BadInterval, ConstraintAudit, EnergyAudit, Observer, Occurrence, Passage, Probe, RankAudit,
-    Sampler,
+    BadInterval, ConstraintAudit, EnergyAudit, Observer, Occurrence, Probe, Sampler,
 };
 pub use real::Real;
 pub use simulate::{
     Audit, Failure, Options, Origin, Pace, Scheme, SimulateError, Stepper, Summary, simulate,
 };
+pub use singular::Passage;
 pub use state::State;
 pub use system::{Slope, System};

@@ -4,7 +4,7 @@
 //! handles any mechanism needs besides (parameters, start, outputs, pictures),
 //! [`Structure`] what was known when the code was generated.
 //!
-//! The buffers ([`Terms`], [`Position`], [`Branch`]) begin as zeros. Generated
+//! The buffers ([`Terms`], [`Position`]) begin as zeros. Generated
 //! code writes the entries that can differ from zero and no others, so a buffer
 //! must be a fresh one or one that the same mechanism filled before.
 
@@ -17,9 +17,8 @@ use nalgebra::{SMatrix, SVector};
 /// `M q̈ + r = p₁`, `A q̈ = p₂`, where `r` are the generalized reaction forces of
 /// ideal constraints. Source: Phong & Hoang (2012), eqs. 2.1–2.10.
 ///
-/// A mechanism without constraints (`R = 0`) provides neither
-/// [`position`](Self::position) nor [`branch`](Self::branch); they then write
-/// nothing.
+/// A mechanism without constraints (`R = 0`) does not provide
+/// [`position`](Self::position), which then writes nothing.
 pub trait Mechanism<T: Real, const N: usize, const R: usize> {
     /// What was known when the code was generated.
     fn structure(&self) -> &'static Structure;
@@ -46,9 +45,6 @@ pub trait Mechanism<T: Real, const N: usize, const R: usize> {
     fn correction(&self, _state: &State<T, N>, _out: &mut Correction<T, N, R>) -> bool {
         false
     }
-
-    /// The branch rows `K`, `κ`: the constraints differentiated once more.
-    fn branch(&self, _state: &State<T, N>, _out: &mut Branch<T, N, R>) {}
 
     /// Energies and the power that is supplied from outside.
     fn energy(&self, state: &State<T, N>) -> Energy<T>;
@@ -190,15 +186,6 @@ pub struct Linearised<T, const N: usize, const R: usize> {
     pub row_by_velocity: SMatrix<T, R, N>,
 }
 
-/// The constraints, differentiated a third time: `A q⃛ + K q̈ = κ`.
-#[derive(Clone, Debug)]
-pub struct Branch<T, const N: usize, const R: usize> {
-    /// `K = Ȧ + ∂γ/∂q̇`, `R × N`, with `γ = −p₂`.
-    pub slope: SMatrix<T, R, N>,
-    /// `κ = −(∂γ/∂t + ∂γ/∂q q̇)`, `R`.
-    pub bias: SVector<T, R>,
-}
-
 macro_rules! zeroed {
     ($name:ident { $($field:ident),* }) => {
         impl<T: Real, const N: usize, const R: usize> Default for $name<T, N, R> {
@@ -220,7 +207,6 @@ zeroed!(Position {
     jacobian,
     drift
 });
-zeroed!(Branch { slope, bias });
 zeroed!(Linearised {
     force_by_position,
     force_by_velocity,
@@ -459,7 +445,8 @@ pub struct Structure {
     pub conservative: bool,
     /// The description draws something.
     pub drawn: bool,
-    /// The constraints were declared to be regular: there are no branch rows.
+    /// The constraints were declared to be regular: a run ends with an error at a
+    /// singular configuration.
     pub regular: bool,
 }
 

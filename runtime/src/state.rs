@@ -21,6 +21,21 @@ impl<T: Real, const N: usize> State<T, N> {
         Self { t, q, v }
     }
 
+    /// The state at a part of the way to another, by the cubic polynomial through both
+    /// positions and velocities.
+    pub(crate) fn towards(&self, end: &Self, part: T) -> Self {
+        let h = end.t - self.t;
+        let (rest, two) = (T::one() - part, T::from_f64(2.0));
+        let first = rest * rest * (T::one() + two * part);
+        let last = part * part * (T::one() + two * rest);
+        let (leave, arrive) = (part * rest * rest * h, -(part * part * rest * h));
+        Self {
+            t: self.t + h * part,
+            q: self.q * first + end.q * last + self.v * leave + end.v * arrive,
+            v: self.v * rest + end.v * part,
+        }
+    }
+
     /// Whether every number of the state is finite.
     pub fn is_finite(&self) -> bool {
         let sum = nothing(self.t * T::zero(), &self.q);

@@ -7,7 +7,7 @@
 //! Not here: how either is computed ([`crate::dynamics`], [`crate::projection`])
 //! and how a step is made of accelerations (the integrators).
 
-use crate::{DynamicsError, Real, State};
+use crate::{DynamicsError, Real, State, Step};
 use nalgebra::{SMatrix, SVector};
 
 /// Partial derivatives of the acceleration.
@@ -21,6 +21,10 @@ pub struct Slope<T, const N: usize> {
 
 /// What an integrator sees: a first-order flow on (q, v) with a projection.
 pub trait System<T: Real, const N: usize> {
+    /// Is told where a step begins, before each attempt at it. A system that follows a
+    /// motion goes on from there if its last accepted step ended there.
+    fn begin(&mut self, _state: &State<T, N>) {}
+
     /// The acceleration `q̈` (m/s² or rad/s²) at a state, which need not satisfy
     /// the constraints: the stages of a step are off them by a little.
     ///
@@ -29,7 +33,7 @@ pub trait System<T: Real, const N: usize> {
     /// A [`DynamicsError`] with the time of the state.
     fn acceleration(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>>;
 
-    /// Brings an accepted state back onto the constraints (positions, then
+    /// Brings the end of an attempt at a step back onto the constraints (positions, then
     /// velocities).
     ///
     /// # Errors
@@ -37,6 +41,34 @@ pub trait System<T: Real, const N: usize> {
     /// A [`DynamicsError`] with the time of the state, which is then left as the
     /// last iteration made it.
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>>;
+
+    /// Whether what just failed will not fail again if the step is taken once more from
+    /// its start, because the system now looks at it more closely.
+    ///
+    /// # Errors
+    ///
+    /// A [`DynamicsError`] if no closer look helps.
+    fn escalate(&mut self) -> Result<bool, DynamicsError<T>> {
+        Ok(false)
+    }
+
+    /// Verifies an attempt at a step that is about to be accepted.
+    ///
+    /// # Errors
+    ///
+    /// A [`DynamicsError`] that says what is wrong with it.
+    fn verify(&mut self, _start: &State<T, N>, _end: &State<T, N>) -> Result<(), DynamicsError<T>> {
+        Ok(())
+    }
+
+    /// Is told of an accepted step.
+    ///
+    /// # Errors
+    ///
+    /// A [`DynamicsError`] if the motion can't be followed from its end.
+    fn commit(&mut self, _step: &Step<T, N>) -> Result<(), DynamicsError<T>> {
+        Ok(())
+    }
 
     /// How the acceleration changes with the state, to the few digits that the
     /// iteration of an implicit method needs; `None` where that is not known, so that

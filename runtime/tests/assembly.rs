@@ -98,6 +98,20 @@ fn velocities_follow_the_held_one() {
 }
 
 #[test]
+fn a_mechanism_at_rest_is_assembled_from_guesses_that_move() {
+    let crank = SliderCrank::default();
+    for angle in 1..60 {
+        let q = f64::from(angle) * 0.05;
+        let state = assembled(
+            &crank,
+            [hold(q), guess(q), guess(0.7)],
+            [hold(0.0), guess(1.7), guess(0.37 + q)],
+        );
+        assert!(state.v.amax() < 1e-14, "at {q}: {}", state.v);
+    }
+}
+
+#[test]
 fn a_consistent_over_determined_start_is_kept_as_it_is() {
     let q = [hold(0.5), hold(0.5), hold(0.5_f64.cos())];
     let v = [hold(1.0), hold(1.0), hold(-0.5_f64.sin())];

@@ -8,7 +8,7 @@ use crate::toys::{Framed, PLAIN};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     ConstrainedSystem, DynamicsError, Form, Integrator, Mechanism, Options, Rk4, Settings, Solver,
-    Stabilisation, State, Structure, System, Terms, simulate,
+    Stabilisation, State, Structure, Terms, simulate,
 };
 
 /// All forms.
@@ -140,7 +140,7 @@ fn forms_of_old_end_with_the_time_and_the_rank_at_a_singular_position() {
 #[test]
 fn the_published_method_passes_with_less_accuracy() {
     let settings = Settings {
-        branch_rows: false,
+        published: true,
         ..Settings::default()
     };
     for which in [Form::Reduced, Form::Full] {
@@ -295,9 +295,6 @@ fn a_massless_coordinate_is_legal_where_a_constraint_holds_it() {
             self.0.position(state, out);
             out.mass[(2, 2)] = 0.0;
         }
-        fn branch(&self, state: &State<f64, 3>, out: &mut bricard_runtime::Branch<f64, 3, 2>) {
-            self.0.branch(state, out);
-        }
         fn energy(&self, state: &State<f64, 3>) -> bricard_runtime::Energy<f64> {
             self.0.energy(state)
         }
@@ -376,7 +373,6 @@ fn eighty_one_coordinates_and_eighty_constraints_fit_on_a_small_stack() {
     thread.unwrap().join().unwrap();
 }
 
-/// With two degrees of freedom nothing but branch rows leads across.
 #[test]
 fn a_mechanism_that_was_declared_regular_ends_at_a_singular_position() {
     static DECLARED: Structure = Structure {

@@ -3,7 +3,7 @@
 
 use crate::mechanisms::{FourBars, Parallelogram, Passing, Reduction, SliderCrank};
 use bricard_runtime::{
-    ConstraintError, DynamicsError, Integrator, Mechanism, Rk4, Settings, Solver, State, System,
+    ConstraintError, DynamicsError, Integrator, Mechanism, Rk4, Settings, Solver, State,
 };
 
 /// How long a motion is followed (s).

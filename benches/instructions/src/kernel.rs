@@ -8,7 +8,7 @@
 
 use bricard_runtime::{
     Correction, Interface, Mechanism, Pace, Regular, Scheme, Settings, Solver, State, Stepper,
-    System, Terms, assemble,
+    Terms, assemble,
 };
 use instructions::hand::{self, ByHand};
 use instructions::mechanism as generated;

@@ -32,7 +32,7 @@ codegen-units = 1
 /// Calls everything that a run needs, so that it is compiled.
 const MAIN: &str = r#"#![allow(missing_docs)]
 pub mod row { include!("n_four_bar.rs"); }
-use bricard_runtime::{Branch, Correction, Mechanism, Position, Regular, State, Terms};
+use bricard_runtime::{Correction, Mechanism, Position, Regular, State, Terms};
 use std::hint::black_box;
 
 fn all<M: Mechanism<f64, N, R>, const N: usize, const R: usize>(mechanism: M) {
@@ -45,9 +45,7 @@ fn all<M: Mechanism<f64, N, R>, const N: usize, const R: usize>(mechanism: M) {
     mechanism.position(&state, &mut position);
     let mut correction = Box::<Correction<f64, N, R>>::default();
     mechanism.correction(&state, &mut correction);
-    let mut branch = Box::<Branch<f64, N, R>>::default();
-    mechanism.branch(&state, &mut branch);
-    black_box((terms, regular, position, correction, branch));
+    black_box((terms, regular, position, correction));
 }
 
 fn main() { all(row::n_four_bar::NFourBar::default()); }

@@ -15,8 +15,7 @@ pub(super) struct Closure {
     pub turn: Matrix,
     pub jacobian: Matrix,
     pub drift: Vec<ExprId>,
-    /// `γ = Ȧ q̇ + ḃ`.
-    pub gamma: Vec<ExprId>,
+    /// `p₂ = −(Ȧ q̇ + ḃ)`.
     pub bias: Vec<ExprId>,
 }
 
@@ -43,8 +42,8 @@ pub(super) fn closure(graph: &mut Graph, constraints: &[Constraint], n: usize) -
         .map(|&phi| gradient(graph, phi, coordinates(n)))
         .collect();
     let drift = speed.iter().map(|&phi| graph.at_rest(phi)).collect();
-    let gamma = rates(graph, &speed, n);
-    let bias = gamma.iter().map(|&gamma| graph.neg(gamma)).collect();
+    let turning = rates(graph, &speed, n);
+    let bias = turning.into_iter().map(|rate| graph.neg(rate)).collect();
     let residual = (0..residuals.len())
         .map(|i| if holonomic(i) { residuals[i] } else { zero })
         .collect();
@@ -54,7 +53,6 @@ pub(super) fn closure(graph: &mut Graph, constraints: &[Constraint], n: usize) -
         turn,
         jacobian,
         drift,
-        gamma,
         bias,
     }
 }

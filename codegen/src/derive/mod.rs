@@ -1,14 +1,13 @@
 //! Mechanism to equations of motion.
 //!
 //! In:  a checked [`Mechanism`].
-//! Out: [`Equations`]: `M`, `C q̇`, `h`, `Q`, `p₁`, `g`, `A`, `b`, `p₂`, `K`, `κ` and
-//!      the energies, as expressions in the mechanism's graph. Source: Phong &
-//!      Hoang (2012), eqs. 2.1–2.10; `K`, `κ` by one more differentiation.
+//! Out: [`Equations`]: `M`, `C q̇`, `h`, `Q`, `p₁`, `g`, `A`, `b`, `p₂` and the
+//!      energies, as expressions in the mechanism's graph. Source: Phong & Hoang
+//!      (2012), eqs. 2.1–2.10.
 //!
 //! Not here: simplification, and what is computed when. Equal terms meet in the
 //! graph, and `optimise` decides the rest.
 
-mod branch;
 mod christoffel;
 mod closure;
 mod eliminate;
@@ -58,10 +57,6 @@ pub struct Equations {
     pub drift: Vec<ExprId>,
     /// `p₂ = −(Ȧ q̇ + ḃ)`, `R`.
     pub bias: Vec<ExprId>,
-    /// `K`, `R × N`.
-    pub branch_slope: Matrix,
-    /// `κ`, `R`.
-    pub branch_bias: Vec<ExprId>,
     /// The energies.
     pub energies: Energies,
 }
@@ -147,7 +142,6 @@ fn equations(mechanism: &mut Mechanism) -> Option<Equations> {
     within_bounds(graph)?;
     let closure = closure::closure(graph, &mechanism.constraints, n);
     within_bounds(graph)?;
-    let (branch_slope, branch_bias) = branch::branch_rows(graph, &closure, n);
     let energies = energy::energies(graph, kinetic, potential, &applied, &momenta);
     within_bounds(graph)?;
     Some(Equations {
@@ -162,8 +156,6 @@ fn equations(mechanism: &mut Mechanism) -> Option<Equations> {
         jacobian: closure.jacobian,
         drift: closure.drift,
         bias: closure.bias,
-        branch_slope,
-        branch_bias,
         energies,
     })
 }

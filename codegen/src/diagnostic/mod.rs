@@ -130,6 +130,16 @@ impl Diagnostics {
         }
     }
 
+    /// The number of findings.
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Forgets the findings behind the first ones.
+    pub fn truncate(&mut self, count: usize) {
+        self.list.truncate(count);
+    }
+
     /// Adds the findings of another collection.
     pub fn append(&mut self, other: Diagnostics) {
         other

@@ -1,7 +1,8 @@
 //! What is legal in a description but probably not meant, found with numbers.
 //!
 //! In:  a checked [`Mechanism`].
-//! Out: warnings: coordinates without inertia, equations whose derivatives vanish
+//! Out: warnings: kinetic energy that is negative, statements that are not finite where the motion
+//!      begins, coordinates without inertia, equations whose derivatives vanish
 //!      where they hold, a start that can't be assembled ([`doubts`]); equations
 //!      that follow from others ([`redundancies`]).
 //!
@@ -13,8 +14,10 @@
 //! Not here: errors. A run decides about each position by itself.
 
 mod basis;
+mod finite;
 mod inertia;
 mod least_squares;
+mod negative;
 mod numbers;
 mod rows;
 mod start;
@@ -23,16 +26,19 @@ use crate::diagnostic::Diagnostics;
 use crate::model::Mechanism;
 use numbers::Numbers;
 
-/// Warns of what will hinder a simulation: a coordinate that moves without kinetic
+/// Warns of what will hinder a simulation: a negative kinetic energy, a coordinate that moves without kinetic
 /// energy and that no constraint restricts, an equation whose derivatives vanish
 /// where it holds, a start that can't be assembled.
 pub fn doubts(mechanism: Mechanism) -> Diagnostics {
     let mut found = Diagnostics::new();
-    if let Some(numbers) = Numbers::new(mechanism) {
+    if let Some(mut numbers) = Numbers::new(mechanism) {
         start::unassembled(&numbers, &mut found);
+        finite::statements(&mut numbers, &mut found);
         let flat = rows::flat(&numbers);
         rows::warn_of_flat(&numbers, &flat, &mut found);
-        inertia::massless(&numbers, &mut found);
+        if !negative::energy(&numbers, &mut found) {
+            inertia::massless(&numbers, &mut found);
+        }
     }
     found
 }

@@ -96,15 +96,37 @@ impl Numbers {
             t: 0.0,
             q: vec![0.0; n],
         };
-        numbers.parameters = numbers.values(&defaults, &nowhere);
+        numbers.parameters = numbers.with_inputs(&defaults, &nowhere, &[], &[]);
         Some(numbers)
     }
 
     /// Values of expressions at a place, at rest.
     pub fn values(&self, roots: &[ExprId], place: &Place) -> Vec<f64> {
+        self.moving(roots, place, &[])
+    }
+
+    /// Values of expressions at a place, at velocities; those behind the last are zero.
+    /// Inputs are at their laws.
+    pub fn moving(&self, roots: &[ExprId], place: &Place, v: &[f64]) -> Vec<f64> {
+        let laws = self.mechanism.inputs.iter().map(|input| input.law);
+        let laws: Vec<ExprId> = laws.collect();
+        let inputs = match laws.as_slice() {
+            [] => Vec::new(),
+            laws => self.with_inputs(laws, place, v, &[]),
+        };
+        self.with_inputs(roots, place, v, &inputs)
+    }
+
+    fn with_inputs(&self, roots: &[ExprId], place: &Place, v: &[f64], inputs: &[f64]) -> Vec<f64> {
         let value = |symbol| match symbol {
+            // An infinite law is found fault with where it stands.
+            Symbol::Input(i) => match inputs.get(i as usize) {
+                Some(input) if input.is_finite() => *input,
+                _ => 0.0,
+            },
             Symbol::Time => place.t,
             Symbol::Coordinate(i) => place.q[i as usize],
+            Symbol::Velocity(i) => v.get(i as usize).copied().unwrap_or(0.0),
             Symbol::Parameter(i) => self.parameters[i as usize],
             _ => 0.0,
         };
@@ -195,6 +217,18 @@ impl Numbers {
             held[start.coordinate] = start.held;
         }
         (place, held)
+    }
+
+    /// The position of the start block, settled; `None` where it can't be.
+    pub fn assembled(&self) -> Option<Place> {
+        let (guess, held) = self.start();
+        let rows = self.positions();
+        if rows.is_empty() {
+            return Some(guess);
+        }
+        let free: Vec<usize> = (0..held.len()).filter(|&i| !held[i]).collect();
+        let end = self.settle(&rows, &free, &guess)?;
+        self.errors(&rows, &end).1.then_some(end)
     }
 
     /// Random positions near the start at which the constraints hold; fewer than

@@ -1,8 +1,8 @@
 //! Sines and cosines in emitted functions.
 //!
 //! In:  a program that is being written.
-//! Out: one call for all angles that are known from the start, since a batch runs in the
-//!      lanes of the processor; a call of its own for each of the others.
+//! Out: one call for all angles that are known from the start, if they are many, since a
+//!      batch runs in the lanes of the processor; a call of its own for each of the others.
 
 use super::function::{Binding, Writer, pattern};
 use crate::expr::{Function, Symbol};
@@ -12,12 +12,17 @@ use quote::quote;
 use std::collections::BTreeSet;
 use std::mem::discriminant;
 
+/// The fewest angles that are worth a call for all: as many as a block has lanes. A block
+/// that is filled in part takes fewer instructions than calls one by one and longer
+/// (`docs/instructions.md`).
+const ANGLES_MIN: usize = 4;
+
 impl Writer<'_> {
     /// Writes the call for all angles that are known from the start; the symbols that
     /// are in scope after it, or not needed any more.
     pub(super) fn place_angles(&mut self) -> BTreeSet<Symbol> {
         let angles = self.early_angles();
-        if angles.len() < 2 {
+        if angles.len() < ANGLES_MIN {
             return BTreeSet::new();
         }
         let (arguments, bound) = match self.whole(&angles) {

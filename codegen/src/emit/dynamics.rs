@@ -2,12 +2,21 @@
 
 use super::function::Body;
 use super::linearised::{argument, linearised};
-use super::{Method, Subject, Written, entry};
+use super::{Method, Subject, Written, doc_lines, entry};
 use crate::derive::coriolis_matrix;
 use crate::expr::ExprId;
-use crate::optimise::{Slot, regular_acceleration, regular_correction};
+use crate::optimise::{Slot, Way, regular_acceleration, regular_correction};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
+
+/// What is said of an acceleration by a Schur complement.
+const SCHUR: &str = "The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
+Schur complement `A M⁻¹ Aᵀ`.";
+
+/// What is said of one by a single elimination.
+const SADDLE: &str = "The acceleration where the constraints are regular: `[M Aᵀ; A 0] = L D Lᵀ`,
+each multiplier after the coordinates of its row. The pivots of rows are bounds of those of
+`A M⁻¹ Aᵀ` from below.";
 
 /// An entry wanted of an array.
 type Wanted = Vec<(Slot, ExprId)>;
@@ -87,20 +96,23 @@ pub(super) fn mechanism(subject: &mut Subject) -> TokenStream {
 /// The acceleration by the regular path.
 fn regular(subject: &mut Subject, terms: &Wanted) -> TokenStream {
     let (n, r) = subject.counts();
-    let Some(program) = regular_acceleration(&subject.program(terms), n, r) else {
+    let Some(solved_by) = regular_acceleration(&subject.program(terms), n, r) else {
         return TokenStream::new();
+    };
+    let docs = match solved_by.way {
+        Way::Schur => doc_lines(SCHUR),
+        Way::Saddle => doc_lines(SADDLE),
     };
     let Written {
         body: Body { statements, .. },
         state,
         cost,
         ..
-    } = subject.written(&program, &solved);
+    } = subject.written(&solved_by.program, &solved);
     let out = argument("out", &statements);
     let (n, r) = subject.sizes();
     quote! {
-        /// The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
-        /// Schur complement `A M⁻¹ Aᵀ`.
+        #(#[doc = #docs])*
         ///
         #[doc = #cost]
         #[inline(always)]
@@ -120,7 +132,7 @@ fn correction(subject: &mut Subject) -> TokenStream {
     wanted.extend(vector("residual", &equations.residual));
     wanted.extend(vector("speed", &equations.speed));
     wanted.extend(matrix("turn", &equations.turn));
-    let Some(program) = regular_correction(&subject.program(&wanted), n, r) else {
+    let Some(solved_by) = regular_correction(&subject.program(&wanted), n, r) else {
         return TokenStream::new();
     };
     let Written {
@@ -128,7 +140,7 @@ fn correction(subject: &mut Subject) -> TokenStream {
         state,
         cost,
         ..
-    } = subject.written(&program, &solved);
+    } = subject.written(&solved_by.program, &solved);
     let out = argument("out", &statements);
     let (n, r) = subject.sizes();
     quote! {
@@ -178,23 +190,7 @@ fn closure(subject: &mut Subject) -> TokenStream {
         wanted,
     });
     let correction = correction(subject);
-    if subject.options.regular {
-        return quote!(#position #correction);
-    }
-    let mut wanted = matrix("slope", &equations.branch_slope);
-    wanted.extend(vector("bias", &equations.branch_bias));
-    let branch = subject.method(Method {
-        docs: "The constraints differentiated once more: `A q⃛ + K q̈ = κ`.
-
-| field | equation | shape | unit |
-|---|---|---|---|
-| `slope` | `K = Ȧ + ∂γ/∂q̇`, `γ = −p₂` | `R × N` | unit of the row per s and unit of the coordinate |
-| `bias` | `κ = −(∂γ/∂t + ∂γ/∂q q̇)` | `R` | unit of the row per s³ |",
-        name: "branch",
-        buffer: quote!(Branch<T, #n, #r>),
-        wanted,
-    });
-    quote!(#position #correction #branch)
+    quote!(#position #correction)
 }
 
 fn energy(subject: &mut Subject) -> TokenStream {

@@ -15,8 +15,12 @@ use quote::quote;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 
-/// The most operands that one emitted expression has.
+/// The most operands of an expression that is written where it is read.
 const OPERANDS_MAX: usize = 9;
+
+/// The most terms or factors that are written in one expression, since whoever reads the
+/// code goes into its nested parts by recursion: so far the rest has a name of its own.
+const NESTED_MAX: usize = 32;
 
 /// How tightly an emitted piece holds together.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -138,7 +142,8 @@ impl Writer<'_> {
     }
 
     fn written(&mut self, value: Value) -> Piece {
-        let operation = self.program.operation(value);
+        let program = self.program;
+        let operation = program.operation(value);
         let piece = match operation {
             Operation::Number(number) => return atom(literal::number(*number)),
             Operation::Pi => return atom(quote!(T::pi())),
@@ -167,8 +172,12 @@ impl Writer<'_> {
         if self.uses[value.index()] == 1 && short && !input {
             return piece;
         }
-        let name = self.names.unique(&self.wish(operation));
-        let tokens = piece.tokens;
+        self.named(&self.wish(operation), piece.tokens)
+    }
+
+    /// Gives an expression a name close to a wish.
+    fn named(&mut self, wish: &str, tokens: TokenStream) -> Piece {
+        let name = self.names.unique(wish);
         self.statements.extend(quote!(let #name = #tokens;));
         atom(quote!(#name))
     }
@@ -214,10 +223,13 @@ impl Writer<'_> {
     }
 
     /// A product that is written where it is added goes with the sum into one operation.
-    fn sum(&self, terms: &[(bool, Value)]) -> Piece {
+    fn sum(&mut self, terms: &[(bool, Value)]) -> Piece {
         let (first, rest) = self.begun(terms);
         let mut sum = first;
-        for (minus, value) in rest {
+        for (count, (minus, value)) in (1..).zip(rest) {
+            if count % NESTED_MAX == 0 {
+                sum = self.named("sum", sum.tokens);
+            }
             let term = self.piece(value);
             let (so_far, operands) = (sum.tokens, sum.operands + term.operands);
             let (tokens, binding) = match (&term.factors, minus) {
@@ -262,7 +274,7 @@ impl Writer<'_> {
     }
 
     /// Numbers stand in front, as people write them.
-    fn product(&self, factors: &[Value]) -> Piece {
+    fn product(&mut self, factors: &[Value]) -> Piece {
         let is_number = |x: &Value| matches!(self.program.operation(*x), Operation::Number(_));
         let (mut ordered, others): (Vec<Value>, Vec<Value>) =
             factors.iter().copied().partition(is_number);
@@ -272,6 +284,12 @@ impl Writer<'_> {
             .map(|value| self.bound(*value, Binding::Atom))
             .collect();
         let last = pieces.pop().unwrap_or_default();
+        while pieces.len() > NESTED_MAX {
+            let first = pieces.drain(..NESTED_MAX);
+            let part = quote!(#(#first)**);
+            let part = self.named("product", part);
+            pieces.insert(0, part.tokens);
+        }
         let bare = ordered
             .last()
             .map(|value| self.piece(*value).tokens.clone());

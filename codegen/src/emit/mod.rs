@@ -23,7 +23,7 @@ pub use write::{catalogue, render, write_if_changed};
 use crate::derive::Equations;
 use crate::expr::{ExprId, Symbol};
 use crate::model::Mechanism;
-use crate::optimise::{Cost, Program, Slot, cost, derived_cost, optimise};
+use crate::optimise::{Cost, Polynomials, Program, Slot, cost, derived_cost, optimise_among};
 use function::{Body, Place};
 use proc_macro2::{Ident, Literal, Span, TokenStream, TokenTree};
 use quote::quote;
@@ -34,7 +34,8 @@ use symbol::SymbolNames;
 pub struct Options {
     /// Emit the Coriolis matrix `C` as a function of its own.
     pub coriolis_matrix: bool,
-    /// The constraints are declared to be regular: emit no branch rows.
+    /// The constraints are declared to be regular: runs end with an error where they are
+    /// not.
     pub regular: bool,
 }
 
@@ -55,6 +56,10 @@ pub struct Origin<'a> {
 struct Subject<'a> {
     mechanism: &'a mut Mechanism,
     equations: &'a Equations,
+    polynomials: Polynomials,
+    /// What was wanted last, and its program: two functions follow one another that
+    /// compute the same.
+    last: (Vec<(Slot, ExprId)>, Program),
     names: SymbolNames,
     file: &'a str,
     options: Options,
@@ -96,6 +101,8 @@ pub fn module(
     let mut subject = Subject {
         mechanism,
         equations,
+        polynomials: Polynomials::default(),
+        last: (Vec::new(), Program::default()),
         names,
         file: origin.file,
         options,
@@ -262,7 +269,7 @@ fn imports(subject: &Subject, dynamics: &TokenStream) -> TokenStream {
         "Terms",
     ];
     if !subject.mechanism.constraints.is_empty() {
-        names.extend(["Branch", "ConstraintRow", "Correction", "Position"]);
+        names.extend(["ConstraintRow", "Correction", "Position"]);
     }
     if !subject.mechanism.described.is_empty() {
         names.extend(["ConstraintRow", "Declared", "Described"]);
@@ -340,8 +347,13 @@ impl Subject<'_> {
     }
 
     fn program(&mut self, wanted: &[(Slot, ExprId)]) -> Program {
-        let laws = self.laws();
-        optimise(&mut self.mechanism.graph, &laws, wanted)
+        if self.last.0 != wanted {
+            let laws = self.laws();
+            let graph = &mut self.mechanism.graph;
+            let program = optimise_among(graph, &mut self.polynomials, &laws, wanted);
+            self.last = (wanted.to_vec(), program);
+        }
+        self.last.1.clone()
     }
 
     fn body(&mut self, wanted: &[(Slot, ExprId)], place: Place) -> Written {

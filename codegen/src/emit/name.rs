@@ -20,6 +20,19 @@ impl Names {
         }
     }
 
+    /// New names close to wishes. A wish that is spelt as Rust expects it is granted as it
+    /// is, wherever it stands: of `L` and `l` the latter is `l`.
+    pub fn all(&mut self, wishes: &[&str]) -> Vec<Ident> {
+        let exact = |wish: &str| snake_case(wish) == wish;
+        let granted: Vec<Option<Ident>> = wishes
+            .iter()
+            .map(|wish| exact(wish).then(|| self.unique(wish)))
+            .collect();
+        let both = wishes.iter().zip(granted);
+        both.map(|(wish, granted)| granted.unwrap_or_else(|| self.unique(wish)))
+            .collect()
+    }
+
     /// A new name close to a wish; `_2`, `_3`, … is added where it is taken.
     pub fn unique(&mut self, wish: &str) -> Ident {
         let base = snake_case(wish);
@@ -61,8 +74,7 @@ pub(super) fn snake_case(name: &str) -> String {
 }
 
 /// Types that stand beside a mechanism's in its module.
-const NEIGHBOURS: [&str; 29] = [
-    "Branch",
+const NEIGHBOURS: [&str; 28] = [
     "Canvas",
     "ConstraintRow",
     "Correction",
@@ -129,5 +141,8 @@ mod tests {
         let mut names = Names::default();
         assert_eq!(names.unique("L1").to_string(), "l1");
         assert_eq!(names.unique("l1").to_string(), "l1_2");
+        let fields = Names::default().all(&["L", "M", "l", "m_"]);
+        let fields: Vec<String> = fields.iter().map(Ident::to_string).collect();
+        assert_eq!(fields, ["l_2", "m", "l", "m_"]);
     }
 }

@@ -1,7 +1,7 @@
 //! The static description of a mechanism, and the structs of its parameters and
 //! inputs.
 
-use super::{Subject, described, doc_lines};
+use super::{Subject, described, doc_lines, name};
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Constraint, Direction, Input, Quantity};
 use proc_macro2::{Literal, TokenStream};
@@ -86,6 +86,10 @@ fn conservative(subject: &Subject) -> bool {
     still(&subject.equations.energies.power) && subject.equations.drift.iter().all(still)
 }
 
+/// What is said of parameters whose fields would have the same name.
+const ALIKE: &str = " Of names that differ in case alone, the one spelt as the field is has the \
+                     field; the others have a number behind their names.";
+
 /// The struct of run-time parameters with its defaults; nothing if there are none.
 pub(super) fn parameters(subject: &Subject) -> TokenStream {
     let parameters = &subject.mechanism.parameters;
@@ -99,8 +103,17 @@ pub(super) fn parameters(subject: &Subject) -> TokenStream {
         .collect();
     let defaults: Vec<TokenStream> =
         subject.constants(parameters.iter().map(|p| p.default).collect());
+    let alike = parameters
+        .iter()
+        .zip(fields)
+        .any(|(parameter, field)| *field != name::snake_case(&parameter.quantity.name));
+    let alike = alike.then(|| {
+        let docs = ["", ALIKE].map(str::to_string);
+        quote!(#(#[doc = #docs])*)
+    });
     quote! {
         /// Run-time parameters, in SI units.
+        #alike
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct Parameters<T> { #(#(#[doc = #docs])* pub #fields: T),* }
 

@@ -61,11 +61,12 @@ impl SymbolNames {
             .iter()
             .map(|p| p.quantity.name.as_str())
             .collect();
-        let inputs = mechanism
+        let inputs: Vec<&str> = mechanism
             .inputs
             .iter()
-            .map(|input| input_names.unique(&input.quantity.name));
-        let input_fields: Vec<Ident> = inputs.collect();
+            .map(|input| input.quantity.name.as_str())
+            .collect();
+        let input_fields = input_names.all(&inputs);
         let parameter_names = parameters.iter().map(|name| taken.unique(name)).collect();
         let accelerations = mechanism
             .coordinates
@@ -81,7 +82,7 @@ impl SymbolNames {
             .map(|input| taken.unique(&format!("follows_{input}")))
             .collect();
         SymbolNames {
-            parameter_fields: parameters.iter().map(|name| fields.unique(name)).collect(),
+            parameter_fields: fields.all(&parameters),
             input_fields,
             time,
             coordinates,

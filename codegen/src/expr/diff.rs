@@ -68,23 +68,15 @@ impl Graph {
 
     /// `Σ ∂e/∂symbol · dsymbol` over the seeds of a direction.
     pub fn derivative_along(&mut self, e: ExprId, direction: &mut Direction) -> ExprId {
-        for node in self.unvisited(e, &direction.memo) {
+        if let Some(&known) = direction.memo.get(&e) {
+            return known;
+        }
+        // Children come first.
+        for node in self.reachable_but(&[e], &|e| direction.memo.contains_key(&e)) {
             let derivative = self.chain(node, direction);
             direction.memo.insert(node, derivative);
         }
         direction.memo[&e]
-    }
-
-    /// What `e` is made of and has no derivative yet, children first.
-    fn unvisited(&self, e: ExprId, memo: &Memo) -> Vec<ExprId> {
-        let mut seen = std::collections::BTreeSet::new();
-        let mut pending = vec![e];
-        while let Some(e) = pending.pop() {
-            if !memo.contains_key(&e) && seen.insert(e) {
-                pending.extend(self.node(e).children());
-            }
-        }
-        seen.into_iter().collect()
     }
 
     /// The chain rule at one node whose children are done.

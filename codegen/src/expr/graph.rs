@@ -11,7 +11,8 @@
 
 use super::{Comparison, Function, Function2, Number};
 use rustc_hash::FxHashMap;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
+use std::collections::hash_map::Entry;
 
 /// An expression of a [`Graph`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -21,6 +22,11 @@ impl ExprId {
     /// Its place in the graph, in order of creation.
     pub fn index(self) -> usize {
         self.0 as usize
+    }
+
+    /// The expression at a place.
+    pub(super) fn at(index: usize) -> Self {
+        ExprId(u32::try_from(index).unwrap_or(u32::MAX))
     }
 }
 
@@ -68,20 +74,6 @@ pub enum Node {
     Select(Comparison, [ExprId; 4]),
 }
 
-impl Node {
-    /// The expressions it is made of.
-    pub fn children(&self) -> Vec<ExprId> {
-        match self {
-            Node::Number(_) | Node::Pi | Node::Symbol(_) => Vec::new(),
-            Node::Sum(_, terms) => terms.iter().map(|(term, _)| *term).collect(),
-            Node::Product(factors) => factors.iter().map(|(base, _)| *base).collect(),
-            Node::Function(_, x) => vec![*x],
-            Node::Function2(_, x, y) => vec![*x, *y],
-            Node::Select(_, parts) => parts.to_vec(),
-        }
-    }
-}
-
 /// All expressions of one mechanism.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
@@ -112,13 +104,14 @@ impl Graph {
     }
 
     fn intern(&mut self, node: Node) -> ExprId {
-        if let Some(&known) = self.index.get(&node) {
-            return known;
+        match self.index.entry(node) {
+            Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(free) => {
+                let id = ExprId::at(self.nodes.len());
+                self.nodes.push(free.key().clone());
+                *free.insert(id)
+            }
         }
-        let id = ExprId(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
-        self.nodes.push(node.clone());
-        self.index.insert(node, id);
-        id
     }
 
     /// A number.
@@ -373,49 +366,6 @@ impl Graph {
     /// Whether an expression is the number zero.
     pub fn is_zero(&self, e: ExprId) -> bool {
         self.as_number(e).is_some_and(Number::is_zero)
-    }
-
-    /// Every expression that some roots are made of, in an order of evaluation.
-    pub fn reachable(&self, roots: &[ExprId]) -> Vec<ExprId> {
-        let mut seen = BTreeSet::new();
-        let mut pending = roots.to_vec();
-        while let Some(e) = pending.pop() {
-            if seen.insert(e) {
-                pending.extend(self.node(e).children());
-            }
-        }
-        seen.into_iter().collect()
-    }
-
-    /// Every symbol an expression is made of.
-    pub fn symbols(&self, e: ExprId) -> BTreeSet<Symbol> {
-        let symbol = |e: ExprId| match self.node(e) {
-            Node::Symbol(symbol) => Some(*symbol),
-            _ => None,
-        };
-        self.reachable(&[e])
-            .into_iter()
-            .filter_map(symbol)
-            .collect()
-    }
-
-    /// Whether an expression is made of a symbol among others.
-    pub fn depends_on(&self, e: ExprId, symbol: Symbol) -> bool {
-        self.symbols(e).contains(&symbol)
-    }
-
-    /// Whether an expression contains `abs`, `sign`, `min`, `max` or `if`.
-    pub fn contains_nondifferentiable(&self, e: ExprId) -> bool {
-        self.reachable(&[e])
-            .into_iter()
-            .any(|e| match self.node(e) {
-                Node::Function(function, _) => !function.is_differentiable(),
-                Node::Function2(function, ..) => {
-                    matches!(function, Function2::Min | Function2::Max)
-                }
-                Node::Select(..) => true,
-                _ => false,
-            })
     }
 }
 

@@ -4,14 +4,17 @@
 //! expressions have equal ids, ids are given in order of creation, and nothing
 //! depends on the order of a hash map.
 
+mod bits;
 mod diff;
 mod eval;
 mod function;
 mod graph;
 mod number;
 mod print;
+mod reach;
 mod substitute;
 
+pub(crate) use bits::Bits;
 pub use diff::Direction;
 pub use function::{Comparison, Function, Function2};
 pub use graph::{ExprId, Graph, Node, Symbol};

@@ -196,6 +196,12 @@ impl Add for Number {
     type Output = Number;
 
     fn add(self, other: Number) -> Number {
+        // Most numbers are whole, and those need no common divisor.
+        if let (Number::Exact(a, 1), Number::Exact(c, 1)) = (self, other)
+            && let Some(sum) = a.checked_add(c)
+        {
+            return Number::Exact(sum, 1);
+        }
         let exact = self.exact_with(other).and_then(|((a, b), (c, d))| {
             let left = a.checked_mul(d)?;
             let right = c.checked_mul(b)?;
@@ -209,6 +215,11 @@ impl Mul for Number {
     type Output = Number;
 
     fn mul(self, other: Number) -> Number {
+        if let (Number::Exact(a, 1), Number::Exact(c, 1)) = (self, other)
+            && let Some(product) = a.checked_mul(c)
+        {
+            return Number::Exact(product, 1);
+        }
         let exact = self
             .exact_with(other)
             .and_then(|((a, b), (c, d))| Number::ratio(a.checked_mul(c)?, b.checked_mul(d)?));
@@ -220,7 +231,10 @@ impl Neg for Number {
     type Output = Number;
 
     fn neg(self) -> Number {
-        self * Number::MINUS_ONE
+        match self {
+            Number::Exact(n, d) if n > i128::MIN => Number::Exact(-n, d),
+            _ => self * Number::MINUS_ONE,
+        }
     }
 }
 

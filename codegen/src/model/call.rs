@@ -2,15 +2,16 @@
 
 use super::evaluate::Evaluator;
 use super::linear::transposed;
+use super::scope::Kind;
 use super::unit::{PER_SECOND, Unit};
 use super::value::{Matrix, Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::expr::{Function, Function2};
-use crate::parse::ast::{Expr, Name};
+use crate::parse::ast::{Expr, ExprKind, Name};
 
 /// Functions of more than one number or of something else than a number: name,
 /// number of arguments, how they are written.
-const OTHERS: [(&str, usize, &str); 14] = [
+const OTHERS: [(&str, usize, &str); 15] = [
     ("atan2", 2, "atan2(y, x)"),
     ("min", 2, "min(a, b)"),
     ("max", 2, "max(a, b)"),
@@ -20,6 +21,7 @@ const OTHERS: [(&str, usize, &str); 14] = [
     ("norm", 1, "norm(v)"),
     ("norm2", 1, "norm2(v)"),
     ("transpose", 1, "transpose(R)"),
+    ("rot", 2, "rot(angle)` in the plane, `rot(axis, angle)"),
     ("rotx", 1, "rotx(angle)"),
     ("roty", 1, "roty(angle)"),
     ("rotz", 1, "rotz(angle)"),
@@ -28,7 +30,14 @@ const OTHERS: [(&str, usize, &str); 14] = [
 ];
 
 /// Names that other languages have for the same.
-const ELSEWHERE: [(&str, &str); 14] = [
+const ELSEWHERE: [(&str, &str); 21] = [
+    ("sqr", "x^2"),
+    ("square", "x^2"),
+    ("len", "norm(v)"),
+    ("mag", "norm(v)"),
+    ("magnitude", "norm(v)"),
+    ("dist", "norm(a - b)"),
+    ("fabs", "abs(x)"),
     ("arcsin", "asin(x)"),
     ("arccos", "acos(x)"),
     ("arctan", "atan(x)"),
@@ -65,6 +74,9 @@ impl Evaluator {
             (None, Some((_, arity, form))) => (*arity, (*form).to_string()),
             (None, None) => return self.unknown_function(name),
         };
+        if let ("rot", [angle]) = (name.text.as_str(), arguments) {
+            return self.plane_rotation(angle);
+        }
         if arguments.len() != arity {
             let message = format!(
                 "`{}` takes {}, here {}",
@@ -89,6 +101,7 @@ impl Evaluator {
 
     fn geometric(&mut self, name: &str, arguments: &[Expr], span: Span) -> Option<Value> {
         match name {
+            "rot" => return self.rotation_about(&arguments[0], &arguments[1], span),
             "rotx" => return self.rotation(0, &arguments[0]),
             "roty" => return self.rotation(1, &arguments[0]),
             "rotz" => return self.rotation(2, &arguments[0]),
@@ -104,7 +117,10 @@ impl Evaluator {
             values = values.into_iter().map(Value::array_to_vector).collect();
         }
         match (name, values.as_slice()) {
-            ("der", [value]) => self.derivative(value, span),
+            ("der", [value]) => {
+                self.still(&arguments[0], span);
+                self.derivative(value, span)
+            }
             ("dot", [Value::Vector(a), Value::Vector(b)]) if a.len() == b.len() => {
                 self.inner(a, b, span).map(Value::Scalar)
             }
@@ -220,6 +236,20 @@ impl Evaluator {
         })
     }
 
+    /// Warns of the derivative of a parameter. That of a formula may be zero for some
+    /// indices of a loop and not for others.
+    fn still(&mut self, argument: &Expr, span: Span) {
+        let ExprKind::Name(name) = &argument.kind else {
+            return;
+        };
+        let entry = self.scope.get(name);
+        if entry.is_some_and(|entry| matches!(entry.kind, Kind::Parameter | Kind::Constant)) {
+            let warning = Diagnostic::warning(span, "this derivative is zero");
+            let help = format!("`{name}` does not move; coordinates are declared with `coord`");
+            self.diagnostics.push(warning.help(help));
+        }
+    }
+
     /// `der(x)`: the total derivative in time.
     pub fn derivative(&mut self, value: &Value, span: Span) -> Option<Value> {
         let rates: Vec<_> = value
@@ -245,10 +275,9 @@ impl Evaluator {
         let mut flow = std::mem::take(&mut self.flow);
         let id = self.graph.derivative_along(scalar.id, &mut flow);
         self.flow = flow;
-        // What a bare number made sizes may be a length, so its rate may be a speed.
+        // Zero fits every unit.
         let unit = match scalar.unit {
             Unit::Number if self.graph.is_zero(id) => Unit::Number,
-            Unit::Number => Unit::Unchecked,
             unit => unit.times(Unit::Known(PER_SECOND)),
         };
         Some(Scalar {

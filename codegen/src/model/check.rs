@@ -1,13 +1,13 @@
 //! What a formula may contain where it stands.
 //!
-//! Energies and constraints are differentiated, so they have no kinks; the
+//! Energies and constraints are differentiated, so they are smooth; the
 //! kinetic energy is a polynomial of degree two or less in the velocities, a
 //! velocity constraint one of degree one; potentials know no velocities; signals
 //! act through forces alone.
 
 use super::facts::{Facts, NOT_POLYNOMIAL};
 use super::lower::Lowering;
-use super::unit::{ENERGY, POWER, Unit};
+use super::unit::{AREA, ENERGY, FREQUENCY2, POWER, Unit};
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span, figure};
 use crate::expr::ExprId;
@@ -15,6 +15,9 @@ use crate::parse::ast::{Energy, Expr, ExprKind};
 
 const SMOOTH: &str =
     "`abs`, `sign`, `min`, `max` and `if` may stand in forces, inputs, outputs and events";
+
+const TURNING: &str = "what turns has a moment of inertia: `1/2*J*der(q)^2` with J in kg*m^2";
+const DER: &str = "is `der` missing? the kinetic energy of a mass is `1/2*m*der(x)^2`";
 
 impl Lowering<'_> {
     /// Checks a summand of an energy.
@@ -27,7 +30,7 @@ impl Lowering<'_> {
         let facts = self.evaluator.facts(value.id);
         if facts.kinked {
             let span = self.culprit(e, |facts| facts.kinked);
-            let message = format!("{what} has to be differentiable, this has a kink");
+            let message = format!("{what} has to be smooth, this is non-smooth");
             return self.report(Diagnostic::error(span, message).help(SMOOTH));
         }
         if facts.input && kind != Energy::Dissipation {
@@ -40,7 +43,17 @@ impl Lowering<'_> {
         match value.unit {
             Unit::Known(found) if found != unit => {
                 let message = format!("{what} is in {unit_name}, this is in {}", found.text());
-                self.report(Diagnostic::error(e.span, message))
+                let error = Diagnostic::error(e.span, message);
+                let lacking = found.power(-1.0).map(|found| unit.times(found));
+                let error = match lacking {
+                    Some(FREQUENCY2) if kind == Energy::Kinetic && !facts.velocity() => {
+                        error.help(DER)
+                    }
+                    Some(AREA) if kind == Energy::Kinetic => error.help(TURNING),
+                    _ => error,
+                };
+                let error = self.evaluator.declare_bare(error, e, [unit, found]);
+                self.report(error)
             }
             _ => Some(()),
         }
@@ -128,7 +141,7 @@ impl Lowering<'_> {
 
     fn legal_row(&mut self, facts: Facts, sides: [&Expr; 2]) -> Option<()> {
         let (bad, message, help): (fn(&Facts) -> bool, _, _) = if facts.kinked {
-            let message = "a constraint has to be differentiable, this has a kink";
+            let message = "a constraint has to be smooth, this is non-smooth";
             (|facts| facts.kinked, message, SMOOTH)
         } else if facts.input {
             let help = "what is prescribed is written with `t`; an input acts by `force`";

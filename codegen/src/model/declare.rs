@@ -82,19 +82,45 @@ impl Lowering<'_> {
 
     /// Refuses a value in another unit than the declared one.
     pub fn fits(&mut self, declaration: &Declaration, unit: Unit, value: Scalar) -> Option<()> {
-        match unit.meet(value.unit) {
-            Ok(_) => Some(()),
-            Err((declared, found)) => {
-                let (name, declared) = (&declaration.name.text, declared.text());
-                let found = found.said();
-                let value = found.replacen("this", "its value", 1);
-                let message = format!("`{name}` is declared in {declared}, {value}");
-                let unit = declaration.unit.as_ref();
-                let place = unit.map_or(declaration.name.span, |unit| unit.span);
-                let error = Diagnostic::error(declaration.value.span, message);
-                self.report(error.labelled(found).also(place, "declared here"))
-            }
+        let place = declaration.unit.as_ref();
+        self.fits_in(
+            (&declaration.name, place),
+            unit,
+            (&declaration.value, value),
+        )
+    }
+
+    fn fits_in(
+        &mut self,
+        (name, place): (&Name, Option<&UnitExpr>),
+        unit: Unit,
+        (e, value): (&Expr, Scalar),
+    ) -> Option<()> {
+        let Err((declared, dimension)) = unit.meet(value.unit) else {
+            return Some(());
+        };
+        let (text, unit_name) = (&name.text, declared.text());
+        let found = dimension.said();
+        let said = found.replacen("this", "its value", 1);
+        let message = format!("`{text}` is declared in {unit_name}, {said}");
+        let place = place.map_or(name.span, |unit| unit.span);
+        let error = Diagnostic::error(e.span, message);
+        let error = (self.evaluator).declare_bare(error, e, [declared, dimension]);
+        self.report(error.labelled(found).also(place, "declared here"))
+    }
+
+    /// The value of a quantity, in the unit that it is declared with: what bare numbers and
+    /// symbols without unit have made is from here on in that unit.
+    fn in_unit(&mut self, quantity: &Let, value: Value) -> Option<Value> {
+        let Some(place) = &quantity.unit else {
+            return Some(value);
+        };
+        let unit = self.unit(Some(place));
+        for scalar in value.scalars() {
+            let e = &quantity.value;
+            self.fits_in((&quantity.name, Some(place)), unit, (e, scalar))?;
         }
+        Some(value.with_unit(unit))
     }
 
     fn coordinates(
@@ -233,7 +259,13 @@ impl Lowering<'_> {
                 None => self.evaluator.evaluate(&lets[i].value),
                 Some(range) => self.evaluator.array(&lets[i].name, range, &lets[i].value),
             };
+            let value = value.and_then(|value| self.in_unit(lets[i], value));
+            let bare = match lets[i].unit {
+                Some(_) => None,
+                None => self.evaluator.bare(&lets[i].value),
+            };
             self.evaluator.scope.set(&lets[i].name.text, value);
+            self.evaluator.scope.set_bare(&lets[i].name.text, bare);
         }
     }
 

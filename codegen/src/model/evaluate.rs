@@ -11,8 +11,8 @@ use super::scope::{BUILT_IN, Kind, Scope};
 use super::unit::Unit;
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest};
-use crate::expr::{Comparison, Direction, ExprId, Function, Graph, Number, Symbol};
-use crate::parse::ast::{Condition, Expr, ExprKind, Range};
+use crate::expr::{Direction, ExprId, Function, Graph, Number, Symbol};
+use crate::parse::ast::{Expr, ExprKind, Range};
 
 /// The most formulas that are evaluated for one description, loops unrolled.
 const WORK: u64 = 10_000_000;
@@ -179,6 +179,13 @@ impl Evaluator {
     }
 
     fn undeclared(&mut self, name: &str, span: Span) -> Option<Value> {
+        if self.scope.unreadable.contains(name) {
+            return None;
+        }
+        if let Some(help) = self.elsewhere(name) {
+            let error = Diagnostic::error(span, format!("`{name}` is not declared"));
+            return self.report(error.help(help));
+        }
         let built_in = BUILT_IN.iter().map(|(name, _)| *name);
         let near = nearest(name, self.scope.names().chain(built_in)).map(str::to_string);
         let help = if let Some(near) = near {
@@ -192,60 +199,23 @@ impl Evaluator {
         self.report(Diagnostic::error(span, format!("`{name}` is not declared")).help(help))
     }
 
-    /// `if … then … else …`. Where the condition is known now only one side is
-    /// looked at: `if i == 0 then a else p[i-1]` is no real choice.
-    fn choice(
-        &mut self,
-        condition: &Condition,
-        then: &Expr,
-        otherwise: &Expr,
-        span: Span,
-    ) -> Option<Value> {
-        let left = self.scalar(&condition.left, "the side of a comparison")?;
-        let right = self.scalar(&condition.right, "the side of a comparison")?;
-        let sides = [(left, condition.left.span), (right, condition.right.span)];
-        self.same_unit(sides, "this comparison")?;
-        let numbers = (
-            self.graph.as_number(left.id),
-            self.graph.as_number(right.id),
-        );
-        if let (Some(a), Some(b)) = numbers {
-            let holds = condition.comparison.holds(a.to_f64(), b.to_f64());
-            return self.evaluate(if holds { then } else { otherwise });
+    /// What other languages write for the time and for velocities: `qdot`, `q_dot`, `dq`.
+    fn elsewhere(&self, name: &str) -> Option<String> {
+        if ["time", "Time", "TIME"].contains(&name) {
+            return Some("the time is `t`".to_string());
         }
-        let (yes, no) = (self.evaluate(then), self.evaluate(otherwise));
-        let (yes, no) = (yes?.operand(), no?.operand());
-        if !yes.same_shape(&no) {
-            let message = format!(
-                "one side of this choice is {}, the other {}",
-                yes.shape(),
-                no.shape()
-            );
-            return self.report(Diagnostic::error(span, message));
+        if ["Pi", "PI"].contains(&name) {
+            return Some("the number π is `pi`".to_string());
         }
-        self.select(
-            condition.comparison,
-            [left, right],
-            [&yes, &no],
-            [then.span, otherwise.span],
-        )
-    }
-
-    fn select(
-        &mut self,
-        comparison: Comparison,
-        sides: [Scalar; 2],
-        values: [&Value; 2],
-        spans: [Span; 2],
-    ) -> Option<Value> {
-        let mut chosen = Vec::new();
-        for (yes, no) in values[0].scalars().into_iter().zip(values[1].scalars()) {
-            let unit = self.same_unit([(yes, spans[0]), (no, spans[1])], "this choice")?;
-            let id = self
-                .graph
-                .select(comparison, sides[0].id, sides[1].id, yes.id, no.id);
-            chosen.push(Scalar { id, unit });
-        }
-        Some(values[0].with_scalars(chosen))
+        let behind = ["_dot", "dot", "_d", "d"].map(|end| name.strip_suffix(end));
+        let before = ["d", "v_", "v"].map(|start| name.strip_prefix(start));
+        let moves = |name: &&str| {
+            let entry = self.scope.get(name);
+            entry.is_some_and(|entry| entry.kind == Kind::Coordinate)
+        };
+        let coordinate = behind.into_iter().chain(before).flatten().find(moves)?;
+        Some(format!(
+            "the velocity of `{coordinate}` is written `der({coordinate})`"
+        ))
     }
 }

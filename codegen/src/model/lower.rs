@@ -30,7 +30,8 @@ pub struct Lowering<'a> {
 /// Checks a description and puts it into expressions.
 ///
 /// `constants` replaces the values of constants, `frozen` makes parameters
-/// constants at their default.
+/// constants at their default. A description that is not `complete`, because some of its
+/// statements can't be read, is not found fault with for what it lacks.
 ///
 /// # Errors
 ///
@@ -39,6 +40,7 @@ pub fn lower(
     model: &Model,
     constants: &[(String, f64)],
     frozen: &[String],
+    complete: bool,
 ) -> Result<(Mechanism, Diagnostics), Diagnostics> {
     let mut lowering = Lowering {
         evaluator: Evaluator::default(),
@@ -48,10 +50,14 @@ pub fn lower(
         indices: Vec::new(),
         named: Named::default(),
     };
-    lowering.changes_fit(model);
+    let unreadable = model.unreadable.iter().cloned();
+    lowering.evaluator.scope.unreadable = unreadable.collect();
     lowering.declare(&model.items);
     lowering.statements(&model.items);
-    lowering.whole(model);
+    if complete {
+        lowering.changes_fit(model);
+        lowering.whole(model);
+    }
     let Lowering {
         mut evaluator,
         mut mechanism,

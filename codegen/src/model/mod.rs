@@ -7,8 +7,10 @@
 //! Not here: mechanics. Mass matrix and constraint Jacobian are `derive`'s.
 
 mod arithmetic;
+mod bare;
 mod call;
 mod check;
+mod choice;
 mod constant;
 mod declare;
 mod element;
@@ -29,7 +31,7 @@ mod value;
 pub(crate) use call::other_functions;
 pub use lower::lower;
 pub(crate) use scope::built_in;
-pub(crate) use si::units;
+pub(crate) use si::{scaled_units, units};
 
 use crate::diagnostic::Span;
 use crate::expr::{ExprId, Graph, Symbol};

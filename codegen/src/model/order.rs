@@ -137,8 +137,9 @@ fn collect<'a>(formula: &'a Expr, names: &mut Vec<&'a str>) {
                 .for_each(|part| collect(part, names));
         }
         ExprKind::If(condition, then, otherwise) => {
-            let parts = [&condition.left, &condition.right, then, otherwise];
-            parts.into_iter().for_each(|part| collect(part, names));
+            let sides = condition.sides().into_iter();
+            let parts = sides.chain([&**then, &**otherwise]);
+            parts.for_each(|part| collect(part, names));
         }
     }
 }

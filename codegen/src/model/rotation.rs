@@ -9,7 +9,7 @@ use super::evaluate::Evaluator;
 use super::linear::transposed;
 use super::unit::{PER_SECOND, Unit};
 use super::value::{Matrix, Scalar, Value};
-use crate::diagnostic::Span;
+use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::{Function, Number};
 use crate::parse::ast::Expr;
 
@@ -55,6 +55,97 @@ impl Evaluator {
         let mut spin = [none; 3];
         spin[axis] = rate;
         Some(spin)
+    }
+
+    /// `rot(angle)`: the rotation in the plane.
+    pub fn plane_rotation(&mut self, argument: &Expr) -> Option<Value> {
+        let Value::Matrix(space) = self.rotation(2, argument)? else {
+            return None;
+        };
+        let rows = space.rows.into_iter().take(2);
+        let rows = rows.map(|row| row.into_iter().take(2).collect());
+        Some(Value::Matrix(Matrix {
+            rows: rows.collect(),
+            spin: None,
+        }))
+    }
+
+    /// `rot(axis, angle)`: the rotation about an axis of any length, by Rodrigues' formula
+    /// cos φ E + sin φ ñ + (1 − cos φ) n nᵀ. About an axis at rest ω = φ̇ n.
+    pub fn rotation_about(&mut self, axis: &Expr, angle: &Expr, span: Span) -> Option<Value> {
+        let n = self.direction(axis)?;
+        let Value::Matrix(about_z) = self.rotation(2, angle)? else {
+            return None;
+        };
+        let (cos, sin) = (about_z.rows[0][0], about_z.rows[1][0]);
+        let one = self.graph.integer(1);
+        let unit = cos.unit;
+        let versed = Scalar {
+            id: self.graph.sub(one, cos.id),
+            unit,
+        };
+        let mut rows = vec![Vec::new(); 3];
+        for (i, row) in rows.iter_mut().enumerate() {
+            for j in 0..3 {
+                let across = self.times(n[i], n[j], span)?;
+                let dyad = self.times(versed, across, span)?;
+                let other = match i == j {
+                    true => cos.id,
+                    false => {
+                        let turned = self.times(sin, n[3 - i - j], span)?;
+                        match (i + 1) % 3 == j {
+                            true => self.graph.neg(turned.id),
+                            false => turned.id,
+                        }
+                    }
+                };
+                let id = self.graph.sum([other, dyad.id]);
+                row.push(Scalar { id, unit });
+            }
+        }
+        let rests = n.iter().all(|part| {
+            let facts = self.facts(part.id);
+            !facts.coordinate && !facts.time && !facts.velocity() && !facts.input
+        });
+        let spin = match about_z.spin.filter(|_| rests) {
+            Some([.., rate]) => {
+                let parts = n.iter().map(|part| self.times(rate, *part, span));
+                let parts: Option<Vec<Scalar>> = parts.collect();
+                parts?.try_into().ok()
+            }
+            None => None,
+        };
+        Some(Value::Matrix(Matrix { rows, spin }))
+    }
+
+    /// The unit vector along a vector of three components.
+    fn direction(&mut self, axis: &Expr) -> Option<[Scalar; 3]> {
+        let value = self.evaluate(axis)?.operand();
+        let Some(parts) = value.as_vector().filter(|parts| parts.len() == 3) else {
+            let message = format!(
+                "the axis of a rotation is a vector in space, this is {}",
+                value.shape()
+            );
+            let error = Diagnostic::error(axis.span, message);
+            return self
+                .report(error.help("write `rot([0, 0, 1], angle)`, in the plane `rot(angle)`"));
+        };
+        let parts = parts.clone();
+        let square = self.inner(&parts, &parts, axis.span)?;
+        if self.graph.is_zero(square.id) {
+            return self.report(Diagnostic::error(axis.span, "this axis has no direction"));
+        }
+        let length = Scalar {
+            id: self.graph.function(Function::Sqrt, square.id),
+            unit: square.unit.power(0.5),
+        };
+        let unit = |part: Scalar| part.unit.times(length.unit.power(-1.0));
+        let along = parts.iter().map(|part| Scalar {
+            id: self.graph.div(part.id, length.id),
+            unit: unit(*part),
+        });
+        let along: Vec<Scalar> = along.collect();
+        along.try_into().ok()
     }
 
     /// `quat(e0, e1, e2, e3)`: the rotation with given Euler parameters, valid on

@@ -3,10 +3,11 @@
 //! All symbols share one namespace, without shadowing: a name that is in use
 //! can't be declared again. Functions and units have namespaces of their own.
 
+use super::bare::Bare;
 use super::value::Value;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::parse::ast::Name;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What a name stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,6 +51,8 @@ pub struct Entry {
     pub value: Option<Value>,
     /// Whether a formula mentions it.
     pub used: bool,
+    /// The number without unit that it is made with, if there is one.
+    pub bare: Option<Bare>,
 }
 
 /// Names that mean something everywhere.
@@ -69,6 +72,8 @@ pub fn built_in() -> impl Iterator<Item = &'static str> {
 pub struct Scope {
     entries: Vec<Entry>,
     index: FxHashMap<String, usize>,
+    /// Names that statements with mistakes may have declared.
+    pub unreadable: FxHashSet<String>,
 }
 
 impl Scope {
@@ -90,6 +95,7 @@ impl Scope {
             kind,
             value: None,
             used: false,
+            bare: None,
         });
         Ok(())
     }
@@ -110,6 +116,13 @@ impl Scope {
     pub fn set(&mut self, name: &str, value: Option<Value>) {
         if let Some(&i) = self.index.get(name) {
             self.entries[i].value = value;
+        }
+    }
+
+    /// Remembers the number without unit that a quantity is made with.
+    pub fn set_bare(&mut self, name: &str, bare: Option<Bare>) {
+        if let Some(&i) = self.index.get(name) {
+            self.entries[i].bare = bare;
         }
     }
 

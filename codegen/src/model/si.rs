@@ -81,6 +81,11 @@ pub fn units() -> impl Iterator<Item = &'static str> {
     NAMED.iter().map(|(name, _)| *name)
 }
 
+/// Units that hide a factor, with that factor.
+pub fn scaled_units() -> impl Iterator<Item = (&'static str, &'static str)> {
+    SCALED.iter().map(|(name, _, factor)| (*name, *factor))
+}
+
 /// The dimension of a unit as written.
 pub fn resolve(unit: &UnitExpr) -> Result<Dimension, Box<Diagnostic>> {
     let mut total = NONE;

@@ -1,7 +1,7 @@
 //! What every value has to satisfy: units that agree, numbers that are finite.
 
 use super::evaluate::Evaluator;
-use super::unit::{Dimension, NONE, Unit};
+use super::unit::{Dimension, Unit};
 use super::value::Scalar;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::{ExprId, Node};
@@ -24,12 +24,17 @@ impl Evaluator {
         let [(left, left_span), (right, right_span)] = sides;
         let message = format!("{what} mixes {} and {}", left.text(), right.text());
         let error = Diagnostic::error(right_span, message).labelled(right.said());
-        let unit = match (left, right) {
-            (NONE, unit) | (unit, NONE) => Some(unit.text()),
-            _ => None,
+        let lacking = right.power(-1.0).map(|right| left.times(right));
+        let lacking = lacking.filter(|_| left.is_rate() || right.is_rate());
+        let unit = match lacking {
+            Some(unit) if right.is_rate() => Some(unit),
+            Some(unit) => unit.power(-1.0),
+            None => None,
         };
-        let declare =
-            |unit| format!("a number that is meant in {unit} is declared: `const a: {unit} = …;`");
+        let declare = |unit: Dimension| {
+            let unit = unit.text();
+            format!("a number that is meant in {unit} is declared: `const a: {unit} = …;`")
+        };
         self.report(
             error
                 .also(left_span, left.said())

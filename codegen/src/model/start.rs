@@ -3,8 +3,8 @@
 use super::lower::Lowering;
 use super::value::{Scalar, Value};
 use super::{Point, Shape, Start};
-use crate::diagnostic::{Diagnostic, Span};
-use crate::expr::{Node, Symbol};
+use crate::diagnostic::{Diagnostic, Span, figure};
+use crate::expr::{Node, Number, Symbol};
 use crate::parse::ast::{Drawing, Expr, StartItem};
 
 impl Lowering<'_> {
@@ -31,8 +31,39 @@ impl Lowering<'_> {
     }
 
     fn start_entry(&mut self, target: &Expr, held: bool, value: &Expr) -> Option<()> {
-        let (scalar, coordinate, velocity) = self.start_target(target)?;
-        let given = self.evaluator.scalar(value, "a start value")?;
+        let wanted = self.evaluator.evaluate(target)?.operand();
+        let given = self.evaluator.evaluate(value)?.operand();
+        if let Value::Array(_) | Value::Matrix(_) = wanted {
+            let error = Diagnostic::error(target.span, "a whole array has no single start value");
+            let help = "write `start { for i in 0..K { theta[i] ~ 0; } }`";
+            return self.report(error.help(help));
+        }
+        if !wanted.same_shape(&given) {
+            let message = format!(
+                "this is {}, its start value {}",
+                wanted.shape(),
+                given.shape()
+            );
+            let error = Diagnostic::error(target.span.to(value.span), message);
+            return self.report(error.help(match wanted {
+                Value::Scalar(_) => "the start value of a number is a number",
+                _ => "a vector begins at a vector: `p = [1, 0, 2];`",
+            }));
+        }
+        let both = wanted.scalars().into_iter().zip(given.scalars());
+        for (wanted, given) in both {
+            self.start_value((wanted, target), held, (given, value))?;
+        }
+        Some(())
+    }
+
+    fn start_value(
+        &mut self,
+        (scalar, target): (Scalar, &Expr),
+        held: bool,
+        (given, value): (Scalar, &Expr),
+    ) -> Option<()> {
+        let (coordinate, velocity) = self.start_target(scalar, target)?;
         let facts = self.evaluator.facts(given.id);
         if facts.time || facts.coordinate || facts.velocity() || facts.input {
             let error = Diagnostic::error(
@@ -55,6 +86,9 @@ impl Lowering<'_> {
             return self.report(error.also(first, "given here").help("remove one of them"));
         }
         let (coordinate, span) = (coordinate as usize, target.span.to(value.span));
+        if !velocity {
+            self.many_turns(coordinate, value, given);
+        }
         self.mechanism.starts.push(Start {
             coordinate,
             velocity,
@@ -65,19 +99,26 @@ impl Lowering<'_> {
         Some(())
     }
 
-    fn start_target(&mut self, target: &Expr) -> Option<(Scalar, u32, bool)> {
-        let value = self.evaluator.evaluate(target)?;
-        if let Value::Array(_) = value {
-            let error = Diagnostic::error(target.span, "a whole array has no single start value");
-            let help = "write `start { for i in 0..K { theta[i] ~ 0; } }`";
-            return self.report(error.help(help));
+    /// Warns of an angle of more than a turn that has no `deg` or `pi` in it: degrees are
+    /// meant.
+    fn many_turns(&mut self, coordinate: usize, value: &Expr, given: Scalar) {
+        let number = self.evaluator.graph.as_number(given.id);
+        let size = number.map_or(0.0, Number::to_f64);
+        let angle = self.mechanism.coordinates[coordinate].unit == "rad";
+        if angle && size.abs() > std::f64::consts::TAU {
+            let size = figure(size);
+            let message = format!("{size} rad is more than a turn");
+            let warning = Diagnostic::warning(value.span, message);
+            self.report::<()>(warning.help(format!("for degrees write `{size}*deg`")));
         }
-        if let Value::Scalar(scalar) = value {
-            match self.evaluator.graph.node(scalar.id) {
-                Node::Symbol(Symbol::Coordinate(i)) => return Some((scalar, *i, false)),
-                Node::Symbol(Symbol::Velocity(i)) => return Some((scalar, *i, true)),
-                _ => {}
-            }
+    }
+
+    /// The coordinate that a start value is given to, and whether its velocity is meant.
+    fn start_target(&mut self, scalar: Scalar, target: &Expr) -> Option<(u32, bool)> {
+        match self.evaluator.graph.node(scalar.id) {
+            Node::Symbol(Symbol::Coordinate(i)) => return Some((*i, false)),
+            Node::Symbol(Symbol::Velocity(i)) => return Some((*i, true)),
+            _ => {}
         }
         let error = Diagnostic::error(
             target.span,

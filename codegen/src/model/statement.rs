@@ -2,7 +2,7 @@
 
 use super::lower::Lowering;
 use super::scope::{Kind, twice};
-use super::unit::{Dimension, ENERGY, Unit};
+use super::unit::{Dimension, ENERGY, NONE, Unit};
 use super::value::{Scalar, Value};
 use super::{Constraint, Direction, Event, Force, Output, Summand};
 use crate::diagnostic::{Diagnostic, Span};
@@ -16,6 +16,7 @@ use rustc_hash::FxHashMap;
 pub struct Named {
     outputs: FxHashMap<String, Span>,
     events: FxHashMap<String, Span>,
+    constraints: FxHashMap<String, Span>,
     /// Start entries: coordinate, whether the velocity is meant.
     pub starts: FxHashMap<(u32, bool), Span>,
 }
@@ -37,7 +38,13 @@ impl Lowering<'_> {
             ItemKind::Let(_) => Some(()),
             ItemKind::Energy(kind, value) => self.energy(*kind, value),
             ItemKind::Force { force, on } => self.force(force, on, item.span),
-            ItemKind::Constraint { left, right, text } => {
+            ItemKind::Constraint {
+                name,
+                left,
+                right,
+                text,
+            } => {
+                self.constraint_name(name.as_ref())?;
                 self.constraint(left, right, text, item.span)
             }
             ItemKind::Start(entries) => self.start(entries),
@@ -154,12 +161,30 @@ impl Lowering<'_> {
         let wanted = ENERGY.times(place);
         match strength {
             Unit::Known(found) if found != wanted => {
+                let units = [wanted, found];
                 let (found, wanted) = (found.text(), wanted.text());
                 let message = format!("this force is in {found}, here it has to be in {wanted}");
-                let target = place.power(-1.0).map_or(String::new(), Dimension::said);
-                self.report(Diagnostic::error(force.span, message).also(on.span, target))
+                let target = match place {
+                    NONE => "this is in rad".to_string(),
+                    _ => place.power(-1.0).map_or(String::new(), Dimension::said),
+                };
+                let error = Diagnostic::error(force.span, message).also(on.span, target);
+                let error = self.evaluator.declare_bare(error, force, units);
+                self.report(error)
             }
             _ => Some(()),
+        }
+    }
+
+    /// Refuses two constraints of one name; in a loop the index belongs to it.
+    fn constraint_name(&mut self, name: Option<&Name>) -> Option<()> {
+        let Some(name) = name else {
+            return Some(());
+        };
+        let full = self.indexed(&name.text);
+        match self.named.constraints.insert(full, name.span) {
+            Some(first) => self.report(twice(name, first)),
+            None => Some(()),
         }
     }
 

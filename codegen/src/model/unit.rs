@@ -41,6 +41,10 @@ const fn whole(kg: i32, m: i32, s: i32) -> Dimension {
 pub const NONE: Dimension = whole(0, 0, 0);
 /// `1/s`.
 pub const PER_SECOND: Dimension = whole(0, 0, -1);
+/// `1/s^2`.
+pub const FREQUENCY2: Dimension = whole(0, 0, -2);
+/// `m^2`.
+pub const AREA: Dimension = whole(0, 2, 0);
 /// `J = N*m`.
 pub const ENERGY: Dimension = whole(1, 2, -2);
 /// `W`.
@@ -69,6 +73,11 @@ impl Dimension {
             *power = rounded as i32;
         }
         Some(Dimension(powers))
+    }
+
+    /// Whether it is that of a bare number or of its derivatives in time.
+    pub fn is_rate(self) -> bool {
+        matches!(self.0, [0, 0, _, 0, 0])
     }
 
     /// What has this dimension, in words.

@@ -113,6 +113,16 @@ impl Value {
         }
     }
 
+    /// The same value in a unit; a rotation stays one.
+    pub fn with_unit(&self, unit: Unit) -> Value {
+        let scalars = self.scalars().into_iter();
+        let mut value = self.with_scalars(scalars.map(|s| Scalar { unit, ..s }).collect());
+        if let (Value::Matrix(new), Value::Matrix(old)) = (&mut value, self) {
+            new.spin = old.spin;
+        }
+        value
+    }
+
     /// A value of the same shape with other scalars, given in order.
     pub fn with_scalars(&self, scalars: Vec<Scalar>) -> Value {
         let mut scalars = scalars.into_iter();

@@ -1,35 +1,44 @@
 //! Leaves out what no output reads, and puts the rest in order of first use.
 
 use super::program::{Operation, Program, Slot, Value};
-use rustc_hash::FxHashMap;
 
 /// The program with only those operations that an output needs.
 pub(super) fn without_dead(program: &Program) -> Program {
-    let operations: Vec<Operation> = program.operations().map(|(_, o)| o.clone()).collect();
-    ordered(&operations, &program.outputs)
+    ordered(program.list(), &program.outputs, &|value| value)
 }
 
 /// A program of operations in any order that has one: each operation directly
-/// after its operands, in the order in which the outputs ask for them.
-pub(super) fn ordered(operations: &[Operation], outputs: &[(Slot, Value)]) -> Program {
+/// after its operands, in the order in which the outputs ask for them. What is read
+/// is what is written to be read, or what `instead` replaces it by.
+pub(super) fn ordered(
+    operations: &[Operation],
+    outputs: &[(Slot, Value)],
+    instead: &dyn Fn(Value) -> Value,
+) -> Program {
     let mut program = Program::default();
-    let mut place: FxHashMap<Value, Value> = FxHashMap::default();
+    let mut places: Vec<Option<Value>> = vec![None; operations.len()];
+    // What is read is placed before what reads it.
+    let place = |places: &[Option<Value>], x: Value| places[x.index()].unwrap_or(x);
+    let mut pending: Vec<(Value, bool)> = Vec::new();
     for (slot, root) in outputs {
-        let mut pending = vec![(*root, false)];
+        let root = instead(*root);
+        pending.push((root, false));
         while let Some((value, ready)) = pending.pop() {
-            if place.contains_key(&value) {
+            if places[value.index()].is_some() {
                 continue;
             }
             let operation = &operations[value.index()];
             if ready {
-                let moved = program.push(renamed(operation, &|operand| place[&operand]));
-                place.insert(value, moved);
+                let renamed = renamed(operation, &|x| place(&places, instead(x)));
+                places[value.index()] = Some(program.push(renamed));
             } else {
                 pending.push((value, true));
-                pending.extend(operation.operands().into_iter().rev().map(|x| (x, false)));
+                let from = pending.len();
+                operation.for_each_operand(&mut |x| pending.push((instead(x), false)));
+                pending[from..].reverse();
             }
         }
-        program.outputs.push((*slot, place[root]));
+        program.outputs.push((*slot, place(&places, root)));
     }
     program
 }

@@ -7,7 +7,8 @@
 //! 1. `trig`: each expression in the ring of the sines and cosines it has, where
 //!    that is cheaper. Works on expressions.
 //! 2. `schedule`: to a program, each shared expression once.
-//! 3. `factor`: common factors of terms, and pairs of factors that products share.
+//! 3. `factor`, `share`: common factors of terms, and pairs of factors that products
+//!    share.
 //! 4. `dead`: what nobody reads.
 //! 5. `order`: outputs of the same coordinates one after the other.
 //!
@@ -17,10 +18,12 @@ mod count;
 mod dead;
 mod factor;
 mod interpret;
+mod monomial;
 mod order;
 mod pass;
 mod program;
 mod schedule;
+mod share;
 mod solve;
 mod trig;
 mod verify;
@@ -29,7 +32,8 @@ pub use count::{Cost, cost};
 pub use interpret::interpret;
 pub use pass::{Pass, alone};
 pub use program::{Operation, Program, Slot, Value};
-pub use trig::in_trig_ring;
+pub use solve::{Solved, Way};
+pub use trig::{Polynomials, in_trig_ring};
 pub use verify::verify;
 
 use crate::expr::{ExprId, Graph};
@@ -46,6 +50,20 @@ pub const REWRITTEN_MAX: usize = 30_000;
 /// If a pass leaves a program that breaks an invariant: a bug of this crate, with
 /// the program in the message.
 pub fn optimise(graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -> Program {
+    optimise_among(graph, &mut Polynomials::default(), laws, wanted)
+}
+
+/// As [`optimise`], with what is known of the graph from programs before.
+///
+/// # Panics
+///
+/// As [`optimise`].
+pub fn optimise_among(
+    graph: &mut Graph,
+    memory: &mut Polynomials,
+    laws: &[ExprId],
+    wanted: &[(Slot, ExprId)],
+) -> Program {
     let mut arrays: Vec<&str> = wanted.iter().map(|(slot, _)| slot.array).collect();
     arrays.dedup();
     let mut chosen = wanted.to_vec();
@@ -55,7 +73,7 @@ pub fn optimise(graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -
     }
     let mut best = factor::factor(&scheduled);
     let mut reduced = wanted.to_vec();
-    let mut ring = trig::Ring::new(graph);
+    let mut ring = trig::Ring::new(graph, memory);
     for (_, e) in &mut reduced {
         *e = ring.reduced(*e);
     }
@@ -85,8 +103,8 @@ pub fn optimise(graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -
 /// # Panics
 ///
 /// As [`optimise`].
-pub fn regular_acceleration(terms: &Program, n: usize, r: usize) -> Option<Program> {
-    solve::with_acceleration(terms, n, r).map(checked)
+pub fn regular_acceleration(terms: &Program, n: usize, r: usize) -> Option<Solved> {
+    solve::with_acceleration(terms, n, r).map(sound)
 }
 
 /// The program for the least corrections of position and velocity, from the
@@ -96,8 +114,13 @@ pub fn regular_acceleration(terms: &Program, n: usize, r: usize) -> Option<Progr
 /// # Panics
 ///
 /// As [`optimise`].
-pub fn regular_correction(terms: &Program, n: usize, r: usize) -> Option<Program> {
-    solve::with_correction(terms, n, r).map(checked)
+pub fn regular_correction(terms: &Program, n: usize, r: usize) -> Option<Solved> {
+    solve::with_correction(terms, n, r).map(sound)
+}
+
+fn sound(solved: Solved) -> Solved {
+    let program = checked(solved.program);
+    Solved { program, ..solved }
 }
 
 fn checked(program: Program) -> Program {

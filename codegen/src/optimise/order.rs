@@ -10,40 +10,39 @@
 
 use super::dead::ordered;
 use super::program::{Operation, Program, Value};
-use crate::expr::Symbol;
+use crate::expr::{Bits, Symbol};
 use rustc_hash::FxHashSet;
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
-
-/// Indices of coordinates.
-type Coordinates = BTreeSet<u32>;
+use std::collections::{BTreeMap, VecDeque};
 
 /// The program in an order that keeps what belongs together together.
 pub(super) fn arranged(program: &Program) -> Program {
     let read = coordinates_read(program);
     let of = |value: &Value| &read[value.index()];
-    let sets: FxHashSet<&Coordinates> = program.outputs.iter().map(|(_, x)| of(x)).collect();
+    let sets: FxHashSet<&Bits> = program.outputs.iter().map(|(_, x)| of(x)).collect();
     let place = places(&sets);
-    let last = |value: &Value| of(value).iter().map(|i| place[i]).max();
+    let last = |value: &Value| of(value).ascending().into_iter().map(|i| place[&i]).max();
     let mut outputs = program.outputs.clone();
-    outputs.sort_by_key(|(_, value)| last(value));
-    let operations: Vec<Operation> = program.operations().map(|(_, o)| o.clone()).collect();
-    ordered(&operations, &outputs)
+    outputs.sort_by_cached_key(|(_, value)| last(value));
+    ordered(program.list(), &outputs, &|value| value)
 }
 
 /// The coordinates that each value depends on, themselves or by their velocities.
-fn coordinates_read(program: &Program) -> Vec<Coordinates> {
-    let mut read: Vec<Coordinates> = Vec::with_capacity(program.len());
-    for (_, operation) in program.operations() {
-        let mut own = Coordinates::new();
-        if let Operation::Symbol(
+fn coordinates_read(program: &Program) -> Vec<Bits> {
+    let coordinate = |operation: &Operation| match operation {
+        Operation::Symbol(
             Symbol::Coordinate(i) | Symbol::Velocity(i) | Symbol::Acceleration(i),
-        ) = operation
-        {
-            own.insert(*i);
+        ) => Some(*i as usize),
+        _ => None,
+    };
+    let last = program.list().iter().filter_map(coordinate).max();
+    let none = Bits::below(last.map_or(0, |last| last + 1));
+    let mut read: Vec<Bits> = Vec::with_capacity(program.len());
+    for operation in program.list() {
+        let mut own = none.clone();
+        if let Some(i) = coordinate(operation) {
+            own.insert(i);
         }
-        for operand in operation.operands() {
-            own.extend(&read[operand.index()]);
-        }
+        operation.for_each_operand(&mut |operand| own.extend(&read[operand.index()]));
         read.push(own);
     }
     read
@@ -51,17 +50,17 @@ fn coordinates_read(program: &Program) -> Vec<Coordinates> {
 
 /// The place of each coordinate in the row: breadth first along those that meet in a
 /// set, from one that meets few.
-fn places(sets: &FxHashSet<&Coordinates>) -> BTreeMap<u32, usize> {
-    let mut met: BTreeMap<u32, Coordinates> = BTreeMap::new();
+fn places(sets: &FxHashSet<&Bits>) -> BTreeMap<usize, usize> {
+    let mut met: BTreeMap<usize, Bits> = BTreeMap::new();
     for set in sets {
-        for i in *set {
-            met.entry(*i).or_default().extend(*set);
+        for i in set.ascending() {
+            met.entry(i).or_insert_with(|| (*set).clone()).extend(set);
         }
     }
-    let mut by_company: Vec<u32> = met.keys().copied().collect();
+    let mut by_company: Vec<usize> = met.keys().copied().collect();
     by_company.sort_by_key(|i| met[i].len());
-    let mut places: BTreeMap<u32, usize> = BTreeMap::new();
-    let mut pending: VecDeque<u32> = VecDeque::new();
+    let mut places: BTreeMap<usize, usize> = BTreeMap::new();
+    let mut pending: VecDeque<usize> = VecDeque::new();
     for first in by_company {
         pending.push_back(first);
         while let Some(i) = pending.pop_front() {
@@ -69,7 +68,7 @@ fn places(sets: &FxHashSet<&Coordinates>) -> BTreeMap<u32, usize> {
                 continue;
             }
             places.insert(i, places.len());
-            let mut next: Vec<u32> = met[&i].iter().copied().collect();
+            let mut next = met[&i].ascending();
             next.sort_by_key(|j| met[j].len());
             pending.extend(next);
         }

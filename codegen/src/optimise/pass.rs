@@ -1,7 +1,7 @@
 //! The passes one by one, so that each can be checked by itself.
 
 use super::program::{Program, Slot};
-use super::{factor, in_trig_ring, schedule};
+use super::{factor, in_trig_ring, schedule, share};
 use crate::expr::{ExprId, Graph};
 
 /// A rewriting that keeps the value of every output. `RULES.md` has a section for
@@ -46,6 +46,6 @@ pub fn alone(pass: Pass, graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, Ex
     match pass {
         Pass::Ring | Pass::Schedule => program,
         Pass::Collect => factor::collect_factors(&program),
-        Pass::Share => factor::share_pairs(&program),
+        Pass::Share => share::share_pairs(&program),
     }
 }

@@ -6,6 +6,7 @@
 
 use crate::expr::{Comparison, Function, Function2, Number, Symbol};
 use rustc_hash::FxHashMap;
+use std::collections::hash_map::Entry;
 
 /// The result of an operation of a [`Program`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -52,14 +53,35 @@ pub enum Operation {
 impl Operation {
     /// The values it reads.
     pub fn operands(&self) -> Vec<Value> {
+        let mut operands = Vec::new();
+        self.for_each_operand(&mut |operand| operands.push(operand));
+        operands
+    }
+
+    /// Shows the values it reads, in order.
+    pub(super) fn for_each_operand(&self, show: &mut dyn FnMut(Value)) {
         match self {
-            Operation::Number(_) | Operation::Pi | Operation::Symbol(_) => Vec::new(),
-            Operation::Input(_, law) => vec![*law],
-            Operation::Sum(terms) => terms.iter().map(|(_, value)| *value).collect(),
-            Operation::Product(factors) => factors.clone(),
-            Operation::Function(_, x) => vec![*x],
-            Operation::Quotient(x, y) | Operation::Function2(_, x, y) => vec![*x, *y],
-            Operation::Select(_, parts) => parts.to_vec(),
+            Operation::Number(_) | Operation::Pi | Operation::Symbol(_) => {}
+            Operation::Sum(terms) => {
+                for (_, value) in terms {
+                    show(*value);
+                }
+            }
+            Operation::Product(factors) => {
+                for factor in factors {
+                    show(*factor);
+                }
+            }
+            Operation::Input(_, x) | Operation::Function(_, x) => show(*x),
+            Operation::Quotient(x, y) | Operation::Function2(_, x, y) => {
+                show(*x);
+                show(*y);
+            }
+            Operation::Select(_, parts) => {
+                for part in parts {
+                    show(*part);
+                }
+            }
         }
     }
 }
@@ -93,13 +115,14 @@ impl Program {
             Operation::Sum(terms) => terms.sort_unstable(),
             _ => {}
         }
-        if let Some(&known) = self.index.get(&operation) {
-            return known;
+        match self.index.entry(operation) {
+            Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(free) => {
+                let value = Value::at(self.operations.len());
+                self.operations.push(free.key().clone());
+                *free.insert(value)
+            }
         }
-        let value = Value::at(self.operations.len());
-        self.operations.push(operation.clone());
-        self.index.insert(operation, value);
-        value
     }
 
     /// The operation that a value is the result of.
@@ -108,6 +131,11 @@ impl Program {
     }
 
     /// All operations in order.
+    pub(super) fn list(&self) -> &[Operation] {
+        &self.operations
+    }
+
+    /// All operations in order, with their values.
     pub fn operations(&self) -> impl Iterator<Item = (Value, &Operation)> {
         self.operations
             .iter()
@@ -129,9 +157,7 @@ impl Program {
     pub fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.len()];
         for (_, operation) in self.operations() {
-            for operand in operation.operands() {
-                uses[operand.index()] += 1;
-            }
+            operation.for_each_operand(&mut |operand| uses[operand.index()] += 1);
         }
         for (_, value) in &self.outputs {
             uses[value.index()] += 1;

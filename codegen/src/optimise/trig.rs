@@ -10,9 +10,11 @@
 //! was: multiplying out pays for planar linkages, not for long spatial chains. So does
 //! one with a coefficient that overflows, and the inverse of one that is zero.
 
+use super::monomial::{MonomialId, Monomials};
 use crate::expr::{ExprId, Function, Graph, Node, Number};
 use rustc_hash::{FxHashMap, FxHashSet};
-use std::collections::BTreeMap;
+use std::collections::hash_map::Entry;
+use std::rc::Rc;
 
 /// The largest number of terms of an intermediate polynomial.
 const TERMS_MAX: usize = 400;
@@ -20,62 +22,67 @@ const TERMS_MAX: usize = 400;
 /// The largest power that is multiplied out.
 const POWER_MAX: u32 = 8;
 
-/// A product of powers of atoms, sorted by atom.
-type Monomial = Vec<(ExprId, i32)>;
-type Polynomial = BTreeMap<Monomial, Number>;
+/// Monomials with their coefficients, none of them zero, in the order of the monomials.
+type Polynomial = Rc<[(MonomialId, Number)]>;
+
+/// A polynomial that is added up, in no order.
+type Growing = FxHashMap<MonomialId, Number>;
 
 /// The expression as a reduced polynomial, or unchanged where that is refused.
 pub fn in_trig_ring(graph: &mut Graph, e: ExprId) -> ExprId {
-    Ring::new(graph).reduced(e)
+    Ring::new(graph, &mut Polynomials::default()).reduced(e)
+}
+
+/// What is known of the expressions of a graph: each is multiplied out once, whatever
+/// asks for it.
+#[derive(Clone, Debug, Default)]
+pub struct Polynomials {
+    known: FxHashMap<ExprId, Polynomial>,
+    /// What is too long or has no finite coefficients, and everything that has it in it.
+    refused: FxHashSet<ExprId>,
+    monomials: Monomials,
 }
 
 /// Polynomials of expressions that share parts, each found once.
 pub(super) struct Ring<'a> {
     graph: &'a mut Graph,
-    known: FxHashMap<ExprId, Polynomial>,
-    /// What is too long or has no finite coefficients, and everything that has it in it.
-    refused: FxHashSet<ExprId>,
+    memory: &'a mut Polynomials,
 }
 
 impl<'a> Ring<'a> {
-    pub fn new(graph: &'a mut Graph) -> Self {
-        Ring {
-            graph,
-            known: FxHashMap::default(),
-            refused: FxHashSet::default(),
-        }
+    pub fn new(graph: &'a mut Graph, memory: &'a mut Polynomials) -> Self {
+        Ring { graph, memory }
     }
 
     /// The expression as a reduced polynomial, or unchanged where that is refused.
     pub fn reduced(&mut self, e: ExprId) -> ExprId {
         if self.expand(e).is_none() {
-            self.refused.insert(e);
+            self.memory.refused.insert(e);
             return e;
         }
-        let polynomial = self.known[&e].clone();
-        self.expression(&polynomial)
+        self.known_expression(e)
     }
 
     fn expand(&mut self, e: ExprId) -> Option<()> {
         let mut pending = vec![(e, false)];
         while let Some((node, ready)) = pending.pop() {
-            if self.refused.contains(&node) {
+            if self.memory.refused.contains(&node) {
                 return None;
             }
-            if self.known.contains_key(&node) {
+            if self.memory.known.contains_key(&node) {
                 continue;
             }
             if ready {
-                let is_sound = |p: &Polynomial| p.values().all(|number| number.is_finite());
+                let is_sound = |p: &Polynomial| p.iter().all(|(_, number)| number.is_finite());
                 let polynomial = self.expand_node(node).filter(is_sound);
                 if polynomial.is_none() {
-                    self.refused.insert(node);
+                    self.memory.refused.insert(node);
                 }
-                self.known.insert(node, polynomial?);
+                self.memory.known.insert(node, polynomial?);
             } else {
                 pending.push((node, true));
-                let children = self.graph.node(node).children();
-                pending.extend(children.into_iter().map(|child| (child, false)));
+                let show = &mut |child| pending.push((child, false));
+                self.graph.node(node).for_each_child(show);
             }
         }
         Some(())
@@ -83,18 +90,19 @@ impl<'a> Ring<'a> {
 
     fn expand_node(&mut self, e: ExprId) -> Option<Polynomial> {
         match self.graph.node(e).clone() {
-            Node::Number(value) => Some(constant(value)),
+            Node::Number(value) => Some(self.constant(value)),
             Node::Sum(number, terms) => {
-                let mut sum = constant(number);
+                let mut sum = Growing::default();
+                accumulate(&mut sum, Monomials::ONE, number);
                 for (x, weight) in terms {
-                    for (monomial, coefficient) in &self.known[&x] {
-                        accumulate(&mut sum, monomial.clone(), *coefficient * weight);
+                    for &(monomial, coefficient) in self.memory.known[&x].iter() {
+                        accumulate(&mut sum, monomial, coefficient * weight);
                     }
                 }
-                (sum.len() <= TERMS_MAX).then_some(sum)
+                (sum.len() <= TERMS_MAX).then(|| self.grown(sum))
             }
             Node::Product(factors) => {
-                let mut product = constant(Number::ONE);
+                let mut product = self.constant(Number::ONE);
                 for (base, exponent) in factors {
                     product = self.times_power(product, base, exponent)?;
                 }
@@ -104,23 +112,26 @@ impl<'a> Ring<'a> {
             _ => {
                 let mut reduced: FxHashMap<ExprId, ExprId> = FxHashMap::default();
                 for child in self.graph.node(e).children() {
-                    let polynomial = self.known[&child].clone();
-                    reduced.insert(child, self.expression(&polynomial));
+                    reduced.insert(child, self.known_expression(child));
                 }
                 let atom = self.graph.rebuild(e, &|child| reduced[&child]);
-                self.atomic(atom)
+                Some(self.atomic(atom))
             }
         }
     }
 
     /// A rebuilt function as a polynomial: a weighted atom, or a number.
-    fn atomic(&mut self, e: ExprId) -> Option<Polynomial> {
+    fn atomic(&mut self, e: ExprId) -> Polynomial {
         match self.graph.node(e) {
-            Node::Number(value) => Some(constant(*value)),
-            Node::Sum(number, terms) if number.is_zero() && terms.len() == 1 => {
-                Some(Polynomial::from([(vec![(terms[0].0, 1)], terms[0].1)]))
+            Node::Number(value) => {
+                let value = *value;
+                self.constant(value)
             }
-            _ => Some(Polynomial::from([(vec![(e, 1)], Number::ONE)])),
+            Node::Sum(number, terms) if number.is_zero() && terms.len() == 1 => {
+                let (atom, weight) = terms[0];
+                [(self.memory.monomials.of(&[(atom, 1)]), weight)].into()
+            }
+            _ => [(self.memory.monomials.of(&[(e, 1)]), Number::ONE)].into(),
         }
     }
 
@@ -130,7 +141,7 @@ impl<'a> Ring<'a> {
         base: ExprId,
         exponent: i32,
     ) -> Option<Polynomial> {
-        let factor = self.known[&base].clone();
+        let factor = self.memory.known[&base].clone();
         if exponent.unsigned_abs() > POWER_MAX {
             return None;
         }
@@ -145,42 +156,67 @@ impl<'a> Ring<'a> {
             return None;
         }
         // The inverse of one term is a term; the inverse of a sum is an atom.
-        let inverse = match factor.iter().next() {
-            Some((monomial, coefficient)) if factor.len() == 1 => {
-                let powers = monomial
-                    .iter()
-                    .map(|(atom, n)| (*atom, n * exponent))
+        let inverse: Polynomial = match factor[..] {
+            [(monomial, coefficient)] => {
+                let powers: Vec<(ExprId, i32)> = self.memory.monomials.powers(monomial);
+                let powers: Vec<(ExprId, i32)> = powers
+                    .into_iter()
+                    .map(|(atom, n)| (atom, n * exponent))
                     .collect();
-                Polynomial::from([(powers, coefficient.powi(exponent)?)])
+                let monomial = self.memory.monomials.of(&powers);
+                [(monomial, coefficient.powi(exponent)?)].into()
             }
             _ => {
-                let atom = self.expression(&factor);
-                Polynomial::from([(vec![(atom, exponent)], Number::ONE)])
+                let atom = self.known_expression(base);
+                let monomial = self.memory.monomials.of(&[(atom, exponent)]);
+                [(monomial, Number::ONE)].into()
             }
         };
         self.times(&product, &inverse)
     }
 
     fn times(&mut self, a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
-        let mut product = Polynomial::new();
-        for (left, x) in a {
-            for (right, y) in b {
-                self.add_reduced(&mut product, joined(left, right), *x * *y);
+        let mut product = Growing::default();
+        for &(left, x) in a.iter() {
+            for &(right, y) in b.iter() {
+                let weight = x * y;
+                for &(minus, monomial) in self.product(left, right).iter() {
+                    let weight = if minus { -weight } else { weight };
+                    accumulate(&mut product, monomial, weight);
+                }
                 if product.len() > TERMS_MAX {
                     return None;
                 }
             }
         }
-        Some(product)
+        Some(self.grown(product))
+    }
+
+    /// The product of two monomials, each part added or (`true`) subtracted.
+    fn product(&mut self, left: MonomialId, right: MonomialId) -> Rc<[(bool, MonomialId)]> {
+        if let Some(known) = self.memory.monomials.product(left, right) {
+            return known;
+        }
+        let mut parts = Vec::new();
+        let joined = self.memory.monomials.joined(left, right);
+        self.add_reduced(&mut parts, joined, false);
+        self.memory
+            .monomials
+            .keep_product(left, right, parts.into())
     }
 
     /// Adds a monomial, with `sin² → 1 − cos²` until no sine is squared.
-    fn add_reduced(&mut self, sum: &mut Polynomial, monomial: Monomial, coefficient: Number) {
+    fn add_reduced(
+        &mut self,
+        sum: &mut Vec<(bool, MonomialId)>,
+        monomial: Vec<(ExprId, i32)>,
+        minus: bool,
+    ) {
         let squared = monomial.iter().position(|&(atom, n)| {
             n >= 2 && matches!(self.graph.node(atom), Node::Function(Function::Sin, _))
         });
         let Some(i) = squared else {
-            accumulate(sum, monomial, coefficient);
+            sum.push((minus, self.memory.monomials.of(&monomial)));
             return;
         };
         let &Node::Function(_, angle) = self.graph.node(monomial[i].0) else {
@@ -190,48 +226,58 @@ impl<'a> Ring<'a> {
         let mut lowered = monomial;
         lowered[i].1 -= 2;
         lowered.retain(|(_, n)| *n != 0);
-        let with_cos = joined(&lowered, &[(cos, 2)]);
-        self.add_reduced(sum, lowered, coefficient);
-        self.add_reduced(sum, with_cos, -coefficient);
+        let with_cos = [&lowered[..], &[(cos, 2)]].concat();
+        self.add_reduced(sum, lowered, minus);
+        self.add_reduced(sum, super::monomial::collected(with_cos), !minus);
     }
 
-    fn expression(&mut self, polynomial: &Polynomial) -> ExprId {
+    /// The expression of the polynomial of one that is known.
+    fn known_expression(&mut self, e: ExprId) -> ExprId {
+        let polynomial = self.memory.known[&e].clone();
         let mut number = Number::ZERO;
-        let mut terms = Vec::new();
-        for (monomial, coefficient) in polynomial {
-            if monomial.is_empty() {
-                number = *coefficient;
+        let mut terms = Vec::with_capacity(polynomial.len());
+        for &(monomial, coefficient) in polynomial.iter() {
+            if monomial == Monomials::ONE {
+                number = coefficient;
             } else {
-                terms.push((self.graph.power_product(monomial), *coefficient));
+                let term = self.memory.monomials.expression(monomial, self.graph);
+                terms.push((term, coefficient));
             }
         }
         self.graph.weighted_sum(number, &terms)
     }
-}
 
-fn constant(value: Number) -> Polynomial {
-    if value.is_zero() {
-        Polynomial::new()
-    } else {
-        Polynomial::from([(Vec::new(), value)])
+    fn constant(&self, value: Number) -> Polynomial {
+        if value.is_zero() {
+            Rc::default()
+        } else {
+            [(Monomials::ONE, value)].into()
+        }
+    }
+
+    fn grown(&self, sum: Growing) -> Polynomial {
+        let mut terms: Vec<(MonomialId, Number)> = sum.into_iter().collect();
+        let monomials = &self.memory.monomials;
+        terms.sort_unstable_by(|(a, _), (b, _)| monomials.compare(*a, *b));
+        terms.into()
     }
 }
 
-fn accumulate(sum: &mut Polynomial, monomial: Monomial, coefficient: Number) {
-    let total = sum
-        .get(&monomial)
-        .map_or(coefficient, |known| *known + coefficient);
-    if total.is_zero() {
-        sum.remove(&monomial);
-    } else {
-        sum.insert(monomial, total);
+fn accumulate(sum: &mut Growing, monomial: MonomialId, coefficient: Number) {
+    if coefficient.is_zero() {
+        return;
     }
-}
-
-fn joined(a: &[(ExprId, i32)], b: &[(ExprId, i32)]) -> Monomial {
-    let mut powers: BTreeMap<ExprId, i32> = a.iter().copied().collect();
-    for (atom, n) in b {
-        *powers.entry(*atom).or_insert(0) += n;
+    match sum.entry(monomial) {
+        Entry::Vacant(free) => {
+            free.insert(coefficient);
+        }
+        Entry::Occupied(mut known) => {
+            let total = *known.get() + coefficient;
+            if total.is_zero() {
+                known.remove();
+            } else {
+                known.insert(total);
+            }
+        }
     }
-    powers.into_iter().filter(|(_, n)| *n != 0).collect()
 }

@@ -14,7 +14,9 @@ use std::collections::HashSet;
 /// never of a description.
 pub fn verify(program: &Program) -> Result<(), String> {
     for (value, operation) in program.operations() {
-        if operation.operands().iter().any(|operand| *operand >= value) {
+        let mut late = false;
+        operation.for_each_operand(&mut |operand| late |= operand >= value);
+        if late {
             return Err(format!("{value:?} reads a later value: {operation:?}"));
         }
         let sound = match operation {

@@ -38,7 +38,7 @@ pub enum ItemKind {
         unit: Option<UnitExpr>,
     },
     /// `let n[range] = value;`
-    Let(Let),
+    Let(Box<Let>),
     /// `kinetic`, `potential` or `dissipation`.
     Energy(Energy, Expr),
     /// `force F on x;`
@@ -50,6 +50,8 @@ pub enum ItemKind {
     },
     /// `constraint left = right;`
     Constraint {
+        /// Its name, if it has one.
+        name: Option<Name>,
         /// The left side.
         left: Expr,
         /// The right side.
@@ -105,13 +107,15 @@ pub enum Declared {
     Output,
 }
 
-/// `let n = value;` or `let n[i in 0..K] = value;`
+/// `let n: unit = value;` or `let n[i in 0..K]: unit = value;`
 #[derive(Clone, Debug)]
 pub struct Let {
     /// Its name.
     pub name: Name,
     /// The index and its values, for an array.
     pub range: Option<Range>,
+    /// Its unit, if one is given.
+    pub unit: Option<UnitExpr>,
     /// The value.
     pub value: Expr,
 }
@@ -217,15 +221,28 @@ pub enum ExprKind {
     If(Box<Condition>, Box<Expr>, Box<Expr>),
 }
 
-/// `left ⋈ right`; `a > b` is kept as `b < a`.
+/// What a choice depends on.
 #[derive(Clone, Debug)]
-pub struct Condition {
-    /// The comparison.
-    pub comparison: Comparison,
-    /// Its left side.
-    pub left: Expr,
-    /// Its right side.
-    pub right: Expr,
+pub enum Condition {
+    /// `left ⋈ right`; `a > b` is kept as `b < a`.
+    Compare(Comparison, Box<[Expr; 2]>),
+    /// `not a`
+    Not(Box<Condition>),
+    /// `a and b`
+    And(Box<Condition>, Box<Condition>),
+    /// `a or b`
+    Or(Box<Condition>, Box<Condition>),
+}
+
+impl Condition {
+    /// The formulas that are compared.
+    pub fn sides(&self) -> Vec<&Expr> {
+        match self {
+            Condition::Compare(_, sides) => sides.iter().collect(),
+            Condition::Not(inside) => inside.sides(),
+            Condition::And(a, b) | Condition::Or(a, b) => [a.sides(), b.sides()].concat(),
+        }
+    }
 }
 
 /// A unit as it is written.

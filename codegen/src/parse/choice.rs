@@ -8,9 +8,18 @@ use crate::expr::Comparison;
 
 /// Operators of other languages, and what is written instead.
 const ELSEWHERE: [(&str, &str); 5] = [
-    ("&&", "put one `if` inside the other"),
-    ("||", "put one `if` inside the other"),
-    ("&", "put one `if` inside the other"),
+    (
+        "&&",
+        "conditions are joined with `and`: `if a < b and c < d then x else y`",
+    ),
+    (
+        "||",
+        "conditions are joined with `or`: `if a < b or c < d then x else y`",
+    ),
+    (
+        "&",
+        "conditions are joined with `and`: `if a < b and c < d then x else y`",
+    ),
     (
         "|",
         "the size of a number is `abs(x)`, that of a vector `norm(v)`",
@@ -41,9 +50,39 @@ impl Cursor<'_> {
         })
     }
 
-    /// Reads a comparison, which may stand in parentheses of its own.
+    /// Reads a condition: from loose to tight `or`, `and`, `not`, a comparison.
     fn condition(&mut self, help: &str) -> Parsed<Condition> {
-        if !self.parentheses_end_before("then") {
+        let mut condition = self.conjunction(help)?;
+        while self.take_word("or") {
+            let other = self.conjunction(help)?;
+            condition = Condition::Or(Box::new(condition), Box::new(other));
+        }
+        Ok(condition)
+    }
+
+    fn conjunction(&mut self, help: &str) -> Parsed<Condition> {
+        let mut condition = self.negation(help)?;
+        while self.take_word("and") {
+            let other = self.negation(help)?;
+            condition = Condition::And(Box::new(condition), Box::new(other));
+        }
+        Ok(condition)
+    }
+
+    /// Reads `not a`, a condition in parentheses, or a comparison. A quantity may be called
+    /// `not`: then an operator follows.
+    fn negation(&mut self, help: &str) -> Parsed<Condition> {
+        let operand = match self.peek_at(1).kind {
+            TokenKind::Word(_) | TokenKind::Number(_) => true,
+            TokenKind::Symbol(sign) => sign == "(",
+            TokenKind::End => false,
+        };
+        if self.at_word("not") && operand {
+            self.advance();
+            let inside = self.deeper(|cursor| cursor.negation(help))?;
+            return Ok(Condition::Not(Box::new(inside)));
+        }
+        if !self.parentheses_hold_a_condition() {
             return self.comparison(help);
         }
         self.advance();
@@ -74,22 +113,12 @@ impl Cursor<'_> {
         };
         self.advance();
         let right = self.expression()?;
-        if self.at_symbol("&&") || self.at_symbol("||") {
-            let error = Diagnostic::error(self.span(), "conditions can't be joined");
-            let help =
-                "put one choice inside the other: `if a < b then (if c < d then x else y) else y`";
-            return Err(self.fail(error.help(help)));
-        }
-        let (left, right) = if exchanged {
-            (right, left)
-        } else {
-            (left, right)
+        self.no_foreign_operator()?;
+        let sides = match exchanged {
+            true => [right, left],
+            false => [left, right],
         };
-        Ok(Condition {
-            comparison,
-            left,
-            right,
-        })
+        Ok(Condition::Compare(comparison, Box::new(sides)))
     }
 
     /// Refuses a comparison where a formula has ended.

@@ -31,7 +31,18 @@ pub const STATEMENTS: [(&str, &str); 14] = [
 ];
 
 /// Words that hold statements and formulas together.
-pub const CONNECTIVES: [&str; 7] = ["mechanism", "for", "in", "on", "if", "then", "else"];
+pub const CONNECTIVES: [&str; 10] = [
+    "mechanism",
+    "for",
+    "in",
+    "on",
+    "if",
+    "then",
+    "else",
+    "and",
+    "or",
+    "not",
+];
 
 /// What `draw` draws.
 pub const SHAPES: [(&str, Drawing); 4] = [
@@ -59,6 +70,10 @@ const RESERVED: [&str; 11] = [
 pub struct Cursor<'a> {
     pub source: &'a str,
     pub diagnostics: Diagnostics,
+    /// The bytes at which something without meaning was taken out.
+    pub strays: Vec<usize>,
+    /// Names that statements with mistakes may have declared.
+    pub unreadable: Vec<String>,
     tokens: Tokens,
     at: usize,
     nesting: usize,
@@ -70,6 +85,8 @@ impl<'a> Cursor<'a> {
         Self {
             source,
             diagnostics: Diagnostics::new(),
+            strays: Vec::new(),
+            unreadable: Vec::new(),
             tokens,
             at: 0,
             nesting: 0,
@@ -102,15 +119,20 @@ impl<'a> Cursor<'a> {
         &self.tokens.list[self.at.saturating_sub(back)]
     }
 
-    /// Whether a parenthesis comes next that is closed in front of a word.
-    pub fn parentheses_end_before(&self, word: &str) -> bool {
+    /// Whether a parenthesis comes next that holds a condition: behind it the condition ends
+    /// or is joined with another, where a formula would go on to be compared.
+    pub fn parentheses_hold_a_condition(&self) -> bool {
         if !self.at_symbol("(") {
             return false;
         }
         let mut inside = self.tokens.list[self.at + 1..].iter();
         let depth = self.depth();
         inside.by_ref().find(|token| token.depth <= depth);
-        matches!(inside.next(), Some(Token { kind: TokenKind::Word(text), .. }) if text == word)
+        match inside.next().map(|token| &token.kind) {
+            Some(TokenKind::Word(word)) => ["then", "and", "or"].contains(&word.as_str()),
+            Some(TokenKind::Symbol(sign)) => *sign == ")",
+            _ => false,
+        }
     }
 
     /// Reads a token.
@@ -237,6 +259,51 @@ impl<'a> Cursor<'a> {
     /// The number of brackets open around the next token.
     pub fn depth(&self) -> usize {
         self.peek().depth
+    }
+
+    /// Reads a statement or an entry of a block. If there is a mistake in it, it is
+    /// passed over, and what it may have declared is remembered. Where a character was
+    /// taken out, that is the mistake, and everything else comes of it. `is_block` says
+    /// what has statements of its own, which have been looked at one by one.
+    pub fn statement<T>(
+        &mut self,
+        depth: usize,
+        read: fn(&mut Self) -> Parsed<T>,
+        is_block: fn(&T) -> bool,
+    ) -> Option<T> {
+        let (first, said) = (self.at, self.diagnostics.len());
+        let start = self.span().range().start;
+        let read = read(self);
+        if read.is_err() {
+            self.recover(depth);
+        }
+        if read.as_ref().is_ok_and(is_block) {
+            return read.ok();
+        }
+        let whole = start..self.last_span().range().end;
+        if self.strays.iter().any(|stray| whole.contains(stray)) {
+            self.diagnostics.truncate(said);
+        } else if let Ok(statement) = read {
+            return Some(statement);
+        }
+        self.forget(first);
+        None
+    }
+
+    /// Remembers the names that an unreadable statement may have declared: its first two
+    /// words, and those behind commas.
+    fn forget(&mut self, first: usize) {
+        let tokens = self.tokens.list.get(first..self.at).unwrap_or(&[]);
+        let word = |token: &Token| match &token.kind {
+            TokenKind::Word(word) => Some(word.clone()),
+            _ => None,
+        };
+        let listed = tokens.windows(2).filter(|pair| {
+            pair[0].depth == tokens[0].depth && pair[0].kind == TokenKind::Symbol(",")
+        });
+        let names = tokens.iter().take(2).chain(listed.map(|pair| &pair[1]));
+        let names: Vec<String> = names.filter_map(word).collect();
+        self.unreadable.extend(names);
     }
 
     /// Goes on behind the statement that began at a token: behind its `;` or

@@ -9,6 +9,7 @@ use super::cursor::{Cursor, Parsed};
 use super::literal::read_number;
 use super::token::TokenKind;
 use crate::diagnostic::{Diagnostic, Span};
+use crate::expr::Function;
 
 impl Cursor<'_> {
     /// Reads a formula.
@@ -63,12 +64,39 @@ impl Cursor<'_> {
         if !self.take_symbol("^") {
             return Ok(base);
         }
+        self.no_power_of_a_function(&base)?;
         let exponent = self.deeper(Self::signed)?;
         let span = base.span.to(exponent.span);
         Ok(Expr {
             span,
             kind: ExprKind::Power(Box::new(base), Box::new(exponent)),
         })
+    }
+
+    /// Refuses `sin^2(q)`.
+    fn no_power_of_a_function(&mut self, base: &Expr) -> Parsed<()> {
+        let ExprKind::Name(name) = &base.kind else {
+            return Ok(());
+        };
+        let unary = Function::ALL.iter().map(|(_, name)| *name);
+        let known = unary.chain(["norm", "norm2", "der"]).any(|f| f == name);
+        let open = TokenKind::Symbol("(");
+        let [exponent, next] = [self.peek(), self.peek_at(1)];
+        if !known || next.kind != open || !matches!(exponent.kind, TokenKind::Number(_)) {
+            return Ok(());
+        }
+        let span = base.span.to(exponent.span);
+        let power = exponent.span.text(self.source).to_string();
+        self.advance();
+        let argument = self
+            .parenthesis()
+            .map(|e| e.span.text(self.source).to_string())?;
+        let error = Diagnostic::error(span, "a power stands behind the whole function");
+        let help = match name.as_str() {
+            "norm" if power == "2" => format!("write `norm2{argument}`"),
+            _ => format!("write `{name}{argument}^{power}`"),
+        };
+        Err(self.fail(error.help(help)))
     }
 
     /// Reads a formula without operators: a name, a component, a call.
@@ -82,6 +110,10 @@ impl Cursor<'_> {
                     span,
                     kind: ExprKind::Component(Box::new(value), axis),
                 };
+            } else if self.at_symbol("[") && matches!(value.kind, ExprKind::Number(_)) {
+                let error = Diagnostic::error(self.span(), "a number has no elements");
+                let help = "a unit goes behind `:`, for example `param m: kg = 1;`";
+                return Err(self.fail(error.help(help)));
             } else if self.take_symbol("[") {
                 let index = self.expression()?;
                 self.expect_symbol("]", "an index is written `theta[0]` or `R[0][1]`")?;

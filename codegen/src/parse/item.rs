@@ -1,6 +1,6 @@
 //! Statements: the words that begin them, and the file around them.
 
-use super::ast::{Declaration, Declared, Energy, Item, ItemKind, Let, Name};
+use super::ast::{Declaration, Declared, Energy, Expr, ExprKind, Item, ItemKind, Let, Name};
 use super::cursor::{Cursor, DIRECTIONS, Parsed, SHAPES, STATEMENTS};
 use super::model::Model;
 use super::token::TokenKind;
@@ -26,7 +26,7 @@ impl Cursor<'_> {
                 true => "remove it",
                 false => "a file holds one mechanism; write another file",
             };
-            return Err(self.fail(error.help(help)));
+            let _reported = self.fail(error.help(help));
         }
         Ok(model)
     }
@@ -39,9 +39,8 @@ impl Cursor<'_> {
             if self.take_symbol(";") {
                 continue;
             }
-            match self.item() {
-                Ok(item) => add(item),
-                Err(_) => self.recover(depth),
+            if let Some(item) = self.statement(depth, Self::item, is_block) {
+                add(item);
             }
         }
         self.expect_symbol("}", "")
@@ -111,14 +110,17 @@ impl Cursor<'_> {
             "event" => self.event()?,
             _ => self.draw()?,
         };
-        self.end_of_statement(word)?;
+        self.end_of_statement(word, &kind)?;
         Ok(kind)
     }
 
     /// Reads the `;`. What is missing is rather an operator if a formula goes on.
-    fn end_of_statement(&mut self, word: &str) -> Parsed<()> {
+    fn end_of_statement(&mut self, word: &str, kind: &ItemKind) -> Parsed<()> {
         if self.take_symbol(";") {
             return Ok(());
+        }
+        if let ItemKind::Declaration(declaration) = kind {
+            self.no_unit_behind(word, declaration)?;
         }
         self.comparison_stands_after_if()?;
         let next = self.peek();
@@ -139,6 +141,24 @@ impl Cursor<'_> {
         Err(self.unexpected("`;`", &example(word)))
     }
 
+    /// Refuses a unit behind a number: `param m = 1 kg;`.
+    fn no_unit_behind(&mut self, word: &str, declaration: &Declaration) -> Parsed<()> {
+        let number = matches!(declaration.value.kind, ExprKind::Number(_));
+        let TokenKind::Word(unit) = self.peek().kind.clone() else {
+            return Ok(());
+        };
+        let declared = declaration.unit.as_ref();
+        if !number || declared.is_some_and(|declared| declared.text != unit) {
+            return Ok(());
+        }
+        let message = "a unit does not stand behind a number";
+        let error = Diagnostic::error(self.span(), message);
+        let (name, value) = (&declaration.name.text, declaration.value.span);
+        let value = value.text(self.source);
+        let help = format!("the unit goes behind `:`: `{word} {name}: {unit} = {value};`");
+        Err(self.fail(error.help(help)))
+    }
+
     fn name(&mut self, what: &str, word: &str) -> Parsed<Name> {
         self.expect_name(&format!("the name of {what}"), &example(word))
     }
@@ -156,6 +176,7 @@ impl Cursor<'_> {
             let help = "arrays are declared with `coord n[K]` and `let n[i in 0..K] = …`";
             return Err(self.fail(error.help(help)));
         }
+        self.one_name(&name, word, " = …")?;
         let unit = self.optional_unit()?;
         self.expect_symbol("=", &example(word))?;
         let value = self.expression()?;
@@ -165,6 +186,21 @@ impl Cursor<'_> {
             unit,
             value,
         }))
+    }
+
+    /// Refuses a list of names.
+    fn one_name(&mut self, name: &Name, word: &str, rest: &str) -> Parsed<()> {
+        if !self.at_symbol(",") {
+            return Ok(());
+        }
+        let other = match &self.peek_at(1).kind {
+            TokenKind::Word(other) => other.clone(),
+            _ => "…".to_string(),
+        };
+        let error = Diagnostic::error(self.span(), format!("`{word}` declares one name"));
+        let first = &name.text;
+        let help = format!("write `{word} {first}{rest}; {word} {other}{rest};`");
+        Err(self.fail(error.help(help)))
     }
 
     fn coordinate(&mut self) -> Parsed<ItemKind> {
@@ -177,6 +213,7 @@ impl Cursor<'_> {
                 "an array of coordinates is written `coord theta[3]: rad;`",
             )?;
         }
+        self.one_name(&name, "coord", ": …")?;
         let unit = self.optional_unit()?;
         if self.at_symbol("=") {
             let error = Diagnostic::error(self.span(), "a coordinate has no value of its own");
@@ -197,14 +234,15 @@ impl Cursor<'_> {
             range = Some(self.range(help)?);
             self.expect_symbol("]", help)?;
         }
-        if self.at_symbol(":") {
-            let error =
-                Diagnostic::error(self.span(), "`let` takes no unit: it has that of its value");
-            return Err(self.fail(error.help(example("let"))));
-        }
+        let unit = self.optional_unit()?;
         self.expect_symbol("=", &example("let"))?;
         let value = self.expression()?;
-        Ok(ItemKind::Let(Let { name, range, value }))
+        Ok(ItemKind::Let(Box::new(Let {
+            name,
+            range,
+            unit,
+            value,
+        })))
     }
 
     fn force(&mut self) -> Parsed<ItemKind> {
@@ -217,16 +255,59 @@ impl Cursor<'_> {
     }
 
     fn constraint(&mut self) -> Parsed<ItemKind> {
+        let named = self.peek_at(1).kind == TokenKind::Symbol(":");
+        let name = match named {
+            true => Some(self.name("the constraint", "constraint")?),
+            false => None,
+        };
+        if named {
+            self.expect_symbol(":", "")?;
+        }
         let left = self.expression()?;
         if self.at_symbol("==") {
             let error = Diagnostic::error(self.span(), "an equation is written with one `=`");
             return Err(self.fail(error.help(example("constraint"))));
         }
+        self.no_inequality(&left)?;
         self.comparison_stands_after_if()?;
         self.expect_symbol("=", &example("constraint"))?;
         let right = self.expression()?;
-        let text = one_line(left.span.to(right.span).text(self.source));
-        Ok(ItemKind::Constraint { left, right, text })
+        let equation = one_line(left.span.to(right.span).text(self.source));
+        let text = match &name {
+            Some(name) => format!("{}: {equation}", name.text),
+            None => equation,
+        };
+        Ok(ItemKind::Constraint {
+            name,
+            left,
+            right,
+            text,
+        })
+    }
+
+    /// Refuses an inequality, which no constraint is.
+    fn no_inequality(&mut self, left: &Expr) -> Parsed<()> {
+        let upper = self.at_symbol("<") || self.at_symbol("<=");
+        if !upper && !self.at_symbol(">") && !self.at_symbol(">=") {
+            return Ok(());
+        }
+        let place = self.span();
+        self.advance();
+        let right = self.expression()?;
+        let x = one_line(left.span.text(self.source));
+        let bound = one_line(right.span.text(self.source));
+        let less = match right.kind {
+            ExprKind::Sum(_) | ExprKind::Negative(_) => format!("{x} - ({bound})"),
+            _ => format!("{x} - {bound}"),
+        };
+        let beyond = if upper { ">" } else { "<" };
+        let error = Diagnostic::error(place, "a constraint is an equation");
+        let help = format!(
+            "what stops a motion is a force, such as \
+             `force if {x} {beyond} {bound} then -k*({less}) else 0 on {x};`; \
+             `event e: {less} crossing;` finds the instant"
+        );
+        Err(self.fail(error.help(help)))
     }
 
     fn event(&mut self) -> Parsed<ItemKind> {
@@ -256,6 +337,11 @@ impl Cursor<'_> {
         let arguments = self.arguments(")")?;
         Ok(ItemKind::Draw { shape, arguments })
     }
+}
+
+/// Whether a statement has statements or entries inside.
+fn is_block(item: &Item) -> bool {
+    matches!(item.kind, ItemKind::For(..) | ItemKind::Start(_))
 }
 
 /// How a statement is written.

@@ -6,7 +6,9 @@
 //! Four steps: `scan` looks at the characters (so that the lexer cannot fail and
 //! no nesting is too deep for a recursive reader), `token` has proc-macro2 lex
 //! them, `item`, `start` and `unit` read statements, `expression` reads formulas.
-//! A mistake inside a statement is reported and reading goes on behind it.
+//! A mistake inside a statement is reported and reading goes on behind it; the names
+//! that such a statement may have declared are remembered, so that nobody complains of
+//! them.
 //!
 //! Not here: the meaning of names, shapes and units.
 
@@ -21,6 +23,7 @@ mod model;
 mod print;
 mod scan;
 mod start;
+mod stray;
 mod token;
 mod unit;
 
@@ -40,15 +43,36 @@ pub const NESTING: usize = 100;
 ///
 /// Everything that breaks the grammar, with its place.
 pub fn parse(source: &str) -> Result<Model, Diagnostics> {
-    let source = without_mark(source);
-    scan::scan(source)?;
-    let tokens = token::tokenize(source)?;
-    let mut cursor = cursor::Cursor::new(source, tokens);
-    let model = cursor.file();
-    match model {
-        Ok(model) if cursor.diagnostics.is_empty() => Ok(model),
-        _ => Err(cursor.diagnostics),
+    match read(source) {
+        (Some(model), wrong) if wrong.is_empty() => Ok(model),
+        (_, wrong) => Err(wrong),
     }
+}
+
+/// Reads as much of a description as can be read, and everything that breaks the
+/// grammar.
+pub(crate) fn read(source: &str) -> (Option<Model>, Diagnostics) {
+    let source = without_mark(source);
+    let scanned = scan::scan(source);
+    let mut wrong = scanned.diagnostics;
+    if !scanned.readable {
+        return (None, wrong);
+    }
+    let tokens = match token::tokenize(&scanned.text) {
+        Ok(tokens) => tokens,
+        Err(unreadable) => {
+            wrong.append(unreadable);
+            return (None, wrong);
+        }
+    };
+    let mut cursor = cursor::Cursor::new(source, tokens);
+    cursor.strays = scanned.strays;
+    let model = cursor.file().ok().map(|mut model| {
+        model.unreadable = std::mem::take(&mut cursor.unreadable);
+        model
+    });
+    wrong.append(cursor.diagnostics);
+    (model, wrong)
 }
 
 /// Reads one formula that stands by itself, as it would stand in a description.
@@ -57,7 +81,7 @@ pub fn parse(source: &str) -> Result<Model, Diagnostics> {
 ///
 /// Everything that breaks the grammar, with its place.
 pub fn formula(source: &str) -> Result<ast::Expr, Diagnostics> {
-    scan::scan(source)?;
+    scan::clean(source)?;
     let tokens = token::tokenize(source)?;
     let mut cursor = cursor::Cursor::new(source, tokens);
     let read = cursor.expression();

@@ -40,6 +40,8 @@ pub struct Model {
     pub(crate) docs: String,
     /// What stands between its braces.
     pub(crate) items: Vec<Item>,
+    /// Names that unreadable statements may have declared.
+    pub(crate) unreadable: Vec<String>,
     /// What was no formula, no unit or no name.
     faults: ModelError,
 }
@@ -58,6 +60,7 @@ impl Model {
             name,
             docs,
             items: Vec::new(),
+            unreadable: Vec::new(),
             faults: ModelError::default(),
         }
     }
@@ -124,11 +127,12 @@ impl Model {
     pub fn quantity(mut self, name: &str, value: impl Into<Formula>) -> Self {
         self.check_name(name);
         let value = self.faults.accept(value.into());
-        self.statement(ItemKind::Let(Let {
+        self.statement(ItemKind::Let(Box::new(Let {
             name: here(name),
             range: None,
+            unit: None,
             value,
-        }))
+        })))
     }
 
     /// `kinetic value;`
@@ -158,7 +162,12 @@ impl Model {
         let left = self.faults.accept(left.into());
         let right = self.faults.accept(right.into());
         let text = format!("{} = {}", print::formula(&left), print::formula(&right));
-        self.statement(ItemKind::Constraint { left, right, text })
+        self.statement(ItemKind::Constraint {
+            name: None,
+            left,
+            right,
+            text,
+        })
     }
 
     /// An entry `target = value;` of `start`: held.

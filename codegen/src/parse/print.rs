@@ -71,7 +71,8 @@ fn statement(kind: &ItemKind, depth: usize) -> String {
         ItemKind::Let(l) => {
             let index = l.range.as_ref().map(|r| format!("[{}]", range(r)));
             let index = index.unwrap_or_default();
-            format!("let {}{index} = {};", l.name.text, formula(&l.value))
+            let unit = unit(l.unit.as_ref());
+            format!("let {}{index}{unit} = {};", l.name.text, formula(&l.value))
         }
         ItemKind::Energy(kind, value) => {
             let word = match kind {
@@ -82,8 +83,12 @@ fn statement(kind: &ItemKind, depth: usize) -> String {
             format!("{word} {};", formula(value))
         }
         ItemKind::Force { force, on } => format!("force {} on {};", formula(force), formula(on)),
-        ItemKind::Constraint { left, right, .. } => {
-            format!("constraint {} = {};", formula(left), formula(right))
+        ItemKind::Constraint {
+            name, left, right, ..
+        } => {
+            let name = name.as_ref().map(|name| format!("{}: ", name.text));
+            let name = name.unwrap_or_default();
+            format!("constraint {name}{} = {};", formula(left), formula(right))
         }
         ItemKind::Start(entries) => format!("start {}", start_block(entries, depth)),
         ItemKind::Event {
@@ -169,7 +174,7 @@ pub fn formula(e: &Expr) -> String {
         }
         ExprKind::Index(x, index) => format!("{}[{}]", part_of(x), formula(index)),
         ExprKind::If(condition, then, otherwise) => {
-            let condition = comparison(condition);
+            let condition = self::condition(condition);
             let then = within(then, Binding::Sum);
             format!("if {condition} then {then} else {}", formula(otherwise))
         }
@@ -231,18 +236,30 @@ fn binding(e: &Expr) -> Binding {
     }
 }
 
-fn comparison(condition: &Condition) -> String {
-    let sign = match condition.comparison {
-        Comparison::Less => "<",
-        Comparison::LessEqual => "<=",
-        Comparison::Equal => "==",
-        Comparison::NotEqual => "!=",
-    };
-    let (left, right) = (
-        within(&condition.left, Binding::Sum),
-        within(&condition.right, Binding::Sum),
-    );
-    format!("{left} {sign} {right}")
+fn condition(condition: &Condition) -> String {
+    match condition {
+        Condition::Compare(comparison, sides) => {
+            let sign = match comparison {
+                Comparison::Less => "<",
+                Comparison::LessEqual => "<=",
+                Comparison::Equal => "==",
+                Comparison::NotEqual => "!=",
+            };
+            let [left, right] = sides.each_ref().map(|side| within(side, Binding::Sum));
+            format!("{left} {sign} {right}")
+        }
+        Condition::Not(inside) => format!("not {}", joined(inside)),
+        Condition::And(a, b) => format!("{} and {}", joined(a), joined(b)),
+        Condition::Or(a, b) => format!("{} or {}", joined(a), joined(b)),
+    }
+}
+
+/// A part of a condition, in parentheses unless it is a comparison.
+fn joined(part: &Condition) -> String {
+    match part {
+        Condition::Compare(..) => condition(part),
+        _ => format!("({})", condition(part)),
+    }
 }
 
 /// Decimals that a person would write out; longer ones get an exponent.

@@ -2,69 +2,153 @@
 //! would refuse, nothing nested too deeply for a recursive reader.
 //!
 //! In:  the text.
-//! Out: nothing, or everything that is wrong with its characters.
+//! Out: [`Scanned`]: everything that is wrong with its characters, and the text with
+//!      blanks in their place, so that one of them does not hide all other mistakes.
 
 use super::NESTING;
+use super::stray::{instead, shown};
 use crate::diagnostic::{Diagnostic, Diagnostics, Position, Span};
 use std::iter::Peekable;
+use std::ops::Range;
 use std::str::CharIndices;
 
 /// The largest description in bytes. Places are 32-bit numbers.
 const LARGEST: usize = 1 << 24;
+
+/// What a text looks like to the lexer.
+pub struct Scanned {
+    /// The text, with blanks for what has no meaning; as many bytes and, but for the
+    /// rarest characters, as many columns.
+    pub text: String,
+    /// The bytes at which something else was, comments aside. A statement around one
+    /// of them is not as it was meant.
+    pub strays: Vec<usize>,
+    /// Everything that is wrong with the characters.
+    pub diagnostics: Diagnostics,
+    /// Whether the text can be lexed.
+    pub readable: bool,
+}
+
+/// What to write instead of a tick behind a bracket.
+const TRANSPOSED: &str = "the square of a vector's length is `norm2(v)`, a product of two vectors \
+                          `dot(a, b)`, a transposed matrix `transpose(R)`";
 
 struct Scanner<'a> {
     text: &'a str,
     characters: Peekable<CharIndices<'a>>,
     line: u32,
     column: u32,
-    open: Vec<(char, Span)>,
-    too_deep: bool,
+    /// The number of blanks that the line begins with, while there is nothing else.
+    indent: usize,
+    /// The last character of the line that is no blank.
+    before: Option<char>,
+    open: Vec<Bracket>,
+    /// An opening brace that the brace found for it does not seem to be meant for.
+    askew: Option<Span>,
+    blanks: Vec<Range<usize>>,
+    strays: Vec<usize>,
+    readable: bool,
     diagnostics: Diagnostics,
 }
 
-/// Checks the characters of a text.
-pub fn scan(text: &str) -> Result<(), Diagnostics> {
-    let mut diagnostics = Diagnostics::new();
-    if text.len() > LARGEST {
-        let message = format!("a description of {} bytes is too large", text.len());
-        let help = format!("the limit is {LARGEST} bytes; use arrays and `for`");
-        diagnostics.push(Diagnostic::error(Span::default(), message).help(help));
-        return Err(diagnostics);
-    }
-    let characters = text.char_indices().peekable();
+/// An opening bracket.
+struct Bracket {
+    sign: char,
+    span: Span,
+    /// The indentation of its line.
+    indent: usize,
+}
+
+/// Looks at the characters of a text.
+pub fn scan(text: &str) -> Scanned {
     let mut scanner = Scanner {
         text,
-        characters,
+        characters: text.char_indices().peekable(),
         line: 1,
         column: 1,
+        indent: 0,
+        before: None,
         open: Vec::new(),
-        too_deep: false,
-        diagnostics,
+        askew: None,
+        blanks: Vec::new(),
+        strays: Vec::new(),
+        readable: text.len() <= LARGEST,
+        diagnostics: Diagnostics::new(),
     };
-    scanner.run();
-    if scanner.diagnostics.is_empty() {
-        Ok(())
+    if scanner.readable {
+        scanner.run();
     } else {
-        Err(scanner.diagnostics)
+        let message = format!("a description of {} bytes is too large", text.len());
+        let help = format!("the limit is {LARGEST} bytes; use arrays and `for`");
+        let error = Diagnostic::error(Span::default(), message).help(help);
+        scanner.diagnostics.push(error);
     }
+    Scanned {
+        text: blanked(text, &scanner.blanks),
+        strays: scanner.strays,
+        diagnostics: scanner.diagnostics,
+        readable: scanner.readable,
+    }
+}
+
+/// Looks at the characters of a text that has to be right.
+///
+/// # Errors
+///
+/// Everything that is wrong with them.
+pub fn clean(text: &str) -> Result<(), Diagnostics> {
+    match scan(text).diagnostics {
+        wrong if wrong.is_empty() => Ok(()),
+        wrong => Err(wrong),
+    }
+}
+
+/// A text with blanks in places, each as long as what it replaces.
+fn blanked(text: &str, places: &[Range<usize>]) -> String {
+    let mut result = String::with_capacity(text.len());
+    let mut at = 0;
+    for place in places.iter().filter(|place| !place.is_empty()) {
+        result.push_str(text.get(at..place.start).unwrap_or(""));
+        for character in text.get(place.clone()).unwrap_or("").chars() {
+            result.push_str(match character.len_utf8() {
+                1 => " ",
+                2 => "\u{a0}",
+                3 => "\u{2003}",
+                _ => "\u{a0}\u{a0}",
+            });
+        }
+        at = place.end;
+    }
+    result.push_str(text.get(at..).unwrap_or(""));
+    result
 }
 
 impl Scanner<'_> {
     fn run(&mut self) {
         while let Some((_, character)) = self.characters.peek().copied() {
             let start = self.position();
+            let comment = character == '#'
+                || (character == '%' && self.before.is_none_or(|c| ";{}".contains(c)));
             match character {
                 '/' => self.slash(start),
                 '(' | '[' | '{' => self.opening(character, start),
                 ')' | ']' | '}' => self.closing(character, start),
+                '"' => self.quoted(start),
+                _ if comment => self.foreign_comment(character, start),
                 _ => self.other(character, start),
             }
         }
-        for (bracket, span) in std::mem::take(&mut self.open).into_iter().take(3) {
-            let message = format!("this `{bracket}` is never closed");
-            let help = format!("write the matching `{}`", partner(bracket));
+        let mut open = std::mem::take(&mut self.open);
+        // The last brace is missing rather in front of one that stands elsewhere.
+        if let (Some(askew), [one]) = (self.askew, open.as_mut_slice()) {
+            one.span = askew;
+        }
+        self.readable &= open.is_empty();
+        for bracket in open.into_iter().take(3) {
+            let message = format!("this `{}` is never closed", bracket.sign);
+            let help = format!("write the matching `{}`", partner(bracket.sign));
             self.diagnostics
-                .push(Diagnostic::error(span, message).help(help));
+                .push(Diagnostic::error(bracket.span, message).help(help));
         }
     }
 
@@ -84,10 +168,15 @@ impl Scanner<'_> {
     fn next(&mut self) -> Option<char> {
         let (_, character) = self.characters.next()?;
         if character == '\n' {
-            self.line += 1;
-            self.column = 1;
-        } else {
-            self.column += 1;
+            (self.line, self.column) = (self.line + 1, 1);
+            (self.indent, self.before) = (0, None);
+            return Some(character);
+        }
+        self.column += 1;
+        if !character.is_whitespace() {
+            self.before = Some(character);
+        } else if self.before.is_none() {
+            self.indent += 1;
         }
         Some(character)
     }
@@ -128,6 +217,7 @@ impl Scanner<'_> {
         let mut last = ' ';
         while depth > 0 {
             let Some(character) = self.next() else {
+                self.readable = false;
                 let error = Diagnostic::error(begin, "this comment is never closed");
                 self.diagnostics.push(error.help("write the matching `*/`"));
                 return;
@@ -144,12 +234,13 @@ impl Scanner<'_> {
         }
     }
 
-    fn opening(&mut self, bracket: char, start: Position) {
+    fn opening(&mut self, sign: char, start: Position) {
+        let indent = self.indent;
         self.next();
         let span = self.span_from(start);
-        self.open.push((bracket, span));
-        if self.open.len() > NESTING && !self.too_deep {
-            self.too_deep = true;
+        self.open.push(Bracket { sign, span, indent });
+        if self.open.len() == NESTING + 1 && self.readable {
+            self.readable = false;
             let message = format!("more than {NESTING} brackets inside one another");
             let help = "give inner parts names of their own with `let`";
             self.diagnostics
@@ -158,26 +249,86 @@ impl Scanner<'_> {
     }
 
     fn closing(&mut self, bracket: char, start: Position) {
+        let first = self.before.is_none();
         self.next();
         let span = self.span_from(start);
         let matching = self
             .open
             .iter()
-            .rposition(|(open, _)| partner(*open) == bracket);
-        let Some(&(open, place)) = self.open.last() else {
+            .rposition(|open| partner(open.sign) == bracket);
+        let Some(last) = self.open.last() else {
             let message = format!("this `{bracket}` closes nothing");
             self.diagnostics
                 .push(Diagnostic::error(span, message).help("remove it"));
+            self.blank(span);
             return;
         };
-        // What is open inside the bracket that this one closes was forgotten.
-        self.open.truncate(matching.unwrap_or(self.open.len() - 1));
-        if partner(open) != bracket {
-            let message = format!("`{open}` is closed by `{bracket}`");
-            let error = Diagnostic::error(span, message).also(place, "opened here");
-            let help = format!("write the matching `{}` first", partner(open));
-            self.diagnostics.push(error.help(help));
+        if partner(last.sign) == bracket {
+            if first && last.indent != self.indent && bracket == '}' {
+                self.askew.get_or_insert(last.span);
+            }
+            self.open.pop();
+            return;
         }
+        let open = last.sign;
+        let message = format!("`{open}` is closed by `{bracket}`");
+        let error = Diagnostic::error(span, message).also(last.span, "opened here");
+        let help = format!("write the matching `{}` first", partner(open));
+        self.diagnostics.push(error.help(help));
+        self.forget(matching, span);
+    }
+
+    /// What is open inside the bracket that a closing one belongs to was forgotten; if
+    /// it belongs to none, it stands for the one that is open.
+    fn forget(&mut self, matching: Option<usize>, closing: Span) {
+        let from = matching.map_or(self.open.len() - 1, |place| place + 1);
+        let gone: Vec<Bracket> = self.open.drain(from..).collect();
+        self.readable &= gone.iter().all(|bracket| bracket.sign != '{');
+        gone.iter().for_each(|bracket| self.blank(bracket.span));
+        match matching {
+            Some(_) => drop(self.open.pop()),
+            None => self.blank(closing),
+        }
+    }
+
+    /// Takes out what has no meaning.
+    fn blank(&mut self, span: Span) {
+        self.strays.push(span.range().start);
+        self.take_out(span);
+    }
+
+    fn take_out(&mut self, span: Span) {
+        let place = span.range();
+        let at = self.blanks.partition_point(|b| b.start <= place.start);
+        self.blanks.insert(at, place);
+    }
+
+    /// A comment of another language.
+    fn foreign_comment(&mut self, sign: char, start: Position) {
+        self.next();
+        let span = self.span_from(start);
+        let error = Diagnostic::error(span, format!("{} has no meaning here", shown(sign)));
+        self.diagnostics
+            .push(error.help("comments begin with `//`"));
+        while self.peek().is_some_and(|c| c != '\n') {
+            self.next();
+        }
+        let line = self.span_from(start);
+        self.take_out(line);
+    }
+
+    /// Quoted text, which ends at the latest with its line.
+    fn quoted(&mut self, start: Position) {
+        self.next();
+        let rest = self.text.get(start.offset as usize + 1..).unwrap_or("");
+        let line = rest.lines().next().unwrap_or("");
+        if line.contains('"') {
+            while self.next().is_some_and(|c| c != '"') {}
+        }
+        let span = self.span_from(start);
+        let error = Diagnostic::error(span, "quoted text has no meaning here");
+        self.diagnostics.push(error.help(instead('"')));
+        self.blank(span);
     }
 
     fn other(&mut self, character: char, start: Position) {
@@ -194,17 +345,15 @@ impl Scanner<'_> {
 
     fn stray(&mut self, character: char, start: Position) {
         let span = self.span_from(start);
-        let shown = match character {
-            '\r' => "a carriage return without a line feed".to_string(),
-            '\u{a0}' => "a no-break space".to_string(),
-            c if c.is_control() || c.is_whitespace() => {
-                format!("the character U+{:04X}", u32::from(c))
-            }
-            c => format!("`{c}`"),
+        let message = format!("{} has no meaning here", shown(character));
+        let text = self.text.get(..span.range().start).unwrap_or("");
+        let help = match (character, text.ends_with([')', ']'])) {
+            ('\'' | '’', true) => TRANSPOSED.to_string(),
+            _ => instead(character),
         };
-        let message = format!("{shown} has no meaning here");
         self.diagnostics
-            .push(Diagnostic::error(span, message).help(instead(character)));
+            .push(Diagnostic::error(span, message).help(help));
+        self.blank(span);
     }
 }
 
@@ -214,62 +363,4 @@ fn partner(bracket: char) -> char {
         '[' => ']',
         _ => '}',
     }
-}
-
-/// What to write instead of a character that has no meaning.
-fn instead(character: char) -> String {
-    let write = |text: &str| format!("write `{text}`");
-    match character {
-        '\'' => "the velocity of a coordinate `q` is written `der(q)`".into(),
-        '"' => "there is no quoted text; comments begin with `//`, doc comments with `///`".into(),
-        '#' => "comments begin with `//`".into(),
-        '·' | '×' | '∗' | '⋅' => write("*"),
-        '÷' | '∕' => write("/"),
-        '−' | '–' | '—' => write("-"),
-        '²' => write("^2"),
-        '³' => write("^3"),
-        '½' => write("1/2"),
-        'π' => write("pi"),
-        '°' => write("*deg"),
-        'µ' | 'μ' => write("mu"),
-        '≤' => write("<="),
-        '≥' => write(">="),
-        '≠' => write("!="),
-        '√' => write("sqrt(…)"),
-        '?' => "a choice is written `if a < b then x else y`".into(),
-        c if greek(c).is_some() => write(greek(c).unwrap_or_default()),
-        c if c.is_alphabetic() => {
-            "names are made of the letters a–z and A–Z, digits and `_`".into()
-        }
-        '\r' => "save the file with line feeds".into(),
-        c if c.is_whitespace() => "write an ordinary blank".into(),
-        _ => "remove it".into(),
-    }
-}
-
-fn greek(character: char) -> Option<&'static str> {
-    const NAMES: [(char, &str); 18] = [
-        ('α', "alpha"),
-        ('β', "beta"),
-        ('γ', "gamma"),
-        ('δ', "delta"),
-        ('ε', "epsilon"),
-        ('ζ', "zeta"),
-        ('η', "eta"),
-        ('θ', "theta"),
-        ('κ', "kappa"),
-        ('λ', "lambda"),
-        ('ξ', "xi"),
-        ('ρ', "rho"),
-        ('σ', "sigma"),
-        ('τ', "tau"),
-        ('φ', "phi"),
-        ('ϕ', "phi"),
-        ('ψ', "psi"),
-        ('ω', "omega"),
-    ];
-    NAMES
-        .iter()
-        .find(|(letter, _)| *letter == character)
-        .map(|(_, name)| *name)
 }

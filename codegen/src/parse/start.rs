@@ -12,10 +12,8 @@ impl Cursor<'_> {
         let depth = self.block_depth();
         let mut items = Vec::new();
         while !self.at_block_end(depth) {
-            match self.start_item() {
-                Ok(item) => items.push(item),
-                Err(_) => self.recover(depth),
-            }
+            let is_block = |item: &StartItem| matches!(item, StartItem::For(..));
+            items.extend(self.statement(depth, Self::start_item, is_block));
         }
         self.expect_symbol("}", "")?;
         Ok(items)

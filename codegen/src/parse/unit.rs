@@ -15,7 +15,7 @@ type Factors = Vec<(Name, i32)>;
 
 /// Reads a unit that stands by itself.
 pub fn read(text: &str) -> Result<UnitExpr, Diagnostics> {
-    scan::scan(text)?;
+    scan::clean(text)?;
     let mut cursor = Cursor::new(text, tokenize(text)?);
     let unit = cursor.unit();
     if unit.is_ok() && cursor.peek().kind != TokenKind::End {
@@ -32,6 +32,11 @@ impl Cursor<'_> {
     pub fn optional_unit(&mut self) -> Parsed<Option<UnitExpr>> {
         if !self.take_symbol(":") {
             return Ok(None);
+        }
+        if self.at_symbol("=") && self.span().start == self.last_span().end {
+            let error =
+                Diagnostic::error(self.last_span().to(self.span()), "`:=` is not used here");
+            return Err(self.fail(error.help("write `=`; behind `:` stands a unit")));
         }
         self.unit().map(Some)
     }

@@ -40,6 +40,28 @@ fn a_coordinate_without_inertia_is_named_unless_a_constraint_ties_it() {
 }
 
 #[test]
+fn a_negative_kinetic_energy_is_told_once_with_what_makes_it_negative() {
+    let massive = |value: &str| {
+        format!("param m = {value}; coord z; kinetic m*der(z)^2; potential z^2; constraint z = x;")
+    };
+    let found = doubts(&format!(
+        "mechanism Test {{ coord x; kinetic der(x)^2; {} }}",
+        massive("-3")
+    ));
+    assert_eq!(found.matches("warning").count(), 1, "{found}");
+    assert!(
+        found.contains("the kinetic energy is negative where `z` moves"),
+        "{found}"
+    );
+    assert!(found.contains("kinetic m*der(z)^2"), "{found}");
+    says(
+        "coord z; kinetic der(x)*der(z); potential z^2;",
+        &["negative where"],
+    );
+    is_silent(&massive("3"));
+}
+
+#[test]
 fn an_equation_whose_derivatives_vanish_where_it_holds_is_named() {
     for flat in ["1 - cos(phi) = 0", "(x - y)^2 = 0", "x^2 + y^2 = 0"] {
         says(

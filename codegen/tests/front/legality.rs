@@ -47,7 +47,7 @@ fn the_potential_energy_knows_no_velocities() {
 }
 
 #[test]
-fn energies_and_constraints_have_no_kinks() {
+fn energies_and_constraints_are_smooth() {
     for formula in [
         "abs(q)",
         "sign(q)",
@@ -62,10 +62,7 @@ fn energies_and_constraints_have_no_kinks() {
             "constraint X = 0;",
         ] {
             let statement = statement.replace('X', &format!("({formula})"));
-            refuse_saying(
-                &with(&statement),
-                "has to be differentiable, this has a kink",
-            );
+            refuse_saying(&with(&statement), "has to be smooth, this is non-smooth");
         }
         let allowed = "input u = X; force X*u on q; output y = X; event e: X rising;"
             .replace('X', &format!("({formula})"));
@@ -74,7 +71,7 @@ fn energies_and_constraints_have_no_kinks() {
 }
 
 #[test]
-fn a_choice_between_known_numbers_is_no_kink() {
+fn a_choice_between_known_numbers_is_smooth() {
     accept(&with(
         "const N = 2; potential if N == 2 then q^2 else w^2; for i in 0..2 { constraint (if i == 0 then q else w) = t; }",
     ));

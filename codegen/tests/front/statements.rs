@@ -94,7 +94,7 @@ fn start_entries_that_make_no_sense_are_refused() {
     );
     refuse_saying(
         &with("coord p[2]; start { p = 1; }"),
-        "a whole array has no single start value",
+        "its start value a number",
     );
     refuse_saying(&with("start { q == 1; }"), "expected `=` or `~`");
 }
@@ -200,4 +200,43 @@ fn a_mechanism_has_coordinates_and_kinetic_energy() {
 #[test]
 fn constant_outputs_are_fine() {
     assert_close(output(&accept(&with("output y = 3;")), "y"), 3.0);
+}
+
+#[test]
+fn a_vector_of_coordinates_begins_at_a_vector() {
+    let source =
+        "mechanism A { coord p[2]; coord x; coord y; kinetic der(x)^2 + der(y)^2 + norm2(der(p));
+        start { p = [1, 2]; der([x, y]) ~ [3, 4]; } }";
+    let m = accept(source);
+    let starts = m.starts.iter().map(|start| {
+        let value = m.graph.evaluate(start.value, &|_| f64::NAN);
+        (start.coordinate, start.velocity, start.held, value)
+    });
+    let expected = [
+        (0, false, true, 1.0),
+        (1, false, true, 2.0),
+        (2, true, false, 3.0),
+        (3, true, false, 4.0),
+    ];
+    assert_eq!(starts.collect::<Vec<_>>(), expected);
+    let wrong = source.replace("[1, 2]", "[1, 2, 3]");
+    refuse_saying(
+        &wrong,
+        "this is a vector of 2 components, its start value a vector of 3",
+    );
+    refuse_saying(
+        &source.replace("[1, 2]", "1"),
+        "a vector begins at a vector",
+    );
+}
+
+#[test]
+fn a_constraint_may_have_a_name_that_messages_call_it_by() {
+    let source = "mechanism A { coord x; coord y; kinetic der(x)^2 + der(y)^2;
+        constraint pin: x = y; for i in 0..1 { constraint arm: x = i; } }";
+    let m = accept(source);
+    let texts: Vec<&str> = m.constraints.iter().map(|row| row.text.as_str()).collect();
+    assert_eq!(texts, ["pin: x = y", "arm: x = i [i=0]"]);
+    let twice = source.replace("constraint pin", "constraint pin: y = 1; constraint pin");
+    refuse_saying(&twice, "`pin` is declared twice");
 }

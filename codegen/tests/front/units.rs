@@ -211,11 +211,12 @@ fn a_number_takes_the_unit_of_what_it_stands_beside() {
 }
 
 #[test]
-fn the_rate_of_what_a_bare_number_made_is_not_checked() {
-    // The 1 may be a metre or a ratio, so the rate may be a speed or a frequency.
+fn the_rate_of_what_a_bare_number_made_is_per_second() {
     let axis = "param m: kg = 1; param r: m = 1; param a: rad = 1; coord q: rad;
         let axis = rotz(q)*rotx(a)*[0, 0, 1];";
-    for energy in ["1/2*m*r^2*norm2(der(axis))", "1/2*m*norm2(der(axis))"] {
-        accept(&format!("mechanism Test {{ {axis} kinetic {energy}; }}"));
+    let with = |energy: &str| format!("mechanism Test {{ {axis} kinetic {energy}; }}");
+    accept(&with("1/2*m*r^2*norm2(der(axis))"));
+    for energy in ["1/2*m*norm2(der(axis))", "1/2*m*der(q)^2"] {
+        refuse_saying(&with(energy), "this is in N/m");
     }
 }

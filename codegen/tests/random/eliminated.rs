@@ -1,9 +1,9 @@
 //! Coordinates that constraints give, left out of random mechanisms: the equations that
 //! are left are those of the whole, seen along the motions that the constraints allow.
 //!
-//! With `q = f(z, t)`, `J = ∂f/∂z` and any `z`, `ż`, `z̈`, `z⃛ = 0`:
+//! With `q = f(z, t)`, `J = ∂f/∂z` and any `z`, `ż`, `z̈`:
 //! `p₁′ − M′z̈ = Jᵀ(p₁ − M q̈)`, and each constraint that is left has the value, the rate
-//! and the two rates after that which it has in the whole.
+//! and the rate after that which it has in the whole.
 
 use super::description::{Manner, Random, any, state};
 use super::{agree, config, dot, size};
@@ -38,15 +38,15 @@ fn with_given(random: &Random) -> String {
     )
 }
 
-/// A mechanism with its equations at a motion: coordinates and three rates.
+/// A mechanism with its equations at a motion: coordinates and two rates.
 struct Scene {
     mechanism: Mechanism,
     equations: Equations,
-    motion: [Vec<f64>; 4],
+    motion: [Vec<f64>; 3],
 }
 
 impl Scene {
-    fn new(mut mechanism: Mechanism, motion: [Vec<f64>; 4]) -> Result<Self, TestCaseError> {
+    fn new(mut mechanism: Mechanism, motion: [Vec<f64>; 3]) -> Result<Self, TestCaseError> {
         let equations = derive(&mut mechanism);
         let equations = equations.map_err(|_| TestCaseError::fail("too long"))?;
         Ok(Self {
@@ -57,7 +57,7 @@ impl Scene {
     }
 
     fn vector(&self, entries: &[ExprId]) -> Vec<f64> {
-        let [q, v, a, _] = &self.motion;
+        let [q, v, a] = &self.motion;
         let symbol = |symbol| match symbol {
             Symbol::Time => TIME,
             Symbol::Coordinate(i) => q[i as usize],
@@ -78,48 +78,20 @@ impl Scene {
         left.zip(rows).map(row).collect()
     }
 
-    /// For each constraint its value, and what its three rates leave over.
+    /// For each constraint its value, and what its two rates leave over.
     fn constraints(&self) -> Vec<Vec<(f64, f64)>> {
         let e = &self.equations;
-        let [_, _, a, j] = &self.motion;
+        let [_, _, a] = &self.motion;
         let plain = |entries: &[ExprId]| -> Vec<(f64, f64)> {
             let values = self.vector(entries).into_iter();
             values.map(|x| (x, x.abs())).collect()
         };
-        let third = self.less(&e.branch_bias, &e.branch_slope, a);
-        let turned = e.jacobian.iter().map(|row| self.vector(row));
-        let turned = turned.map(|row| (dot(&row, j), size(&row, j)));
         vec![
             plain(&e.residual),
             plain(&e.speed),
             self.less(&e.bias, &e.jacobian, a),
-            third
-                .into_iter()
-                .zip(turned)
-                .map(|(x, y)| (x.0 - y.0, x.1 + y.1))
-                .collect(),
         ]
     }
-}
-
-/// The rate in time of expressions of a motion, the highest rate held.
-fn rate(scene: &mut Scene, entries: &[ExprId]) -> Vec<f64> {
-    let n = scene.mechanism.coordinates.len();
-    let kinds: [fn(u32) -> Symbol; 3] =
-        [Symbol::Coordinate, Symbol::Velocity, Symbol::Acceleration];
-    let mut rates = Vec::new();
-    for &e in entries {
-        let clock = scene.mechanism.graph.differentiate(e, Symbol::Time);
-        let mut total = scene.vector(&[clock])[0];
-        for (order, kind) in kinds.into_iter().enumerate() {
-            for i in 0..n {
-                let slope = scene.mechanism.graph.differentiate(e, kind(i as u32));
-                total += scene.vector(&[slope])[0] * scene.motion[order + 1][i];
-            }
-        }
-        rates.push(total);
-    }
-    rates
 }
 
 proptest! {
@@ -138,14 +110,12 @@ proptest! {
         prop_assert_eq!(less.described.len(), random.n() + 2);
         prop_assert_eq!(less.coordinates.len(), random.n());
         let described = less.described.clone();
-        let mut less = Scene::new(less, [q, v, a, vec![0.0; 4]])?;
+        let mut less = Scene::new(less, [q, v, a])?;
         let accelerations: Vec<ExprId> = described.iter().map(|c| c.acceleration).collect();
-        let jerks = rate(&mut less, &accelerations);
         let motion = [
             less.vector(&described.iter().map(|c| c.position).collect::<Vec<_>>()),
             less.vector(&described.iter().map(|c| c.velocity).collect::<Vec<_>>()),
             less.vector(&accelerations),
-            jerks,
         ];
         let whole = Scene::new(mechanism, motion)?;
 

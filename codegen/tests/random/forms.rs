@@ -6,7 +6,7 @@ use bricard_codegen::derive::{Energies, Equations};
 use bricard_codegen::expr::ExprId;
 use bricard_runtime::nalgebra::{SMatrix, SVector};
 use bricard_runtime::{
-    Branch, Energy, Form, Initial, Mechanism, Position, Quantity, Settings, Solver, Start, State,
+    Energy, Form, Initial, Mechanism, Position, Quantity, Settings, Solver, Start, State,
     Structure, Terms, assemble,
 };
 use proptest::prelude::*;
@@ -105,16 +105,6 @@ impl<const N: usize, const R: usize> Mechanism<f64, N, R> for Interpreted<'_> {
         let values = &mut self.values(state, &[mass, jacobian], &[residual, drift]);
         (out.mass, out.jacobian) = (matrix(values), matrix(values));
         (out.residual, out.drift) = (matrix(values), matrix(values));
-    }
-
-    fn branch(&self, state: &State<f64, N>, out: &mut Branch<f64, N, R>) {
-        let Equations {
-            branch_slope,
-            branch_bias,
-            ..
-        } = &self.0.equations;
-        let values = &mut self.values(state, &[branch_slope], &[branch_bias]);
-        (out.slope, out.bias) = (matrix(values), matrix(values));
     }
 
     fn energy(&self, state: &State<f64, N>) -> Energy<f64> {

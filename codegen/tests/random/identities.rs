@@ -120,7 +120,6 @@ proptest! {
             ("residual", vec![equations.residual]),
             ("mass", equations.mass),
             ("jacobian", equations.jacobian),
-            ("slope", equations.branch_slope),
         ];
         let mut wanted = Vec::new();
         for (array, rows) in &arrays {

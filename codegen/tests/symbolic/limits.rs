@@ -89,3 +89,17 @@ fn constraint_rows_that_repeat_get_no_solve_that_divides_by_zero() {
     assert!(!code.contains("fn regular"), "{code}");
     assert!(!code.contains("fn correction"), "{code}");
 }
+
+#[test]
+fn no_statement_has_as_many_terms_as_the_energy_of_a_long_row() {
+    let source = include_str!("../../../mechanisms/benchmarks/forty_four_bars.mech");
+    let compiled = compile_source(source, "row", "row.mech", &Settings::default());
+    let code = compiled.expect("a mechanism").code;
+    let terms = |statement: &str| ["+ ", "mul_add"].map(|sign| statement.matches(sign).count());
+    let sizes = code
+        .split(';')
+        .map(|statement| terms(statement).iter().sum::<usize>());
+    // Its kinetic energy has 202 terms; a sum goes on under another name after 32.
+    let longest = sizes.max().unwrap_or(0);
+    assert!(longest <= 64, "{longest} terms in one statement");
+}

@@ -11,6 +11,7 @@ mod print;
 mod program;
 mod recipe;
 mod ring;
+mod solve;
 
 use proptest::test_runner::{Config, RngSeed, TestCaseError};
 

@@ -45,6 +45,15 @@ pub enum AssemblyError<T, const N: usize, const R: usize> {
         /// Which velocities are held.
         held: [bool; N],
     },
+    /// The mechanism can move with a negative kinetic energy.
+    NegativeInertia {
+        /// Time of the start (s).
+        t: T,
+        /// The mechanism, for the names.
+        structure: &'static Structure,
+        /// The coordinate whose motion has it.
+        coordinate: usize,
+    },
 }
 
 impl<T: Real, const N: usize, const R: usize> Display for AssemblyError<T, N, R> {
@@ -52,7 +61,7 @@ impl<T: Real, const N: usize, const R: usize> Display for AssemblyError<T, N, R>
         match self {
             Self::NotFinite { t } => write!(
                 f,
-                "the start at t = {t} s, or a constraint evaluated there, is infinite or NaN; \
+                "the start at t = {t} s, or a constraint or the mass matrix there, is infinite or NaN; \
                  check the values in `start` and the parameters",
                 t = Number(t)
             ),
@@ -80,6 +89,22 @@ impl<T: Real, const N: usize, const R: usize> Display for AssemblyError<T, N, R>
                      has the held velocities",
                 )?;
                 advice(f, structure.coordinates, held, ("der(", ")"))
+            }
+            Self::NegativeInertia {
+                t,
+                structure,
+                coordinate,
+            } => {
+                write!(
+                    f,
+                    "at t = {t} s the kinetic energy is negative where ",
+                    t = Number(t)
+                )?;
+                structure.write_coordinate(f, *coordinate)?;
+                f.write_str(
+                    " moves; check the signs of masses and moments of inertia among the \
+                     parameters, and of the terms of `kinetic`",
+                )
             }
         }
     }

@@ -14,13 +14,14 @@
 
 mod decomposition;
 mod error;
+mod inertia;
 mod position;
 mod scales;
 mod velocity;
 
 pub use error::AssemblyError;
 
-use crate::{Mechanism, Real, Start, State};
+use crate::{Mechanism, Position, Real, Start, State};
 use nalgebra::SVector;
 
 /// Finds the state at time `t` (s) that keeps the held values of `start` and is
@@ -33,9 +34,11 @@ use nalgebra::SVector;
 /// # Errors
 ///
 /// - [`AssemblyError::NotFinite`] if a value of `start`, or a constraint at the
-///   guess, is infinite or NaN.
+///   guess or the mass matrix, is infinite or NaN.
 /// - [`AssemblyError::Positions`] and [`AssemblyError::Velocities`] if the held
 ///   values contradict the constraints; with the error of each constraint.
+/// - [`AssemblyError::NegativeInertia`] if the kinetic energy is negative for some
+///   velocities.
 pub fn assemble<T, M, const N: usize, const R: usize>(
     mechanism: &M,
     start: &Start<T, N>,
@@ -55,5 +58,31 @@ where
         position::assemble(mechanism, &mut state, &start.q.map(|initial| initial.held))?;
         velocity::assemble(mechanism, &mut state, &start.v.map(|initial| initial.held))?;
     }
+    check_inertia(mechanism, &state)?;
     Ok(state)
+}
+
+/// Refuses a kinetic energy that is negative for some velocities, whether or not the
+/// constraints allow them at this position.
+fn check_inertia<T, M, const N: usize, const R: usize>(
+    mechanism: &M,
+    state: &State<T, N>,
+) -> Result<(), AssemblyError<T, N, R>>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    let mut at = Position::default();
+    mechanism.position(state, &mut at);
+    if at.mass.iter().any(|x| !x.is_finite()) {
+        return Err(AssemblyError::NotFinite { t: state.t });
+    }
+    match inertia::negative(&at.mass) {
+        Some(coordinate) => Err(AssemblyError::NegativeInertia {
+            t: state.t,
+            structure: mechanism.structure(),
+            coordinate,
+        }),
+        None => Ok(()),
+    }
 }

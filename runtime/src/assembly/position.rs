@@ -10,7 +10,7 @@
 use super::AssemblyError;
 use super::decomposition::Decomposition;
 use super::scales::{Scales, disturbed};
-use crate::linalg::truncation;
+use crate::tolerance::negligible;
 use crate::{Mechanism, Position, Real, State};
 use nalgebra::SVector;
 
@@ -111,7 +111,7 @@ impl<'a, T: Real, const N: usize, const R: usize> Descent<'a, T, N, R> {
             }
             let matrix = Decomposition::new(&self.at.jacobian, self.scales).map_err(|_| failure)?;
             let target = -self.at.residual.component_mul(&self.scales.rows);
-            let (step, fall) = matrix.solve(&target, truncation(), self.damping);
+            let (step, fall) = matrix.solve(&target, negligible(), self.damping);
             let step = step.component_mul(&self.scales.columns);
             if self.improves(mechanism, state, &step, fall) {
                 continue;
@@ -205,7 +205,7 @@ impl<'a, T: Real, const N: usize, const R: usize> Descent<'a, T, N, R> {
 /// squared: that of the smallest singular value that counts. Between two roots next to
 /// each other more would make steps too short ever to reach one.
 fn least_damping<T: Real>() -> T {
-    truncation::<T>() * truncation()
+    negligible::<T>() * negligible()
 }
 
 /// Sum of the squares of the scaled constraint errors.

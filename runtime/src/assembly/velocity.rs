@@ -11,7 +11,8 @@
 use super::AssemblyError;
 use super::decomposition::Decomposition;
 use super::scales::Scales;
-use crate::linalg::{Breakdown, independent, norm};
+use crate::linalg::{Breakdown, norm};
+use crate::tolerance::regular;
 use crate::{Mechanism, Position, Real, State, Terms};
 use nalgebra::{SMatrix, SVector};
 
@@ -44,13 +45,17 @@ where
     let mut scales = measured.clone();
     scales.hold(held);
     let free = Decomposition::new(&at.jacobian, &scales).map_err(|_| failure)?;
+    let guessed = speed(&state.v, &measured);
     correct(state, &at, &scales, &free);
     if !state.is_finite() {
         return Err(failure);
     }
-    check(mechanism, state, &at, &measured, held)?;
+    // The corrections are as good as the velocities are that they begin with, which may be
+    // far larger than those that they end with.
+    let speed = guessed.max(speed(&state.v, &measured));
+    check(mechanism, (state, speed), &at, &measured, held)?;
     let whole = Decomposition::new(&at.jacobian, &measured).map_err(|_| failure)?;
-    if whole.rank(independent()) == R {
+    if whole.rank(regular()) == R {
         return Ok(());
     }
     let branch = Branches {
@@ -83,15 +88,29 @@ fn correct<T: Real, const N: usize, const R: usize>(
 ) {
     for _ in 0..2 {
         let error = (at.jacobian * state.v + at.drift).component_mul(&scales.rows);
-        let (step, _) = free.solve(&-error, independent(), T::zero());
+        let (step, _) = free.solve(&-error, regular(), T::zero());
         state.v += step.component_mul(&scales.columns);
     }
 }
 
-/// Refuses velocities that contradict the constraints.
+/// The size of velocities in the kinetic metric, where a row of norm one turns a speed of
+/// one into an error of one.
+fn speed<T: Real, const N: usize, const R: usize>(
+    v: &SVector<T, N>,
+    measured: &Scales<T, N, R>,
+) -> T {
+    let squares = (0..N).fold(T::zero(), |sum, j| {
+        let x = v[j] / measured.columns[j];
+        sum + x * x
+    });
+    squares.sqrt()
+}
+
+/// Refuses velocities that contradict the constraints. The speed is the largest that took
+/// part in finding them.
 fn check<T, M, const N: usize, const R: usize>(
     mechanism: &M,
-    state: &State<T, N>,
+    (state, speed): (&State<T, N>, T),
     at: &Position<T, N, R>,
     measured: &Scales<T, N, R>,
     held: &[bool; N],
@@ -101,16 +120,10 @@ where
     M: Mechanism<T, N, R> + ?Sized,
 {
     let error = at.jacobian * state.v + at.drift;
-    // In the kinetic metric, where a row of norm one turns a speed of one into
-    // an error of one.
-    let speed = (0..N).fold(T::zero(), |sum, j| {
-        let x = state.v[j] / measured.columns[j];
-        sum + x * x
-    });
     // Rows that count as dependent may be off by what they are.
-    let slack = T::EPSILON * T::from_f64(CONTRADICTION) + independent();
+    let slack = T::EPSILON * T::from_f64(CONTRADICTION) + regular();
     let residual = SVector::<T, R>::from_fn(|k, _| {
-        let most = slack * (speed.sqrt() / measured.rows[k] + at.drift[k].abs());
+        let most = slack * (speed / measured.rows[k] + at.drift[k].abs());
         if error[k].abs() <= most {
             T::zero()
         } else {
@@ -150,7 +163,7 @@ where
     fn choose(&self, state: &mut State<T, N>) -> Result<bool, Breakdown> {
         for _ in 0..MOST_STEPS {
             let bias = self.bias(state, state.v);
-            let rest = self.whole.unreachable(&bias, independent());
+            let rest = self.whole.unreachable(&bias, regular());
             let slopes = self.slopes(state);
             let size = self.size(&bias, &state.v, &slopes);
             let reached = norm(&rest.data.0[0]) <= size * T::from_f64(ON_BRANCH);
@@ -204,7 +217,7 @@ where
         slopes: &SMatrix<T, R, N>,
         rest: &SVector<T, R>,
     ) -> Result<SVector<T, N>, Breakdown> {
-        let mut basis = self.free.null_space(independent());
+        let mut basis = self.free.null_space(regular());
         for (j, scale) in self.scales.columns.iter().enumerate() {
             if *scale == T::zero() {
                 // Held: free of the constraints, but not free.
@@ -214,7 +227,7 @@ where
         let mut along = slopes * basis;
         for column in along.data.0.iter_mut() {
             let reached = SVector::from(*column);
-            *column = self.whole.unreachable(&reached, independent()).data.0[0];
+            *column = self.whole.unreachable(&reached, regular()).data.0[0];
         }
         let towards = Decomposition::of(along)?;
         let cut = towards.largest() * T::from_f64(EFFECTIVE);

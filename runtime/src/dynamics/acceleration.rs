@@ -6,8 +6,8 @@
 //! Not here: the forms, which have a file each.
 
 use super::{Solver, Source};
-use crate::linalg::{guard, passes};
 use crate::state::all_finite;
+use crate::tolerance::{passes, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
 use nalgebra::SVector;
 
@@ -20,7 +20,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         let mut acceleration = SVector::zeros();
-        if self.expected && passes(self.evaluate(mechanism, state, &mut acceleration), guard()) {
+        if self.expected && passes(self.evaluate(mechanism, state, &mut acceleration), window()) {
             self.counters.cheap_accelerations += 1;
         } else {
             acceleration = self.careful_acceleration(mechanism, state)?;
@@ -37,6 +37,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         if !self.is_prepared() {
             self.prepare(mechanism, state)?;
+        }
+        if self.session.rests {
+            return self.acceleration_at_rest(mechanism, state);
         }
         if let Some(acceleration) = self.emitted_acceleration(mechanism, state) {
             self.counters.cheap_accelerations += 1;
@@ -125,21 +128,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// Whether the general factors at hand belong to this position.
     #[inline]
     pub(super) fn is_factored_at(&self, state: &State<T, N>) -> bool {
-        self.shared && self.is_safe_at(state)
-    }
-
-    /// Whether this position is known to be on the constraints, with rows that are
-    /// safely independent.
-    #[inline]
-    pub(super) fn is_safe_at(&self, state: &State<T, N>) -> bool {
         let is_at = |(t, q): &(T, SVector<T, N>)| *t == state.t && q.data.0 == state.q.data.0;
         self.safe.as_ref().is_some_and(is_at)
-    }
-
-    /// Takes note that a state is on the constraints, with rows that are safely
-    /// independent, and whether the general factors at hand belong to it.
-    pub(crate) fn safe_at(&mut self, state: &State<T, N>, shared: bool) {
-        self.safe = Some((state.t, state.q));
-        self.shared = shared;
     }
 }

@@ -3,10 +3,11 @@
 //! In:  states.
 //! Out: accelerations, reactions, projections, rank, constraint errors.
 
-use super::solver::{Known, Source};
-use super::{Solver, Tangent, Which};
-use crate::linalg::{passes, reported_rank, weak};
-use crate::{Counters, DynamicsError, Mechanism, Real, Slope, State, System};
+use super::{Solver, Source, Which};
+use crate::linalg::Breakdown;
+use crate::singular::Found;
+use crate::tolerance::{passes, regular, window};
+use crate::{Counters, DynamicsError, Mechanism, Real, Slope, State, Step, System};
 use nalgebra::SVector;
 
 /// A mechanism bound to the solver of its equations, by [`Solver::on`].
@@ -56,6 +57,48 @@ where
         self.solver.counters
     }
 
+    /// The acceleration `q̈` (m/s² or rad/s²) at a state on the constraints, whatever
+    /// state was asked about before.
+    ///
+    /// # Errors
+    ///
+    /// As [`System::acceleration`]; in a singular configuration also where nothing tells
+    /// which sheet of the constraint set is meant.
+    pub fn acceleration(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>> {
+        let solver = &mut *self.solver;
+        solver.begin_step(state);
+        match solver.acceleration(self.mechanism, state) {
+            Err(error) => match solver.escalate(self.mechanism)? {
+                true => solver.acceleration(self.mechanism, state),
+                false => Err(error),
+            },
+            found => found,
+        }
+    }
+
+    /// Begins at a state, which is moved onto the constraints if it is not on them to
+    /// round-off.
+    pub(crate) fn start(
+        &mut self,
+        state: &mut State<T, N>,
+        tolerance: Option<T>,
+    ) -> Result<(), DynamicsError<T>> {
+        self.solver.expect_error(tolerance);
+        self.solver.start(self.mechanism, state)
+    }
+
+    /// The acceleration at a state within a step from the last accepted one, or at any
+    /// other.
+    fn acceleration_within(
+        &mut self,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        match self.solver.session.chart.is_some() {
+            true => self.solver.acceleration(self.mechanism, state),
+            false => self.acceleration(state),
+        }
+    }
+
     /// The acceleration `q̈` and the generalized reaction forces `r` of the
     /// constraints (`N` each; N or N·m), `M q̈ + r = p₁`.
     ///
@@ -64,15 +107,62 @@ where
     ///
     /// # Errors
     ///
-    /// As [`System::acceleration`].
+    /// As [`acceleration`](Self::acceleration).
     pub fn reaction(
         &mut self,
         state: &State<T, N>,
     ) -> Result<(SVector<T, N>, SVector<T, N>), DynamicsError<T>> {
         let acceleration = self.acceleration(state)?;
+        Ok((acceleration, self.balance(state, &acceleration)))
+    }
+
+    /// The reaction within a step; see [`acceleration_within`](Self::acceleration_within).
+    pub(crate) fn reaction_within(
+        &mut self,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        let acceleration = self.acceleration_within(state)?;
+        Ok(self.balance(state, &acceleration))
+    }
+
+    /// Brings a state near the constraints onto them, positions, then velocities, whatever
+    /// state was asked about before.
+    ///
+    /// # Errors
+    ///
+    /// As [`System::project`]; in a singular configuration also where nothing tells which
+    /// sheet of the constraint set is meant.
+    pub fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
+        self.solver.begin_step(state);
+        self.project_within(state)
+    }
+
+    /// Brings a state within a step back onto the constraints.
+    pub(crate) fn project_within(
+        &mut self,
+        state: &mut State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        let solver = &mut *self.solver;
+        if solver.session.chart.is_none() {
+            solver.begin_step(state);
+        }
+        let mut projected = *state;
+        if let Err(error) = solver.project(self.mechanism, &mut projected) {
+            if !solver.escalate(self.mechanism)? {
+                return Err(error);
+            }
+            projected = *state;
+            solver.project(self.mechanism, &mut projected)?;
+        }
+        *state = projected;
+        Ok(())
+    }
+
+    /// `p₁ − M q̈`.
+    fn balance(&mut self, state: &State<T, N>, acceleration: &SVector<T, N>) -> SVector<T, N> {
         self.mechanism.terms(state, &mut self.solver.terms);
         let terms = &self.solver.terms;
-        Ok((acceleration, terms.force - terms.mass * acceleration))
+        terms.force - terms.mass * acceleration
     }
 
     /// The rank of the constraints at a position, which should be on them.
@@ -94,36 +184,44 @@ where
         self.mechanism.position(state, &mut solver.position);
         solver.safe = None;
         solver.factorise_metric(self.mechanism, Source::Position, state.t)?;
-        let regular = solver.rows.regular(Which::All);
-        let list = solver.rows.active(Which::All);
-        let squared = list.map(|list| {
-            let jacobian = &solver.position.jacobian;
-            let rows = &mut solver.rows;
-            solver
-                .lifted
-                .factorise(&solver.metric, jacobian, rows, list)
-        });
-        if let Some(squared) = squared.filter(|squared| passes(*squared, weak())) {
+        let full = solver.rows.regular(Which::All);
+        let squared = solver.factorise_constraints(Source::Position, Which::All);
+        if passes(squared, window()) {
             return Ok(Rank {
-                rank: regular,
-                regular,
+                rank: full,
+                regular: full,
                 sine: squared.sqrt(),
             });
         }
-        let (mut tangent, known) = (Tangent::default(), Known::Rank);
-        let (source, all) = (Source::Position, Which::All);
-        solver.tangent(self.mechanism, state, source, all, known, &mut tangent)?;
-        let not_finite = |_| DynamicsError::NotFinite { t: state.t };
-        tangent.refine(-T::one()).map_err(not_finite)?;
-        let values = tangent.values();
-        let rank = values.iter().filter(|&&x| x > reported_rank()).count();
-        let weakest = values.iter().fold(T::one(), |least, &x| least.min(x));
-        let sine = squared.map_or(weakest, |squared| squared.sqrt());
+        let combined = solver.combine(Source::Position, Which::All);
+        let combined = combined.map_err(|Breakdown| DynamicsError::NotFinite { t: state.t })?;
+        let values = &combined.values[..full];
         Ok(Rank {
-            rank,
-            regular,
-            sine,
+            rank: values.iter().filter(|value| **value > regular()).count(),
+            regular: full,
+            sine: values
+                .iter()
+                .fold(T::one(), |least, value| least.min(*value)),
         })
+    }
+
+    /// The passages of the last accepted step.
+    pub(crate) fn passages(&self) -> &Found<T> {
+        &self.solver.session.passages
+    }
+
+    /// Takes over what another solver of the same mechanism knows about its last
+    /// accepted state.
+    pub(crate) fn follow(&mut self, other: &Self) {
+        let (here, there) = (&mut *self.solver, &*other.solver);
+        let chart = there.session.used.as_ref().or(there.session.chart.as_ref());
+        if here.session.chart.is_some() || chart.is_some() {
+            here.session.base = there.session.base;
+            here.session.chart = chart.cloned();
+            here.rows.clone_from(&there.rows);
+            here.reach = there.reach;
+            here.adopt(there);
+        }
     }
 
     /// How far a state is off the constraints.
@@ -156,12 +254,29 @@ where
     M: Mechanism<T, N, R> + ?Sized,
 {
     #[inline]
+    fn begin(&mut self, state: &State<T, N>) {
+        self.solver.begin_step(state);
+    }
+
+    #[inline]
     fn acceleration(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>> {
         self.solver.acceleration(self.mechanism, state)
     }
 
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
         self.solver.project(self.mechanism, state)
+    }
+
+    fn escalate(&mut self) -> Result<bool, DynamicsError<T>> {
+        self.solver.escalate(self.mechanism)
+    }
+
+    fn verify(&mut self, start: &State<T, N>, end: &State<T, N>) -> Result<(), DynamicsError<T>> {
+        self.solver.verify(self.mechanism, start, end)
+    }
+
+    fn commit(&mut self, step: &Step<T, N>) -> Result<(), DynamicsError<T>> {
+        self.solver.commit(self.mechanism, step)
     }
 
     fn slope(&mut self, state: &State<T, N>) -> Option<Slope<T, N>> {

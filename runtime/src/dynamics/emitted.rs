@@ -9,14 +9,10 @@
 //! everywhere, whose pivots are never safe.
 
 use super::{Rows, Solver};
-use crate::linalg::{definite, guard, passes, straight, weak};
 use crate::state::all_finite;
-use crate::{DynamicsError, Form, Mechanism, Pivots, Real, Regular, Stabilisation, State};
+use crate::tolerance::{definite, negligible, passes, window};
+use crate::{Form, Mechanism, Pivots, Real, Regular, Stabilisation, State};
 use nalgebra::SVector;
-
-/// Largest ratio of a pivot and the square of its row at earlier states: the rows of the
-/// stages of a step are somewhat larger than those at its start.
-const MOST_RATIO: f64 = 2.0;
 
 /// Coordinates and constraint equations of a mechanism whose pivots fit into registers;
 /// those of a larger one have a buffer that need not be cleared.
@@ -26,9 +22,9 @@ const IN_REGISTERS: usize = 16;
 const MAX_ITERATIONS: usize = 8;
 
 /// What one correction by emitted code came to.
-enum Landing<T> {
+enum Correcting<T> {
     /// The state is on the constraints, with this squared sine.
-    There(T),
+    Done(T),
     /// It was off them by this much, a length in the metric.
     Off(T),
     /// There is no such code, or it is not safe.
@@ -43,11 +39,13 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             && !matches!(self.settings.stabilisation, Stabilisation::Baumgarte { .. })
             && self.rows.all_independent()
             && self.metric.is_of_mass_alone()
+            && self.session.chart.is_none()
+            && !self.session.rests
     }
 
     /// Decides whether emitted code may be called before anything else is asked.
     pub(crate) fn expect_regular(&mut self) {
-        self.expected = !self.near && self.sine.is_some() && self.asks_emitted();
+        self.expected = self.is_prepared() && self.asks_emitted();
     }
 
     /// The acceleration by emitted code, if there is any and it is safe here.
@@ -56,17 +54,12 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         mechanism: &M,
         state: &State<T, N>,
     ) -> Option<SVector<T, N>> {
-        if !self.asks_emitted() || self.near && !self.is_safe_at(state) {
+        if !self.asks_emitted() {
             return None;
         }
         let mut acceleration = SVector::zeros();
         let squared = self.evaluate(mechanism, state, &mut acceleration);
-        if !self.emitted {
-            return None;
-        }
-        self.begin(squared);
-        let trusted = passes(squared, guard()) || passes(squared, weak()) && self.is_safe_at(state);
-        trusted.then_some(acceleration)
+        passes(squared, window()).then_some(acceleration)
     }
 
     /// The acceleration by emitted code, and the smallest squared sine that its pivots
@@ -91,8 +84,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             return T::zero();
         }
         let mut squared = squared_sine(&regular.pivots, &self.rows);
-        if squared < self.lowest {
-            self.lowest = squared;
+        if squared < self.session.trial.lowest {
+            self.session.trial.lowest = squared;
         }
         if !all_finite(&regular.acceleration) {
             squared = T::zero();
@@ -104,7 +97,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// Brings a state onto the constraints by emitted code and returns the squared
     /// sine there; none if there is no such code or it is not safe.
     #[inline(always)]
-    pub(crate) fn emitted_landing<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn emitted_projection<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &mut State<T, N>,
@@ -115,50 +108,54 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let mut before = None;
         for _ in 0..MAX_ITERATIONS {
             match self.correct(mechanism, state, before) {
-                Landing::There(squared) => return Some(squared),
-                Landing::Off(worst) => before = Some(worst),
-                Landing::Lost => return None,
+                Correcting::Done(squared) => return Some(squared),
+                Correcting::Off(worst) => before = Some(worst),
+                Correcting::Lost => return None,
             }
         }
         None
     }
 
     /// One correction by emitted code of a state that was off by `before` until the last
-    /// one. A function of its own: most states need one, and what a loop keeps at hand
-    /// for the next would be for nothing.
+    /// one. A function of its own: most states need one, and what a loop keeps in
+    /// registers for the next would be loaded for nothing.
     #[inline(never)]
     fn correct<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &mut State<T, N>,
         before: Option<T>,
-    ) -> Landing<T> {
+    ) -> Correcting<T> {
         if !mechanism.correction(state, &mut self.correction) {
-            return Landing::Lost;
+            return Correcting::Lost;
         }
-        let pivots = &self.correction.pivots;
-        for row in 0..R {
-            self.rows.observe(row, pivots.row_squares[row]);
-        }
-        let squared = squared_sine(pivots, &self.rows);
-        if squared < self.lowest {
-            self.lowest = squared;
+        let squared = squared_sine(&self.correction.pivots, &self.rows);
+        if squared < self.session.trial.lowest {
+            self.session.trial.lowest = squared;
         }
         let worst = match self.worst(&self.correction.residual) {
-            Some(worst) if passes(squared, weak()) => worst,
-            _ => return Landing::Lost,
+            Some(worst) if passes(squared, window()) => worst,
+            _ => return Correcting::Lost,
         };
-        let landed = self.is_on_constraints(worst, before);
-        if !landed {
+        let done = self.is_on_constraints(worst, before);
+        if !done {
             self.counters.projection_iterations += 1;
             state.q += self.correction.position;
         }
-        if landed || self.is_straight(worst, squared, &state.v) {
+        if done || self.is_straight(worst, squared, &state.v) {
             state.v += self.correction.velocity;
-            self.safe_at(state, false);
-            return Landing::There(squared);
+            return Correcting::Done(squared);
         }
-        Landing::Off(worst)
+        Correcting::Off(worst)
+    }
+
+    /// Takes note of the sizes of the rows at an accepted state that emitted code
+    /// corrected.
+    pub(crate) fn learn_emitted_rows(&mut self) {
+        for row in 0..R {
+            self.rows
+                .observe(row, self.correction.pivots.row_squares[row]);
+        }
     }
 
     /// The largest constraint error as a length in the metric, if all are finite.
@@ -189,41 +186,13 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         }
         // The squares of the lengths of a correction and of a position.
         let (moved, reach) = (worst * worst, squared_sine * self.reach * self.reach);
-        let (most, round_off) = (straight::<T>(), T::EPSILON);
+        let (most, round_off) = (negligible::<T>(), T::EPSILON);
         moved <= most * most * reach && moved * turned <= round_off * round_off * reach * whole
-    }
-
-    /// An acceleration at a state on the constraints, where the rows are safely
-    /// independent.
-    pub(super) fn landed_acceleration<M: Mechanism<T, N, R> + ?Sized>(
-        &mut self,
-        mechanism: &M,
-        state: &State<T, N>,
-    ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        self.counters.landed_accelerations += 1;
-        self.regular_landed(mechanism, state)
-    }
-
-    /// As [`landed_acceleration`](Self::landed_acceleration), without counting.
-    pub(super) fn regular_landed<M: Mechanism<T, N, R> + ?Sized>(
-        &mut self,
-        mechanism: &M,
-        state: &State<T, N>,
-    ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        if let Some(acceleration) = self.emitted_acceleration(mechanism, state) {
-            return Ok(acceleration);
-        }
-        mechanism.terms(state, &mut self.terms);
-        let bias = self.stabilised_bias(mechanism, state);
-        if !self.is_factored_at(state) {
-            self.factorise_terms(mechanism, state)?;
-        }
-        Ok(self.regular_acceleration(&bias))
     }
 }
 
 /// The smallest squared sine that emitted pivots show, zero if the mass matrix is
-/// not safely definite or a row is far larger than any that was landed on.
+/// not safely definite.
 #[inline(always)]
 fn squared_sine<T: Real, const N: usize, const R: usize>(
     pivots: &Pivots<T, N, R>,
@@ -238,7 +207,8 @@ fn squared_sine<T: Real, const N: usize, const R: usize>(
     let mut smallest = T::one();
     for row in 0..R {
         let ratio = pivots.row_pivots.data.0[0][row] * rows.inverse_size(row);
-        sound &= ratio <= T::from_f64(MOST_RATIO);
+        // NaN is not sound.
+        sound &= ratio < T::from_f64(f64::INFINITY);
         if ratio < smallest {
             smallest = ratio;
         }

@@ -1,15 +1,17 @@
 //! The full form: least squares on `B y = f` for `y = (q̈, r)`.
 //!
-//! In:  the terms of a state.
-//! Out: the `q̈` of `[M E; A 0; 0 Dᵀ] y = [p₁; p₂; 0]`.
+//! In:  the terms of a state, the tangent space of its sheet.
+//! Out: the `q̈` of `[M E; A 0; 0 Dᵀ] y = [p₁; p₂; 0]`, where the rows `A q̈ = p₂` are
+//!      those that keep `q̈` on the sheet, singular configurations included.
 //!
 //! Source: Phong & Hoang (2012), eqs. 3.9–3.11. They solve the normal equations;
 //! here the rows go into a triangular factor one by one, because `BᵀB` squares the
 //! condition number. Accelerations and forces are scaled by the diagonal of the
 //! mass matrix, so that the result does not depend on units.
 
-use super::{Known, Solver, Source, Tangent, Which};
-use crate::linalg::{Triangle, dot, guard, passes};
+use super::Solver;
+use crate::linalg::Triangle;
+use crate::singular::Point;
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
 
@@ -20,33 +22,23 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         mechanism: &M,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        let (mut state, mut known) = (*state, Known::Rank);
-        mechanism.terms(&state, &mut self.terms);
-        let squared = self.factorise_terms(mechanism, &state)?;
-        self.begin(squared);
-        if self.near || !passes(squared, guard()) {
-            (state, known) = self.landed(mechanism, &state)?;
+        if self.settings.published {
+            return self.published(mechanism, state);
+        }
+        self.require_chart(mechanism, state)?;
+        let mut point = Point::zeros();
+        if self.session.near || !self.measure_here(mechanism, state, &mut point) {
+            self.place(mechanism, state, &mut point)?;
         }
         self.counters.robust_accelerations += 1;
-        let decided = self.singular_acceleration(mechanism, &state, known)?;
-        mechanism.terms(&state, &mut self.terms);
-        let bias = self.stabilised_bias(mechanism, &state);
-        self.safe = None;
-        self.factorise_metric(mechanism, Source::Terms, state.t)?;
-        let mut tangent = Tangent::default();
-        let all = Which::All;
-        self.tangent(mechanism, &state, Source::Terms, all, known, &mut tangent)?;
+        mechanism.terms(&point.state, &mut self.terms);
         let unit = self.units();
         let mut triangle = Triangle::default();
         self.insert_motion(&mut triangle, &unit);
-        if tangent.strong == self.rows.regular(Which::All) {
-            self.insert_rows(&mut triangle, &unit, &bias);
-        } else {
-            self.insert_decided(&mut triangle, &unit, &tangent, &decided);
-        }
-        self.insert_ideality(&mut triangle, &unit, &tangent);
+        self.insert_decided(&mut triangle, &unit, &point);
+        self.insert_ideality(&mut triangle, &unit, &point);
         let (scaled, _reaction) = triangle.solve();
-        Ok(scaled.component_mul(&unit))
+        Ok(self.stabilised(scaled.component_mul(&unit), state, &point))
     }
 
     /// What one unit of each scaled acceleration is worth: `1/√mⱼⱼ`, or one for a
@@ -72,49 +64,44 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         }
     }
 
-    /// `A q̈ = p₂`, where all rows count.
-    fn insert_rows(
-        &self,
-        triangle: &mut Triangle<T, N>,
-        unit: &SVector<T, N>,
-        bias: &SVector<T, R>,
-    ) {
-        for (row, value) in self.scaled(bias).into_iter().enumerate() {
-            let scale = self.rows.scale(row);
-            let entry = |j| scale * self.terms.jacobian[(row, j)] * unit[j];
-            triangle.insert(core::array::from_fn(entry), [T::zero(); N], value);
-        }
-    }
-
-    /// What rows and branch rows decide in their place, where some rows vanish.
+    /// What the constraints decide: `q̈ − aₚ` lies in the tangent space. The projection
+    /// `1 − D̃D*` onto the complement has as many rows as there are coordinates.
     fn insert_decided(
         &self,
         triangle: &mut Triangle<T, N>,
         unit: &SVector<T, N>,
-        tangent: &Tangent<T, N, R>,
-        decided: &SVector<T, N>,
+        point: &Point<T, N>,
     ) {
-        let w = self.metric.factor.transposed_product(&decided.data.0[0]);
-        for direction in tangent.decided() {
-            let mut row = self.metric.factor.product(direction);
-            for j in 0..N {
-                row[j] *= unit[j];
+        let Some(chart) = &self.session.chart else {
+            return;
+        };
+        for i in 0..N {
+            let mut row = [T::zero(); N];
+            row[i] = T::one();
+            for k in 0..chart.freedoms {
+                let share = point.tangent[(i, k)];
+                for (entry, dual) in row.iter_mut().zip(&chart.dual.data.0[k]) {
+                    *entry -= share * *dual;
+                }
             }
-            triangle.insert(row, [T::zero(); N], dot(direction, &w));
+            let mut value = T::zero();
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry *= unit[j] / unit[i];
+                value += *entry / unit[j] * point.particular[j];
+            }
+            triangle.insert(row, [T::zero(); N], value);
         }
     }
 
-    /// `Dᵀr = 0`: ideal constraints do no work in the free directions.
+    /// `D̃ᵀr = 0`: ideal constraints do no work in the free directions.
     fn insert_ideality(
         &self,
         triangle: &mut Triangle<T, N>,
         unit: &SVector<T, N>,
-        tangent: &Tangent<T, N, R>,
+        point: &Point<T, N>,
     ) {
-        let (free, count) = tangent.free();
-        for direction in &free.data.0[..count] {
-            let motion = self.lower(*direction);
-            let row = core::array::from_fn(|j| motion[j] / unit[j]);
+        for k in 0..self.freedoms() {
+            let row = core::array::from_fn(|j| point.tangent[(j, k)] / unit[j]);
             triangle.insert([T::zero(); N], row, T::zero());
         }
     }

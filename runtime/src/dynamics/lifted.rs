@@ -8,7 +8,7 @@
 
 use super::{Metric, Rows};
 use crate::Real;
-use crate::linalg::{Gram, add_scaled, dot};
+use crate::linalg::{Gram, add_scaled};
 use nalgebra::{SMatrix, SVector};
 
 /// Independent rows in the metric, `U⁻¹Aᵀ`, and the factor of their Gram matrix.
@@ -38,14 +38,12 @@ impl<T: Real, const N: usize, const R: usize> Lifted<T, N, R> {
         &mut self,
         metric: &Metric<T, N>,
         jacobian: &SMatrix<T, R, N>,
-        rows: &mut Rows<T, R>,
+        rows: &Rows<T, R>,
         (list, count): ([usize; R], usize),
     ) -> T {
         (self.list, self.count) = (list, count);
         for (k, &row) in list[..count].iter().enumerate() {
-            let vector = metric.lift(jacobian, row);
-            rows.observe(row, dot(&vector, &vector));
-            self.vectors.data.0[k] = vector;
+            self.vectors.data.0[k] = metric.lift(jacobian, row);
         }
         self.gram
             .factorise(&self.vectors, count, |k| rows.size(list[k]))

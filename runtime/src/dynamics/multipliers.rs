@@ -6,8 +6,9 @@
 //! Source: Phong & Hoang (2012), eq. 2.10. The matrix is singular where rows of
 //! `A` are dependent; a Schur complement of all rows shows how near that is.
 
-use super::{Known, Solver, Source, Tangent, Which};
-use crate::linalg::{passes, weak};
+use super::{Solver, Source, Which};
+use crate::linalg::Breakdown;
+use crate::tolerance::{passes, window};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
 
@@ -38,17 +39,20 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
         self.counters.constraint_factorisations += 1;
         let every_row = (core::array::from_fn(|row| row), R);
-        let (jacobian, rows) = (&self.terms.jacobian, &mut self.rows);
+        let jacobian = &self.terms.jacobian;
         let squared = self
             .lifted
-            .factorise(&self.metric, jacobian, rows, every_row);
-        if passes(squared, weak()) {
+            .factorise(&self.metric, jacobian, &self.rows, every_row);
+        if passes(squared, window()) {
             return Ok(());
         }
-        let (all, known) = (Which::All, Known::Rank);
-        let mut tangent = Tangent::default();
-        self.tangent(mechanism, state, Source::Terms, all, known, &mut tangent)?;
-        let rank = tangent.strong;
+        let combined = self.combine(Source::Terms, Which::All);
+        let combined = combined.map_err(|Breakdown| DynamicsError::NotFinite { t: state.t })?;
+        let rank = combined
+            .values
+            .iter()
+            .filter(|value| **value > window())
+            .count();
         Err(DynamicsError::SingularPosition {
             t: state.t,
             form: self.settings.form,

@@ -9,7 +9,7 @@
 //! `A_d` is as well conditioned as the position allows.
 
 use super::Solver;
-use crate::linalg::Elimination;
+use crate::linalg::{Elimination, project_onto};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::{SMatrix, SVector};
 
@@ -91,36 +91,4 @@ fn null_space<T: Real, const N: usize, const R: usize>(
         count += 1;
     }
     (columns, count)
-}
-
-/// `D z` with `DᵀMD z = Dᵀf`; the column at which `DᵀMD` is not definite if it is
-/// not. `D` is the first `count` columns.
-///
-/// The columns are made orthogonal in the metric one after the other, which is the
-/// Cholesky factorisation of `DᵀMD` without a matrix of its size.
-fn project_onto<T: Real, const N: usize>(
-    mass: &SMatrix<T, N, N>,
-    columns: &SMatrix<T, N, N>,
-    count: usize,
-    force: &SVector<T, N>,
-) -> Result<SVector<T, N>, usize> {
-    let mut directions = *columns;
-    let mut sum = SVector::zeros();
-    for k in 0..count {
-        let mut direction: SVector<T, N> = directions.column(k).into_owned();
-        let image = mass * direction;
-        let square = direction.dot(&image);
-        if square <= T::zero() {
-            return Err(k);
-        }
-        for later in k + 1..count {
-            let share = directions.column(later).dot(&image) / square;
-            for i in 0..N {
-                directions[(i, later)] -= share * direction[i];
-            }
-        }
-        direction *= direction.dot(force) / square;
-        sum += direction;
-    }
-    Ok(sum)
 }

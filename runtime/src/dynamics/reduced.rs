@@ -6,35 +6,48 @@
 //! Source: Phong & Hoang (2012), section 3. In the metric of the kinetic energy,
 //! `w = Uᵀq̈`, it reads: of all `w` that satisfy the constraints the one nearest to
 //! `U⁻¹p₁`. Where the rows of `A` are safely independent a Schur complement gives
-//! that directly; elsewhere it is built from the tangent space.
+//! that directly; elsewhere the tangent space of the sheet does ([`super::follow`]).
 
 use super::{Solver, Source, Which};
-use crate::linalg::{guard, passes};
+use crate::singular::Obstacle;
+use crate::tolerance::{passes, window};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
 
 impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
-    /// The acceleration, on the cheap path if it is safe.
+    /// The acceleration.
     pub(super) fn reduced<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        let safe = self.is_safe_at(state);
-        if self.near && !safe {
-            return self.near_singular(mechanism, state);
+        if self.session.chart.is_some() {
+            return self.acceleration_on_sheet(mechanism, state);
         }
         mechanism.terms(state, &mut self.terms);
         if !self.is_factored_at(state) {
             let squared = self.factorise_terms(mechanism, state)?;
-            self.begin(squared);
-            if !passes(squared, guard()) && !safe {
-                return self.near_singular(mechanism, state);
+            if !passes(squared, window()) {
+                return self.without_rank(mechanism, state);
             }
         }
         self.counters.cheap_accelerations += 1;
         let bias = self.stabilised_bias(mechanism, state);
         Ok(self.regular_acceleration(&bias))
+    }
+
+    /// Where constraint rows are near-dependent and there is no chart.
+    #[cold]
+    fn without_rank<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        if self.settings.published {
+            return self.published(mechanism, state);
+        }
+        self.session.trial.wants_chart = true;
+        Err(self.refusal(mechanism, Obstacle::Unresolved, state.t))
     }
 
     /// Factorises metric and constraints of the terms in the buffer and returns the
@@ -46,7 +59,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     ) -> Result<T, DynamicsError<T>> {
         self.safe = None;
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
-        Ok(self.factorise_constraints(Source::Terms, Which::All))
+        let squared = self.factorise_constraints(Source::Terms, Which::All);
+        self.session.trial.lowest = self.session.trial.lowest.min(squared);
+        Ok(squared)
     }
 
     /// The acceleration by the factors at hand.

@@ -10,7 +10,8 @@
 //! It is compared with the largest size it had so far.
 
 use crate::Real;
-use crate::linalg::{disproportionate, even, independent_rows, weak};
+use crate::linalg::independent_rows;
+use crate::tolerance::{disproportionate, negligible};
 use nalgebra::SMatrix;
 
 /// Sizes, weights and choice of rows.
@@ -108,6 +109,22 @@ impl<T: Real, const R: usize> Rows<T, R> {
         self.holonomic.iter().all(|holonomic| *holonomic)
     }
 
+    /// Whether any row restricts positions.
+    pub(crate) fn any_holonomic(&self) -> bool {
+        self.holonomic.iter().any(|holonomic| *holonomic)
+    }
+
+    /// How many rows are meant.
+    pub(crate) fn count(&self, which: Which) -> usize {
+        (0..R).filter(|&row| self.takes_part(row, which)).count()
+    }
+
+    /// A row of the active subset, by its place there; the first row if there is none.
+    pub(crate) fn listed(&self, place: usize) -> usize {
+        let list = self.active[..self.active_count].get(place);
+        list.copied().unwrap_or_default()
+    }
+
     /// Whether all rows are independent at regular positions.
     #[inline]
     pub(crate) fn all_independent(&self) -> bool {
@@ -145,14 +162,14 @@ impl<T: Real, const R: usize> Rows<T, R> {
     /// first of the active rows span the holonomic ones.
     pub(crate) fn choose<const N: usize>(&mut self, mut vectors: SMatrix<T, N, R>) {
         let holonomic = self.holonomic;
-        self.active_count = independent_rows(
-            &mut vectors,
-            self.regular,
-            |row| holonomic[row],
-            weak(),
-            &mut self.active,
-        );
-        self.count_holonomic();
+        let mut chosen = [0; R];
+        let first = |row: usize| holonomic[row];
+        let count = independent_rows(&mut vectors, self.regular, first, negligible(), &mut chosen);
+        // In a singular configuration there are too few; those of before serve on.
+        if count == self.regular {
+            (self.active, self.active_count) = (chosen, count);
+            self.count_holonomic();
+        }
     }
 
     fn count_holonomic(&mut self) {
@@ -194,7 +211,7 @@ impl<T: Real, const R: usize> Rows<T, R> {
         if self.uneven {
             let least = least.max(T::EPSILON.sqrt());
             self.weight = largest.map(|most| match most > T::zero() {
-                true => even::<T>() / (least * most),
+                true => disproportionate::<T>() / (least * most),
                 false => T::zero(),
             });
         }

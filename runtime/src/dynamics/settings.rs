@@ -25,6 +25,16 @@ pub enum Form {
     Partitioning,
 }
 
+impl Form {
+    /// Whether it passes singular configurations.
+    pub(crate) fn passes(self) -> bool {
+        match self {
+            Self::Reduced | Self::Full => true,
+            Self::Multipliers | Self::Partitioning => false,
+        }
+    }
+}
+
 impl Display for Form {
     fn fmt(&self, f: &mut Formatter<'_>) -> core::fmt::Result {
         f.write_str(match self {
@@ -61,10 +71,9 @@ pub struct Settings<T> {
     pub form: Form,
     /// How the state is kept on the constraints.
     pub stabilisation: Stabilisation<T>,
-    /// Whether the constraints differentiated once more take the place of the
-    /// rows that vanish near a singular position. `false` gives the method as it
-    /// was published, which passes singular positions with less accuracy.
-    pub branch_rows: bool,
+    /// Whether singular positions are passed as published, by a decision on the rank
+    /// alone: less accurate, for comparison.
+    pub published: bool,
 }
 
 impl<T> Default for Settings<T> {
@@ -72,7 +81,7 @@ impl<T> Default for Settings<T> {
         Self {
             form: Form::Reduced,
             stabilisation: Stabilisation::Projection,
-            branch_rows: true,
+            published: false,
         }
     }
 }
@@ -82,20 +91,18 @@ impl<T> Default for Settings<T> {
 pub struct Counters {
     /// Accelerations that no rank decision was needed for.
     pub cheap_accelerations: u64,
-    /// Accelerations at the nearest state on the constraints, without a rank
-    /// decision.
+    /// Accelerations on the sheet of the constraint set on which the motion lives, at
+    /// regular states of a step near a singular configuration.
     pub landed_accelerations: u64,
-    /// Accelerations where constraint rows are too weak for that: interpolated from
-    /// both sides of a singular position, or with a rank decision.
+    /// Accelerations where constraint rows are too weak for that: interpolated across a
+    /// singular configuration or, in the form as published, with a rank decision.
     pub robust_accelerations: u64,
     /// Singular value decompositions of the constraint Jacobian.
     pub rank_decisions: u64,
-    /// Rank decisions in a singular position at rest, where neither the constraints
-    /// nor the velocity say which branch the motion takes: all directions that they
-    /// leave open are then free, and the least acceleration is taken.
+    /// Starts at rest exactly in a singular configuration, where neither the constraints
+    /// nor the velocity say which sheet is meant: all directions that they leave open
+    /// are then free, and the least acceleration is taken.
     pub undetermined: u64,
-    /// Evaluations of the branch rows.
-    pub branch_evaluations: u64,
     /// Factorisations of the mass matrix.
     pub mass_factorisations: u64,
     /// Factorisations of the constraints in the metric of the mass matrix.
@@ -117,7 +124,6 @@ impl core::ops::AddAssign for Counters {
         self.robust_accelerations += more.robust_accelerations;
         self.rank_decisions += more.rank_decisions;
         self.undetermined += more.undetermined;
-        self.branch_evaluations += more.branch_evaluations;
         self.mass_factorisations += more.mass_factorisations;
         self.constraint_factorisations += more.constraint_factorisations;
         self.row_choices += more.row_choices;

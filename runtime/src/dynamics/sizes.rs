@@ -11,7 +11,8 @@
 
 use super::solver::Source;
 use super::{Metric, Solver};
-use crate::linalg::{dot, independent, is_definite};
+use crate::linalg::{dot, is_definite};
+use crate::tolerance::regular;
 use crate::{Mechanism, Quantity, Real, State};
 use nalgebra::SMatrix;
 
@@ -42,7 +43,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.metric.forget();
         for row in 0..R {
             let mean = sums[row] / T::from_f64(SAMPLES as f64);
-            let vanishes = here[row] <= independent::<T>() * independent::<T>() * mean;
+            let vanishes = here[row] <= regular::<T>() * regular::<T>() * mean;
             self.rows.observe(row, here[row]);
             if sure || vanishes {
                 self.rows.observe(row, mean);

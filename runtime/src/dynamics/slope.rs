@@ -7,7 +7,7 @@
 //! Not here: what is done near singular positions, where these factors are none.
 
 use super::Solver;
-use crate::linalg::{guard, passes};
+use crate::tolerance::{passes, window};
 use crate::{Linearised, Mechanism, Real, Slope, Stabilisation, State};
 use nalgebra::{SMatrix, SVector};
 
@@ -22,9 +22,12 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         if matches!(self.settings.stabilisation, Stabilisation::Baumgarte { .. }) {
             return None;
         }
+        if self.session.chart.is_some() || self.session.rests {
+            return None;
+        }
         mechanism.terms(state, &mut self.terms);
         let squared = self.factorise_terms(mechanism, state).ok()?;
-        if R > 0 && !passes(squared, guard()) {
+        if R > 0 && !passes(squared, window()) {
             return None;
         }
         let bias = self.terms.bias;

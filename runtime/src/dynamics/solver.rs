@@ -6,16 +6,14 @@
 //! Nothing allocates: all buffers have the sizes of the mechanism and live here
 //! or on the stack.
 
-use super::{ConstrainedSystem, Lifted, Metric, Rows, Tangent, Which};
-use crate::linalg::{
-    Breakdown, NotDefinite, first_guard, guard, independent, passes, safe_steps, truncation,
-    useless, weak,
-};
+use super::{ConstrainedSystem, Lifted, Metric, Rows, Which};
+use crate::linalg::{Frame, NotDefinite};
+use crate::singular::{Obstacle, Session};
 use crate::{
-    Branch, Correction, Counters, DynamicsError, Mechanism, Position, Real, Regular, Settings,
-    State, Structure, Terms,
+    Correction, Counters, DynamicsError, Mechanism, Position, Real, Regular, Settings, Singularity,
+    State, Terms,
 };
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
 /// By which factor a coordinate grows before the length of the coordinates is measured
 /// again: round-off is needed to no more digits.
@@ -24,10 +22,9 @@ const REACH_STEP: f64 = 1.125;
 /// Solves the equations of motion of a mechanism with `N` coordinates and `R`
 /// constraint equations.
 ///
-/// It owns the buffers and remembers what it learned about the constraints (their
-/// size and rank at regular positions), but not the mechanism: a program may
-/// change inputs and parameters between steps and bind it again with
-/// [`on`](Self::on).
+/// It owns the buffers and remembers what accepted states taught about the constraints,
+/// but not the mechanism: a program may change inputs and parameters between steps and
+/// bind it again with [`on`](Self::on).
 #[derive(Clone, Debug)]
 pub struct Solver<T, const N: usize, const R: usize> {
     /// The form of the equations and how the constraints are kept.
@@ -35,24 +32,19 @@ pub struct Solver<T, const N: usize, const R: usize> {
     pub(crate) counters: Counters,
     pub(crate) terms: Terms<T, N, R>,
     pub(crate) position: Position<T, N, R>,
-    pub(crate) branch: Branch<T, N, R>,
     pub(crate) metric: Metric<T, N>,
     pub(crate) rows: Rows<T, R>,
     pub(crate) lifted: Lifted<T, N, R>,
+    pub(crate) frame: Frame<T, N, R>,
     pub(crate) regular: Regular<T, N, R>,
     pub(crate) correction: Correction<T, N, R>,
-    /// Whether the mechanism provides the last two, as far as is known.
+    pub(crate) session: Session<T, N, R>,
+    /// Whether the mechanism provides emitted solves, as far as is known.
     pub(crate) emitted: bool,
     /// Whether emitted code may be called before anything else is asked.
     pub(crate) expected: bool,
-    /// The time and position that is known to be on the constraints, with rows that
-    /// are safely independent.
+    /// The time and position that the general factors at hand belong to.
     pub(crate) safe: Option<(T, SVector<T, N>)>,
-    /// The state that was last brought onto its branch by interpolation, and the
-    /// acceleration there.
-    pub(crate) bridged: Option<(State<T, N>, SVector<T, N>)>,
-    /// Whether `metric` and `lifted` belong to that position.
-    pub(crate) shared: bool,
     /// The largest length of the coordinates in the metric so far: what their
     /// round-off is measured by.
     pub(crate) reach: T,
@@ -60,18 +52,10 @@ pub struct Solver<T, const N: usize, const R: usize> {
     sizes: [T; N],
     /// The inverse squares of those sizes; zero where a coordinate has only been zero.
     pub(crate) weights: [T; N],
-    /// The sine of the constraints at the last accepted state.
-    pub(crate) sine: Option<T>,
-    /// The smallest squared sine since then.
-    pub(crate) lowest: T,
-    /// Whether the step from there comes near a singular position. Then all of its
-    /// stages are taken on the constraints: a step mixed of two kinds of stages
-    /// would lose its order.
-    pub(crate) near: bool,
     prepared: bool,
 }
 
-/// Which buffer the terms of a rank decision are in.
+/// Which buffer terms are in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Source {
     Terms,
@@ -86,23 +70,19 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             counters: Counters::default(),
             terms: Terms::default(),
             position: Position::default(),
-            branch: Branch::default(),
             metric: Metric::default(),
             rows: Rows::new(|_| true),
             lifted: Lifted::default(),
+            frame: Frame::new(),
             regular: Regular::default(),
             correction: Correction::default(),
+            session: Session::new(),
             emitted: true,
             expected: false,
             safe: None,
-            bridged: None,
-            shared: false,
             reach: T::zero(),
             sizes: [-T::one(); N],
             weights: [T::zero(); N],
-            sine: None,
-            lowest: T::one(),
-            near: false,
             prepared: false,
         }
     }
@@ -115,7 +95,6 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     {
         self.metric.forget();
         self.safe = None;
-        self.bridged = None;
         self.expect_regular();
         ConstrainedSystem::new(mechanism, self)
     }
@@ -123,6 +102,19 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// What was done so far.
     pub fn counters(&self) -> Counters {
         self.counters
+    }
+
+    /// Takes over that another solver is prepared, and its metric.
+    pub(crate) fn adopt(&mut self, other: &Self) {
+        self.prepared = other.prepared;
+        self.metric.clone_from(&other.metric);
+        self.safe = None;
+        self.expect_regular();
+    }
+
+    /// How many directions the constraints leave free at regular states.
+    pub(crate) fn freedoms(&self) -> usize {
+        N - self.rows.regular(Which::All)
     }
 
     /// Factorises the metric at the state whose terms are in a buffer.
@@ -167,72 +159,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             Source::Position => &self.position.jacobian,
         };
         self.counters.constraint_factorisations += 1;
-        let rows = &mut self.rows;
-        let squared = self.lifted.factorise(&self.metric, jacobian, rows, list);
-        self.lowest = self.lowest.min(squared);
-        squared
-    }
-
-    /// Decides which directions the constraints leave free at the state whose
-    /// terms are in a buffer and whose metric is factorised.
-    ///
-    /// A tangent space is large, so it is written into one that is at hand.
-    #[inline(never)]
-    pub(crate) fn tangent<M: Mechanism<T, N, R> + ?Sized>(
-        &mut self,
-        mechanism: &M,
-        state: &State<T, N>,
-        source: Source,
-        which: Which,
-        known: Known<T, N, R>,
-        tangent: &mut Tangent<T, N, R>,
-    ) -> Result<(), DynamicsError<T>> {
-        let jacobian = match source {
-            Source::Terms => &self.terms.jacobian,
-            Source::Position => &self.position.jacobian,
-        };
-        self.counters.rank_decisions += 1;
-        let not_finite = |Breakdown| DynamicsError::NotFinite { t: state.t };
-        let regular = self.rows.regular(which);
-        let (limit, floor) = match known {
-            Known::Nothing => (N.min(R), independent()),
-            _ => (regular, truncation()),
-        };
-        let (metric, rows) = (&self.metric, &mut self.rows);
-        match known {
-            Known::Beside { like, .. } => tangent.begin_like(like, metric, rows, jacobian, limit),
-            _ => tangent.begin(metric, rows, jacobian, which, limit),
-        }
-        let structure = mechanism.structure();
-        if structure.regular || !self.settings.branch_rows {
-            tangent.take_strong(floor, limit).map_err(not_finite)?;
-            return match known {
-                Known::Nothing => Ok(()),
-                _ => as_declared(structure, state.t, tangent.rank(useless()), limit),
-            };
-        }
-        match known {
-            Known::Rank | Known::Nothing => tangent.take_strong(weak(), limit),
-            Known::Landed => tangent.take_landed(limit),
-            Known::Beside { like, strong } => tangent.take_counted(strong, like.aimed),
-        }
-        .map_err(not_finite)?;
-        if tangent.strong < limit {
-            self.counters.branch_evaluations += 1;
-            mechanism.branch(state, &mut self.branch);
-            let (metric, rows) = (&self.metric, &self.rows);
-            let result = tangent.take_branch(metric, rows, &self.branch, limit);
-            result.map_err(not_finite)?;
-        }
-        if tangent.used < limit {
-            tangent.take_rest(floor, limit).map_err(not_finite)?;
-            let undetermined = match known {
-                Known::Nothing => tangent.at_rest_with_vanished_rows(&self.rows),
-                _ => tangent.used < limit,
-            };
-            self.counters.undetermined += u64::from(undetermined);
-        }
-        Ok(())
+        self.lifted
+            .factorise(&self.metric, jacobian, &self.rows, list)
     }
 
     /// Whether nothing is to be learned before the first state.
@@ -257,7 +185,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         mechanism.position(state, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, state.t)?;
         self.observe_reach(mechanism, state);
-        self.learn(mechanism, state)?;
+        self.learn_rank(mechanism, state)?;
         self.prepared = true;
         Ok(())
     }
@@ -298,113 +226,35 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.reach = self.reach.max(reach);
     }
 
-    /// Takes note of the squared sine of the constraints at the first state. How far
-    /// the first step will go is not known, so it may come near a singular position
-    /// from farther away than others.
-    #[inline]
-    pub(crate) fn begin(&mut self, squared: T) {
-        if self.sine.is_none() {
-            self.near = !passes(squared, first_guard());
-            self.sine = Some(squared.sqrt());
-        }
-    }
-
-    /// Takes note of the squared sine of the constraints at an accepted state, and
-    /// whether the next step comes near a singular position.
-    pub(crate) fn observe_sine(&mut self, squared: T) {
-        if self.sine.is_none() {
-            return self.begin(squared);
-        }
-        let sine = squared.sqrt();
-        let lowest = if self.lowest < squared {
-            self.lowest.sqrt()
-        } else {
-            sine
-        };
-        let highest = match self.sine {
-            Some(before) if before > sine => before,
-            _ => sine,
-        };
-        let change = highest - lowest;
-        self.lowest = T::one();
-        self.near = sine < guard::<T>() + safe_steps::<T>() * change;
-        self.sine = Some(sine);
-    }
-
-    /// Learns the rank at a state on the constraints whose position terms are in
-    /// the buffer and factorised.
-    pub(crate) fn learn<M: Mechanism<T, N, R> + ?Sized>(
-        &mut self,
+    /// What a run is told of an obstacle.
+    pub(crate) fn refusal<M: Mechanism<T, N, R> + ?Sized>(
+        &self,
         mechanism: &M,
-        state: &State<T, N>,
-    ) -> Result<(), DynamicsError<T>> {
-        let alike = self.rows.all_holonomic();
-        for which in [Which::Holonomic, Which::All] {
-            if alike && which == Which::Holonomic {
-                continue;
+        obstacle: Obstacle,
+        t: T,
+    ) -> DynamicsError<T> {
+        let structure = mechanism.structure();
+        let kind = match obstacle {
+            Obstacle::NotFinite => return DynamicsError::NotFinite { t },
+            Obstacle::MassSingular => {
+                return DynamicsError::MassSingular {
+                    t,
+                    coordinate: 0,
+                    structure,
+                };
             }
-            let mut tangent = Tangent::default();
-            let known = Known::Nothing;
-            self.tangent(
-                mechanism,
-                state,
-                Source::Position,
-                which,
-                known,
-                &mut tangent,
-            )?;
-            if tangent.used > self.rows.regular(which) {
-                self.rows.observe_rank(tangent.used, which);
-                if alike {
-                    self.rows.observe_rank(tangent.used, Which::Holonomic);
-                }
+            Obstacle::NotRegular | Obstacle::Unresolved => Singularity::Unresolved,
+            Obstacle::Turned | Obstacle::NotContracting | Obstacle::LeftSheet => {
+                Singularity::Turning
             }
-            if which == Which::All && tangent.strong == self.rows.regular(which) {
-                self.choose_rows(tangent.rows());
-            }
-        }
-        Ok(())
-    }
-
-    /// Chooses an independent subset of the rows, where that is a choice.
-    pub(crate) fn choose_rows(&mut self, rows: &SMatrix<T, N, R>) {
-        if self.rows.regular(Which::All) < R {
-            self.counters.row_choices += 1;
-            self.rows.choose(*rows);
+            Obstacle::Touching => Singularity::Touching,
+            Obstacle::Undetermined => Singularity::Undetermined,
+        };
+        DynamicsError::SingularConfiguration {
+            t,
+            kind,
+            row: self.rows.listed(self.frame.weakest_row()),
+            structure,
         }
     }
-}
-
-/// An error if a mechanism that was declared to be regular has a lower rank than that.
-fn as_declared<T: Real>(
-    structure: &'static Structure,
-    t: T,
-    rank: usize,
-    regular: usize,
-) -> Result<(), DynamicsError<T>> {
-    if structure.regular && rank < regular {
-        return Err(DynamicsError::NotRegular { t, rank, structure });
-    }
-    Ok(())
-}
-
-/// What is known about the state of a rank decision.
-#[derive(Clone, Copy)]
-pub(crate) enum Known<'a, T, const N: usize, const R: usize> {
-    /// The rank at regular positions; the state may be off the constraints.
-    Rank,
-    /// The same, and that the state is on the constraints to round-off, so that even
-    /// small rows tell the truth.
-    Landed,
-    /// The same as at a state nearby, and how many directions are strong: what is
-    /// compared must be decided alike.
-    Beside {
-        /// What was decided there.
-        like: &'a Tangent<T, N, R>,
-        /// How many directions are strong.
-        strong: usize,
-    },
-    /// Nothing but that the state is on the constraints to round-off; how many rows
-    /// are independent is the question.
-    Nothing,
 }

@@ -11,7 +11,7 @@
 //! Not here: methods that estimate their error ([`super::explicit`]).
 
 use super::control::check_bound;
-use super::pace::Inside;
+use super::pace::{Inside, in_parts};
 use super::step::Step;
 use super::{IntegrateError, Integrator};
 use crate::linalg::add_scaled;
@@ -87,19 +87,42 @@ impl<T: Real, const N: usize> Integrator<T, N> for Rk4<T, N> {
         check_bound(state.t, bound)?;
         let known = self.last.take().filter(|_| self.step.end == *state);
         self.step.evaluations = STAGES + u32::from(known.is_none());
-        let first = match known {
-            Some(acceleration) => acceleration,
-            None => system.acceleration(state)?,
-        };
-        self.step.start = *state;
-        let mut end = classical(system, state, &first, bound)?;
-        system.project(&mut end)?;
-        self.step.end = end;
+        let (first, end) = in_parts(state.t, bound, |end| {
+            match attempt(system, state, known, end) {
+                Err(error) => match system.escalate()? {
+                    true => attempt(system, state, known, end),
+                    false => Err(error),
+                },
+                made => made,
+            }
+        })?;
+        (self.step.start, self.step.end) = (*state, end);
+        self.step.span = T::zero();
         if self.inside != Inside::Nothing {
             self.complete(system, &first)?;
         }
+        system.commit(&self.step)?;
         Ok(&self.step)
     }
+}
+
+/// The acceleration at the start of a step, and its end, projected and verified.
+#[inline(always)]
+fn attempt<T: Real, Y: System<T, N> + ?Sized, const N: usize>(
+    system: &mut Y,
+    state: &State<T, N>,
+    known: Option<SVector<T, N>>,
+    bound: T,
+) -> Result<(SVector<T, N>, State<T, N>), DynamicsError<T>> {
+    system.begin(state);
+    let first = match known {
+        Some(acceleration) => acceleration,
+        None => system.acceleration(state)?,
+    };
+    let mut end = classical(system, state, &first, bound)?;
+    system.project(&mut end)?;
+    system.verify(state, &end)?;
+    Ok((first, end))
 }
 
 /// The state at the end of a step, not yet projected.

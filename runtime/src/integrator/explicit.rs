@@ -189,6 +189,7 @@ impl<T: Real, const N: usize, const S: usize> Trial<T, N> for Explicit<T, N, S> 
 
     fn accept<Y: System<T, N> + ?Sized>(&mut self, system: &mut Y) -> Result<(), DynamicsError<T>> {
         if self.inside == Inside::Nothing {
+            self.step.span = T::zero();
             return Ok(());
         }
         self.know_end(system)?;

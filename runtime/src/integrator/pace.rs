@@ -107,13 +107,95 @@ impl<K: Trial<T, N>, T: Real, const N: usize> Paced<K, T, N> {
         bound: T,
     ) -> Result<&Step<T, N>, IntegrateError<T>> {
         check_bound(state.t, bound)?;
-        let slope = self.method.begin(system, state)?;
+        system.begin(state);
+        let slope = match self.method.begin(system, state) {
+            Err(error) => match system.escalate()? {
+                true => self.method.begin(system, state)?,
+                false => return Err(error.into()),
+            },
+            Ok(slope) => slope,
+        };
         match &mut self.pace {
-            None => self.method.attempt(system, bound)?,
+            None => in_parts(state.t, bound, |end| {
+                attempt(&mut self.method, system, end)?;
+                if !verify(&mut self.method, system)? {
+                    attempt(&mut self.method, system, end)?;
+                    verify(&mut self.method, system)?;
+                }
+                Ok::<_, IntegrateError<T>>(())
+            })?,
             Some(pace) => pace.advance(&mut self.method, system, &slope, bound)?,
         }
         self.method.accept(system)?;
-        Ok(self.method.step())
+        let step = self.method.step();
+        system.commit(step)?;
+        Ok(step)
+    }
+}
+
+/// Parts of a fixed step, each half as long as the one before, that are tried.
+const PARTS: usize = 8;
+
+/// Makes a step of fixed length, or a shorter part of it where the motion next to a
+/// singular configuration can't be followed so far at once.
+pub(super) fn in_parts<T: Real, V, E: Copy + Into<IntegrateError<T>>>(
+    t: T,
+    bound: T,
+    mut step: impl FnMut(T) -> Result<V, E>,
+) -> Result<V, IntegrateError<T>> {
+    let mut end = bound;
+    let mut first = None;
+    for _ in 0..PARTS {
+        let failure: IntegrateError<T> = match step(end) {
+            Ok(made) => return Ok(made),
+            Err(failure) => *first.get_or_insert(failure.into()),
+        };
+        let shorter = t + (end - t) * T::from_f64(0.5);
+        let helps = matches!(
+            failure,
+            IntegrateError::Dynamics(DynamicsError::SingularConfiguration { .. })
+        );
+        if !helps || shorter <= t {
+            break;
+        }
+        end = shorter;
+    }
+    Err(first.unwrap_or(IntegrateError::BadBound { t, bound }))
+}
+
+/// Makes a trial step and has it verified; once more from its start if the system wants
+/// to look at it more closely.
+fn attempt<K: Trial<T, N>, T: Real, Y: System<T, N> + ?Sized, const N: usize>(
+    method: &mut K,
+    system: &mut Y,
+    end: T,
+) -> Result<(), IntegrateError<T>> {
+    let once = |method: &mut K, system: &mut Y| -> Result<(), IntegrateError<T>> {
+        system.begin(&method.step().start);
+        method.attempt(system, end)
+    };
+    match once(method, system) {
+        Err(failure) => match system.escalate()? {
+            true => once(method, system),
+            false => Err(failure),
+        },
+        Ok(()) => Ok(()),
+    }
+}
+
+/// Has a trial step verified that is about to be accepted; `false` if it is to be made
+/// once more from its start.
+fn verify<K: Trial<T, N>, T: Real, Y: System<T, N> + ?Sized, const N: usize>(
+    method: &mut K,
+    system: &mut Y,
+) -> Result<bool, IntegrateError<T>> {
+    let Step { start, end, .. } = *method.step();
+    match system.verify(&start, &end) {
+        Ok(()) => Ok(true),
+        Err(error) => match system.escalate()? {
+            true => Ok(false),
+            false => Err(error.into()),
+        },
     }
 }
 
@@ -138,8 +220,9 @@ impl<T: Real, const N: usize> Pace<T, N> {
                 Ok(end) => end,
                 Err(underflow) => return Err(obstacle.unwrap_or(underflow)),
             };
-            let error = match method.attempt(system, end) {
-                Ok(()) => method.error(&self.tolerance),
+            let error = match self.trial(method, system, end) {
+                Ok(Some(error)) => error,
+                Ok(None) => continue,
                 Err(failure) if is_final(&failure) => return Err(failure),
                 Err(failure) => {
                     obstacle = Some(failure);
@@ -156,6 +239,21 @@ impl<T: Real, const N: usize> Pace<T, N> {
             }
             method.step().rejected += 1;
         }
+    }
+
+    /// One trial step and its error; none if it is to be made once more.
+    fn trial<K: Trial<T, N>, Y: System<T, N> + ?Sized>(
+        &self,
+        method: &mut K,
+        system: &mut Y,
+        end: T,
+    ) -> Result<Option<T>, IntegrateError<T>> {
+        attempt(method, system, end)?;
+        let error = method.error(&self.tolerance);
+        if error <= T::one() && !verify(method, system)? {
+            return Ok(None);
+        }
+        Ok(Some(error))
     }
 
     /// Hairer's guess of the first step: the slope and an explicit Euler step

@@ -101,6 +101,16 @@ impl<T: Real, const N: usize> Step<T, N> {
         }
     }
 
+    /// The state at a time within the step, from the method's interpolant if it is kept,
+    /// else from the cubic polynomial through both ends.
+    pub(crate) fn inside_at(&self, t: T) -> State<T, N> {
+        if self.span > T::zero() || t <= self.start.t || t >= self.end.t {
+            return self.at(t);
+        }
+        self.start
+            .towards(&self.end, (t - self.start.t) / self.length())
+    }
+
     /// The state at a time within the step, from the method's interpolant; the
     /// ends themselves at and beyond the ends.
     ///

@@ -12,8 +12,9 @@
 //!
 //! Not here: what to do with a matrix that is only semi-definite.
 
-use super::{definite, norm};
+use super::norm;
 use crate::Real;
+use crate::tolerance::definite;
 use nalgebra::SMatrix;
 
 /// Whether a symmetric matrix is safely positive definite, whatever the units and
@@ -144,6 +145,12 @@ impl<T: Real, const N: usize> Cholesky<T, N> {
             }
             x[j] = value / upper[j][j];
         }
+    }
+
+    /// A diagonal entry of `M`.
+    pub(crate) fn diagonal(&self, j: usize) -> T {
+        let row = (j..N).map(|i| self.upper[(j, i)]);
+        row.fold(T::zero(), |sum, entry| sum + entry * entry)
     }
 
     /// `U x`.

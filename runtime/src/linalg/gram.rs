@@ -15,8 +15,6 @@ use nalgebra::SMatrix;
 pub(crate) struct Gram<T, const R: usize> {
     factor: SMatrix<T, R, R>,
     count: usize,
-    /// After the last entry of each column that is not zero.
-    ends: [usize; R],
 }
 
 impl<T: Real, const R: usize> Default for Gram<T, R> {
@@ -24,7 +22,6 @@ impl<T: Real, const R: usize> Default for Gram<T, R> {
         Self {
             factor: SMatrix::zeros(),
             count: 0,
-            ends: [0; R],
         }
     }
 }
@@ -44,7 +41,6 @@ impl<T: Real, const R: usize> Gram<T, R> {
         reference: impl Fn(usize) -> T,
     ) -> T {
         self.count = count.min(R);
-        self.ends = [self.count; R];
         let x = &vectors.data.0;
         let f = &mut self.factor.data.0;
         let mut smallest = T::one();
@@ -74,69 +70,19 @@ impl<T: Real, const R: usize> Gram<T, R> {
         smallest
     }
 
-    /// Forgets all vectors.
-    pub(crate) fn clear(&mut self) {
-        self.count = 0;
-    }
-
-    /// How many vectors there are.
-    #[inline]
-    pub(crate) fn count(&self) -> usize {
-        self.count
-    }
-
-    /// Adds a vector, by its products with those that there are and its square, if the
-    /// square of its distance from their span is above `least`.
-    pub(crate) fn extend(&mut self, mut products: [T; R], square: T, least: T) -> bool {
-        let count = self.count;
-        let mut pivot = square;
-        let f = &mut self.factor.data.0;
-        for k in 0..count {
-            let product = products[k];
-            if product == T::zero() {
-                continue;
-            }
-            for i in k + 1..self.ends[k] {
-                products[i] -= product * f[k][i];
-            }
-            products[k] = product / f[k][k];
-            pivot -= product * products[k];
-        }
-        // False for NaN, too.
-        let enough = pivot > least && pivot.is_finite();
-        if !enough {
-            return false;
-        }
-        for k in 0..count {
-            f[k][count] = products[k];
-            if products[k] != T::zero() {
-                self.ends[k] = count + 1;
-            }
-        }
-        f[count][count] = pivot;
-        self.ends[count] = count + 1;
-        self.count = count + 1;
-        true
-    }
-
-    /// The square of the distance of a vector from the span of those before it.
-    pub(crate) fn pivot(&self, k: usize) -> T {
-        self.factor[(k, k)]
-    }
-
     /// `x := S⁻¹ x` in the first entries of `x`.
     #[inline]
     pub(crate) fn solve(&self, x: &mut [T; R]) {
         let f = &self.factor.data.0;
         for j in 0..self.count {
             let value = x[j];
-            for i in j + 1..self.ends[j] {
+            for i in j + 1..self.count {
                 x[i] -= value * f[j][i];
             }
         }
         for j in (0..self.count).rev() {
             let mut value = x[j] / f[j][j];
-            for i in j + 1..self.ends[j] {
+            for i in j + 1..self.count {
                 value -= f[j][i] * x[i];
             }
             x[j] = value;

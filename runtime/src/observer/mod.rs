@@ -9,7 +9,6 @@
 mod constraint;
 mod energy;
 mod probe;
-mod rank;
 #[cfg(feature = "std")]
 mod recorder;
 mod sampler;
@@ -17,12 +16,11 @@ mod sampler;
 pub use constraint::ConstraintAudit;
 pub use energy::EnergyAudit;
 pub use probe::Probe;
-pub use rank::{Passage, RankAudit};
 #[cfg(feature = "std")]
 pub use recorder::Recorder;
 pub use sampler::{BadInterval, Sampler};
 
-use crate::{DynamicsError, Event, Real, State, Step};
+use crate::{DynamicsError, Event, Passage, Real, State, Step};
 use core::ops::ControlFlow;
 
 /// Something that happened at a time within a step.

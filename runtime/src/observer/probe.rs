@@ -6,7 +6,7 @@
 use crate::dynamics::ConstrainedSystem;
 use crate::{
     ConstraintError, DynamicsError, Energy, Interface, Mechanism, Position, Rank, Real, State,
-    Structure, System,
+    Structure,
 };
 use nalgebra::SVector;
 
@@ -89,11 +89,11 @@ where
     }
 
     fn reaction(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>> {
-        ConstrainedSystem::reaction(self, state).map(|(_, reaction)| reaction)
+        self.reaction_within(state)
     }
 
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
-        System::project(self, state)
+        self.project_within(state)
     }
 
     fn outputs(&self, state: &State<T, N>, values: &mut [T]) {

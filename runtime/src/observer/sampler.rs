@@ -31,10 +31,55 @@ impl<T: Real> Display for BadInterval<T> {
 
 impl<T: Real> core::error::Error for BadInterval<T> {}
 
+/// Decimals of an interval that are looked for.
+const DECIMALS: u32 = 15;
+/// Whole numbers below this one are exact.
+const EXACT: f64 = 9e15;
+
+/// An interval as a fraction, so that a multiple of it is rounded once: three times 0.3 is
+/// 0.9, as a person writes it.
+#[derive(Clone, Copy, Debug)]
+struct Interval<T> {
+    numerator: T,
+    denominator: T,
+}
+
+impl<T: Real> Interval<T> {
+    /// The fraction of ten with the fewest decimals that an interval is the nearest number
+    /// to; the interval itself if there is none.
+    fn new(every: T) -> Self {
+        let size = every.to_f64();
+        let mut power = 1.0;
+        for _ in 0..=DECIMALS {
+            let whole = size * power + 0.5;
+            if whole >= EXACT {
+                break;
+            }
+            let numerator = T::from_f64(whole as u64 as f64);
+            let denominator = T::from_f64(power);
+            if numerator / denominator == every {
+                return Self {
+                    numerator,
+                    denominator,
+                };
+            }
+            power *= 10.0;
+        }
+        Self {
+            numerator: every,
+            denominator: T::one(),
+        }
+    }
+
+    fn times(self, count: u64) -> T {
+        self.numerator * T::from_f64(count as f64) / self.denominator
+    }
+}
+
 /// The times `t₀ + i·dt`, and how far a run has come.
 #[derive(Clone, Debug)]
 pub(super) struct Grid<T> {
-    every: T,
+    every: Interval<T>,
     origin: T,
     next: u64,
 }
@@ -43,7 +88,7 @@ impl<T: Real> Grid<T> {
     pub(super) fn new(every: T) -> Result<Self, BadInterval<T>> {
         if every.is_finite() && every > T::zero() {
             Ok(Self {
-                every,
+                every: Interval::new(every),
                 origin: T::zero(),
                 next: 0,
             })
@@ -73,7 +118,7 @@ impl<T: Real> Grid<T> {
         let end = *step.end();
         let same = T::EPSILON * T::from_f64(SAME_TIME) * end.t.abs().max(self.origin.abs());
         loop {
-            let t = self.origin + self.every * T::from_f64(self.next as f64);
+            let t = self.origin + self.every.times(self.next);
             if t > end.t + same {
                 return Ok(ControlFlow::Continue(()));
             }
@@ -94,7 +139,7 @@ impl<T: Real> Grid<T> {
 
 /// Calls a function with the states at `t₀`, `t₀ + dt`, `t₀ + 2 dt`, …
 ///
-/// Row `i` is at `t₀ + i·dt`: nothing accumulates. States within a step come
+/// Row `i` is at `t₀ + i·dt`, rounded once where `dt` is a decimal: nothing accumulates. States within a step come
 /// from its interpolant and are brought back onto the constraints. The function
 /// may break the run off.
 #[derive(Clone, Debug)]
@@ -143,5 +188,34 @@ where
         probe: &mut dyn Probe<T, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<T>> {
         self.grid.rows(step, probe, &mut self.sink)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Interval;
+
+    #[test]
+    fn multiples_of_a_decimal_interval_are_the_nearest_numbers_to_decimals() {
+        for every in ["0.3", "0.1", "0.05", "1e-3", "2.5", "7", "1e-9"] {
+            let interval = Interval::new(every.parse::<f64>().unwrap_or(f64::NAN));
+            for count in 0..2000_u64 {
+                let (digits, exponent) = every.split_once("e-").unwrap_or((every, "0"));
+                let decimals = digits.split_once('.').map_or(0, |(_, d)| d.len());
+                let whole: u64 = digits.replace('.', "").parse().unwrap_or(0);
+                let shift = decimals + exponent.parse::<usize>().unwrap_or(0);
+                let text = format!("{}e-{shift}", whole * count);
+                let wanted: f64 = text.parse().unwrap_or(f64::NAN);
+                assert_eq!(interval.times(count), wanted, "{count} times {every}");
+            }
+        }
+    }
+
+    #[test]
+    fn another_interval_is_multiplied_as_it_is() {
+        let third = 1.0_f64 / 3.0;
+        assert_eq!(Interval::new(third).times(3), 3.0 * third);
+        assert_eq!(Interval::new(1e300).times(2), 2e300);
+        assert_eq!(Interval::new(1e-300).times(2), 2e-300);
     }
 }

@@ -16,7 +16,7 @@
 //! Source: Hairer, Lubich & Wanner, Geometric Numerical Integration (2006),
 //! section IV.4 (projection methods).
 
-use crate::{ConstrainedSystem, DynamicsError, Mechanism, Real, Slope, State, System};
+use crate::{ConstrainedSystem, DynamicsError, Mechanism, Real, Slope, State, Step, System};
 use nalgebra::SVector;
 
 /// Largest change of the kinetic energy that is made up for, relative to it.
@@ -40,6 +40,21 @@ where
             system,
             energy: None,
         }
+    }
+
+    /// Begins at a state, which is moved onto the constraints if it is not on them to
+    /// round-off; with the accepted error of a step if steps follow one.
+    pub(super) fn start(
+        &mut self,
+        state: &mut State<T, N>,
+        tolerance: Option<T>,
+    ) -> Result<(), DynamicsError<T>> {
+        self.system.start(state, tolerance)
+    }
+
+    /// The system whose energy is kept.
+    pub(super) fn system(&self) -> &ConstrainedSystem<'a, M, T, N, R> {
+        &self.system
     }
 
     /// Keeps the energy of a state from now on, or a given one.
@@ -71,15 +86,31 @@ where
     M: Mechanism<T, N, R> + ?Sized,
 {
     fn acceleration(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>> {
-        self.system.acceleration(state)
+        System::acceleration(&mut self.system, state)
     }
 
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
-        self.system.project(state)?;
+        System::project(&mut self.system, state)?;
         if let Some(energy) = self.energy {
             self.restore(state, energy);
         }
         Ok(())
+    }
+
+    fn begin(&mut self, state: &State<T, N>) {
+        self.system.begin(state);
+    }
+
+    fn escalate(&mut self) -> Result<bool, DynamicsError<T>> {
+        self.system.escalate()
+    }
+
+    fn verify(&mut self, start: &State<T, N>, end: &State<T, N>) -> Result<(), DynamicsError<T>> {
+        self.system.verify(start, end)
+    }
+
+    fn commit(&mut self, step: &Step<T, N>) -> Result<(), DynamicsError<T>> {
+        self.system.commit(step)
     }
 
     fn slope(&mut self, state: &State<T, N>) -> Option<Slope<T, N>> {

@@ -26,7 +26,7 @@ use watch::Watchers;
 
 use crate::{
     ConstrainedSystem, IntegrateError, Integrator, Interface, Mechanism, Observer, Real, Solver,
-    State, System,
+    State,
 };
 use core::ops::ControlFlow;
 
@@ -108,9 +108,10 @@ where
         let first = grid.first_after(state.t);
         let mut driver = Driver::new(scheme, pace)?;
         self.system
-            .project(&mut state)
+            .start(&mut state, driver.tolerance())
             .map_err(IntegrateError::Dynamics)?;
         self.done.end = state;
+        self.probe.follow(self.system.system());
         if self.options.keep_energy {
             if !self.mechanism.structure().conservative {
                 return Err(SimulateError::NotConservative);
@@ -157,7 +158,9 @@ where
         }
         let step = driver.step(&mut self.system, &state, bound)?;
         self.done.count(step);
+        self.probe.follow(self.system.system());
+        let passages = self.system.system().passages();
         self.watchers
-            .show(self.mechanism, step, &mut self.probe, self.done)
+            .show(self.mechanism, step, passages, &mut self.probe, self.done)
     }
 }

@@ -166,7 +166,14 @@ impl<T: Real> Options<T> {
 
 /// The chosen method, whichever it is.
 #[derive(Clone, Debug)]
-pub(super) enum Driver<T, const N: usize> {
+pub(super) struct Driver<T, const N: usize> {
+    method: Method<T, N>,
+    /// Accepted error of a step, relative, if the steps follow one.
+    tolerance: Option<T>,
+}
+
+#[derive(Clone, Debug)]
+enum Method<T, const N: usize> {
     Rk4(Rk4<T, N>),
     Dp5(Dp5<T, N>),
     Dop853(Dop853<T, N>),
@@ -181,39 +188,49 @@ impl<T: Real, const N: usize> Driver<T, N> {
             Pace::Fixed { step } => return Err(SimulateError::StepNotPositive { step }),
             Pace::Adaptive { relative, absolute } => Some(Tolerance::uniform(relative, absolute)?),
         };
-        Ok(match (scheme, tolerance) {
-            (Scheme::Rk4, None) => Self::Rk4(Rk4::new()),
+        let method = match (scheme, tolerance) {
+            (Scheme::Rk4, None) => Method::Rk4(Rk4::new()),
             (Scheme::Rk4, Some(_)) => return Err(SimulateError::NoErrorEstimate { scheme }),
-            (Scheme::Dp5, None) => Self::Dp5(Dp5::fixed()),
-            (Scheme::Dp5, Some(tolerance)) => Self::Dp5(Dp5::adaptive(tolerance)),
-            (Scheme::Dop853, None) => Self::Dop853(Dop853::fixed()),
-            (Scheme::Dop853, Some(tolerance)) => Self::Dop853(Dop853::adaptive(tolerance)),
-            (Scheme::Radau5, None) => Self::Radau5(Radau5::fixed()),
-            (Scheme::Radau5, Some(tolerance)) => Self::Radau5(Radau5::adaptive(tolerance)),
-            (Scheme::Radau9, None) => Self::Radau9(Radau9::fixed()),
-            (Scheme::Radau9, Some(tolerance)) => Self::Radau9(Radau9::adaptive(tolerance)),
-        })
+            (Scheme::Dp5, None) => Method::Dp5(Dp5::fixed()),
+            (Scheme::Dp5, Some(tolerance)) => Method::Dp5(Dp5::adaptive(tolerance)),
+            (Scheme::Dop853, None) => Method::Dop853(Dop853::fixed()),
+            (Scheme::Dop853, Some(tolerance)) => Method::Dop853(Dop853::adaptive(tolerance)),
+            (Scheme::Radau5, None) => Method::Radau5(Radau5::fixed()),
+            (Scheme::Radau5, Some(tolerance)) => Method::Radau5(Radau5::adaptive(tolerance)),
+            (Scheme::Radau9, None) => Method::Radau9(Radau9::fixed()),
+            (Scheme::Radau9, Some(tolerance)) => Method::Radau9(Radau9::adaptive(tolerance)),
+        };
+        let tolerance = match pace {
+            Pace::Fixed { .. } => None,
+            Pace::Adaptive { relative, .. } => Some(relative),
+        };
+        Ok(Self { method, tolerance })
+    }
+
+    /// Accepted error of a step, relative, if the steps follow one.
+    pub(super) fn tolerance(&self) -> Option<T> {
+        self.tolerance
     }
 
     /// Chooses what is kept of the inside of steps.
     pub(super) fn keep(&mut self, inside: Inside) {
-        match self {
-            Self::Rk4(method) => method.keep(inside),
-            Self::Dp5(method) => method.keep(inside),
-            Self::Dop853(method) => method.keep(inside),
-            Self::Radau5(method) => method.keep(inside),
-            Self::Radau9(method) => method.keep(inside),
+        match &mut self.method {
+            Method::Rk4(method) => method.keep(inside),
+            Method::Dp5(method) => method.keep(inside),
+            Method::Dop853(method) => method.keep(inside),
+            Method::Radau5(method) => method.keep(inside),
+            Method::Radau9(method) => method.keep(inside),
         }
     }
 
     /// Forgets the last step, because the system has changed since.
     pub(super) fn forget(&mut self) {
-        match self {
-            Self::Rk4(method) => method.forget(),
-            Self::Dp5(method) => method.forget(),
-            Self::Dop853(method) => method.forget(),
-            Self::Radau5(method) => method.forget(),
-            Self::Radau9(method) => method.forget(),
+        match &mut self.method {
+            Method::Rk4(method) => method.forget(),
+            Method::Dp5(method) => method.forget(),
+            Method::Dop853(method) => method.forget(),
+            Method::Radau5(method) => method.forget(),
+            Method::Radau9(method) => method.forget(),
         }
     }
 }
@@ -225,12 +242,12 @@ impl<T: Real, const N: usize> Integrator<T, N> for Driver<T, N> {
         state: &State<T, N>,
         bound: T,
     ) -> Result<&Step<T, N>, IntegrateError<T>> {
-        match self {
-            Self::Rk4(method) => method.step(system, state, bound),
-            Self::Dp5(method) => method.step(system, state, bound),
-            Self::Dop853(method) => method.step(system, state, bound),
-            Self::Radau5(method) => method.step(system, state, bound),
-            Self::Radau9(method) => method.step(system, state, bound),
+        match &mut self.method {
+            Method::Rk4(method) => method.step(system, state, bound),
+            Method::Dp5(method) => method.step(system, state, bound),
+            Method::Dop853(method) => method.step(system, state, bound),
+            Method::Radau5(method) => method.step(system, state, bound),
+            Method::Radau9(method) => method.step(system, state, bound),
         }
     }
 }

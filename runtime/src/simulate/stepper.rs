@@ -61,6 +61,7 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
         let until = state.t + span;
         let grid = Grid::new(state.t, until, self.pace)?;
         self.driver.forget();
+        self.solver.expect_error(self.driver.tolerance());
         let mut system = self.solver.on(mechanism);
         for i in 1..grid.intervals() {
             go(&mut self.driver, &mut system, state, grid.time(i))?;

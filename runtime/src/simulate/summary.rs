@@ -76,6 +76,12 @@ impl<T: Real, const N: usize> Display for Summary<T, N> {
         if let Some(passages) = self.passages {
             write!(f, "; {passages} passages through singular positions")?;
         }
+        if self.counters.undetermined > 0 {
+            f.write_str(
+                "; undetermined: the mechanism was at rest in a singular position, where nothing \
+                 says which branch it takes",
+            )?;
+        }
         if let Some(ConstraintError { position, .. }) = self.constraint_error {
             write!(f, "; largest constraint error {:.1e}", position.to_f64())?;
         }

@@ -6,30 +6,18 @@
 use super::event::Events;
 use super::{Audit, Options, Origin, SimulateError, Summary};
 use crate::integrator::Inside;
-use crate::{
-    ConstraintAudit, DynamicsError, EnergyAudit, Form, IntegrateError, Interface, Observer,
-    Passage, Probe, RankAudit, Real, State, Step,
-};
+use crate::singular::Found;
+use crate::{ConstraintAudit, EnergyAudit, Interface, Observer, Probe, Real, State, Step};
 use core::ops::ControlFlow;
 
 /// Audits, events and observers of a run.
 pub(super) struct Watchers<'a, 'b, T, const N: usize> {
     constraints: Option<ConstraintAudit<T>>,
     energy: Option<EnergyAudit<T>>,
-    rank: Option<RankAudit<T, N>>,
+    /// How many passages there were, if they are counted.
+    passages: Option<u64>,
     events: Events<T>,
     observers: &'a mut [&'b mut dyn Observer<T, N>],
-    form: Form,
-    /// Where the step before the last began.
-    before: State<T, N>,
-}
-
-/// Whether a form of the equations passes singular positions.
-fn passes(form: Form) -> bool {
-    match form {
-        Form::Reduced | Form::Full => true,
-        Form::Multipliers | Form::Partitioning => false,
-    }
 }
 
 impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
@@ -44,15 +32,12 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
             energy,
             passages,
         } = options.audit;
-        let form = options.settings.form;
         Self {
             constraints: constraints.then(ConstraintAudit::new),
             energy: energy.then(EnergyAudit::new),
-            rank: (rows > 0 && (passages || !passes(form))).then(RankAudit::new),
+            passages: (rows > 0 && passages).then_some(0),
             events: Events::default(),
             observers,
-            form,
-            before: State::default(),
         }
     }
 
@@ -63,7 +48,6 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
         state: &State<T, N>,
         probe: &mut dyn Probe<T, N>,
     ) -> Result<ControlFlow<()>, SimulateError<T>> {
-        self.before = *state;
         self.events = Events::new(interface, probe.structure().events, state)?;
         let mut flow = ControlFlow::Continue(());
         for watcher in self.all() {
@@ -92,12 +76,11 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
             .iter_mut()
             .map(|x| x as &mut dyn Observer<T, N>);
         let energy = self.energy.iter_mut().map(|x| x as &mut dyn Observer<T, N>);
-        let rank = self.rank.iter_mut().map(|x| x as &mut dyn Observer<T, N>);
         let others = self
             .observers
             .iter_mut()
             .map(|x| &mut **x as &mut dyn Observer<T, N>);
-        constraints.chain(energy).chain(rank).chain(others)
+        constraints.chain(energy).chain(others)
     }
 
     /// What must be kept of the inside of steps.
@@ -109,7 +92,7 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
         let others = self.observers.iter().any(|x| x.looks_inside());
         if energy || others || !self.events.is_empty() {
             Inside::Full
-        } else if self.rank.is_some() {
+        } else if self.passages.is_some() {
             Inside::Hermite
         } else {
             Inside::Nothing
@@ -121,16 +104,16 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
         &mut self,
         interface: &I,
         step: &Step<T, N>,
+        passages: &Found<T>,
         probe: &mut dyn Probe<T, N>,
         done: &mut Summary<T, N>,
     ) -> Result<ControlFlow<()>, SimulateError<T>> {
-        let mut flow = self.passages(step, probe, done)?;
+        let mut flow = self.tell(passages);
         let cut = self.occurrences(interface, step, probe, done)?;
         let step = cut.as_ref().unwrap_or(step);
         if cut.is_some() {
             flow = ControlFlow::Break(());
         }
-        self.before = *step.start();
         let observe = SimulateError::Observe;
         if let Some(audit) = &mut self.constraints {
             let _: ControlFlow<()> = audit.step(step, probe).map_err(observe)?;
@@ -147,45 +130,20 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
         Ok(flow)
     }
 
-    /// Looks for passages through singular positions, and refuses them to forms
-    /// that only jumped over one.
-    fn passages(
-        &mut self,
-        step: &Step<T, N>,
-        probe: &mut dyn Probe<T, N>,
-        done: &mut Summary<T, N>,
-    ) -> Result<ControlFlow<()>, SimulateError<T>> {
-        let Some(rank) = &mut self.rank else {
-            return Ok(ControlFlow::Continue(()));
-        };
-        let mut first: Option<Passage<T>> = None;
+    /// Counts passages through singular configurations and tells everyone of them.
+    fn tell(&mut self, passages: &Found<T>) -> ControlFlow<()> {
         let mut flow = ControlFlow::Continue(());
-        let observers = &mut *self.observers;
-        let mut found = |passage: &Passage<T>| {
-            first.get_or_insert(*passage);
-            for observer in observers.iter_mut() {
-                if observer.passage(passage).is_break() {
-                    flow = ControlFlow::Break(());
+        if let Some(count) = &mut self.passages {
+            for passage in passages.iter() {
+                *count += 1;
+                for observer in self.observers.iter_mut() {
+                    if observer.passage(passage).is_break() {
+                        flow = ControlFlow::Break(());
+                    }
                 }
             }
-        };
-        rank.look(step, probe, &mut found)
-            .map_err(SimulateError::Observe)?;
-        match first {
-            Some(Passage { t, rank, .. }) if !passes(self.form) => {
-                if t < step.start().t {
-                    done.end = self.before;
-                }
-                let error = DynamicsError::SingularPosition {
-                    t,
-                    form: self.form,
-                    rank,
-                    structure: probe.structure(),
-                };
-                Err(IntegrateError::Dynamics(error).into())
-            }
-            _ => Ok(flow),
         }
+        flow
     }
 
     /// Locates the events of a step; the step up to the event at which an
@@ -223,7 +181,7 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
     /// Adds what the audits found.
     pub(super) fn report(&self, done: Summary<T, N>) -> Summary<T, N> {
         Summary {
-            passages: self.rank.as_ref().map(RankAudit::count),
+            passages: self.passages,
             constraint_error: self.constraints.as_ref().map(ConstraintAudit::largest),
             energy_error: self.energy.as_ref().map(EnergyAudit::largest),
             energy_supplied: self.energy.as_ref().map(EnergyAudit::supplied),

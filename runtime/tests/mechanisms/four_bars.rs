@@ -3,7 +3,7 @@
 
 use super::{ANGLE, GRAVITY, Passing, Reduction, structure};
 use bricard_runtime::nalgebra::{SMatrix, SVector};
-use bricard_runtime::{Branch, Energy, Mechanism, Position, State, Structure, Terms};
+use bricard_runtime::{Energy, Mechanism, Position, State, Structure, Terms};
 
 /// Cranks `0, 2, 4, …` of length `CRANK` and couplers `1, 3, …` of length `BAR`
 /// between them, all of one mass.
@@ -88,21 +88,6 @@ impl<const N: usize, const R: usize> Mechanism<f64, N, R> for FourBars {
             }
             out.residual[2 * loop_] = gap[0];
             out.residual[2 * loop_ + 1] = gap[1];
-        }
-    }
-
-    fn branch(&self, state: &State<f64, N>, out: &mut Branch<f64, N, R>) {
-        for loop_ in 0..R / 2 {
-            let mut bias = [0.0; 2];
-            for (i, length) in links(loop_) {
-                let ((s, c), v) = (state.q[i].sin_cos(), state.v[i]);
-                out.slope[(2 * loop_, i)] = -3.0 * length * c * v;
-                out.slope[(2 * loop_ + 1, i)] = -3.0 * length * s * v;
-                bias[0] -= length * s * v * v * v;
-                bias[1] += length * c * v * v * v;
-            }
-            out.bias[2 * loop_] = bias[0];
-            out.bias[2 * loop_ + 1] = bias[1];
         }
     }
 

@@ -3,7 +3,7 @@
 
 use super::{ANGLE, FourBars, GRAVITY, Passing, structure};
 use bricard_runtime::nalgebra::SMatrix;
-use bricard_runtime::{Branch, Energy, Mechanism, Position, State, Structure, Terms};
+use bricard_runtime::{Energy, Mechanism, Position, State, Structure, Terms};
 
 /// The double four-bar and the pendulum: coordinates `θ₀, φ₁, θ₁, φ₂, θ₂, ψ`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -86,13 +86,6 @@ impl Mechanism<f64, 6, 4> for Hung {
         FourBars.position(&Self::loops(state), &mut loops);
         (out.mass, out.jacobian) = (terms.mass, terms.jacobian);
         out.residual = loops.residual;
-    }
-
-    fn branch(&self, state: &State<f64, 6>, out: &mut Branch<f64, 6, 4>) {
-        let mut loops: Branch<f64, 5, 4> = Branch::default();
-        FourBars.branch(&Self::loops(state), &mut loops);
-        out.slope.fixed_columns_mut::<5>(0).copy_from(&loops.slope);
-        out.bias = loops.bias;
     }
 
     fn energy(&self, _state: &State<f64, 6>) -> Energy<f64> {

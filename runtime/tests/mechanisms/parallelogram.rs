@@ -3,7 +3,7 @@
 
 use super::{ANGLE, GRAVITY, LENGTH, Passing, Reduction, structure};
 use bricard_runtime::nalgebra::{SMatrix, SVector};
-use bricard_runtime::{Branch, Energy, Mechanism, Position, State, Structure, Terms};
+use bricard_runtime::{Energy, Mechanism, Position, State, Structure, Terms};
 
 /// Coordinates: three crank angles, and `x`, `y`, `φ` of the coupler, whose points
 /// at distances `PLACES` the cranks carry.
@@ -72,21 +72,6 @@ impl Mechanism<f64, 6, 6> for Parallelogram {
             let (s, c) = q[k].sin_cos();
             out.residual[2 * k] = q[3] + place * cp - place - CRANK * c;
             out.residual[2 * k + 1] = q[4] + place * sp - CRANK * s;
-        }
-    }
-
-    fn branch(&self, state: &State<f64, 6>, out: &mut Branch<f64, 6, 6>) {
-        let (q, v) = (&state.q, &state.v);
-        let (sp, cp) = q[5].sin_cos();
-        for (k, place) in PLACES.into_iter().enumerate() {
-            let (s, c) = q[k].sin_cos();
-            out.slope[(2 * k, k)] = 3.0 * CRANK * c * v[k];
-            out.slope[(2 * k + 1, k)] = 3.0 * CRANK * s * v[k];
-            out.slope[(2 * k, 5)] = -3.0 * place * cp * v[5];
-            out.slope[(2 * k + 1, 5)] = -3.0 * place * sp * v[5];
-            let (a, b) = (CRANK * v[k].powi(3), place * v[5].powi(3));
-            out.bias[2 * k] = a * s - b * sp;
-            out.bias[2 * k + 1] = -a * c + b * cp;
         }
     }
 

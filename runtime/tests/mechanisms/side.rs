@@ -2,7 +2,7 @@
 
 use super::{ANGLE, LENGTH, SliderCrank, structure};
 use bricard_runtime::nalgebra::SMatrix;
-use bricard_runtime::{Branch, Energy, Mechanism, Position, State, Structure, Terms};
+use bricard_runtime::{Energy, Mechanism, Position, State, Structure, Terms};
 
 /// How many there are.
 pub const COUNT: usize = 4;
@@ -75,16 +75,6 @@ impl Mechanism<f64, ALL_N, ALL_R> for Side {
             put(&mut out.jacobian, &one.jacobian, k);
             put(&mut out.residual, &one.residual, k);
             put(&mut out.drift, &one.drift, k);
-        }
-    }
-
-    fn branch(&self, state: &State<f64, ALL_N>, out: &mut Branch<f64, ALL_N, ALL_R>) {
-        *out = Branch::default();
-        for k in 0..COUNT {
-            let mut one: Branch<f64, N, R> = Branch::default();
-            SliderCrank::default().branch(&Self::one(state, k), &mut one);
-            put(&mut out.slope, &one.slope, k);
-            put(&mut out.bias, &one.bias, k);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::{ANGLE, GRAVITY, LENGTH, Passing, Reduction, structure};
 use bricard_runtime::nalgebra::{SMatrix, SVector};
-use bricard_runtime::{Branch, Energy, Mechanism, Position, State, Structure, Terms};
+use bricard_runtime::{Energy, Mechanism, Position, State, Structure, Terms};
 
 /// Crank, connecting rod and slider; `drive` and `damping` make up the moment
 /// `drive − damping·q̇₁` on the crank.
@@ -81,19 +81,6 @@ impl Mechanism<f64, 3, 2> for SliderCrank {
         out.mass = Self::mass(q);
         out.residual = SVector::from([L * c1 + L * c2 - q[2], L * s1 - L * s2]);
         out.jacobian = Self::jacobian(q);
-    }
-
-    fn branch(&self, state: &State<f64, 3>, out: &mut Branch<f64, 3, 2>) {
-        let (q, v) = (&state.q, &state.v);
-        let ((s1, c1), (s2, c2)) = (q[0].sin_cos(), q[1].sin_cos());
-        let (w1, w2) = (3.0 * L * v[0], 3.0 * L * v[1]);
-        out.slope = SMatrix::from_columns(&[
-            [-w1 * c1, -w1 * s1].into(),
-            [-w2 * c2, w2 * s2].into(),
-            [0.0, 0.0].into(),
-        ]);
-        let (u1, u2) = (L * v[0].powi(3), L * v[1].powi(3));
-        out.bias = SVector::from([-(u1 * s1 + u2 * s2), u1 * c1 - u2 * c2]);
     }
 
     fn energy(&self, state: &State<f64, 3>) -> Energy<f64> {

@@ -2,9 +2,7 @@
 
 use super::{ANGLE, LENGTH, structure};
 use bricard_runtime::nalgebra::SMatrix;
-use bricard_runtime::{
-    Branch, ConstraintRow, Energy, Mechanism, Position, State, Structure, Terms,
-};
+use bricard_runtime::{ConstraintRow, Energy, Mechanism, Position, State, Structure, Terms};
 
 /// A mass on a spring, `2 q̈ + 4 q = 0`: no constraints, constant mass.
 #[derive(Clone, Copy, Debug, Default)]
@@ -66,13 +64,6 @@ impl Mechanism<f64, 3, 1> for Sled {
         let (s, c) = state.q[2].sin_cos();
         out.mass = Self::mass();
         out.jacobian = SMatrix::from([[s], [-c], [0.0]]);
-    }
-
-    fn branch(&self, state: &State<f64, 3>, out: &mut Branch<f64, 3, 1>) {
-        let ((s, c), v) = (state.q[2].sin_cos(), &state.v);
-        // K = Ȧ + ∂γ/∂q̇ with γ = (ẋ c + ẏ s) θ̇.
-        out.slope = SMatrix::from([[2.0 * c * v[2]], [2.0 * s * v[2]], [v[0] * c + v[1] * s]]);
-        out.bias[0] = (v[0] * s - v[1] * c) * v[2] * v[2];
     }
 
     fn energy(&self, state: &State<f64, 3>) -> Energy<f64> {

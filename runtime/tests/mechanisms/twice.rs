@@ -1,7 +1,7 @@
 //! Every constraint of a mechanism written twice: the same motion.
 
 use super::{Passing, Reduction};
-use bricard_runtime::{Branch, Energy, Mechanism, Position, State, Structure, Terms};
+use bricard_runtime::{Energy, Mechanism, Position, State, Structure, Terms};
 
 /// `M` with `R` rows, given as a mechanism of `2R` rows, the copies scaled.
 #[derive(Clone, Copy, Debug, Default)]
@@ -45,19 +45,6 @@ where
             out.residual[row + R] = once.residual[row] * SCALE;
             out.drift[row] = once.drift[row];
             out.drift[row + R] = once.drift[row] * SCALE;
-        }
-    }
-
-    fn branch(&self, state: &State<f64, N>, out: &mut Branch<f64, N, D>) {
-        let mut once: Branch<f64, N, R> = Branch::default();
-        self.0.branch(state, &mut once);
-        for row in 0..R {
-            out.slope.row_mut(row).copy_from(&once.slope.row(row));
-            out.slope
-                .row_mut(row + R)
-                .copy_from(&(once.slope.row(row) * SCALE));
-            out.bias[row] = once.bias[row];
-            out.bias[row + R] = once.bias[row] * SCALE;
         }
     }
 

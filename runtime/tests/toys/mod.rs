@@ -2,7 +2,7 @@
 
 use bricard_runtime::nalgebra::{SMatrix, SVector};
 use bricard_runtime::{
-    Branch, Canvas, ConstraintRow, DynamicsError, Energy, Initial, Interface, Mechanism, Position,
+    Canvas, ConstraintRow, DynamicsError, Energy, Initial, Interface, Mechanism, Position,
     Quantity, Start, State, Structure, System, Terms,
 };
 
@@ -105,10 +105,6 @@ impl<M: Mechanism<f64, N, R>, const N: usize, const R: usize> Mechanism<f64, N, 
 
     fn position(&self, state: &State<f64, N>, out: &mut Position<f64, N, R>) {
         self.mechanism.position(state, out);
-    }
-
-    fn branch(&self, state: &State<f64, N>, out: &mut Branch<f64, N, R>) {
-        self.mechanism.branch(state, out);
     }
 
     fn energy(&self, state: &State<f64, N>) -> Energy<f64> {

@@ -12,9 +12,8 @@
 pub mod double_four_bar {
     use bricard_runtime::nalgebra::{SMatrix, SVector};
     use bricard_runtime::{
-        Branch, Canvas, ConstraintRow, Correction, Energy, Initial, Interface,
-        Linearised, Mechanism, Position, Quantity, Real, Regular, Start, State,
-        Structure, Terms,
+        Canvas, ConstraintRow, Correction, Energy, Initial, Interface, Linearised,
+        Mechanism, Position, Quantity, Real, Regular, Start, State, Structure, Terms,
     };
     /// The description that this module was generated from.
     pub const SOURCE: &str = "/// Two parallelograms in a row: Phong & Hoang (2012), Example 2.\n///\n/// Three cranks of length r stand on the ground at distances L, two couplers of\n/// length L join them. The constraints lose rank from four to two where all links\n/// lie in one line: at q1 = k*pi.\nmechanism DoubleFourBar {\n    const g: m/s^2 = 9.81;\n    /// length of the cranks, unless they are given one by one\n    const r: m = 0.4;\n    /// length of couplers and ground links, unless they are given one by one\n    const L: m = 0.7;\n\n    param L1: m = r;\n    param L2: m = L;\n    param L3: m = r;\n    param L4: m = L;\n    param L5: m = r;\n    /// ground link of the first loop\n    param L01: m = L;\n    /// ground link of the second loop\n    param L02: m = L;\n    param e1: m = r/2;\n    param e2: m = L/2;\n    param e3: m = r/2;\n    param e4: m = L/2;\n    param e5: m = r/2;\n    param m1: kg = 1;\n    param m2: kg = 1;\n    param m3: kg = 1;\n    param m4: kg = 1;\n    param m5: kg = 1;\n    param J1: kg*m^2 = 0.1;\n    param J2: kg*m^2 = 0.1;\n    param J3: kg*m^2 = 0.1;\n    param J4: kg*m^2 = 0.1;\n    param J5: kg*m^2 = 0.1;\n\n    /// angle of the first crank, from the x axis like all others\n    coord q1: rad;\n    /// angle of the first coupler\n    coord q2: rad;\n    /// angle of the second crank\n    coord q3: rad;\n    /// angle of the second coupler\n    coord q4: rad;\n    /// angle of the third crank\n    coord q5: rad;\n\n    let P1 = L1*[cos(q1), sin(q1)];\n    let P3 = [L01, 0] + L3*[cos(q3), sin(q3)];\n    let P5 = [L01 + L02, 0] + L5*[cos(q5), sin(q5)];\n    let c2 = P1 + e2*[cos(q2), sin(q2)];\n    let c4 = P3 + e4*[cos(q4), sin(q4)];\n\n    kinetic 1/2*(m1*e1^2 + J1)*der(q1)^2;\n    kinetic 1/2*m2*norm2(der(c2)) + 1/2*J2*der(q2)^2;\n    kinetic 1/2*(m3*e3^2 + J3)*der(q3)^2;\n    kinetic 1/2*m4*norm2(der(c4)) + 1/2*J4*der(q4)^2;\n    kinetic 1/2*(m5*e5^2 + J5)*der(q5)^2;\n    potential m1*g*e1*sin(q1) + m2*g*c2.y + m3*g*e3*sin(q3) + m4*g*c4.y + m5*g*e5*sin(q5);\n\n    constraint L1*cos(q1) + L2*cos(q2) - L3*cos(q3) = L01;\n    constraint L1*sin(q1) + L2*sin(q2) - L3*sin(q3) = 0;\n    constraint L3*cos(q3) + L4*cos(q4) - L5*cos(q5) = L02;\n    constraint L3*sin(q3) + L4*sin(q4) - L5*sin(q5) = 0;\n\n    start { q1 = 80*deg; q2 ~ 0; q3 ~ 80*deg; q4 ~ 0; q5 ~ 80*deg; }\n\n    /// middle of the first coupler\n    output c: m = c2;\n\n    draw line([0, 0], P1, P3, [L01, 0]);\n    draw line(P3, P5, [L01 + L02, 0]);\n}\n";
@@ -1146,72 +1145,6 @@ pub mod double_four_bar {
                 * (-l5_sin_q5).mul_add(sum_38, l5_cos_q5 * product_40);
             true
         }
-        /// The constraints differentiated once more: `A q⃛ + K q̈ = κ`.
-        ///
-        /// | field | equation | shape | unit |
-        /// |---|---|---|---|
-        /// | `slope` | `K = Ȧ + ∂γ/∂q̇`, `γ = −p₂` | `R × N` | unit of the row per s and unit of the coordinate |
-        /// | `bias` | `κ = −(∂γ/∂t + ∂γ/∂q q̇)` | `R` | unit of the row per s³ |
-        ///
-        /// Costs 40 products, 16 sums, 5 sine–cosine pairs. As derived: 70 products, 20 sums, 5 sine–cosine pairs.
-        fn branch(&self, state: &State<T, 5>, out: &mut Branch<T, 5, 4>) {
-            let (
-                [sin_q1,
-                sin_q2,
-                sin_q3,
-                sin_q4,
-                sin_q5,
-                ],
-                [cos_q1,
-                cos_q2,
-                cos_q3,
-                cos_q4,
-                cos_q5,
-                ],
-            ) = T::sin_cos_all(&state.q.data.0[0]);
-            let [q1_dot, q2_dot, q3_dot, q4_dot, q5_dot] = state.v.data.0[0];
-            let Parameters { l1, l2, l3, l4, l5, .. } = self.parameters;
-            let l1_q1_dot = l1 * q1_dot;
-            let product = cos_q1 * l1_q1_dot;
-            out.slope.data.0[0][0] = -T::from_f64(3.0) * product;
-            let product_2 = l1_q1_dot * sin_q1;
-            out.slope.data.0[0][1] = -T::from_f64(3.0) * product_2;
-            let l2_q2_dot = l2 * q2_dot;
-            let product_3 = T::from_f64(3.0) * l2_q2_dot;
-            out.slope.data.0[1][0] = -cos_q2 * product_3;
-            out.slope.data.0[1][1] = -product_3 * sin_q2;
-            let l3_q3_dot = l3 * q3_dot;
-            let product_4 = T::from_f64(3.0) * l3_q3_dot;
-            let product_5 = cos_q3 * product_4;
-            out.slope.data.0[2][0] = product_5;
-            let product_6 = product_4 * sin_q3;
-            out.slope.data.0[2][1] = product_6;
-            out.slope.data.0[2][2] = -product_5;
-            out.slope.data.0[2][3] = -product_6;
-            let product_7 = l3_q3_dot * (q3_dot * q3_dot);
-            let product_8 = sin_q3 * product_7;
-            let q1_dot_q1_dot = q1_dot * q1_dot;
-            let product_9 = l2_q2_dot * (q2_dot * q2_dot);
-            out.bias.data.0[0][0] = (-sin_q2)
-                .mul_add(product_9, (-product_2).mul_add(q1_dot_q1_dot, product_8));
-            let product_10 = cos_q3 * product_7;
-            out.bias.data.0[0][1] = cos_q2.mul_add(product_9, product * q1_dot_q1_dot)
-                - product_10;
-            let l4_q4_dot = l4 * q4_dot;
-            let product_11 = T::from_f64(3.0) * l4_q4_dot;
-            out.slope.data.0[3][2] = -cos_q4 * product_11;
-            out.slope.data.0[3][3] = -product_11 * sin_q4;
-            let l5_q5_dot = l5 * q5_dot;
-            let product_12 = T::from_f64(3.0) * l5_q5_dot;
-            out.slope.data.0[4][2] = cos_q5 * product_12;
-            out.slope.data.0[4][3] = product_12 * sin_q5;
-            let product_13 = l5_q5_dot * (q5_dot * q5_dot);
-            let product_14 = l4_q4_dot * (q4_dot * q4_dot);
-            out.bias.data.0[0][2] = (-sin_q4)
-                .mul_add(product_14, sin_q5 * product_13 - product_8);
-            out.bias.data.0[0][3] = (-cos_q5)
-                .mul_add(product_13, cos_q4.mul_add(product_14, product_10));
-        }
         /// Energies and the power supplied from outside.
         ///
         /// Costs 62 products, 43 sums, 5 sine–cosine pairs. As derived: 104 products, 35 sums, 5 sine–cosine pairs.
@@ -1863,8 +1796,9 @@ pub mod double_four_bar {
         /// Costs 4 products, 2 sums, 2 sine–cosine pairs.
         fn outputs(&self, state: &State<T, 5>, values: &mut [T]) {
             let [q1, q2, _, _, _] = state.q.data.0[0];
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let Parameters { l1, e2, .. } = self.parameters;
+            let (sin_q1, cos_q1) = q1.sin_cos();
+            let (sin_q2, cos_q2) = q2.sin_cos();
             let computed = [
                 e2.mul_add(cos_q2, l1 * cos_q1),
                 e2.mul_add(sin_q2, l1 * sin_q1),
@@ -1876,13 +1810,13 @@ pub mod double_four_bar {
         fn events(&self, _state: &State<T, 5>, _values: &mut [T]) {}
         fn draw(&self, state: &State<T, 5>, canvas: &mut dyn Canvas<T>) {
             let [q1, _, q3, _, q5] = state.q.data.0[0];
-            let ([sin_q1, sin_q3, sin_q5], [cos_q1, cos_q3, cos_q5]) = T::sin_cos_all(
-                &[q1, q3, q5],
-            );
             let Parameters { l1, l3, l5, l01, l02, .. } = self.parameters;
             let sum = l01 + l02;
+            let (sin_q1, cos_q1) = q1.sin_cos();
+            let (sin_q3, cos_q3) = q3.sin_cos();
             let sum_2 = l3.mul_add(cos_q3, l01);
             let l3_sin_q3 = l3 * sin_q3;
+            let (sin_q5, cos_q5) = q5.sin_cos();
             canvas
                 .line(
                     &[

@@ -11,9 +11,8 @@
 pub mod driven_pivot {
     use bricard_runtime::nalgebra::{SMatrix, SVector};
     use bricard_runtime::{
-        Branch, Canvas, ConstraintRow, Correction, Energy, Initial, Interface,
-        Linearised, Mechanism, Position, Quantity, Real, Regular, Start, State,
-        Structure, Terms,
+        Canvas, ConstraintRow, Correction, Energy, Initial, Interface, Linearised,
+        Mechanism, Position, Quantity, Real, Regular, Start, State, Structure, Terms,
     };
     /// The description that this module was generated from.
     pub const SOURCE: &str = "/// A pendulum whose pivot is shaken up and down: a constraint that depends on time.\n///\n/// Shaken fast enough, (A*w)^2 > 2*g*l with the reduced length l = J/(m*e) + e, the\n/// pendulum stands upright (Kapitza).\nmechanism DrivenPivot {\n    const g: m/s^2 = 9.81;\n\n    /// amplitude of the pivot\n    param A: m = 0.03;\n    /// angular frequency of the pivot\n    param w: rad/s = 150;\n    /// mass of the rod\n    param m: kg = 0.5;\n    /// distance from the pivot to the rod's centre of mass\n    param e: m = 0.25;\n    /// inertia of the rod about its centre of mass\n    param J: kg*m^2 = 0.01;\n    /// friction in the pivot\n    param d: N*m*s = 0.002;\n\n    /// height of the pivot\n    coord y: m;\n    /// angle of the rod, from the upward vertical\n    coord phi: rad;\n\n    let c = [e*sin(phi), y + e*cos(phi)];\n\n    kinetic 1/2*m*norm2(der(c)) + 1/2*J*der(phi)^2;\n    potential m*g*c.y;\n    dissipation 1/2*d*der(phi)^2;\n\n    constraint y = A*cos(w*t);\n\n    start { phi = 10*deg; der(phi) = 0; y ~ 0; }\n\n    /// end of the rod\n    output tip: m = c + e*[sin(phi), cos(phi)];\n\n    draw line([0, y], [2*e*sin(phi), y + 2*e*cos(phi)]);\n    draw circle([0, y], 0.01);\n}\n";
@@ -153,14 +152,15 @@ pub mod driven_pivot {
         fn terms(&self, state: &State<T, 2>, out: &mut Terms<T, 2, 1>) {
             let t = state.t;
             let [_, phi] = state.q.data.0[0];
-            let Parameters { a, w, m, e, j, d } = self.parameters;
-            let ([sin_phi, _], [cos_phi, cos_angle]) = T::sin_cos_all(&[phi, w * t]);
             let [_, phi_dot] = state.v.data.0[0];
+            let Parameters { a, w, m, e, j, d } = self.parameters;
             out.mass.data.0[0][0] = m;
             let m_e = m * e;
             out.mass.data.0[1][1] = e.mul_add(m_e, j);
             out.jacobian.data.0[0][0] = T::one();
+            let (_, cos_angle) = (w * t).sin_cos();
             out.bias.data.0[0][0] = -a * w * w * cos_angle;
+            let (sin_phi, cos_phi) = phi.sin_cos();
             let product = m_e * sin_phi;
             let sum = -product;
             out.mass.data.0[0][1] = sum;
@@ -178,11 +178,11 @@ pub mod driven_pivot {
         fn regular(&self, state: &State<T, 2>, out: &mut Regular<T, 2, 1>) -> bool {
             let t = state.t;
             let [_, phi] = state.q.data.0[0];
-            let Parameters { a, w, m, e, j, d } = self.parameters;
-            let ([sin_phi, _], [cos_phi, cos_angle]) = T::sin_cos_all(&[phi, w * t]);
             let [_, phi_dot] = state.v.data.0[0];
+            let Parameters { a, w, m, e, j, d } = self.parameters;
             let quotient = T::one() / m;
             let m_e = m * e;
+            let (sin_phi, cos_phi) = phi.sin_cos();
             let sum = (-T::constant(9.81, -4.973799150320702e-16))
                 .mul_add(m, m_e * phi_dot * phi_dot * cos_phi);
             let product = m_e * sin_phi;
@@ -196,6 +196,7 @@ pub mod driven_pivot {
             let sum_4 = product_2.mul_add(product_3, quotient);
             out.pivots.row_pivots.data.0[0][0] = sum_4;
             out.pivots.row_squares.data.0[0][0] = sum_4;
+            let (_, cos_angle) = (w * t).sin_cos();
             let sum_5 = sum
                 .mul_add(
                     product_2,
@@ -224,14 +225,15 @@ pub mod driven_pivot {
             let t = state.t;
             let [y, phi] = state.q.data.0[0];
             let Parameters { a, w, m, e, j, .. } = self.parameters;
-            let w_t = w * t;
-            let ([sin_phi, sin_angle], [_, cos_angle]) = T::sin_cos_all(&[phi, w_t]);
             out.mass.data.0[0][0] = m;
             let m_e = m * e;
             out.mass.data.0[1][1] = e.mul_add(m_e, j);
             out.jacobian.data.0[0][0] = T::one();
+            let w_t = w * t;
+            let (sin_angle, cos_angle) = w_t.sin_cos();
             out.drift.data.0[0][0] = a * w * sin_angle;
             out.residual.data.0[0][0] = (-a).mul_add(cos_angle, y);
+            let (sin_phi, _) = phi.sin_cos();
             let sum = -m_e * sin_phi;
             out.mass.data.0[0][1] = sum;
             out.mass.data.0[1][0] = sum;
@@ -248,14 +250,15 @@ pub mod driven_pivot {
         ) -> bool {
             let t = state.t;
             let [y, phi] = state.q.data.0[0];
+            let [y_dot, _] = state.v.data.0[0];
             let Parameters { a, w, m, e, j, .. } = self.parameters;
             let w_t = w * t;
-            let ([sin_phi, sin_angle], [_, cos_angle]) = T::sin_cos_all(&[phi, w_t]);
-            let [y_dot, _] = state.v.data.0[0];
+            let (sin_angle, cos_angle) = w_t.sin_cos();
             let sum = (-a).mul_add(cos_angle, y);
             out.residual.data.0[0][0] = sum;
             let quotient = T::one() / m;
             let m_e = m * e;
+            let (sin_phi, _) = phi.sin_cos();
             let product = m_e * sin_phi;
             let product_2 = quotient * product;
             let sum_2 = e.mul_add(m_e, j);
@@ -278,20 +281,6 @@ pub mod driven_pivot {
                 .mul_add(product_6, quotient * product_5);
             out.velocity.data.0[0][1] = -product_6;
             true
-        }
-        /// The constraints differentiated once more: `A q⃛ + K q̈ = κ`.
-        ///
-        /// | field | equation | shape | unit |
-        /// |---|---|---|---|
-        /// | `slope` | `K = Ȧ + ∂γ/∂q̇`, `γ = −p₂` | `R × N` | unit of the row per s and unit of the coordinate |
-        /// | `bias` | `κ = −(∂γ/∂t + ∂γ/∂q q̇)` | `R` | unit of the row per s³ |
-        ///
-        /// Costs 5 products, 1 sine–cosine pair.
-        fn branch(&self, state: &State<T, 2>, out: &mut Branch<T, 2, 1>) {
-            let t = state.t;
-            let Parameters { a, w, .. } = self.parameters;
-            let (sin_angle, _) = (w * t).sin_cos();
-            out.bias.data.0[0][0] = a * w * w * w * sin_angle;
         }
         /// Energies and the power supplied from outside.
         ///

@@ -11,9 +11,8 @@
 pub mod rolling_disc {
     use bricard_runtime::nalgebra::{SMatrix, SVector};
     use bricard_runtime::{
-        Branch, Canvas, ConstraintRow, Correction, Energy, Initial, Interface,
-        Linearised, Mechanism, Position, Quantity, Real, Regular, Start, State,
-        Structure, Terms,
+        Canvas, ConstraintRow, Correction, Energy, Initial, Interface, Linearised,
+        Mechanism, Position, Quantity, Real, Regular, Start, State, Structure, Terms,
     };
     /// The description that this module was generated from.
     pub const SOURCE: &str = "/// A disc that rolls on a plane without slipping, like a coin.\n///\n/// Rolling is two velocity constraints at the point of contact. Fast enough, with\n/// the speed above sqrt(g*r/3), the disc does not fall.\nmechanism RollingDisc {\n    const g: m/s^2 = 9.81;\n\n    /// radius\n    param r: m = 0.3;\n    /// mass, spread evenly\n    param m: kg = 1;\n\n    /// the point of contact\n    coord x: m;\n    coord y: m;\n    /// heading, from the x axis\n    coord psi: rad;\n    /// lean, from upright\n    coord theta: rad;\n    /// angle of rolling\n    coord phi: rad;\n\n    // The frame turns and leans with the disc, but does not roll with it.\n    let F = rotz(psi)*rotx(theta);\n    let w = omega(F) + [0, der(phi), 0];\n    let hub = [x, y, 0] + F*[0, 0, r];\n    let rim = F*[r*sin(phi), 0, r*cos(phi)];\n\n    kinetic 1/2*m*norm2(der(hub));\n    kinetic 1/8*m*r^2*(w.x^2 + w.z^2) + 1/4*m*r^2*w.y^2;\n    potential m*g*hub.z;\n\n    constraint der(x) = r*der(phi)*cos(psi);\n    constraint der(y) = r*der(phi)*sin(psi);\n\n    start {\n        x = 0;\n        y = 0;\n        psi = 0;\n        theta = 10*deg;\n        phi = 0;\n        der(psi) = 0;\n        der(theta) = 0;\n        der(phi) = 6;\n    }\n\n    /// the centre\n    output centre: m = hub;\n\n    draw line([x, y, 0], hub, hub + rim);\n    draw circle(hub, 0.01);\n    draw trace([x, y, 0]);\n    draw trace(hub + rim);\n}\n";
@@ -145,9 +144,6 @@ pub mod rolling_disc {
         /// Costs 43 products, 14 sums, 2 sine–cosine pairs. As derived: 240 products, 51 sums, 2 sine–cosine pairs.
         fn terms(&self, state: &State<T, 5>, out: &mut Terms<T, 5, 2>) {
             let [_, _, psi, theta, _] = state.q.data.0[0];
-            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
-                &[psi, theta],
-            );
             let [_, _, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
             out.mass.data.0[0][0] = m;
@@ -159,10 +155,12 @@ pub mod rolling_disc {
             out.mass.data.0[4][4] = product_2;
             out.jacobian.data.0[0][0] = T::one();
             out.jacobian.data.0[1][1] = T::one();
+            let (sin_psi, cos_psi) = psi.sin_cos();
             let r_cos_psi = r * cos_psi;
             out.jacobian.data.0[4][0] = -r_cos_psi;
             let r_sin_psi = r * sin_psi;
             out.jacobian.data.0[4][1] = -r_sin_psi;
+            let (sin_theta, cos_theta) = theta.sin_cos();
             let cos_psi_sin_theta = cos_psi * sin_theta;
             let product_3 = m_r * cos_psi_sin_theta;
             out.mass.data.0[0][2] = product_3;
@@ -214,13 +212,12 @@ pub mod rolling_disc {
         #[inline(always)]
         fn regular(&self, state: &State<T, 5>, out: &mut Regular<T, 5, 2>) -> bool {
             let [_, _, psi, theta, _] = state.q.data.0[0];
-            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
-                &[psi, theta],
-            );
             let [_, _, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
             let quotient = T::one() / m;
             let m_r = m * r;
+            let (sin_psi, cos_psi) = psi.sin_cos();
+            let (sin_theta, cos_theta) = theta.sin_cos();
             let sin_psi_sin_theta = sin_psi * sin_theta;
             let sum = theta_dot.mul_add(theta_dot, psi_dot * psi_dot);
             let psi_dot_cos_theta = psi_dot * cos_theta;
@@ -392,9 +389,6 @@ pub mod rolling_disc {
         /// Costs 16 products, 4 sums, 2 sine–cosine pairs. As derived: 66 products, 9 sums, 2 sine–cosine pairs.
         fn position(&self, state: &State<T, 5>, out: &mut Position<T, 5, 2>) {
             let [_, _, psi, theta, _] = state.q.data.0[0];
-            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
-                &[psi, theta],
-            );
             let Parameters { r, m } = self.parameters;
             out.mass.data.0[0][0] = m;
             out.mass.data.0[1][1] = m;
@@ -406,8 +400,10 @@ pub mod rolling_disc {
             out.mass.data.0[4][4] = product_3;
             out.jacobian.data.0[0][0] = T::one();
             out.jacobian.data.0[1][1] = T::one();
+            let (sin_psi, cos_psi) = psi.sin_cos();
             out.jacobian.data.0[4][0] = -r * cos_psi;
             out.jacobian.data.0[4][1] = -r * sin_psi;
+            let (sin_theta, cos_theta) = theta.sin_cos();
             let product_4 = m_r * cos_psi;
             let product_5 = sin_theta * product_4;
             out.mass.data.0[0][2] = product_5;
@@ -439,12 +435,11 @@ pub mod rolling_disc {
             out: &mut Correction<T, 5, 2>,
         ) -> bool {
             let [_, _, psi, theta, _] = state.q.data.0[0];
-            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
-                &[psi, theta],
-            );
             let [x_dot, y_dot, _, _, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
+            let (sin_theta, cos_theta) = theta.sin_cos();
             let m_r = m * r;
+            let (sin_psi, cos_psi) = psi.sin_cos();
             let product = m_r * cos_psi;
             let product_2 = sin_theta * product;
             let quotient = T::one() / m;
@@ -544,44 +539,18 @@ pub mod rolling_disc {
                 );
             true
         }
-        /// The constraints differentiated once more: `A q⃛ + K q̈ = κ`.
-        ///
-        /// | field | equation | shape | unit |
-        /// |---|---|---|---|
-        /// | `slope` | `K = Ȧ + ∂γ/∂q̇`, `γ = −p₂` | `R × N` | unit of the row per s and unit of the coordinate |
-        /// | `bias` | `κ = −(∂γ/∂t + ∂γ/∂q q̇)` | `R` | unit of the row per s³ |
-        ///
-        /// Costs 10 products, 4 sums, 1 sine–cosine pair. As derived: 18 products, 4 sums, 1 sine–cosine pair.
-        fn branch(&self, state: &State<T, 5>, out: &mut Branch<T, 5, 2>) {
-            let [_, _, psi, _, _] = state.q.data.0[0];
-            let [_, _, psi_dot, _, phi_dot] = state.v.data.0[0];
-            let Parameters { r, .. } = self.parameters;
-            let (sin_psi, cos_psi) = psi.sin_cos();
-            let product = T::from_f64(2.0) * (r * psi_dot);
-            out.slope.data.0[4][0] = sin_psi * product;
-            out.slope.data.0[4][1] = -product * cos_psi;
-            let r_phi_dot = r * phi_dot;
-            let product_2 = sin_psi * r_phi_dot;
-            out.slope.data.0[2][0] = product_2;
-            let product_3 = cos_psi * r_phi_dot;
-            out.slope.data.0[2][1] = -product_3;
-            let psi_dot_psi_dot = psi_dot * psi_dot;
-            out.bias.data.0[0][0] = -product_3 * psi_dot_psi_dot;
-            out.bias.data.0[0][1] = -product_2 * psi_dot_psi_dot;
-        }
         /// Energies and the power supplied from outside.
         ///
         /// Costs 34 products, 21 sums, 2 sine–cosine pairs. As derived: 89 products, 22 sums, 2 sine–cosine pairs.
         fn energy(&self, state: &State<T, 5>) -> Energy<T> {
             let [_, _, psi, theta, _] = state.q.data.0[0];
-            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
-                &[psi, theta],
-            );
             let [x_dot, y_dot, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
             let r_m = r * m;
+            let (sin_theta, cos_theta) = theta.sin_cos();
             let product = r_m * cos_theta;
             let product_2 = T::constant(9.81, -4.973799150320702e-16) * product;
+            let (sin_psi, cos_psi) = psi.sin_cos();
             let psi_dot_sin_theta = psi_dot * sin_theta;
             let product_3 = r_m * psi_dot_sin_theta;
             let product_4 = x_dot * cos_psi * product_3;
@@ -632,15 +601,13 @@ pub mod rolling_disc {
             out: &mut Linearised<T, 5, 2>,
         ) -> bool {
             let [_, _, psi, theta, _] = state.q.data.0[0];
-            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
-                &[psi, theta],
-            );
             let [_, _, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let [x_ddot, y_ddot, psi_ddot, theta_ddot, phi_ddot] = acceleration
                 .data
                 .0[0];
             let [lambda_0, lambda_1] = multiplier.data.0[0];
             let Parameters { r, m } = self.parameters;
+            let (sin_psi, cos_psi) = psi.sin_cos();
             let cos_psi_r = cos_psi * r;
             let r_sin_psi = r * sin_psi;
             out.force_by_position.data.0[2][4] = (-lambda_0)
@@ -648,6 +615,7 @@ pub mod rolling_disc {
             let r_psi_dot = r * psi_dot;
             out.row_by_velocity.data.0[4][0] = -sin_psi * r_psi_dot;
             out.row_by_velocity.data.0[4][1] = cos_psi * r_psi_dot;
+            let (sin_theta, cos_theta) = theta.sin_cos();
             let r_m = r * m;
             let product = sin_theta * r_m;
             let product_2 = cos_psi * product;
@@ -801,9 +769,6 @@ pub mod rolling_disc {
         pub fn mass_matrix(&self, state: &State<T, 5>) -> SMatrix<T, 5, 5> {
             let mut out = SMatrix::zeros();
             let [_, _, psi, theta, _] = state.q.data.0[0];
-            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
-                &[psi, theta],
-            );
             let Parameters { r, m } = self.parameters;
             out.data.0[0][0] = m;
             out.data.0[1][1] = m;
@@ -813,6 +778,8 @@ pub mod rolling_disc {
             out.data.0[3][3] = product_2;
             let product_3 = T::from_f64(0.5) * product;
             out.data.0[4][4] = product_3;
+            let (sin_theta, cos_theta) = theta.sin_cos();
+            let (sin_psi, cos_psi) = psi.sin_cos();
             let product_4 = m_r * cos_psi;
             let product_5 = sin_theta * product_4;
             out.data.0[0][2] = product_5;
@@ -859,11 +826,10 @@ pub mod rolling_disc {
         pub fn coriolis_force(&self, state: &State<T, 5>) -> SVector<T, 5> {
             let mut out = SVector::zeros();
             let [_, _, psi, theta, _] = state.q.data.0[0];
-            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
-                &[psi, theta],
-            );
             let [_, _, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
+            let (sin_psi, cos_psi) = psi.sin_cos();
+            let (sin_theta, cos_theta) = theta.sin_cos();
             let theta_dot_cos_theta = theta_dot * cos_theta;
             let product = T::from_f64(2.0) * theta_dot_cos_theta;
             let psi_dot_sin_theta = psi_dot * sin_theta;
@@ -897,13 +863,12 @@ pub mod rolling_disc {
         pub fn coriolis_matrix(&self, state: &State<T, 5>) -> SMatrix<T, 5, 5> {
             let mut out = SMatrix::zeros();
             let [_, _, psi, theta, _] = state.q.data.0[0];
-            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
-                &[psi, theta],
-            );
             let [_, _, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
+            let (sin_theta, cos_theta) = theta.sin_cos();
             let r_m = r * m;
             let product = cos_theta * r_m;
+            let (sin_psi, cos_psi) = psi.sin_cos();
             let theta_dot_cos_psi = theta_dot * cos_psi;
             let product_2 = r_m * sin_theta;
             let psi_dot_sin_psi = psi_dot * sin_psi;
@@ -1039,10 +1004,9 @@ pub mod rolling_disc {
         /// Costs 4 products, 2 sums, 2 sine–cosine pairs. As derived: 5 products, 2 sums, 2 sine–cosine pairs.
         fn outputs(&self, state: &State<T, 5>, values: &mut [T]) {
             let [x, y, psi, theta, _] = state.q.data.0[0];
-            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
-                &[psi, theta],
-            );
             let Parameters { r, .. } = self.parameters;
+            let (sin_psi, cos_psi) = psi.sin_cos();
+            let (sin_theta, cos_theta) = theta.sin_cos();
             let r_sin_theta = r * sin_theta;
             let computed = [
                 sin_psi.mul_add(r_sin_theta, x),
@@ -1056,14 +1020,14 @@ pub mod rolling_disc {
         fn events(&self, _state: &State<T, 5>, _values: &mut [T]) {}
         fn draw(&self, state: &State<T, 5>, canvas: &mut dyn Canvas<T>) {
             let [x, y, psi, theta, phi] = state.q.data.0[0];
-            let ([sin_psi, sin_theta, sin_phi], [cos_psi, cos_theta, cos_phi]) = T::sin_cos_all(
-                &[psi, theta, phi],
-            );
             let Parameters { r, .. } = self.parameters;
+            let (sin_psi, cos_psi) = psi.sin_cos();
+            let (sin_theta, cos_theta) = theta.sin_cos();
             let r_sin_theta = r * sin_theta;
             let product = sin_psi * r_sin_theta;
             let sum = x + product;
             let r_cos_theta = r * cos_theta;
+            let (sin_phi, cos_phi) = phi.sin_cos();
             let r_sin_phi = r * sin_phi;
             let sum_2 = sum + product.mul_add(cos_phi, cos_psi * r_sin_phi);
             let sum_3 = r_cos_theta.mul_add(cos_phi, r_cos_theta);

@@ -11,9 +11,8 @@
 pub mod slider_crank {
     use bricard_runtime::nalgebra::{SMatrix, SVector};
     use bricard_runtime::{
-        Branch, Canvas, ConstraintRow, Correction, Energy, Initial, Interface,
-        Linearised, Mechanism, Position, Quantity, Real, Regular, Start, State,
-        Structure, Terms,
+        Canvas, ConstraintRow, Correction, Energy, Initial, Interface, Linearised,
+        Mechanism, Position, Quantity, Real, Regular, Start, State, Structure, Terms,
     };
     /// The description that this module was generated from.
     pub const SOURCE: &str = "/// Slider–crank with equal links, moving freely: Phong & Hoang (2012), Example 1.\n///\n/// The slider passes over the crank's bearing, where the constraints lose rank:\n/// at q1 = pi/2 + k*pi.\nmechanism SliderCrank {\n    const g: m/s^2 = 9.81;\n\n    /// length of the crank\n    param L1: m = 0.5;\n    /// length of the connecting rod\n    param L2: m = 0.5;\n    /// mass of the crank\n    param m1: kg = 1;\n    /// mass of the connecting rod\n    param m2: kg = 1;\n    /// mass of the slider\n    param m3: kg = 0.5;\n    /// inertia of the crank about its centre of mass\n    param J1: kg*m^2 = 0.1;\n    /// inertia of the connecting rod about its centre of mass\n    param J2: kg*m^2 = 0.1;\n    let e1 = L1/2;\n    let e2 = L2/2;\n\n    /// crank angle, from the x axis\n    coord q1: rad;\n    /// angle of the connecting rod, downwards from the x axis\n    coord q2: rad;\n    /// position of the slider\n    coord q3: m;\n\n    let A = [L1*cos(q1), L1*sin(q1)];\n    let c2 = A + e2*[cos(q2), -sin(q2)];\n\n    kinetic 1/2*(m1*e1^2 + J1)*der(q1)^2;\n    kinetic 1/2*m2*norm2(der(c2)) + 1/2*J2*der(q2)^2;\n    kinetic 1/2*m3*der(q3)^2;\n    potential m1*g*e1*sin(q1) + m2*g*c2.y;\n\n    constraint L1*cos(q1) + L2*cos(q2) = q3;\n    constraint L1*sin(q1) = L2*sin(q2);\n\n    start { q1 = 45*deg; q2 ~ 45*deg; q3 ~ 0.7; }\n\n    /// position of the connecting rod's centre of mass\n    output x2: m = c2.x;\n    output y2: m = c2.y;\n\n    draw line([0, 0], A, [q3, 0]);\n    draw polygon([q3 - 0.05, -0.03], [q3 + 0.05, -0.03], [q3 + 0.05, 0.03], [q3 - 0.05, 0.03]);\n}\n";
@@ -170,7 +169,6 @@ pub mod slider_crank {
         /// Costs 35 products, 15 sums, 2 sine–cosine pairs. As derived: 112 products, 35 sums, 2 sine–cosine pairs.
         fn terms(&self, state: &State<T, 3>, out: &mut Terms<T, 3, 2>) {
             let [q1, q2, _] = state.q.data.0[0];
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
             out.mass.data.0[0][0] = (l1 * l1)
@@ -179,8 +177,10 @@ pub mod slider_crank {
             out.mass.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             out.mass.data.0[2][2] = m3;
             out.jacobian.data.0[2][0] = -T::one();
+            let (sin_q1, cos_q1) = q1.sin_cos();
             out.jacobian.data.0[0][0] = -l1 * sin_q1;
             out.jacobian.data.0[0][1] = l1 * cos_q1;
+            let (sin_q2, cos_q2) = q2.sin_cos();
             let product = T::from_f64(0.5) * l1 * m2_l2
                 * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2);
             out.mass.data.0[0][1] = product;
@@ -216,15 +216,16 @@ pub mod slider_crank {
         #[inline(always)]
         fn regular(&self, state: &State<T, 3>, out: &mut Regular<T, 3, 2>) -> bool {
             let [q1, q2, _] = state.q.data.0[0];
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
             let quotient = T::one()
                 / (l1 * l1).mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
+            let (sin_q1, cos_q1) = q1.sin_cos();
             let l1_sin_q1 = l1 * sin_q1;
             let quotient_2 = T::one() / m3;
             let product = quotient * l1_sin_q1;
             let m2_l2 = m2 * l2;
+            let (sin_q2, cos_q2) = q2.sin_cos();
             let product_2 = T::from_f64(0.5) * l1 * m2_l2
                 * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2);
             let product_3 = quotient * product_2;
@@ -311,7 +312,6 @@ pub mod slider_crank {
         /// Costs 15 products, 11 sums, 2 sine–cosine pairs. As derived: 35 products, 13 sums, 2 sine–cosine pairs.
         fn position(&self, state: &State<T, 3>, out: &mut Position<T, 3, 2>) {
             let [q1, q2, q3] = state.q.data.0[0];
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
             out.mass.data.0[0][0] = (l1 * l1)
                 .mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
@@ -319,10 +319,12 @@ pub mod slider_crank {
             out.mass.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             out.mass.data.0[2][2] = m3;
             out.jacobian.data.0[2][0] = -T::one();
+            let (sin_q1, cos_q1) = q1.sin_cos();
             let l1_sin_q1 = l1 * sin_q1;
             out.jacobian.data.0[0][0] = -l1_sin_q1;
             let l1_cos_q1 = l1 * cos_q1;
             out.jacobian.data.0[0][1] = l1_cos_q1;
+            let (sin_q2, cos_q2) = q2.sin_cos();
             let product = T::from_f64(0.5) * l1 * m2_l2
                 * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2);
             out.mass.data.0[0][1] = product;
@@ -345,10 +347,11 @@ pub mod slider_crank {
             out: &mut Correction<T, 3, 2>,
         ) -> bool {
             let [q1, q2, q3] = state.q.data.0[0];
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, q3_dot] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
+            let (sin_q1, cos_q1) = q1.sin_cos();
             let l1_sin_q1 = l1 * sin_q1;
+            let (sin_q2, cos_q2) = q2.sin_cos();
             let l2_sin_q2 = l2 * sin_q2;
             let sum = l1_sin_q1 - l2_sin_q2;
             out.residual.data.0[0][1] = sum;
@@ -425,47 +428,19 @@ pub mod slider_crank {
             out.velocity.data.0[0][2] = quotient_2 * sum_14;
             true
         }
-        /// The constraints differentiated once more: `A q⃛ + K q̈ = κ`.
-        ///
-        /// | field | equation | shape | unit |
-        /// |---|---|---|---|
-        /// | `slope` | `K = Ȧ + ∂γ/∂q̇`, `γ = −p₂` | `R × N` | unit of the row per s and unit of the coordinate |
-        /// | `bias` | `κ = −(∂γ/∂t + ∂γ/∂q q̇)` | `R` | unit of the row per s³ |
-        ///
-        /// Costs 16 products, 6 sums, 2 sine–cosine pairs. As derived: 28 products, 7 sums, 2 sine–cosine pairs.
-        fn branch(&self, state: &State<T, 3>, out: &mut Branch<T, 3, 2>) {
-            let [q1, q2, _] = state.q.data.0[0];
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
-            let [q1_dot, q2_dot, _] = state.v.data.0[0];
-            let Parameters { l1, l2, .. } = self.parameters;
-            let l1_q1_dot = l1 * q1_dot;
-            let product = cos_q1 * l1_q1_dot;
-            out.slope.data.0[0][0] = -T::from_f64(3.0) * product;
-            let product_2 = l1_q1_dot * sin_q1;
-            out.slope.data.0[0][1] = -T::from_f64(3.0) * product_2;
-            let l2_q2_dot = l2 * q2_dot;
-            let product_3 = T::from_f64(3.0) * l2_q2_dot;
-            out.slope.data.0[1][0] = -cos_q2 * product_3;
-            out.slope.data.0[1][1] = product_3 * sin_q2;
-            let q1_dot_q1_dot = q1_dot * q1_dot;
-            let product_4 = l2_q2_dot * (q2_dot * q2_dot);
-            out.bias.data.0[0][0] = (-sin_q2)
-                .mul_add(product_4, -product_2 * q1_dot_q1_dot);
-            out.bias.data.0[0][1] = (-cos_q2)
-                .mul_add(product_4, product * q1_dot_q1_dot);
-        }
         /// Energies and the power supplied from outside.
         ///
         /// Costs 33 products, 19 sums, 2 sine–cosine pairs. As derived: 54 products, 17 sums, 2 sine–cosine pairs.
         fn energy(&self, state: &State<T, 3>) -> Energy<T> {
             let [q1, q2, _] = state.q.data.0[0];
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, q3_dot] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
+            let (sin_q1, cos_q1) = q1.sin_cos();
             let l1_m1 = l1 * m1;
             let product = T::constant(4.905, -2.486899575160351e-16) * sin_q1 * l1_m1;
             let l1_m2 = l1 * m2;
             let product_2 = T::constant(9.81, -4.973799150320702e-16) * sin_q1 * l1_m2;
+            let (sin_q2, cos_q2) = q2.sin_cos();
             let m2_l2 = m2 * l2;
             let product_3 = T::constant(4.905, -2.486899575160351e-16) * sin_q2 * m2_l2;
             let product_4 = T::from_f64(0.5) * j2 * q2_dot * q2_dot;
@@ -510,11 +485,11 @@ pub mod slider_crank {
             out: &mut Linearised<T, 3, 2>,
         ) -> bool {
             let [q1, q2, _] = state.q.data.0[0];
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let [q1_ddot, q2_ddot, _] = acceleration.data.0[0];
             let [lambda_0, lambda_1] = multiplier.data.0[0];
             let Parameters { l1, l2, m1, m2, .. } = self.parameters;
+            let (sin_q1, cos_q1) = q1.sin_cos();
             let q1_dot_q1_dot = q1_dot * q1_dot;
             out.row_by_position.data.0[0][0] = l1
                 * (-sin_q1).mul_add(q1_dot_q1_dot, cos_q1 * q1_ddot);
@@ -524,6 +499,7 @@ pub mod slider_crank {
             out.row_by_velocity.data.0[0][0] = cos_q1 * product;
             out.row_by_velocity.data.0[0][1] = sin_q1 * product;
             let q2_dot_q2_dot = q2_dot * q2_dot;
+            let (sin_q2, cos_q2) = q2.sin_cos();
             let product_2 = l2 * (l1 * m2);
             let product_3 = T::from_f64(0.5) * product_2;
             let product_4 = sin_q1 * product_3;
@@ -590,12 +566,13 @@ pub mod slider_crank {
         pub fn mass_matrix(&self, state: &State<T, 3>) -> SMatrix<T, 3, 3> {
             let mut out = SMatrix::zeros();
             let [q1, q2, _] = state.q.data.0[0];
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
             out.data.0[0][0] = (l1 * l1).mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
             let m2_l2 = m2 * l2;
             out.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             out.data.0[2][2] = m3;
+            let (sin_q1, cos_q1) = q1.sin_cos();
+            let (sin_q2, cos_q2) = q2.sin_cos();
             let product = T::from_f64(0.5) * l1 * m2_l2
                 * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2);
             out.data.0[0][1] = product;
@@ -608,11 +585,12 @@ pub mod slider_crank {
         pub fn potential_force(&self, state: &State<T, 3>) -> SVector<T, 3> {
             let mut out = SVector::zeros();
             let [q1, q2, _] = state.q.data.0[0];
-            let ([_, _], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let Parameters { l1, l2, m1, m2, .. } = self.parameters;
+            let (_, cos_q1) = q1.sin_cos();
             out.data.0[0][0] = l1 * cos_q1
                 * T::constant(9.81, -4.973799150320702e-16)
                     .mul_add(m2, T::constant(4.905, -2.486899575160351e-16) * m1);
+            let (_, cos_q2) = q2.sin_cos();
             out.data.0[0][1] = -T::constant(4.905, -2.486899575160351e-16) * m2 * l2
                 * cos_q2;
             out
@@ -630,9 +608,10 @@ pub mod slider_crank {
         pub fn coriolis_force(&self, state: &State<T, 3>) -> SVector<T, 3> {
             let mut out = SVector::zeros();
             let [q1, q2, _] = state.q.data.0[0];
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, m2, .. } = self.parameters;
+            let (sin_q1, cos_q1) = q1.sin_cos();
+            let (sin_q2, cos_q2) = q2.sin_cos();
             let product = (T::from_f64(0.5) * m2)
                 * (sin_q1.mul_add(cos_q2, cos_q1 * sin_q2) * (l1 * l2));
             out.data.0[0][0] = q2_dot * q2_dot * product;
@@ -646,9 +625,10 @@ pub mod slider_crank {
         pub fn coriolis_matrix(&self, state: &State<T, 3>) -> SMatrix<T, 3, 3> {
             let mut out = SMatrix::zeros();
             let [q1, q2, _] = state.q.data.0[0];
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, m2, .. } = self.parameters;
+            let (sin_q1, cos_q1) = q1.sin_cos();
+            let (sin_q2, cos_q2) = q2.sin_cos();
             let product = T::from_f64(0.5)
                 * (m2 * (l1 * l2 * sin_q1.mul_add(cos_q2, cos_q1 * sin_q2)));
             out.data.0[0][1] = q1_dot * product;
@@ -661,8 +641,9 @@ pub mod slider_crank {
         pub fn constraint_residual(&self, state: &State<T, 3>) -> SVector<T, 2> {
             let mut out = SVector::zeros();
             let [q1, q2, q3] = state.q.data.0[0];
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let Parameters { l1, l2, .. } = self.parameters;
+            let (sin_q1, cos_q1) = q1.sin_cos();
+            let (sin_q2, cos_q2) = q2.sin_cos();
             out.data.0[0][1] = (-l2).mul_add(sin_q2, l1 * sin_q1);
             out.data.0[0][0] = l2.mul_add(cos_q2, l1 * cos_q1) - q3;
             out
@@ -673,11 +654,12 @@ pub mod slider_crank {
         pub fn constraint_jacobian(&self, state: &State<T, 3>) -> SMatrix<T, 2, 3> {
             let mut out = SMatrix::zeros();
             let [q1, q2, _] = state.q.data.0[0];
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let Parameters { l1, l2, .. } = self.parameters;
             out.data.0[2][0] = -T::one();
+            let (sin_q1, cos_q1) = q1.sin_cos();
             out.data.0[0][0] = -l1 * sin_q1;
             out.data.0[0][1] = l1 * cos_q1;
+            let (sin_q2, cos_q2) = q2.sin_cos();
             out.data.0[1][0] = -l2 * sin_q2;
             out.data.0[1][1] = -l2 * cos_q2;
             out
@@ -688,10 +670,11 @@ pub mod slider_crank {
         pub fn constraint_bias(&self, state: &State<T, 3>) -> SVector<T, 2> {
             let mut out = SVector::zeros();
             let [q1, q2, _] = state.q.data.0[0];
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, .. } = self.parameters;
+            let (sin_q1, cos_q1) = q1.sin_cos();
             let product = q1_dot * (q1_dot * l1);
+            let (sin_q2, cos_q2) = q2.sin_cos();
             let product_2 = q2_dot * (q2_dot * l2);
             out.data.0[0][0] = cos_q2.mul_add(product_2, cos_q1 * product);
             out.data.0[0][1] = (-product_2).mul_add(sin_q2, product * sin_q1);
@@ -763,8 +746,9 @@ pub mod slider_crank {
         /// Costs 5 products, 2 sums, 2 sine–cosine pairs. As derived: 6 products, 2 sums, 2 sine–cosine pairs.
         fn outputs(&self, state: &State<T, 3>, values: &mut [T]) {
             let [q1, q2, _] = state.q.data.0[0];
-            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let Parameters { l1, l2, .. } = self.parameters;
+            let (sin_q1, cos_q1) = q1.sin_cos();
+            let (sin_q2, cos_q2) = q2.sin_cos();
             let product = T::from_f64(0.5) * l2;
             let computed = [
                 cos_q2.mul_add(product, l1 * cos_q1),

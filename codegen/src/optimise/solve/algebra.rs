@@ -19,9 +19,16 @@ pub(super) type Sparse = BTreeMap<(usize, usize), Signed>;
 /// Appends arithmetic to a program.
 pub(super) struct Algebra {
     pub program: Program,
+    /// The longest program that is worth while: of two ways the shorter one is taken.
+    pub longest: usize,
 }
 
 impl Algebra {
+    /// Whether there are more operations than are worth while.
+    pub fn is_too_long(&self) -> bool {
+        self.program.len() > self.longest
+    }
+
     /// `Σ x_k y_k − less`.
     pub fn dot(&mut self, x: &[Entry], y: &[Entry], less: Entry) -> Entry {
         let pairs = x.iter().zip(y);

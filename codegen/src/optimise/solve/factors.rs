@@ -3,51 +3,25 @@
 use super::algebra::{Algebra, Entry, Signed, Sparse};
 use crate::expr::Number;
 use crate::optimise::program::Operation;
-use std::collections::BTreeSet;
-
-/// The longest program that a solve is written into: a bound on the work of the
-/// generator. Beyond it the runtime's solves stay.
-const OPERATIONS_MAX: usize = 100_000;
 
 /// `L D Lᵀ` in an order of elimination.
 pub(super) struct Factors {
-    order: Vec<usize>,
+    pub order: Vec<usize>,
     /// Below the unit diagonal of `L`: by pivot, the rows and their entries.
-    columns: Vec<Vec<(usize, Signed)>>,
+    pub columns: Vec<Vec<(usize, Signed)>>,
     /// `1 / d`, by pivot.
-    inverse: Vec<Signed>,
+    pub inverse: Vec<Signed>,
     /// `d_i` and the `m_ii` that elimination made it of, by row.
     pub pivots: Vec<(Signed, Signed)>,
-    /// Whether a pivot is zero whatever the state, or elimination took more than
-    /// [`OPERATIONS_MAX`]: then the rest is not to be used.
+    /// Whether a pivot is zero whatever the state, or the program became too long: then
+    /// the rest is not to be used.
     pub given_up: bool,
 }
 
-/// An order of elimination by minimum degree; of equals the first.
-fn elimination_order(matrix: &Sparse, n: usize) -> Vec<usize> {
-    let mut neighbours: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); n];
-    for &(i, j) in matrix.keys().filter(|(i, j)| i != j) {
-        neighbours[i].insert(j);
-        neighbours[j].insert(i);
-    }
-    let mut left: BTreeSet<usize> = (0..n).collect();
-    let mut order = Vec::with_capacity(n);
-    while let Some(&next) = left.iter().min_by_key(|&&i| (neighbours[i].len(), i)) {
-        left.remove(&next);
-        order.push(next);
-        let around = std::mem::take(&mut neighbours[next]);
-        for &i in &around {
-            neighbours[i].remove(&next);
-            neighbours[i].extend(around.iter().copied().filter(|&j| j != i));
-        }
-    }
-    order
-}
-
 impl Algebra {
-    /// `M = L D Lᵀ` of a symmetric matrix.
-    pub fn factorise(&mut self, matrix: &Sparse, n: usize) -> Factors {
-        let order = elimination_order(matrix, n);
+    /// `M = L D Lᵀ` of a symmetric matrix, in an order of its rows.
+    pub fn factorise(&mut self, matrix: &Sparse, order: Vec<usize>) -> Factors {
+        let n = order.len();
         let mut rest = matrix.clone();
         let one = self.program.push(Operation::Number(Number::ONE));
         let mut inverse = vec![(false, one); n];
@@ -58,7 +32,7 @@ impl Algebra {
         for (step, &k) in order.iter().enumerate() {
             let pivot = rest.get(&(k, k)).copied().unwrap_or(zero);
             given_up |= self.as_number(pivot.1).is_some_and(Number::is_zero);
-            given_up |= self.program.len() > OPERATIONS_MAX;
+            given_up |= self.is_too_long();
             if given_up {
                 break;
             }

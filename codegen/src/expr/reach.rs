@@ -1,0 +1,102 @@
+//! What expressions are made of.
+
+use super::bits::Bits;
+use super::{ExprId, Function2, Graph, Node, Symbol};
+use std::collections::BTreeSet;
+
+impl Node {
+    /// The expressions it is made of.
+    pub fn children(&self) -> Vec<ExprId> {
+        let mut children = Vec::new();
+        self.for_each_child(&mut |child| children.push(child));
+        children
+    }
+
+    /// Shows the expressions it is made of, in order.
+    pub(crate) fn for_each_child(&self, show: &mut dyn FnMut(ExprId)) {
+        match self {
+            Node::Number(_) | Node::Pi | Node::Symbol(_) => {}
+            Node::Sum(_, terms) => {
+                for (term, _) in terms {
+                    show(*term);
+                }
+            }
+            Node::Product(factors) => {
+                for (base, _) in factors {
+                    show(*base);
+                }
+            }
+            Node::Function(_, x) => show(*x),
+            Node::Function2(_, x, y) => {
+                show(*x);
+                show(*y);
+            }
+            Node::Select(_, parts) => {
+                for part in parts {
+                    show(*part);
+                }
+            }
+        }
+    }
+}
+
+impl Graph {
+    /// Every expression that some roots are made of, in an order of evaluation.
+    pub fn reachable(&self, roots: &[ExprId]) -> Vec<ExprId> {
+        self.reachable_but(roots, &|_| false)
+    }
+
+    /// The same, without what is known and what only that is made of.
+    pub(super) fn reachable_but(
+        &self,
+        roots: &[ExprId],
+        known: &dyn Fn(ExprId) -> bool,
+    ) -> Vec<ExprId> {
+        let mut seen = Bits::below(self.len());
+        let mut pending = Vec::new();
+        for &root in roots {
+            if !known(root) && seen.insert(root.index()) {
+                pending.push(root);
+            }
+        }
+        while let Some(e) = pending.pop() {
+            self.node(e).for_each_child(&mut |child| {
+                if !known(child) && seen.insert(child.index()) {
+                    pending.push(child);
+                }
+            });
+        }
+        seen.ascending().into_iter().map(ExprId::at).collect()
+    }
+
+    /// Every symbol an expression is made of.
+    pub fn symbols(&self, e: ExprId) -> BTreeSet<Symbol> {
+        let symbol = |e: ExprId| match self.node(e) {
+            Node::Symbol(symbol) => Some(*symbol),
+            _ => None,
+        };
+        self.reachable(&[e])
+            .into_iter()
+            .filter_map(symbol)
+            .collect()
+    }
+
+    /// Whether an expression is made of a symbol among others.
+    pub fn depends_on(&self, e: ExprId, symbol: Symbol) -> bool {
+        self.symbols(e).contains(&symbol)
+    }
+
+    /// Whether an expression contains `abs`, `sign`, `min`, `max` or `if`.
+    pub fn contains_nondifferentiable(&self, e: ExprId) -> bool {
+        self.reachable(&[e])
+            .into_iter()
+            .any(|e| match self.node(e) {
+                Node::Function(function, _) => !function.is_differentiable(),
+                Node::Function2(function, ..) => {
+                    matches!(function, Function2::Min | Function2::Max)
+                }
+                Node::Select(..) => true,
+                _ => false,
+            })
+    }
+}

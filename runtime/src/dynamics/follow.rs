@@ -1,0 +1,338 @@
+//! Following a sheet of the constraint set from one accepted state to the next.
+//!
+//! In:  states of trial steps, and the news which of them were accepted.
+//! Out: accelerations and projections on the sheet; refusals of steps that left it.
+//!
+//! Far from singular configurations nothing of this is needed. A step that turns out to
+//! come near one is taken again with a chart.
+
+use super::{Solver, Source, Which};
+use crate::linalg::{Breakdown, project_onto};
+use crate::singular::{Found, Obstacle, Placed, Placement, Point, Start};
+use crate::state::all_finite;
+use crate::tolerance::{resolvable, round_off, window};
+use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State, Step};
+use nalgebra::SVector;
+
+/// A start that is off the constraints by less than this, in units of round-off, stays
+/// what it is to the last bit.
+const MOST_ROUND_OFF: f64 = 8.0;
+
+impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+    /// Begins a step at a state: goes on if it is the last accepted one.
+    #[inline]
+    pub(crate) fn begin_step(&mut self, state: &State<T, N>) {
+        if self.session.base.as_ref() != Some(state) {
+            self.session.begin(state);
+            self.safe = None;
+            self.expect_regular();
+        }
+        self.session.trial.lowest = T::one();
+        self.session.trial.wants_chart = false;
+        self.session.trial.crosses = false;
+    }
+
+    /// Takes note of the accepted error of a step.
+    pub(crate) fn expect_error(&mut self, tolerance: Option<T>) {
+        self.session.tolerance = tolerance;
+    }
+
+    /// Error of an interpolation, relative, that is accepted: a tenth of that of a step.
+    pub(crate) fn accepted(&self) -> T {
+        let tolerance = self.session.tolerance.unwrap_or(T::EPSILON.sqrt());
+        (tolerance * T::from_f64(0.1)).max(resolvable())
+    }
+
+    /// Begins at a state, which is moved onto the constraints if it is not on them to
+    /// round-off.
+    pub(crate) fn start<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &mut State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        self.begin_step(state);
+        if R == 0 || self.settings.stabilisation != Stabilisation::Projection {
+            return Ok(());
+        }
+        self.prepare(mechanism, state)?;
+        let mut placed = *state;
+        if let Err(error) = self.project(mechanism, &mut placed) {
+            if !self.escalate(mechanism)? {
+                return Err(error);
+            }
+            self.project(mechanism, &mut placed)?;
+        }
+        mechanism.position(state, &mut self.position);
+        let (worst, _) = self.residual(&self.position.residual);
+        let speed = self.position.jacobian * state.v + self.position.drift;
+        let (fastest, _) = self.residual(&speed);
+        let rate = self.metric.factor.length(&state.v.data.0[0]);
+        let most = T::from_f64(MOST_ROUND_OFF) * round_off();
+        // False for NaN, too.
+        let is_on = worst <= most * self.reach && fastest <= most * rate;
+        if !is_on {
+            *state = placed;
+            self.session.begin(state);
+        }
+        Ok(())
+    }
+
+    /// Whether states of this step are put onto their sheet: forms that always have a
+    /// chart do so next to singular configurations only.
+    pub(crate) fn is_beside(&self) -> bool {
+        self.settings.form == Form::Reduced || self.session.near
+    }
+
+    /// Whether singular configurations are looked after at all.
+    pub(crate) fn follows(&self) -> bool {
+        R > 0 && !self.settings.published
+    }
+
+    /// Makes a chart at the last accepted state if the trial step wanted one; whether it
+    /// did.
+    pub(crate) fn escalate<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+    ) -> Result<bool, DynamicsError<T>> {
+        let wanted = core::mem::take(&mut self.session.trial.wants_chart);
+        let Some(base) = self
+            .session
+            .base
+            .filter(|_| wanted && self.session.chart.is_none())
+        else {
+            return Ok(false);
+        };
+        if self.session.rests {
+            return Ok(false);
+        }
+        if mechanism.structure().regular {
+            return Err(self.not_regular(mechanism, &base)?);
+        }
+        match self.start_at(mechanism, &base)? {
+            Start::Sheet(chart) => {
+                self.session.chart = Some(chart);
+                self.session.near = true;
+            }
+            Start::Undetermined if base.v == SVector::<T, N>::zeros() => {
+                self.counters.undetermined += 1;
+                self.session.rests = true;
+            }
+            Start::Undetermined => {
+                return Err(self.refusal(mechanism, Obstacle::Undetermined, base.t));
+            }
+        }
+        self.expected = false;
+        self.safe = None;
+        Ok(true)
+    }
+
+    /// The error of constraints that were declared to be regular and are not.
+    pub(super) fn not_regular<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<DynamicsError<T>, DynamicsError<T>> {
+        mechanism.position(state, &mut self.position);
+        self.factorise_metric(mechanism, Source::Position, state.t)?;
+        let combined = self.combine(Source::Position, Which::All);
+        let combined = combined.map_err(|Breakdown| DynamicsError::NotFinite { t: state.t })?;
+        Ok(DynamicsError::NotRegular {
+            t: state.t,
+            rank: combined
+                .values
+                .iter()
+                .filter(|value| **value > window())
+                .count(),
+            structure: mechanism.structure(),
+        })
+    }
+
+    /// The acceleration on the sheet, at the state that a state of a trial step stands
+    /// for.
+    pub(super) fn acceleration_on_sheet<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        let mut point = Point::zeros();
+        let placement = self.place(mechanism, state, &mut point)?;
+        match placement {
+            Placement::Crossing { .. } => self.counters.robust_accelerations += 1,
+            _ => self.counters.landed_accelerations += 1,
+        }
+        let acceleration = self.accelerate(mechanism, &point)?;
+        Ok(self.stabilised(acceleration, state, &point))
+    }
+
+    /// An acceleration on the sheet, or that which brings a state back onto it after
+    /// Baumgarte (1972).
+    pub(super) fn stabilised(
+        &self,
+        acceleration: SVector<T, N>,
+        state: &State<T, N>,
+        point: &Point<T, N>,
+    ) -> SVector<T, N> {
+        match self.settings.stabilisation {
+            Stabilisation::Baumgarte { alpha, beta } => {
+                let (off, fast) = (state.q - point.state.q, state.v - point.state.v);
+                acceleration - fast * (alpha + alpha) - off * (beta * beta)
+            }
+            _ => acceleration,
+        }
+    }
+
+    /// A chart at the last accepted state, for the forms that always need one.
+    pub(super) fn require_chart<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        if self.session.chart.is_none() {
+            self.session.base.get_or_insert(*state);
+            self.session.trial.wants_chart = true;
+            let near = self.session.near;
+            self.escalate(mechanism)?;
+            self.session.near = near;
+        }
+        Ok(())
+    }
+
+    /// Puts a state onto the sheet of the chart at hand.
+    pub(super) fn place<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        point: &mut Point<T, N>,
+    ) -> Result<Placement<T>, DynamicsError<T>> {
+        let Some(chart) = self.session.chart.take() else {
+            return Err(self.refusal(mechanism, Obstacle::Undetermined, state.t));
+        };
+        let result = self.sheet(mechanism, &chart).place(state, point);
+        self.session.chart = Some(chart);
+        self.session.trial.crosses |= matches!(result, Ok(Placement::Crossing { .. }));
+        result.map_err(|obstacle| self.refusal(mechanism, obstacle, state.t))
+    }
+
+    /// The geometry at a state as it is; `false` next to a singular configuration.
+    pub(super) fn measure_here<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        point: &mut Point<T, N>,
+    ) -> bool {
+        let Some(chart) = self.session.chart.take() else {
+            return false;
+        };
+        let result = self.sheet(mechanism, &chart).measure_here(state, point);
+        self.session.chart = Some(chart);
+        result.is_ok() && point.sine > window()
+    }
+
+    /// The acceleration at a state on the sheet: `D̃ᵀM D̃ z = D̃ᵀ(p₁ − M aₚ)`,
+    /// `q̈ = aₚ + D̃ z`. Source: Phong & Hoang (2012), section 3.
+    fn accelerate<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        point: &Point<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        mechanism.terms(&point.state, &mut self.terms);
+        let freedoms = self.freedoms();
+        let force = self.terms.force - self.terms.mass * point.particular;
+        let t = point.state.t;
+        let along = project_onto(&self.terms.mass, &point.tangent, freedoms, &force);
+        match along {
+            Ok(along) if all_finite(&along) => Ok(point.particular + along),
+            Ok(_) => Err(DynamicsError::NotFinite { t }),
+            Err(_) => Err(self.refusal(mechanism, Obstacle::MassSingular, t)),
+        }
+    }
+
+    /// The least acceleration at rest in a singular configuration: zero if it stays.
+    pub(super) fn acceleration_at_rest<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        let least = self.published(mechanism, state)?;
+        let size = self.metric.factor.length(&least.data.0[0]);
+        let base = self.session.base.map(|base| (base.q, base.v));
+        // What forces do elsewhere: in equilibrium they tell nothing of their own size.
+        let aside = self.lower([self.reach * T::from_f64(0.25); N]);
+        let moved = State::new(state.t, state.q + aside, state.v);
+        let elsewhere = self.published(mechanism, &moved)?;
+        let free = size.max(self.metric.factor.length(&elsewhere.data.0[0]));
+        // False for NaN, too.
+        let stays = size <= free * T::EPSILON.sqrt() && base == Some((state.q, state.v));
+        if stays {
+            Ok(SVector::zeros())
+        } else {
+            Err(self.refusal(mechanism, Obstacle::Undetermined, state.t))
+        }
+    }
+
+    /// Puts the end of a trial step onto the sheet.
+    pub(crate) fn project_onto_sheet<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &mut State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        let mut point = Point::zeros();
+        let placement = self.place(mechanism, state, &mut point)?;
+        self.counters.robust_projections += 1;
+        *state = point.state;
+        self.session.trial.end = point.sine * point.sine;
+        self.session.trial.lowest = self.session.trial.lowest.min(self.session.trial.end);
+        self.session.trial.placed = Some(Placed {
+            tangent: point.tangent,
+            drift: point.drift,
+            sine: point.sine,
+            spacing: match placement {
+                Placement::Crossing { spacing } => spacing,
+                _ => T::zero(),
+            },
+            gap: placement == Placement::Gap,
+        });
+        Ok(())
+    }
+
+    /// Finds the passages of an accepted step and puts its chart aside.
+    fn look_back<M: Mechanism<T, N, R> + ?Sized>(&mut self, mechanism: &M, step: &Step<T, N>) {
+        let Some(chart) = self.session.chart.take() else {
+            return;
+        };
+        let regular = N - chart.freedoms;
+        let at = |t| step.inside_at(t);
+        let ends = (&step.start, &step.end);
+        self.session.passages = self.sheet(mechanism, &chart).passages(ends, &at, regular);
+        self.session.used = Some(chart);
+    }
+
+    /// Takes note that a trial step was accepted.
+    pub(crate) fn commit<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        step: &Step<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        self.session.base = Some(step.end);
+        if !self.follows() || self.session.rests {
+            return Ok(());
+        }
+        self.observe_reach(mechanism, &step.end);
+        self.session.sine = Some(self.session.trial.end.sqrt());
+        self.session.near = self.session.trial.near;
+        if self.session.used.is_some() {
+            self.session.used = None;
+            self.session.passages = Found::new();
+        }
+        if self.session.chart.is_some() {
+            self.look_back(mechanism, step);
+        } else if self.session.trial.by_emitted {
+            self.learn_emitted_rows();
+        }
+        if self.session.trial.chart.is_some() {
+            self.session.chart = self.session.trial.chart.take();
+        }
+        self.expect_regular();
+        Ok(())
+    }
+}

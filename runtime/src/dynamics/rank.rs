@@ -1,0 +1,211 @@
+//! How many constraint equations are independent.
+//!
+//! In:  the constraint Jacobian at positions on the constraints.
+//! Out: its rank at regular configurations, an independent subset of its rows, its
+//!      singular values; the null-space form by a rank decision alone.
+
+use super::{Solver, Source, Which};
+use crate::linalg::{Breakdown, add_scaled, dot, norm, orthogonalise, scaled};
+use crate::tolerance::{difference, negligible, regular};
+use crate::{DynamicsError, Mechanism, Real, State};
+use nalgebra::{SMatrix, SVector};
+
+/// Part of a displacement that the singular value of a row is, at least, whose gradient
+/// is lost only where the displacement begins.
+const RETURNS: f64 = 1e-2;
+
+/// Rows in the metric, combined until they are orthogonal.
+pub(crate) struct Combined<T, const N: usize, const R: usize> {
+    /// The directions that the combinations decide, of length one, largest first.
+    pub(crate) directions: SMatrix<T, N, R>,
+    /// The combinations, as columns.
+    pub(crate) left: SMatrix<T, R, R>,
+    /// Singular values.
+    pub(crate) values: [T; R],
+}
+
+impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+    /// The rows of a Jacobian in the metric at hand, scaled to size one.
+    fn lift_rows(&self, source: Source, which: Which) -> SMatrix<T, N, R> {
+        let jacobian = match source {
+            Source::Terms => &self.terms.jacobian,
+            Source::Position => &self.position.jacobian,
+        };
+        let mut rows: SMatrix<T, N, R> = SMatrix::zeros();
+        for (row, column) in rows.data.0.iter_mut().enumerate() {
+            if self.rows.takes_part(row, which) {
+                let vector = self.metric.lift(jacobian, row);
+                *column = scaled(self.rows.scale(row), &vector);
+            }
+        }
+        rows
+    }
+
+    /// Combines the rows of a Jacobian in the metric at hand.
+    pub(crate) fn combine(
+        &mut self,
+        source: Source,
+        which: Which,
+    ) -> Result<Combined<T, N, R>, Breakdown> {
+        self.counters.rank_decisions += 1;
+        let mut directions = self.lift_rows(source, which);
+        let mut left: SMatrix<T, R, R> = SMatrix::identity();
+        orthogonalise(&mut directions.data.0, &mut left.data.0)?;
+        let mut values = [T::zero(); R];
+        for (value, column) in values.iter_mut().zip(&mut directions.data.0) {
+            *value = norm(column);
+            if *value > T::zero() {
+                *column = scaled(T::one() / *value, column);
+            }
+        }
+        Ok(Combined {
+            directions,
+            left,
+            values,
+        })
+    }
+
+    /// Learns the rank at regular configurations from a state on the constraints whose
+    /// position terms are in the buffer and factorised, and chooses independent rows.
+    ///
+    /// Where the state itself may be singular, its neighbours tell: along the velocity, or
+    /// in the directions that its constraints leave free.
+    pub(crate) fn learn_rank<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        let mut regular_at = state.q;
+        for which in [Which::Holonomic, Which::All] {
+            mechanism.position(state, &mut self.position);
+            self.factorise_metric(mechanism, Source::Position, state.t)?;
+            let here = self.rank_here(which, regular(), state.t)?;
+            let mut best = (here.0, state.q);
+            if best.0 < self.rows.count(which) {
+                let ahead = self.ahead(state);
+                let around = self.neighbours(state, &here.1);
+                for neighbour in core::iter::once(ahead).chain(around) {
+                    let Some(q) = neighbour else { continue };
+                    if best.0 > here.0 {
+                        break;
+                    }
+                    let moved = State { q, ..*state };
+                    mechanism.position(&moved, &mut self.position);
+                    self.factorise_metric(mechanism, Source::Position, state.t)?;
+                    let least = difference::<T>() * T::from_f64(RETURNS);
+                    let (rank, _) = self.rank_here(which, least, state.t)?;
+                    if rank > best.0 {
+                        best = (rank, q);
+                    }
+                }
+            }
+            self.rows.observe_rank(best.0, which);
+            regular_at = best.1;
+        }
+        let moved = State {
+            q: regular_at,
+            ..*state
+        };
+        mechanism.position(&moved, &mut self.position);
+        self.factorise_metric(mechanism, Source::Position, state.t)?;
+        self.choose_rows();
+        mechanism.position(state, &mut self.position);
+        self.factorise_metric(mechanism, Source::Position, state.t)
+    }
+
+    /// How many singular values are above a bound at the position in the buffer.
+    fn rank_here(
+        &mut self,
+        which: Which,
+        least: T,
+        t: T,
+    ) -> Result<(usize, Combined<T, N, R>), DynamicsError<T>> {
+        let combined = self.combine(Source::Position, which);
+        let combined = combined.map_err(|Breakdown| DynamicsError::NotFinite { t })?;
+        let rank = combined
+            .values
+            .iter()
+            .filter(|value| **value > least)
+            .count();
+        Ok((rank, combined))
+    }
+
+    /// The position next to a state along its velocity, if it moves.
+    fn ahead(&self, state: &State<T, N>) -> Option<SVector<T, N>> {
+        let speed = self.metric.factor.length(&state.v.data.0[0]);
+        let distance = difference::<T>() * self.reach;
+        (speed > T::zero()).then(|| state.q + state.v * (distance / speed))
+    }
+
+    /// Positions next to a state, wherever the constraints let it go.
+    fn neighbours(
+        &self,
+        state: &State<T, N>,
+        combined: &Combined<T, N, R>,
+    ) -> [Option<SVector<T, N>>; N] {
+        let distance = difference::<T>() * self.reach;
+        let mut neighbours = [None; N];
+        for (j, neighbour) in neighbours.iter_mut().enumerate() {
+            let mut axis = [T::zero(); N];
+            axis[j] = T::one();
+            for (direction, value) in combined.directions.data.0.iter().zip(&combined.values) {
+                if *value > regular() {
+                    let share = dot(direction, &axis);
+                    add_scaled(&mut axis, -share, direction);
+                }
+            }
+            let size = norm(&axis);
+            if size > regular() {
+                let moved = self.lower(scaled(distance / size, &axis));
+                *neighbour = Some(state.q + moved);
+            }
+        }
+        neighbours
+    }
+
+    /// Chooses an independent subset of the rows at the position in the buffer.
+    pub(crate) fn choose_rows(&mut self) {
+        if self.rows.regular(Which::All) < R {
+            self.counters.row_choices += 1;
+            let rows = self.lift_rows(Source::Position, Which::All);
+            self.rows.choose(rows);
+        }
+    }
+
+    /// Takes note of the sizes of the rows at an accepted state, whose position terms are
+    /// in the buffer and factorised.
+    pub(crate) fn learn_rows(&mut self) {
+        for row in 0..R {
+            let vector = self.metric.lift(&self.position.jacobian, row);
+            self.rows.observe(row, dot(&vector, &vector));
+        }
+    }
+
+    /// The acceleration by the null space of the rows that are not zero to round-off: the
+    /// form as it was published. Source: Phong & Hoang (2012), section 3.
+    pub(super) fn published<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        self.prepare(mechanism, state)?;
+        mechanism.terms(state, &mut self.terms);
+        let bias = self.stabilised_bias(mechanism, state);
+        self.safe = None;
+        self.factorise_metric(mechanism, Source::Terms, state.t)?;
+        let combined = self.combine(Source::Terms, Which::All);
+        let combined = combined.map_err(|Breakdown| DynamicsError::NotFinite { t: state.t })?;
+        let right = self.scaled(&bias);
+        let mut w = self.free_acceleration(&bias);
+        let limit = self.rows.regular(Which::All);
+        for (k, value) in combined.values.iter().enumerate().take(limit) {
+            if *value > negligible() {
+                let direction = &combined.directions.data.0[k];
+                let wanted = dot(&combined.left.data.0[k], &right) / *value;
+                let share = wanted - dot(direction, &w);
+                add_scaled(&mut w, share, direction);
+            }
+        }
+        Ok(self.lower(w))
+    }
+}

@@ -1,0 +1,235 @@
+//! Whether a trial step may be accepted.
+//!
+//! In:  the ends of a trial step, what its states came to.
+//! Out: the chart at its end, or a refusal: the step leapt over a singular configuration
+//!      that was not seen, left its sheet, or lost energy.
+
+use super::{Solver, Source, Which};
+use crate::singular::{Chart, Obstacle, Placement, Point, Start};
+use crate::tolerance::{negligible, safe_steps, window};
+use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
+
+/// A sine that falls below this part of what it is at both ends of a step may have been
+/// zero between.
+const DIP: f64 = 0.5;
+/// Sines above this are far from singular configurations.
+const FAR: f64 = 0.3;
+/// Halvings of a step in the search for a singular configuration.
+const BISECTIONS: usize = 20;
+/// Energy that a step may lose, in units of its accepted error.
+const ENERGY: f64 = 1e3;
+/// Energy that a step of fixed length may lose, relative to the kinetic energy.
+const ENERGY_OF_FIXED: f64 = 0.05;
+
+impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+    /// Verifies a trial step before it is accepted.
+    pub(crate) fn verify<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        start: &State<T, N>,
+        end: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        if !self.follows() || self.session.rests {
+            return Ok(());
+        }
+        // A chart is large, so that even taking none costs something.
+        if self.session.chart.is_none() {
+            return self.verify_far(mechanism, start, end);
+        }
+        let chart = self.session.chart.take().filter(|_| self.is_beside());
+        match chart {
+            None => self.verify_far(mechanism, start, end),
+            Some(chart) => {
+                let result = self.verify_near(mechanism, &chart, start, end);
+                self.session.chart = Some(chart);
+                result
+            }
+        }
+    }
+
+    /// A step without a chart: was it far from singular configurations all the way?
+    fn verify_far<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        start: &State<T, N>,
+        end: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        if self.session.trial.chart.is_some() {
+            self.session.trial.chart = None;
+        }
+        let after = self.session.trial.end.sqrt();
+        let lowest = self.session.trial.lowest.sqrt().min(after);
+        let before = self.session.sine.unwrap_or(after);
+        let dips = lowest < T::from_f64(FAR) && lowest < before.min(after) * T::from_f64(DIP);
+        if dips {
+            return self.want_chart(mechanism, end.t);
+        }
+        if !self.needs_chart(before, after, lowest) {
+            return Ok(());
+        }
+        if after <= window() {
+            return self.want_chart(mechanism, end.t);
+        }
+        let Start::Sheet(chart) = self.start_at(mechanism, end)? else {
+            return self.want_chart(mechanism, end.t);
+        };
+        if self.sheet(mechanism, &chart).sign_changes(start, end) != Some(0) {
+            return self.want_chart(mechanism, end.t);
+        }
+        self.session.trial.chart = Some(chart);
+        Ok(())
+    }
+
+    /// Whether the next step needs a chart: it may come near a singular configuration, or
+    /// the form always uses one.
+    fn needs_chart(&mut self, before: T, after: T, lowest: T) -> bool {
+        let change = before.max(after) - lowest;
+        self.session.trial.near = after < window::<T>() + safe_steps::<T>() * change;
+        self.settings.form != Form::Reduced || self.session.trial.near
+    }
+
+    fn want_chart<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        t: T,
+    ) -> Result<(), DynamicsError<T>> {
+        self.session.trial.wants_chart = true;
+        Err(self.refusal(mechanism, Obstacle::Unresolved, t))
+    }
+
+    /// A step with a chart: is its end on the same sheet?
+    fn verify_near<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        chart: &Chart<T, N, R>,
+        start: &State<T, N>,
+        end: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        self.session.trial.chart = None;
+        let changes = self.sheet(mechanism, chart).sign_changes(start, end);
+        if changes != Some(0) && mechanism.structure().regular {
+            return Err(self.not_regular(mechanism, end)?);
+        }
+        if changes != Some(0) && !self.settings.form.passes() {
+            let rank = self.rows.regular(Which::All) - changes.unwrap_or(1);
+            return Err(DynamicsError::SingularPosition {
+                t: end.t,
+                form: self.settings.form,
+                rank,
+                structure: mechanism.structure(),
+            });
+        }
+        if changes != Some(0) && !self.session.trial.crosses {
+            self.verify_crossing(mechanism, chart, start, end)?;
+        }
+        self.verify_energy(mechanism, start, end)?;
+        let Some(placed) = self.session.trial.placed.take() else {
+            return Ok(());
+        };
+        let before = self.session.sine.unwrap_or(placed.sine);
+        let lowest = self.session.trial.lowest.sqrt().min(placed.sine);
+        if !placed.gap && !self.needs_chart(before, placed.sine, lowest) {
+            return Ok(());
+        }
+        mechanism.position(end, &mut self.position);
+        self.factorise_metric(mechanism, Source::Position, end.t)?;
+        self.verify_residual(mechanism, end)?;
+        if placed.sine > window() {
+            self.learn_rows();
+        }
+        let (metric, rows) = (&self.metric, &self.rows);
+        let next = Chart::new(
+            placed.tangent,
+            chart.freedoms,
+            metric,
+            rows,
+            (self.reach, self.accepted()),
+        );
+        let Some(mut next) = next else {
+            return Err(self.refusal(mechanism, Obstacle::NotRegular, end.t));
+        };
+        next.set_drift(placed.drift, chart.pace);
+        next.spacing = placed.spacing;
+        next.gap = placed.gap || chart.gap && placed.sine < window();
+        self.session.trial.chart = Some(next);
+        Ok(())
+    }
+
+    /// A step on which signs changed, none of whose states is next to a singular
+    /// configuration: is there one where sheets cross, or did it leap over a gap?
+    fn verify_crossing<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        chart: &Chart<T, N, R>,
+        start: &State<T, N>,
+        end: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        let (mut before, mut after) = (T::zero(), T::one());
+        let mut sheet = self.sheet(mechanism, chart);
+        for _ in 0..BISECTIONS {
+            let middle = (before + after) * T::from_f64(0.5);
+            match sheet.sign_changes(start, &start.towards(end, middle)) {
+                Some(0) => before = middle,
+                _ => after = middle,
+            }
+        }
+        let mut point = Point::zeros();
+        match sheet.place(&start.towards(end, after), &mut point) {
+            Ok(Placement::Crossing { .. }) => Ok(()),
+            _ => Err(self.refusal(mechanism, Obstacle::LeftSheet, end.t)),
+        }
+    }
+
+    /// All constraint equations, in their own units, at the position in the buffer.
+    fn verify_residual<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        end: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        let (worst, _) = self.residual(&self.position.residual);
+        // False for NaN, too.
+        let small = worst <= negligible::<T>() * self.reach;
+        if small || self.settings.stabilisation != Stabilisation::Projection {
+            Ok(())
+        } else {
+            Err(self.failed(mechanism, end))
+        }
+    }
+
+    /// The energy must not have changed by more than the power that was supplied and the
+    /// accepted error explain. Constraints that move do work of their own, and are not
+    /// judged.
+    fn verify_energy<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        start: &State<T, N>,
+        end: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        mechanism.position(end, &mut self.position);
+        if self.position.drift.iter().any(|b| *b != T::zero()) {
+            return Ok(());
+        }
+        let (before, after) = (mechanism.energy(start), mechanism.energy(end));
+        let half = (end.t - start.t) * T::from_f64(0.5);
+        // By the trapezoidal rule, whose error is less than what the power changes by.
+        let supplied = half * (before.power + after.power);
+        let doubt = half * (after.power - before.power).abs();
+        let kinetic = before.kinetic.max(after.kinetic);
+        let potential = (after.potential - before.potential).abs();
+        self.session.liveliest = self.session.liveliest.max(before.kinetic);
+        let size = kinetic.max(potential).max(self.session.liveliest);
+        let part = match self.session.tolerance {
+            Some(tolerance) => tolerance * T::from_f64(ENERGY),
+            None => T::from_f64(ENERGY_OF_FIXED),
+        };
+        let round_off = T::from_f64(ENERGY) * T::EPSILON * (before.balance.abs() + size);
+        let change = (after.balance - before.balance - supplied).abs();
+        // False for NaN, too.
+        let kept = change <= part * size + doubt + round_off;
+        if kept {
+            Ok(())
+        } else {
+            Err(self.refusal(mechanism, Obstacle::LeftSheet, end.t))
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! Accepted states back onto the constraints: positions, then velocities.
+//!
+//! In:  a state that a step left off the constraints by its local error.
+//! Out: the nearest position with `g = 0` to round-off, in the metric of the
+//!      kinetic energy, and the nearest velocity with `A q̇ + b = 0` there.
+//!
+//! Not here: what to do where rows of `A` are near-dependent
+//! ([`crate::dynamics`], `follow.rs`).
+
+use crate::dynamics::{Solver, Source, Which};
+use crate::singular::Obstacle;
+use crate::tolerance::{contraction, negligible, passes, round_off, window};
+use crate::{DynamicsError, Mechanism, Real, Stabilisation, State};
+use nalgebra::SVector;
+
+/// Corrections after which a position is given up.
+const MAX_ITERATIONS: usize = 20;
+
+impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+    /// Projects the end of a trial step, if the settings say so.
+    pub(crate) fn project<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &mut State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        if R == 0 || self.session.rests {
+            return Ok(());
+        }
+        if !self.is_prepared() {
+            self.prepare(mechanism, state)?;
+        }
+        let mut placed = *state;
+        if self.session.chart.is_some() && self.follows() && self.is_beside() {
+            self.project_onto_sheet(mechanism, &mut placed)?;
+        } else if self.settings.stabilisation == Stabilisation::Projection {
+            self.project_regular(mechanism, &mut placed)?;
+        }
+        if self.settings.stabilisation == Stabilisation::Projection {
+            self.counters.projections += 1;
+            *state = placed;
+        }
+        if state.is_finite() {
+            Ok(())
+        } else {
+            Err(DynamicsError::NotFinite { t: state.t })
+        }
+    }
+
+    /// Projects a state where the constraints are regular.
+    fn project_regular<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &mut State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        self.safe = None;
+        let emitted = self.emitted_projection(mechanism, state);
+        self.session.trial.by_emitted = emitted.is_some();
+        let squared = match emitted {
+            Some(squared) => squared,
+            None => {
+                self.expected = false;
+                self.project_by_iteration(mechanism, state)?
+            }
+        };
+        self.session.trial.end = squared;
+        Ok(())
+    }
+
+    /// Newton's iteration on `g = 0`, then one linear solve for `A q̇ + b = 0`; the
+    /// squared sine there.
+    ///
+    /// The factors of one iteration serve the next as long as they reduce the
+    /// residual well, and those at the end the acceleration at the same position.
+    #[inline(never)]
+    fn project_by_iteration<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &mut State<T, N>,
+    ) -> Result<T, DynamicsError<T>> {
+        let mut before: Option<T> = None;
+        for _ in 0..MAX_ITERATIONS {
+            mechanism.position(state, &mut self.position);
+            let worst = self.finite_residual(state)?;
+            if self.is_on_constraints(worst, before) {
+                self.factorise_metric(mechanism, Source::Position, state.t)?;
+                let squared = self.factorise_constraints(Source::Position, Which::All);
+                self.session.trial.lowest = self.session.trial.lowest.min(squared);
+                if !passes(squared, window()) {
+                    return self.leave_to_chart(mechanism, state, squared);
+                }
+                self.project_velocity(state);
+                return Ok(squared);
+            }
+            if before.is_none_or(|before| worst > before * contraction()) {
+                self.factorise_metric(mechanism, Source::Position, state.t)?;
+                let squared = self.factorise_constraints(Source::Position, Which::Holonomic);
+                if !passes(squared, window()) {
+                    return self.leave_to_chart(mechanism, state, squared);
+                }
+            }
+            self.counters.projection_iterations += 1;
+            let mut w = [T::zero(); N];
+            self.lifted.correct(&mut w, &-self.position.residual);
+            state.q += self.lower(w);
+            before = Some(worst);
+        }
+        Err(self.failed(mechanism, state))
+    }
+
+    /// Near a singular configuration: the published method leaves the state where it is.
+    #[cold]
+    fn leave_to_chart<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        squared: T,
+    ) -> Result<T, DynamicsError<T>> {
+        if !self.follows() {
+            return Ok(squared);
+        }
+        self.session.trial.wants_chart = true;
+        Err(self.refusal(mechanism, Obstacle::Unresolved, state.t))
+    }
+
+    /// One linear solve for `A q̇ + b = 0` with the factors of the position in the
+    /// buffer, which are kept.
+    fn project_velocity(&mut self, state: &mut State<T, N>) {
+        let gap = -(self.position.jacobian * state.v + self.position.drift);
+        let mut w = [T::zero(); N];
+        self.lifted.correct(&mut w, &gap);
+        state.v += self.lower(w);
+        self.safe = Some((state.t, state.q));
+    }
+
+    /// Whether the largest constraint error is round-off, or no longer grows smaller
+    /// and is small enough.
+    pub(crate) fn is_on_constraints(&self, worst: T, before: Option<T>) -> bool {
+        let stuck = before.is_some_and(|before| worst > before / T::from_f64(2.0));
+        worst <= round_off::<T>() * self.reach || stuck && worst <= negligible::<T>() * self.reach
+    }
+
+    /// The largest of some constraint errors, as a length in the metric, and its row.
+    /// Not finite if any row is not.
+    pub(crate) fn residual(&self, residual: &SVector<T, R>) -> (T, usize) {
+        let mut worst = (T::zero(), 0);
+        for row in 0..R {
+            let size = residual[row].abs() * self.rows.scale(row);
+            if size > worst.0 || !size.is_finite() {
+                worst = (size, row);
+            }
+        }
+        worst
+    }
+
+    /// The largest constraint error, or an error if it is not finite.
+    fn finite_residual(&self, state: &State<T, N>) -> Result<T, DynamicsError<T>> {
+        let (worst, _) = self.residual(&self.position.residual);
+        if worst.is_finite() {
+            Ok(worst)
+        } else {
+            Err(DynamicsError::NotFinite { t: state.t })
+        }
+    }
+
+    /// The error of a projection that gives up at the position in the buffer.
+    pub(crate) fn failed<M: Mechanism<T, N, R> + ?Sized>(
+        &self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> DynamicsError<T> {
+        let (_, row) = self.residual(&self.position.residual);
+        let residual = self.position.residual[row].abs();
+        DynamicsError::ProjectionFailed {
+            t: state.t,
+            residual,
+            row,
+            structure: mechanism.structure(),
+        }
+    }
+}

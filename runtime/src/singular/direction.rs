@@ -1,0 +1,215 @@
+//! The direction in which the constraints leave a singular configuration fastest.
+//!
+//! In:  a state near a singular configuration, its frame.
+//! Out: [`Direction`]: along the sheet, and in time where constraints move.
+//!
+//! The block of near-dependent rows changes along the sheet, to first order, by one
+//! matrix for each coordinate of the chart. Of the directions the one is taken along
+//! which all of its singular values pass zero fast and at one place.
+
+use super::nodes::SIDE;
+use super::obstacle::Obstacle;
+use super::sheet::Sheet;
+use crate::linalg::{Block, Frame, dot, norm};
+use crate::tolerance::{difference, spacing};
+use crate::{Mechanism, Real, State};
+use nalgebra::SVector;
+
+/// Directions that are tried where several loops are nearly singular at once.
+const TRIALS: usize = 64;
+
+/// Share of the coordinates in a direction, below which nothing but time moves along it.
+const STILL: f64 = 1e-3;
+
+/// A line through a state along which the constraints leave a singular configuration.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Direction<T, const N: usize> {
+    /// The change of position along it, of length one in the metric.
+    q: SVector<T, N>,
+    /// The change of time along it (s).
+    t: T,
+    /// Whether nothing but time moves along it.
+    pub(super) is_of_time: bool,
+    /// Where the singular configuration is.
+    pub(super) centre: T,
+    /// How fast the sine changes.
+    pub(super) rate: T,
+}
+
+impl<T: Real, const N: usize> Direction<T, N> {
+    /// The state a distance along it.
+    pub(super) fn moved(&self, state: &State<T, N>, distance: T) -> State<T, N> {
+        State::new(
+            state.t + self.t * distance,
+            state.q + self.q * distance,
+            state.v,
+        )
+    }
+}
+
+/// The best direction so far.
+struct Best<T, const N: usize> {
+    direction: Direction<T, N>,
+    score: T,
+}
+
+impl<M, T: Real, const N: usize, const R: usize> Sheet<'_, M, T, N, R>
+where
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    /// The best direction through a state whose frame is `like`.
+    pub(super) fn direction(
+        &mut self,
+        state: &State<T, N>,
+        like: &Frame<T, N, R>,
+    ) -> Result<Direction<T, N>, Obstacle> {
+        let clock = self.clock();
+        let dimension = (self.chart.freedoms + usize::from(clock.is_some())).min(N);
+        let mut best = None;
+        if like.block().size == 1 {
+            let steepest = self.steepest(state, like, dimension, clock)?;
+            self.consider(state, like, &steepest, clock, &mut best)?;
+        } else {
+            for trial in 0..if dimension > 1 { TRIALS } else { 1 } {
+                let direction = spread_evenly(trial, dimension);
+                self.consider(state, like, &direction, clock, &mut best)?;
+            }
+        }
+        best.map(|best| best.direction).ok_or(Obstacle::Unresolved)
+    }
+
+    /// The time (s) in which the sheet moves by one unit of length when it is fastest;
+    /// none if it rests.
+    fn clock(&self) -> Option<T> {
+        let pace = self.chart.pace;
+        (pace > T::zero()).then(|| T::one() / pace)
+    }
+
+    /// A line along some coordinates of the chart, of which time may be the last.
+    fn line(&self, shares: &[T; N], clock: Option<T>) -> Direction<T, N> {
+        let mut q: SVector<T, N> = SVector::zeros();
+        for (share, column) in shares
+            .iter()
+            .zip(self.chart.tangent.column_iter())
+            .take(self.chart.freedoms)
+        {
+            q.axpy(*share, &column, T::one());
+        }
+        let t = match (clock, shares.get(self.chart.freedoms)) {
+            (Some(unit), Some(share)) => unit * *share,
+            _ => T::zero(),
+        };
+        q.axpy(t, &self.chart.drift, T::one());
+        let others = &shares[..self.chart.freedoms.min(N)];
+        Direction {
+            q,
+            t,
+            is_of_time: t != T::zero() && norm_of(others) < T::from_f64(STILL),
+            centre: T::zero(),
+            rate: T::zero(),
+        }
+    }
+
+    /// Judges a direction: how fast the block's singular values change, and whether they
+    /// pass zero near one place.
+    fn consider(
+        &mut self,
+        state: &State<T, N>,
+        like: &Frame<T, N, R>,
+        shares: &[T; N],
+        clock: Option<T>,
+        best: &mut Option<Best<T, N>>,
+    ) -> Result<(), Obstacle> {
+        let mut direction = self.line(shares, clock);
+        let here = like.block();
+        let change = self.change(state, like, &direction)?;
+        let fastest = change
+            .entries
+            .iter()
+            .fold(T::zero(), |most: T, row| most.max(norm(row)));
+        for rate in [fastest, change.smallest()] {
+            for row in 0..here.size {
+                let (value, slope) = (&here.entries[row], &change.entries[row]);
+                direction.rate = rate;
+                direction.centre = -dot(value, slope) / dot(slope, slope);
+                // False for NaN, too.
+                let leads = rate > T::zero() && direction.centre.is_finite();
+                if !leads {
+                    continue;
+                }
+                let step = spacing::<T>() * self.chart.reach.min(T::one() / rate);
+                let score = clearance_of(here, &change, direction.centre, step);
+                if best.as_ref().is_none_or(|best| score > best.score) {
+                    *best = Some(Best { direction, score });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The direction in which the one entry of the block changes fastest.
+    fn steepest(
+        &mut self,
+        state: &State<T, N>,
+        like: &Frame<T, N, R>,
+        dimension: usize,
+        clock: Option<T>,
+    ) -> Result<[T; N], Obstacle> {
+        let mut gradient = [T::zero(); N];
+        for i in 0..dimension {
+            let mut shares = [T::zero(); N];
+            shares[i] = T::one();
+            let direction = self.line(&shares, clock);
+            gradient[i] = self.change(state, like, &direction)?.entries[0][0];
+        }
+        let size = norm(&gradient);
+        // False for NaN, too.
+        let changes = size > T::zero();
+        match changes {
+            true => Ok(gradient.map(|entry| entry / size)),
+            false => Err(Obstacle::Unresolved),
+        }
+    }
+
+    /// The change of the block along a direction, by a one-sided difference: direction
+    /// and spacing of the nodes are wanted to a few digits only.
+    fn change(
+        &mut self,
+        state: &State<T, N>,
+        like: &Frame<T, N, R>,
+        direction: &Direction<T, N>,
+    ) -> Result<Block<T, R>, Obstacle> {
+        let distance = difference::<T>() * self.chart.reach;
+        self.eliminate(&direction.moved(state, distance), Some(like))?;
+        let difference = self.frame.block().plus(-T::one(), like.block());
+        Ok(Block::zeros(difference.size).plus(T::one() / distance, &difference))
+    }
+}
+
+fn norm_of<T: Real>(shares: &[T]) -> T {
+    shares.iter().fold(T::zero(), |sum, x| sum + *x * *x).sqrt()
+}
+
+/// Directions that fill the sphere evenly, by multiples of the square roots of primes.
+fn spread_evenly<T: Real, const N: usize>(trial: usize, dimension: usize) -> [T; N] {
+    let mut vector = [T::zero(); N];
+    for (i, entry) in vector[..dimension.min(N)].iter_mut().enumerate() {
+        let root = ((i * i + 3 * i + 2) as f64 + 0.5).sqrt();
+        *entry = T::from_f64(2.0 * ((trial + 1) as f64 * root % 1.0) - 1.0);
+    }
+    let size = norm(&vector);
+    vector.map(|entry| entry / size)
+}
+
+/// The smallest sine of nodes on both sides of a place, to first order.
+fn clearance_of<T: Real, const R: usize>(
+    here: &Block<T, R>,
+    change: &Block<T, R>,
+    centre: T,
+    step: T,
+) -> T {
+    let sides = (1..=SIDE).flat_map(|k| [T::from_f64(k as f64), -T::from_f64(k as f64)]);
+    sides.fold(T::one(), |least, place| {
+        least.min(here.plus(centre + step * place, change).smallest())
+    })
+}

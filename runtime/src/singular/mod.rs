@@ -1,0 +1,32 @@
+//! Motion through singular configurations of the constraints.
+//!
+//! In:  states of a step, the [`Chart`] of the last accepted one.
+//! Out: states on the sheet of the constraint set on which the motion lives, its tangent
+//!      space there, the accelerations that constraints demand.
+//!
+//! Where a combination of constraints loses its gradient, the constraint set is two
+//! smooth sheets that cross, and the motion stays on one of them. The sheet's tangent
+//! space and curvature are smooth along it; they are known at regular states on both
+//! sides and interpolated between.
+//!
+//! Not here: forces and masses ([`crate::dynamics`]), and how far a step goes
+//! ([`crate::integrator`]).
+
+mod chart;
+mod direction;
+mod nodes;
+mod obstacle;
+mod passage;
+mod place;
+mod session;
+mod sheet;
+mod start;
+
+pub(crate) use chart::Chart;
+pub(crate) use obstacle::Obstacle;
+pub(crate) use passage::Found;
+pub use passage::Passage;
+pub(crate) use place::Placement;
+pub(crate) use session::{Placed, Session};
+pub(crate) use sheet::Point;
+pub(crate) use start::Start;

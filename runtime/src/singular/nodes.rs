@@ -1,0 +1,214 @@
+//! Across a singular configuration on regular states of the same sheet.
+//!
+//! In:  a state near a singular configuration, a chart.
+//! Out: the state on its sheet and the sheet's geometry there, interpolated between
+//!      regular states on both sides.
+//!
+//! Where a combination of constraints loses its gradient, two sheets of the constraint
+//! set cross. Each of them is smooth; only the equations degenerate. So the sheet is
+//! known to full accuracy at regular states of its own on both sides, along any
+//! direction that leaves the singular set, whatever the velocity is. What belongs to the
+//! sheet is interpolated: position, tangent space, the acceleration that curvature
+//! demands. Masses and forces are taken at the state itself.
+
+use super::direction::Direction;
+use super::obstacle::Obstacle;
+use super::sheet::{Point, Sheet};
+use crate::linalg::{Block, Frame};
+use crate::tolerance::clearance;
+use crate::{Mechanism, Real, State};
+use nalgebra::{SMatrix, SVector};
+
+/// Nodes on each side.
+pub(super) const SIDE: usize = 5;
+/// Nodes on both.
+const NODES: usize = 2 * SIDE;
+/// How many earlier nodes predict the next.
+const PREDICTORS: usize = 5;
+/// The interpolations that are compared leave out this many pairs of nodes.
+const SETS: usize = 3;
+
+/// What is interpolated.
+#[derive(Clone, Debug)]
+pub(super) struct Sum<T, const N: usize> {
+    /// From the state that is asked for to the sheet, along the chart's complement.
+    pub(super) offset: SVector<T, N>,
+    pub(super) tangent: SMatrix<T, N, N>,
+    pub(super) drift: SVector<T, N>,
+    pub(super) particular: SVector<T, N>,
+}
+
+impl<T: Real, const N: usize> Sum<T, N> {
+    fn zeros() -> Self {
+        Self {
+            offset: SVector::zeros(),
+            tangent: SMatrix::zeros(),
+            drift: SVector::zeros(),
+            particular: SVector::zeros(),
+        }
+    }
+
+    fn add(&mut self, weight: T, offset: &SVector<T, N>, point: &Point<T, N>, columns: usize) {
+        self.offset.axpy(weight, offset, T::one());
+        self.drift.axpy(weight, &point.drift, T::one());
+        self.particular.axpy(weight, &point.particular, T::one());
+        for i in 0..columns {
+            let column = point.tangent.column(i);
+            self.tangent.column_mut(i).axpy(weight, &column, T::one());
+        }
+    }
+}
+
+/// What was found between nodes of one spacing.
+#[derive(Clone, Debug)]
+pub(super) struct Interpolated<T, const N: usize> {
+    /// By all nodes, and by one and two pairs fewer.
+    pub(super) sums: [Sum<T, N>; SETS],
+    /// The offsets of the nodes, and their places in units of the spacing.
+    offsets: [SVector<T, N>; NODES],
+    places: [T; NODES],
+    /// By how much round-off is magnified.
+    pub(super) noise: T,
+    /// How the first entry of the block changes from one node to the next.
+    pub(super) slope: T,
+}
+
+impl<T: Real, const N: usize> Interpolated<T, N> {
+    pub(super) fn new() -> Self {
+        Self {
+            sums: core::array::from_fn(|_| Sum::zeros()),
+            offsets: [SVector::zeros(); NODES],
+            places: [T::zero(); NODES],
+            noise: T::zero(),
+            slope: T::zero(),
+        }
+    }
+
+    /// The offset of the sheet at another place of the line.
+    pub(super) fn offset_at(&self, place: T) -> SVector<T, N> {
+        let weights = weights(&self.places, |_| true, place);
+        let mut offset: SVector<T, N> = SVector::zeros();
+        for (node, weight) in self.offsets.iter().zip(weights) {
+            offset.axpy(weight, node, T::one());
+        }
+        offset
+    }
+}
+
+/// The order in which nodes are found, for a state ahead of the singular configuration:
+/// from the state outwards and across, so that those before predict the next.
+const ORDER: [f64; NODES] = [1.0, 2.0, -1.0, 3.0, -2.0, 4.0, -3.0, 5.0, -4.0, -5.0];
+
+/// Lagrange's weights, at a place, of the places that are wanted; the others are zero.
+fn weights<T: Real, const K: usize>(
+    places: &[T; K],
+    wanted: impl Fn(usize) -> bool,
+    at: T,
+) -> [T; K] {
+    let mut weights = [T::zero(); K];
+    for i in (0..K).filter(|i| wanted(*i)) {
+        weights[i] = T::one();
+        for j in (0..K).filter(|j| wanted(*j) && *j != i) {
+            weights[i] *= (at - places[j]) / (places[i] - places[j]);
+        }
+    }
+    weights
+}
+
+impl<M, T: Real, const N: usize, const R: usize> Sheet<'_, M, T, N, R>
+where
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    /// Finds the nodes along a direction and what they say of the sheet at the state.
+    pub(super) fn interpolate(
+        &mut self,
+        state: &State<T, N>,
+        direction: &Direction<T, N>,
+        spacing: T,
+        like: &Frame<T, N, R>,
+        found: &mut Interpolated<T, N>,
+    ) -> Result<(), Obstacle> {
+        let step = spacing / direction.rate;
+        let here = -direction.centre / step;
+        found.places = ORDER.map(|place| match here < T::zero() {
+            true => -T::from_f64(place),
+            false => T::from_f64(place),
+        });
+        let sets: [[T; NODES]; SETS] = core::array::from_fn(|k| {
+            let wanted = |node: usize| ORDER[node].abs() <= (SIDE - k) as f64;
+            weights(&found.places, wanted, here)
+        });
+        found.sums = core::array::from_fn(|_| Sum::zeros());
+        found.noise = T::zero();
+        let along = self.chart.coordinates(&state.v);
+        let mut blocks: [Block<T, R>; 2] = [Block::zeros(0), Block::zeros(0)];
+        let mut point = Point::zeros();
+        for node in 0..NODES {
+            let place: T = found.places[node];
+            let moved = direction.moved(state, direction.centre + step * place);
+            let guess = found.predict(node, place, here);
+            point.state = State::new(moved.t, moved.q + guess, moved.v);
+            self.project(&mut point.state, Some(like))?;
+            let sine = self.frame.smallest();
+            // False for NaN, too.
+            let clear = sine >= clearance::<T>() * spacing;
+            if !clear {
+                return Err(Obstacle::Unresolved);
+            }
+            self.measure(Some(&along), &mut point);
+            found.offsets[node] = point.state.q - moved.q;
+            for (sum, weights) in found.sums.iter_mut().zip(&sets) {
+                if weights[node] != T::zero() {
+                    sum.add(
+                        weights[node],
+                        &found.offsets[node],
+                        &point,
+                        self.chart.freedoms,
+                    );
+                }
+            }
+            found.noise += sets[0][node].abs() / (sine * sine);
+            if ORDER[node].abs() == 1.0 {
+                blocks[usize::from(node > 0)] = self.frame.block().clone();
+            }
+        }
+        found.judge(&blocks, direction.is_of_time)
+    }
+}
+
+impl<T: Real, const N: usize> Interpolated<T, N> {
+    /// Whether sheets cross between the nodes next to the singular configuration.
+    fn judge<const R: usize>(
+        &mut self,
+        [behind, ahead]: &[Block<T, R>; 2],
+        is_of_time: bool,
+    ) -> Result<(), Obstacle> {
+        let change = ahead.entries[0][0] - behind.entries[0][0];
+        self.slope = change / (self.places[2] - self.places[0]);
+        match ahead.sign_changes_from(behind) {
+            // A law of time may lead to a singular configuration and back.
+            0 if !is_of_time => Err(Obstacle::Touching),
+            _ => Ok(()),
+        }
+    }
+
+    /// Where a node is to be looked for, by those before it and by the state itself, which
+    /// is on the sheet but for the error of a step.
+    fn predict(&self, node: usize, place: T, here: T) -> SVector<T, N> {
+        let first = node.saturating_sub(PREDICTORS - 1);
+        let mut places = [here; PREDICTORS];
+        let count = node - first;
+        places[..count].copy_from_slice(&self.places[first..node]);
+        // A node next to the state says the same.
+        let state = places[..count]
+            .iter()
+            .all(|other| (*other - here).abs() > T::from_f64(0.3));
+        let known = |k: usize| k < count || k == count && state;
+        let weights = weights(&places, known, place);
+        let mut guess: SVector<T, N> = SVector::zeros();
+        for (offset, weight) in self.offsets[first..node].iter().zip(weights) {
+            guess.axpy(weight, offset, T::one());
+        }
+        guess
+    }
+}

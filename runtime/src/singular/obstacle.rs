@@ -1,0 +1,29 @@
+//! Why a state could not be put onto its sheet.
+//!
+//! In:  nothing.
+//! Out: [`Obstacle`]s: most are met by shorter steps, some are what a run ends with.
+
+/// What stood in the way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Obstacle {
+    /// A number is infinite or NaN.
+    NotFinite,
+    /// The constraint rows are dependent.
+    NotRegular,
+    /// Newton's iteration does not contract: the sheet turns away, or there is another
+    /// one next to it.
+    NotContracting,
+    /// The tangent space has turned too far from that of the last accepted state.
+    Turned,
+    /// The motion left its sheet: energy was lost.
+    LeftSheet,
+    /// The sheet cannot be told from another one, whatever the spacing of the nodes.
+    Unresolved,
+    /// Sheets touch without crossing.
+    Touching,
+    /// The mass matrix is singular along the sheet.
+    MassSingular,
+    /// The state is in or next to a singular configuration, and nothing tells which of
+    /// the sheets that cross there is meant.
+    Undetermined,
+}

@@ -1,0 +1,318 @@
+//! A state onto its sheet, at regular states and across singular configurations.
+//!
+//! In:  a state within a step, the chart of the last accepted state.
+//! Out: a [`Point`] on the sheet, and how it was found.
+//!
+//! Near a singular configuration nodes of several spacings are tried, each half the one
+//! before. Wide ones have less round-off, narrow ones less error of interpolation, and
+//! more room where the sheet turns or other singular configurations are near.
+
+use super::direction::Direction;
+use super::nodes::Interpolated;
+use super::obstacle::Obstacle;
+use super::sheet::{Point, Sheet};
+use crate::linalg::Frame;
+use crate::tolerance::{
+    MOST_TURN, critical, difference, hull, negligible, noisy, resolved, round_off, spacing, window,
+};
+use crate::{Mechanism, Real, State};
+use nalgebra::SVector;
+
+/// How much larger than the round-off of one node, magnified by the weights, the
+/// difference of two interpolations may be for that reason.
+const NOISE: f64 = 32.0;
+/// Evaluations that lead to the critical configuration.
+const CENTRINGS: usize = 4;
+/// Spacings that are tried.
+const LEVELS: usize = 12;
+
+/// How a state was put onto its sheet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Placement<T> {
+    /// Where the constraints are regular.
+    Regular,
+    /// Between nodes of this spacing, across a configuration where sheets cross.
+    Crossing { spacing: T },
+    /// Where the constraints are regular, next to a configuration where they are nearly
+    /// singular: a gap keeps the sheets apart.
+    Gap,
+}
+
+/// The best interpolation so far.
+struct Best<T, const N: usize> {
+    found: Interpolated<T, N>,
+    score: T,
+    error: T,
+    spacing: T,
+}
+
+impl<M, T: Real, const N: usize, const R: usize> Sheet<'_, M, T, N, R>
+where
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    /// Puts a state onto its sheet.
+    pub(crate) fn place(
+        &mut self,
+        state: &State<T, N>,
+        point: &mut Point<T, N>,
+    ) -> Result<Placement<T>, Obstacle> {
+        if !state.is_finite() {
+            return Err(Obstacle::NotFinite);
+        }
+        self.eliminate(state, None)?;
+        let sine = self.frame.smallest();
+        let mut why = Obstacle::Unresolved;
+        let mut placement = Placement::Regular;
+        if sine < window() && !self.chart.gap {
+            let like = self.frame.clone();
+            match self.place_between(state, &like, point) {
+                Ok(Placement::Regular) => {}
+                Ok(Placement::Gap) => placement = Placement::Gap,
+                Ok(crossing) => return self.checked(point, crossing),
+                Err(obstacle) => why = obstacle,
+            }
+        }
+        let noise = match self.chart.gap {
+            true => noisy(),
+            false => self.chart.accepted * T::from_f64(10.0),
+        };
+        if sine < window() && T::EPSILON > noise * sine * sine {
+            return Err(why);
+        }
+        self.place_regular(state, point)?;
+        self.checked(point, placement)
+    }
+
+    /// Refuses a tangent space that has turned too far.
+    fn checked(
+        &self,
+        point: &Point<T, N>,
+        placement: Placement<T>,
+    ) -> Result<Placement<T>, Obstacle> {
+        let turn = point.turn(self.chart);
+        // False for NaN, too.
+        let near = turn <= T::from_f64(MOST_TURN);
+        if near {
+            Ok(placement)
+        } else {
+            Err(Obstacle::Turned)
+        }
+    }
+
+    /// Interpolates where the state is well between the nodes; `Regular` where it is
+    /// not.
+    fn place_between(
+        &mut self,
+        state: &State<T, N>,
+        like: &Frame<T, N, R>,
+        point: &mut Point<T, N>,
+    ) -> Result<Placement<T>, Obstacle> {
+        let direction = self.direction(state, like)?;
+        let angle = self.angle(state, like, &direction)?;
+        let Some(best) = self.search(state, like, &direction, angle)? else {
+            return Ok(Placement::Regular);
+        };
+        if !self.is_crossing(state, like, &direction, &best) {
+            return Ok(Placement::Gap);
+        }
+        let noise = T::from_f64(NOISE) * T::EPSILON * best.found.noise;
+        let scale = T::one().max(self.chart.reach * direction.rate);
+        if best.error > self.chart.accepted.max(noise * scale) {
+            return Err(Obstacle::Unresolved);
+        }
+        let [sum, ..] = &best.found.sums;
+        point.tangent = sum.tangent;
+        point.drift = sum.drift;
+        point.particular = sum.particular;
+        point.state = State::new(state.t, state.q + sum.offset, sum.drift);
+        let along = self.chart.coordinates(&state.v);
+        for (tangent, along) in sum
+            .tangent
+            .column_iter()
+            .zip(along)
+            .take(self.chart.freedoms)
+        {
+            point.state.v.axpy(along, &tangent, T::one());
+        }
+        point.sine = like.smallest();
+        self.polish(point, like)?;
+        Ok(Placement::Crossing {
+            spacing: best.spacing,
+        })
+    }
+
+    /// Tries spacings; `None` if the state is outside the nodes of all that are narrow
+    /// enough.
+    fn search(
+        &mut self,
+        state: &State<T, N>,
+        like: &Frame<T, N, R>,
+        direction: &Direction<T, N>,
+        angle: T,
+    ) -> Result<Option<Best<T, N>>, Obstacle> {
+        let mut best: Option<Best<T, N>> = None;
+        let mut why = None;
+        let mut width = (spacing::<T>() * self.chart.reach * direction.rate).min(spacing());
+        if self.chart.spacing > T::zero() {
+            width = width.min(self.chart.spacing * T::from_f64(4.0));
+        }
+        let mut found = Interpolated::new();
+        for _ in 0..LEVELS {
+            if direction.centre.abs() * direction.rate > hull::<T>() * width {
+                break;
+            }
+            match self.interpolate(state, direction, width, like, &mut found) {
+                Ok(()) if self.is_on_sheet(direction, width, angle, &found) => {
+                    let error = self.error(state, direction.rate, &found);
+                    let score = error + found.noise * T::EPSILON;
+                    let known = best
+                        .as_ref()
+                        .map_or(T::from_f64(f64::INFINITY), |b| b.score);
+                    if score < known {
+                        best = Some(Best {
+                            found: found.clone(),
+                            score,
+                            error,
+                            spacing: width,
+                        });
+                    } else if score > known * T::from_f64(4.0) {
+                        break;
+                    }
+                    if error <= resolved() {
+                        break;
+                    }
+                }
+                Ok(()) => why = Some(Obstacle::NotContracting),
+                Err(obstacle) => why = Some(obstacle),
+            }
+            width *= T::from_f64(0.5);
+        }
+        match (best, why) {
+            (None, Some(why)) => Err(why),
+            (best, _) => Ok(best),
+        }
+    }
+
+    /// The angle between the sheets that cross, in the plane of the direction; about one
+    /// where several loops are weak at once.
+    fn angle(
+        &mut self,
+        state: &State<T, N>,
+        like: &Frame<T, N, R>,
+        direction: &Direction<T, N>,
+    ) -> Result<T, Obstacle> {
+        if like.block().size != 1 || !self.holonomic {
+            return Ok(T::one());
+        }
+        let mut across = SVector::from(like.weakest_direction());
+        for (x, scale) in across.iter_mut().zip(&self.chart.column_scale) {
+            *x *= *scale;
+        }
+        let size = self.chart.length(&across);
+        // False for NaN, too.
+        let leads = size > T::zero();
+        if !leads {
+            return Ok(T::one());
+        }
+        let distance = difference::<T>() * self.chart.reach;
+        let moved = State::new(state.t, state.q + across * (distance / size), state.v);
+        self.eliminate(&moved, Some(like))?;
+        let change = self.frame.block().entries[0][0] - like.block().entries[0][0];
+        let rate = (change / distance).abs();
+        Ok((direction.rate + direction.rate) / rate.max(direction.rate))
+    }
+
+    /// Whether nodes are on the sheet of the last accepted state and not on another one
+    /// that crosses it.
+    fn is_on_sheet(
+        &self,
+        direction: &Direction<T, N>,
+        width: T,
+        angle: T,
+        found: &Interpolated<T, N>,
+    ) -> bool {
+        let [sum, ..] = &found.sums;
+        let quarter = T::from_f64(0.25);
+        let along = self
+            .chart
+            .coordinates(&direction.moved(&State::default(), T::one()).q);
+        let mut turned: SVector<T, N> = SVector::zeros();
+        for (i, along) in along.iter().enumerate().take(self.chart.freedoms) {
+            let turn = sum.tangent.column(i) - self.chart.tangent.column(i);
+            turned.axpy(*along, &turn, T::one());
+        }
+        let step = width / direction.rate;
+        let offset = self.chart.length(&sum.offset);
+        self.chart.length(&turned) <= angle * quarter && offset <= angle * quarter * step
+    }
+
+    /// By how much the interpolation is off, relative to what is interpolated: the
+    /// difference that one pair of nodes makes, made smaller by as much as it is smaller
+    /// than that of the pair before.
+    fn error(&self, state: &State<T, N>, rate: T, found: &Interpolated<T, N>) -> T {
+        let [all, fewer, fewest] = &found.sums;
+        let speed = self.chart.length(&state.v);
+        let bend = self.chart.length(&all.particular) + speed * speed * rate;
+        let mut differences = [T::zero(); 2];
+        for (difference, (a, b)) in differences.iter_mut().zip([(all, fewer), (fewer, fewest)]) {
+            let offset = self.chart.length(&(a.offset - b.offset)) / self.chart.reach;
+            let particular = match bend > T::zero() {
+                true => self.chart.length(&(a.particular - b.particular)) / bend,
+                false => T::zero(),
+            };
+            let mut turn = T::zero();
+            for i in 0..self.chart.freedoms {
+                turn += self
+                    .chart
+                    .length(&(a.tangent.column(i) - b.tangent.column(i)));
+            }
+            *difference = offset + particular + turn;
+        }
+        let [last, before] = differences;
+        let ratio = last / before;
+        let least = T::from_f64(1e-3);
+        // NaN where both are zero.
+        if ratio < T::one() {
+            last * ratio.max(least)
+        } else {
+            last
+        }
+    }
+
+    /// Whether the constraints vanish, to round-off, where the sheet meets the singular
+    /// set: two sheets then cross there. Otherwise a gap keeps them apart.
+    fn is_crossing(
+        &mut self,
+        state: &State<T, N>,
+        like: &Frame<T, N, R>,
+        direction: &Direction<T, N>,
+        best: &Best<T, N>,
+    ) -> bool {
+        if !self.holonomic {
+            return true;
+        }
+        let step = best.spacing / direction.rate;
+        let mut place = T::zero();
+        for _ in 0..CENTRINGS {
+            let mut at = direction.moved(state, direction.centre + step * place);
+            at.q += best.found.offset_at(place);
+            if self.eliminate(&at, Some(like)).is_err() {
+                return false;
+            }
+            let block = self.frame.block();
+            let moved = block.entries[0][0] / best.found.slope;
+            // Several loops have no one place where all of them are singular.
+            let refines = block.size == 1 && moved.abs() < T::one();
+            if !refines || moved.abs() < negligible() {
+                break;
+            }
+            place -= moved;
+        }
+        let right = self.scaled(&self.position.residual, &[T::zero(); N]);
+        let rest = self.frame.reduced(&right);
+        let most = rest.iter().fold(T::zero(), |most: T, x| most.max(x.abs()));
+        // Beside the crossing an error of interpolation is seen as far as rows are not zero.
+        let doubt = T::from_f64(4.0) * best.error * self.frame.smallest();
+        most <= (critical::<T>() * round_off() + doubt) * self.chart.reach
+    }
+}

@@ -1,0 +1,109 @@
+//! What the last accepted state taught.
+//!
+//! In:  accepted states.
+//! Out: [`Session`]: the chart of the sheet, where there is need of one, and how near the
+//!      constraints came to losing rank.
+//!
+//! Trial states change nothing here but what is forgotten when the trial is.
+
+use super::chart::Chart;
+use super::passage::Found;
+use crate::{Real, State};
+use nalgebra::SVector;
+
+/// What is known since the last accepted state.
+#[derive(Clone, Debug)]
+pub(crate) struct Session<T, const N: usize, const R: usize> {
+    /// The last accepted state.
+    pub(crate) base: Option<State<T, N>>,
+    /// The chart of the sheet there; none where the constraints are safely regular.
+    pub(crate) chart: Option<Chart<T, N, R>>,
+    /// The chart of the last accepted step.
+    pub(crate) used: Option<Chart<T, N, R>>,
+    /// The mechanism rests in a singular configuration, where nothing tells which sheet
+    /// is meant, and stays.
+    pub(crate) rests: bool,
+    /// The next step may come near a singular configuration.
+    pub(crate) near: bool,
+    /// The sine of the constraints at the last accepted state.
+    pub(crate) sine: Option<T>,
+    /// What the trial step at hand came to.
+    pub(crate) trial: Trial<T, N, R>,
+    /// Passages of the last accepted step.
+    pub(crate) passages: Found<T>,
+    /// The largest kinetic energy (J) so far.
+    pub(crate) liveliest: T,
+    /// Accepted error of a step, relative; none for fixed steps.
+    pub(crate) tolerance: Option<T>,
+}
+
+/// What a trial step came to.
+#[derive(Clone, Debug)]
+pub(crate) struct Trial<T, const N: usize, const R: usize> {
+    /// The smallest squared sine of its states.
+    pub(crate) lowest: T,
+    /// The squared sine at its end.
+    pub(crate) end: T,
+    /// The step after it may come near a singular configuration.
+    pub(crate) near: bool,
+    /// A state came so near to a singular configuration that a chart is needed.
+    pub(crate) wants_chart: bool,
+    /// The chart at its end.
+    pub(crate) chart: Option<Chart<T, N, R>>,
+    /// The end's tangent space, drift, and the spacing of its nodes, if any.
+    pub(crate) placed: Option<Placed<T, N>>,
+    /// Emitted code projected its end.
+    pub(crate) by_emitted: bool,
+    /// Some state of it lies next to a configuration where sheets were seen to cross.
+    pub(crate) crosses: bool,
+}
+
+/// The end of a trial step on its sheet.
+#[derive(Clone, Debug)]
+pub(crate) struct Placed<T, const N: usize> {
+    pub(crate) tangent: nalgebra::SMatrix<T, N, N>,
+    pub(crate) drift: SVector<T, N>,
+    pub(crate) sine: T,
+    pub(crate) spacing: T,
+    pub(crate) gap: bool,
+}
+
+impl<T: Real, const N: usize, const R: usize> Trial<T, N, R> {
+    pub(crate) fn new() -> Self {
+        Self {
+            lowest: T::one(),
+            end: T::one(),
+            near: false,
+            wants_chart: false,
+            chart: None,
+            placed: None,
+            by_emitted: false,
+            crosses: false,
+        }
+    }
+}
+
+impl<T: Real, const N: usize, const R: usize> Session<T, N, R> {
+    pub(crate) fn new() -> Self {
+        Self {
+            base: None,
+            chart: None,
+            used: None,
+            rests: false,
+            near: false,
+            sine: None,
+            trial: Trial::new(),
+            passages: Found::new(),
+            liveliest: T::zero(),
+            tolerance: None,
+        }
+    }
+
+    /// Begins at a state of which nothing is known.
+    pub(crate) fn begin(&mut self, state: &State<T, N>) {
+        let tolerance = self.tolerance;
+        *self = Self::new();
+        self.tolerance = tolerance;
+        self.base = Some(*state);
+    }
+}

@@ -1,0 +1,364 @@
+//! Which sheet a motion begins on.
+//!
+//! In:  a state of which nothing is known but that it is on the constraints.
+//! Out: a [`Chart`] there, or the news that nothing tells which sheet is meant.
+//!
+//! Where the constraints are regular, however little, their null space is the tangent
+//! space. In a singular configuration and within round-off of it, two sheets with
+//! normals `n±` cross, which the second derivatives `H` of the constraint combination
+//! that loses its gradient show: `H = n₊n₋ᵀ + n₋n₊ᵀ` on the directions that the other
+//! constraints leave free. The velocity tells which sheet is meant, or the position
+//! where it is off one of them.
+
+use super::chart::Chart;
+use super::obstacle::Obstacle;
+use super::place::Placement;
+use super::sheet::{Point, Sheet};
+use crate::dynamics::{Combined, Solver, Source, Which};
+use crate::linalg::{Breakdown, add_scaled, dot, eigen, independent_rows, norm, scaled};
+use crate::tolerance::{critical, difference, passes, regular, round_off, window};
+use crate::{DynamicsError, Mechanism, Real, State};
+use nalgebra::{SMatrix, SVector};
+
+/// A sheet is meant if the state is nearer to it than to the other by this factor.
+const NEARER: f64 = 4.0;
+/// Part of a displacement that the gradient which is lost is at least, where it returns.
+const RETURNS: f64 = 1e-2;
+/// Eigenvalues of `H` below this part of the largest are zero.
+const FLAT: f64 = 0.1;
+
+/// Where a motion begins.
+pub(crate) enum Start<T, const N: usize, const R: usize> {
+    /// On this sheet.
+    Sheet(Chart<T, N, R>),
+    /// In a singular configuration in which nothing tells which sheet is meant.
+    Undetermined,
+}
+
+impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+    /// The chart of the sheet that a motion begins on.
+    pub(crate) fn start_at<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<Start<T, N, R>, DynamicsError<T>> {
+        self.prepare(mechanism, state)?;
+        mechanism.position(state, &mut self.position);
+        self.safe = None;
+        self.factorise_metric(mechanism, Source::Position, state.t)?;
+        let mut squared = self.factorise_constraints(Source::Position, Which::All);
+        if !passes(squared, window()) && self.rows.regular(Which::All) < R {
+            self.choose_rows();
+            squared = self.factorise_constraints(Source::Position, Which::All);
+        }
+        let count = N - self.rows.regular(Which::All);
+        let tangent = if passes(squared, window()) {
+            self.null_space(count)
+        } else {
+            match self.singular_tangent(mechanism, state, count)? {
+                Some(tangent) => tangent,
+                None => return Ok(Start::Undetermined),
+            }
+        };
+        Ok(match self.chart(mechanism, state, tangent, count) {
+            Some(chart) => Start::Sheet(chart),
+            None => Start::Undetermined,
+        })
+    }
+
+    /// A chart at a state whose metric is factorised.
+    pub(crate) fn chart<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        tangent: SMatrix<T, N, N>,
+        freedoms: usize,
+    ) -> Option<Chart<T, N, R>> {
+        let (metric, rows) = (&self.metric, &self.rows);
+        let mut chart = Chart::new(
+            tangent,
+            freedoms,
+            metric,
+            rows,
+            (self.reach, self.accepted()),
+        )?;
+        mechanism.position(state, &mut self.position);
+        if self.position.drift.iter().any(|b| *b != T::zero()) {
+            let mut point = Point::zeros();
+            let placed = self.sheet(mechanism, &chart).place(state, &mut point);
+            if placed.is_ok() {
+                chart.set_drift(point.drift, T::zero());
+            }
+        }
+        Some(chart)
+    }
+
+    /// What evaluates a sheet.
+    pub(crate) fn sheet<'a, M: Mechanism<T, N, R> + ?Sized>(
+        &'a mut self,
+        mechanism: &'a M,
+        chart: &'a Chart<T, N, R>,
+    ) -> Sheet<'a, M, T, N, R> {
+        Sheet {
+            mechanism,
+            chart,
+            position: &mut self.position,
+            terms: &mut self.terms,
+            frame: &mut self.frame,
+            holonomic: self.rows.any_holonomic(),
+        }
+    }
+
+    /// What the factorised constraints leave free, in the first columns.
+    fn null_space(&self, count: usize) -> SMatrix<T, N, N> {
+        let zero = SVector::zeros();
+        self.free(count, |axis| self.lifted.correct(axis, &zero))
+    }
+
+    /// Directions that are left when `remove` takes away what is decided, lowered.
+    fn free(&self, count: usize, remove: impl Fn(&mut [T; N])) -> SMatrix<T, N, N> {
+        let mut free = orthonormal(count, remove);
+        for column in &mut free.data.0[..count] {
+            self.metric.factor.backward(column);
+        }
+        free
+    }
+
+    /// The tangent space in a singular configuration or next to one.
+    fn singular_tangent<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        freedoms: usize,
+    ) -> Result<Option<SMatrix<T, N, N>>, DynamicsError<T>> {
+        let not_finite = |Breakdown| DynamicsError::NotFinite { t: state.t };
+        let combined = self
+            .combine(Source::Position, Which::All)
+            .map_err(not_finite)?;
+        let count = N - freedoms;
+        if combined.values[..count]
+            .iter()
+            .all(|value| *value > regular())
+        {
+            let decided = &combined.directions.data.0[..count];
+            return Ok(Some(self.free(freedoms, |axis| remove(axis, decided))));
+        }
+        let still = self.position.drift.iter().all(|b| *b == T::zero());
+        let along = self.tangent_along(mechanism, state, freedoms)?;
+        if along.is_some() {
+            return Ok(along);
+        }
+        let near = combined.values[..count]
+            .iter()
+            .filter(|value| **value < window());
+        if near.count() != 1 || !self.rows.all_holonomic() || !still {
+            return Ok(None);
+        }
+        self.one_of_two(mechanism, state, &combined, freedoms)
+    }
+
+    /// The tangent space of the sheet that the velocity leads along: on it, the gradient
+    /// that is lost returns in the direction of the sheet's normal. `None` where the
+    /// velocity leads along the singular set, or is zero.
+    fn tangent_along<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        freedoms: usize,
+    ) -> Result<Option<SMatrix<T, N, N>>, DynamicsError<T>> {
+        let speed = self.metric.factor.length(&state.v.data.0[0]);
+        if speed == T::zero() {
+            return Ok(None);
+        }
+        let span = difference::<T>() * self.reach / speed;
+        let mut best = (difference::<T>() * T::from_f64(RETURNS), None);
+        for span in [span, -span] {
+            let moved = State::new(state.t + span, state.q + state.v * span, state.v);
+            mechanism.position(&moved, &mut self.position);
+            self.factorise_metric(mechanism, Source::Position, state.t)?;
+            let combined = self.combine(Source::Position, Which::All);
+            let combined = combined.map_err(|Breakdown| DynamicsError::NotFinite { t: state.t })?;
+            let count = N - freedoms;
+            let least = combined.values[..count]
+                .iter()
+                .fold(T::one(), |a, b| a.min(*b));
+            if least > best.0 {
+                let decided = &combined.directions.data.0[..count];
+                best = (
+                    least,
+                    Some(self.free(freedoms, |axis| remove(axis, decided))),
+                );
+            }
+        }
+        mechanism.position(state, &mut self.position);
+        self.factorise_metric(mechanism, Source::Position, state.t)?;
+        Ok(best.1)
+    }
+
+    /// The tangent space of one of two sheets that cross.
+    fn one_of_two<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        combined: &Combined<T, N, R>,
+        freedoms: usize,
+    ) -> Result<Option<SMatrix<T, N, N>>, DynamicsError<T>> {
+        let strong = &combined.directions.data.0[..N - freedoms - 1];
+        let kernel = orthonormal(freedoms + 1, |axis| remove(axis, strong));
+        let second = self.second_derivatives(mechanism, state, combined, &kernel, freedoms + 1);
+        let Some(normals) = normals(&second, freedoms + 1) else {
+            return Ok(None);
+        };
+        let velocity = self.metric.factor.transposed_product(&state.v.data.0[0]);
+        let mut sheets = [SMatrix::zeros(); 2];
+        let mut away = [T::zero(); 2];
+        for ((sheet, away), normal) in sheets.iter_mut().zip(&mut away).zip(&normals) {
+            let mut across = [T::zero(); N];
+            for (share, axis) in normal.iter().zip(&kernel.data.0) {
+                add_scaled(&mut across, *share, axis);
+            }
+            *away = dot(&across, &velocity).abs();
+            *sheet = self.free(freedoms, |axis| {
+                remove(axis, strong);
+                remove(axis, &[across]);
+            });
+        }
+        let [first, second] = away;
+        if first.max(second) > regular::<T>() * norm(&velocity) {
+            return Ok(nearer(away).map(|nearer| sheets[nearer]));
+        }
+        for (sheet, away) in sheets.iter().zip(&mut away) {
+            mechanism.position(state, &mut self.position);
+            self.factorise_metric(mechanism, Source::Position, state.t)?;
+            let chart = self.chart(mechanism, state, *sheet, freedoms);
+            let mut point = Point::zeros();
+            let placed = match &chart {
+                Some(chart) => self.sheet(mechanism, chart).place(state, &mut point),
+                None => Err(Obstacle::Undetermined),
+            };
+            match (placed, &chart) {
+                (Ok(Placement::Crossing { .. }), Some(chart)) => {
+                    *away = chart.length(&(point.state.q - state.q));
+                }
+                _ => return Ok(None),
+            }
+        }
+        mechanism.position(state, &mut self.position);
+        self.factorise_metric(mechanism, Source::Position, state.t)?;
+        // Distances that are nothing but round-off tell nothing.
+        let [first, second] = away;
+        let known = first.max(second) > round_off::<T>() * critical() * self.reach;
+        Ok(nearer(away).filter(|_| known).map(|nearer| sheets[nearer]))
+    }
+
+    /// The second derivatives, along some directions, of the combination of rows that
+    /// loses its gradient.
+    fn second_derivatives<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        combined: &Combined<T, N, R>,
+        kernel: &SMatrix<T, N, N>,
+        count: usize,
+    ) -> [[T; N]; N] {
+        let distance = difference::<T>() * self.reach;
+        let weakest = N - count;
+        let mut lowered = *kernel;
+        for column in &mut lowered.data.0[..count] {
+            self.metric.factor.backward(column);
+        }
+        let mut second = [[T::zero(); N]; N];
+        for (i, second) in second.iter_mut().enumerate().take(count) {
+            for sign in [T::one(), -T::one()] {
+                let moved = state.q + lowered.column(i) * (sign * distance);
+                let moved = State::new(state.t, moved, state.v);
+                mechanism.position(&moved, &mut self.position);
+                for row in 0..R {
+                    let share = combined.left[(row, weakest)] * self.rows.scale(row) * sign;
+                    let along = self.position.jacobian.row(row) * lowered;
+                    for (entry, along) in second.iter_mut().zip(along.iter()).take(count) {
+                        *entry += share * *along / (distance + distance);
+                    }
+                }
+            }
+        }
+        mechanism.position(state, &mut self.position);
+        let half = T::from_f64(0.5);
+        core::array::from_fn(|i| core::array::from_fn(|j| (second[i][j] + second[j][i]) * half))
+    }
+}
+
+/// The normals of two sheets from the second derivatives; none where these are not of
+/// that kind.
+fn normals<T: Real, const N: usize>(second: &[[T; N]; N], count: usize) -> Option<[[T; N]; 2]> {
+    let (values, vectors) = eigen(*second, count);
+    let (mut up, mut down) = (0, 0);
+    for k in 0..count {
+        if values[k] > values[up] {
+            up = k;
+        }
+        if values[k] < values[down] {
+            down = k;
+        }
+    }
+    let most = values[up].max(-values[down]);
+    let flat = most * T::from_f64(FLAT);
+    let others = (0..count).filter(|k| *k != up && *k != down);
+    let curved = others.fold(T::zero(), |most: T, k| most.max(values[k].abs()));
+    // False for NaN, too.
+    let two =
+        values[up] > flat * flat / most && -values[down] > flat * flat / most && curved <= flat;
+    if !two {
+        return None;
+    }
+    let (more, less) = (values[up].sqrt(), (-values[down]).sqrt());
+    Some([less, -less].map(|less| {
+        let mut normal = scaled(more, &vectors[up]);
+        add_scaled(&mut normal, less, &vectors[down]);
+        let size = norm(&normal);
+        scaled(T::one() / size, &normal)
+    }))
+}
+
+/// Which of two distances is so much smaller that it is meant.
+fn nearer<T: Real>(away: [T; 2]) -> Option<usize> {
+    let [first, second] = away;
+    let factor = T::from_f64(NEARER);
+    if first * factor < second {
+        Some(0)
+    } else if second * factor < first {
+        Some(1)
+    } else {
+        None
+    }
+}
+
+/// An orthonormal basis, in the first columns, of what is left of the axes when `remove`
+/// takes away what is decided.
+fn orthonormal<T: Real, const N: usize>(
+    count: usize,
+    remove: impl Fn(&mut [T; N]),
+) -> SMatrix<T, N, N> {
+    let mut axes: SMatrix<T, N, N> = SMatrix::identity();
+    for axis in &mut axes.data.0 {
+        // The second time takes the round-off of the first.
+        remove(axis);
+        remove(axis);
+    }
+    let mut chosen = [0; N];
+    let found = independent_rows(&mut axes, count, |_| false, T::zero(), &mut chosen);
+    let mut free = SMatrix::zeros();
+    for (column, &j) in free.data.0.iter_mut().zip(&chosen[..found]) {
+        let axis = &axes.data.0[j];
+        *column = scaled(T::one() / norm(axis), axis);
+    }
+    free
+}
+
+/// Subtracts from a vector its parts along orthonormal directions.
+fn remove<T: Real, const N: usize>(x: &mut [T; N], directions: &[[T; N]]) {
+    for direction in directions {
+        let share = dot(direction, x);
+        add_scaled(x, -share, direction);
+    }
+}

@@ -1,0 +1,130 @@
+//! Single precision passes singular positions too.
+
+use crate::{SEED, is_long};
+use bricard_runtime::{Interface, Mechanism, Options, Whole, assemble, simulate};
+use bricard_singular::descriptions::{curves, equal_slider_crank, parallelogram_pendulum};
+use bricard_singular::{Random, Set, exact};
+
+/// Relative and absolute tolerance.
+const TOLERANCE: f32 = 1e-4;
+/// What the end may be off by, relative to the coordinate: a few hundred tolerances.
+const BOUND: f64 = 3e-2;
+const UNTIL: f64 = 1.0;
+
+/// The end of a run in single precision, or its error.
+fn end<const N: usize, const R: usize>(
+    mechanism: &dyn Whole<f32, N, R>,
+) -> Result<Vec<f64>, String> {
+    let start = assemble(mechanism, &mechanism.start(), 0.0).map_err(|error| error.to_string())?;
+    let options = Options::dop853(UNTIL as f32, TOLERANCE);
+    let ran = simulate(mechanism, &start, &options, &mut []);
+    let end = ran.map_err(|failure| failure.error.to_string())?.end;
+    Ok(end
+        .q
+        .iter()
+        .chain(end.v.iter())
+        .map(|x| f64::from(*x))
+        .collect())
+}
+
+fn set<M, const N: usize, const R: usize>(mechanism: &mut M, set: &Set)
+where
+    M: Mechanism<f32, N, R> + Interface<f32, N>,
+{
+    let parameters = mechanism.structure().parameters;
+    for (name, value) in set {
+        let place = parameters.iter().position(|p| p.name == *name);
+        mechanism.set_parameter(place.expect("it is a parameter"), *value as f32);
+    }
+}
+
+/// Runs random starts in single precision: none is wrong, few end in an error.
+fn passes(
+    (name, reduced, n): (&str, &str, usize),
+    start: fn(&mut Random) -> Set,
+    run: fn(&Set) -> Result<Vec<f64>, String>,
+) {
+    let runs = if is_long() { 1000 } else { 60 };
+    let mut ended = Vec::new();
+    for index in 0..runs {
+        // Rounded first, so that both begin at the same place.
+        let set: Set = start(&mut Random::of(SEED, name, index));
+        let set: Set = set
+            .into_iter()
+            .map(|(name, x)| (name, f64::from(x as f32)))
+            .collect();
+        match run(&set) {
+            Ok(found) => {
+                let wanted = exact(name, reduced, &set, n, &[UNTIL]).numbers;
+                for (a, b) in found.iter().zip(&wanted) {
+                    let off = (a - b).abs() / (1.0 + b.abs());
+                    assert!(off <= BOUND, "{name} {set:?}: {found:?}, not {wanted:?}");
+                }
+            }
+            Err(error) => ended.push(format!("{set:?}: {error}")),
+        }
+    }
+    // Near the set seven digits often do not tell the curves apart, which is said.
+    assert!(
+        ended.len() * 6 <= runs,
+        "{name}: {} of {runs}\n{}",
+        ended.len(),
+        ended.join("\n")
+    );
+}
+
+#[test]
+fn a_parallelogram_with_a_pendulum_passes_in_single_precision() {
+    let start = |random: &mut Random| {
+        vec![
+            ("a0", random.within(1.4)),
+            ("b0", random.within(1.0)),
+            ("wb0", random.within(3.0)),
+        ]
+    };
+    let run = |values: &Set| {
+        let mut mechanism = parallelogram_pendulum::ParallelogramPendulum::<f32>::default();
+        set(&mut mechanism, values);
+        end::<4, 2>(&mechanism)
+    };
+    let names = (
+        "parallelogram_pendulum",
+        "parallelogram_pendulum_reduced",
+        4,
+    );
+    passes(names, start, run);
+}
+
+#[test]
+fn two_curves_are_passed_in_single_precision() {
+    let start = |random: &mut Random| {
+        vec![
+            ("f1", random.between(0.2, 1.0)),
+            ("h1", random.between(-1.0, -0.2)),
+            ("f2", random.within(0.5)),
+            ("h2", random.within(0.5)),
+            ("v0", random.between(1.0, 6.0)),
+        ]
+    };
+    let run = |values: &Set| {
+        let mut mechanism = curves::Curves::<f32>::default();
+        set(&mut mechanism, values);
+        end::<2, 1>(&mechanism)
+    };
+    passes(("curves", "curve_reduced", 2), start, run);
+}
+
+#[test]
+fn a_slider_crank_passes_in_single_precision() {
+    let start = |random: &mut Random| vec![("p0", random.within(1.4)), ("w0", random.within(8.0))];
+    let run = |values: &Set| {
+        let mut mechanism = equal_slider_crank::EqualSliderCrank::<f32>::default();
+        set(&mut mechanism, values);
+        end::<2, 1>(&mechanism)
+    };
+    passes(
+        ("equal_slider_crank", "equal_slider_crank_reduced", 2),
+        start,
+        run,
+    );
+}
