@@ -4,7 +4,7 @@
 //! Out: [`CommandError`]: a message and an exit status.
 
 use crate::interrupt::INTERRUPTED;
-use crate::output::exact;
+use crate::number::exact;
 use bricard_codegen::diagnostic::nearest;
 use std::fmt::{self, Display, Formatter};
 use std::io;

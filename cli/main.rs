@@ -20,6 +20,7 @@ mod landing;
 mod list;
 mod mechanism;
 mod new;
+mod number;
 mod output;
 mod parquet;
 mod plot;

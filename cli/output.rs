@@ -5,6 +5,7 @@
 
 use crate::checkpoint::Rows;
 use crate::error::CommandError;
+use crate::number::exact;
 use csv::{ErrorKind, Writer};
 use std::fs::{self, File};
 use std::io::{self, Seek, SeekFrom, Write};
@@ -189,15 +190,6 @@ fn system(error: csv::Error) -> io::Error {
     match error.into_kind() {
         ErrorKind::Io(error) => error,
         _ => io::Error::other(text),
-    }
-}
-
-/// A number in the fewest digits that read back to the same bits.
-pub fn exact(value: f64) -> String {
-    let text = format!("{value:?}");
-    match text.strip_suffix(".0") {
-        Some(whole) => whole.to_string(),
-        None => text,
     }
 }
 

@@ -7,11 +7,15 @@
 mod error;
 #[path = "../../cli/interrupt.rs"]
 mod interrupt;
+#[path = "../../cli/number.rs"]
+mod number;
 #[path = "../../cli/plot/mod.rs"]
 mod plot;
 
 use libfuzzer_sys::fuzz_target;
-use plot::{Cloud, Frame, Mark, Marks, Panel, Scale, Series, Shape, Times, frames, panels, work_diagram};
+use plot::{
+    Cloud, Frame, Mark, Marks, Panel, Scale, Series, Shape, Times, frames, panels, work_diagram,
+};
 use std::path::Path;
 
 /// Pictures go nowhere.
