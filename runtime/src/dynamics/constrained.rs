@@ -4,7 +4,6 @@
 //! Out: accelerations, reactions, projections, rank, constraint errors.
 
 use super::{Solver, Source, Which};
-use crate::linalg::Breakdown;
 use crate::singular::Found;
 use crate::tolerance::{passes, regular, window};
 use crate::{Counters, DynamicsError, Mechanism, Real, Slope, State, Step, System};
@@ -193,8 +192,7 @@ where
                 sine: squared.sqrt(),
             });
         }
-        let combined = solver.combine(Source::Position, Which::All);
-        let combined = combined.map_err(|Breakdown| DynamicsError::NotFinite { t: state.t })?;
+        let combined = solver.combine(Source::Position, Which::All, state.t)?;
         let values = &combined.values[..full];
         Ok(Rank {
             rank: values.iter().filter(|value| **value > regular()).count(),

@@ -7,7 +7,7 @@
 //! come near one is taken again with a chart.
 
 use super::{Solver, Source, Which};
-use crate::linalg::{Breakdown, project_onto};
+use crate::linalg::project_onto;
 use crate::singular::{Found, Obstacle, Placed, Placement, Point, Start};
 use crate::state::all_finite;
 use crate::tolerance::{resolvable, round_off, window};
@@ -134,8 +134,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     ) -> Result<DynamicsError<T>, DynamicsError<T>> {
         mechanism.position(state, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, state.t)?;
-        let combined = self.combine(Source::Position, Which::All);
-        let combined = combined.map_err(|Breakdown| DynamicsError::NotFinite { t: state.t })?;
+        let combined = self.combine(Source::Position, Which::All, state.t)?;
         Ok(DynamicsError::NotRegular {
             t: state.t,
             rank: combined

@@ -7,7 +7,6 @@
 //! `A` are dependent; a Schur complement of all rows shows how near that is.
 
 use super::{Solver, Source, Which};
-use crate::linalg::Breakdown;
 use crate::tolerance::{passes, window};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
@@ -46,8 +45,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         if passes(squared, window()) {
             return Ok(());
         }
-        let combined = self.combine(Source::Terms, Which::All);
-        let combined = combined.map_err(|Breakdown| DynamicsError::NotFinite { t: state.t })?;
+        let combined = self.combine(Source::Terms, Which::All, state.t)?;
         let rank = combined
             .values
             .iter()

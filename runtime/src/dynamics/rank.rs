@@ -46,11 +46,13 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         &mut self,
         source: Source,
         which: Which,
-    ) -> Result<Combined<T, N, R>, Breakdown> {
+        t: T,
+    ) -> Result<Combined<T, N, R>, DynamicsError<T>> {
         self.counters.rank_decisions += 1;
         let mut directions = self.lift_rows(source, which);
         let mut left: SMatrix<T, R, R> = SMatrix::identity();
-        orthogonalise(&mut directions.data.0, &mut left.data.0)?;
+        orthogonalise(&mut directions.data.0, &mut left.data.0)
+            .map_err(|Breakdown| DynamicsError::NotFinite { t })?;
         let mut values = [T::zero(); R];
         for (value, column) in values.iter_mut().zip(&mut directions.data.0) {
             *value = norm(column);
@@ -120,8 +122,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         least: T,
         t: T,
     ) -> Result<(usize, Combined<T, N, R>), DynamicsError<T>> {
-        let combined = self.combine(Source::Position, which);
-        let combined = combined.map_err(|Breakdown| DynamicsError::NotFinite { t })?;
+        let combined = self.combine(Source::Position, which, t)?;
         let rank = combined
             .values
             .iter()
@@ -193,8 +194,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let bias = self.stabilised_bias(mechanism, state);
         self.safe = None;
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
-        let combined = self.combine(Source::Terms, Which::All);
-        let combined = combined.map_err(|Breakdown| DynamicsError::NotFinite { t: state.t })?;
+        let combined = self.combine(Source::Terms, Which::All, state.t)?;
         let right = self.scaled(&bias);
         let mut w = self.free_acceleration(&bias);
         let limit = self.rows.regular(Which::All);

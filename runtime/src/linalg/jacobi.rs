@@ -75,8 +75,9 @@ fn sweep<T: Real, const K: usize, const N: usize>(
     rotated
 }
 
-/// Cosine and sine of the angle that makes two columns orthogonal.
-fn rotation<T: Real>(aa: T, bb: T, ab: T) -> (T, T) {
+/// Cosine and sine of the angle that makes two columns orthogonal, from their products;
+/// also that which makes the entry between two axes of a symmetric matrix vanish.
+pub(super) fn rotation<T: Real>(aa: T, bb: T, ab: T) -> (T, T) {
     let zeta = (bb - aa) / (ab + ab);
     let size = zeta.abs() + (T::one() + zeta * zeta).sqrt();
     let tangent = if zeta < T::zero() {

@@ -6,6 +6,7 @@
 //! Source: Golub & Van Loan, *Matrix Computations* (2013), section 8.5 (Jacobi's method).
 
 use super::column::turn;
+use super::jacobi::rotation;
 use crate::Real;
 
 /// Sweeps after which rotations stop. Convergence is quadratic.
@@ -48,15 +49,7 @@ fn eliminate<T: Real, const N: usize>(
     if !counts {
         return false;
     }
-    let zeta = (b - a) / (between + between);
-    let size = zeta.abs() + (T::one() + zeta * zeta).sqrt();
-    let tangent = if zeta < T::zero() {
-        -T::one() / size
-    } else {
-        T::one() / size
-    };
-    let c = T::one() / (T::one() + tangent * tangent).sqrt();
-    let s = c * tangent;
+    let (c, s) = rotation(a, b, between);
     let (left, right) = matrix.split_at_mut(j);
     turn(&mut left[i], &mut right[0], c, s);
     for row in matrix.iter_mut() {

@@ -190,7 +190,7 @@ fn norm_of<T: Real>(shares: &[T]) -> T {
     shares.iter().fold(T::zero(), |sum, x| sum + *x * *x).sqrt()
 }
 
-/// Directions that fill the sphere evenly, by multiples of the square roots of primes.
+/// Directions that fill the sphere evenly, by multiples of irrational numbers.
 fn spread_evenly<T: Real, const N: usize>(trial: usize, dimension: usize) -> [T; N] {
     let mut vector = [T::zero(); N];
     for (i, entry) in vector[..dimension.min(N)].iter_mut().enumerate() {

@@ -124,16 +124,9 @@ where
         point.tangent = sum.tangent;
         point.drift = sum.drift;
         point.particular = sum.particular;
-        point.state = State::new(state.t, state.q + sum.offset, sum.drift);
+        point.state = State::new(state.t, state.q + sum.offset, state.v);
         let along = self.chart.coordinates(&state.v);
-        for (tangent, along) in sum
-            .tangent
-            .column_iter()
-            .zip(along)
-            .take(self.chart.freedoms)
-        {
-            point.state.v.axpy(along, &tangent, T::one());
-        }
+        point.move_along(&along, self.chart.freedoms);
         point.sine = like.smallest();
         self.polish(point, like)?;
         Ok(Placement::Crossing {

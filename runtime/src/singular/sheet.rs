@@ -36,9 +36,6 @@ pub(crate) struct Point<T, const N: usize> {
     /// About the sine by which the weakest combination of constraint rows is independent
     /// of the others.
     pub(crate) sine: T,
-    /// Whether the determinant of the square system is negative: it changes its sign
-    /// where sheets cross.
-    pub(crate) negative: bool,
 }
 
 impl<T: Real, const N: usize> Point<T, N> {
@@ -49,7 +46,14 @@ impl<T: Real, const N: usize> Point<T, N> {
             drift: SVector::zeros(),
             particular: SVector::zeros(),
             sine: T::zero(),
-            negative: false,
+        }
+    }
+
+    /// Gives the state the velocity of these coordinates in the chart.
+    pub(super) fn move_along(&mut self, along: &[T; N], freedoms: usize) {
+        self.state.v = self.drift;
+        for (tangent, along) in self.tangent.column_iter().zip(along).take(freedoms) {
+            self.state.v.axpy(*along, &tangent, T::one());
         }
     }
 
@@ -244,19 +248,14 @@ where
         let moving = self.position.drift.iter().any(|b| *b != T::zero());
         point.drift = match moving {
             true => self.solve(&-self.position.drift, &[T::zero(); N]),
-            false => zero_vector(),
+            false => SVector::zeros(),
         };
         if let Some(along) = along {
-            point.state.v = point.drift;
-            let columns = point.tangent.column_iter().zip(along);
-            for (tangent, along) in columns.take(self.chart.freedoms) {
-                point.state.v.axpy(*along, &tangent, T::one());
-            }
+            point.move_along(along, self.chart.freedoms);
         }
         self.mechanism.terms(&point.state, self.terms);
         point.particular = self.solve(&self.terms.bias, &[T::zero(); N]);
         point.sine = self.frame.smallest();
-        point.negative = self.frame.is_negative();
     }
 
     /// The geometry at a state as it is.
@@ -283,8 +282,4 @@ where
         self.measure(Some(&along), point);
         Ok(())
     }
-}
-
-fn zero_vector<T: Real, const N: usize>() -> SVector<T, N> {
-    SVector::zeros()
 }

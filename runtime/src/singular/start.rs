@@ -15,7 +15,7 @@ use super::obstacle::Obstacle;
 use super::place::Placement;
 use super::sheet::{Point, Sheet};
 use crate::dynamics::{Combined, Solver, Source, Which};
-use crate::linalg::{Breakdown, add_scaled, dot, eigen, independent_rows, norm, scaled};
+use crate::linalg::{add_scaled, dot, eigen, independent_rows, norm, scaled};
 use crate::tolerance::{critical, difference, passes, regular, round_off, window};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::{SMatrix, SVector};
@@ -131,10 +131,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         state: &State<T, N>,
         freedoms: usize,
     ) -> Result<Option<SMatrix<T, N, N>>, DynamicsError<T>> {
-        let not_finite = |Breakdown| DynamicsError::NotFinite { t: state.t };
-        let combined = self
-            .combine(Source::Position, Which::All)
-            .map_err(not_finite)?;
+        let combined = self.combine(Source::Position, Which::All, state.t)?;
         let count = N - freedoms;
         if combined.values[..count]
             .iter()
@@ -176,8 +173,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             let moved = State::new(state.t + span, state.q + state.v * span, state.v);
             mechanism.position(&moved, &mut self.position);
             self.factorise_metric(mechanism, Source::Position, state.t)?;
-            let combined = self.combine(Source::Position, Which::All);
-            let combined = combined.map_err(|Breakdown| DynamicsError::NotFinite { t: state.t })?;
+            let combined = self.combine(Source::Position, Which::All, state.t)?;
             let count = N - freedoms;
             let least = combined.values[..count]
                 .iter()
