@@ -174,8 +174,10 @@ fn widened((from, to): Range) -> Range {
 fn ticks(scale: Scale, range: Range) -> usize {
     match scale {
         Scale::Linear => TICKS,
-        Scale::Whole => TICKS.min((range.1 - range.0) as usize + 1),
-        Scale::Logarithmic { .. } => ((range.1 - range.0) / 2.0).ceil() as usize + 1,
+        Scale::Whole => TICKS.min(((range.1 - range.0) as usize).saturating_add(1)),
+        Scale::Logarithmic { .. } => {
+            (((range.1 - range.0) / 2.0).ceil() as usize).saturating_add(1)
+        }
     }
 }
 

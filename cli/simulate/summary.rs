@@ -134,7 +134,7 @@ fn work(counters: &Counters) -> Vec<[String; 2]> {
         [
             "projections".to_string(),
             format!(
-                "{} with {} corrections of positions, {} with a rank decision",
+                "{} with {} corrections of positions, {} beside singular positions",
                 counters.projections, counters.projection_iterations, counters.robust_projections
             ),
         ],
