@@ -10,7 +10,7 @@ use super::{Solver, Source, Which};
 use crate::linalg::project_onto;
 use crate::singular::{Found, Obstacle, Placed, Placement, Point, Start};
 use crate::state::all_finite;
-use crate::tolerance::{resolvable, round_off, window};
+use crate::tolerance::{regular, resolvable, round_off, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State, Step};
 use nalgebra::SVector;
 
@@ -69,9 +69,17 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let rate = self.metric.factor.length(&state.v.data.0[0]);
         let most = T::from_f64(MOST_ROUND_OFF) * round_off();
         // False for NaN, too.
-        let is_on = worst <= most * self.reach && fastest <= most * rate;
-        if !is_on {
+        let (on, rests) = (worst <= most * self.reach, fastest <= most * rate);
+        let moved = self.metric.factor.length(&(placed.q - state.q).data.0[0]);
+        if on && moved > regular::<T>() * self.reach {
+            return Err(self.refusal(mechanism, Obstacle::Undetermined, state.t));
+        }
+        if !on {
             *state = placed;
+        } else if !rests {
+            state.v = placed.v;
+        }
+        if !on || !rests {
             self.session.begin(state);
         }
         Ok(())

@@ -281,33 +281,35 @@ impl<T: Real, const N: usize, const R: usize> Frame<T, N, R> {
             }
         }
         for step in first..N {
-            let mut best = (0, 0, -T::one());
-            for row in self.waiting(late, step) {
-                let (column, size) = self.largest(row);
-                if size > best.2 {
-                    best = (row, column, size);
-                }
-            }
-            let (row, column, size) = best;
+            let size = self.bring_largest(step);
             self.smallest = self.smallest.min(size);
             if size == T::zero() {
                 return Ok(());
             }
-            self.take(step, row, column)?;
-            for &(later, _) in late {
-                if !self.rows[first..=step].contains(&later) {
-                    self.reduce(later, step, step + 1);
-                }
+            self.take(step, self.rows[step], self.columns[step])?;
+            for later in step + 1..N {
+                self.reduce(self.rows[later], step, step + 1);
             }
         }
         Ok(())
     }
 
-    /// The near-dependent rows that are not eliminated yet.
-    fn waiting(&self, late: &[(usize, usize)], step: usize) -> impl Iterator<Item = usize> {
-        let taken = &self.rows[self.independent..step];
-        let rows = late.iter().map(|(row, _)| *row);
-        rows.filter(|row| !taken.contains(row))
+    /// Makes the row with the largest entry of those that are left the next one, and that
+    /// entry its pivot; its size.
+    fn bring_largest(&mut self, step: usize) -> T {
+        let mut best = (step, 0, -T::one());
+        for place in step..N {
+            let (column, size) = self.largest(self.rows[place]);
+            if size > best.2 {
+                best = (place, column, size);
+            }
+        }
+        let (place, column, size) = best;
+        self.rows.swap(step, place);
+        if let Some(place) = (step..N).find(|place| self.columns[*place] == column) {
+            self.columns.swap(step, place);
+        }
+        size
     }
 
     /// The row that comes last.

@@ -11,7 +11,6 @@
 //! where it is off one of them.
 
 use super::chart::Chart;
-use super::obstacle::Obstacle;
 use super::place::Placement;
 use super::sheet::{Point, Sheet};
 use crate::dynamics::{Combined, Solver, Source, Which};
@@ -22,6 +21,8 @@ use nalgebra::{SMatrix, SVector};
 
 /// A sheet is meant if the state is nearer to it than to the other by this factor.
 const NEARER: f64 = 4.0;
+/// A velocity that is not so much nearer to one sheet than to the other is off both.
+const CLEARLY_NEARER: f64 = 1e3;
 /// Part of a displacement that the gradient which is lost is at least, where it returns.
 const RETURNS: f64 = 1e-2;
 /// Eigenvalues of `H` below this part of the largest are zero.
@@ -219,32 +220,49 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 remove(axis, &[across]);
             });
         }
-        let [first, second] = away;
-        if first.max(second) > regular::<T>() * norm(&velocity) {
-            return Ok(nearer(away).map(|nearer| sheets[nearer]));
-        }
-        for (sheet, away) in sheets.iter().zip(&mut away) {
+        let speed = norm(&velocity);
+        let crosses = larger(away) > regular::<T>() * speed;
+        let by_velocity = nearer(away, T::from_f64(CLEARLY_NEARER)).filter(|_| crosses);
+        let distances = self.distances(mechanism, state, &sheets, freedoms)?;
+        // Distances that are nothing but round-off tell nothing.
+        let least = match crosses {
+            true => regular(),
+            false => round_off::<T>() * critical(),
+        };
+        let known = distances.filter(|away| larger(*away) > least * self.reach);
+        let by_position = known.map(|away| nearer(away, T::from_f64(NEARER)));
+        let meant = match (by_velocity, by_position) {
+            (Some(one), None) => Some(one),
+            (None, Some(other)) => other,
+            (one, other) if Some(one) == other => one,
+            _ => None,
+        };
+        Ok(meant.map(|meant| sheets[meant]))
+    }
+
+    /// How far a state is off two sheets; `None` where that can't be told.
+    fn distances<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        sheets: &[SMatrix<T, N, N>; 2],
+        freedoms: usize,
+    ) -> Result<Option<[T; 2]>, DynamicsError<T>> {
+        let mut distances = [T::zero(); 2];
+        let mut known = true;
+        for (sheet, distance) in sheets.iter().zip(&mut distances) {
+            let mut point = Point::zeros();
+            let chart = self.chart(mechanism, state, *sheet, freedoms);
+            let placed = chart.as_ref().map(|chart| {
+                let placed = self.sheet(mechanism, chart).place(state, &mut point);
+                *distance = chart.length(&(point.state.q - state.q));
+                placed
+            });
+            known &= matches!(placed, Some(Ok(Placement::Crossing { .. })));
             mechanism.position(state, &mut self.position);
             self.factorise_metric(mechanism, Source::Position, state.t)?;
-            let chart = self.chart(mechanism, state, *sheet, freedoms);
-            let mut point = Point::zeros();
-            let placed = match &chart {
-                Some(chart) => self.sheet(mechanism, chart).place(state, &mut point),
-                None => Err(Obstacle::Undetermined),
-            };
-            match (placed, &chart) {
-                (Ok(Placement::Crossing { .. }), Some(chart)) => {
-                    *away = chart.length(&(point.state.q - state.q));
-                }
-                _ => return Ok(None),
-            }
         }
-        mechanism.position(state, &mut self.position);
-        self.factorise_metric(mechanism, Source::Position, state.t)?;
-        // Distances that are nothing but round-off tell nothing.
-        let [first, second] = away;
-        let known = first.max(second) > round_off::<T>() * critical() * self.reach;
-        Ok(nearer(away).filter(|_| known).map(|nearer| sheets[nearer]))
+        Ok(known.then_some(distances))
     }
 
     /// The second derivatives, along some directions, of the combination of rows that
@@ -316,10 +334,12 @@ fn normals<T: Real, const N: usize>(second: &[[T; N]; N], count: usize) -> Optio
     }))
 }
 
-/// Which of two distances is so much smaller that it is meant.
-fn nearer<T: Real>(away: [T; 2]) -> Option<usize> {
-    let [first, second] = away;
-    let factor = T::from_f64(NEARER);
+fn larger<T: Real>([first, second]: [T; 2]) -> T {
+    first.max(second)
+}
+
+/// Which of two distances is smaller by this factor, if one is.
+fn nearer<T: Real>([first, second]: [T; 2], factor: T) -> Option<usize> {
     if first * factor < second {
         Some(0)
     } else if second * factor < first {
