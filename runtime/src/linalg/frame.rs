@@ -57,19 +57,43 @@ impl<T: Real, const R: usize> Block<T, R> {
     }
 
     /// How many eigenvalues change their sign from another block to this one: the
-    /// number of negative eigenvalues of the symmetric part of the product of this
-    /// block and the other's transpose.
+    /// number of negative eigenvalues of the symmetric part of this block in bases in
+    /// which the other one is the identity.
     pub(crate) fn sign_changes_from(&self, other: &Self) -> usize {
         let size = self.size.min(other.size);
-        let mut product = Self::zeros(size);
+        let (mut here, mut there) = (self.clone(), other.clone());
+        let mut root = [T::zero(); R];
+        for step in 0..size {
+            let Some((row, column)) = there.largest(step) else {
+                return 0;
+            };
+            there.swap(step, row, column);
+            here.swap(step, row, column);
+            let pivot = there.entries[step];
+            let above = here.entries[step];
+            for later in step + 1..size {
+                let share = -there.entries[later][step] / pivot[step];
+                add_scaled(&mut here.entries[later], share, &above);
+                add_scaled(&mut there.entries[later], share, &pivot);
+            }
+            for row in &mut here.entries[..size] {
+                for later in step + 1..size {
+                    row[later] -= row[step] * pivot[later] / pivot[step];
+                }
+                if pivot[step] < T::zero() {
+                    row[step] = -row[step];
+                }
+            }
+            root[step] = pivot[step].abs().sqrt();
+        }
+        let mut symmetric = Self::zeros(size);
         for i in 0..size {
             for j in 0..size {
-                let there = dot(&self.entries[i], &other.entries[j]);
-                let back = dot(&self.entries[j], &other.entries[i]);
-                product.entries[i][j] = there + back;
+                let sum = here.entries[i][j] + here.entries[j][i];
+                symmetric.entries[i][j] = sum / (root[i] * root[j]);
             }
         }
-        product.negative_eigenvalues()
+        symmetric.negative_eigenvalues()
     }
 
     /// By Sylvester's law of inertia, from symmetric elimination with the largest
@@ -326,6 +350,15 @@ impl<T: Real, const N: usize, const R: usize> Frame<T, N, R> {
     /// combination of them is independent.
     pub(crate) fn smallest(&self) -> T {
         self.smallest
+    }
+
+    /// The determinant; with its sign where it is not so small that it counts as zero.
+    pub(crate) fn determinant(&self) -> T {
+        let pivots = self.rows.iter().zip(&self.columns);
+        let size = pivots.fold(T::one(), |product, (&row, &column)| {
+            product * self.upper.data.0[row][column].abs()
+        });
+        if self.is_negative() { -size } else { size }
     }
 
     /// The sign of the determinant.

@@ -1,10 +1,11 @@
 //! Passages through singular configurations.
 //!
 //! In:  accepted steps, the chart at their start.
-//! Out: [`Passage`]s: where the block of near-dependent rows changes its sign.
+//! Out: [`Passage`]s: where the constraints become singular and the motion goes on to the
+//!      other side.
 
 use super::sheet::Sheet;
-use crate::linalg::{Block, Frame, dot};
+use crate::linalg::{Block, Frame};
 use crate::{Mechanism, Real, State};
 
 /// Passages that are kept of one step.
@@ -13,11 +14,14 @@ const ROOM: usize = 8;
 const MOST_STEPS: usize = 60;
 /// Looks into a step.
 const LOOKS: usize = 4;
-/// A row is looked at once more after this part of the step, to see how fast it changes.
+/// The determinant is taken once more at this part of the step beside a look, to see how
+/// fast it changes.
 const MOMENT: f64 = 1e-4;
+/// Loops that become singular within this part of a step do so at once.
+const AT_ONCE: f64 = 1e-6;
 /// A dip is looked into if the polynomial falls below this part of its ends.
 const WORTH_A_LOOK: f64 = 0.25;
-/// Halvings of the interval in which a row turns back.
+/// Halvings of the interval in which the determinant turns back.
 const DEEPENINGS: usize = 26;
 /// Places at which a polynomial is evaluated.
 const SAMPLES: usize = 16;
@@ -63,20 +67,13 @@ impl<T: Real> Found<T> {
     }
 }
 
-/// The block of near-dependent rows at a time of a step, and a little later.
-#[derive(Clone)]
-struct Look<T, const R: usize> {
-    t: T,
-    signs: Signs<T, R>,
-    later: Block<T, R>,
-}
-
 /// What changes its sign where sheets cross.
 #[derive(Clone)]
 struct Signs<T, const R: usize> {
     block: Block<T, R>,
-    /// That of the whole determinant: a step so long that no row was nearly dependent at
-    /// its start shows in it all the same.
+    /// That of the whole system vanishes where the constraints are singular and nowhere
+    /// else: the tangent space turns by far less than a right angle within a step.
+    determinant: T,
     negative: bool,
 }
 
@@ -84,26 +81,39 @@ impl<T: Real, const R: usize> Signs<T, R> {
     fn of<const N: usize>(frame: &Frame<T, N, R>) -> Self {
         Self {
             block: frame.block().clone(),
+            determinant: frame.determinant(),
             negative: frame.is_negative(),
         }
     }
 
+    /// How many sheets were crossed. Blocks count them, and determinants tell whether
+    /// their number is odd; a block also changes its sign where one of the rows before it
+    /// loses its pivot.
     fn changes_from(&self, other: &Self) -> usize {
         let changes = self.block.sign_changes_from(&other.block);
         let odd = self.negative != other.negative;
-        match changes {
-            0 => usize::from(odd),
-            changes => changes,
+        match (changes % 2 == 1) == odd {
+            true => changes,
+            false => usize::from(odd),
         }
     }
+}
+
+/// A look into a step.
+#[derive(Clone)]
+struct Look<T, const R: usize> {
+    t: T,
+    signs: Signs<T, R>,
+    /// How fast the determinant changes (1/s).
+    rate: T,
 }
 
 /// What is needed to look into a step.
 struct View<'a, T, const N: usize, const R: usize> {
     like: Frame<T, N, R>,
     at: &'a dyn Fn(T) -> State<T, N>,
-    /// How much later a look is taken once more.
-    moment: T,
+    start: T,
+    length: T,
     regular: usize,
 }
 
@@ -111,8 +121,8 @@ impl<M, T: Real, const N: usize, const R: usize> Sheet<'_, M, T, N, R>
 where
     M: Mechanism<T, N, R> + ?Sized,
 {
-    /// How many eigenvalues of the block change their sign from one state to another;
-    /// `None` where the blocks cannot be compared.
+    /// How many sheets are crossed from one state to another; `None` where that can't be
+    /// told.
     pub(crate) fn sign_changes(&mut self, from: &State<T, N>, to: &State<T, N>) -> Option<usize> {
         self.eliminate_widely(from).ok()?;
         let like = self.frame.clone();
@@ -132,48 +142,49 @@ where
         if self.eliminate_widely(start).is_err() {
             return found;
         }
-        let length = end.t - start.t;
         let view = View {
             like: self.frame.clone(),
             at,
-            moment: length * T::from_f64(MOMENT),
+            start: start.t,
+            length: end.t - start.t,
             regular,
         };
-        let Some(mut before) = self.look(&view, start.t) else {
-            return found;
-        };
-        for k in 1..=LOOKS {
+        let mut before: Option<Look<T, R>> = None;
+        for k in 0..=LOOKS {
             let t = match k {
-                LOOKS => end.t - view.moment,
-                _ => start.t + length * T::from_f64(k as f64 / LOOKS as f64),
+                LOOKS => end.t,
+                _ => start.t + view.length * T::from_f64(k as f64 / LOOKS as f64),
             };
-            if let Some(here) = self.look(&view, t) {
-                self.between(&view, &before, &here, &mut found);
-                before = here;
-            }
-        }
-        if let Some(signs) = self.signs_at(&view, end.t) {
-            let later = signs.block.clone();
-            let last = Look {
-                t: end.t,
-                signs,
-                later,
+            let Some(here) = self.look(&view, t) else {
+                continue;
             };
-            if last.signs.changes_from(&before.signs) > 0 {
-                self.turn(&view, &before, &last, &mut found);
+            if let Some(before) = &before {
+                self.between(&view, before, &here, &mut found);
             }
+            before = Some(here);
         }
         found
     }
 
     fn look(&mut self, view: &View<T, N, R>, t: T) -> Option<Look<T, R>> {
+        let moment = view.length * T::from_f64(MOMENT);
+        let beside = match t > view.start + moment {
+            true => t - moment,
+            false => t + moment,
+        };
+        let other = self.signs_at(view, beside)?.determinant;
         let signs = self.signs_at(view, t)?;
-        let later = self.signs_at(view, t + view.moment)?.block;
-        Some(Look { t, signs, later })
+        let rate = (signs.determinant - other) / (t - beside);
+        Some(Look { t, signs, rate })
     }
 
-    /// Passages between two looks: one where signs change, two where a row comes back
-    /// from beyond the singular configuration.
+    fn signs_at(&mut self, view: &View<T, N, R>, t: T) -> Option<Signs<T, R>> {
+        self.eliminate(&(view.at)(t), Some(&view.like)).ok()?;
+        Some(Signs::of(self.frame))
+    }
+
+    /// Passages between two looks: each loop that becomes singular has one, or two where
+    /// it comes back.
     fn between(
         &mut self,
         view: &View<T, N, R>,
@@ -181,31 +192,34 @@ where
         to: &Look<T, R>,
         found: &mut Found<T>,
     ) {
-        if to.signs.changes_from(&from.signs) > 0 {
-            return self.turn(view, from, to, found);
-        }
-        for row in 0..from.signs.block.size {
-            let Some(middle) = self.deepest(view, row, from, to) else {
-                continue;
-            };
-            self.turn(view, from, &middle, found);
-            self.turn(view, &middle, to, found);
-            return;
+        let changes = to.signs.changes_from(&from.signs);
+        let middle = match changes {
+            0 => self.beyond(view, from, to),
+            1 => None,
+            _ if to.t - from.t <= view.length * T::from_f64(AT_ONCE) => None,
+            _ => self.look(view, (from.t + to.t) * T::from_f64(0.5)),
+        };
+        match middle {
+            Some(middle) => {
+                self.between(view, from, &middle, found);
+                self.between(view, &middle, to, found);
+            }
+            None if changes == 0 => {}
+            None => self.pass(view, (from, to), changes, found),
         }
     }
 
-    /// A passage between two looks of different sign.
-    fn turn(
+    /// A passage of so many loops at once.
+    fn pass(
         &mut self,
         view: &View<T, N, R>,
-        from: &Look<T, R>,
-        to: &Look<T, R>,
+        (from, to): (&Look<T, R>, &Look<T, R>),
+        changes: usize,
         found: &mut Found<T>,
     ) {
-        let changes = to.signs.changes_from(&from.signs);
-        let t = match to.signs.block.sign_changes_from(&from.signs.block) {
-            0 => self.halve(view, from, to),
-            _ => self.locate(view, from, to),
+        let t = match from.signs.negative == to.signs.negative {
+            true => (from.t + to.t) * T::from_f64(0.5),
+            false => self.locate(view, from, to),
         };
         let sine = match self.signs_at(view, t) {
             Some(_) => self.frame.smallest(),
@@ -219,55 +233,32 @@ where
         });
     }
 
-    fn signs_at(&mut self, view: &View<T, N, R>, t: T) -> Option<Signs<T, R>> {
-        self.eliminate(&(view.at)(t), Some(&view.like)).ok()?;
-        Some(Signs::of(self.frame))
-    }
-
-    /// The time at which the determinant changes its sign.
-    fn halve(&mut self, view: &View<T, N, R>, from: &Look<T, R>, to: &Look<T, R>) -> T {
-        let (mut before, mut after) = (from.t, to.t);
-        for _ in 0..MOST_STEPS {
-            let middle = (before + after) * T::from_f64(0.5);
-            match self.signs_at(view, middle) {
-                Some(signs) if signs.negative == from.signs.negative => before = middle,
-                _ => after = middle,
-            }
-        }
-        after
-    }
-
-    /// The look at which a row is deepest beyond the singular configuration, between two
-    /// looks before it, if it is beyond it at all: by the cubic polynomial through values
-    /// and rates, and then by parabolas.
-    fn deepest(
+    /// A look between two others that is beyond a singular configuration, if there is one:
+    /// by the cubic polynomial through the determinants and their rates, and then by
+    /// bisection.
+    fn beyond(
         &mut self,
         view: &View<T, N, R>,
-        row: usize,
         from: &Look<T, R>,
         to: &Look<T, R>,
     ) -> Option<Look<T, R>> {
-        let reference = from.signs.block.entries[row];
-        let value = |block: &Block<T, R>| dot(&block.entries[row], &reference);
+        let sign = if from.signs.negative { -T::one() } else { T::one() };
         let span = to.t - from.t;
-        let rate =
-            |look: &Look<T, R>| (value(&look.later) - value(&look.signs.block)) / view.moment;
-        let ends = [value(&from.signs.block), value(&to.signs.block)];
-        let rates = [rate(from) * span, rate(to) * span];
+        let ends = [from, to].map(|look| sign * look.signs.determinant);
+        let rates = [from, to].map(|look| sign * look.rate * span);
         let dips = rates[0] < T::zero() && rates[1] > T::zero();
-        let lowest = lowest_of_cubic(ends, rates);
-        if !dips || lowest.1 > ends[0].min(ends[1]) * T::from_f64(WORTH_A_LOOK) {
+        let (mut x, lowest) = lowest_of_cubic(ends, rates);
+        if !dips || lowest > ends[0].min(ends[1]) * T::from_f64(WORTH_A_LOOK) {
             return None;
         }
         let (mut a, mut b) = (T::zero(), T::one());
-        let mut x = lowest.0;
         for _ in 0..DEEPENINGS {
             let look = self.look(view, from.t + span * x)?;
-            if value(&look.signs.block) < T::zero() {
+            if look.signs.negative != from.signs.negative {
                 return Some(look);
             }
             // Towards where it falls.
-            if rate(&look) > T::zero() {
+            if sign * look.rate > T::zero() {
                 b = x;
             } else {
                 a = x;
@@ -277,14 +268,11 @@ where
         None
     }
 
-    /// The time at which a row of the block turns against what it was before, by the
-    /// method of false position in its Illinois form.
+    /// The time at which the determinant changes its sign, by the method of false position
+    /// in its Illinois form.
     fn locate(&mut self, view: &View<T, N, R>, from: &Look<T, R>, to: &Look<T, R>) -> T {
-        let (first, last) = (&from.signs.block, &to.signs.block);
-        let row = turning_row(first, last);
-        let value = |block: &Block<T, R>| dot(&block.entries[row], &first.entries[row]);
-        let (mut a, mut fa) = (from.t, value(first));
-        let (mut b, mut fb) = (to.t, value(last));
+        let (mut a, mut fa) = (from.t, from.signs.determinant);
+        let (mut b, mut fb) = (to.t, to.signs.determinant);
         let half = T::from_f64(0.5);
         for _ in 0..MOST_STEPS {
             let width = (b - a).abs();
@@ -292,7 +280,7 @@ where
                 break;
             }
             let t = b - fb * (b - a) / (fb - fa);
-            let Some(f) = self.signs_at(view, t).map(|signs| value(&signs.block)) else {
+            let Some(f) = self.signs_at(view, t).map(|signs| signs.determinant) else {
                 break;
             };
             if (f < T::zero()) != (fb < T::zero()) {
@@ -326,11 +314,4 @@ fn lowest_of_cubic<T: Real>(ends: [T; 2], rates: [T; 2]) -> (T, T) {
         let here = value(x);
         if here < lowest.1 { (x, here) } else { lowest }
     })
-}
-
-/// The row that turns most between two blocks.
-fn turning_row<T: Real, const R: usize>(from: &Block<T, R>, to: &Block<T, R>) -> usize {
-    let value = |row: usize| dot(&from.entries[row], &to.entries[row]);
-    let lower = |best: usize, row: usize| if value(row) < value(best) { row } else { best };
-    (0..from.size).fold(0, lower)
 }
