@@ -14,6 +14,9 @@ use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
 const DIP: f64 = 0.5;
 /// Sines above this are far from singular configurations.
 const FAR: f64 = 0.3;
+/// Looks into a step without a chart that came nearer to a singular configuration: it may
+/// have crossed two.
+const LOOKS: usize = 4;
 /// Halvings of a step in the search for a singular configuration.
 const BISECTIONS: usize = 20;
 /// Energy that a step may lose, in units of its accepted error.
@@ -60,11 +63,12 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let after = self.session.trial.end.sqrt();
         let lowest = self.session.trial.lowest.sqrt().min(after);
         let before = self.session.sine.unwrap_or(after);
-        let dips = lowest < T::from_f64(FAR) && lowest < before.min(after) * T::from_f64(DIP);
-        if dips {
+        let falls = lowest < T::from_f64(FAR) && lowest < before.min(after);
+        if falls && lowest < before.min(after) * T::from_f64(DIP) {
             return self.want_chart(mechanism, end.t);
         }
-        if !self.needs_chart(before, after, lowest) {
+        let comes_near = self.needs_chart(before, after, lowest);
+        if !falls && !comes_near {
             return Ok(());
         }
         if after <= window() {
@@ -73,10 +77,14 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let Start::Sheet(chart) = self.start_at(mechanism, end)? else {
             return self.want_chart(mechanism, end.t);
         };
-        if self.sheet(mechanism, &chart).sign_changes(start, end) != Some(0) {
-            return self.want_chart(mechanism, end.t);
+        let mut sheet = self.sheet(mechanism, &chart);
+        for k in 1..=LOOKS {
+            let there = start.towards(end, T::from_f64(k as f64 / LOOKS as f64));
+            if sheet.sign_changes(start, &there) != Some(0) {
+                return self.want_chart(mechanism, end.t);
+            }
         }
-        self.session.trial.chart = Some(chart);
+        self.session.trial.chart = Some(chart).filter(|_| comes_near);
         Ok(())
     }
 

@@ -118,15 +118,14 @@ impl<K: Trial<T, N>, T: Real, const N: usize> Paced<K, T, N> {
         match &mut self.pace {
             None => in_parts(state.t, bound, |end| {
                 attempt(&mut self.method, system, end)?;
-                if !verify(&mut self.method, system)? {
+                if !complete(&mut self.method, system)? {
                     attempt(&mut self.method, system, end)?;
-                    verify(&mut self.method, system)?;
+                    complete(&mut self.method, system)?;
                 }
                 Ok::<_, IntegrateError<T>>(())
             })?,
             Some(pace) => pace.advance(&mut self.method, system, &slope, bound)?,
         }
-        self.method.accept(system)?;
         let step = self.method.step();
         system.commit(step)?;
         Ok(step)
@@ -183,14 +182,18 @@ fn attempt<K: Trial<T, N>, T: Real, Y: System<T, N> + ?Sized, const N: usize>(
     }
 }
 
-/// Has a trial step verified that is about to be accepted; `false` if it is to be made
-/// once more from its start.
-fn verify<K: Trial<T, N>, T: Real, Y: System<T, N> + ?Sized, const N: usize>(
+/// Completes a trial step that is about to be accepted and has it verified; `false` if it
+/// is to be made once more from its start.
+fn complete<K: Trial<T, N>, T: Real, Y: System<T, N> + ?Sized, const N: usize>(
     method: &mut K,
     system: &mut Y,
 ) -> Result<bool, IntegrateError<T>> {
-    let Step { start, end, .. } = *method.step();
-    match system.verify(&start, &end) {
+    let mut once = || {
+        method.accept(system)?;
+        let Step { start, end, .. } = *method.step();
+        system.verify(&start, &end)
+    };
+    match once() {
         Ok(()) => Ok(true),
         Err(error) => match system.escalate()? {
             true => Ok(false),
@@ -250,7 +253,7 @@ impl<T: Real, const N: usize> Pace<T, N> {
     ) -> Result<Option<T>, IntegrateError<T>> {
         attempt(method, system, end)?;
         let error = method.error(&self.tolerance);
-        if error <= T::one() && !verify(method, system)? {
+        if error <= T::one() && !complete(method, system)? {
             return Ok(None);
         }
         Ok(Some(error))
