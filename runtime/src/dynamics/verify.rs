@@ -13,7 +13,7 @@ use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
 /// zero between.
 const DIP: f64 = 0.5;
 /// Sines above this are far from singular configurations.
-const FAR: f64 = 0.3;
+const FAR: f64 = 0.5;
 /// Looks into a step without a chart that came nearer to a singular configuration: it may
 /// have crossed two.
 const LOOKS: usize = 4;
