@@ -147,6 +147,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         }
         let (metric, rows) = (&self.metric, &self.rows);
         let next = Chart::new(
+            end,
             placed.tangent,
             chart.freedoms,
             metric,

@@ -9,7 +9,7 @@
 //! measures how far a vector goes along `D`, and vanishes on `N`. A chart belongs to one
 //! step: it changes at accepted states only.
 
-use crate::Real;
+use crate::{Real, State};
 use crate::dynamics::{Metric, Rows, Which};
 use crate::linalg::{add_scaled, dot, norm, scaled};
 use nalgebra::{SMatrix, SVector};
@@ -22,6 +22,8 @@ pub(crate) struct Chart<T, const N: usize, const R: usize> {
     /// `M D`, in the same columns.
     pub(crate) dual: SMatrix<T, N, N>,
     pub(crate) freedoms: usize,
+    /// The accepted state.
+    pub(crate) base: State<T, N>,
     /// The velocity of the sheet where the coordinates of the chart rest.
     pub(crate) drift: SVector<T, N>,
     /// The largest length of that so far.
@@ -46,6 +48,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
     /// are dependent. Vectors are made orthonormal one after the other, so that the
     /// orientation of charts is carried along.
     pub(crate) fn new(
+        base: &State<T, N>,
         mut tangent: SMatrix<T, N, N>,
         freedoms: usize,
         metric: &Metric<T, N>,
@@ -83,6 +86,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             tangent,
             dual,
             freedoms,
+            base: *base,
             drift: SVector::zeros(),
             pace: T::zero(),
             rows: list,

@@ -11,12 +11,15 @@ use super::nodes::SIDE;
 use super::obstacle::Obstacle;
 use super::sheet::Sheet;
 use crate::linalg::{Block, Frame, dot, norm};
-use crate::tolerance::{difference, spacing};
+use crate::tolerance::{difference, hull, spacing};
 use crate::{Mechanism, Real, State};
 use nalgebra::SVector;
 
 /// Directions that are tried where several loops are nearly singular at once.
 const TRIALS: usize = 64;
+
+/// Spacings by which a direction is judged, each half the one before.
+const LEVELS: usize = 5;
 
 /// Share of the coordinates in a direction, below which nothing but time moves along it.
 const STILL: f64 = 1e-3;
@@ -123,26 +126,31 @@ where
         let mut direction = self.line(shares, clock);
         let here = like.block();
         let change = self.change(state, like, &direction)?;
-        let fastest = change
-            .entries
-            .iter()
-            .fold(T::zero(), |most: T, row| most.max(norm(row)));
-        for rate in [fastest, change.smallest()] {
-            for row in 0..here.size {
-                let (value, slope) = (&here.entries[row], &change.entries[row]);
-                direction.rate = rate;
-                direction.centre = -dot(value, slope) / dot(slope, slope);
-                // False for NaN, too.
-                let leads = rate > T::zero() && direction.centre.is_finite();
-                if !leads {
-                    continue;
-                }
-                let step = spacing::<T>() * self.chart.reach.min(T::one() / rate);
-                let score = clearance_of(here, &change, direction.centre, step);
-                if best.as_ref().is_none_or(|best| score > best.score) {
-                    *best = Some(Best { direction, score });
-                }
+        let centres = (0..here.size).map(|row| {
+            let (value, slope) = (&here.entries[row], &change.entries[row]);
+            -dot(value, slope) / dot(slope, slope)
+        });
+        // The nearest one; NaN is none.
+        let nearest = centres.fold(T::from_f64(f64::INFINITY), |best, centre| {
+            if centre.abs() < best.abs() { centre } else { best }
+        });
+        direction.rate = change.smallest();
+        direction.centre = nearest;
+        // False for NaN, too.
+        let leads = direction.rate > T::zero() && nearest.is_finite();
+        if !leads {
+            return Ok(());
+        }
+        let mut step = spacing::<T>() * self.chart.reach.min(T::one() / direction.rate);
+        for _ in 0..LEVELS {
+            if nearest.abs() > step * hull() {
+                break;
             }
+            let score = clearance_of(here, &change, nearest, step);
+            if best.as_ref().is_none_or(|best| score > best.score) {
+                *best = Some(Best { direction, score });
+            }
+            step *= T::from_f64(0.5);
         }
         Ok(())
     }

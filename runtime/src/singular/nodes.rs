@@ -14,7 +14,7 @@
 use super::direction::Direction;
 use super::obstacle::Obstacle;
 use super::sheet::{Point, Sheet};
-use crate::linalg::{Block, Frame};
+use crate::linalg::{Block, Frame, dot};
 use crate::tolerance::clearance;
 use crate::{Mechanism, Real, State};
 use nalgebra::{SMatrix, SVector};
@@ -59,6 +59,25 @@ impl<T: Real, const N: usize> Sum<T, N> {
     }
 }
 
+/// A sheet bends away from its tangent space with the square of the distance from the
+/// accepted state, where the tangent space touches it.
+#[derive(Clone, Debug)]
+struct Bend<T, const N: usize> {
+    /// How far it has bent away at the state that is asked for.
+    whole: SVector<T, N>,
+    /// The change of the distance from the accepted state, relative to what it is at the
+    /// state that is asked for, from one place of the line to the next.
+    share: T,
+}
+
+impl<T: Real, const N: usize> Bend<T, N> {
+    /// The offset at a place so far from the state that is asked for.
+    fn at(&self, place: T) -> SVector<T, N> {
+        let distance = T::one() + self.share * place;
+        self.whole * (distance * distance - T::one())
+    }
+}
+
 /// What was found between nodes of one spacing.
 #[derive(Clone, Debug)]
 pub(super) struct Interpolated<T, const N: usize> {
@@ -67,6 +86,8 @@ pub(super) struct Interpolated<T, const N: usize> {
     /// The offsets of the nodes, and their places in units of the spacing.
     offsets: [SVector<T, N>; NODES],
     places: [T; NODES],
+    /// How the sheet bends, as far as it is known.
+    bend: Bend<T, N>,
     /// By how much round-off is magnified.
     pub(super) noise: T,
     /// How the first entry of the block changes from one node to the next.
@@ -79,6 +100,10 @@ impl<T: Real, const N: usize> Interpolated<T, N> {
             sums: core::array::from_fn(|_| Sum::zeros()),
             offsets: [SVector::zeros(); NODES],
             places: [T::zero(); NODES],
+            bend: Bend {
+                whole: SVector::zeros(),
+                share: T::zero(),
+            },
             noise: T::zero(),
             slope: T::zero(),
         }
@@ -139,6 +164,7 @@ where
             weights(&found.places, wanted, here)
         });
         found.sums = core::array::from_fn(|_| Sum::zeros());
+        found.bend = self.bend(state, &direction.moved(&State::default(), step).q);
         found.noise = T::zero();
         let along = self.chart.coordinates(&state.v);
         let mut blocks: [Block<T, R>; 2] = [Block::zeros(0), Block::zeros(0)];
@@ -176,6 +202,33 @@ where
     }
 }
 
+impl<M, T: Real, const N: usize, const R: usize> Sheet<'_, M, T, N, R>
+where
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    /// How the sheet bends along steps of a line.
+    fn bend(&self, state: &State<T, N>, step: &SVector<T, N>) -> Bend<T, N> {
+        let base = &self.chart.base;
+        let moved = state.q - base.q - self.chart.drift * (state.t - base.t);
+        let along = self.chart.coordinates(&moved);
+        let distance = dot(&along, &along);
+        let share = dot(&along, &self.chart.coordinates(step)) / distance;
+        let mut whole = moved;
+        for (along, column) in along.iter().zip(self.chart.tangent.column_iter()) {
+            whole.axpy(-*along, &column, T::one());
+        }
+        // False for NaN, too: where the state is the accepted one.
+        let known = share.abs() < T::one();
+        match known {
+            true => Bend { whole, share },
+            false => Bend {
+                whole: SVector::zeros(),
+                share: T::zero(),
+            },
+        }
+    }
+}
+
 impl<T: Real, const N: usize> Interpolated<T, N> {
     /// Whether sheets cross between the nodes next to the singular configuration.
     fn judge<const R: usize>(
@@ -205,9 +258,10 @@ impl<T: Real, const N: usize> Interpolated<T, N> {
             .all(|other| (*other - here).abs() > T::from_f64(0.3));
         let known = |k: usize| k < count || k == count && state;
         let weights = weights(&places, known, place);
-        let mut guess: SVector<T, N> = SVector::zeros();
-        for (offset, weight) in self.offsets[first..node].iter().zip(weights) {
-            guess.axpy(weight, offset, T::one());
+        let mut guess = self.bend.at(place - here);
+        for (k, weight) in (first..node).zip(weights) {
+            let rest = self.offsets[k] - self.bend.at(self.places[k] - here);
+            guess.axpy(weight, &rest, T::one());
         }
         guess
     }

@@ -20,7 +20,7 @@ use nalgebra::SVector;
 
 /// How much larger than the round-off of one node, magnified by the weights, the
 /// difference of two interpolations may be for that reason.
-const NOISE: f64 = 32.0;
+const NOISE: f64 = 48.0;
 /// Evaluations that lead to the critical configuration.
 const CENTRINGS: usize = 4;
 /// Spacings that are tried.

@@ -77,6 +77,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     ) -> Option<Chart<T, N, R>> {
         let (metric, rows) = (&self.metric, &self.rows);
         let mut chart = Chart::new(
+            state,
             tangent,
             freedoms,
             metric,

@@ -145,7 +145,10 @@ pub fn grazing(random: &mut Random, _: usize) -> Trial {
 /// Three random curves through one point.
 pub fn three_curves(random: &mut Random, index: usize) -> Trial {
     let mut set = Set::new();
-    if index > 0 {
+    if index == 0 {
+        // Elsewhere than at -1, where two of the curves cross.
+        set.push(("x0", -0.9));
+    } else {
         set.extend([
             ("f1", random.between(0.3, 1.0)),
             ("f2", random.within(1.0)),
