@@ -41,7 +41,7 @@ pub(crate) fn hull<T: Real>() -> T {
 
 /// Sine that a node must have, in spacings.
 pub(crate) fn clearance<T: Real>() -> T {
-    T::from_f64(0.3)
+    T::from_f64(0.03)
 }
 
 /// By how much each of Newton's corrections must at least be shorter than the one before.

@@ -9,9 +9,9 @@
 //! measures how far a vector goes along `D`, and vanishes on `N`. A chart belongs to one
 //! step: it changes at accepted states only.
 
-use crate::{Real, State};
 use crate::dynamics::{Metric, Rows, Which};
 use crate::linalg::{add_scaled, dot, norm, scaled};
+use crate::{Real, State};
 use nalgebra::{SMatrix, SVector};
 
 /// A chart of the sheet on which the motion lives.

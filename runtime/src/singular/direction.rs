@@ -132,7 +132,11 @@ where
         });
         // The nearest one; NaN is none.
         let nearest = centres.fold(T::from_f64(f64::INFINITY), |best, centre| {
-            if centre.abs() < best.abs() { centre } else { best }
+            if centre.abs() < best.abs() {
+                centre
+            } else {
+                best
+            }
         });
         direction.rate = change.smallest();
         direction.centre = nearest;

@@ -122,7 +122,9 @@ impl<T: Real, const N: usize> Interpolated<T, N> {
 
 /// The order in which nodes are found, for a state ahead of the singular configuration:
 /// from the state outwards and across, so that those before predict the next.
-const ORDER: [f64; NODES] = [1.0, 2.0, -1.0, 3.0, -2.0, 4.0, -3.0, 5.0, -4.0, -5.0];
+const ORDER: [f64; NODES] = [1.0, 2.0, 3.0, -1.0, 4.0, -2.0, 5.0, -3.0, -4.0, -5.0];
+/// The one next to the singular configuration beyond it.
+const BEYOND: usize = 3;
 
 /// Lagrange's weights, at a place, of the places that are wanted; the others are zero.
 fn weights<T: Real, const K: usize>(
@@ -237,7 +239,7 @@ impl<T: Real, const N: usize> Interpolated<T, N> {
         is_of_time: bool,
     ) -> Result<(), Obstacle> {
         let change = ahead.entries[0][0] - behind.entries[0][0];
-        self.slope = change / (self.places[2] - self.places[0]);
+        self.slope = change / (self.places[BEYOND] - self.places[0]);
         match ahead.sign_changes_from(behind) {
             // A law of time may lead to a singular configuration and back.
             0 if !is_of_time => Err(Obstacle::Touching),

@@ -242,7 +242,11 @@ where
         from: &Look<T, R>,
         to: &Look<T, R>,
     ) -> Option<Look<T, R>> {
-        let sign = if from.signs.negative { -T::one() } else { T::one() };
+        let sign = if from.signs.negative {
+            -T::one()
+        } else {
+            T::one()
+        };
         let span = to.t - from.t;
         let ends = [from, to].map(|look| sign * look.signs.determinant);
         let rates = [from, to].map(|look| sign * look.rate * span);
