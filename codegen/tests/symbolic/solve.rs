@@ -96,7 +96,7 @@ impl Equations {
             let value = program.push(Operation::Symbol(symbol));
             program.outputs.push((*slot, value));
         }
-        let solved = regular_acceleration(&program, N, R).unwrap();
+        let solved = regular_acceleration(&program, (N, R), &[]).unwrap();
         let value = |symbol| match symbol {
             Symbol::Parameter(k) => Some(entries[k as usize].1),
             _ => None,
@@ -126,7 +126,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// The solution of a dense system by Gaussian elimination, and the size of the determinant.
-fn dense(matrix: &Matrix, right: &[f64]) -> (Vec<f64>, f64) {
+pub(super) fn dense(matrix: &Matrix, right: &[f64]) -> (Vec<f64>, f64) {
     let (mut rows, n) = (matrix.clone(), right.len());
     rows.iter_mut().zip(right).for_each(|(row, x)| row.push(*x));
     let mut determinant = 1.0;

@@ -201,6 +201,7 @@ pub mod double_four_bar {
         conservative: true,
         drawn: true,
         regular: false,
+        weighed: &[],
     };
     /// Run-time parameters, in SI units.
     #[derive(Clone, Copy, Debug, PartialEq)]

@@ -90,6 +90,7 @@ pub mod driven_pivot {
         conservative: false,
         drawn: true,
         regular: false,
+        weighed: &[],
     };
     /// Run-time parameters, in SI units.
     #[derive(Clone, Copy, Debug, PartialEq)]

@@ -114,6 +114,7 @@ pub mod heavy_top {
         conservative: true,
         drawn: true,
         regular: false,
+        weighed: &[],
     };
     /// Run-time parameters, in SI units.
     #[derive(Clone, Copy, Debug, PartialEq)]

@@ -95,6 +95,7 @@ pub mod rolling_disc {
         conservative: true,
         drawn: true,
         regular: false,
+        weighed: &[],
     };
     /// Run-time parameters, in SI units.
     #[derive(Clone, Copy, Debug, PartialEq)]

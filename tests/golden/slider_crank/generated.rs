@@ -105,6 +105,7 @@ pub mod slider_crank {
         conservative: true,
         drawn: true,
         regular: false,
+        weighed: &[],
     };
     /// Run-time parameters, in SI units.
     #[derive(Clone, Copy, Debug, PartialEq)]
