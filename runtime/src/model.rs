@@ -159,7 +159,8 @@ pub struct Pivots<T, const N: usize, const R: usize> {
     /// `e_i`, `R`: over `s_ii`, the squared sine of the angle between a constraint
     /// row and the rows before it, in the kinetic metric.
     pub row_pivots: SVector<T, R>,
-    /// `s_ii`, `R`: the squared size of a constraint row in the kinetic metric.
+    /// `s_ii`, `R`: the squared size of a constraint row in the kinetic metric. Zero where
+    /// it is not asked for: a row is compared with the largest that corrections told.
     pub row_squares: SVector<T, R>,
 }
 

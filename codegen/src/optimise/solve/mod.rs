@@ -34,6 +34,9 @@ use std::collections::BTreeMap;
 /// generator. Beyond it the runtime's solves stay.
 const OPERATIONS_MAX: usize = 100_000;
 
+/// The sizes of rows.
+const ROW_SQUARES: &str = "row_squares";
+
 /// What was divided by, and what it is to be compared with.
 type Pivot = (Signed, Signed);
 
@@ -76,7 +79,7 @@ pub(super) fn with_acceleration(
 /// The least corrections in the kinetic metric: `A Δq = −g`, and `A Δq̇ = −(A q̇ + b)`
 /// with the right-hand side that it has `Δq` farther on, to first order: from `mass`,
 /// `jacobian`, `residual`, `speed` and `turn`, `∂(A q̇ + b)/∂q`. Outputs `position` and
-/// `velocity`; `residual` stays one.
+/// `velocity`, and the sizes of the rows; `residual` stays one.
 pub(super) fn with_correction(
     program: &Program,
     (n, r): (usize, usize),
@@ -102,7 +105,7 @@ pub(super) fn with_correction(
             weighed,
         },
         &corrections,
-        &["residual"],
+        &["residual", ROW_SQUARES],
     )
 }
 
@@ -264,7 +267,6 @@ impl System {
             Factorised::Saddle(factors) => (factors.mass_pivots(), factors.row_pivots()),
         };
         for (row, &(pivot, whole)) in masses.iter().enumerate() {
-            // A row that shrinks is compared with its own past, a mass is not.
             if pivot != whole {
                 write("mass_pivots", row, Some(pivot));
                 write("mass_diagonal", row, Some(whole));
@@ -272,7 +274,10 @@ impl System {
         }
         for (row, &(pivot, whole)) in rows.iter().enumerate() {
             write("row_pivots", row, Some(pivot));
-            write("row_squares", row, Some(whole));
+            // A row is compared with its own past, which a correction tells.
+            if kept.contains(&ROW_SQUARES) {
+                write(ROW_SQUARES, row, Some(whole));
+            }
         }
         ordered(algebra.program.list(), &outputs, &|value| value)
     }
