@@ -31,27 +31,65 @@ impl<T: Real, const R: usize> Block<T, R> {
         }
     }
 
-    /// `self + factor · other`.
+    /// `self + factor · other`, two blocks of one size.
     pub(crate) fn plus(&self, factor: T, other: &Self) -> Self {
-        let mut sum = self.clone();
-        for (row, other) in sum.entries.iter_mut().zip(&other.entries) {
-            add_scaled(row, factor, other);
-        }
+        let mut sum = Self::zeros(self.size);
+        sum.set_sum(self, factor, other);
         sum
     }
 
+    /// Becomes `a + factor · b`. A block has room for all rows, of which most are not used:
+    /// those are left alone.
+    pub(crate) fn set_sum(&mut self, a: &Self, factor: T, b: &Self) {
+        self.size = a.size;
+        let rows = self.entries[..a.size].iter_mut();
+        for ((row, a), b) in rows.zip(&a.entries).zip(&b.entries) {
+            for ((entry, a), b) in row[..self.size].iter_mut().zip(a).zip(b) {
+                *entry = factor.mul_add(*b, *a);
+            }
+        }
+    }
+
     /// The smallest pivot of an elimination with complete pivoting: about the smallest
-    /// singular value; one for an empty block.
-    pub(crate) fn smallest(&self) -> T {
-        let mut rest = self.clone();
+    /// singular value; one for an empty block. The elimination takes its place.
+    ///
+    /// Rows stay in their places and entries that are zero are skipped: loops in a row
+    /// leave a block with a few entries in each row.
+    pub(crate) fn smallest(&mut self) -> T {
+        let size = self.size;
         let mut smallest = T::one();
-        for step in 0..self.size {
-            let Some((row, column)) = rest.largest(step) else {
+        let mut done = [false; R];
+        let mut peaks = [(0, T::zero()); R];
+        for (peak, row) in peaks.iter_mut().zip(&self.entries[..size]) {
+            *peak = largest_of(&row[..size]);
+        }
+        for _ in 0..size {
+            let open = (0..size).filter(|row| !done[*row]);
+            let next = open.fold((0, T::zero()), |best, row| match peaks[row].1 > best.1 {
+                true => (row, peaks[row].1),
+                false => best,
+            });
+            let (row, peak) = next;
+            // False for NaN, too.
+            let is_left = peak > T::zero();
+            if !is_left {
                 return T::zero();
-            };
-            rest.swap(step, row, column);
-            smallest = smallest.min(rest.entries[step][step].abs());
-            rest.eliminate(step);
+            }
+            smallest = smallest.min(peak);
+            done[row] = true;
+            let (column, pivot) = (peaks[row].0, self.entries[row]);
+            for other in (0..size).filter(|other| !done[*other]) {
+                let entries = &mut self.entries[other][..size];
+                if entries[column] == T::zero() {
+                    continue;
+                }
+                let share = entries[column] / pivot[column];
+                for (entry, lost) in entries.iter_mut().zip(&pivot) {
+                    *entry -= share * *lost;
+                }
+                entries[column] = T::zero();
+                peaks[other] = largest_of(entries);
+            }
         }
         smallest
     }
@@ -98,22 +136,6 @@ impl<T: Real, const R: usize> Block<T, R> {
         count
     }
 
-    /// Where the largest entry of what is left is, if it is not zero.
-    fn largest(&self, step: usize) -> Option<(usize, usize)> {
-        let mut most = T::zero();
-        let mut place = None;
-        for row in step..self.size {
-            for column in step..self.size {
-                let size = self.entries[row][column].abs();
-                if size > most {
-                    most = size;
-                    place = Some((row, column));
-                }
-            }
-        }
-        place
-    }
-
     fn swap(&mut self, step: usize, row: usize, column: usize) {
         self.entries.swap(step, row);
         for entries in &mut self.entries {
@@ -127,6 +149,18 @@ impl<T: Real, const R: usize> Block<T, R> {
             add_scaled(row, -row[step] / pivot[step], &pivot);
         }
     }
+}
+
+/// Where the largest of some entries is, and its size.
+fn largest_of<T: Real>(entries: &[T]) -> (usize, T) {
+    let entries = entries.iter().enumerate();
+    entries.fold((0, -T::one()), |best, (column, entry)| {
+        if entry.abs() > best.1 {
+            (column, entry.abs())
+        } else {
+            best
+        }
+    })
 }
 
 /// The factors of a square system.
@@ -234,14 +268,7 @@ impl<T: Real, const N: usize, const R: usize> Frame<T, N, R> {
     /// The largest entry of a row that is reduced, and its size; columns of pivots hold
     /// zeros.
     fn largest(&self, row: usize) -> (usize, T) {
-        let entries = self.upper.data.0[row].iter().enumerate();
-        entries.fold((0, -T::one()), |best, (column, entry)| {
-            if entry.abs() > best.1 {
-                (column, entry.abs())
-            } else {
-                best
-            }
-        })
+        largest_of(&self.upper.data.0[row])
     }
 
     fn take(&mut self, step: usize, row: usize, column: usize) -> Result<(), NotRegular> {
@@ -263,7 +290,10 @@ impl<T: Real, const N: usize, const R: usize> Frame<T, N, R> {
         for (place, column) in columns.iter_mut().zip(open) {
             *place = column;
         }
-        self.block = Block::zeros(late.len());
+        self.block.size = late.len();
+        for row in &mut self.block.entries[..late.len()] {
+            *row = [T::zero(); R];
+        }
         for (k, &(row, from)) in late.iter().enumerate() {
             self.reduce(row, from, first);
             for (entry, &column) in self.block.entries[k].iter_mut().zip(&columns[..late.len()]) {
@@ -280,34 +310,41 @@ impl<T: Real, const N: usize, const R: usize> Frame<T, N, R> {
                 self.smallest = self.smallest.min(self.upper.data.0[row][column].abs());
             }
         }
-        for step in first..N {
-            let mut best = (0, 0, -T::one());
-            for row in self.waiting(late, step) {
-                let (column, size) = self.largest(row);
-                if size > best.2 {
-                    best = (row, column, size);
+        self.eliminate_late(late)
+    }
+
+    /// Eliminates the block, the largest entry first.
+    fn eliminate_late(&mut self, late: &[(usize, usize)]) -> Result<(), NotRegular> {
+        let mut taken = [false; R];
+        let mut peaks = [(0, T::zero()); R];
+        for (peak, (row, _)) in peaks.iter_mut().zip(late) {
+            *peak = self.largest(*row);
+        }
+        for step in self.independent..N {
+            let mut best = (0, -T::one());
+            for k in (0..late.len()).filter(|k| !taken[*k]) {
+                if peaks[k].1 > best.1 {
+                    best = (k, peaks[k].1);
                 }
             }
-            let (row, column, size) = best;
+            let (k, size) = best;
             self.smallest = self.smallest.min(size);
             if size == T::zero() {
                 return Ok(());
             }
-            self.take(step, row, column)?;
-            for &(later, _) in late {
-                if !self.rows[first..=step].contains(&later) {
-                    self.reduce(later, step, step + 1);
+            let column = peaks[k].0;
+            self.take(step, late[k].0, column)?;
+            taken[k] = true;
+            for k in (0..late.len()).filter(|k| !taken[*k]) {
+                let row = late[k].0;
+                let changes = self.upper.data.0[row][column] != T::zero();
+                self.reduce(row, step, step + 1);
+                if changes {
+                    peaks[k] = self.largest(row);
                 }
             }
         }
         Ok(())
-    }
-
-    /// The near-dependent rows that are not eliminated yet.
-    fn waiting(&self, late: &[(usize, usize)], step: usize) -> impl Iterator<Item = usize> {
-        let taken = &self.rows[self.independent..step];
-        let rows = late.iter().map(|(row, _)| *row);
-        rows.filter(|row| !taken.contains(row))
     }
 
     /// The row that comes last.

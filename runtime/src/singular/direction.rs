@@ -127,7 +127,7 @@ where
             .entries
             .iter()
             .fold(T::zero(), |most: T, row| most.max(norm(row)));
-        for rate in [fastest, change.smallest()] {
+        for rate in [fastest, change.clone().smallest()] {
             for row in 0..here.size {
                 let (value, slope) = (&here.entries[row], &change.entries[row]);
                 direction.rate = rate;
@@ -138,8 +138,9 @@ where
                     continue;
                 }
                 let step = spacing::<T>() * self.chart.reach.min(T::one() / rate);
-                let score = clearance_of(here, &change, direction.centre, step);
-                if best.as_ref().is_none_or(|best| score > best.score) {
+                let least = best.as_ref().map(|best| best.score);
+                let score = clearance_of(here, &change, (direction.centre, step), least);
+                if least.is_none_or(|least| score > least) {
                     *best = Some(Best { direction, score });
                 }
             }
@@ -201,15 +202,22 @@ fn spread_evenly<T: Real, const N: usize>(trial: usize, dimension: usize) -> [T;
     vector.map(|entry| entry / size)
 }
 
-/// The smallest sine of nodes on both sides of a place, to first order.
+/// The smallest sine of nodes on both sides of a place, to first order; of no interest
+/// where it is not above a score that another place has, and then only a bound of it.
 fn clearance_of<T: Real, const R: usize>(
     here: &Block<T, R>,
     change: &Block<T, R>,
-    centre: T,
-    step: T,
+    (centre, step): (T, T),
+    best: Option<T>,
 ) -> T {
     let sides = (1..=SIDE).flat_map(|k| [T::from_f64(k as f64), -T::from_f64(k as f64)]);
-    sides.fold(T::one(), |least, place| {
-        least.min(here.plus(centre + step * place, change).smallest())
-    })
+    let (mut least, mut there) = (T::one(), Block::zeros(0));
+    for place in sides {
+        if best.is_some_and(|best| least <= best) {
+            break;
+        }
+        there.set_sum(here, centre + step * place, change);
+        least = least.min(there.smallest());
+    }
+    least
 }
