@@ -15,6 +15,9 @@ const EIGENVALUES: [f64; 2] = [2.0, 6.0];
 
 type Matrix = Vec<Vec<f64>>;
 
+/// What appends a solve to a program.
+type Solving = fn(&Program, (usize, usize), &[usize]) -> Option<Solved>;
+
 /// Numbers between −1 and 1 (Knuth's linear congruential generator).
 struct Random(u64);
 
@@ -91,10 +94,7 @@ impl Equations {
         self.solved_by(regular_correction).1
     }
 
-    fn solved_by(
-        &self,
-        way: fn(&Program, (usize, usize), &[usize]) -> Option<Solved>,
-    ) -> (Solved, impl Fn(&str, usize) -> f64 + use<>) {
+    fn solved_by(&self, way: Solving) -> (Solved, impl Fn(&str, usize) -> f64 + use<>) {
         let entries = self.entries();
         let mut program = Program::default();
         for (k, (slot, _)) in entries.iter().enumerate() {
