@@ -141,6 +141,7 @@ fn equations<T, M, const N: usize, const R: usize>(
         answers.fill("correction of q", N, &correction.position);
         answers.fill("correction of v", N, &correction.velocity);
         answers.fill("corrected residual", R, &correction.residual);
+        answers.regular = smallest(&correction.pivots).min(answers.regular);
     }
 }
 

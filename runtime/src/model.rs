@@ -129,6 +129,8 @@ pub struct Regular<T, const N: usize, const R: usize> {
     pub acceleration: SVector<T, N>,
     /// What was divided by.
     pub pivots: Pivots<T, N, R>,
+    /// Read, not written: the weights `W` of the rows that are [`Structure::weighed`], `R`.
+    pub weights: SVector<T, R>,
 }
 
 /// One step of a projection by the regular path, and how far it can be trusted.
@@ -143,9 +145,11 @@ pub struct Correction<T, const N: usize, const R: usize> {
     pub velocity: SVector<T, N>,
     /// What was divided by.
     pub pivots: Pivots<T, N, R>,
+    /// Read, not written: the weights `W` of the rows that are [`Structure::weighed`], `R`.
+    pub weights: SVector<T, R>,
 }
 
-/// The pivots of `M = L D Lᵀ` and of `S = A M⁻¹ Aᵀ = Λ E Λᵀ`.
+/// The pivots of the metric `M = L D Lᵀ` and of `S = A M⁻¹ Aᵀ = Λ E Λᵀ`.
 #[derive(Clone, Debug)]
 pub struct Pivots<T, const N: usize, const R: usize> {
     /// `d_i`, `N`; zero where it is `m_ii` itself.
@@ -155,7 +159,8 @@ pub struct Pivots<T, const N: usize, const R: usize> {
     /// `e_i`, `R`: over `s_ii`, the squared sine of the angle between a constraint
     /// row and the rows before it, in the kinetic metric.
     pub row_pivots: SVector<T, R>,
-    /// `s_ii`, `R`: the squared size of a constraint row in the kinetic metric.
+    /// `s_ii`, `R`: the squared size of a constraint row in the kinetic metric. Zero where
+    /// it is not asked for: a row is compared with the largest that corrections told.
     pub row_squares: SVector<T, R>,
 }
 
@@ -225,6 +230,7 @@ impl<T: Real, const N: usize, const R: usize> Default for Regular<T, N, R> {
         Self {
             acceleration: SVector::zeros(),
             pivots: Pivots::default(),
+            weights: SVector::zeros(),
         }
     }
 }
@@ -236,6 +242,7 @@ impl<T: Real, const N: usize, const R: usize> Default for Correction<T, N, R> {
             position: SVector::zeros(),
             velocity: SVector::zeros(),
             pivots: Pivots::default(),
+            weights: SVector::zeros(),
         }
     }
 }
@@ -448,6 +455,9 @@ pub struct Structure {
     /// The constraints were declared to be regular: a run ends with an error at a
     /// singular configuration.
     pub regular: bool,
+    /// The rows of `A` that take part in the metric, `M + AᵀWA`, because `M` alone is
+    /// singular at all positions.
+    pub weighed: &'static [usize],
 }
 
 impl Structure {
@@ -467,5 +477,6 @@ impl Structure {
         conservative: false,
         drawn: false,
         regular: false,
+        weighed: &[],
     };
 }

@@ -2,7 +2,7 @@
 //! exact motions, at singular positions and beside them.
 
 use crate::mechanisms::{
-    COUNT, FourBars, Hung, Parallelogram, Passing, Side, Sled, SliderCrank, Spring, Twice,
+    COUNT, FourBars, Hung, Massless, Parallelogram, Passing, Side, Sled, SliderCrank, Spring, Twice,
 };
 use crate::toys::{Framed, PLAIN};
 use bricard_runtime::nalgebra::SVector;
@@ -281,26 +281,8 @@ fn a_loop_that_cannot_close_is_an_error_with_its_row() {
 
 #[test]
 fn a_massless_coordinate_is_legal_where_a_constraint_holds_it() {
-    // The slider without mass: M is singular, M + AᵀWA is not.
-    struct Massless(SliderCrank);
-    impl Mechanism<f64, 3, 2> for Massless {
-        fn structure(&self) -> &'static Structure {
-            self.0.structure()
-        }
-        fn terms(&self, state: &State<f64, 3>, out: &mut Terms<f64, 3, 2>) {
-            self.0.terms(state, out);
-            out.mass[(2, 2)] = 0.0;
-        }
-        fn position(&self, state: &State<f64, 3>, out: &mut bricard_runtime::Position<f64, 3, 2>) {
-            self.0.position(state, out);
-            out.mass[(2, 2)] = 0.0;
-        }
-        fn energy(&self, state: &State<f64, 3>) -> bricard_runtime::Energy<f64> {
-            self.0.energy(state)
-        }
-    }
     let state = SliderCrank::default().state(0.0, 0.6, 2.0);
-    let mechanism = Massless(SliderCrank::default());
+    let mechanism = Massless::default();
     let mut terms = Terms::default();
     mechanism.terms(&state, &mut terms);
     for which in FORMS {
@@ -309,6 +291,44 @@ fn a_massless_coordinate_is_legal_where_a_constraint_holds_it() {
         assert!(gap.amax() < 1e-12, "{which}: {gap}");
         assert!(r.dot(&state.v).abs() < 1e-11, "{which}: {r}");
     }
+}
+
+#[test]
+fn solves_of_its_own_serve_a_mechanism_that_names_the_rows_of_its_metric() {
+    let named = Massless {
+        solves: true,
+        ..Massless::default()
+    };
+    let state = SliderCrank::default().state(0.0, 0.6, 2.0);
+    let (exact, _) = solve(&Massless::default(), Settings::default(), &state).unwrap();
+    let mut solver = Solver::new(Settings::default());
+    let mut system = solver.on(&named);
+    let found = system.acceleration(&state).unwrap();
+    assert!((found - exact).amax() < ROUND_OFF, "{found} is not {exact}");
+    assert_eq!(system.counters().cheap_accelerations, 1);
+    assert_eq!(system.counters().constraint_factorisations, 0);
+
+    let mut off = state;
+    off.q += SVector::from([1e-3, -2e-3, 1e-3]);
+    off.v += SVector::from([-3e-3, 1e-3, 2e-3]);
+    let mut placed = off;
+    system.project(&mut placed).unwrap();
+    assert_eq!(system.counters().constraint_factorisations, 0);
+    let mut general = off;
+    let mut solver = Solver::new(Settings::default());
+    let unnamed = Massless::default();
+    let mut system = solver.on(&unnamed);
+    system.project(&mut general).unwrap();
+    assert!(
+        (placed.q - general.q).amax() < 1e-5,
+        "{}",
+        placed.q - general.q
+    );
+    let error = system.constraint_error(&placed);
+    assert!(
+        error.position < ROUND_OFF && error.velocity < ROUND_OFF,
+        "{error:?}"
+    );
 }
 
 #[test]

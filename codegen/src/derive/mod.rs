@@ -17,6 +17,7 @@ mod force;
 mod linearised;
 mod mass;
 mod swell;
+mod weighed;
 
 pub use christoffel::coriolis_matrix;
 pub use eliminate::eliminate;
@@ -53,6 +54,8 @@ pub struct Equations {
     pub turn: Matrix,
     /// `A`, `R × N`.
     pub jacobian: Matrix,
+    /// Rows of `A` that take part in the metric `M + AᵀWA`, because `M` alone is singular.
+    pub weighed: Vec<usize>,
     /// `b`, `R`, of the velocity level `A q̇ + b = 0`.
     pub drift: Vec<ExprId>,
     /// `p₂ = −(Ȧ q̇ + ḃ)`, `R`.
@@ -144,6 +147,7 @@ fn equations(mechanism: &mut Mechanism) -> Option<Equations> {
     within_bounds(graph)?;
     let energies = energy::energies(graph, kinetic, potential, &applied, &momenta);
     within_bounds(graph)?;
+    let weighed = weighed::weighed(graph, &mass, &closure.jacobian);
     Some(Equations {
         mass,
         coriolis,
@@ -154,6 +158,7 @@ fn equations(mechanism: &mut Mechanism) -> Option<Equations> {
         speed: closure.speed,
         turn: closure.turn,
         jacobian: closure.jacobian,
+        weighed,
         drift: closure.drift,
         bias: closure.bias,
         energies,

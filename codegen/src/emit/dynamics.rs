@@ -95,8 +95,8 @@ pub(super) fn mechanism(subject: &mut Subject) -> TokenStream {
 
 /// The acceleration by the regular path.
 fn regular(subject: &mut Subject, terms: &Wanted) -> TokenStream {
-    let (n, r) = subject.counts();
-    let Some(solved_by) = regular_acceleration(&subject.program(terms), n, r) else {
+    let (sizes, weighed) = (subject.counts(), &subject.equations.weighed);
+    let Some(solved_by) = regular_acceleration(&subject.program(terms), sizes, weighed) else {
         return TokenStream::new();
     };
     let docs = match solved_by.way {
@@ -125,14 +125,14 @@ fn regular(subject: &mut Subject, terms: &Wanted) -> TokenStream {
 
 /// The projection step by the regular path.
 fn correction(subject: &mut Subject) -> TokenStream {
-    let (n, r) = subject.counts();
     let equations = subject.equations;
     let mut wanted = matrix("mass", &equations.mass);
     wanted.extend(matrix("jacobian", &equations.jacobian));
     wanted.extend(vector("residual", &equations.residual));
     wanted.extend(vector("speed", &equations.speed));
     wanted.extend(matrix("turn", &equations.turn));
-    let Some(solved_by) = regular_correction(&subject.program(&wanted), n, r) else {
+    let (sizes, weighed) = (subject.counts(), &equations.weighed);
+    let Some(solved_by) = regular_correction(&subject.program(&wanted), sizes, weighed) else {
         return TokenStream::new();
     };
     let Written {

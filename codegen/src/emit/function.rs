@@ -286,8 +286,8 @@ impl Writer<'_> {
         let last = pieces.pop().unwrap_or_default();
         while pieces.len() > NESTED_MAX {
             let first = pieces.drain(..NESTED_MAX);
-            let part = quote!(#(#first)**);
-            let part = self.named("product", part);
+            let part = first.reduce(|part, factor| quote!(#part * #factor));
+            let part = self.named("product", part.unwrap_or_default());
             pieces.insert(0, part.tokens);
         }
         let bare = ordered

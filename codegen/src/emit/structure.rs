@@ -31,6 +31,8 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
     let (constant_mass, conservative) = (constant_mass(subject), conservative(subject));
     let drawn = !mechanism.shapes.is_empty();
     let regular = subject.options.regular;
+    let weighed = subject.equations.weighed.iter().copied();
+    let weighed = weighed.map(Literal::usize_unsuffixed);
     quote! {
         static STRUCTURE: Structure = Structure {
             name: #name,
@@ -47,6 +49,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
             conservative: #conservative,
             drawn: #drawn,
             regular: #regular,
+            weighed: &[#(#weighed),*],
         };
     }
 }

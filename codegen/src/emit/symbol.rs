@@ -34,6 +34,7 @@ pub(super) struct SymbolNames {
     parameters: Vec<Ident>,
     accelerations: Vec<Ident>,
     multipliers: Vec<Ident>,
+    weights: Vec<Ident>,
     follows: Vec<Ident>,
     /// The local names that are taken.
     pub taken: Names,
@@ -77,6 +78,10 @@ impl SymbolNames {
         let multipliers = rows
             .map(|row| taken.unique(&format!("lambda_{row}")))
             .collect();
+        let rows = 0..mechanism.constraints.len();
+        let weights = rows
+            .map(|row| taken.unique(&format!("weight_{row}")))
+            .collect();
         let follows = input_fields
             .iter()
             .map(|input| taken.unique(&format!("follows_{input}")))
@@ -90,6 +95,7 @@ impl SymbolNames {
             parameters: parameter_names,
             accelerations,
             multipliers,
+            weights,
             follows,
             taken,
         }
@@ -121,6 +127,9 @@ impl SymbolNames {
         }
         if let Some(names) = chosen(&self.multipliers, Symbol::Multiplier) {
             statements.extend(quote!(let [#(#names),*] = multiplier.data.0[0];));
+        }
+        if let Some(names) = chosen(&self.weights, Symbol::Weight) {
+            statements.extend(quote!(let [#(#names),*] = out.weights.data.0[0];));
         }
         statements.extend(self.parameter_prelude(used));
         statements.extend(self.follows_prelude(used));
@@ -194,6 +203,7 @@ impl Symbols for SymbolNames {
             Symbol::Input(i) => self.input_fields[i as usize].clone(),
             Symbol::Acceleration(i) => self.accelerations[i as usize].clone(),
             Symbol::Multiplier(i) => self.multipliers[i as usize].clone(),
+            Symbol::Weight(i) => self.weights[i as usize].clone(),
             Symbol::Follows(i) => self.follows[i as usize].clone(),
         }
     }

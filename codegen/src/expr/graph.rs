@@ -48,6 +48,9 @@ pub enum Symbol {
     Acceleration(u32),
     /// The multiplier of a constraint row, by index: given likewise.
     Multiplier(u32),
+    /// The weight of a constraint row in the metric, by index: given, where the mass
+    /// matrix alone is singular.
+    Weight(u32),
     /// One while an external signal follows its law, zero while it is held, by the
     /// signal's index.
     Follows(u32),

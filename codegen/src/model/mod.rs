@@ -269,6 +269,7 @@ impl Mechanism {
             Symbol::Input(i) => self.inputs[i as usize].quantity.name.clone(),
             Symbol::Acceleration(i) => format!("der(der({}))", coordinate(i)),
             Symbol::Multiplier(i) => format!("lambda[{i}]"),
+            Symbol::Weight(i) => format!("w[{i}]"),
             Symbol::Follows(i) => {
                 format!("follows({})", self.inputs[i as usize].quantity.name)
             }

@@ -97,14 +97,19 @@ pub fn optimise_among(
 }
 
 /// The program for the accelerations by the regular path, from the program for
-/// `mass`, `force`, `jacobian`, `bias` of `n` coordinates and `r` constraint rows;
-/// `None` where it would divide by what is zero everywhere.
+/// `mass`, `force`, `jacobian`, `bias`; sizes are how many coordinates there are and how
+/// many constraint rows, some of which take part in the metric; `None` where it would divide by what is zero
+/// everywhere.
 ///
 /// # Panics
 ///
 /// As [`optimise`].
-pub fn regular_acceleration(terms: &Program, n: usize, r: usize) -> Option<Solved> {
-    solve::with_acceleration(terms, n, r).map(sound)
+pub fn regular_acceleration(
+    terms: &Program,
+    sizes: (usize, usize),
+    weighed: &[usize],
+) -> Option<Solved> {
+    solve::with_acceleration(terms, sizes, weighed).map(sound)
 }
 
 /// The program for the least corrections of position and velocity, from the
@@ -114,8 +119,12 @@ pub fn regular_acceleration(terms: &Program, n: usize, r: usize) -> Option<Solve
 /// # Panics
 ///
 /// As [`optimise`].
-pub fn regular_correction(terms: &Program, n: usize, r: usize) -> Option<Solved> {
-    solve::with_correction(terms, n, r).map(sound)
+pub fn regular_correction(
+    terms: &Program,
+    sizes: (usize, usize),
+    weighed: &[usize],
+) -> Option<Solved> {
+    solve::with_correction(terms, sizes, weighed).map(sound)
 }
 
 fn sound(solved: Solved) -> Solved {

@@ -66,7 +66,10 @@ fn state(symbol: Symbol) -> f64 {
         Symbol::Velocity(i) => -0.83 + 0.47 * f64::from(i),
         Symbol::Parameter(i) => 1.31 + 0.61 * f64::from(i),
         Symbol::Input(i) => 2.17 - 0.31 * f64::from(i),
-        Symbol::Acceleration(_) | Symbol::Multiplier(_) | Symbol::Follows(_) => {
+        Symbol::Acceleration(_)
+        | Symbol::Multiplier(_)
+        | Symbol::Weight(_)
+        | Symbol::Follows(_) => {
             unreachable!("no description has {symbol:?}")
         }
     }

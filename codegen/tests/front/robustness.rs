@@ -2,7 +2,7 @@
 //! never a panic, never a hang.
 
 use super::mechanisms::library;
-use bricard_codegen::{Settings, analyse};
+use bricard_codegen::{Settings, analyse, compile_source};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 use std::fmt::Write;
@@ -206,6 +206,34 @@ fn long_formulas_are_not_deep() {
         "output y = q{};",
         "*w".repeat(20_000)
     )));
+}
+
+/// Stack of a thread that a program starts, unless it says otherwise, in bytes.
+const SMALL_STACK: usize = 2 << 20;
+
+#[test]
+fn what_is_deep_or_long_compiles_on_a_small_stack() {
+    // Each quantity within the next: derivatives have products of forty factors.
+    let mut within = String::from("let a0 = q;");
+    for i in 1..40 {
+        let _ = write!(within, "let a{i} = sin(a{}) + {i}*w;", i - 1);
+    }
+    let terms: Vec<String> = (1..200).map(|i| format!("sin({i}*q)*w")).collect();
+    let factors: Vec<String> = (1..60).map(|i| format!("(q + {i})")).collect();
+    let work = move || {
+        for statements in [
+            format!("{within} potential a39;"),
+            format!("potential {};", terms.join(" + ")),
+            format!("potential {};", factors.join("*")),
+            format!("potential {}q{};", "sin(".repeat(50), ")".repeat(50)),
+        ] {
+            let source = super::with(&statements);
+            let compiled = compile_source(&source, "test", "test.mech", &Settings::default());
+            assert!(compiled.is_ok(), "{statements}");
+        }
+    };
+    let thread = std::thread::Builder::new().stack_size(SMALL_STACK);
+    thread.spawn(work).unwrap().join().unwrap();
 }
 
 #[test]

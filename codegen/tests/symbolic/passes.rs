@@ -26,7 +26,10 @@ fn state(number: u32) -> impl Fn(Symbol) -> f64 {
         Symbol::Velocity(i) => 1.3 - turn - 0.23 * f64::from(i),
         Symbol::Parameter(i) => 1.1 + 0.17 * f64::from(i),
         Symbol::Input(i) => 0.9 + 0.13 * f64::from(i),
-        Symbol::Acceleration(_) | Symbol::Multiplier(_) | Symbol::Follows(_) => 1.0,
+        Symbol::Acceleration(_)
+        | Symbol::Multiplier(_)
+        | Symbol::Weight(_)
+        | Symbol::Follows(_) => 1.0,
     }
 }
 

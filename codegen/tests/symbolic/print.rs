@@ -14,7 +14,10 @@ fn name(symbol: Symbol) -> String {
         Symbol::Velocity(i) => format!("der(x{i})"),
         Symbol::Parameter(i) => format!("p{i}"),
         Symbol::Input(i) => format!("u{i}"),
-        Symbol::Acceleration(_) | Symbol::Multiplier(_) | Symbol::Follows(_) => {
+        Symbol::Acceleration(_)
+        | Symbol::Multiplier(_)
+        | Symbol::Weight(_)
+        | Symbol::Follows(_) => {
             unreachable!("no description has {symbol:?}")
         }
     }

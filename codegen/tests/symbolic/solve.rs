@@ -5,7 +5,7 @@
 
 use bricard_codegen::expr::Symbol;
 use bricard_codegen::optimise::{
-    Operation, Program, Slot, Solved, Way, interpret, regular_acceleration,
+    Operation, Program, Slot, Solved, Way, interpret, regular_acceleration, regular_correction,
 };
 
 const N: usize = 14;
@@ -14,6 +14,9 @@ const R: usize = 9;
 const EIGENVALUES: [f64; 2] = [2.0, 6.0];
 
 type Matrix = Vec<Vec<f64>>;
+
+/// What appends a solve to a program.
+type Solving = fn(&Program, (usize, usize), &[usize]) -> Option<Solved>;
 
 /// Numbers between −1 and 1 (Knuth's linear congruential generator).
 struct Random(u64);
@@ -80,8 +83,18 @@ impl Equations {
         entries
     }
 
-    /// The program that solves equations with entries at these places, and its outputs.
+    /// The program that solves for accelerations, with entries at these places, and its
+    /// outputs.
     fn solved(&self) -> (Solved, impl Fn(&str, usize) -> f64 + use<>) {
+        self.solved_by(regular_acceleration)
+    }
+
+    /// The outputs of the program that corrects, which tells the sizes of rows, too.
+    fn corrected(&self) -> impl Fn(&str, usize) -> f64 + use<> {
+        self.solved_by(regular_correction).1
+    }
+
+    fn solved_by(&self, way: Solving) -> (Solved, impl Fn(&str, usize) -> f64 + use<>) {
         let entries = self.entries();
         let mut program = Program::default();
         for (k, (slot, _)) in entries.iter().enumerate() {
@@ -96,7 +109,7 @@ impl Equations {
             let value = program.push(Operation::Symbol(symbol));
             program.outputs.push((*slot, value));
         }
-        let solved = regular_acceleration(&program, N, R).unwrap();
+        let solved = way(&program, (N, R), &[]).unwrap();
         let value = |symbol| match symbol {
             Symbol::Parameter(k) => Some(entries[k as usize].1),
             _ => None,
@@ -126,7 +139,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// The solution of a dense system by Gaussian elimination, and the size of the determinant.
-fn dense(matrix: &Matrix, right: &[f64]) -> (Vec<f64>, f64) {
+pub(super) fn dense(matrix: &Matrix, right: &[f64]) -> (Vec<f64>, f64) {
     let (mut rows, n) = (matrix.clone(), right.len());
     rows.iter_mut().zip(right).for_each(|(row, x)| row.push(*x));
     let mut determinant = 1.0;
@@ -176,7 +189,7 @@ fn a_long_chain_is_solved_in_one_elimination() {
 fn rows_are_compared_with_their_whole_size() {
     for seed in 1..20 {
         let equations = Equations::random(seed);
-        let (_, output) = equations.solved();
+        let output = equations.corrected();
         for (i, row) in equations.gram().iter().enumerate() {
             let error = (output("row_squares", i) - row[i]).abs();
             assert!(error <= 1e-13 * row[i], "seed {seed}, row {i}: {error:e}");
@@ -195,7 +208,7 @@ fn dependent_rows_show_in_a_pivot_however_near_they_are() {
             equations.jacobian[4] = pairs.map(changed).collect();
             let gram = equations.gram();
             let cosine = gram[3][4] * gram[3][4] / (gram[3][3] * gram[4][4]);
-            let (_, output) = equations.solved();
+            let output = equations.corrected();
             let sine = |i| output("row_pivots", i) / output("row_squares", i);
             let (least, angle) = (sine(3).min(sine(4)), 1.0 - cosine);
             assert!(
@@ -211,7 +224,7 @@ fn pivots_are_bounds_from_below_and_near() {
     let [least, most] = EIGENVALUES;
     for seed in 1..50 {
         let equations = Equations::random(seed);
-        let (_, output) = equations.solved();
+        let output = equations.corrected();
         let (_, exact) = dense(&equations.gram(), &[0.0; R]);
         let product: f64 = (0..R).map(|i| output("row_pivots", i)).product();
         let farthest = (least / most).powi(i32::try_from(R).unwrap());

@@ -38,7 +38,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             && self.settings.form == Form::Reduced
             && !matches!(self.settings.stabilisation, Stabilisation::Baumgarte { .. })
             && self.rows.all_independent()
-            && self.metric.is_of_mass_alone()
+            && self.metric.is_emitted()
             && self.session.chart.is_none()
             && !self.session.rests
     }
@@ -79,6 +79,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         } else {
             &mut self.regular
         };
+        if !mechanism.structure().weighed.is_empty() {
+            regular.weights = SVector::from(self.rows.weights());
+        }
         self.emitted = mechanism.regular(state, regular);
         if !self.emitted {
             return T::zero();
@@ -126,6 +129,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         state: &mut State<T, N>,
         before: Option<T>,
     ) -> Correcting<T> {
+        if !mechanism.structure().weighed.is_empty() {
+            self.correction.weights = SVector::from(self.rows.weights());
+        }
         if !mechanism.correction(state, &mut self.correction) {
             return Correcting::Lost;
         }
@@ -191,8 +197,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 }
 
-/// The smallest squared sine that emitted pivots show, zero if the mass matrix is
-/// not safely definite.
+/// The smallest squared sine that emitted pivots show, zero if the metric is not safely
+/// definite.
 #[inline(always)]
 fn squared_sine<T: Real, const N: usize, const R: usize>(
     pivots: &Pivots<T, N, R>,

@@ -8,7 +8,7 @@
 
 use super::{Solver, Source, Which};
 use crate::linalg::project_onto;
-use crate::singular::{Found, Obstacle, Placed, Placement, Point, Start};
+use crate::singular::{Obstacle, Placed, Placement, Point, Start};
 use crate::state::all_finite;
 use crate::tolerance::{regular, resolvable, round_off, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State, Step};
@@ -329,7 +329,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.session.near = self.session.trial.near;
         if self.session.used.is_some() {
             self.session.used = None;
-            self.session.passages = Found::new();
+            self.session.passages.clear();
         }
         if self.session.chart.is_some() {
             self.look_back(mechanism, step);

@@ -6,7 +6,8 @@
 //! A mass matrix may be semi-definite (Euler parameters, coordinates without
 //! inertia) as long as `M` and `A` have no common null direction. `M + AᵀWA` with
 //! `p₁ + AᵀWp₂` has the same solutions and is definite; the weights `W` are made
-//! of diagonals, so that neither part drowns the other.
+//! of diagonals, so that neither part drowns the other. Where the mechanism names the rows
+//! that are needed, only those take part: emitted code does the same.
 //!
 //! Nor is `M` alone a good metric where a row connects masses that differ by many
 //! orders of magnitude: what the lightest contributes to `A M⁻¹ Aᵀ` drowns the rest,
@@ -18,13 +19,24 @@ use crate::linalg::{Cholesky, NotDefinite};
 use crate::{Counters, Real};
 use nalgebra::{SMatrix, SVector};
 
+/// Which constraint rows take part in the metric.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Takes {
+    None,
+    /// Those that the mechanism names.
+    Named,
+    All,
+}
+
 /// The factorised metric.
 #[derive(Clone, Debug)]
 pub(crate) struct Metric<T, const N: usize> {
     pub(crate) factor: Cholesky<T, N>,
-    /// Whether the constraints take part. Once they had to, they always do: the
-    /// metric must not change back and forth along a motion.
-    augmented: bool,
+    /// Which constraints take part. Once they had to, they always do: the metric must
+    /// not change back and forth along a motion.
+    takes: Takes,
+    /// The rows that the mechanism names.
+    named: &'static [usize],
     /// Whether `factor` belongs to the mass matrix of this binding.
     current: bool,
     /// The largest inertia that each coordinate had: that of an Euler parameter
@@ -36,7 +48,8 @@ impl<T: Real, const N: usize> Default for Metric<T, N> {
     fn default() -> Self {
         Self {
             factor: Cholesky::default(),
-            augmented: false,
+            takes: Takes::None,
+            named: &[],
             current: false,
             inertia: [T::zero(); N],
         }
@@ -44,9 +57,22 @@ impl<T: Real, const N: usize> Default for Metric<T, N> {
 }
 
 impl<T: Real, const N: usize> Metric<T, N> {
-    /// Lets the constraints take part from now on.
+    /// A metric in which the named rows take part.
+    pub(crate) fn with(named: &'static [usize]) -> Self {
+        let takes = match named {
+            [] => Takes::None,
+            _ => Takes::Named,
+        };
+        Self {
+            takes,
+            named,
+            ..Self::default()
+        }
+    }
+
+    /// Lets all constraints take part from now on.
     pub(crate) fn augment(&mut self) {
-        self.augmented = true;
+        self.takes = Takes::All;
     }
 
     /// Takes note of how much inertia the coordinates have.
@@ -63,9 +89,18 @@ impl<T: Real, const N: usize> Metric<T, N> {
         &self.inertia
     }
 
-    /// Whether the mass matrix alone is a metric.
-    pub(crate) fn is_of_mass_alone(&self) -> bool {
-        !self.augmented
+    /// Whether it is the one that emitted code uses.
+    pub(crate) fn is_emitted(&self) -> bool {
+        self.takes != Takes::All
+    }
+
+    /// Whether a constraint row takes part.
+    fn takes(&self, row: usize) -> bool {
+        match self.takes {
+            Takes::None => false,
+            Takes::Named => self.named.contains(&row),
+            Takes::All => true,
+        }
     }
 
     /// Forgets a constant mass matrix, whose parameters may have changed.
@@ -82,24 +117,40 @@ impl<T: Real, const N: usize> Metric<T, N> {
         constant: bool,
         counters: &mut Counters,
     ) -> Result<(), NotDefinite> {
-        if constant && self.current && !self.augmented {
+        if constant && self.current && self.takes == Takes::None {
             return Ok(());
         }
         counters.mass_factorisations += 1;
-        if !self.augmented {
+        if self.takes == Takes::None {
             match self.factor.factorise(mass) {
                 Ok(()) => {
                     self.current = true;
                     return Ok(());
                 }
                 Err(error) if R == 0 => return Err(error),
-                Err(_) => self.augmented = true,
+                Err(_) => self.augment(),
             }
         }
         self.observe(mass);
         rows.weigh(&self.inertia, jacobian);
+        match self.factor.factorise(&self.sum(mass, jacobian, rows)) {
+            Err(_) if self.takes == Takes::Named => {
+                self.augment();
+                self.factor.factorise(&self.sum(mass, jacobian, rows))
+            }
+            result => result,
+        }
+    }
+
+    /// `M + AᵀWA` of the rows that take part.
+    fn sum<const R: usize>(
+        &self,
+        mass: &SMatrix<T, N, N>,
+        jacobian: &SMatrix<T, R, N>,
+        rows: &Rows<T, R>,
+    ) -> SMatrix<T, N, N> {
         let mut sum = *mass;
-        for row in 0..R {
+        for row in (0..R).filter(|row| self.takes(*row)) {
             for j in 0..N {
                 let share = rows.weight(row) * jacobian[(row, j)];
                 for i in 0..N {
@@ -107,7 +158,7 @@ impl<T: Real, const N: usize> Metric<T, N> {
                 }
             }
         }
-        self.factor.factorise(&sum)
+        sum
     }
 
     /// A force `p₁`, or `p₁ + AᵀWp₂` where the constraints take part in the metric.
@@ -120,8 +171,8 @@ impl<T: Real, const N: usize> Metric<T, N> {
         rows: &Rows<T, R>,
     ) -> [T; N] {
         let mut force = force.data.0[0];
-        if self.augmented {
-            for row in 0..R {
+        if self.takes != Takes::None {
+            for row in (0..R).filter(|row| self.takes(*row)) {
                 let share = rows.weight(row) * bias[row];
                 for (j, entry) in force.iter_mut().enumerate() {
                     *entry += share * jacobian[(row, j)];

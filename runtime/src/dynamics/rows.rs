@@ -178,6 +178,11 @@ impl<T: Real, const R: usize> Rows<T, R> {
         self.holonomic_regular = self.holonomic_regular.max(self.holonomic_count);
     }
 
+    /// The weights of the rows in an augmented metric.
+    pub(crate) fn weights(&self) -> [T; R] {
+        self.weight
+    }
+
     /// The weight of a row in an augmented metric.
     #[inline]
     pub(crate) fn weight(&self, row: usize) -> T {

@@ -55,8 +55,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// which the rows can be told apart.
     fn sample_mass<M: Mechanism<T, N, R> + ?Sized>(&mut self, mechanism: &M, state: &State<T, N>) {
         let coordinates = mechanism.structure().coordinates;
-        self.metric = Metric::default();
-        let mut definite = false;
+        let named = mechanism.structure().weighed;
+        self.metric = Metric::with(named);
+        let mut definite = !named.is_empty();
         let mut levers = SMatrix::<T, R, N>::zeros();
         for sample in 1..=SAMPLES {
             let turned = turned(state, coordinates, sample);

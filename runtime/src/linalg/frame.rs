@@ -31,27 +31,65 @@ impl<T: Real, const R: usize> Block<T, R> {
         }
     }
 
-    /// `self + factor · other`.
+    /// `self + factor · other`, two blocks of one size.
     pub(crate) fn plus(&self, factor: T, other: &Self) -> Self {
-        let mut sum = self.clone();
-        for (row, other) in sum.entries.iter_mut().zip(&other.entries) {
-            add_scaled(row, factor, other);
-        }
+        let mut sum = Self::zeros(self.size);
+        sum.set_sum(self, factor, other);
         sum
     }
 
+    /// Becomes `a + factor · b`. A block has room for all rows, of which most are not used:
+    /// those are left alone.
+    pub(crate) fn set_sum(&mut self, a: &Self, factor: T, b: &Self) {
+        self.size = a.size;
+        let rows = self.entries[..a.size].iter_mut();
+        for ((row, a), b) in rows.zip(&a.entries).zip(&b.entries) {
+            for ((entry, a), b) in row[..self.size].iter_mut().zip(a).zip(b) {
+                *entry = factor.mul_add(*b, *a);
+            }
+        }
+    }
+
     /// The smallest pivot of an elimination with complete pivoting: about the smallest
-    /// singular value; one for an empty block.
-    pub(crate) fn smallest(&self) -> T {
-        let mut rest = self.clone();
+    /// singular value; one for an empty block. The elimination takes its place.
+    ///
+    /// Rows stay in their places and entries that are zero are skipped: loops in a row
+    /// leave a block with a few entries in each row.
+    pub(crate) fn smallest(&mut self) -> T {
+        let size = self.size;
         let mut smallest = T::one();
-        for step in 0..self.size {
-            let Some((row, column)) = rest.largest(step) else {
+        let mut done = [false; R];
+        let mut peaks = [(0, T::zero()); R];
+        for (peak, row) in peaks.iter_mut().zip(&self.entries[..size]) {
+            *peak = largest_of(&row[..size]);
+        }
+        for _ in 0..size {
+            let open = (0..size).filter(|row| !done[*row]);
+            let next = open.fold((0, T::zero()), |best, row| match peaks[row].1 > best.1 {
+                true => (row, peaks[row].1),
+                false => best,
+            });
+            let (row, peak) = next;
+            // False for NaN, too.
+            let is_left = peak > T::zero();
+            if !is_left {
                 return T::zero();
-            };
-            rest.swap(step, row, column);
-            smallest = smallest.min(rest.entries[step][step].abs());
-            rest.eliminate(step);
+            }
+            smallest = smallest.min(peak);
+            done[row] = true;
+            let (column, pivot) = (peaks[row].0, self.entries[row]);
+            for other in (0..size).filter(|other| !done[*other]) {
+                let entries = &mut self.entries[other][..size];
+                if entries[column] == T::zero() {
+                    continue;
+                }
+                let share = entries[column] / pivot[column];
+                for (entry, lost) in entries.iter_mut().zip(&pivot) {
+                    *entry -= share * *lost;
+                }
+                entries[column] = T::zero();
+                peaks[other] = largest_of(entries);
+            }
         }
         smallest
     }
@@ -151,6 +189,18 @@ impl<T: Real, const R: usize> Block<T, R> {
             add_scaled(row, -row[step] / pivot[step], &pivot);
         }
     }
+}
+
+/// Where the largest of some entries is, and its size.
+fn largest_of<T: Real>(entries: &[T]) -> (usize, T) {
+    let entries = entries.iter().enumerate();
+    entries.fold((0, -T::one()), |best, (column, entry)| {
+        if entry.abs() > best.1 {
+            (column, entry.abs())
+        } else {
+            best
+        }
+    })
 }
 
 /// The factors of a square system.
@@ -258,14 +308,7 @@ impl<T: Real, const N: usize, const R: usize> Frame<T, N, R> {
     /// The largest entry of a row that is reduced, and its size; columns of pivots hold
     /// zeros.
     fn largest(&self, row: usize) -> (usize, T) {
-        let entries = self.upper.data.0[row].iter().enumerate();
-        entries.fold((0, -T::one()), |best, (column, entry)| {
-            if entry.abs() > best.1 {
-                (column, entry.abs())
-            } else {
-                best
-            }
-        })
+        largest_of(&self.upper.data.0[row])
     }
 
     fn take(&mut self, step: usize, row: usize, column: usize) -> Result<(), NotRegular> {
@@ -287,7 +330,10 @@ impl<T: Real, const N: usize, const R: usize> Frame<T, N, R> {
         for (place, column) in columns.iter_mut().zip(open) {
             *place = column;
         }
-        self.block = Block::zeros(late.len());
+        self.block.size = late.len();
+        for row in &mut self.block.entries[..late.len()] {
+            *row = [T::zero(); R];
+        }
         for (k, &(row, from)) in late.iter().enumerate() {
             self.reduce(row, from, first);
             for (entry, &column) in self.block.entries[k].iter_mut().zip(&columns[..late.len()]) {
@@ -304,15 +350,30 @@ impl<T: Real, const N: usize, const R: usize> Frame<T, N, R> {
                 self.smallest = self.smallest.min(self.upper.data.0[row][column].abs());
             }
         }
-        for step in first..N {
-            let size = self.bring_largest(step);
+        self.eliminate_late()
+    }
+
+    /// Eliminates the near-dependent rows, the largest entry first.
+    fn eliminate_late(&mut self) -> Result<(), NotRegular> {
+        let mut peaks = [(0, T::zero()); N];
+        for &row in &self.rows[self.independent..] {
+            peaks[row] = self.largest(row);
+        }
+        for step in self.independent..N {
+            let size = self.bring_largest(step, &peaks);
             self.smallest = self.smallest.min(size);
             if size == T::zero() {
                 return Ok(());
             }
-            self.take(step, self.rows[step], self.columns[step])?;
-            for later in step + 1..N {
-                self.reduce(self.rows[later], step, step + 1);
+            let column = self.columns[step];
+            self.take(step, self.rows[step], column)?;
+            for place in step + 1..N {
+                let row = self.rows[place];
+                let changes = self.upper.data.0[row][column] != T::zero();
+                self.reduce(row, step, step + 1);
+                if changes {
+                    peaks[row] = self.largest(row);
+                }
             }
         }
         Ok(())
@@ -320,15 +381,14 @@ impl<T: Real, const N: usize, const R: usize> Frame<T, N, R> {
 
     /// Makes the row with the largest entry of those that are left the next one, and that
     /// entry its pivot; its size.
-    fn bring_largest(&mut self, step: usize) -> T {
-        let mut best = (step, 0, -T::one());
-        for place in step..N {
-            let (column, size) = self.largest(self.rows[place]);
-            if size > best.2 {
-                best = (place, column, size);
-            }
-        }
-        let (place, column, size) = best;
+    fn bring_largest(&mut self, step: usize, peaks: &[(usize, T); N]) -> T {
+        let peak = |place: usize| peaks[self.rows[place]];
+        let larger = |best: usize, place: usize| match peak(place).1 > peak(best).1 {
+            true => place,
+            false => best,
+        };
+        let place = (step + 1..N).fold(step, larger);
+        let (column, size) = peak(place);
         self.rows.swap(step, place);
         if let Some(place) = (step..N).find(|place| self.columns[*place] == column) {
             self.columns.swap(step, place);

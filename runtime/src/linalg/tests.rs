@@ -221,3 +221,26 @@ fn elimination_gives_coordinates_that_satisfy_the_rows() {
     }
     assert!((matrix * x - right).amax() < 1e-12);
 }
+
+#[test]
+fn the_smallest_pivot_of_a_block_is_that_of_complete_pivoting() {
+    const K: usize = 7;
+    let mut random = Random(SEED);
+    for round in 0..20 {
+        // Loops in a row: each row has entries with its neighbours only.
+        let chain = SMatrix::<f64, K, K>::from_fn(|i, j| match i.abs_diff(j) {
+            0 | 1 => random.number(),
+            _ => 0.0,
+        });
+        let mut block = Block::<f64, 9>::zeros(K);
+        for (i, row) in block.entries.iter_mut().take(K).enumerate() {
+            row[..K].copy_from_slice(chain.row(i).transpose().as_slice());
+        }
+        let pivots = chain.full_piv_lu().u().diagonal().abs();
+        let (found, exact) = (block.smallest(), pivots.min().min(1.0));
+        assert!(
+            (found - exact).abs() < 1e-12,
+            "{round}: {found} is not {exact}"
+        );
+    }
+}

@@ -138,7 +138,7 @@ where
                 best
             }
         });
-        direction.rate = change.smallest();
+        direction.rate = change.clone().smallest();
         direction.centre = nearest;
         // False for NaN, too.
         let leads = direction.rate > T::zero() && nearest.is_finite();
@@ -150,8 +150,9 @@ where
             if nearest.abs() > step * hull() {
                 break;
             }
-            let score = clearance_of(here, &change, nearest, step);
-            if best.as_ref().is_none_or(|best| score > best.score) {
+            let least = best.as_ref().map(|best| best.score);
+            let score = clearance_of(here, &change, (nearest, step), least);
+            if least.is_none_or(|least| score > least) {
                 *best = Some(Best { direction, score });
             }
             step *= T::from_f64(0.5);
@@ -213,15 +214,22 @@ fn spread_evenly<T: Real, const N: usize>(trial: usize, dimension: usize) -> [T;
     vector.map(|entry| entry / size)
 }
 
-/// The smallest sine of nodes on both sides of a place, to first order.
+/// The smallest sine of nodes on both sides of a place, to first order; of no interest
+/// where it is not above a score that another place has, and then only a bound of it.
 fn clearance_of<T: Real, const R: usize>(
     here: &Block<T, R>,
     change: &Block<T, R>,
-    centre: T,
-    step: T,
+    (centre, step): (T, T),
+    best: Option<T>,
 ) -> T {
     let sides = (1..=SIDE).flat_map(|k| [T::from_f64(k as f64), -T::from_f64(k as f64)]);
-    sides.fold(T::one(), |least, place| {
-        least.min(here.plus(centre + step * place, change).smallest())
-    })
+    let (mut least, mut there) = (T::one(), Block::zeros(0));
+    for place in sides {
+        if best.is_some_and(|best| least <= best) {
+            break;
+        }
+        there.set_sum(here, centre + step * place, change);
+        least = least.min(there.smallest());
+    }
+    least
 }

@@ -54,6 +54,13 @@ impl<T: Real> Found<T> {
         }
     }
 
+    pub(crate) fn clear(&mut self) {
+        for passage in self.list.iter_mut().take(self.count) {
+            *passage = None;
+        }
+        self.count = 0;
+    }
+
     /// In the order of time.
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Passage<T>> {
         self.list.iter().flatten()

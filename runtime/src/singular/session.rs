@@ -81,6 +81,17 @@ impl<T: Real, const N: usize, const R: usize> Trial<T, N, R> {
             crosses: false,
         }
     }
+
+    fn forget(&mut self) {
+        self.lowest = T::one();
+        self.end = T::one();
+        self.near = false;
+        self.wants_chart = false;
+        self.chart = None;
+        self.placed = None;
+        self.by_emitted = false;
+        self.crosses = false;
+    }
 }
 
 impl<T: Real, const N: usize, const R: usize> Session<T, N, R> {
@@ -100,10 +111,17 @@ impl<T: Real, const N: usize, const R: usize> Session<T, N, R> {
     }
 
     /// Begins at a state of which nothing is known.
+    ///
+    /// Charts are large, so that what is forgotten is not overwritten.
     pub(crate) fn begin(&mut self, state: &State<T, N>) {
-        let tolerance = self.tolerance;
-        *self = Self::new();
-        self.tolerance = tolerance;
         self.base = Some(*state);
+        self.chart = None;
+        self.used = None;
+        self.rests = false;
+        self.near = false;
+        self.sine = None;
+        self.trial.forget();
+        self.passages.clear();
+        self.liveliest = T::zero();
     }
 }

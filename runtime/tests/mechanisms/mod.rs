@@ -6,6 +6,7 @@
 
 mod four_bars;
 mod hung;
+mod massless;
 mod parallelogram;
 mod reference;
 mod side;
@@ -15,6 +16,7 @@ mod twice;
 
 pub use four_bars::FourBars;
 pub use hung::{Hung, HungReduced};
+pub use massless::Massless;
 pub use parallelogram::Parallelogram;
 pub use reference::{Passage, Reduced, Reduction};
 pub use side::{COUNT, Side};

@@ -77,6 +77,7 @@ pub mod cart_pole {
         conservative: false,
         drawn: true,
         regular: false,
+        weighed: &[],
     };
     /// Run-time parameters, in SI units.
     #[derive(Clone, Copy, Debug, PartialEq)]

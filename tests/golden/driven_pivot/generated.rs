@@ -90,6 +90,7 @@ pub mod driven_pivot {
         conservative: false,
         drawn: true,
         regular: false,
+        weighed: &[],
     };
     /// Run-time parameters, in SI units.
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -195,7 +196,6 @@ pub mod driven_pivot {
             let product_3 = product_2 * quotient_2;
             let sum_4 = product_2.mul_add(product_3, quotient);
             out.pivots.row_pivots.data.0[0][0] = sum_4;
-            out.pivots.row_squares.data.0[0][0] = sum_4;
             let (_, cos_angle) = (w * t).sin_cos();
             let sum_5 = sum
                 .mul_add(

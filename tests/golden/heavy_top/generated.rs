@@ -114,6 +114,7 @@ pub mod heavy_top {
         conservative: true,
         drawn: true,
         regular: false,
+        weighed: &[],
     };
     /// Run-time parameters, in SI units.
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -468,7 +469,6 @@ pub mod heavy_top {
                         ),
                 );
             out.pivots.row_pivots.data.0[0][0] = sum_22;
-            out.pivots.row_squares.data.0[0][0] = sum_22;
             let product_39 = j3
                 * (e_1_e_2_dot + e_3_e_0_dot - e_0_e_3_dot - e_2_e_1_dot);
             let sum_23 = e_0_dot_e_0_dot + e_3_dot_e_3_dot;

@@ -95,6 +95,7 @@ pub mod rolling_disc {
         conservative: true,
         drawn: true,
         regular: false,
+        weighed: &[],
     };
     /// Run-time parameters, in SI units.
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -278,7 +279,6 @@ pub mod rolling_disc {
                     sum_5.mul_add(product_21, sum_2.mul_add(product_13, quotient)),
                 );
             out.pivots.row_pivots.data.0[0][0] = sum_7;
-            out.pivots.row_squares.data.0[0][0] = sum_7;
             let quotient_5 = T::one() / sum_7;
             let r_sin_psi = r * sin_psi;
             let psi_dot_phi_dot = psi_dot * phi_dot;
@@ -329,15 +329,18 @@ pub mod rolling_disc {
             let product_27 = quotient_3 * sum_13;
             let product_28 = quotient_4 * sum_14;
             let product_29 = quotient_2 * r_sin_psi;
-            let sum_16 = r_sin_psi
+            let sum_16 = (-sum_15)
                 .mul_add(
-                    product_29,
-                    sum_14.mul_add(product_28, sum_13.mul_add(product_27, quotient)),
+                    product_26,
+                    r_sin_psi
+                        .mul_add(
+                            product_29,
+                            sum_14
+                                .mul_add(product_28, sum_13.mul_add(product_27, quotient)),
+                        ),
                 );
-            out.pivots.row_squares.data.0[0][1] = sum_16;
-            let sum_17 = (-sum_15).mul_add(product_26, sum_16);
-            out.pivots.row_pivots.data.0[0][1] = sum_17;
-            let sum_18 = (-quotient)
+            out.pivots.row_pivots.data.0[0][1] = sum_16;
+            let sum_17 = (-quotient)
                 .mul_add(
                     product_25,
                     (-r_cos_psi)
@@ -350,30 +353,30 @@ pub mod rolling_disc {
                                 ),
                         ),
                 );
-            let product_30 = (T::one() / sum_17) * (-sum_12).mul_add(product_26, sum_18);
-            let sum_19 = (-product_26).mul_add(product_30, quotient_5 * sum_12);
+            let product_30 = (T::one() / sum_16) * (-sum_12).mul_add(product_26, sum_17);
+            let sum_18 = (-product_26).mul_add(product_30, quotient_5 * sum_12);
             let product_31 = quotient_4
-                * (-sum_14).mul_add(product_30, sum_5.mul_add(sum_19, sum_11));
+                * (-sum_14).mul_add(product_30, sum_5.mul_add(sum_18, sum_11));
             out.acceleration.data.0[0][3] = product_31;
-            let sum_20 = (-product_19)
+            let sum_19 = (-product_19)
                 .mul_add(
                     product_31,
                     quotient_3
-                        * (-sum_13).mul_add(product_30, (-sum_2).mul_add(sum_19, sum_9)),
+                        * (-sum_13).mul_add(product_30, (-sum_2).mul_add(sum_18, sum_9)),
                 );
-            out.acceleration.data.0[0][2] = sum_20;
+            out.acceleration.data.0[0][2] = sum_19;
             out.acceleration.data.0[0][0] = (-product_16)
                 .mul_add(
                     product_31,
-                    (-product_9).mul_add(sum_20, quotient * (product_3 - sum_19)),
+                    (-product_9).mul_add(sum_19, quotient * (product_3 - sum_18)),
                 );
             out.acceleration.data.0[0][1] = product_18 * product_31
-                - product_12.mul_add(sum_20, quotient * (product_25 + product_30));
+                - product_12.mul_add(sum_19, quotient * (product_25 + product_30));
             out.acceleration.data.0[0][4] = (-product_7)
                 .mul_add(
-                    sum_20,
+                    sum_19,
                     quotient_2
-                        * r_sin_psi.mul_add(product_30, r_cos_psi * sum_19 - product_23),
+                        * r_sin_psi.mul_add(product_30, r_cos_psi * sum_18 - product_23),
                 );
             true
         }

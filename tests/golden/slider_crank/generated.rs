@@ -105,6 +105,7 @@ pub mod slider_crank {
         conservative: true,
         drawn: true,
         regular: false,
+        weighed: &[],
     };
     /// Run-time parameters, in SI units.
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -238,7 +239,6 @@ pub mod slider_crank {
             let product_4 = sum * quotient_3;
             let sum_4 = sum.mul_add(product_4, l1_sin_q1.mul_add(product, quotient_2));
             out.pivots.row_pivots.data.0[0][0] = sum_4;
-            out.pivots.row_squares.data.0[0][0] = sum_4;
             let quotient_4 = T::one() / sum_4;
             let product_5 = q2_dot * (l2 * q2_dot);
             let product_6 = T::from_f64(0.5) * sin_q1.mul_add(cos_q2, sin_q2 * cos_q1);
@@ -271,11 +271,10 @@ pub mod slider_crank {
             let product_9 = quotient_4 * sum_8;
             let product_10 = quotient * l1_cos_q1;
             let product_11 = quotient_3 * sum_7;
-            let sum_9 = sum_7.mul_add(product_11, l1_cos_q1 * product_10);
-            out.pivots.row_squares.data.0[0][1] = sum_9;
-            let sum_10 = (-sum_8).mul_add(product_9, sum_9);
-            out.pivots.row_pivots.data.0[0][1] = sum_10;
-            let sum_11 = sum_6 * product_9
+            let sum_9 = (-sum_8)
+                .mul_add(product_9, sum_7.mul_add(product_11, l1_cos_q1 * product_10));
+            out.pivots.row_pivots.data.0[0][1] = sum_9;
+            let sum_10 = sum_6 * product_9
                 - sum_5
                     .mul_add(
                         product_11,
@@ -285,19 +284,19 @@ pub mod slider_crank {
                                 (-sin_q2).mul_add(product_5, sin_q1 * product_8),
                             ),
                     );
-            let product_12 = (T::one() / sum_10) * sum_11;
-            let sum_12 = product_9.mul_add(product_12, quotient_4 * sum_6);
+            let product_12 = (T::one() / sum_9) * sum_10;
+            let sum_11 = product_9.mul_add(product_12, quotient_4 * sum_6);
             let product_13 = quotient_3
-                * sum_7.mul_add(product_12, (-sum).mul_add(sum_12, sum_5));
+                * sum_7.mul_add(product_12, (-sum).mul_add(sum_11, sum_5));
             out.acceleration.data.0[0][1] = product_13;
             out.acceleration.data.0[0][0] = (-product_3)
                 .mul_add(
                     product_13,
                     quotient
                         * (-l1_cos_q1)
-                            .mul_add(product_12, l1_sin_q1 * sum_12 - product_7),
+                            .mul_add(product_12, l1_sin_q1 * sum_11 - product_7),
                 );
-            out.acceleration.data.0[0][2] = quotient_2 * sum_12;
+            out.acceleration.data.0[0][2] = quotient_2 * sum_11;
             true
         }
         /// Everything a projection needs: `A Δq = −g`, `A q̇ + b = 0`, in the metric `M`.

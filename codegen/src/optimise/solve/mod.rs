@@ -10,6 +10,10 @@
 //! compared with (`mass_diagonal`, `row_squares`), and where one is too small the result
 //! is not to be used. Left out are masses that elimination leaves as they are. A pivot
 //! that is zero by structure means that there is no such program.
+//!
+//! Where `M` alone is singular, some rows are said to take part in the metric, and `M` is
+//! `M + AᵀWA` with the weights that are given at run time. The solution is the same: since
+//! `A x` is known, only `λ` changes.
 
 mod algebra;
 mod factors;
@@ -19,7 +23,8 @@ mod schur;
 
 use super::count::cost;
 use super::dead::ordered;
-use super::program::{Program, Slot, Value};
+use super::program::{Operation, Program, Slot, Value};
+use crate::expr::Symbol;
 use algebra::{Algebra, Entry, Signed, Sparse};
 use saddle::Saddle;
 use schur::Schur;
@@ -29,27 +34,57 @@ use std::collections::BTreeMap;
 /// generator. Beyond it the runtime's solves stay.
 const OPERATIONS_MAX: usize = 100_000;
 
+/// The sizes of rows.
+const ROW_SQUARES: &str = "row_squares";
+
 /// What was divided by, and what it is to be compared with.
 type Pivot = (Signed, Signed);
+
+/// What equations there are.
+struct Given<'a> {
+    /// Computes the entries.
+    program: &'a Program,
+    n: usize,
+    r: usize,
+    /// The rows of `A` that take part in the metric.
+    weighed: &'a [usize],
+}
 
 /// Vectors that a program computes.
 type Vectors = Vec<(&'static str, Vec<Entry>)>;
 
 /// The accelerations: `M q̈ + Aᵀλ = p₁`, `A q̈ = p₂`, from `mass`, `force`,
 /// `jacobian`, `bias`. Output `acceleration`.
-pub(super) fn with_acceleration(program: &Program, n: usize, r: usize) -> Option<Solved> {
+pub(super) fn with_acceleration(
+    program: &Program,
+    (n, r): (usize, usize),
+    weighed: &[usize],
+) -> Option<Solved> {
     let acceleration = |system: &mut System| {
         let (force, bias) = (system.take("force", n), system.take("bias", r));
         vec![("acceleration", system.solve(force, &bias))]
     };
-    cheaper(program, (n, r), &acceleration, &[])
+    cheaper(
+        &Given {
+            program,
+            n,
+            r,
+            weighed,
+        },
+        &acceleration,
+        &[],
+    )
 }
 
 /// The least corrections in the kinetic metric: `A Δq = −g`, and `A Δq̇ = −(A q̇ + b)`
 /// with the right-hand side that it has `Δq` farther on, to first order: from `mass`,
 /// `jacobian`, `residual`, `speed` and `turn`, `∂(A q̇ + b)/∂q`. Outputs `position` and
-/// `velocity`; `residual` stays one.
-pub(super) fn with_correction(program: &Program, n: usize, r: usize) -> Option<Solved> {
+/// `velocity`, and the sizes of the rows; `residual` stays one.
+pub(super) fn with_correction(
+    program: &Program,
+    (n, r): (usize, usize),
+    weighed: &[usize],
+) -> Option<Solved> {
     let corrections = |system: &mut System| {
         let gaps = system.take("residual", r);
         let position = system.solve(vec![None; n], &opposite(gaps));
@@ -62,24 +97,32 @@ pub(super) fn with_correction(program: &Program, n: usize, r: usize) -> Option<S
         let velocity = system.solve(vec![None; n], &opposite(speed));
         vec![("position", position), ("velocity", velocity)]
     };
-    cheaper(program, (n, r), &corrections, &["residual"])
+    cheaper(
+        &Given {
+            program,
+            n,
+            r,
+            weighed,
+        },
+        &corrections,
+        &["residual", ROW_SQUARES],
+    )
 }
 
 /// The cheaper one of the programs that compute vectors by the two ways.
 fn cheaper(
-    program: &Program,
-    sizes: (usize, usize),
+    given: &Given,
     vectors: &dyn Fn(&mut System) -> Vectors,
     kept: &[&str],
 ) -> Option<Solved> {
     let by = |way: Way, longest: usize| {
-        let mut system = System::of(program, sizes, way, longest)?;
+        let mut system = System::of(given, way, longest)?;
         let vectors = vectors(&mut system);
-        let program = system.finish(&vectors, program, kept);
+        let program = system.finish(&vectors, given.program, kept);
         Some(Solved { program, way })
     };
     // Without constraints there is only `M`.
-    let saddle = match sizes.1 {
+    let saddle = match given.r {
         0 => None,
         _ => by(Way::Saddle, OPERATIONS_MAX),
     };
@@ -124,6 +167,29 @@ enum Factorised {
     Saddle(Saddle),
 }
 
+impl Algebra {
+    /// `M + AᵀWA` of the rows that take part.
+    fn weigh(&mut self, mass: &mut Sparse, jacobian: &Sparse, weighed: &[usize]) {
+        for &row in weighed {
+            let entries = jacobian.range((row, 0)..(row + 1, 0));
+            let entries: Vec<(usize, Entry)> =
+                entries.map(|((_, j), entry)| (*j, Some(*entry))).collect();
+            let symbol = Symbol::Weight(u32::try_from(row).unwrap_or(u32::MAX));
+            let weight = Some((false, self.program.push(Operation::Symbol(symbol))));
+            for (a, &(i, entry)) in entries.iter().enumerate() {
+                let share = self.product(weight, entry).map(|(minus, x)| (!minus, x));
+                for &(j, other) in &entries[..=a] {
+                    let whole = mass.get(&(i, j)).copied();
+                    if let Some(sum) = self.minus_product(whole, share, other) {
+                        mass.insert((i, j), sum);
+                        mass.insert((j, i), sum);
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// A program that is being written.
 struct System {
     algebra: Algebra,
@@ -132,19 +198,21 @@ struct System {
 }
 
 impl System {
-    fn of(program: &Program, (n, r): (usize, usize), way: Way, longest: usize) -> Option<Self> {
+    fn of(given: &Given, way: Way, longest: usize) -> Option<Self> {
+        let (n, r) = (given.n, given.r);
         let mut algebra = Algebra {
-            program: program.clone(),
+            program: given.program.clone(),
             longest,
         };
         let mut entries: BTreeMap<&'static str, Sparse> = BTreeMap::new();
-        for (slot, value) in &program.outputs {
+        for (slot, value) in &given.program.outputs {
             let entry = algebra.signed(*value);
             let array = entries.entry(slot.array).or_default();
             array.insert((slot.row, slot.column), entry);
         }
-        let mass = entries.remove("mass").unwrap_or_default();
+        let mut mass = entries.remove("mass").unwrap_or_default();
         let jacobian = entries.remove("jacobian").unwrap_or_default();
+        algebra.weigh(&mut mass, &jacobian, given.weighed);
         let factorised = match way {
             Way::Schur => Factorised::Schur(Schur::of(&mut algebra, &mass, &jacobian, n, r)?),
             Way::Saddle => Factorised::Saddle(Saddle::of(&mut algebra, &mass, &jacobian, n, r)?),
@@ -199,7 +267,6 @@ impl System {
             Factorised::Saddle(factors) => (factors.mass_pivots(), factors.row_pivots()),
         };
         for (row, &(pivot, whole)) in masses.iter().enumerate() {
-            // A row that shrinks is compared with its own past, a mass is not.
             if pivot != whole {
                 write("mass_pivots", row, Some(pivot));
                 write("mass_diagonal", row, Some(whole));
@@ -207,7 +274,10 @@ impl System {
         }
         for (row, &(pivot, whole)) in rows.iter().enumerate() {
             write("row_pivots", row, Some(pivot));
-            write("row_squares", row, Some(whole));
+            // A row is compared with its own past, which a correction tells.
+            if kept.contains(&ROW_SQUARES) {
+                write(ROW_SQUARES, row, Some(whole));
+            }
         }
         ordered(algebra.program.list(), &outputs, &|value| value)
     }

@@ -1,0 +1,159 @@
+//! Constraint rows that take part in the metric.
+//!
+//! In:  `M` and `A`.
+//! Out: the fewest rows `a` with which `M + Σ w aᵀa` is definite: none where `M` is.
+//!
+//! The mass matrix of a body in Euler parameters is singular, and so is that of a
+//! coordinate without inertia. Whether one is singular at all positions is seen at
+//! random ones, and only rows that hold such a motion everywhere are named: at others
+//! the runtime lets all rows take part. Of the rows that take hold of what moves without inertia, those come
+//! first that join what `M` joins already, so that elimination stays as sparse.
+
+use super::Matrix;
+use crate::expr::{Graph, Symbol};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Random positions at which the same rows must do, where all entries are finite.
+const POSITIONS: u32 = 4;
+/// Cosine of the angle between a row and the motion that it holds: a row at any other angle
+/// may come to lie across the motion somewhere.
+const ALONG: f64 = 0.99;
+/// What is left of a diagonal entry of `M`, relative to it, that is round-off.
+const ROUND_OFF: f64 = 1e-10;
+
+/// A sparse vector by coordinate.
+type Sparse = BTreeMap<usize, f64>;
+
+/// The rows of `A` that take part in the metric, in ascending order.
+pub(super) fn weighed(graph: &Graph, mass: &Matrix, jacobian: &Matrix) -> Vec<usize> {
+    if jacobian.is_empty() {
+        return Vec::new();
+    }
+    let numbers = (1..=POSITIONS).filter_map(|position| at_random(graph, mass, jacobian, position));
+    let mut chosen = numbers.map(|(mass, jacobian)| rows_at(&mass, &jacobian));
+    let first = chosen.next().unwrap_or_default();
+    match chosen.all(|other| other == first) {
+        true => first,
+        false => Vec::new(),
+    }
+}
+
+/// The rows at one position; none where they do not hold every motion without inertia.
+fn rows_at(mass: &[Sparse], jacobian: &[Sparse]) -> Vec<usize> {
+    let mut motions = without_inertia(mass);
+    let mut order: Vec<usize> = (0..jacobian.len()).collect();
+    order.sort_by_key(|row| (joined(mass, &jacobian[*row]), jacobian[*row].len()));
+    let mut chosen = BTreeSet::new();
+    for row in order {
+        if motions.is_empty() {
+            break;
+        }
+        if take_hold(&mut motions, &jacobian[row]) {
+            chosen.insert(row);
+        }
+    }
+    match motions.is_empty() {
+        true => chosen.into_iter().collect(),
+        false => Vec::new(),
+    }
+}
+
+/// The entries of `M` and `A` that differ from zero, row by row, if all are finite.
+fn at_random(
+    graph: &Graph,
+    mass: &Matrix,
+    jacobian: &Matrix,
+    position: u32,
+) -> Option<(Vec<Sparse>, Vec<Sparse>)> {
+    // Fractional parts of multiples of irrational numbers, between 0.3 and 1.3.
+    let spread = |i: u32, stride: f64| 0.3 + (stride * f64::from(i + 7 * position)).fract();
+    let value = |symbol| match symbol {
+        Symbol::Coordinate(i) => spread(i, 0.618_033_988_749_894_9),
+        Symbol::Parameter(i) | Symbol::Input(i) => spread(i, 0.414_213_562_373_095),
+        Symbol::Velocity(i) => spread(i, 0.732_050_807_568_877),
+        _ => 1.0,
+    };
+    let entries = |matrix: &Matrix| -> Option<Vec<Sparse>> {
+        let sparse = |row: &Vec<_>| {
+            let values = graph.evaluate_all(row, &value).into_iter().enumerate();
+            let row: Sparse = values.filter(|(_, x)| *x != 0.0).collect();
+            row.values().all(|x| x.is_finite()).then_some(row)
+        };
+        matrix.iter().map(sparse).collect()
+    };
+    Some((entries(mass)?, entries(jacobian)?))
+}
+
+/// A basis of the motions without kinetic energy: from `M = U D Uᵀ`, last row first.
+fn without_inertia(mass: &[Sparse]) -> Vec<Sparse> {
+    let mut rest = mass.to_vec();
+    let mut columns: Vec<Option<Sparse>> = vec![None; mass.len()];
+    for k in (0..mass.len()).rev() {
+        let row = std::mem::take(&mut rest[k]);
+        let above: Sparse = row.range(..k).map(|(i, x)| (*i, *x)).collect();
+        for i in above.keys() {
+            rest[*i].remove(&k);
+        }
+        let pivot = row.get(&k).copied().unwrap_or(0.0);
+        // A mass that is negative is none that the runtime would take.
+        if pivot <= ROUND_OFF * mass[k].get(&k).copied().unwrap_or(0.0) {
+            continue;
+        }
+        for (i, x) in &above {
+            for (j, y) in &above {
+                *rest[*i].entry(*j).or_insert(0.0) -= x * y / pivot;
+            }
+        }
+        columns[k] = Some(above.into_iter().map(|(i, x)| (i, x / pivot)).collect());
+    }
+    let none = (0..mass.len()).filter(|k| columns[*k].is_none());
+    none.map(|k| {
+        let mut motion = Sparse::from([(k, 1.0)]);
+        for (i, column) in columns.iter().enumerate().skip(k + 1) {
+            let moved = column.as_ref().map_or(0.0, |column| dot(column, &motion));
+            if moved != 0.0 {
+                motion.insert(i, -moved);
+            }
+        }
+        motion
+    })
+    .collect()
+}
+
+/// How many pairs of coordinates a row would join that `M` does not.
+fn joined(mass: &[Sparse], row: &Sparse) -> usize {
+    let pairs = row.keys().flat_map(|i| row.keys().map(move |j| (i, j)));
+    pairs.filter(|(i, j)| !mass[**i].contains_key(j)).count()
+}
+
+/// Whether a row restricts one of the motions. The others are changed by it until the
+/// row does not, and it is left out.
+fn take_hold(motions: &mut Vec<Sparse>, row: &Sparse) -> bool {
+    let size = |x: &Sparse| dot(x, x).sqrt();
+    let sine = |motion: &Sparse| dot(row, motion).abs() / (size(row) * size(motion));
+    let sines = motions.iter().map(sine).enumerate();
+    let Some((held, largest)) = sines.max_by(|(_, a), (_, b)| a.total_cmp(b)) else {
+        return false;
+    };
+    // False for NaN, too: a row of zeros.
+    let restricts = largest > ALONG;
+    if restricts {
+        let held = motions.swap_remove(held);
+        let whole = dot(row, &held);
+        for motion in motions {
+            let share = dot(row, motion) / whole;
+            if share != 0.0 {
+                for (j, x) in &held {
+                    *motion.entry(*j).or_insert(0.0) -= share * x;
+                }
+            }
+        }
+    }
+    restricts
+}
+
+fn dot(x: &Sparse, y: &Sparse) -> f64 {
+    let (short, long) = if x.len() < y.len() { (x, y) } else { (y, x) };
+    let product = |(i, x): (&usize, &f64)| long.get(i).map_or(0.0, |y| x * y);
+    short.iter().map(product).sum()
+}

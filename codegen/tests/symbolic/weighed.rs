@@ -1,0 +1,145 @@
+//! Solves of mechanisms whose mass matrix alone is singular, against dense elimination of
+//! the equations as they are.
+
+use super::solve::dense;
+use bricard_codegen::derive::{Equations, derive};
+use bricard_codegen::expr::{ExprId, Symbol};
+use bricard_codegen::model::Mechanism;
+use bricard_codegen::optimise::{Slot, interpret, optimise, regular_acceleration};
+use bricard_codegen::{Settings, analyse};
+
+/// A chain of bodies in Euler parameters that hangs from a point.
+const BODIES: &str = "mechanism Bodies {
+    const N = 3;
+    coord x[N]; coord y[N]; coord z[N];
+    coord e0[N]; coord e1[N]; coord e2[N]; coord e3[N];
+    let c[i in 0..N] = [x[i], y[i], z[i]];
+    let R[i in 0..N] = quat(e0[i], e1[i], e2[i], e3[i]);
+    let h[i in 0..N] = R[i]*[0.5, 0, 0];
+    for i in 0..N {
+        let w = omega(R[i]);
+        kinetic 1/2*norm2(der(c[i])) + 0.01*w.x^2 + 0.1*w.y^2 + 0.2*w.z^2;
+        potential 9.81*z[i];
+    }
+    constraint c[0] - h[0] = 0;
+    for i in 0..N-1 { constraint c[i] + h[i] = c[i+1] - h[i+1]; }
+    for i in 0..N { constraint e0[i]^2 + e1[i]^2 + e2[i]^2 + e3[i]^2 = 1; }
+}";
+
+/// A slider of a crank, without mass.
+const MASSLESS: &str = "mechanism Massless {
+    coord phi; coord psi; coord x;
+    kinetic 1/2*der(phi)^2 + 1/3*der(psi)^2 + 1/4*der(phi)*der(psi)*cos(phi - psi);
+    potential sin(phi);
+    constraint cos(phi) + 2*cos(psi) = x;
+    constraint sin(phi) + 2*sin(psi) = 0;
+}";
+
+fn derived(source: &str) -> (Mechanism, Equations) {
+    let (mut mechanism, _) = analyse(source, &Settings::default()).expect("it is right");
+    let equations = derive(&mut mechanism).expect("equations of a usual length");
+    (mechanism, equations)
+}
+
+fn weighed(source: &str) -> Vec<usize> {
+    derived(source).1.weighed
+}
+
+fn state(symbol: Symbol) -> f64 {
+    match symbol {
+        Symbol::Coordinate(i) => 0.4 + (f64::from(i) * 0.37).sin(),
+        Symbol::Velocity(i) => (f64::from(i) * 1.13).cos(),
+        _ => unreachable!("neither has {symbol:?}"),
+    }
+}
+
+/// The accelerations by the emitted solve with these weights, and by dense elimination of
+/// `[M Aᵀ; A 0]`.
+fn accelerations(source: &str, weight: fn(u32) -> f64) -> (Vec<f64>, Vec<f64>) {
+    let (mut mechanism, equations) = derived(source);
+    let (n, r) = (equations.mass.len(), equations.jacobian.len());
+    let graph = &mut mechanism.graph;
+    let value = |e: &ExprId| graph.evaluate(*e, &state);
+    let mut whole = vec![vec![0.0; n + r]; n + r];
+    for (i, row) in equations.mass.iter().enumerate() {
+        row.iter()
+            .enumerate()
+            .for_each(|(j, e)| whole[i][j] = value(e));
+    }
+    for (i, row) in equations.jacobian.iter().enumerate() {
+        for (j, e) in row.iter().enumerate() {
+            (whole[n + i][j], whole[j][n + i]) = (value(e), value(e));
+        }
+    }
+    let right = equations.force.iter().chain(&equations.bias).map(value);
+    let right: Vec<f64> = right.collect();
+    let (mut exact, _) = dense(&whole, &right);
+    exact.truncate(n);
+
+    let slot = |array, row, column| Slot { array, row, column };
+    let mut wanted = Vec::new();
+    for (array, matrix) in [("mass", &equations.mass), ("jacobian", &equations.jacobian)] {
+        for (i, row) in matrix.iter().enumerate() {
+            wanted.extend(row.iter().enumerate().map(|(j, e)| (slot(array, i, j), *e)));
+        }
+    }
+    for (array, vector) in [("force", &equations.force), ("bias", &equations.bias)] {
+        let entries = vector.iter().enumerate();
+        wanted.extend(entries.map(|(i, e)| (slot(array, i, 0), *e)));
+    }
+    let terms = optimise(graph, &[], &wanted);
+    let solved = regular_acceleration(&terms, (n, r), &equations.weighed).expect("a program");
+    let given = |symbol| match symbol {
+        Symbol::Weight(row) => Some(weight(row)),
+        other => Some(state(other)),
+    };
+    let outputs = interpret(&solved.program, &given);
+    let mut found = vec![0.0; n];
+    for (slot, value) in outputs {
+        if slot.array == "acceleration" {
+            found[slot.row] = value;
+        }
+    }
+    (found, exact)
+}
+
+#[test]
+fn no_row_takes_part_where_the_masses_do() {
+    let with_mass = MASSLESS.replace("1/2*der(phi)^2", "1/2*der(phi)^2 + 1/5*der(x)^2");
+    assert_eq!(weighed(&with_mass), [0; 0]);
+}
+
+#[test]
+fn the_rows_of_unit_length_take_part_for_euler_parameters() {
+    // Behind the three equations of each joint.
+    assert_eq!(weighed(BODIES), [9, 10, 11]);
+}
+
+#[test]
+fn the_row_that_holds_a_coordinate_without_inertia_takes_part() {
+    assert_eq!(weighed(MASSLESS), [0]);
+}
+
+#[test]
+fn what_no_row_holds_brings_no_row_in() {
+    let free = MASSLESS.replace("= x;", "= 1;").replace(
+        "sin(phi);\n    constraint cos",
+        "sin(phi) + x;\n    constraint cos",
+    );
+    assert_eq!(weighed(&free), [0; 0]);
+}
+
+#[test]
+fn a_singular_mass_matrix_gives_the_accelerations_of_the_equations_as_they_are() {
+    let weights: [fn(u32) -> f64; 3] = [|_| 1.0, |row| 0.1 + f64::from(row), |_| 1e-3];
+    for source in [BODIES, MASSLESS] {
+        for weight in weights {
+            let (found, exact) = accelerations(source, weight);
+            let largest = exact.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
+            for (i, (found, exact)) in found.iter().zip(&exact).enumerate() {
+                let error = (found - exact).abs();
+                assert!(error <= 1e-9 * largest, "{i}: {found} is not {exact}");
+            }
+        }
+    }
+}
