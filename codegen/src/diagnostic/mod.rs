@@ -21,6 +21,9 @@ use std::fmt;
 /// More findings than this about one file help nobody; the rest is dropped.
 const KEPT: usize = 500;
 
+/// The uses of functions and parts that a finding names: the outermost and these.
+const USES: usize = 3;
+
 /// How bad a finding is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
@@ -114,6 +117,8 @@ impl Diagnostic {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
+    /// Where that is used which is being looked at, from outside inwards.
+    uses: Vec<Label>,
 }
 
 impl Diagnostics {
@@ -124,10 +129,35 @@ impl Diagnostics {
 
     /// Records a finding. The same words about the same place are recorded once:
     /// the body of a loop is read many times.
-    pub fn push(&mut self, diagnostic: Diagnostic) {
-        if self.list.len() < KEPT && !self.list.contains(&diagnostic) {
+    /// Inside a function or a part the place of its use belongs to a finding, and the
+    /// first use stands for all.
+    pub fn push(&mut self, mut diagnostic: Diagnostic) {
+        let same = |d: &Diagnostic| {
+            d.message == diagnostic.message && d.primary.span == diagnostic.primary.span
+        };
+        let known = match self.uses.is_empty() {
+            true => self.list.contains(&diagnostic),
+            false => self.list.iter().any(same),
+        };
+        if self.list.len() < KEPT && !known {
+            let inner = self.uses.len().saturating_sub(USES).max(1);
+            let shown = self.uses.iter().enumerate();
+            let shown = shown.filter(|(i, _)| *i == 0 || *i >= inner);
+            diagnostic
+                .secondary
+                .extend(shown.map(|(_, label)| label.clone()));
             self.list.push(diagnostic);
         }
+    }
+
+    /// From here on findings are about something that is used at a place, in words.
+    pub fn enter(&mut self, span: Span, text: String) {
+        self.uses.push(Label { span, text });
+    }
+
+    /// Ends what [`Diagnostics::enter`] began.
+    pub fn leave(&mut self) {
+        self.uses.pop();
     }
 
     /// The number of findings.

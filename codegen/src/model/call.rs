@@ -72,6 +72,9 @@ impl Evaluator {
         let (arity, form) = match (unary, other) {
             (Some((_, name)), _) => (1, format!("{name}(x)")),
             (None, Some((_, arity, form))) => (*arity, (*form).to_string()),
+            (None, None) if self.functions.contains(&name.text) => {
+                return self.apply(name, arguments, span);
+            }
             (None, None) => return self.unknown_function(name),
         };
         if let ("rot", [angle]) = (name.text.as_str(), arguments) {
@@ -288,25 +291,23 @@ impl Evaluator {
 
     fn unknown_function(&mut self, name: &Name) -> Option<Value> {
         let text = name.text.as_str();
-        let functions = Function::ALL.iter().map(|(_, name)| *name);
-        let functions = functions.chain(other_functions());
+        let built_in = Function::ALL.iter().map(|(_, name)| *name);
+        let functions = built_in.chain(other_functions()).map(|name| name as &str);
+        let functions: Vec<&str> = functions.chain(self.functions.names()).collect();
         let help = if self.scope.get(text).is_some() || text == "t" || text == "pi" {
             format!("`{text}` is no function; a product is written `{text}*(…)`")
         } else if let Some((_, form)) = ELSEWHERE.iter().find(|(other, _)| *other == text) {
             format!("write `{form}`")
-        } else if let Some(near) = nearest(text, functions.clone()) {
+        } else if let Some(near) = nearest(text, functions.iter().copied()) {
             format!("did you mean `{near}`?")
         } else {
-            format!(
-                "the functions are {}",
-                functions.collect::<Vec<_>>().join(", ")
-            )
+            format!("the functions are {}", functions.join(", "))
         };
         self.report(Diagnostic::error(name.span, format!("unknown function `{text}`")).help(help))
     }
 }
 
-fn count(arguments: usize) -> String {
+pub fn count(arguments: usize) -> String {
     match arguments {
         1 => "one argument".into(),
         2 => "two arguments".into(),
@@ -314,7 +315,7 @@ fn count(arguments: usize) -> String {
     }
 }
 
-fn are(arguments: usize) -> String {
+pub fn are(arguments: usize) -> String {
     match arguments {
         0 => "is none".into(),
         1 => "is one".into(),

@@ -2,7 +2,7 @@
 
 use super::declare::quantity;
 use super::lower::Lowering;
-use super::order::{Definition, order};
+use super::order::{Definition, QUANTITIES, order};
 use super::unit::Unit;
 use super::value::{Scalar, Value};
 use super::{Constant, Parameter};
@@ -57,15 +57,14 @@ impl Lowering<'_> {
             .zip(&overridden)
             .map(|((_, d), overridden)| Definition {
                 name: &d.name,
-                formulas: if *overridden {
-                    Vec::new()
-                } else {
-                    vec![&d.value]
+                mentions: match overridden {
+                    true => Vec::new(),
+                    false => self.evaluator.functions.mentions([&d.value]),
                 },
                 recursive: false,
             })
             .collect();
-        for i in order(&definitions, &mut self.evaluator.diagnostics) {
+        for i in order(&definitions, QUANTITIES, &mut self.evaluator.diagnostics) {
             self.constant(items[i].0, items[i].1);
         }
         let place = |constant: &Constant| constant.quantity.span.start.offset;

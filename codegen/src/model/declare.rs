@@ -2,7 +2,7 @@
 //! quantities and the laws of inputs.
 
 use super::lower::Lowering;
-use super::order::{Definition, order};
+use super::order::{Definition, QUANTITIES, order};
 use super::scope::Kind;
 use super::si;
 use super::unit::Unit;
@@ -30,6 +30,8 @@ impl Lowering<'_> {
             })
         };
         let of = |kind| declarations().filter(move |(_, d)| d.kind == kind);
+        self.evaluator.scope.set_outermost();
+        self.functions(items);
         self.constants(&of(Declared::Constant).collect::<Vec<_>>());
         for (item, declaration) in of(Declared::Parameter) {
             self.parameter(item, declaration);
@@ -83,44 +85,18 @@ impl Lowering<'_> {
     /// Refuses a value in another unit than the declared one.
     pub fn fits(&mut self, declaration: &Declaration, unit: Unit, value: Scalar) -> Option<()> {
         let place = declaration.unit.as_ref();
-        self.fits_in(
+        self.evaluator.fits_in(
             (&declaration.name, place),
             unit,
             (&declaration.value, value),
         )
     }
 
-    fn fits_in(
-        &mut self,
-        (name, place): (&Name, Option<&UnitExpr>),
-        unit: Unit,
-        (e, value): (&Expr, Scalar),
-    ) -> Option<()> {
-        let Err((declared, dimension)) = unit.meet(value.unit) else {
-            return Some(());
-        };
-        let (text, unit_name) = (&name.text, declared.text());
-        let found = dimension.said();
-        let said = found.replacen("this", "its value", 1);
-        let message = format!("`{text}` is declared in {unit_name}, {said}");
-        let place = place.map_or(name.span, |unit| unit.span);
-        let error = Diagnostic::error(e.span, message);
-        let error = (self.evaluator).declare_bare(error, e, [declared, dimension]);
-        self.report(error.labelled(found).also(place, "declared here"))
-    }
-
-    /// The value of a quantity, in the unit that it is declared with: what bare numbers and
-    /// symbols without unit have made is from here on in that unit.
     fn in_unit(&mut self, quantity: &Let, value: Value) -> Option<Value> {
-        let Some(place) = &quantity.unit else {
-            return Some(value);
-        };
-        let unit = self.unit(Some(place));
-        for scalar in value.scalars() {
-            let e = &quantity.value;
-            self.fits_in((&quantity.name, Some(place)), unit, (e, scalar))?;
-        }
-        Some(value.with_unit(unit))
+        self.unit(quantity.unit.as_ref());
+        let (name, unit) = (&quantity.name, quantity.unit.as_ref());
+        self.evaluator
+            .in_declared_unit(name, unit, (&quantity.value, value))
     }
 
     fn coordinates(
@@ -246,15 +222,15 @@ impl Lowering<'_> {
                     .range
                     .iter()
                     .flat_map(|range| [&range.from, &range.to]);
-                let formulas = range.chain([&quantity.value]).collect();
+                let formulas = range.chain([&quantity.value]);
                 Definition {
                     name: &quantity.name,
-                    formulas,
+                    mentions: self.evaluator.functions.mentions(formulas),
                     recursive: quantity.range.is_some(),
                 }
             })
             .collect();
-        for i in order(&definitions, &mut self.evaluator.diagnostics) {
+        for i in order(&definitions, QUANTITIES, &mut self.evaluator.diagnostics) {
             let value = match &lets[i].range {
                 None => self.evaluator.evaluate(&lets[i].value),
                 Some(range) => self.evaluator.array(&lets[i].name, range, &lets[i].value),

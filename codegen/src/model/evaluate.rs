@@ -7,11 +7,13 @@
 //! Not here: what a formula may contain where it stands; that is `check`'s.
 
 use super::facts::{FactTable, Facts};
+use super::function::Functions;
 use super::scope::{BUILT_IN, Kind, Scope};
 use super::unit::Unit;
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest};
 use crate::expr::{Direction, ExprId, Function, Graph, Number, Symbol};
+use crate::parse::NESTING;
 use crate::parse::ast::{Expr, ExprKind, Range};
 
 /// The most formulas that are evaluated for one description, loops unrolled.
@@ -24,6 +26,8 @@ pub struct Evaluator {
     pub graph: Graph,
     /// The names in force.
     pub scope: Scope,
+    /// The functions that the description declares.
+    pub functions: Functions,
     /// What was found.
     pub diagnostics: Diagnostics,
     /// What is being evaluated, where only numbers and constants may occur.
@@ -34,6 +38,8 @@ pub struct Evaluator {
     pub flow: Direction,
     facts: FactTable,
     work: u64,
+    /// The number of formulas inside one another.
+    depth: usize,
 }
 
 impl Evaluator {
@@ -63,6 +69,19 @@ impl Evaluator {
     /// The value of a formula.
     pub fn evaluate(&mut self, e: &Expr) -> Option<Value> {
         self.spend(e.span)?;
+        self.depth += 1;
+        let value = self.value(e);
+        self.depth -= 1;
+        value
+    }
+
+    /// Whether there is room for the formulas of a function inside the formula that is
+    /// being evaluated.
+    pub fn has_room(&self) -> bool {
+        self.depth <= NESTING
+    }
+
+    fn value(&mut self, e: &Expr) -> Option<Value> {
         match &e.kind {
             ExprKind::Number(number) => {
                 let id = self.graph.number(*number);
@@ -146,7 +165,7 @@ impl Evaluator {
         let (kind, place) = (entry.kind, entry.name.span);
         let value = entry.value.clone();
         match self.constant {
-            Some(what) if !matches!(kind, Kind::Constant | Kind::Index) => {
+            Some(what) if !matches!(kind, Kind::Constant | Kind::Index | Kind::Argument) => {
                 let message = format!(
                     "{what} is built of numbers and constants; `{name}` is {}",
                     kind.words()
@@ -190,7 +209,9 @@ impl Evaluator {
         let near = nearest(name, self.scope.names().chain(built_in)).map(str::to_string);
         let help = if let Some(near) = near {
             format!("did you mean `{near}`?")
-        } else if Function::ALL.iter().any(|(_, known)| *known == name) || super::call::known(name)
+        } else if Function::ALL.iter().any(|(_, known)| *known == name)
+            || super::call::known(name)
+            || self.functions.contains(name)
         {
             format!("`{name}` is a function: write `{name}(…)`")
         } else {

@@ -94,6 +94,7 @@ impl Lowering<'_> {
         }
         let entries = self.evaluator.scope.close(0);
         self.unused(&entries);
+        self.unused_functions();
         self.idle_coordinates();
     }
 

@@ -16,6 +16,7 @@ mod declare;
 mod element;
 mod evaluate;
 mod facts;
+mod function;
 mod linear;
 mod lower;
 mod order;

@@ -35,6 +35,7 @@ impl Lowering<'_> {
             ItemKind::Declaration(d) if d.kind == Declared::Output => self.output(item, d),
             ItemKind::Declaration(d) => self.outermost(&d.name),
             ItemKind::Coordinate { name, .. } => self.outermost(name),
+            ItemKind::Function(function) => self.outermost(&function.name),
             ItemKind::Let(_) => Some(()),
             ItemKind::Energy(kind, value) => self.energy(*kind, value),
             ItemKind::Force { force, on } => self.force(force, on, item.span),

@@ -2,6 +2,7 @@
 
 use crate::diagnostic::Span;
 use crate::expr::{Comparison, Number};
+use std::rc::Rc;
 
 /// A name and where it stands.
 #[derive(Clone, Debug)]
@@ -39,6 +40,8 @@ pub enum ItemKind {
     },
     /// `let n[range] = value;`
     Let(Box<Let>),
+    /// `fn f(x, y) = value;`
+    Function(Rc<Function>),
     /// `kinetic`, `potential` or `dissipation`.
     Energy(Energy, Expr),
     /// `force F on x;`
@@ -118,6 +121,28 @@ pub struct Let {
     pub unit: Option<UnitExpr>,
     /// The value.
     pub value: Expr,
+}
+
+/// `fn f(x, y: unit): unit = value;`
+#[derive(Clone, Debug)]
+pub struct Function {
+    /// Its name.
+    pub name: Name,
+    /// What it is a function of.
+    pub arguments: Vec<Argument>,
+    /// The unit of its value, if one is given.
+    pub unit: Option<UnitExpr>,
+    /// The value.
+    pub value: Expr,
+}
+
+/// An argument of a function or a part.
+#[derive(Clone, Debug)]
+pub struct Argument {
+    /// Its name.
+    pub name: Name,
+    /// Its unit, if one is given.
+    pub unit: Option<UnitExpr>,
 }
 
 /// The three scalar functions that forces come from.

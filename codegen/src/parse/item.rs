@@ -102,6 +102,7 @@ impl Cursor<'_> {
             "output" => self.declaration(Declared::Output, word)?,
             "coord" => self.coordinate()?,
             "let" => self.let_item()?,
+            "fn" => self.function()?,
             "kinetic" => ItemKind::Energy(Energy::Kinetic, self.expression()?),
             "potential" => ItemKind::Energy(Energy::Potential, self.expression()?),
             "dissipation" => ItemKind::Energy(Energy::Dissipation, self.expression()?),

@@ -17,6 +17,7 @@ mod choice;
 mod cursor;
 mod expression;
 mod formula;
+mod function;
 mod item;
 mod literal;
 mod model;

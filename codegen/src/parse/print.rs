@@ -5,8 +5,8 @@
 //!      part of them; doc comments are.
 
 use super::ast::{
-    Condition, Declared, Drawing, Energy, Expr, ExprKind, Item, ItemKind, Range, StartItem,
-    UnitExpr,
+    Argument, Condition, Declared, Drawing, Energy, Expr, ExprKind, Item, ItemKind, Range,
+    StartItem, UnitExpr,
 };
 use super::cursor::{DIRECTIONS, SHAPES};
 use super::model::Model;
@@ -74,6 +74,11 @@ fn statement(kind: &ItemKind, depth: usize) -> String {
             let unit = unit(l.unit.as_ref());
             format!("let {}{index}{unit} = {};", l.name.text, formula(&l.value))
         }
+        ItemKind::Function(f) => {
+            let (name, unit) = (&f.name.text, unit(f.unit.as_ref()));
+            let arguments = arguments(&f.arguments);
+            format!("fn {name}({arguments}){unit} = {};", formula(&f.value))
+        }
         ItemKind::Energy(kind, value) => {
             let word = match kind {
                 Energy::Kinetic => "kinetic",
@@ -105,6 +110,11 @@ fn statement(kind: &ItemKind, depth: usize) -> String {
             format!("for {} {{\n{items}{}}}", range(over), indent(depth))
         }
     }
+}
+
+fn arguments(arguments: &[Argument]) -> String {
+    let text = |x: &Argument| format!("{}{}", x.name.text, unit(x.unit.as_ref()));
+    arguments.iter().map(text).collect::<Vec<_>>().join(", ")
 }
 
 fn draw(shape: Drawing, arguments: &[Expr]) -> String {

@@ -6,6 +6,7 @@ mod documentation;
 mod doubts;
 mod eliminated;
 mod forms;
+mod functions;
 mod grammar;
 mod legality;
 mod mechanisms;
