@@ -43,13 +43,13 @@ impl Lowering<'_> {
         }
         self.set_flow();
         let inputs: Vec<_> = of(Declared::Input).collect();
-        for (index, (_, declaration)) in inputs.iter().enumerate() {
-            self.input_symbol(index, declaration);
-        }
+        let symbols: Vec<_> = inputs.iter().map(|(_, d)| self.input_symbol(d)).collect();
         let lets: Vec<&Let> = fresh.iter().filter_map(|item| as_let(item)).collect();
         self.quantities(&lets);
-        for (item, declaration) in inputs {
-            self.input_law(item, declaration);
+        for ((item, declaration), symbols) in inputs.into_iter().zip(symbols) {
+            if let Some(symbols) = symbols {
+                self.input_law(item, declaration, &symbols);
+            }
         }
     }
 
@@ -168,39 +168,45 @@ impl Lowering<'_> {
         self.evaluator.flow = flow;
     }
 
-    fn input_symbol(&mut self, index: usize, declaration: &Declaration) {
-        let unit = self.unit(declaration.unit.as_ref());
-        let id = self.evaluator.graph.symbol(Symbol::Input(index as u32));
-        self.evaluator.scope.set(
-            &declaration.name.text,
-            Some(Value::Scalar(Scalar { id, unit })),
-        );
+    fn input_symbol(&mut self, declaration: &Declaration) -> Option<Value> {
+        let symbols = self.input_symbols(declaration, self.n_inputs)?;
+        self.n_inputs += symbols.scalars().len() as u32;
+        let name = &declaration.name.text;
+        self.evaluator.scope.set(name, Some(symbols.clone()));
+        Some(symbols)
     }
 
     /// The law of an input. Its numbers are gains in units of their own: with
     /// them, `10 - 2*der(q1)` is a moment.
-    fn input_law(&mut self, item: &Item, declaration: &Declaration) {
+    fn input_law(&mut self, item: &Item, declaration: &Declaration, symbols: &Value) -> Option<()> {
         let unit = self.unit(declaration.unit.as_ref());
+        let what = "the law of an input";
         self.evaluator.gains = true;
-        let law = self
-            .evaluator
-            .scalar(&declaration.value, "the law of an input");
+        let law = match symbols {
+            Value::Scalar(_) => {
+                (self.evaluator.scalar(&declaration.value, what)).map(Value::Scalar)
+            }
+            _ => self.evaluator.declared_value(declaration, what),
+        };
         self.evaluator.gains = false;
-        let quantity = quantity(item, &declaration.name, declaration.unit.as_ref());
-        let law = law.and_then(|law| {
+        let law = law?;
+        let (place, suffixes) = (declaration.value.span, symbols.suffixes());
+        if law.suffixes() != suffixes {
+            let message = format!("the elements of this law are {}, not numbers", law.shape());
+            return self.report(Diagnostic::error(place, message));
+        }
+        for (law, suffix) in law.scalars().into_iter().zip(suffixes) {
             self.fits(declaration, unit, law)?;
             if self.evaluator.facts(law.id).input {
-                let error = Diagnostic::error(
-                    declaration.value.span,
-                    "the law of an input contains an input",
-                );
+                let error = Diagnostic::error(place, "the law of an input contains an input");
                 return self.report(error.help("write the other law here, or make it a `let`"));
             }
-            Some(law.id)
-        });
-        if let Some(law) = law {
+            let mut quantity = quantity(item, &declaration.name, declaration.unit.as_ref());
+            quantity.name.push_str(&suffix);
+            let law = law.id;
             self.mechanism.inputs.push(Input { quantity, law });
         }
+        Some(())
     }
 
     /// Declares and evaluates the quantities of the body of a loop.

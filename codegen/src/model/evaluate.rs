@@ -102,6 +102,7 @@ impl Evaluator {
             ExprKind::Vector(parts) => self.vector(parts, e.span),
             ExprKind::Component(inside, axis) => self.component(inside, *axis, e.span),
             ExprKind::Index(inside, index) => self.element(inside, index, e.span),
+            ExprKind::InUnit(inside, unit) => self.in_unit(inside, unit),
             ExprKind::If(condition, then, otherwise) => {
                 self.choice(condition, then, otherwise, e.span)
             }

@@ -23,6 +23,8 @@ pub struct Lowering<'a> {
     pub frozen: &'a [String],
     /// The loops around, with the value of each index.
     pub indices: Vec<(String, i64)>,
+    /// The number of inputs so far.
+    pub n_inputs: u32,
     /// The names of outputs and events and the places of start entries so far.
     pub named: Named,
 }
@@ -48,6 +50,7 @@ pub fn lower(
         constants,
         frozen,
         indices: Vec::new(),
+        n_inputs: 0,
         named: Named::default(),
     };
     let unreadable = model.unreadable.iter().cloned();

@@ -22,6 +22,7 @@ mod lower;
 mod order;
 mod rotation;
 mod scope;
+mod shape;
 mod si;
 mod sound;
 mod start;

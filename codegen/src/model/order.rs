@@ -126,7 +126,9 @@ pub fn collect<'a>(formula: &'a Expr, found: &mut dyn FnMut(Mention<'a>)) {
     match &formula.kind {
         ExprKind::Number(_) => {}
         ExprKind::Name(name) => found(Mention::Name(name)),
-        ExprKind::Negative(x) | ExprKind::Component(x, _) => collect(x, found),
+        ExprKind::Negative(x) | ExprKind::Component(x, _) | ExprKind::InUnit(x, _) => {
+            collect(x, found);
+        }
         ExprKind::Sum(parts) | ExprKind::Product(parts) => {
             parts.iter().for_each(|(_, part)| collect(part, found));
         }

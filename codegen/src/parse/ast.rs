@@ -91,10 +91,21 @@ pub struct Declaration {
     pub kind: Declared,
     /// Its name.
     pub name: Name,
+    /// Its elements, for an array.
+    pub size: Option<Size>,
     /// The unit, if it is given.
     pub unit: Option<UnitExpr>,
     /// The value, default or law.
     pub value: Expr,
+}
+
+/// The elements of a declared array.
+#[derive(Clone, Debug)]
+pub enum Size {
+    /// `[K]`: so many, counted from 0.
+    Count(Expr),
+    /// `[i in 0..K]`: one for each index.
+    Each(Range),
 }
 
 /// The kinds of declaration with a unit and a value.
@@ -242,6 +253,8 @@ pub enum ExprKind {
     Component(Box<Expr>, usize),
     /// `array[index]`
     Index(Box<Expr>, Box<Expr>),
+    /// `[a, b, c] unit`
+    InUnit(Box<Expr>, UnitExpr),
     /// `if condition then a else b`
     If(Box<Condition>, Box<Expr>, Box<Expr>),
 }

@@ -5,7 +5,7 @@
 //! tightly than a product: `-x^2 = -(x^2)`, `2^-1 = 1/2`.
 
 use super::ast::{Expr, ExprKind, Name, Range};
-use super::cursor::{Cursor, Parsed};
+use super::cursor::{CONNECTIVES, Cursor, DIRECTIONS, Parsed};
 use super::literal::read_number;
 use super::token::TokenKind;
 use crate::diagnostic::{Diagnostic, Span};
@@ -290,10 +290,30 @@ impl Cursor<'_> {
         let start = self.span();
         self.advance();
         let parts = self.arguments("]")?;
-        Ok(Expr {
+        let vector = Expr {
             span: start.to(self.last_span()),
             kind: ExprKind::Vector(parts),
+        };
+        if !self.at_unit_behind() {
+            return Ok(vector);
+        }
+        let unit = self.unit()?;
+        Ok(Expr {
+            span: start.to(self.last_span()),
+            kind: ExprKind::InUnit(Box::new(vector), unit),
         })
+    }
+
+    /// Whether a unit stands behind the vector that was read last: a word on its line
+    /// that holds no statement together.
+    fn at_unit_behind(&self) -> bool {
+        let TokenKind::Word(word) = &self.peek().kind else {
+            return false;
+        };
+        let here = self.span().start.line == self.last_span().end.line;
+        let directs = DIRECTIONS.iter().any(|(direction, _)| direction == word);
+        let connects = CONNECTIVES.contains(&word.as_str());
+        here && !directs && !connects && !self.at_statement()
     }
 }
 

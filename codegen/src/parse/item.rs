@@ -1,6 +1,6 @@
 //! Statements: the words that begin them, and the file around them.
 
-use super::ast::{Declaration, Declared, Energy, Expr, ExprKind, Item, ItemKind, Let, Name};
+use super::ast::{Declaration, Declared, Energy, Expr, ExprKind, Item, ItemKind, Let, Name, Size};
 use super::cursor::{Cursor, DIRECTIONS, Parsed, SHAPES, STATEMENTS};
 use super::model::Model;
 use super::token::TokenKind;
@@ -172,11 +172,15 @@ impl Cursor<'_> {
             Declared::Output => "the output",
         };
         let name = self.name(what, word)?;
-        if self.at_symbol("[") {
-            let error = Diagnostic::error(self.span(), format!("`{word}` has no arrays"));
-            let help = "arrays are declared with `coord n[K]` and `let n[i in 0..K] = …`";
+        if kind == Declared::Output && self.at_symbol("[") {
+            let error = Diagnostic::error(self.span(), "an output has no size of its own");
+            let help = "an output of a vector or an array has a column for each element";
             return Err(self.fail(error.help(help)));
         }
+        let size = self.size(&format!(
+            "an array is written `{word} {}[3] = …;`",
+            name.text
+        ))?;
         self.one_name(&name, word, " = …")?;
         let unit = self.optional_unit()?;
         self.expect_symbol("=", &example(word))?;
@@ -184,9 +188,24 @@ impl Cursor<'_> {
         Ok(ItemKind::Declaration(Declaration {
             kind,
             name,
+            size,
             unit,
             value,
         }))
+    }
+
+    /// Reads `[K]` or `[i in 0..K]` if it comes next.
+    fn size(&mut self, help: &str) -> Parsed<Option<Size>> {
+        if !self.take_symbol("[") {
+            return Ok(None);
+        }
+        let each = matches!(&self.peek_at(1).kind, TokenKind::Word(word) if word == "in");
+        let size = match each {
+            true => Size::Each(self.range(help)?),
+            false => Size::Count(self.expression()?),
+        };
+        self.expect_symbol("]", help)?;
+        Ok(Some(size))
     }
 
     /// Refuses a list of names.

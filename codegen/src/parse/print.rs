@@ -5,7 +5,7 @@
 //!      part of them; doc comments are.
 
 use super::ast::{
-    Argument, Condition, Declared, Drawing, Energy, Expr, ExprKind, Item, ItemKind, Range,
+    Argument, Condition, Declared, Drawing, Energy, Expr, ExprKind, Item, ItemKind, Range, Size,
     StartItem, UnitExpr,
 };
 use super::cursor::{DIRECTIONS, SHAPES};
@@ -57,7 +57,13 @@ fn statement(kind: &ItemKind, depth: usize) -> String {
                 Declared::Output => "output",
             };
             let unit = unit(d.unit.as_ref());
-            format!("{word} {}{unit} = {};", d.name.text, formula(&d.value))
+            let size = match &d.size {
+                None => String::new(),
+                Some(Size::Count(count)) => format!("[{}]", formula(count)),
+                Some(Size::Each(over)) => format!("[{}]", range(over)),
+            };
+            let (name, value) = (&d.name.text, formula(&d.value));
+            format!("{word} {name}{size}{unit} = {value};")
         }
         ItemKind::Coordinate {
             name,
@@ -183,6 +189,7 @@ pub fn formula(e: &Expr) -> String {
             format!("{}.{axis}", part_of(x))
         }
         ExprKind::Index(x, index) => format!("{}[{}]", part_of(x), formula(index)),
+        ExprKind::InUnit(inside, unit) => format!("{} {}", formula(inside), unit.text),
         ExprKind::If(condition, then, otherwise) => {
             let condition = self::condition(condition);
             let then = within(then, Binding::Sum);

@@ -9,6 +9,7 @@ mod forms;
 mod functions;
 mod grammar;
 mod legality;
+mod lists;
 mod mechanisms;
 mod model;
 mod names;
