@@ -142,7 +142,7 @@ impl Evaluator {
                 }))
             }
             ("transpose", [Value::Matrix(m)]) => self.transpose(m, span).map(Value::Matrix),
-            ("omega", [Value::Matrix(m)]) if m.rows.len() == 3 && m.rows[0].len() == 3 => {
+            ("omega", [Value::Matrix(m)]) if m.is_square() && m.rows.len() <= 3 => {
                 self.angular_velocity(m, span)
             }
             _ => self.wrong_shape(name, &values, span),
@@ -155,7 +155,7 @@ impl Evaluator {
             "cross" => "two vectors of two or three components",
             "norm" | "norm2" => "a vector",
             "transpose" => "a matrix",
-            _ => "a 3 × 3 matrix",
+            _ => "a 2 × 2 or a 3 × 3 matrix",
         };
         let shapes: Vec<_> = values.iter().map(Value::shape).collect();
         let message = format!("`{name}` takes {wants}, this is {}", shapes.join(" and "));
@@ -226,7 +226,12 @@ impl Evaluator {
         let Some(spin) = m.spin else {
             return Some(Matrix { rows, spin: None });
         };
-        let turned = self.transform(m, &spin, span)?.into_iter();
+        let turned = match m.rows.len() {
+            // About the normal of the plane, which stays where it is.
+            2 => spin.to_vec(),
+            _ => self.transform(m, &spin, span)?,
+        };
+        let turned = turned.into_iter();
         let opposite: Vec<_> = turned
             .map(|s| Scalar {
                 id: self.graph.neg(s.id),

@@ -66,7 +66,7 @@ impl Lowering<'_> {
                 name: &d.name,
                 mentions: match overridden {
                     true => Vec::new(),
-                    false => self.evaluator.functions.mentions([&d.value]),
+                    false => self.evaluator.functions.mentions(d.formulas()),
                 },
                 recursive: false,
             })

@@ -146,13 +146,15 @@ pub struct Summand {
     pub span: Span,
 }
 
-/// `force F on x`: virtual work `Σ F_k δx_k`.
+/// `force F on x`: virtual work `Σ F_k δx_k`; on an angular velocity virtual power.
 #[derive(Clone, Debug)]
 pub struct Force {
     /// Components of the force.
     pub force: Vec<ExprId>,
-    /// Components of the point, or the coordinate, angle or length.
+    /// Components of the point, or the coordinate, angle or length; or of a velocity.
     pub on: Vec<ExprId>,
+    /// Whether it is a velocity, which is linear in those of the coordinates.
+    pub on_velocity: bool,
     /// Where it was written.
     pub span: Span,
 }

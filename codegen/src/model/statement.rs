@@ -2,7 +2,7 @@
 
 use super::lower::Lowering;
 use super::scope::{Kind, twice};
-use super::unit::{Dimension, ENERGY, NONE, Unit};
+use super::unit::{Dimension, ENERGY, NONE, POWER, Unit};
 use super::value::{Scalar, Value};
 use super::{Constraint, Direction, Event, Force, Output, Summand};
 use crate::diagnostic::{Diagnostic, Span};
@@ -136,9 +136,10 @@ impl Lowering<'_> {
                 "a number works on a coordinate, an angle or a length, a vector on a point",
             ));
         }
-        self.legal_target(on, &point)?;
+        let on_velocity = self.legal_target(on, &point)?;
+        let product = if on_velocity { POWER } else { ENERGY };
         for (f, x) in strength.scalars().into_iter().zip(point.scalars()) {
-            self.force_unit(force, f.unit, on, x.unit)?;
+            self.force_unit((force, f.unit), (on, x.unit), product)?;
         }
         let ids = |value: Value| {
             value
@@ -150,16 +151,23 @@ impl Lowering<'_> {
         self.mechanism.forces.push(Force {
             force: ids(strength),
             on: ids(point),
+            on_velocity,
             span,
         });
         Some(())
     }
 
-    fn force_unit(&mut self, force: &Expr, strength: Unit, on: &Expr, point: Unit) -> Option<()> {
+    /// Refuses a force whose product with what it works on is no energy, or no power.
+    fn force_unit(
+        &mut self,
+        (force, strength): (&Expr, Unit),
+        (on, point): (&Expr, Unit),
+        product: Dimension,
+    ) -> Option<()> {
         let Unit::Known(place) = point.power(-1.0) else {
             return Some(());
         };
-        let wanted = ENERGY.times(place);
+        let wanted = product.times(place);
         match strength {
             Unit::Known(found) if found != wanted => {
                 let units = [wanted, found];

@@ -99,6 +99,18 @@ pub struct Declaration {
     pub value: Expr,
 }
 
+impl Declaration {
+    /// The formulas in it.
+    pub fn formulas(&self) -> Vec<&Expr> {
+        let size = match &self.size {
+            None => Vec::new(),
+            Some(Size::Count(count)) => vec![count],
+            Some(Size::Each(range)) => vec![&range.from, &range.to],
+        };
+        [size, vec![&self.value]].concat()
+    }
+}
+
 /// The elements of a declared array.
 #[derive(Clone, Debug)]
 pub enum Size {
