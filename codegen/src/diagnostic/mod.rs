@@ -8,11 +8,13 @@
 //! stops between stages.
 
 mod figure;
+mod library;
 mod render;
 mod span;
 mod suggest;
 
 pub use figure::figure;
+pub use library::LIBRARY;
 pub use span::{Position, Span};
 pub use suggest::nearest;
 
@@ -80,6 +82,14 @@ impl Diagnostic {
             secondary: Vec::new(),
             help: None,
         }
+    }
+
+    /// Its place in the description: for a finding in the library of parts that of the
+    /// outermost use.
+    pub fn place(&self) -> Span {
+        let own = std::iter::once(&self.primary).chain(&self.secondary);
+        let own = own.map(|label| label.span).find(|span| !span.library);
+        own.unwrap_or(self.primary.span)
     }
 
     /// Says what is at the place itself.
@@ -155,6 +165,11 @@ impl Diagnostics {
         self.uses.push(Label { span, text });
     }
 
+    /// Replaces the uses that findings are about, and returns those before.
+    pub fn look_from(&mut self, uses: Vec<Label>) -> Vec<Label> {
+        std::mem::replace(&mut self.uses, uses)
+    }
+
     /// Ends what [`Diagnostics::enter`] began.
     pub fn leave(&mut self) {
         self.uses.pop();
@@ -202,7 +217,7 @@ impl Diagnostics {
     /// The findings in the order of their places.
     pub fn sorted(&self) -> Vec<&Diagnostic> {
         let mut sorted: Vec<_> = self.list.iter().collect();
-        sorted.sort_by_key(|d| (d.primary.span.start.offset, d.primary.span.end.offset));
+        sorted.sort_by_key(|d| (d.place().start.offset, d.place().end.offset));
         sorted
     }
 
@@ -227,7 +242,7 @@ pub fn without_mark(source: &str) -> &str {
 impl fmt::Display for Diagnostics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for diagnostic in self.sorted() {
-            writeln!(f, "{}: {}", diagnostic.primary.span, diagnostic.message)?;
+            writeln!(f, "{}: {}", diagnostic.place(), diagnostic.message)?;
         }
         Ok(())
     }

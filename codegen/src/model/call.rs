@@ -75,6 +75,7 @@ impl Evaluator {
             (None, None) if self.functions.contains(&name.text) => {
                 return self.apply(name, arguments, span);
             }
+            (None, None) if self.parts.known(&name.text) => return self.part_alone(name, span),
             (None, None) => return self.unknown_function(name),
         };
         if let ("rot", [angle]) = (name.text.as_str(), arguments) {
@@ -296,6 +297,9 @@ impl Evaluator {
 
     fn unknown_function(&mut self, name: &Name) -> Option<Value> {
         let text = name.text.as_str();
+        if self.scope.unreadable.contains(text) {
+            return None;
+        }
         let built_in = Function::ALL.iter().map(|(_, name)| *name);
         let functions = built_in.chain(other_functions()).map(|name| name as &str);
         let functions: Vec<&str> = functions.chain(self.functions.names()).collect();

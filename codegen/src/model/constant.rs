@@ -1,6 +1,5 @@
 //! Constants and parameters, and what a build script changes about them.
 
-use super::declare::quantity;
 use super::lower::Lowering;
 use super::order::{Definition, QUANTITIES, order};
 use super::value::{Scalar, Value};
@@ -15,15 +14,24 @@ impl Lowering<'_> {
     /// or their elements.
     pub fn changes_fit(&mut self, model: &Model) {
         let elements: Vec<String> = self.mechanism.constants.iter().map(element_name).collect();
+        let first = |path: &String| {
+            path.split(['.', '['])
+                .next()
+                .unwrap_or_default()
+                .to_string()
+        };
+        let parts: Vec<String> = self.evaluator.parts.used.keys().map(first).collect();
         let names = |kind: Declared| -> Vec<String> {
             let declared = model.items.iter().filter_map(|item| match &item.kind {
                 ItemKind::Declaration(d) if d.kind == kind => Some(d.name.text.clone()),
                 _ => None,
             });
             let declared: Vec<String> = declared.collect();
+            let in_part = |base: &str| parts.iter().any(|part| part == base);
             let inside = |element: &&String| {
                 let base = element.split(['.', '[']).next().unwrap_or_default();
-                base != element.as_str() && declared.iter().any(|name| name == base)
+                let declared = declared.iter().any(|name| name == base);
+                base != element.as_str() && (declared || in_part(base))
             };
             let elements = elements.iter().filter(inside).cloned().collect();
             [declared, elements].concat()
@@ -57,7 +65,12 @@ impl Lowering<'_> {
     pub fn constants(&mut self, items: &[(&Item, &Declaration)]) {
         let overridden: Vec<bool> = items
             .iter()
-            .map(|(_, d)| is_one_number(d) && self.changed(&d.name.text).is_some())
+            .map(|(_, d)| {
+                is_one_number(d)
+                    && self
+                        .changed(&self.evaluator.scope.full(&d.name.text))
+                        .is_some()
+            })
             .collect();
         let definitions: Vec<_> = items
             .iter()
@@ -88,21 +101,22 @@ impl Lowering<'_> {
     fn constant(&mut self, item: &Item, declaration: &Declaration) -> Option<()> {
         let name = &declaration.name.text;
         let unit = self.unit(declaration.unit.as_ref());
-        let value = match self.changed(name) {
+        let full = self.evaluator.scope.full(name);
+        let value = match self.changed(&full) {
             Some(value) if is_one_number(declaration) => {
                 let id = self.changed_constant(declaration, value)?;
                 Value::Scalar(Scalar { id, unit })
             }
             Some(_) => {
-                let message = format!("the build script sets all of `{name}` to one number");
+                let message = format!("the build script sets all of `{full}` to one number");
                 let error = Diagnostic::error(declaration.name.span, message);
-                return self.report(error.help(format!("set its elements, such as `{name}[0]`")));
+                return self.report(error.help(format!("set its elements, such as `{full}[0]`")));
             }
             None => self.constant_value(declaration, "a constant")?,
         };
         let mut scalars = Vec::new();
         for (scalar, suffix) in value.scalars().into_iter().zip(value.suffixes()) {
-            let mut quantity = quantity(item, &declaration.name, declaration.unit.as_ref());
+            let mut quantity = self.quantity(item, &declaration.name, declaration.unit.as_ref());
             quantity.name.push_str(&suffix);
             let changed = match suffix.is_empty() {
                 true => None,
@@ -160,10 +174,10 @@ impl Lowering<'_> {
     pub fn parameter(&mut self, item: &Item, declaration: &Declaration) -> Option<()> {
         let name = &declaration.name.text;
         let value = self.constant_value(declaration, "the default of a parameter")?;
-        let whole = self.frozen.contains(name);
+        let whole = self.frozen.contains(&self.evaluator.scope.full(name));
         let mut scalars = Vec::new();
         for (scalar, suffix) in value.scalars().into_iter().zip(value.suffixes()) {
-            let mut quantity = quantity(item, &declaration.name, declaration.unit.as_ref());
+            let mut quantity = self.quantity(item, &declaration.name, declaration.unit.as_ref());
             quantity.name.push_str(&suffix);
             let (default, value) = (scalar.id, scalar.id);
             if whole || self.frozen.contains(&quantity.name) {

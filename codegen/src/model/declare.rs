@@ -2,7 +2,9 @@
 //! quantities and the laws of inputs.
 
 use super::lower::Lowering;
+use super::member::Waiting;
 use super::order::{Definition, QUANTITIES, order};
+use super::part::Placed;
 use super::scope::Kind;
 use super::si;
 use super::unit::Unit;
@@ -10,51 +12,60 @@ use super::value::{Array, Scalar, Value};
 use super::{Input, Quantity};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::Symbol;
-use crate::parse::ast::{Declaration, Declared, Expr, Item, ItemKind, Let, Name, UnitExpr};
+use crate::parse::ast::{
+    Declaration, Declared, Expr, ExprKind, Item, ItemKind, Let, Name, UnitExpr,
+};
 use std::rc::Rc;
 
 /// The most coordinates of a mechanism.
 const COORDINATES: i64 = 10_000;
 
-impl Lowering<'_> {
-    /// Reads all declarations outside loops.
-    pub fn declare(&mut self, items: &[Item]) {
-        let fresh: Vec<&Item> = items
-            .iter()
-            .filter(|item| self.declare_name(item))
-            .collect();
-        let declarations = || {
-            fresh.iter().filter_map(|item| match &item.kind {
-                ItemKind::Declaration(declaration) => Some((*item, declaration)),
-                _ => None,
-            })
-        };
-        let of = |kind| declarations().filter(move |(_, d)| d.kind == kind);
-        self.evaluator.scope.set_outermost();
-        self.functions(items);
-        self.constants(&of(Declared::Constant).collect::<Vec<_>>());
-        for (item, declaration) in of(Declared::Parameter) {
-            self.parameter(item, declaration);
+impl<'a> Lowering<'a> {
+    /// Reads all declarations outside loops, those of parts among them, and returns all
+    /// statements.
+    pub fn declare(&mut self, items: &'a [Item], library: &'a [Item]) -> Vec<Placed<'a>> {
+        let mut placed = Vec::new();
+        self.parts(items, library);
+        self.functions(items.iter().chain(library));
+        self.place(items, &Rc::default(), &mut placed);
+        let fresh: Vec<&Placed> = placed.iter().filter(|placed| placed.fresh).collect();
+        for Placed { item, frame, .. } in &fresh {
+            if let ItemKind::Declaration(d) = &item.kind
+                && d.kind == Declared::Parameter
+            {
+                self.inside(frame, |this| this.parameter(item, d));
+            }
         }
-        for item in &fresh {
+        for Placed { item, frame, .. } in &fresh {
             if let ItemKind::Coordinate { name, size, unit } = &item.kind {
-                self.coordinates(item, name, size.as_ref(), unit.as_ref());
+                self.inside(frame, |this| {
+                    this.coordinates(item, name, size.as_ref(), unit.as_ref());
+                });
             }
         }
         self.set_flow();
-        let inputs: Vec<_> = of(Declared::Input).collect();
-        let symbols: Vec<_> = inputs.iter().map(|(_, d)| self.input_symbol(d)).collect();
-        let lets: Vec<&Let> = fresh.iter().filter_map(|item| as_let(item)).collect();
-        self.quantities(&lets);
-        for ((item, declaration), symbols) in inputs.into_iter().zip(symbols) {
+        let inputs = fresh.iter().filter_map(|placed| match &placed.item.kind {
+            ItemKind::Declaration(d) if d.kind == Declared::Input => Some((placed, d)),
+            _ => None,
+        });
+        let inputs: Vec<_> = inputs.collect();
+        let symbols = inputs
+            .iter()
+            .map(|(placed, d)| self.inside(&placed.frame, |this| this.input_symbol(d)));
+        let symbols: Vec<_> = symbols.collect();
+        self.all_quantities(&fresh);
+        for ((placed, declaration), symbols) in inputs.into_iter().zip(symbols) {
             if let Some(symbols) = symbols {
-                self.input_law(item, declaration, &symbols);
+                self.inside(&placed.frame, |this| {
+                    this.input_law(placed.item, declaration, &symbols)
+                });
             }
         }
+        placed
     }
 
     /// Declares the name of a statement; false if it is taken or there is none.
-    fn declare_name(&mut self, item: &Item) -> bool {
+    pub fn declare_name(&mut self, item: &Item) -> bool {
         let (name, kind) = match &item.kind {
             ItemKind::Declaration(declaration) => {
                 let kind = match declaration.kind {
@@ -66,13 +77,19 @@ impl Lowering<'_> {
                 (&declaration.name, kind)
             }
             ItemKind::Coordinate { name, .. } => (name, Kind::Coordinate),
-            ItemKind::Let(quantity) => (&quantity.name, Kind::Quantity),
+            ItemKind::Let(quantity) => match &quantity.value.kind {
+                ExprKind::Call(called, _) if self.parts.contains_key(called.text.as_str()) => {
+                    self.used_parts.push(called.text.clone());
+                    (&quantity.name, Kind::Part)
+                }
+                _ => (&quantity.name, Kind::Quantity),
+            },
             _ => return false,
         };
         self.declare_as(name, kind)
     }
 
-    fn declare_as(&mut self, name: &Name, kind: Kind) -> bool {
+    pub fn declare_as(&mut self, name: &Name, kind: Kind) -> bool {
         match self.evaluator.scope.declare(name, kind) {
             Ok(()) => true,
             Err(diagnostic) => {
@@ -92,13 +109,6 @@ impl Lowering<'_> {
         )
     }
 
-    fn in_unit(&mut self, quantity: &Let, value: Value) -> Option<Value> {
-        self.unit(quantity.unit.as_ref());
-        let (name, unit) = (&quantity.name, quantity.unit.as_ref());
-        self.evaluator
-            .in_declared_unit(name, unit, (&quantity.value, value))
-    }
-
     fn coordinates(
         &mut self,
         item: &Item,
@@ -108,7 +118,7 @@ impl Lowering<'_> {
     ) {
         let checked = self.unit(unit);
         let Some(size_expr) = size else {
-            let whole = quantity(item, name, unit);
+            let whole = self.quantity(item, name, unit);
             let scalar = self.coordinate(whole, checked);
             self.evaluator
                 .scope
@@ -122,8 +132,8 @@ impl Lowering<'_> {
             return;
         };
         let element = |i| {
-            let mut part = quantity(item, name, unit);
-            part.name = format!("{}[{i}]", name.text);
+            let mut part = self.quantity(item, name, unit);
+            part.name.push_str(&format!("[{i}]"));
             Value::Scalar(self.coordinate(part, checked))
         };
         let items = (0..size).map(element).collect();
@@ -201,7 +211,7 @@ impl Lowering<'_> {
                 let error = Diagnostic::error(place, "the law of an input contains an input");
                 return self.report(error.help("write the other law here, or make it a `let`"));
             }
-            let mut quantity = quantity(item, &declaration.name, declaration.unit.as_ref());
+            let mut quantity = self.quantity(item, &declaration.name, declaration.unit.as_ref());
             quantity.name.push_str(&suffix);
             let law = law.id;
             self.mechanism.inputs.push(Input { quantity, law });
@@ -219,35 +229,103 @@ impl Lowering<'_> {
         self.quantities(&fresh);
     }
 
-    /// Evaluates quantities in an order of their own.
+    /// Evaluates the quantities outside loops, each behind those that it mentions, as far as
+    /// that shows; others are evaluated when they are asked for.
+    fn all_quantities(&mut self, fresh: &[&Placed<'a>]) {
+        for Placed { item, frame, .. } in fresh {
+            if let ItemKind::Let(quantity) = &item.kind {
+                let full = format!("{}{}", frame.prefix, quantity.name.text);
+                self.unit(quantity.unit.as_ref());
+                let waiting = Waiting {
+                    quantity: Rc::new((**quantity).clone()),
+                    frame: Rc::clone(frame),
+                    index: None,
+                    argument_of: None,
+                };
+                self.waits(full, waiting);
+            }
+        }
+        let all = std::mem::take(&mut self.waiting);
+        let names: Vec<Name> = all.iter().map(|full| self.waiting_name(full)).collect();
+        let definitions: Vec<Definition> = names.iter().map(|n| self.definition(n)).collect();
+        let sorted = order(&definitions, QUANTITIES, &mut self.evaluator.diagnostics);
+        let mut circular = vec![true; names.len()];
+        sorted.iter().for_each(|&i| circular[i] = false);
+        for (name, _) in names.iter().zip(circular).filter(|(_, circular)| *circular) {
+            self.evaluator.parts.waiting.remove(&name.text);
+        }
+        for i in sorted {
+            let name = &names[i];
+            self.evaluator.settle(&name.text, Kind::Quantity, name.span);
+        }
+        self.evaluator.parts.waiting.clear();
+    }
+
+    /// The name of a quantity that waits, in full.
+    fn waiting_name(&self, full: &str) -> Name {
+        let waiting = self.evaluator.parts.waiting.get(full);
+        Name {
+            text: full.to_string(),
+            span: waiting
+                .map(|waiting| waiting.quantity.name.span)
+                .unwrap_or_default(),
+        }
+    }
+
+    /// A quantity that waits, by what it mentions.
+    fn definition<'n>(&self, name: &'n Name) -> Definition<'n> {
+        let Some(waiting) = self.evaluator.parts.waiting.get(&name.text) else {
+            return Definition {
+                name,
+                mentions: Vec::new(),
+                recursive: false,
+            };
+        };
+        let prefix = &waiting.frame.prefix;
+        let known = &self.evaluator.parts.waiting;
+        let mentions = self
+            .evaluator
+            .functions
+            .mentions(waiting.quantity.formulas());
+        let in_full = |short: String| {
+            let full = format!("{prefix}{short}");
+            match known.contains_key(&full) {
+                true => full,
+                false => short,
+            }
+        };
+        Definition {
+            name,
+            mentions: mentions.into_iter().map(in_full).collect(),
+            recursive: waiting.quantity.range.is_some(),
+        }
+    }
+
+    /// Evaluates the quantities of the body of a loop in an order of their own.
     fn quantities(&mut self, lets: &[&Let]) {
         let definitions: Vec<_> = lets
             .iter()
-            .map(|quantity| {
-                let range = quantity
-                    .range
-                    .iter()
-                    .flat_map(|range| [&range.from, &range.to]);
-                let formulas = range.chain([&quantity.value]);
-                Definition {
-                    name: &quantity.name,
-                    mentions: self.evaluator.functions.mentions(formulas),
-                    recursive: quantity.range.is_some(),
-                }
+            .map(|quantity| Definition {
+                name: &quantity.name,
+                mentions: self.evaluator.functions.mentions(quantity.formulas()),
+                recursive: quantity.range.is_some(),
             })
             .collect();
         for i in order(&definitions, QUANTITIES, &mut self.evaluator.diagnostics) {
-            let value = match &lets[i].range {
-                None => self.evaluator.evaluate(&lets[i].value),
-                Some(range) => self.evaluator.array(&lets[i].name, range, &lets[i].value),
-            };
-            let value = value.and_then(|value| self.in_unit(lets[i], value));
-            let bare = match lets[i].unit {
-                Some(_) => None,
-                None => self.evaluator.bare(&lets[i].value),
-            };
+            self.unit(lets[i].unit.as_ref());
+            let (value, bare) = self.evaluator.quantity(lets[i]);
             self.evaluator.scope.set(&lets[i].name.text, value);
             self.evaluator.scope.set_bare(&lets[i].name.text, bare);
+        }
+    }
+
+    /// A quantity as it is declared, with its name in full.
+    pub fn quantity(&self, item: &Item, name: &Name, unit: Option<&UnitExpr>) -> Quantity {
+        Quantity {
+            name: self.evaluator.scope.full(&name.text),
+            unit: unit.map(|unit| unit.text.clone()).unwrap_or_default(),
+            docs: item.docs.clone(),
+            span: self.place_of(name.span),
         }
     }
 
@@ -268,16 +346,5 @@ fn as_let(item: &Item) -> Option<&Let> {
     match &item.kind {
         ItemKind::Let(quantity) => Some(quantity),
         _ => None,
-    }
-}
-
-/// A quantity as it is declared.
-pub fn quantity(item: &Item, name: &Name, unit: Option<&UnitExpr>) -> Quantity {
-    let unit = unit.map(|unit| unit.text.clone()).unwrap_or_default();
-    Quantity {
-        name: name.text.clone(),
-        unit,
-        docs: item.docs.clone(),
-        span: name.span,
     }
 }

@@ -78,6 +78,9 @@ impl Evaluator {
 
     /// `.x`, `.y`, `.z`
     pub fn component(&mut self, inside: &Expr, axis: usize, span: Span) -> Option<Value> {
+        if self.names_part(inside) {
+            return self.member(inside, AXES[axis], span);
+        }
         let value = self.evaluate(inside)?.operand();
         match &value {
             Value::Vector(parts) => match parts.get(axis) {

@@ -8,6 +8,7 @@
 
 use super::facts::{FactTable, Facts};
 use super::function::Functions;
+use super::member::Parts;
 use super::scope::{BUILT_IN, Kind, Scope};
 use super::unit::Unit;
 use super::value::{Scalar, Value};
@@ -36,6 +37,8 @@ pub struct Evaluator {
     pub gains: bool,
     /// The direction of motion at frozen velocities.
     pub flow: Direction,
+    /// The parts and the quantities in them.
+    pub parts: Parts,
     facts: FactTable,
     work: u64,
     /// The number of formulas inside one another.
@@ -101,6 +104,7 @@ impl Evaluator {
             ExprKind::Repeat(range, term) => self.repeated_sum(range, term, e.span),
             ExprKind::Vector(parts) => self.vector(parts, e.span),
             ExprKind::Component(inside, axis) => self.component(inside, *axis, e.span),
+            ExprKind::Member(inside, name) => self.member(inside, &name.text, name.span),
             ExprKind::Index(inside, index) => self.element(inside, index, e.span),
             ExprKind::InUnit(inside, unit) => self.in_unit(inside, unit),
             ExprKind::If(condition, then, otherwise) => {
@@ -160,11 +164,21 @@ impl Evaluator {
         if let Some(value) = self.built_in(name, span) {
             return value;
         }
-        let Some(entry) = self.scope.look_up(name) else {
-            return self.undeclared(name, span);
-        };
+        match self.scope.get(name) {
+            Some(_) => self.declared(name, false, span),
+            None => self.undeclared(name, span),
+        }
+    }
+
+    /// The value of a declared name, which may be in full.
+    pub fn declared(&mut self, name: &str, full: bool, span: Span) -> Option<Value> {
+        let entry = self.scope.look_up(name, full)?;
         let (kind, place) = (entry.kind, entry.name.span);
-        let value = entry.value.clone();
+        if entry.value.is_none() {
+            let full = entry.name.text.clone();
+            self.settle(&full, kind, span);
+        }
+        let value = self.scope.look_up(name, full)?.value.clone();
         match self.constant {
             Some(what) if !matches!(kind, Kind::Constant | Kind::Index | Kind::Argument) => {
                 let message = format!(

@@ -70,8 +70,8 @@ impl Functions {
 
 impl Lowering<'_> {
     /// Reads the functions, each behind those that it calls.
-    pub fn functions(&mut self, items: &[Item]) {
-        let functions = items.iter().filter_map(|item| match &item.kind {
+    pub fn functions<'i>(&mut self, items: impl Iterator<Item = &'i Item>) {
+        let functions = items.filter_map(|item| match &item.kind {
             ItemKind::Function(function) => Some(function),
             _ => None,
         });
@@ -81,7 +81,7 @@ impl Lowering<'_> {
             let name = &function.name;
             match places.insert(&name.text, name.span) {
                 Some(first) => self.report(twice(name, first)),
-                None => self.new_function(name),
+                None => self.is_free(name).and_then(|()| self.is_no_part(name)),
             }
             .into_iter()
             .for_each(|()| fresh.push(Rc::clone(function)));
@@ -106,8 +106,22 @@ impl Lowering<'_> {
         }
     }
 
-    /// Refuses a function that there is already.
-    fn new_function(&mut self, name: &Name) -> Option<()> {
+    /// Refuses the name of a part for a function.
+    fn is_no_part(&mut self, name: &Name) -> Option<()> {
+        let part = self.evaluator.parts.declared.get(&name.text).copied();
+        match part {
+            Some(first) if first.library => {
+                let message = format!("the library has a part `{}`", name.text);
+                let error = Diagnostic::error(name.span, message);
+                self.report(error.help("choose another name"))
+            }
+            Some(first) => self.report(twice(name, first)),
+            None => Some(()),
+        }
+    }
+
+    /// Refuses the name of a function that there is already.
+    pub fn is_free(&mut self, name: &Name) -> Option<()> {
         let text = name.text.as_str();
         let unary = expr::Function::ALL.iter().any(|(_, known)| *known == text);
         if !unary && !known(text) {
@@ -230,7 +244,7 @@ impl Evaluator {
     }
 
     /// The value of an argument, in the unit that it is declared with.
-    fn argument(&mut self, of: &str, argument: &Argument, e: &Expr) -> Option<Value> {
+    pub fn argument(&mut self, of: &str, argument: &Argument, e: &Expr) -> Option<Value> {
         let value = self.evaluate(e)?;
         let Some(place) = &argument.unit else {
             return Some(value);
@@ -238,7 +252,9 @@ impl Evaluator {
         let unit = declared(Some(place));
         for scalar in value.scalars() {
             if let Err((wanted, found)) = unit.meet(scalar.unit) {
-                let wants = wanted.said().replacen("this", &argument.name.text, 1);
+                let wants = wanted
+                    .said()
+                    .replacen("this", &format!("`{}`", argument.name.text), 1);
                 let message = format!("in `{of}` {wants}, {}", found.said());
                 let error = Diagnostic::error(e.span, message);
                 let error = self.declare_bare(error, e, [wanted, found]);

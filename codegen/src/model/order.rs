@@ -31,20 +31,23 @@ enum State {
 }
 
 /// The indices of definitions in an order of evaluation. What takes part in a
-/// cycle, or needs what does, is left out; `help` says what to do about a cycle.
+/// cycle is left out; `help` says what to do about a cycle.
 pub fn order(definitions: &[Definition], help: &str, diagnostics: &mut Diagnostics) -> Vec<usize> {
     let place = |(i, definition): (usize, &Definition)| (definition.name.text.clone(), i);
     let places: FxHashMap<String, usize> = definitions.iter().enumerate().map(place).collect();
     let needs: Vec<Vec<usize>> = definitions.iter().map(|d| mentioned(d, &places)).collect();
     let mut states = vec![State::New; definitions.len()];
     let mut sorted = Vec::new();
+    let mut circular = vec![false; definitions.len()];
     for start in 0..definitions.len() {
         if states[start] == State::New {
             visit(start, &needs, &mut states, &mut sorted, &mut |cycle| {
+                cycle.iter().for_each(|&i| circular[i] = true);
                 diagnostics.push(report(cycle, definitions, help));
             });
         }
     }
+    sorted.retain(|&i| !circular[i]);
     sorted
 }
 
@@ -126,7 +129,10 @@ pub fn collect<'a>(formula: &'a Expr, found: &mut dyn FnMut(Mention<'a>)) {
     match &formula.kind {
         ExprKind::Number(_) => {}
         ExprKind::Name(name) => found(Mention::Name(name)),
-        ExprKind::Negative(x) | ExprKind::Component(x, _) | ExprKind::InUnit(x, _) => {
+        ExprKind::Negative(x)
+        | ExprKind::Component(x, _)
+        | ExprKind::Member(x, _)
+        | ExprKind::InUnit(x, _) => {
             collect(x, found);
         }
         ExprKind::Sum(parts) | ExprKind::Product(parts) => {

@@ -26,6 +26,8 @@ pub enum Kind {
     Index,
     /// An argument of a function.
     Argument,
+    /// A part, `let left = Leg(…)`, whose names have `left.` in front.
+    Part,
 }
 
 impl Kind {
@@ -39,6 +41,7 @@ impl Kind {
             Kind::Quantity => "a quantity",
             Kind::Index => "an index",
             Kind::Argument => "an argument",
+            Kind::Part => "a part",
         }
     }
 }
@@ -132,12 +135,22 @@ impl Scope {
         self.place(name).map(|i| &self.entries[i])
     }
 
-    /// What a name stands for, noting that it is used.
-    pub fn look_up(&mut self, name: &str) -> Option<&Entry> {
-        let place = self.place(name)?;
-        let entry = &mut self.entries[place];
+    /// What a name stands for, noting that it is used. In full, it is that of a part.
+    pub fn look_up(&mut self, name: &str, full: bool) -> Option<&Entry> {
+        let place = match full {
+            true => self.index.get(name).copied(),
+            false => self.place(name),
+        };
+        let entry = &mut self.entries[place?];
         entry.used = true;
         Some(entry)
+    }
+
+    /// Gives a declared name, in full, its value and the number without unit in it.
+    pub fn settle(&mut self, full: &str, value: Option<Value>, bare: Option<Bare>) {
+        if let Some(&i) = self.index.get(full) {
+            (self.entries[i].value, self.entries[i].bare) = (value, bare);
+        }
     }
 
     /// Gives a declared name its value.

@@ -77,15 +77,10 @@ impl Lowering<'_> {
             [(scalar, target.span), (given, value.span)],
             "this equation",
         )?;
-        if let Some(first) = self
-            .named
-            .starts
-            .insert((coordinate, velocity), target.span)
-        {
-            let error = Diagnostic::error(target.span, "this has a start value already");
-            return self.report(error.also(first, "given here").help("remove one of them"));
-        }
         let (coordinate, span) = (coordinate as usize, target.span.to(value.span));
+        if !self.first_start((coordinate, velocity), target.span)? {
+            return Some(());
+        }
         if !velocity {
             self.many_turns(coordinate, value, given);
         }
@@ -94,9 +89,28 @@ impl Lowering<'_> {
             velocity,
             value: given.id,
             held,
-            span,
+            span: self.place_of(span),
         });
         Some(())
+    }
+
+    /// Whether a start value is to be kept: that of a part gives way to one outside it.
+    fn first_start(&mut self, what: (usize, bool), span: Span) -> Option<bool> {
+        let depth = self.frame.uses.len();
+        let key = (what.0 as u32, what.1);
+        match self.named.starts.get(&key).copied() {
+            Some((first, other)) if other == depth => {
+                let error = Diagnostic::error(span, "this has a start value already");
+                return self.report(error.also(first, "given here").help("remove one of them"));
+            }
+            Some((_, other)) if other < depth => return Some(false),
+            Some(_) => {
+                (self.mechanism.starts).retain(|start| (start.coordinate, start.velocity) != what)
+            }
+            None => {}
+        }
+        self.named.starts.insert(key, (span, depth));
+        Some(true)
     }
 
     /// Warns of an angle of more than a turn that has no `deg` or `pi` in it: degrees are

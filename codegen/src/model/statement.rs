@@ -17,8 +17,9 @@ pub struct Named {
     outputs: FxHashMap<String, Span>,
     events: FxHashMap<String, Span>,
     constraints: FxHashMap<String, Span>,
-    /// Start entries: coordinate, whether the velocity is meant.
-    pub starts: FxHashMap<(u32, bool), Span>,
+    /// Start entries: coordinate, whether the velocity is meant; with the number of parts
+    /// around.
+    pub starts: FxHashMap<(u32, bool), (Span, usize)>,
 }
 
 impl Lowering<'_> {
@@ -35,7 +36,9 @@ impl Lowering<'_> {
             ItemKind::Declaration(d) if d.kind == Declared::Output => self.output(item, d),
             ItemKind::Declaration(d) => self.outermost(&d.name),
             ItemKind::Coordinate { name, .. } => self.outermost(name),
-            ItemKind::Function(function) => self.outermost(&function.name),
+            ItemKind::Function(function) => self.in_no_part(&function.name, "a function"),
+            ItemKind::Part(part) => self.in_no_part(&part.name, "a part"),
+            ItemKind::Use(library) => self.in_no_part(library, "`use`"),
             ItemKind::Let(_) => Some(()),
             ItemKind::Energy(kind, value) => self.energy(*kind, value),
             ItemKind::Force { force, on } => self.force(force, on, item.span),
@@ -63,6 +66,15 @@ impl Lowering<'_> {
                 this.unused(&local);
             }),
         }
+    }
+
+    /// Refuses what stands in front of parts and loops.
+    fn in_no_part(&mut self, name: &Name, what: &str) -> Option<()> {
+        if self.indices.is_empty() && self.frame.prefix.is_empty() {
+            return Some(());
+        }
+        let message = format!("{what} stands outside parts and loops");
+        self.report(Diagnostic::error(name.span, message).help("write it in the mechanism itself"))
     }
 
     /// Refuses a declaration inside a loop.
@@ -108,7 +120,7 @@ impl Lowering<'_> {
         self.legal_energy(kind, e, value)?;
         let summand = Summand {
             value: value.id,
-            span: e.span,
+            span: self.place_of(e.span),
         };
         match kind {
             Energy::Kinetic => self.mechanism.kinetic.push(summand),
@@ -152,7 +164,7 @@ impl Lowering<'_> {
             force: ids(strength),
             on: ids(point),
             on_velocity,
-            span,
+            span: self.place_of(span),
         });
         Some(())
     }
@@ -226,7 +238,7 @@ impl Lowering<'_> {
                 residual,
                 holonomic,
                 text,
-                span,
+                span: self.place_of(span),
             });
         }
         if !active {
@@ -265,23 +277,27 @@ impl Lowering<'_> {
         } else {
             format!(" [{}]", indices.join(", "))
         };
-        format!("{text}{row}{indices}")
+        let part = match self.frame.prefix.strip_suffix('.') {
+            Some(part) => format!(" in {part}"),
+            None => String::new(),
+        };
+        format!("{text}{row}{indices}{part}")
     }
 
     /// The name of what is declared inside loops: `hit[0]`, `hit[1]`.
     fn indexed(&self, name: &str) -> String {
         let indices: String = self.indices.iter().map(|(_, i)| format!("[{i}]")).collect();
-        format!("{name}{indices}")
+        format!("{}{indices}", self.evaluator.scope.full(name))
     }
 
     fn output(&mut self, item: &Item, declaration: &Declaration) -> Option<()> {
-        let unit = self.unit(declaration.unit.as_ref());
+        let checked = self.unit(declaration.unit.as_ref());
         let value = self.evaluator.evaluate(&declaration.value)?;
         let name = self.indexed(&declaration.name.text);
         for (scalar, suffix) in value.scalars().into_iter().zip(value.suffixes()) {
-            self.fits(declaration, unit, scalar)?;
-            let mut quantity =
-                super::declare::quantity(item, &declaration.name, declaration.unit.as_ref());
+            self.fits(declaration, checked, scalar)?;
+            let unit = declaration.unit.as_ref();
+            let mut quantity = self.quantity(item, &declaration.name, unit);
             quantity.name = format!("{name}{suffix}");
             self.column_is_free(&quantity.name, &declaration.name)?;
             self.mechanism.outputs.push(Output {
@@ -324,7 +340,7 @@ impl Lowering<'_> {
             name: full,
             value: scalar.id,
             direction,
-            span,
+            span: self.place_of(span),
         });
         Some(())
     }

@@ -42,6 +42,10 @@ pub enum ItemKind {
     Let(Box<Let>),
     /// `fn f(x, y) = value;`
     Function(Rc<Function>),
+    /// `part P(x, y) { items }`
+    Part(Box<Part>),
+    /// `use name;`
+    Use(Name),
     /// `kinetic`, `potential` or `dissipation`.
     Energy(Energy, Expr),
     /// `force F on x;`
@@ -159,6 +163,17 @@ pub struct Function {
     pub value: Expr,
 }
 
+/// `part P(x, y: unit) { items }`
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// Its name.
+    pub name: Name,
+    /// What it is given where it is used.
+    pub arguments: Vec<Argument>,
+    /// What stands between its braces.
+    pub items: Vec<Item>,
+}
+
 /// An argument of a function or a part.
 #[derive(Clone, Debug)]
 pub struct Argument {
@@ -166,6 +181,15 @@ pub struct Argument {
     pub name: Name,
     /// Its unit, if one is given.
     pub unit: Option<UnitExpr>,
+}
+
+impl Let {
+    /// The formulas in it.
+    pub fn formulas(&self) -> Vec<&Expr> {
+        let range = self.range.iter();
+        let range = range.flat_map(|range| [&range.from, &range.to]);
+        range.chain([&self.value]).collect()
+    }
 }
 
 /// The three scalar functions that forces come from.
@@ -263,6 +287,8 @@ pub enum ExprKind {
     Vector(Vec<Expr>),
     /// `.x`, `.y` or `.z`, by number.
     Component(Box<Expr>, usize),
+    /// `part.name`
+    Member(Box<Expr>, Name),
     /// `array[index]`
     Index(Box<Expr>, Box<Expr>),
     /// `[a, b, c] unit`

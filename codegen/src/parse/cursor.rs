@@ -13,7 +13,7 @@ pub struct Reported;
 pub type Parsed<T> = Result<T, Reported>;
 
 /// Words that begin a statement, with an example of each.
-pub const STATEMENTS: [(&str, &str); 15] = [
+pub const STATEMENTS: [(&str, &str); 17] = [
     ("const", "const g: m/s^2 = 9.81;"),
     ("param", "param L1: m = 0.5;"),
     ("coord", "coord q1: rad;"),
@@ -29,6 +29,8 @@ pub const STATEMENTS: [(&str, &str); 15] = [
     ("output", "output x: m = c.x;"),
     ("event", "event top: q1 - pi/2 rising;"),
     ("draw", "draw line([0, 0], c);"),
+    ("part", "part Rod(foot, m: kg) { coord q: rad; … }"),
+    ("use", "use parts;"),
 ];
 
 /// Words that hold statements and formulas together.

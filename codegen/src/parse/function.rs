@@ -1,11 +1,13 @@
-//! Functions: `fn f(x, y: m): N = formula;`.
+//! Functions, `fn f(x, y: m): N = formula;`, and parts, `part P(x, y: m) { … }`.
 
-use super::ast::{Argument, Function, ItemKind};
+use super::ast::{Argument, Function, ItemKind, Part};
 use super::cursor::{Cursor, Parsed};
 use crate::diagnostic::Diagnostic;
 use std::rc::Rc;
 
 const HELP: &str = "a function is written `fn f(x, y: m) = …;`";
+
+const PART: &str = "a part is written `part Rod(foot, m: kg) { coord q: rad; … }`";
 
 impl Cursor<'_> {
     /// Reads what stands behind `fn`.
@@ -25,6 +27,19 @@ impl Cursor<'_> {
             arguments,
             unit,
             value,
+        })))
+    }
+
+    /// Reads what stands behind `part`.
+    pub fn part(&mut self) -> Parsed<ItemKind> {
+        let name = self.expect_name("the name of the part", PART)?;
+        let arguments = self.named_arguments(PART)?;
+        let mut items = Vec::new();
+        self.deeper(|cursor| cursor.block(PART, |item| items.push(item)))?;
+        Ok(ItemKind::Part(Box::new(Part {
+            name,
+            arguments,
+            items,
         })))
     }
 

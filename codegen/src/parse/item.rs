@@ -32,7 +32,7 @@ impl Cursor<'_> {
     }
 
     /// Hands over the statements of a block.
-    fn block(&mut self, help: &str, mut add: impl FnMut(Item)) -> Parsed<()> {
+    pub fn block(&mut self, help: &str, mut add: impl FnMut(Item)) -> Parsed<()> {
         self.expect_symbol("{", help)?;
         let depth = self.block_depth();
         while !self.at_block_end(depth) {
@@ -58,6 +58,15 @@ impl Cursor<'_> {
     /// Whether the bracket that closes a block comes next.
     pub fn at_block_end(&self, depth: usize) -> bool {
         self.peek().kind == TokenKind::End || (self.at_symbol("}") && self.depth() < depth)
+    }
+
+    /// Reads statements that stand in no mechanism, up to the end of the file.
+    pub fn statements(&mut self) -> Vec<Item> {
+        let mut items = Vec::new();
+        while self.peek().kind != TokenKind::End {
+            items.extend(self.statement(0, Self::item, is_block));
+        }
+        items
     }
 
     fn item(&mut self) -> Parsed<Item> {
@@ -103,6 +112,8 @@ impl Cursor<'_> {
             "coord" => self.coordinate()?,
             "let" => self.let_item()?,
             "fn" => self.function()?,
+            "part" => return self.part(),
+            "use" => ItemKind::Use(self.expect_name("the name of a library", &example(word))?),
             "kinetic" => ItemKind::Energy(Energy::Kinetic, self.expression()?),
             "potential" => ItemKind::Energy(Energy::Potential, self.expression()?),
             "dissipation" => ItemKind::Energy(Energy::Dissipation, self.expression()?),
@@ -361,7 +372,10 @@ impl Cursor<'_> {
 
 /// Whether a statement has statements or entries inside.
 fn is_block(item: &Item) -> bool {
-    matches!(item.kind, ItemKind::For(..) | ItemKind::Start(_))
+    matches!(
+        item.kind,
+        ItemKind::For(..) | ItemKind::Start(_) | ItemKind::Part(_)
+    )
 }
 
 /// How a statement is written.
