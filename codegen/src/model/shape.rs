@@ -20,7 +20,7 @@ impl Evaluator {
     /// The value that a declaration gives; `what` names it in messages.
     pub fn declared_value(&mut self, declaration: &Declaration, what: &str) -> Option<Value> {
         let value = &declaration.value;
-        match &declaration.size {
+        match declaration.size.as_deref() {
             None => self.evaluate(value).map(Value::array_to_vector),
             Some(Size::Count(count)) => {
                 let count = self.count(count)?;
@@ -175,7 +175,7 @@ impl Lowering<'_> {
             ExprKind::InUnit(inside, _) => &inside.kind,
             other => other,
         };
-        let bounds = match (&declaration.size, list) {
+        let bounds = match (declaration.size.as_deref(), list) {
             (Some(Size::Count(count)), _) => 0..evaluator.count(count)?,
             (Some(Size::Each(range)), _) => evaluator.each(range)?,
             (None, ExprKind::Vector(parts)) if (2..=4).contains(&parts.len()) => {

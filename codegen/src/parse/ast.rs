@@ -96,7 +96,7 @@ pub struct Declaration {
     /// Its name.
     pub name: Name,
     /// Its elements, for an array.
-    pub size: Option<Size>,
+    pub size: Option<Box<Size>>,
     /// The unit, if it is given.
     pub unit: Option<UnitExpr>,
     /// The value, default or law.
@@ -106,7 +106,7 @@ pub struct Declaration {
 impl Declaration {
     /// The formulas in it.
     pub fn formulas(&self) -> Vec<&Expr> {
-        let size = match &self.size {
+        let size = match self.size.as_deref() {
             None => Vec::new(),
             Some(Size::Count(count)) => vec![count],
             Some(Size::Each(range)) => vec![&range.from, &range.to],

@@ -206,7 +206,7 @@ impl Cursor<'_> {
     }
 
     /// Reads `[K]` or `[i in 0..K]` if it comes next.
-    fn size(&mut self, help: &str) -> Parsed<Option<Size>> {
+    fn size(&mut self, help: &str) -> Parsed<Option<Box<Size>>> {
         if !self.take_symbol("[") {
             return Ok(None);
         }
@@ -216,7 +216,7 @@ impl Cursor<'_> {
             false => Size::Count(self.expression()?),
         };
         self.expect_symbol("]", help)?;
-        Ok(Some(size))
+        Ok(Some(Box::new(size)))
     }
 
     /// Refuses a list of names.

@@ -113,7 +113,7 @@ fn declaration(d: &Declaration) -> String {
         Declared::Input => "input",
         Declared::Output => "output",
     };
-    let size = match &d.size {
+    let size = match d.size.as_deref() {
         None => String::new(),
         Some(Size::Count(count)) => format!("[{}]", formula(count)),
         Some(Size::Each(over)) => format!("[{}]", range(over)),

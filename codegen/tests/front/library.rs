@@ -2,6 +2,9 @@
 //! `tests/accepted/library_*`.
 
 use super::{accept, refuse, warnings};
+use bricard_codegen::derive::derive;
+use bricard_codegen::expr::Symbol;
+use std::f64::consts::PI;
 
 const LIBRARY: &str = include_str!("../../src/parts.mech");
 const USES: [&str; 2] = [
@@ -35,7 +38,7 @@ fn every_part_of_the_library_is_compared_with_what_is_written_by_hand() {
         // A part that another part of the library is made of.
         let inside = LIBRARY.contains(&format!("= {name}("));
         assert!(
-            inside || USES.iter().any(|source| called(&source)),
+            inside || USES.iter().any(|source| called(source)),
             "`{name}`"
         );
     }
@@ -92,4 +95,42 @@ fn the_library_is_known_where_it_is_used_and_nothing_in_it_is_warned_of() {
             .to_string()
             .contains("the library has a part `Rod`")
     );
+}
+
+/// What the Robotics Toolbox (P. Corke) prints at its nominal configuration, `p560.inertia(qn)`
+/// in kg m² and `p560.gravload(qn)` in N m, to four places.
+const PUMA_MASS: [[f64; 6]; 6] = [
+    [3.6594, -0.4044, 0.1006, -0.0025, 0.0, 0.0],
+    [-0.4044, 4.4137, 0.3509, 0.0, 0.0024, 0.0],
+    [0.1006, 0.3509, 0.9378, 0.0, 0.0015, 0.0],
+    [-0.0025, 0.0, 0.0, 0.1925, 0.0, 0.0],
+    [0.0, 0.0024, 0.0015, 0.0, 0.1713, 0.0],
+    [0.0, 0.0, 0.0, 0.0, 0.0, 0.1941],
+];
+const PUMA_GRAVITY: [f64; 6] = [0.0, 31.6399, 6.0351, 0.0, 0.0283, 0.0];
+
+#[test]
+fn a_puma_560_of_parts_has_the_inertia_and_the_gravity_load_of_the_robotics_toolbox() {
+    let mut m = accept(include_str!("../accepted/puma_560.mech"));
+    let equations = derive(&mut m).expect("equations of a usual length");
+    let nominal = [0.0, 0.25 * PI, PI, 0.0, 0.25 * PI, 0.0];
+    let defaults: Vec<f64> = m
+        .parameters
+        .iter()
+        .map(|p| m.graph.constant_value(p.default).expect("a number"))
+        .collect();
+    let at = |symbol| match symbol {
+        Symbol::Coordinate(i) => nominal[i as usize],
+        Symbol::Parameter(i) => defaults[i as usize],
+        _ => 0.0,
+    };
+    let mass = m.graph.evaluate_all(&equations.mass.concat(), &at);
+    let force = m.graph.evaluate_all(&equations.force, &at);
+    let places = |found: f64, printed: f64| (found - printed).abs() < 0.51e-4;
+    for (found, printed) in mass.iter().zip(PUMA_MASS.as_flattened()) {
+        assert!(places(*found, *printed), "{mass:?}");
+    }
+    for (found, printed) in force.iter().zip(PUMA_GRAVITY) {
+        assert!(places(-found, printed), "{force:?}");
+    }
 }
