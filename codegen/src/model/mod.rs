@@ -70,6 +70,8 @@ pub struct Mechanism {
     pub constraints: Vec<Constraint>,
     /// Entries of the `start` block.
     pub starts: Vec<Start>,
+    /// Equations of the `start` block that are no values of coordinates and velocities.
+    pub start_equations: Vec<Constraint>,
     /// Observables, vectors unrolled (`p.x`, `p.y`).
     pub outputs: Vec<Output>,
     /// Event functions.
@@ -257,6 +259,7 @@ impl Mechanism {
             forces: Vec::new(),
             constraints: Vec::new(),
             starts: Vec::new(),
+            start_equations: Vec::new(),
             outputs: Vec::new(),
             events: Vec::new(),
             shapes: Vec::new(),

@@ -27,6 +27,11 @@ pub struct Placed<'a> {
 /// The library that `use` makes known.
 pub const LIBRARY: &str = "parts";
 
+/// The most parts of a mechanism.
+const PARTS: usize = 10_000;
+/// The most parts inside one another.
+const DEEPEST: usize = 50;
+
 impl<'a> Lowering<'a> {
     /// Reads which parts there are: those of the library and those of the description.
     pub fn parts(&mut self, items: &'a [Item], library: &'a [Item]) {
@@ -116,6 +121,11 @@ impl<'a> Lowering<'a> {
             let message = format!("the part `{}` is made of itself", of.text);
             return self.report(Diagnostic::error(span, message).also(of.span, "declared here"));
         }
+        if frame.parts.len() == DEEPEST {
+            let message = format!("more than {DEEPEST} parts inside one another");
+            let error = Diagnostic::error(span, message);
+            return self.report(error.help("use the innermost ones in the mechanism itself"));
+        }
         if let Some(unit) = &quantity.unit {
             return self.report(Diagnostic::error(unit.span, "a part has no unit"));
         }
@@ -141,6 +151,10 @@ impl<'a> Lowering<'a> {
         placed: &mut Vec<Placed<'a>>,
     ) -> Option<()> {
         self.evaluator.spend(span)?;
+        if self.evaluator.parts.used.len() >= PARTS {
+            let message = format!("more than {PARTS} parts");
+            return self.report(Diagnostic::error(span, message));
+        }
         let frame = Rc::clone(&self.frame);
         let text = format!("in the part `{}`, used here", part.name.text);
         let of = [part.name.text.clone()];

@@ -261,7 +261,7 @@ impl Lowering<'_> {
     }
 
     /// An equation as written, with the component and the indices it is for.
-    fn row_text(&self, text: &str, suffix: &str) -> String {
+    pub fn row_text(&self, text: &str, suffix: &str) -> String {
         let row = match suffix.strip_prefix('.') {
             Some(axis) => format!(" [{axis}]"),
             None if suffix.is_empty() => String::new(),

@@ -232,7 +232,7 @@ pub enum Drawing {
 pub enum StartItem {
     /// `target = value;` or `target ~ value;`
     Entry {
-        /// A coordinate or `der(coordinate)`.
+        /// A coordinate, `der(coordinate)`, or any formula.
         target: Expr,
         /// `=` (held) or `~` (a guess).
         held: bool,

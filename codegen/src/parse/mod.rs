@@ -31,6 +31,7 @@ mod unit;
 pub(crate) use cursor::{CONNECTIVES, DIRECTIONS, SHAPES, STATEMENTS};
 pub use formula::{Formula, ModelError};
 pub use model::Model;
+pub(crate) use print::formula as written;
 
 use crate::diagnostic::{Diagnostics, LIBRARY, without_mark};
 

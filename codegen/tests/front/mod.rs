@@ -19,6 +19,7 @@ mod robustness;
 mod rotation;
 mod scale;
 mod shapes;
+mod starts;
 mod statements;
 mod units;
 mod wrong;

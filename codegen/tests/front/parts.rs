@@ -120,3 +120,24 @@ fn a_long_row_of_parts_ends_with_a_message_and_not_with_the_stack() {
     assert_eq!(super::output(&accept(&row(&|i| i)), "z"), 1000.51);
     refuse_saying(&row(&|i| 999 - i), "declare each part behind those");
 }
+
+#[test]
+fn parts_without_end_are_refused() {
+    let parts = |count: i32, uses: &str| -> String {
+        let part = |i: i32| {
+            let uses = uses.replace('#', &(i - 1).to_string());
+            format!("part P{i}(x) {{ {uses} }} ")
+        };
+        (1..=count).map(part).collect()
+    };
+    let deep = parts(3000, "let inner = P#(x);");
+    refuse_saying(
+        &with(&format!("part P0(x) {{ }} {deep} let p = P3000(q);")),
+        "more than 50 parts inside one another",
+    );
+    let many = parts(40, "let a = P#(x); let b = P#(x);");
+    refuse_saying(
+        &with(&format!("part P0(x) {{ }} {many} let p = P40(q);")),
+        "more than 10000 parts",
+    );
+}
