@@ -38,7 +38,7 @@ fn every_part_of_the_library_is_compared_with_what_is_written_by_hand() {
         // A part that another part of the library is made of.
         let inside = LIBRARY.contains(&format!("= {name}("));
         assert!(
-            inside || USES.iter().any(|source| called(source)),
+            inside || USES.iter().any(called),
             "`{name}`"
         );
     }
