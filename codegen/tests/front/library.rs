@@ -37,10 +37,7 @@ fn every_part_of_the_library_is_compared_with_what_is_written_by_hand() {
         let called = |source: &&str| source.contains(&format!("= {name}("));
         // A part that another part of the library is made of.
         let inside = LIBRARY.contains(&format!("= {name}("));
-        assert!(
-            inside || USES.iter().any(called),
-            "`{name}`"
-        );
+        assert!(inside || USES.iter().any(called), "`{name}`");
     }
 }
 
@@ -132,5 +129,50 @@ fn a_puma_560_of_parts_has_the_inertia_and_the_gravity_load_of_the_robotics_tool
     }
     for (found, printed) in force.iter().zip(PUMA_GRAVITY) {
         assert!(places(-found, printed), "{force:?}");
+    }
+}
+
+/// Where the legs of the platform stand and what they hold, with the plate raised, from
+/// trigonometry alone: feet and heads, by the number of the leg.
+fn leg(i: u32) -> ([f64; 3], [f64; 3]) {
+    let turn = if i.is_multiple_of(2) { 15.0 } else { -15.0 };
+    let at = |radius: f64, angle: f64, z: f64| {
+        let (sin, cos) = angle.to_radians().sin_cos();
+        [radius * cos, radius * sin, z]
+    };
+    let angle = 60.0 * f64::from(i);
+    (at(1.0, angle + turn, 0.0), at(0.6, angle - turn, 0.9))
+}
+
+#[test]
+fn a_stewart_platform_of_parts_closes_at_the_distances_of_its_joints_and_at_no_others() {
+    let mut m = accept(include_str!("../accepted/stewart_platform.mech"));
+    let equations = derive(&mut m).expect("equations of a usual length");
+    let plate = [0.0, 0.0, 0.9, 1.0, 0.0, 0.0, 0.0];
+    let legs = (0..6).flat_map(|i| {
+        let (foot, head) = leg(i);
+        let [x, y, z] = [0, 1, 2].map(|k| head[k] - foot[k]);
+        let length = (x * x + y * y + z * z).sqrt();
+        [f64::atan2(-y, z), f64::asin(x / length), length]
+    });
+    let q: Vec<f64> = plate.into_iter().chain(legs).collect();
+    assert_eq!(q.len(), m.coordinates.len());
+    let largest = |q: &[f64]| {
+        let at = |symbol| match symbol {
+            Symbol::Coordinate(i) => q[i as usize],
+            Symbol::Parameter(0) => 1.0,
+            Symbol::Parameter(1) => 0.6,
+            _ => 0.0,
+        };
+        let residual = m.graph.evaluate_all(&equations.residual, &at);
+        residual
+            .into_iter()
+            .fold(0.0, |most: f64, x| most.max(x.abs()))
+    };
+    assert!(largest(&q) < 1e-15, "{}", largest(&q));
+    for leg in 0..6 {
+        let mut longer = q.clone();
+        longer[9 + 3 * leg] += 0.01;
+        assert!(largest(&longer) > 1e-3, "leg {leg}");
     }
 }
