@@ -12,7 +12,7 @@ use super::lower::Lowering;
 use super::order::{Definition, Mention, collect, order};
 use super::scope::{Kind, twice};
 use super::si;
-use super::unit::Unit;
+use super::unit::{NONE, Unit};
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr;
@@ -252,9 +252,11 @@ impl Evaluator {
         let unit = declared(Some(place));
         for scalar in value.scalars() {
             if let Err((wanted, found)) = unit.meet(scalar.unit) {
-                let wants = wanted
-                    .said()
-                    .replacen("this", &format!("`{}`", argument.name.text), 1);
+                let name = &argument.name.text;
+                let wants = match wanted {
+                    NONE => format!("`{name}` is an angle or a ratio"),
+                    _ => format!("`{name}` is in {}", wanted.text()),
+                };
                 let message = format!("in `{of}` {wants}, {}", found.said());
                 let error = Diagnostic::error(e.span, message);
                 let error = self.declare_bare(error, e, [wanted, found]);

@@ -170,7 +170,7 @@ impl<'a> Lowering<'a> {
         self.inside(&inner, |this| {
             for ((argument, e), value) in pairs().zip(values) {
                 let kind = match value {
-                    Some(_) => Kind::Constant,
+                    Some(_) => Kind::Argument,
                     None => Kind::Quantity,
                 };
                 this.declare_as(&argument.name, kind);
@@ -197,13 +197,15 @@ impl<'a> Lowering<'a> {
         index: Option<(&Name, i64)>,
     ) -> Option<Option<Value>> {
         let evaluator = &mut self.evaluator;
+        // An argument of the part around is one if it is a constant itself.
+        let is_constant = |kind: Kind| matches!(kind, Kind::Constant | Kind::Argument);
         let mut constant = true;
         collect(e, &mut |mention| {
             let fine = |name: &str| {
                 let kind = evaluator.scope.get(name).map(|entry| entry.kind);
                 let is_index = index.is_some_and(|(index, _)| index.text == name);
                 is_index
-                    || kind == Some(Kind::Constant)
+                    || kind.is_some_and(is_constant)
                     || (name != "t" && built_in().any(|b| b == name))
             };
             constant &= match mention {
@@ -214,7 +216,7 @@ impl<'a> Lowering<'a> {
         let free = evaluator.functions.mentions([e]);
         let only = |name: &String| {
             let entry = evaluator.scope.get(name);
-            entry.is_none_or(|entry| entry.kind == Kind::Constant)
+            entry.is_none_or(|entry| is_constant(entry.kind))
         };
         if !constant || !free.iter().all(only) {
             return None;

@@ -86,6 +86,8 @@ fn the_library_is_known_where_it_is_used_and_nothing_in_it_is_warned_of() {
     let said = refuse(&with("")).to_string();
     assert!(said.contains("unknown function `PointMass`"), "{said}");
     assert_eq!(warnings(&with("use parts;")), "");
+    let fixed = with("use parts; let rod = Rod([0, 0], [x, 0], 2, [0, -9.81]);");
+    assert_eq!(warnings(&fixed), "", "an end may be fixed");
     let own = with("use parts; part Rod(x) { coord q; }");
     assert!(
         refuse(&own)

@@ -122,6 +122,21 @@ fn a_long_row_of_parts_ends_with_a_message_and_not_with_the_stack() {
 }
 
 #[test]
+fn constants_reach_the_parts_inside_a_part() {
+    let source = with(
+        "part Inner(n) { coord s[n]; kinetic sum(i in 0..n, der(s[i])^2); }
+         part Outer(n, x) { let inner = Inner(2*n); let other = Inner(n + 1); output y = x; }
+         let a = Outer(2, q);",
+    );
+    assert_eq!(accept(&source).coordinates.len(), 2 + 4 + 3);
+    let source = with("part Inner(n) { coord s[n]; } param n = 2; let a = Inner(n);");
+    refuse_saying(
+        &source,
+        "the size of an array is built of numbers and constants",
+    );
+}
+
+#[test]
 fn parts_without_end_are_refused() {
     let parts = |count: i32, uses: &str| -> String {
         let part = |i: i32| {
