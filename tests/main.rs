@@ -28,5 +28,6 @@ mod reduction;
 mod reference;
 mod resume;
 mod source;
+mod starts;
 mod stiff;
 mod translation;

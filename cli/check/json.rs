@@ -35,8 +35,10 @@ fn message(file: &str, diagnostic: &Diagnostic) -> Value {
         Severity::Error => "error",
         Severity::Warning => "warning",
     };
-    let Label { span, text } = &diagnostic.primary;
-    let labels: Vec<Value> = diagnostic.secondary.iter().map(label).collect();
+    // Of a finding in the library of parts the place is that of its use.
+    let (span, text) = (diagnostic.place(), &diagnostic.primary.text);
+    let here = diagnostic.secondary.iter().filter(|l| !l.span.library);
+    let labels: Vec<Value> = here.map(label).collect();
     json!({
         "file": file,
         "line": span.start.line,

@@ -13,9 +13,14 @@ pub fn latex(name: &str) -> String {
     let inside = name
         .strip_prefix("der(")
         .and_then(|rest| rest.strip_suffix(')'));
-    let plain = inside.unwrap_or(name);
+    let whole = inside.unwrap_or(name);
+    // What a part is called goes behind the name in it; a component behind its vector.
+    let (part, plain) = match whole.rsplit_once('.') {
+        Some((part, own)) if !["x", "y", "z"].contains(&own) => (part, own),
+        _ => ("", whole),
+    };
     let end = plain
-        .find(|c: char| c.is_ascii_digit() || c == '_' || c == '[')
+        .find(|c: char| c.is_ascii_digit() || ['_', '[', '.'].contains(&c))
         .filter(|&end| end > 0)
         .unwrap_or(plain.len());
     let (letters, rest) = plain.split_at(end);
@@ -25,7 +30,7 @@ pub fn latex(name: &str) -> String {
     } else {
         letters
     };
-    let index = subscript(rest);
+    let index = subscript(&format!("{rest}.{part}"));
     if index.is_empty() {
         letters
     } else {
@@ -45,7 +50,9 @@ fn letter(word: &str) -> String {
 
 /// What stands behind the letters, its parts with commas between them.
 fn subscript(rest: &str) -> String {
-    let parts = rest.split(['_', '[', ']']).filter(|part| !part.is_empty());
+    let parts = rest
+        .split(['_', '[', ']', '.'])
+        .filter(|part| !part.is_empty());
     let part = |part: &str| match part.chars().all(|c| c.is_ascii_digit()) {
         true => part.to_string(),
         false => letter(part),
@@ -65,5 +72,7 @@ mod tests {
         assert_eq!(latex("mass"), "\\mathrm{mass}");
         assert_eq!(latex("x_tip"), "x_{\\mathrm{tip}}");
         assert_eq!(latex("t"), "t");
+        assert_eq!(latex("der(leg[2].q1)"), "\\dot{q}_{1,\\mathrm{leg},2}");
+        assert_eq!(latex("c.x"), "c_{x}");
     }
 }

@@ -19,7 +19,7 @@ mod state;
 mod system;
 mod tolerance;
 
-pub use assembly::{AssemblyError, assemble};
+pub use assembly::{AssemblyError, StartEquations, StartFault, assemble, meet};
 pub use catalogue::Visitor;
 pub use dynamics::{
     ConstrainedSystem, ConstraintError, Counters, Form, Rank, Settings, Solver, Stabilisation,

@@ -8,6 +8,7 @@
 //! code writes the entries that can differ from zero and no others, so a buffer
 //! must be a fresh one or one that the same mechanism filled before.
 
+use crate::assembly::StartFault;
 use crate::{Real, State};
 use nalgebra::{SMatrix, SVector};
 
@@ -44,6 +45,16 @@ pub trait Mechanism<T: Real, const N: usize, const R: usize> {
     /// Not to be used where one of [`Correction::pivots`] is small.
     fn correction(&self, _state: &State<T, N>, _out: &mut Correction<T, N, R>) -> bool {
         false
+    }
+
+    /// Moves a start onto the equations of the `start` block that are no values of
+    /// coordinates and velocities; of which most mechanisms have none.
+    ///
+    /// # Errors
+    ///
+    /// [`StartFault`] if they don't hold together with the held values.
+    fn begin(&self, _start: &mut Start<T, N>, _t: T) -> Result<(), StartFault<T, N>> {
+        Ok(())
     }
 
     /// Energies and the power that is supplied from outside.

@@ -145,6 +145,7 @@ fn rewrite(mechanism: &mut Mechanism, kept: &Kept, found: &[Explicit]) {
         forces,
         constraints,
         starts,
+        start_equations,
         outputs,
         events,
         shapes,
@@ -161,6 +162,7 @@ fn rewrite(mechanism: &mut Mechanism, kept: &Kept, found: &[Explicit]) {
         .map(|summand| &mut summand.value)
         .chain(forces.flat_map(|force| force.force.iter_mut().chain(&mut force.on)))
         .chain(constraints.iter_mut().map(|row| &mut row.residual))
+        .chain(start_equations.iter_mut().map(|row| &mut row.residual))
         .chain(inputs.iter_mut().map(|input| &mut input.law))
         .chain(outputs.iter_mut().map(|output| &mut output.value))
         .chain(events.iter_mut().map(|event| &mut event.value))

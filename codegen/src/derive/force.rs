@@ -29,7 +29,8 @@ pub(super) fn potential_force(graph: &mut Graph, potential: ExprId, n: usize) ->
 }
 
 /// `Q_i = Σ F·∂x/∂q_i − ∂R/∂q̇_i`: virtual work of the applied forces, less
-/// Rayleigh dissipation.
+/// Rayleigh dissipation. A moment works on an angular velocity ω by virtual power,
+/// `Q_i = Σ M·∂ω/∂q̇_i`.
 pub(super) fn applied(
     graph: &mut Graph,
     forces: &[Force],
@@ -40,7 +41,10 @@ pub(super) fn applied(
     let mut terms: Vec<Vec<ExprId>> = loss.into_iter().map(|x| vec![graph.neg(x)]).collect();
     for force in forces {
         for (&component, &place) in force.force.iter().zip(&force.on) {
-            let slope = gradient(graph, place, coordinates(n));
+            let slope = match force.on_velocity {
+                true => gradient(graph, place, velocities(n)),
+                false => gradient(graph, place, coordinates(n)),
+            };
             for (terms, slope) in terms.iter_mut().zip(slope) {
                 terms.push(graph.mul(component, slope));
             }

@@ -62,6 +62,19 @@ pub struct Equations {
     pub bias: Vec<ExprId>,
     /// The energies.
     pub energies: Energies,
+    /// Equations of the start for positions: `g` and `∂g/∂q`.
+    pub start_positions: StartRows,
+    /// Equations of the start for velocities: `b` and `A` of `A q̇ + b = 0`.
+    pub start_velocities: StartRows,
+}
+
+/// Equations of the start.
+#[derive(Clone, Debug)]
+pub struct StartRows {
+    /// What they are off by; for velocities, at rest.
+    pub errors: Vec<ExprId>,
+    /// Their derivatives by coordinates or velocities.
+    pub slopes: Matrix,
 }
 
 /// Scalar quantities of a mechanism.
@@ -145,6 +158,11 @@ fn equations(mechanism: &mut Mechanism) -> Option<Equations> {
     within_bounds(graph)?;
     let closure = closure::closure(graph, &mechanism.constraints, n);
     within_bounds(graph)?;
+    let equations = mechanism.start_equations.iter().cloned();
+    let (positions, speeds): (Vec<_>, Vec<_>) = equations.partition(|row| row.holonomic);
+    let positions = closure::closure(graph, &positions, n);
+    let speeds = closure::closure(graph, &speeds, n);
+    within_bounds(graph)?;
     let energies = energy::energies(graph, kinetic, potential, &applied, &momenta);
     within_bounds(graph)?;
     let weighed = weighed::weighed(graph, &mass, &closure.jacobian);
@@ -162,6 +180,14 @@ fn equations(mechanism: &mut Mechanism) -> Option<Equations> {
         drift: closure.drift,
         bias: closure.bias,
         energies,
+        start_positions: StartRows {
+            errors: positions.residual,
+            slopes: positions.jacobian,
+        },
+        start_velocities: StartRows {
+            errors: speeds.drift,
+            slopes: speeds.jacobian,
+        },
     })
 }
 

@@ -5,19 +5,16 @@
 //!
 //! The mass matrix of a body in Euler parameters is singular, and so is that of a
 //! coordinate without inertia. Whether one is singular at all positions is seen at
-//! random ones, and only rows that hold such a motion everywhere are named: at others
-//! the runtime lets all rows take part. Of the rows that take hold of what moves without inertia, those come
-//! first that join what `M` joins already, so that elimination stays as sparse.
+//! random ones. Only rows that hold such a motion everywhere are named; where others are
+//! needed, the runtime lets all rows take part. Those come first that join what `M` joins
+//! already, so that elimination stays as sparse.
 
 use super::Matrix;
 use crate::expr::{Graph, Symbol};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Random positions at which the same rows must do, where all entries are finite.
 const POSITIONS: u32 = 4;
-/// Cosine of the angle between a row and the motion that it holds: a row at any other angle
-/// may come to lie across the motion somewhere.
-const ALONG: f64 = 0.99;
 /// What is left of a diagonal entry of `M`, relative to it, that is round-off.
 const ROUND_OFF: f64 = 1e-10;
 
@@ -30,32 +27,52 @@ pub(super) fn weighed(graph: &Graph, mass: &Matrix, jacobian: &Matrix) -> Vec<us
         return Vec::new();
     }
     let numbers = (1..=POSITIONS).filter_map(|position| at_random(graph, mass, jacobian, position));
-    let mut chosen = numbers.map(|(mass, jacobian)| rows_at(&mass, &jacobian));
-    let first = chosen.next().unwrap_or_default();
-    match chosen.all(|other| other == first) {
-        true => first,
+    let mut holds = numbers.map(|(mass, jacobian)| holds_at(&mass, &jacobian));
+    let first = holds.next().unwrap_or_default();
+    let lasts = holds.all(|other| {
+        let pairs = first.iter().zip(&other);
+        first.len() == other.len() && pairs.clone().all(|(one, other)| one.lasts(other))
+    });
+    match lasts {
+        true => first.into_iter().map(|hold| hold.row).collect(),
         false => Vec::new(),
     }
 }
 
-/// The rows at one position; none where they do not hold every motion without inertia.
-fn rows_at(mass: &[Sparse], jacobian: &[Sparse]) -> Vec<usize> {
+/// A row and how it holds a motion without inertia.
+struct Hold {
+    row: usize,
+    /// The row times the motion of length one.
+    grip: f64,
+    /// The cosine of the angle between the two.
+    cosine: f64,
+}
+
+impl Hold {
+    /// Whether it is the same at another position for a reason: it lies along the motion, or
+    /// is made of constants. Any other may come to lie across the motion somewhere.
+    fn lasts(&self, other: &Self) -> bool {
+        let along = self.cosine.min(other.cosine) > 1.0 - ROUND_OFF;
+        let constant = (self.grip - other.grip).abs() <= ROUND_OFF * self.grip;
+        self.row == other.row && (along || constant)
+    }
+}
+
+/// The rows at one position, in ascending order; none where they do not hold every motion
+/// without inertia.
+fn holds_at(mass: &[Sparse], jacobian: &[Sparse]) -> Vec<Hold> {
     let mut motions = without_inertia(mass);
     let mut order: Vec<usize> = (0..jacobian.len()).collect();
     order.sort_by_key(|row| (joined(mass, &jacobian[*row]), jacobian[*row].len()));
-    let mut chosen = BTreeSet::new();
+    let mut holds = Vec::new();
     for row in order {
+        holds.extend(take_hold(&mut motions, row, &jacobian[row]));
         if motions.is_empty() {
-            break;
-        }
-        if take_hold(&mut motions, &jacobian[row]) {
-            chosen.insert(row);
+            holds.sort_by_key(|hold| hold.row);
+            return holds;
         }
     }
-    match motions.is_empty() {
-        true => chosen.into_iter().collect(),
-        false => Vec::new(),
-    }
+    Vec::new()
 }
 
 /// The entries of `M` and `A` that differ from zero, row by row, if all are finite.
@@ -126,30 +143,30 @@ fn joined(mass: &[Sparse], row: &Sparse) -> usize {
     pairs.filter(|(i, j)| !mass[**i].contains_key(j)).count()
 }
 
-/// Whether a row restricts one of the motions. The others are changed by it until the
-/// row does not, and it is left out.
-fn take_hold(motions: &mut Vec<Sparse>, row: &Sparse) -> bool {
+/// How a row holds one of the motions, which is then done with, if it holds one. The others
+/// are changed by it until the row does not hold them.
+fn take_hold(motions: &mut Vec<Sparse>, row: usize, entries: &Sparse) -> Option<Hold> {
     let size = |x: &Sparse| dot(x, x).sqrt();
-    let sine = |motion: &Sparse| dot(row, motion).abs() / (size(row) * size(motion));
-    let sines = motions.iter().map(sine).enumerate();
-    let Some((held, largest)) = sines.max_by(|(_, a), (_, b)| a.total_cmp(b)) else {
-        return false;
-    };
+    let grip = |motion: &Sparse| dot(entries, motion).abs() / size(motion);
+    let grips = motions.iter().map(grip).enumerate();
+    let (place, grip) = grips.max_by(|(_, a), (_, b)| a.total_cmp(b))?;
+    let cosine = grip / size(entries);
     // False for NaN, too: a row of zeros.
-    let restricts = largest > ALONG;
-    if restricts {
-        let held = motions.swap_remove(held);
-        let whole = dot(row, &held);
-        for motion in motions {
-            let share = dot(row, motion) / whole;
-            if share != 0.0 {
-                for (j, x) in &held {
-                    *motion.entry(*j).or_insert(0.0) -= share * x;
-                }
+    let restricts = cosine > ROUND_OFF.sqrt();
+    if !restricts {
+        return None;
+    }
+    let held = motions.swap_remove(place);
+    let whole = dot(entries, &held);
+    for motion in motions {
+        let share = dot(entries, motion) / whole;
+        if share != 0.0 {
+            for (j, x) in &held {
+                *motion.entry(*j).or_insert(0.0) -= share * x;
             }
         }
     }
-    restricts
+    Some(Hold { row, grip, cosine })
 }
 
 fn dot(x: &Sparse, y: &Sparse) -> f64 {

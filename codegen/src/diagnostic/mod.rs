@@ -8,11 +8,13 @@
 //! stops between stages.
 
 mod figure;
+mod library;
 mod render;
 mod span;
 mod suggest;
 
 pub use figure::figure;
+pub use library::LIBRARY;
 pub use span::{Position, Span};
 pub use suggest::nearest;
 
@@ -20,6 +22,9 @@ use std::fmt;
 
 /// More findings than this about one file help nobody; the rest is dropped.
 const KEPT: usize = 500;
+
+/// The uses of functions and parts that a finding names: the outermost and these.
+const USES: usize = 3;
 
 /// How bad a finding is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,6 +84,14 @@ impl Diagnostic {
         }
     }
 
+    /// Its place in the description: for a finding in the library of parts that of the
+    /// outermost use.
+    pub fn place(&self) -> Span {
+        let own = std::iter::once(&self.primary).chain(&self.secondary);
+        let own = own.map(|label| label.span).find(|span| !span.library);
+        own.unwrap_or(self.primary.span)
+    }
+
     /// Says what is at the place itself.
     pub fn labelled(mut self, text: impl Into<String>) -> Self {
         self.primary.text = text.into();
@@ -114,6 +127,8 @@ impl Diagnostic {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
+    /// Where that is used which is being looked at, from outside inwards.
+    uses: Vec<Label>,
 }
 
 impl Diagnostics {
@@ -124,10 +139,40 @@ impl Diagnostics {
 
     /// Records a finding. The same words about the same place are recorded once:
     /// the body of a loop is read many times.
-    pub fn push(&mut self, diagnostic: Diagnostic) {
-        if self.list.len() < KEPT && !self.list.contains(&diagnostic) {
+    /// Inside a function or a part the place of its use belongs to a finding, and the
+    /// first use stands for all.
+    pub fn push(&mut self, mut diagnostic: Diagnostic) {
+        let same = |d: &Diagnostic| {
+            d.message == diagnostic.message && d.primary.span == diagnostic.primary.span
+        };
+        let known = match self.uses.is_empty() {
+            true => self.list.contains(&diagnostic),
+            false => self.list.iter().any(same),
+        };
+        if self.list.len() < KEPT && !known {
+            let inner = self.uses.len().saturating_sub(USES).max(1);
+            let shown = self.uses.iter().enumerate();
+            let shown = shown.filter(|(i, _)| *i == 0 || *i >= inner);
+            diagnostic
+                .secondary
+                .extend(shown.map(|(_, label)| label.clone()));
             self.list.push(diagnostic);
         }
+    }
+
+    /// From here on findings are about something that is used at a place, in words.
+    pub fn enter(&mut self, span: Span, text: String) {
+        self.uses.push(Label { span, text });
+    }
+
+    /// Replaces the uses that findings are about, and returns those before.
+    pub fn look_from(&mut self, uses: Vec<Label>) -> Vec<Label> {
+        std::mem::replace(&mut self.uses, uses)
+    }
+
+    /// Ends what [`Diagnostics::enter`] began.
+    pub fn leave(&mut self) {
+        self.uses.pop();
     }
 
     /// The number of findings.
@@ -172,7 +217,7 @@ impl Diagnostics {
     /// The findings in the order of their places.
     pub fn sorted(&self) -> Vec<&Diagnostic> {
         let mut sorted: Vec<_> = self.list.iter().collect();
-        sorted.sort_by_key(|d| (d.primary.span.start.offset, d.primary.span.end.offset));
+        sorted.sort_by_key(|d| (d.place().start.offset, d.place().end.offset));
         sorted
     }
 
@@ -197,7 +242,7 @@ pub fn without_mark(source: &str) -> &str {
 impl fmt::Display for Diagnostics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for diagnostic in self.sorted() {
-            writeln!(f, "{}: {}", diagnostic.primary.span, diagnostic.message)?;
+            writeln!(f, "{}: {}", diagnostic.place(), diagnostic.message)?;
         }
         Ok(())
     }

@@ -6,7 +6,7 @@
 //!
 //! Not here: the drawing of snippets, which is annotate-snippets'.
 
-use super::{Diagnostic, Label, Severity};
+use super::{Diagnostic, LIBRARY, Label, Severity};
 use annotate_snippets::{Annotation, AnnotationKind, Level, Renderer, Snippet};
 
 /// More findings than this are counted, not shown: the first ones usually cause
@@ -27,21 +27,23 @@ pub fn render(diagnostics: &[&Diagnostic], file: &str, source: &str) -> String {
 }
 
 fn block(diagnostic: &Diagnostic, file: &str, source: &str) -> String {
-    let place = diagnostic.primary.span;
+    let place = diagnostic.place();
     let severity = match diagnostic.severity {
         Severity::Error => "error",
         Severity::Warning => "warning",
     };
-    let primary = annotation(AnnotationKind::Primary, &diagnostic.primary, source);
-    let others = diagnostic.secondary.iter();
-    let others = others.map(|label| annotation(AnnotationKind::Context, label, source));
-    let snippet = Snippet::source(source)
-        .annotation(primary)
-        .annotations(others);
     // The level is part of the first line, behind the place.
     let message = format!("{file}:{place}: {severity}: {}", diagnostic.message);
     let title = Level::ERROR.no_name().primary_title(&message);
-    let mut group = title.element(snippet);
+    let mut group = title.element(snippet(diagnostic, source, false));
+    if diagnostic.primary.span.library {
+        let inside = snippet(diagnostic, LIBRARY, true);
+        group = Level::ERROR
+            .no_name()
+            .primary_title(&message)
+            .element(inside.path("parts"));
+        group = group.element(snippet(diagnostic, source, false).path(file));
+    }
     if let Some(help) = &diagnostic.help {
         group = group.element(Level::HELP.message(help));
     }
@@ -49,6 +51,20 @@ fn block(diagnostic: &Diagnostic, file: &str, source: &str) -> String {
     text.lines()
         .map(|line| format!("{}\n", line.trim_end()))
         .collect()
+}
+
+/// The labels of a finding in one file: the description, or the library of parts.
+fn snippet<'a>(
+    diagnostic: &'a Diagnostic,
+    source: &'a str,
+    library: bool,
+) -> Snippet<'a, Annotation<'a>> {
+    let primary = std::iter::once((AnnotationKind::Primary, &diagnostic.primary));
+    let others = diagnostic.secondary.iter();
+    let labels = primary.chain(others.map(|label| (AnnotationKind::Context, label)));
+    let here = labels.filter(|(_, label)| label.span.library == library);
+    let here = here.map(|(kind, label)| annotation(kind, label, source));
+    Snippet::source(source).annotations(here)
 }
 
 /// A label on the bytes that its span covers, as far as the text has them.

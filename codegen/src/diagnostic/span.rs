@@ -20,6 +20,8 @@ pub struct Span {
     pub start: Position,
     /// Where it has ended.
     pub end: Position,
+    /// Whether the file is that of the library of parts.
+    pub library: bool,
 }
 
 impl Span {
@@ -28,6 +30,7 @@ impl Span {
         Span {
             start: self.start,
             end: other.end.max(self.end),
+            library: self.library,
         }
     }
 
@@ -36,6 +39,7 @@ impl Span {
         Span {
             start: self.end,
             end: self.end,
+            library: self.library,
         }
     }
 

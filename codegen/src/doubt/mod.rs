@@ -31,9 +31,12 @@ use numbers::Numbers;
 /// where it holds, a start that can't be assembled.
 pub fn doubts(mechanism: Mechanism) -> Diagnostics {
     let mut found = Diagnostics::new();
-    if let Some(mut numbers) = Numbers::new(mechanism) {
-        start::unassembled(&numbers, &mut found);
+    let own = mechanism.constraints.len();
+    if let Some(mut numbers) = Numbers::new(at_start(mechanism.clone())) {
+        start::unassembled(&numbers, own, &mut found);
         finite::statements(&mut numbers, &mut found);
+    }
+    if let Some(numbers) = Numbers::new(mechanism) {
         let flat = rows::flat(&numbers);
         rows::warn_of_flat(&numbers, &flat, &mut found);
         if !negative::energy(&numbers, &mut found) {
@@ -41,6 +44,13 @@ pub fn doubts(mechanism: Mechanism) -> Diagnostics {
         }
     }
     found
+}
+
+/// A mechanism with the equations of its start behind its constraints.
+fn at_start(mut mechanism: Mechanism) -> Mechanism {
+    let equations = std::mem::take(&mut mechanism.start_equations);
+    mechanism.constraints.extend(equations);
+    mechanism
 }
 
 /// Warns of equations that follow from the others at random positions. A run takes

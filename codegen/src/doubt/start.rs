@@ -29,8 +29,9 @@ fn not_finite(numbers: &Numbers, found: &mut Diagnostics) -> bool {
     any
 }
 
-/// Warns of a start that can't be assembled, with what each equation lacks.
-pub fn unassembled(numbers: &Numbers, found: &mut Diagnostics) {
+/// Warns of a start that can't be assembled, with what each equation lacks: of the
+/// constraints, `own` of them, and of the equations of the start behind them.
+pub fn unassembled(numbers: &Numbers, own: usize, found: &mut Diagnostics) {
     if not_finite(numbers, found) {
         return;
     }
@@ -50,7 +51,7 @@ pub fn unassembled(numbers: &Numbers, found: &mut Diagnostics) {
         };
         let (errors, holds) = numbers.errors(&rows, &end);
         if holds {
-            return unassembled_velocities(numbers, &end, found);
+            return unassembled_velocities(numbers, own, &end, found);
         }
         let size = errors.iter().map(|e| e * e).sum();
         if best.as_ref().is_none_or(|(least, _)| size < *least) {
@@ -70,7 +71,7 @@ pub fn unassembled(numbers: &Numbers, found: &mut Diagnostics) {
     }
 }
 
-fn unassembled_velocities(numbers: &Numbers, place: &Place, found: &mut Diagnostics) {
+fn unassembled_velocities(numbers: &Numbers, own: usize, place: &Place, found: &mut Diagnostics) {
     let n = place.q.len();
     let (mut v, mut held) = (vec![0.0; n], vec![false; n]);
     for start in numbers
@@ -82,7 +83,13 @@ fn unassembled_velocities(numbers: &Numbers, place: &Place, found: &mut Diagnost
         v[start.coordinate] = numbers.values(&[start.value], place)[0];
         held[start.coordinate] = start.held;
     }
+    // A position that is given at the start says nothing about velocities.
+    let constraints = &numbers.mechanism.constraints;
+    let counts = |row: &usize| *row < own || !constraints[*row].holonomic;
+    let rows: Vec<usize> = (0..constraints.len()).filter(counts).collect();
     let (jacobian, drift) = (numbers.jacobian(place), numbers.drift(place));
+    let jacobian: Vec<Vec<f64>> = rows.iter().map(|&row| jacobian[row].clone()).collect();
+    let drift: Vec<f64> = rows.iter().map(|&row| drift[row]).collect();
     let free: Vec<usize> = (0..n).filter(|&i| !held[i]).collect();
     let at = |x: &[f64]| {
         let mut v = v.clone();
@@ -112,13 +119,7 @@ fn unassembled_velocities(numbers: &Numbers, place: &Place, found: &mut Diagnost
         let message =
             "the start can't be assembled: the held velocities contradict the constraints";
         let help = "write `~` for a velocity that may change, or leave it out";
-        warn(
-            numbers,
-            message,
-            help,
-            errors.into_iter().enumerate(),
-            found,
-        );
+        warn(numbers, message, help, rows.into_iter().zip(errors), found);
     }
 }
 

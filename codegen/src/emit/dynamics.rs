@@ -78,6 +78,7 @@ pub(super) fn mechanism(subject: &mut Subject) -> TokenStream {
     };
     let energy = energy(subject);
     let linearised = linearised(subject);
+    let begin = super::start::begin(subject);
     let name = subject.type_name();
     quote! {
         impl<T: Real> Mechanism<T, #n, #r> for #name<T> {
@@ -87,6 +88,7 @@ pub(super) fn mechanism(subject: &mut Subject) -> TokenStream {
             #terms
             #regular
             #closure
+            #begin
             #energy
             #linearised
         }

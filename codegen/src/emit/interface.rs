@@ -145,7 +145,7 @@ fn start(subject: &mut Subject) -> TokenStream {
 }
 
 /// A method that writes a list of values into a slice, as many as there is room for.
-fn list(subject: &mut Subject, name: &'static str, entries: &[ExprId]) -> TokenStream {
+pub(super) fn list(subject: &mut Subject, name: &'static str, entries: &[ExprId]) -> TokenStream {
     let n = subject.sizes().0;
     let name_token = proc_macro2::Ident::new(name, proc_macro2::Span::call_site());
     if entries.is_empty() {

@@ -14,6 +14,7 @@ mod interface;
 mod linearised;
 mod literal;
 mod name;
+mod start;
 mod structure;
 mod symbol;
 mod write;
@@ -113,6 +114,7 @@ pub fn module(
     let holder = holder(&subject);
     let dynamics = dynamics::mechanism(&mut subject);
     let functions = dynamics::functions(&mut subject);
+    let start_equations = start::equations(&mut subject);
     let interface = interface::interface(&mut subject);
     let imports = imports(&subject, &dynamics);
     let mut docs = module_docs(&subject, origin);
@@ -135,6 +137,7 @@ pub fn module(
             #holder
             #dynamics
             #functions
+            #start_equations
             #interface
         }
     }
@@ -273,6 +276,9 @@ fn imports(subject: &Subject, dynamics: &TokenStream) -> TokenStream {
     }
     if !subject.mechanism.described.is_empty() {
         names.extend(["ConstraintRow", "Declared", "Described"]);
+    }
+    if !subject.mechanism.start_equations.is_empty() {
+        names.extend(["ConstraintRow", "StartEquations", "StartFault", "meet"]);
     }
     if !subject.mechanism.events.is_empty() {
         names.extend(["Direction", "Event"]);

@@ -74,7 +74,7 @@ pub(super) fn snake_case(name: &str) -> String {
 }
 
 /// Types that stand beside a mechanism's in its module.
-const NEIGHBOURS: [&str; 28] = [
+const NEIGHBOURS: [&str; 31] = [
     "Canvas",
     "ConstraintRow",
     "Correction",
@@ -94,11 +94,14 @@ const NEIGHBOURS: [&str; 28] = [
     "Quantity",
     "Real",
     "Regular",
+    "Result",
     "SMatrix",
     "SVector",
     "Self",
     "Some",
     "Start",
+    "StartEquations",
+    "StartFault",
     "State",
     "Structure",
     "T",

@@ -6,7 +6,7 @@ use super::unit::Unit;
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::Number;
-use crate::parse::ast::{Expr, Range};
+use crate::parse::ast::{Expr, Name, Range};
 
 /// The largest exponent that can be written.
 const EXPONENT: f64 = 1000.0;
@@ -267,14 +267,35 @@ impl Evaluator {
         if let Err(diagnostic) = self.scope.declare(&range.index, Kind::Index) {
             return self.report(*diagnostic);
         }
-        let id = self.graph.integer(value);
-        let index = Value::Scalar(Scalar {
-            id,
-            unit: Unit::Number,
-        });
-        self.scope.set(&range.index.text, Some(index));
+        self.set_index(&range.index, value);
         let result = work(self);
         self.scope.close(mark);
         result
+    }
+
+    /// Does something while an index, which is known to be free, has a value.
+    pub fn with_value<T>(
+        &mut self,
+        index: &Name,
+        value: i64,
+        work: impl FnOnce(&mut Self) -> T,
+    ) -> T {
+        let mark = self.scope.open();
+        if let Err(diagnostic) = self.scope.declare(index, Kind::Index) {
+            self.report::<()>(*diagnostic);
+        }
+        self.set_index(index, value);
+        let result = work(self);
+        self.scope.close(mark);
+        result
+    }
+
+    fn set_index(&mut self, index: &Name, value: i64) {
+        let id = self.graph.integer(value);
+        let value = Value::Scalar(Scalar {
+            id,
+            unit: Unit::Number,
+        });
+        self.scope.set(&index.text, Some(value));
     }
 }

@@ -80,9 +80,10 @@ impl Evaluator {
                 }
                 _ => {}
             },
+            ExprKind::Member(..) => {}
             ExprKind::Repeat(_, term) => self.collect(term, found),
             ExprKind::Vector(parts) => parts.iter().for_each(|x| self.collect(x, found)),
-            ExprKind::Number(_) | ExprKind::If(..) => {}
+            ExprKind::Number(_) | ExprKind::If(..) | ExprKind::InUnit(..) => {}
         }
     }
 

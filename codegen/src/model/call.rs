@@ -72,6 +72,10 @@ impl Evaluator {
         let (arity, form) = match (unary, other) {
             (Some((_, name)), _) => (1, format!("{name}(x)")),
             (None, Some((_, arity, form))) => (*arity, (*form).to_string()),
+            (None, None) if self.functions.contains(&name.text) => {
+                return self.apply(name, arguments, span);
+            }
+            (None, None) if self.parts.known(&name.text) => return self.part_alone(name, span),
             (None, None) => return self.unknown_function(name),
         };
         if let ("rot", [angle]) = (name.text.as_str(), arguments) {
@@ -139,7 +143,7 @@ impl Evaluator {
                 }))
             }
             ("transpose", [Value::Matrix(m)]) => self.transpose(m, span).map(Value::Matrix),
-            ("omega", [Value::Matrix(m)]) if m.rows.len() == 3 && m.rows[0].len() == 3 => {
+            ("omega", [Value::Matrix(m)]) if m.is_square() && m.rows.len() <= 3 => {
                 self.angular_velocity(m, span)
             }
             _ => self.wrong_shape(name, &values, span),
@@ -152,7 +156,7 @@ impl Evaluator {
             "cross" => "two vectors of two or three components",
             "norm" | "norm2" => "a vector",
             "transpose" => "a matrix",
-            _ => "a 3 × 3 matrix",
+            _ => "a 2 × 2 or a 3 × 3 matrix",
         };
         let shapes: Vec<_> = values.iter().map(Value::shape).collect();
         let message = format!("`{name}` takes {wants}, this is {}", shapes.join(" and "));
@@ -223,7 +227,12 @@ impl Evaluator {
         let Some(spin) = m.spin else {
             return Some(Matrix { rows, spin: None });
         };
-        let turned = self.transform(m, &spin, span)?.into_iter();
+        let turned = match m.rows.len() {
+            // About the normal of the plane, which stays where it is.
+            2 => spin.to_vec(),
+            _ => self.transform(m, &spin, span)?,
+        };
+        let turned = turned.into_iter();
         let opposite: Vec<_> = turned
             .map(|s| Scalar {
                 id: self.graph.neg(s.id),
@@ -288,25 +297,26 @@ impl Evaluator {
 
     fn unknown_function(&mut self, name: &Name) -> Option<Value> {
         let text = name.text.as_str();
-        let functions = Function::ALL.iter().map(|(_, name)| *name);
-        let functions = functions.chain(other_functions());
+        if self.scope.unreadable.contains(text) {
+            return None;
+        }
+        let built_in = Function::ALL.iter().map(|(_, name)| *name);
+        let functions = built_in.chain(other_functions()).map(|name| name as &str);
+        let functions: Vec<&str> = functions.chain(self.functions.names()).collect();
         let help = if self.scope.get(text).is_some() || text == "t" || text == "pi" {
             format!("`{text}` is no function; a product is written `{text}*(…)`")
         } else if let Some((_, form)) = ELSEWHERE.iter().find(|(other, _)| *other == text) {
             format!("write `{form}`")
-        } else if let Some(near) = nearest(text, functions.clone()) {
+        } else if let Some(near) = nearest(text, functions.iter().copied()) {
             format!("did you mean `{near}`?")
         } else {
-            format!(
-                "the functions are {}",
-                functions.collect::<Vec<_>>().join(", ")
-            )
+            format!("the functions are {}", functions.join(", "))
         };
         self.report(Diagnostic::error(name.span, format!("unknown function `{text}`")).help(help))
     }
 }
 
-fn count(arguments: usize) -> String {
+pub fn count(arguments: usize) -> String {
     match arguments {
         1 => "one argument".into(),
         2 => "two arguments".into(),
@@ -314,7 +324,7 @@ fn count(arguments: usize) -> String {
     }
 }
 
-fn are(arguments: usize) -> String {
+pub fn are(arguments: usize) -> String {
     match arguments {
         0 => "is none".into(),
         1 => "is one".into(),

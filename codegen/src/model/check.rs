@@ -82,18 +82,24 @@ impl Lowering<'_> {
         }
     }
 
-    /// Checks what a force works on.
-    pub fn legal_target(&mut self, on: &Expr, point: &Value) -> Option<()> {
+    /// Checks what a force works on: whether it is a velocity, such as `omega(R)`.
+    pub fn legal_target(&mut self, on: &Expr, point: &Value) -> Option<bool> {
         let facts: Vec<Facts> = point
             .scalars()
             .iter()
             .map(|s| self.evaluator.facts(s.id))
             .collect();
         let any = |has: fn(&Facts) -> bool| facts.iter().any(has);
-        let (message, help) = if any(Facts::velocity) {
+        let derivative = matches!(&on.kind, ExprKind::Call(name, _) if name.text == "der");
+        let (message, help) = if any(Facts::velocity) && derivative {
             (
                 "a force can't work on a velocity",
                 "write the coordinate, angle, length or point",
+            )
+        } else if any(|facts| facts.degree > 1) {
+            (
+                "what a moment works on has to be linear in the velocities",
+                "write the angular velocity of a body: `force M on omega(R);`",
             )
         } else if any(|facts| facts.input) {
             (
@@ -102,13 +108,13 @@ impl Lowering<'_> {
             )
         } else if any(|facts| facts.kinked) {
             ("what a force works on has to be differentiable", SMOOTH)
-        } else if !any(|facts| facts.coordinate) {
+        } else if !any(|facts| facts.coordinate || facts.velocity()) {
             (
                 "this force does no work: there is no coordinate in what it works on",
                 "write what it moves",
             )
         } else {
-            return Some(());
+            return Some(any(Facts::velocity));
         };
         self.report(Diagnostic::error(on.span, message).help(help))
     }

@@ -1,25 +1,40 @@
 //! Constants and parameters, and what a build script changes about them.
 
-use super::declare::quantity;
 use super::lower::Lowering;
-use super::order::{Definition, order};
-use super::unit::Unit;
+use super::order::{Definition, QUANTITIES, order};
 use super::value::{Scalar, Value};
 use super::{Constant, Parameter};
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::expr::{ExprId, Number, Symbol};
 use crate::parse::Model;
-use crate::parse::ast::{Declaration, Declared, Item, ItemKind};
+use crate::parse::ast::{Declaration, Declared, ExprKind, Item, ItemKind};
 
 impl Lowering<'_> {
-    /// Checks that the build script changes what there is.
+    /// Checks that the build script changes what there is: whole constants and parameters,
+    /// or their elements.
     pub fn changes_fit(&mut self, model: &Model) {
-        let names = |kind: Declared| -> Vec<&str> {
+        let elements: Vec<String> = self.mechanism.constants.iter().map(element_name).collect();
+        let first = |path: &String| {
+            path.split(['.', '['])
+                .next()
+                .unwrap_or_default()
+                .to_string()
+        };
+        let parts: Vec<String> = self.evaluator.parts.used.keys().map(first).collect();
+        let names = |kind: Declared| -> Vec<String> {
             let declared = model.items.iter().filter_map(|item| match &item.kind {
-                ItemKind::Declaration(d) if d.kind == kind => Some(d.name.text.as_str()),
+                ItemKind::Declaration(d) if d.kind == kind => Some(d.name.text.clone()),
                 _ => None,
             });
-            declared.collect()
+            let declared: Vec<String> = declared.collect();
+            let in_part = |base: &str| parts.iter().any(|part| part == base);
+            let inside = |element: &&String| {
+                let base = element.split(['.', '[']).next().unwrap_or_default();
+                let declared = declared.iter().any(|name| name == base);
+                base != element.as_str() && (declared || in_part(base))
+            };
+            let elements = elements.iter().filter(inside).cloned().collect();
+            [declared, elements].concat()
         };
         let constants = self
             .constants
@@ -31,10 +46,10 @@ impl Lowering<'_> {
             .map(|name| (name, "parameter", Declared::Parameter));
         for (name, kind, declared) in constants.chain(frozen) {
             let known = names(declared);
-            if known.contains(&name.as_str()) {
+            if known.contains(name) {
                 continue;
             }
-            let near = nearest(name, known.iter().copied());
+            let near = nearest(name, known.iter().map(String::as_str));
             let help = match near {
                 Some(near) => format!("did you mean `{near}`?"),
                 None if known.is_empty() => format!("the description declares no {kind}"),
@@ -48,61 +63,87 @@ impl Lowering<'_> {
 
     /// Evaluates the constants, each behind those it mentions.
     pub fn constants(&mut self, items: &[(&Item, &Declaration)]) {
-        let definition = |(_, d): &(&'_ Item, &'_ Declaration)| -> bool {
-            self.constants.iter().any(|(name, _)| *name == d.name.text)
-        };
-        let overridden: Vec<bool> = items.iter().map(definition).collect();
+        let overridden: Vec<bool> = items
+            .iter()
+            .map(|(_, d)| {
+                is_one_number(d)
+                    && self
+                        .changed(&self.evaluator.scope.full(&d.name.text))
+                        .is_some()
+            })
+            .collect();
         let definitions: Vec<_> = items
             .iter()
             .zip(&overridden)
             .map(|((_, d), overridden)| Definition {
                 name: &d.name,
-                formulas: if *overridden {
-                    Vec::new()
-                } else {
-                    vec![&d.value]
+                mentions: match overridden {
+                    true => Vec::new(),
+                    false => self.evaluator.functions.mentions(d.formulas()),
                 },
                 recursive: false,
             })
             .collect();
-        for i in order(&definitions, &mut self.evaluator.diagnostics) {
+        for i in order(&definitions, QUANTITIES, &mut self.evaluator.diagnostics) {
             self.constant(items[i].0, items[i].1);
         }
         let place = |constant: &Constant| constant.quantity.span.start.offset;
         self.mechanism.constants.sort_by_key(place);
     }
 
-    fn constant(&mut self, item: &Item, declaration: &Declaration) {
-        let changed = self
-            .constants
-            .iter()
-            .rev()
-            .find(|(name, _)| *name == declaration.name.text);
-        let changed = changed.map(|(_, value)| *value);
-        let Some((unit, id)) = (match changed {
-            Some(value) => self.changed_constant(declaration, value),
-            None => self.constant_value(declaration, "a constant"),
-        }) else {
-            return;
+    /// What the build script gives a constant or an element of one.
+    fn changed(&self, name: &str) -> Option<f64> {
+        let changes = self.constants.iter().rev();
+        let change = changes.into_iter().find(|(changed, _)| changed == name);
+        change.map(|(_, value)| *value)
+    }
+
+    fn constant(&mut self, item: &Item, declaration: &Declaration) -> Option<()> {
+        let name = &declaration.name.text;
+        let unit = self.unit(declaration.unit.as_ref());
+        let full = self.evaluator.scope.full(name);
+        let value = match self.changed(&full) {
+            Some(value) if is_one_number(declaration) => {
+                let id = self.changed_constant(declaration, value)?;
+                Value::Scalar(Scalar { id, unit })
+            }
+            Some(_) => {
+                let message = format!("the build script sets all of `{full}` to one number");
+                let error = Diagnostic::error(declaration.name.span, message);
+                return self.report(error.help(format!("set its elements, such as `{full}[0]`")));
+            }
+            None => self.constant_value(declaration, "a constant")?,
         };
-        self.evaluator.scope.set(
-            &declaration.name.text,
-            Some(Value::Scalar(Scalar { id, unit })),
-        );
-        let quantity = quantity(item, &declaration.name, declaration.unit.as_ref());
-        self.mechanism.constants.push(Constant {
-            quantity,
-            value: id,
-        });
+        let mut scalars = Vec::new();
+        for (scalar, suffix) in value.scalars().into_iter().zip(value.suffixes()) {
+            let mut quantity = self.quantity(item, &declaration.name, declaration.unit.as_ref());
+            quantity.name.push_str(&suffix);
+            let changed = match suffix.is_empty() {
+                true => None,
+                false => self.changed(&quantity.name),
+            };
+            let id = match changed {
+                Some(value) => self.changed_constant(declaration, value)?,
+                None => scalar.id,
+            };
+            scalars.push(Scalar { id, unit });
+            let value = id;
+            self.mechanism.constants.push(Constant { quantity, value });
+        }
+        let same = scalars
+            .iter()
+            .zip(value.scalars())
+            .all(|(a, b)| a.id == b.id);
+        let value = match same {
+            true => value.with_unit(unit),
+            false => value.with_scalars(scalars),
+        };
+        self.evaluator.scope.set(name, Some(value));
+        Some(())
     }
 
     /// The value that the build script gives, as exact as it is written there.
-    fn changed_constant(
-        &mut self,
-        declaration: &Declaration,
-        value: f64,
-    ) -> Option<(Unit, ExprId)> {
-        let unit = self.unit(declaration.unit.as_ref());
+    fn changed_constant(&mut self, declaration: &Declaration, value: f64) -> Option<ExprId> {
         let size = Number::parse_literal(&format!("{:?}", value.abs()));
         let Some(size) = size.filter(|_| value.is_finite()) else {
             let name = &declaration.name;
@@ -113,47 +154,58 @@ impl Lowering<'_> {
             return self.report(Diagnostic::error(name.span, message));
         };
         let number = if value < 0.0 { -size } else { size };
-        Some((unit, self.evaluator.graph.number(number)))
+        Some(self.evaluator.graph.number(number))
     }
 
-    /// The declared unit and the value of a formula of numbers and constants.
-    fn constant_value(
-        &mut self,
-        declaration: &Declaration,
-        what: &'static str,
-    ) -> Option<(Unit, ExprId)> {
+    /// The value of a formula of numbers and constants, in the declared unit.
+    fn constant_value(&mut self, declaration: &Declaration, what: &'static str) -> Option<Value> {
         let unit = self.unit(declaration.unit.as_ref());
         self.evaluator.constant = Some(what);
-        let value = self.evaluator.scalar(&declaration.value, what);
+        let value = self.evaluator.declared_value(declaration, what);
         self.evaluator.constant = None;
         let value = value?;
-        self.fits(declaration, unit, value)?;
-        Some((unit, value.id))
+        for scalar in value.scalars() {
+            self.fits(declaration, unit, scalar)?;
+        }
+        Some(value.with_unit(unit))
     }
 
-    /// Evaluates the default of a parameter.
-    pub fn parameter(&mut self, item: &Item, declaration: &Declaration) {
-        let Some((unit, default)) = self.constant_value(declaration, "the default of a parameter")
-        else {
-            return;
-        };
-        let quantity = quantity(item, &declaration.name, declaration.unit.as_ref());
-        let id = if self.frozen.contains(&declaration.name.text) {
-            self.mechanism.constants.push(Constant {
-                quantity,
-                value: default,
-            });
-            default
-        } else {
+    /// Evaluates the default of a parameter; each number of it is a parameter of its own.
+    pub fn parameter(&mut self, item: &Item, declaration: &Declaration) -> Option<()> {
+        let name = &declaration.name.text;
+        let value = self.constant_value(declaration, "the default of a parameter")?;
+        let whole = self.frozen.contains(&self.evaluator.scope.full(name));
+        let mut scalars = Vec::new();
+        for (scalar, suffix) in value.scalars().into_iter().zip(value.suffixes()) {
+            let mut quantity = self.quantity(item, &declaration.name, declaration.unit.as_ref());
+            quantity.name.push_str(&suffix);
+            let (default, value) = (scalar.id, scalar.id);
+            if whole || self.frozen.contains(&quantity.name) {
+                self.mechanism.constants.push(Constant { quantity, value });
+                scalars.push(scalar);
+                continue;
+            }
             let index = self.mechanism.parameters.len() as u32;
-            self.mechanism
-                .parameters
-                .push(Parameter { quantity, default });
-            self.evaluator.graph.symbol(Symbol::Parameter(index))
-        };
-        self.evaluator.scope.set(
-            &declaration.name.text,
-            Some(Value::Scalar(Scalar { id, unit })),
-        );
+            let id = self.evaluator.graph.symbol(Symbol::Parameter(index));
+            let parameter = Parameter { quantity, default };
+            self.mechanism.parameters.push(parameter);
+            scalars.push(Scalar { id, ..scalar });
+        }
+        let value = value.with_scalars(scalars);
+        self.evaluator.scope.set(name, Some(value));
+        Some(())
     }
+}
+
+/// Whether a declaration is of one number, as far as it shows before it is evaluated.
+fn is_one_number(declaration: &Declaration) -> bool {
+    let list = matches!(
+        declaration.value.kind,
+        ExprKind::Vector(_) | ExprKind::InUnit(..)
+    );
+    declaration.size.is_none() && !list
+}
+
+fn element_name(constant: &Constant) -> String {
+    constant.quantity.name.clone()
 }

@@ -2,7 +2,9 @@
 //! quantities and the laws of inputs.
 
 use super::lower::Lowering;
-use super::order::{Definition, order};
+use super::member::Waiting;
+use super::order::{Definition, QUANTITIES, order};
+use super::part::Placed;
 use super::scope::Kind;
 use super::si;
 use super::unit::Unit;
@@ -10,49 +12,60 @@ use super::value::{Array, Scalar, Value};
 use super::{Input, Quantity};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::Symbol;
-use crate::parse::ast::{Declaration, Declared, Expr, Item, ItemKind, Let, Name, UnitExpr};
+use crate::parse::ast::{
+    Declaration, Declared, Expr, ExprKind, Item, ItemKind, Let, Name, UnitExpr,
+};
 use std::rc::Rc;
 
 /// The most coordinates of a mechanism.
 const COORDINATES: i64 = 10_000;
 
-impl Lowering<'_> {
-    /// Reads all declarations outside loops.
-    pub fn declare(&mut self, items: &[Item]) {
-        let fresh: Vec<&Item> = items
-            .iter()
-            .filter(|item| self.declare_name(item))
-            .collect();
-        let declarations = || {
-            fresh.iter().filter_map(|item| match &item.kind {
-                ItemKind::Declaration(declaration) => Some((*item, declaration)),
-                _ => None,
-            })
-        };
-        let of = |kind| declarations().filter(move |(_, d)| d.kind == kind);
-        self.constants(&of(Declared::Constant).collect::<Vec<_>>());
-        for (item, declaration) in of(Declared::Parameter) {
-            self.parameter(item, declaration);
+impl<'a> Lowering<'a> {
+    /// Reads all declarations outside loops, those of parts among them, and returns all
+    /// statements.
+    pub fn declare(&mut self, items: &'a [Item], library: &'a [Item]) -> Vec<Placed<'a>> {
+        let mut placed = Vec::new();
+        self.parts(items, library);
+        self.functions(items.iter().chain(library));
+        self.place(items, &Rc::default(), &mut placed);
+        let fresh: Vec<&Placed> = placed.iter().filter(|placed| placed.fresh).collect();
+        for Placed { item, frame, .. } in &fresh {
+            if let ItemKind::Declaration(d) = &item.kind
+                && d.kind == Declared::Parameter
+            {
+                self.inside(frame, |this| this.parameter(item, d));
+            }
         }
-        for item in &fresh {
+        for Placed { item, frame, .. } in &fresh {
             if let ItemKind::Coordinate { name, size, unit } = &item.kind {
-                self.coordinates(item, name, size.as_ref(), unit.as_ref());
+                self.inside(frame, |this| {
+                    this.coordinates(item, name, size.as_ref(), unit.as_ref());
+                });
             }
         }
         self.set_flow();
-        let inputs: Vec<_> = of(Declared::Input).collect();
-        for (index, (_, declaration)) in inputs.iter().enumerate() {
-            self.input_symbol(index, declaration);
+        let inputs = fresh.iter().filter_map(|placed| match &placed.item.kind {
+            ItemKind::Declaration(d) if d.kind == Declared::Input => Some((placed, d)),
+            _ => None,
+        });
+        let inputs: Vec<_> = inputs.collect();
+        let symbols = inputs
+            .iter()
+            .map(|(placed, d)| self.inside(&placed.frame, |this| this.input_symbol(d)));
+        let symbols: Vec<_> = symbols.collect();
+        self.all_quantities(&fresh);
+        for ((placed, declaration), symbols) in inputs.into_iter().zip(symbols) {
+            if let Some(symbols) = symbols {
+                self.inside(&placed.frame, |this| {
+                    this.input_law(placed.item, declaration, &symbols)
+                });
+            }
         }
-        let lets: Vec<&Let> = fresh.iter().filter_map(|item| as_let(item)).collect();
-        self.quantities(&lets);
-        for (item, declaration) in inputs {
-            self.input_law(item, declaration);
-        }
+        placed
     }
 
     /// Declares the name of a statement; false if it is taken or there is none.
-    fn declare_name(&mut self, item: &Item) -> bool {
+    pub fn declare_name(&mut self, item: &Item) -> bool {
         let (name, kind) = match &item.kind {
             ItemKind::Declaration(declaration) => {
                 let kind = match declaration.kind {
@@ -64,13 +77,19 @@ impl Lowering<'_> {
                 (&declaration.name, kind)
             }
             ItemKind::Coordinate { name, .. } => (name, Kind::Coordinate),
-            ItemKind::Let(quantity) => (&quantity.name, Kind::Quantity),
+            ItemKind::Let(quantity) => match &quantity.value.kind {
+                ExprKind::Call(called, _) if self.parts.contains_key(called.text.as_str()) => {
+                    self.used_parts.push(called.text.clone());
+                    (&quantity.name, Kind::Part)
+                }
+                _ => (&quantity.name, Kind::Quantity),
+            },
             _ => return false,
         };
         self.declare_as(name, kind)
     }
 
-    fn declare_as(&mut self, name: &Name, kind: Kind) -> bool {
+    pub fn declare_as(&mut self, name: &Name, kind: Kind) -> bool {
         match self.evaluator.scope.declare(name, kind) {
             Ok(()) => true,
             Err(diagnostic) => {
@@ -83,44 +102,11 @@ impl Lowering<'_> {
     /// Refuses a value in another unit than the declared one.
     pub fn fits(&mut self, declaration: &Declaration, unit: Unit, value: Scalar) -> Option<()> {
         let place = declaration.unit.as_ref();
-        self.fits_in(
+        self.evaluator.fits_in(
             (&declaration.name, place),
             unit,
             (&declaration.value, value),
         )
-    }
-
-    fn fits_in(
-        &mut self,
-        (name, place): (&Name, Option<&UnitExpr>),
-        unit: Unit,
-        (e, value): (&Expr, Scalar),
-    ) -> Option<()> {
-        let Err((declared, dimension)) = unit.meet(value.unit) else {
-            return Some(());
-        };
-        let (text, unit_name) = (&name.text, declared.text());
-        let found = dimension.said();
-        let said = found.replacen("this", "its value", 1);
-        let message = format!("`{text}` is declared in {unit_name}, {said}");
-        let place = place.map_or(name.span, |unit| unit.span);
-        let error = Diagnostic::error(e.span, message);
-        let error = (self.evaluator).declare_bare(error, e, [declared, dimension]);
-        self.report(error.labelled(found).also(place, "declared here"))
-    }
-
-    /// The value of a quantity, in the unit that it is declared with: what bare numbers and
-    /// symbols without unit have made is from here on in that unit.
-    fn in_unit(&mut self, quantity: &Let, value: Value) -> Option<Value> {
-        let Some(place) = &quantity.unit else {
-            return Some(value);
-        };
-        let unit = self.unit(Some(place));
-        for scalar in value.scalars() {
-            let e = &quantity.value;
-            self.fits_in((&quantity.name, Some(place)), unit, (e, scalar))?;
-        }
-        Some(value.with_unit(unit))
     }
 
     fn coordinates(
@@ -132,7 +118,7 @@ impl Lowering<'_> {
     ) {
         let checked = self.unit(unit);
         let Some(size_expr) = size else {
-            let whole = quantity(item, name, unit);
+            let whole = self.quantity(item, name, unit);
             let scalar = self.coordinate(whole, checked);
             self.evaluator
                 .scope
@@ -146,8 +132,8 @@ impl Lowering<'_> {
             return;
         };
         let element = |i| {
-            let mut part = quantity(item, name, unit);
-            part.name = format!("{}[{i}]", name.text);
+            let mut part = self.quantity(item, name, unit);
+            part.name.push_str(&format!("[{i}]"));
             Value::Scalar(self.coordinate(part, checked))
         };
         let items = (0..size).map(element).collect();
@@ -192,39 +178,45 @@ impl Lowering<'_> {
         self.evaluator.flow = flow;
     }
 
-    fn input_symbol(&mut self, index: usize, declaration: &Declaration) {
-        let unit = self.unit(declaration.unit.as_ref());
-        let id = self.evaluator.graph.symbol(Symbol::Input(index as u32));
-        self.evaluator.scope.set(
-            &declaration.name.text,
-            Some(Value::Scalar(Scalar { id, unit })),
-        );
+    fn input_symbol(&mut self, declaration: &Declaration) -> Option<Value> {
+        let symbols = self.input_symbols(declaration, self.n_inputs)?;
+        self.n_inputs += symbols.scalars().len() as u32;
+        let name = &declaration.name.text;
+        self.evaluator.scope.set(name, Some(symbols.clone()));
+        Some(symbols)
     }
 
     /// The law of an input. Its numbers are gains in units of their own: with
     /// them, `10 - 2*der(q1)` is a moment.
-    fn input_law(&mut self, item: &Item, declaration: &Declaration) {
+    fn input_law(&mut self, item: &Item, declaration: &Declaration, symbols: &Value) -> Option<()> {
         let unit = self.unit(declaration.unit.as_ref());
+        let what = "the law of an input";
         self.evaluator.gains = true;
-        let law = self
-            .evaluator
-            .scalar(&declaration.value, "the law of an input");
+        let law = match symbols {
+            Value::Scalar(_) => {
+                (self.evaluator.scalar(&declaration.value, what)).map(Value::Scalar)
+            }
+            _ => self.evaluator.declared_value(declaration, what),
+        };
         self.evaluator.gains = false;
-        let quantity = quantity(item, &declaration.name, declaration.unit.as_ref());
-        let law = law.and_then(|law| {
+        let law = law?;
+        let (place, suffixes) = (declaration.value.span, symbols.suffixes());
+        if law.suffixes() != suffixes {
+            let message = format!("the elements of this law are {}, not numbers", law.shape());
+            return self.report(Diagnostic::error(place, message));
+        }
+        for (law, suffix) in law.scalars().into_iter().zip(suffixes) {
             self.fits(declaration, unit, law)?;
             if self.evaluator.facts(law.id).input {
-                let error = Diagnostic::error(
-                    declaration.value.span,
-                    "the law of an input contains an input",
-                );
+                let error = Diagnostic::error(place, "the law of an input contains an input");
                 return self.report(error.help("write the other law here, or make it a `let`"));
             }
-            Some(law.id)
-        });
-        if let Some(law) = law {
+            let mut quantity = self.quantity(item, &declaration.name, declaration.unit.as_ref());
+            quantity.name.push_str(&suffix);
+            let law = law.id;
             self.mechanism.inputs.push(Input { quantity, law });
         }
+        Some(())
     }
 
     /// Declares and evaluates the quantities of the body of a loop.
@@ -237,35 +229,103 @@ impl Lowering<'_> {
         self.quantities(&fresh);
     }
 
-    /// Evaluates quantities in an order of their own.
+    /// Evaluates the quantities outside loops, each behind those that it mentions, as far as
+    /// that shows; others are evaluated when they are asked for.
+    fn all_quantities(&mut self, fresh: &[&Placed<'a>]) {
+        for Placed { item, frame, .. } in fresh {
+            if let ItemKind::Let(quantity) = &item.kind {
+                let full = format!("{}{}", frame.prefix, quantity.name.text);
+                self.unit(quantity.unit.as_ref());
+                let waiting = Waiting {
+                    quantity: Rc::new((**quantity).clone()),
+                    frame: Rc::clone(frame),
+                    index: None,
+                    argument_of: None,
+                };
+                self.waits(full, waiting);
+            }
+        }
+        let all = std::mem::take(&mut self.waiting);
+        let names: Vec<Name> = all.iter().map(|full| self.waiting_name(full)).collect();
+        let definitions: Vec<Definition> = names.iter().map(|n| self.definition(n)).collect();
+        let sorted = order(&definitions, QUANTITIES, &mut self.evaluator.diagnostics);
+        let mut circular = vec![true; names.len()];
+        sorted.iter().for_each(|&i| circular[i] = false);
+        for (name, _) in names.iter().zip(circular).filter(|(_, circular)| *circular) {
+            self.evaluator.parts.waiting.remove(&name.text);
+        }
+        for i in sorted {
+            let name = &names[i];
+            self.evaluator.settle(&name.text, Kind::Quantity, name.span);
+        }
+        self.evaluator.parts.waiting.clear();
+    }
+
+    /// The name of a quantity that waits, in full.
+    fn waiting_name(&self, full: &str) -> Name {
+        let waiting = self.evaluator.parts.waiting.get(full);
+        Name {
+            text: full.to_string(),
+            span: waiting
+                .map(|waiting| waiting.quantity.name.span)
+                .unwrap_or_default(),
+        }
+    }
+
+    /// A quantity that waits, by what it mentions.
+    fn definition<'n>(&self, name: &'n Name) -> Definition<'n> {
+        let Some(waiting) = self.evaluator.parts.waiting.get(&name.text) else {
+            return Definition {
+                name,
+                mentions: Vec::new(),
+                recursive: false,
+            };
+        };
+        let prefix = &waiting.frame.prefix;
+        let known = &self.evaluator.parts.waiting;
+        let mentions = self
+            .evaluator
+            .functions
+            .mentions(waiting.quantity.formulas());
+        let in_full = |short: String| {
+            let full = format!("{prefix}{short}");
+            match known.contains_key(&full) {
+                true => full,
+                false => short,
+            }
+        };
+        Definition {
+            name,
+            mentions: mentions.into_iter().map(in_full).collect(),
+            recursive: waiting.quantity.range.is_some(),
+        }
+    }
+
+    /// Evaluates the quantities of the body of a loop in an order of their own.
     fn quantities(&mut self, lets: &[&Let]) {
         let definitions: Vec<_> = lets
             .iter()
-            .map(|quantity| {
-                let range = quantity
-                    .range
-                    .iter()
-                    .flat_map(|range| [&range.from, &range.to]);
-                let formulas = range.chain([&quantity.value]).collect();
-                Definition {
-                    name: &quantity.name,
-                    formulas,
-                    recursive: quantity.range.is_some(),
-                }
+            .map(|quantity| Definition {
+                name: &quantity.name,
+                mentions: self.evaluator.functions.mentions(quantity.formulas()),
+                recursive: quantity.range.is_some(),
             })
             .collect();
-        for i in order(&definitions, &mut self.evaluator.diagnostics) {
-            let value = match &lets[i].range {
-                None => self.evaluator.evaluate(&lets[i].value),
-                Some(range) => self.evaluator.array(&lets[i].name, range, &lets[i].value),
-            };
-            let value = value.and_then(|value| self.in_unit(lets[i], value));
-            let bare = match lets[i].unit {
-                Some(_) => None,
-                None => self.evaluator.bare(&lets[i].value),
-            };
+        for i in order(&definitions, QUANTITIES, &mut self.evaluator.diagnostics) {
+            self.unit(lets[i].unit.as_ref());
+            let (value, bare) = self.evaluator.quantity(lets[i]);
             self.evaluator.scope.set(&lets[i].name.text, value);
             self.evaluator.scope.set_bare(&lets[i].name.text, bare);
+        }
+    }
+
+    /// A quantity as it is declared, with its name in full.
+    pub fn quantity(&self, item: &Item, name: &Name, unit: Option<&UnitExpr>) -> Quantity {
+        Quantity {
+            name: self.evaluator.scope.full(&name.text),
+            unit: unit.map(|unit| unit.text.clone()).unwrap_or_default(),
+            docs: item.docs.clone(),
+            span: self.place_of(name.span),
         }
     }
 
@@ -286,16 +346,5 @@ fn as_let(item: &Item) -> Option<&Let> {
     match &item.kind {
         ItemKind::Let(quantity) => Some(quantity),
         _ => None,
-    }
-}
-
-/// A quantity as it is declared.
-pub fn quantity(item: &Item, name: &Name, unit: Option<&UnitExpr>) -> Quantity {
-    let unit = unit.map(|unit| unit.text.clone()).unwrap_or_default();
-    Quantity {
-        name: name.text.clone(),
-        unit,
-        docs: item.docs.clone(),
-        span: name.span,
     }
 }

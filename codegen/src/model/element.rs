@@ -54,8 +54,11 @@ impl Evaluator {
                 "a vector has two to four components, here are {}",
                 values.len()
             );
-            return self
-                .report(Diagnostic::error(span, message).help("write `[x, y]` or `[x, y, z]`"));
+            let help = match values.len() {
+                0 | 1 => "write `[x, y]` or `[x, y, z]`",
+                _ => "longer lists are arrays: `param m[6] = […];`, `let a[i in 0..6] = …;`",
+            };
+            return self.report(Diagnostic::error(span, message).help(help));
         }
         if let Some(scalars) = values.iter().map(Value::as_scalar).collect() {
             return Some(Value::Vector(scalars));
@@ -75,6 +78,9 @@ impl Evaluator {
 
     /// `.x`, `.y`, `.z`
     pub fn component(&mut self, inside: &Expr, axis: usize, span: Span) -> Option<Value> {
+        if self.names_part(inside) {
+            return self.member(inside, AXES[axis], span);
+        }
         let value = self.evaluate(inside)?.operand();
         match &value {
             Value::Vector(parts) => match parts.get(axis) {

@@ -7,11 +7,14 @@
 //! Not here: what a formula may contain where it stands; that is `check`'s.
 
 use super::facts::{FactTable, Facts};
+use super::function::Functions;
+use super::member::Parts;
 use super::scope::{BUILT_IN, Kind, Scope};
 use super::unit::Unit;
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest};
 use crate::expr::{Direction, ExprId, Function, Graph, Number, Symbol};
+use crate::parse::NESTING;
 use crate::parse::ast::{Expr, ExprKind, Range};
 
 /// The most formulas that are evaluated for one description, loops unrolled.
@@ -24,6 +27,8 @@ pub struct Evaluator {
     pub graph: Graph,
     /// The names in force.
     pub scope: Scope,
+    /// The functions that the description declares.
+    pub functions: Functions,
     /// What was found.
     pub diagnostics: Diagnostics,
     /// What is being evaluated, where only numbers and constants may occur.
@@ -32,8 +37,12 @@ pub struct Evaluator {
     pub gains: bool,
     /// The direction of motion at frozen velocities.
     pub flow: Direction,
+    /// The parts and the quantities in them.
+    pub parts: Parts,
     facts: FactTable,
     work: u64,
+    /// The number of formulas inside one another.
+    depth: usize,
 }
 
 impl Evaluator {
@@ -63,6 +72,19 @@ impl Evaluator {
     /// The value of a formula.
     pub fn evaluate(&mut self, e: &Expr) -> Option<Value> {
         self.spend(e.span)?;
+        self.depth += 1;
+        let value = self.value(e);
+        self.depth -= 1;
+        value
+    }
+
+    /// Whether there is room for the formulas of a function inside the formula that is
+    /// being evaluated.
+    pub fn has_room(&self) -> bool {
+        self.depth <= NESTING
+    }
+
+    fn value(&mut self, e: &Expr) -> Option<Value> {
         match &e.kind {
             ExprKind::Number(number) => {
                 let id = self.graph.number(*number);
@@ -82,7 +104,9 @@ impl Evaluator {
             ExprKind::Repeat(range, term) => self.repeated_sum(range, term, e.span),
             ExprKind::Vector(parts) => self.vector(parts, e.span),
             ExprKind::Component(inside, axis) => self.component(inside, *axis, e.span),
+            ExprKind::Member(inside, name) => self.member(inside, &name.text, name.span),
             ExprKind::Index(inside, index) => self.element(inside, index, e.span),
+            ExprKind::InUnit(inside, unit) => self.in_unit(inside, unit),
             ExprKind::If(condition, then, otherwise) => {
                 self.choice(condition, then, otherwise, e.span)
             }
@@ -140,13 +164,23 @@ impl Evaluator {
         if let Some(value) = self.built_in(name, span) {
             return value;
         }
-        let Some(entry) = self.scope.look_up(name) else {
-            return self.undeclared(name, span);
-        };
+        match self.scope.get(name) {
+            Some(_) => self.declared(name, false, span),
+            None => self.undeclared(name, span),
+        }
+    }
+
+    /// The value of a declared name, which may be in full.
+    pub fn declared(&mut self, name: &str, full: bool, span: Span) -> Option<Value> {
+        let entry = self.scope.look_up(name, full)?;
         let (kind, place) = (entry.kind, entry.name.span);
-        let value = entry.value.clone();
+        if entry.value.is_none() {
+            let full = entry.name.text.clone();
+            self.settle(&full, kind, span);
+        }
+        let value = self.scope.look_up(name, full)?.value.clone();
         match self.constant {
-            Some(what) if !matches!(kind, Kind::Constant | Kind::Index) => {
+            Some(what) if !matches!(kind, Kind::Constant | Kind::Index | Kind::Argument) => {
                 let message = format!(
                     "{what} is built of numbers and constants; `{name}` is {}",
                     kind.words()
@@ -190,7 +224,9 @@ impl Evaluator {
         let near = nearest(name, self.scope.names().chain(built_in)).map(str::to_string);
         let help = if let Some(near) = near {
             format!("did you mean `{near}`?")
-        } else if Function::ALL.iter().any(|(_, known)| *known == name) || super::call::known(name)
+        } else if Function::ALL.iter().any(|(_, known)| *known == name)
+            || super::call::known(name)
+            || self.functions.contains(name)
         {
             format!("`{name}` is a function: write `{name}(…)`")
         } else {

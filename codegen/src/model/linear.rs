@@ -82,8 +82,12 @@ impl Evaluator {
         let mut spin = None;
         if let (Some(outer), Some(inner)) = (m.spin, n.spin) {
             let mut total = Vec::new();
-            for (column, own) in columns.iter().zip(inner) {
-                let carried = self.inner(column, &outer, span)?;
+            for (k, own) in inner.into_iter().enumerate() {
+                let carried = match columns.len() {
+                    // About the normal of the plane, which stays where it is.
+                    2 => outer[k],
+                    _ => self.inner(&columns[k], &outer, span)?,
+                };
                 total.push(self.add(carried, own, span)?);
             }
             spin = total.try_into().ok();

@@ -4,12 +4,16 @@
 //! Out: a [`Mechanism`] and warnings, or everything that is wrong.
 
 use super::evaluate::Evaluator;
+use super::member::Frame;
+use super::part::{LIBRARY, Placed};
 use super::scope::{Entry, Kind};
 use super::{Mechanism, statement::Named};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::expr::{ExprId, Graph, Symbol};
-use crate::parse::Model;
-use crate::parse::ast::{Item, ItemKind};
+use crate::parse::ast::{Item, ItemKind, Part};
+use crate::parse::{self, Model};
+use rustc_hash::FxHashMap;
+use std::rc::Rc;
 
 /// The work in progress.
 pub struct Lowering<'a> {
@@ -23,6 +27,16 @@ pub struct Lowering<'a> {
     pub frozen: &'a [String],
     /// The loops around, with the value of each index.
     pub indices: Vec<(String, i64)>,
+    /// The parts that statements can use.
+    pub parts: FxHashMap<&'a str, &'a Part>,
+    /// The parts that statements use.
+    pub used_parts: Vec<String>,
+    /// Where names are looked up.
+    pub frame: Rc<Frame>,
+    /// Quantities that wait for their values, in order of declaration.
+    pub waiting: Vec<String>,
+    /// The number of inputs so far.
+    pub n_inputs: u32,
     /// The names of outputs and events and the places of start entries so far.
     pub named: Named,
 }
@@ -42,18 +56,26 @@ pub fn lower(
     frozen: &[String],
     complete: bool,
 ) -> Result<(Mechanism, Diagnostics), Diagnostics> {
+    let library = library(model);
     let mut lowering = Lowering {
         evaluator: Evaluator::default(),
         mechanism: Mechanism::named(&model.name.text, &model.docs),
         constants,
         frozen,
         indices: Vec::new(),
+        parts: FxHashMap::default(),
+        used_parts: Vec::new(),
+        frame: Rc::default(),
+        waiting: Vec::new(),
+        n_inputs: 0,
         named: Named::default(),
     };
     let unreadable = model.unreadable.iter().cloned();
     lowering.evaluator.scope.unreadable = unreadable.collect();
-    lowering.declare(&model.items);
-    lowering.statements(&model.items);
+    let placed = lowering.declare(&model.items, &library);
+    for Placed { item, frame, .. } in &placed {
+        lowering.inside(frame, |this| this.statements(std::slice::from_ref(*item)));
+    }
     if complete {
         lowering.changes_fit(model);
         lowering.whole(model);
@@ -70,6 +92,15 @@ pub fn lower(
     Ok((mechanism, evaluator.diagnostics))
 }
 
+/// The statements of the library, if a description uses it.
+fn library(model: &Model) -> Vec<Item> {
+    let uses = |item: &Item| matches!(&item.kind, ItemKind::Use(name) if name.text == LIBRARY);
+    match model.items.iter().any(uses) {
+        true => parse::library(),
+        false => Vec::new(),
+    }
+}
+
 impl Lowering<'_> {
     /// Records a finding.
     pub fn report<T>(&mut self, diagnostic: Diagnostic) -> Option<T> {
@@ -80,7 +111,7 @@ impl Lowering<'_> {
     fn whole(&mut self, model: &Model) {
         let (name, at) = (&model.name, model.name.span);
         let declared = |item: &Item| matches!(item.kind, ItemKind::Coordinate { .. });
-        if !model.items.iter().any(declared) {
+        if !model.items.iter().any(declared) && self.mechanism.coordinates.is_empty() {
             let error = Diagnostic::error(at, format!("`{}` has no coordinates", name.text));
             self.report::<()>(error.help("declare what moves, for example `coord q1: rad;`"));
         }
@@ -94,6 +125,8 @@ impl Lowering<'_> {
         }
         let entries = self.evaluator.scope.close(0);
         self.unused(&entries);
+        self.unused_functions();
+        self.unused_parts();
         self.idle_coordinates();
     }
 
@@ -101,8 +134,10 @@ impl Lowering<'_> {
     /// that this is meant.
     pub fn unused(&mut self, entries: &[Entry]) {
         for entry in entries {
-            let counts = !matches!(entry.kind, Kind::Coordinate | Kind::Index);
-            if counts && !entry.used && !entry.name.text.starts_with('_') {
+            let counts = !matches!(entry.kind, Kind::Coordinate | Kind::Index | Kind::Part);
+            // A part offers names; not every use needs all of them.
+            let offered = entry.name.text.contains('.');
+            if counts && !offered && !entry.used && !entry.name.text.starts_with('_') {
                 let message = format!("`{}` is never used", entry.name.text);
                 let warning = Diagnostic::warning(entry.name.span, message);
                 self.report::<()>(warning.help("remove it"));

@@ -16,11 +16,15 @@ mod declare;
 mod element;
 mod evaluate;
 mod facts;
+mod function;
 mod linear;
 mod lower;
+mod member;
 mod order;
+mod part;
 mod rotation;
 mod scope;
+mod shape;
 mod si;
 mod sound;
 mod start;
@@ -66,6 +70,8 @@ pub struct Mechanism {
     pub constraints: Vec<Constraint>,
     /// Entries of the `start` block.
     pub starts: Vec<Start>,
+    /// Equations of the `start` block that are no values of coordinates and velocities.
+    pub start_equations: Vec<Constraint>,
     /// Observables, vectors unrolled (`p.x`, `p.y`).
     pub outputs: Vec<Output>,
     /// Event functions.
@@ -144,13 +150,15 @@ pub struct Summand {
     pub span: Span,
 }
 
-/// `force F on x`: virtual work `Σ F_k δx_k`.
+/// `force F on x`: virtual work `Σ F_k δx_k`; on an angular velocity virtual power.
 #[derive(Clone, Debug)]
 pub struct Force {
     /// Components of the force.
     pub force: Vec<ExprId>,
-    /// Components of the point, or the coordinate, angle or length.
+    /// Components of the point, or the coordinate, angle or length; or of a velocity.
     pub on: Vec<ExprId>,
+    /// Whether it is a velocity, which is linear in those of the coordinates.
+    pub on_velocity: bool,
     /// Where it was written.
     pub span: Span,
 }
@@ -251,6 +259,7 @@ impl Mechanism {
             forces: Vec::new(),
             constraints: Vec::new(),
             starts: Vec::new(),
+            start_equations: Vec::new(),
             outputs: Vec::new(),
             events: Vec::new(),
             shapes: Vec::new(),

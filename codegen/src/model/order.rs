@@ -8,16 +8,20 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::parse::ast::{Expr, ExprKind, Name};
 use rustc_hash::FxHashMap;
 
-/// A definition: a name, the formulas behind it, and whether it may mention
+/// A definition: a name, the names that it mentions, and whether it may mention
 /// itself (the elements of an array may use those before them).
 pub struct Definition<'a> {
     /// The name.
     pub name: &'a Name,
-    /// The formulas.
-    pub formulas: Vec<&'a Expr>,
+    /// What its formulas mention.
+    pub mentions: Vec<String>,
     /// Whether it may mention itself.
     pub recursive: bool,
 }
+
+/// What to write where quantities come from one another.
+pub const QUANTITIES: &str =
+    "a quantity must come from others in the end; the unknowns are the coordinates";
 
 #[derive(Clone, Copy, PartialEq)]
 enum State {
@@ -27,20 +31,23 @@ enum State {
 }
 
 /// The indices of definitions in an order of evaluation. What takes part in a
-/// cycle, or needs what does, is left out.
-pub fn order(definitions: &[Definition], diagnostics: &mut Diagnostics) -> Vec<usize> {
+/// cycle is left out; `help` says what to do about a cycle.
+pub fn order(definitions: &[Definition], help: &str, diagnostics: &mut Diagnostics) -> Vec<usize> {
     let place = |(i, definition): (usize, &Definition)| (definition.name.text.clone(), i);
     let places: FxHashMap<String, usize> = definitions.iter().enumerate().map(place).collect();
     let needs: Vec<Vec<usize>> = definitions.iter().map(|d| mentioned(d, &places)).collect();
     let mut states = vec![State::New; definitions.len()];
     let mut sorted = Vec::new();
+    let mut circular = vec![false; definitions.len()];
     for start in 0..definitions.len() {
         if states[start] == State::New {
             visit(start, &needs, &mut states, &mut sorted, &mut |cycle| {
-                diagnostics.push(report(cycle, definitions));
+                cycle.iter().for_each(|&i| circular[i] = true);
+                diagnostics.push(report(cycle, definitions, help));
             });
         }
     }
+    sorted.retain(|&i| !circular[i]);
     sorted
 }
 
@@ -79,11 +86,10 @@ fn visit(
     }
 }
 
-fn report(cycle: &[usize], definitions: &[Definition]) -> Diagnostic {
+fn report(cycle: &[usize], definitions: &[Definition], help: &str) -> Diagnostic {
     let name = |i: &usize| format!("`{}`", definitions[*i].name.text);
     let first = cycle.iter().min().copied().unwrap_or(0);
     let span = definitions[first].name.span;
-    let help = "a quantity must come from others in the end; the unknowns are the coordinates";
     if cycle.len() == 1 {
         let message = format!("{} is defined by itself", name(&first));
         return Diagnostic::error(span, message).help(help);
@@ -98,15 +104,9 @@ fn report(cycle: &[usize], definitions: &[Definition]) -> Diagnostic {
 }
 
 fn mentioned(definition: &Definition, places: &FxHashMap<String, usize>) -> Vec<usize> {
-    let mut names = Vec::new();
-    definition
-        .formulas
-        .iter()
-        .for_each(|formula| collect(formula, &mut names));
-    let own = definition.name.text.as_str();
-    let others = names
-        .into_iter()
-        .filter(|name| !(definition.recursive && *name == own));
+    let own = &definition.name.text;
+    let others = definition.mentions.iter();
+    let others = others.filter(|name| !(definition.recursive && *name == own));
     let mut needs: Vec<usize> = others
         .filter_map(|name| places.get(name).copied())
         .collect();
@@ -115,31 +115,49 @@ fn mentioned(definition: &Definition, places: &FxHashMap<String, usize>) -> Vec<
     needs
 }
 
-/// The names in a formula.
-fn collect<'a>(formula: &'a Expr, names: &mut Vec<&'a str>) {
+/// What a formula mentions.
+#[derive(Clone, Copy)]
+pub enum Mention<'a> {
+    /// A name.
+    Name(&'a str),
+    /// A function.
+    Call(&'a str),
+}
+
+/// Finds what a formula mentions.
+pub fn collect<'a>(formula: &'a Expr, found: &mut dyn FnMut(Mention<'a>)) {
     match &formula.kind {
         ExprKind::Number(_) => {}
-        ExprKind::Name(name) => names.push(name),
-        ExprKind::Negative(x) | ExprKind::Component(x, _) => collect(x, names),
+        ExprKind::Name(name) => found(Mention::Name(name)),
+        ExprKind::Negative(x)
+        | ExprKind::Component(x, _)
+        | ExprKind::Member(x, _)
+        | ExprKind::InUnit(x, _) => {
+            collect(x, found);
+        }
         ExprKind::Sum(parts) | ExprKind::Product(parts) => {
-            parts.iter().for_each(|(_, part)| collect(part, names));
+            parts.iter().for_each(|(_, part)| collect(part, found));
         }
         ExprKind::Power(a, b) | ExprKind::Index(a, b) => {
-            collect(a, names);
-            collect(b, names);
+            collect(a, found);
+            collect(b, found);
         }
-        ExprKind::Call(_, parts) | ExprKind::Vector(parts) => {
-            parts.iter().for_each(|part| collect(part, names));
+        ExprKind::Call(name, parts) => {
+            found(Mention::Call(&name.text));
+            parts.iter().for_each(|part| collect(part, found));
+        }
+        ExprKind::Vector(parts) => {
+            parts.iter().for_each(|part| collect(part, found));
         }
         ExprKind::Repeat(range, term) => {
             [&range.from, &range.to, &**term]
                 .into_iter()
-                .for_each(|part| collect(part, names));
+                .for_each(|part| collect(part, found));
         }
         ExprKind::If(condition, then, otherwise) => {
             let sides = condition.sides().into_iter();
             let parts = sides.chain([&**then, &**otherwise]);
-            parts.for_each(|part| collect(part, names));
+            parts.for_each(|part| collect(part, found));
         }
     }
 }

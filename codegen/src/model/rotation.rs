@@ -66,7 +66,7 @@ impl Evaluator {
         let rows = rows.map(|row| row.into_iter().take(2).collect());
         Some(Value::Matrix(Matrix {
             rows: rows.collect(),
-            spin: None,
+            spin: space.spin,
         }))
     }
 
@@ -249,27 +249,33 @@ impl Evaluator {
         spin.try_into().ok()
     }
 
-    /// `omega(R)`: what was carried along, or the vector of RᵀṘ.
+    /// `omega(R)`: what was carried along, or the vector of RᵀṘ; in the plane a number.
     pub fn angular_velocity(&mut self, m: &Matrix, span: Span) -> Option<Value> {
         for entry in m.rows.iter().flatten() {
             self.pure(entry.unit, "an entry of a rotation", span)?;
         }
-        if let Some(spin) = m.spin {
-            return Some(Value::Vector(spin.to_vec()));
+        let plane = m.rows.len() == 2;
+        match m.spin {
+            Some([.., spin]) if plane => return Some(Value::Scalar(spin)),
+            Some(spin) => return Some(Value::Vector(spin.to_vec())),
+            None => {}
         }
         let Value::Matrix(rate) = self.derivative(&Value::Matrix(m.clone()), span)? else {
             return None;
         };
         let (columns, rates) = (transposed(&m.rows), transposed(&rate.rows));
-        let parts = [(2, 1), (0, 2), (1, 0)];
-        let parts = parts.map(|(i, j)| {
+        let mut part = |(i, j): (usize, usize)| {
             let entry = self.inner(&columns[i], &rates[j], span)?;
             let unit = entry
                 .unit
                 .meet(Unit::Known(PER_SECOND))
                 .unwrap_or(entry.unit);
             Some(Scalar { unit, ..entry })
-        });
+        };
+        if plane {
+            return part((1, 0)).map(Value::Scalar);
+        }
+        let parts = [(2, 1), (0, 2), (1, 0)].map(part);
         parts.into_iter().collect::<Option<_>>().map(Value::Vector)
     }
 }

@@ -24,6 +24,10 @@ pub enum Kind {
     Quantity,
     /// The index of a repetition.
     Index,
+    /// An argument of a function.
+    Argument,
+    /// A part, `let left = Leg(…)`, whose names have `left.` in front.
+    Part,
 }
 
 impl Kind {
@@ -36,6 +40,8 @@ impl Kind {
             Kind::Input => "an input",
             Kind::Quantity => "a quantity",
             Kind::Index => "an index",
+            Kind::Argument => "an argument",
+            Kind::Part => "a part",
         }
     }
 }
@@ -72,11 +78,31 @@ pub fn built_in() -> impl Iterator<Item = &'static str> {
 pub struct Scope {
     entries: Vec<Entry>,
     index: FxHashMap<String, usize>,
+    /// What stands in front of the names of the function or part that is being looked at:
+    /// its own names hide those of the mechanism around it.
+    prefix: String,
+    /// The number of names that are declared outside loops and functions.
+    outermost: usize,
     /// Names that statements with mistakes may have declared.
     pub unreadable: FxHashSet<String>,
 }
 
 impl Scope {
+    /// A name as it is called everywhere: with what stands in front of it.
+    pub fn full(&self, name: &str) -> String {
+        format!("{}{name}", self.prefix)
+    }
+
+    /// The place of a name: of the part that is being looked at, else of the mechanism.
+    fn place(&self, name: &str) -> Option<usize> {
+        if !self.prefix.is_empty()
+            && let Some(own) = self.index.get(&self.full(name))
+        {
+            return Some(*own);
+        }
+        self.index.get(name).copied()
+    }
+
     /// Declares a name without a value.
     pub fn declare(&mut self, name: &Name, kind: Kind) -> Result<(), Box<Diagnostic>> {
         if let Some((_, meaning)) = BUILT_IN.iter().find(|(known, _)| *known == name.text) {
@@ -84,14 +110,18 @@ impl Scope {
             let error = Diagnostic::error(name.span, message);
             return Err(Box::new(error.help("choose another name")));
         }
-        if let Some(first) = self.index.get(&name.text).map(|&i| &self.entries[i]) {
+        let full = Name {
+            text: self.full(&name.text),
+            span: name.span,
+        };
+        if let Some(first) = self.index.get(&full.text).map(|&i| &self.entries[i]) {
             return Err(Box::new(
                 twice(name, first.name.span).labelled("declared again here"),
             ));
         }
-        self.index.insert(name.text.clone(), self.entries.len());
+        self.index.insert(full.text.clone(), self.entries.len());
         self.entries.push(Entry {
-            name: name.clone(),
+            name: full,
             kind,
             value: None,
             used: false,
@@ -102,26 +132,37 @@ impl Scope {
 
     /// What a name stands for.
     pub fn get(&self, name: &str) -> Option<&Entry> {
-        self.index.get(name).map(|&i| &self.entries[i])
+        self.place(name).map(|i| &self.entries[i])
     }
 
-    /// What a name stands for, noting that it is used.
-    pub fn look_up(&mut self, name: &str) -> Option<&Entry> {
-        let entry = &mut self.entries[*self.index.get(name)?];
+    /// What a name stands for, noting that it is used. In full, it is that of a part.
+    pub fn look_up(&mut self, name: &str, full: bool) -> Option<&Entry> {
+        let place = match full {
+            true => self.index.get(name).copied(),
+            false => self.place(name),
+        };
+        let entry = &mut self.entries[place?];
         entry.used = true;
         Some(entry)
     }
 
+    /// Gives a declared name, in full, its value and the number without unit in it.
+    pub fn settle(&mut self, full: &str, value: Option<Value>, bare: Option<Bare>) {
+        if let Some(&i) = self.index.get(full) {
+            (self.entries[i].value, self.entries[i].bare) = (value, bare);
+        }
+    }
+
     /// Gives a declared name its value.
     pub fn set(&mut self, name: &str, value: Option<Value>) {
-        if let Some(&i) = self.index.get(name) {
+        if let Some(i) = self.place(name) {
             self.entries[i].value = value;
         }
     }
 
     /// Remembers the number without unit that a quantity is made with.
     pub fn set_bare(&mut self, name: &str, bare: Option<Bare>) {
-        if let Some(&i) = self.index.get(name) {
+        if let Some(i) = self.place(name) {
             self.entries[i].bare = bare;
         }
     }
@@ -138,6 +179,29 @@ impl Scope {
             self.index.remove(&entry.name.text);
         }
         gone
+    }
+
+    /// Says that the names declared so far stand outside loops and functions.
+    pub fn set_outermost(&mut self) {
+        self.outermost = self.entries.len();
+    }
+
+    /// Looks from elsewhere: with another prefix, and without the names of the loops and
+    /// functions around. Returns what [`Scope::come_back`] needs.
+    pub fn look_from(&mut self, prefix: &str) -> (String, Vec<Entry>) {
+        let hidden = self.close(self.outermost.min(self.entries.len()));
+        (std::mem::replace(&mut self.prefix, prefix.into()), hidden)
+    }
+
+    /// Ends what [`Scope::look_from`] began.
+    pub fn come_back(&mut self, (prefix, hidden): (String, Vec<Entry>)) {
+        self.close(self.outermost.min(self.entries.len()));
+        self.prefix = prefix;
+        for entry in hidden {
+            self.index
+                .insert(entry.name.text.clone(), self.entries.len());
+            self.entries.push(entry);
+        }
     }
 
     /// The declared names, in order.

@@ -2,10 +2,11 @@
 
 use super::lower::Lowering;
 use super::value::{Scalar, Value};
-use super::{Point, Shape, Start};
+use super::{Constraint, Point, Shape, Start};
 use crate::diagnostic::{Diagnostic, Span, figure};
 use crate::expr::{Node, Number, Symbol};
 use crate::parse::ast::{Drawing, Expr, StartItem};
+use crate::parse::written;
 
 impl Lowering<'_> {
     /// Reads the entries of a `start` block.
@@ -51,19 +52,71 @@ impl Lowering<'_> {
             }));
         }
         let both = wanted.scalars().into_iter().zip(given.scalars());
-        for (wanted, given) in both {
-            self.start_value((wanted, target), held, (given, value))?;
+        for ((wanted, given), suffix) in both.zip(wanted.suffixes()) {
+            let suffix = suffix.as_str();
+            let (wanted, given) = ((wanted, target), (given, value));
+            match self.start_target(wanted.0) {
+                Some(coordinate) => self.start_value(coordinate, wanted, held, given)?,
+                None => self.start_equation(wanted, held, given, suffix)?,
+            }
         }
         Some(())
     }
 
-    fn start_value(
+    /// A formula that has a value at the start: an equation like a constraint, for positions
+    /// or for velocities.
+    fn start_equation(
         &mut self,
         (scalar, target): (Scalar, &Expr),
         held: bool,
         (given, value): (Scalar, &Expr),
+        suffix: &str,
     ) -> Option<()> {
-        let (coordinate, velocity) = self.start_target(scalar, target)?;
+        let facts = self.evaluator.facts(scalar.id);
+        let (message, help) = if !facts.coordinate && !facts.velocity() {
+            let message = "only coordinates and their velocities have start values";
+            (message, "write `q1 = …;` or `der(q1) = …;`")
+        } else if facts.input {
+            (
+                "an equation of the start can't contain an input",
+                "write out its law",
+            )
+        } else if facts.kinked {
+            let help = "`abs`, `sign`, `min`, `max` and `if` can't be met from any side";
+            ("an equation of the start has to be smooth", help)
+        } else if facts.degree > 1 {
+            let help = "write it with `der(…)` of first degree";
+            (
+                "an equation of the start has to be linear in the velocities",
+                help,
+            )
+        } else if !held {
+            let help = "hold it with `=`, and guess the coordinates that it is made of";
+            ("only coordinates and their velocities are guessed", help)
+        } else {
+            self.constant_start((scalar, target), (given, value))?;
+            let residual = self.evaluator.graph.sub(scalar.id, given.id);
+            let span = target.span.to(value.span);
+            let residual = self.evaluator.sound(residual, span)?;
+            let text = format!("{} = {}", written(target), written(value));
+            let equation = Constraint {
+                residual,
+                holonomic: !facts.velocity(),
+                text: self.row_text(&text, suffix),
+                span: self.place_of(span),
+            };
+            self.mechanism.start_equations.push(equation);
+            return Some(());
+        };
+        self.report(Diagnostic::error(target.span, message).help(help))
+    }
+
+    /// Refuses a start value that is no constant, or in another unit.
+    fn constant_start(
+        &mut self,
+        (scalar, target): (Scalar, &Expr),
+        (given, value): (Scalar, &Expr),
+    ) -> Option<()> {
         let facts = self.evaluator.facts(given.id);
         if facts.time || facts.coordinate || facts.velocity() || facts.input {
             let error = Diagnostic::error(
@@ -77,15 +130,21 @@ impl Lowering<'_> {
             [(scalar, target.span), (given, value.span)],
             "this equation",
         )?;
-        if let Some(first) = self
-            .named
-            .starts
-            .insert((coordinate, velocity), target.span)
-        {
-            let error = Diagnostic::error(target.span, "this has a start value already");
-            return self.report(error.also(first, "given here").help("remove one of them"));
-        }
+        Some(())
+    }
+
+    fn start_value(
+        &mut self,
+        (coordinate, velocity): (u32, bool),
+        (scalar, target): (Scalar, &Expr),
+        held: bool,
+        (given, value): (Scalar, &Expr),
+    ) -> Option<()> {
+        self.constant_start((scalar, target), (given, value))?;
         let (coordinate, span) = (coordinate as usize, target.span.to(value.span));
+        if !self.first_start((coordinate, velocity), target.span)? {
+            return Some(());
+        }
         if !velocity {
             self.many_turns(coordinate, value, given);
         }
@@ -94,9 +153,28 @@ impl Lowering<'_> {
             velocity,
             value: given.id,
             held,
-            span,
+            span: self.place_of(span),
         });
         Some(())
+    }
+
+    /// Whether a start value is to be kept: that of a part gives way to one outside it.
+    fn first_start(&mut self, what: (usize, bool), span: Span) -> Option<bool> {
+        let depth = self.frame.uses.len();
+        let key = (what.0 as u32, what.1);
+        match self.named.starts.get(&key).copied() {
+            Some((first, other)) if other == depth => {
+                let error = Diagnostic::error(span, "this has a start value already");
+                return self.report(error.also(first, "given here").help("remove one of them"));
+            }
+            Some((_, other)) if other < depth => return Some(false),
+            Some(_) => {
+                (self.mechanism.starts).retain(|start| (start.coordinate, start.velocity) != what)
+            }
+            None => {}
+        }
+        self.named.starts.insert(key, (span, depth));
+        Some(true)
     }
 
     /// Warns of an angle of more than a turn that has no `deg` or `pi` in it: degrees are
@@ -113,18 +191,14 @@ impl Lowering<'_> {
         }
     }
 
-    /// The coordinate that a start value is given to, and whether its velocity is meant.
-    fn start_target(&mut self, scalar: Scalar, target: &Expr) -> Option<(u32, bool)> {
+    /// The coordinate that a start value is given to, and whether its velocity is meant;
+    /// `None` if it is given to a formula.
+    fn start_target(&self, scalar: Scalar) -> Option<(u32, bool)> {
         match self.evaluator.graph.node(scalar.id) {
-            Node::Symbol(Symbol::Coordinate(i)) => return Some((*i, false)),
-            Node::Symbol(Symbol::Velocity(i)) => return Some((*i, true)),
-            _ => {}
+            Node::Symbol(Symbol::Coordinate(i)) => Some((*i, false)),
+            Node::Symbol(Symbol::Velocity(i)) => Some((*i, true)),
+            _ => None,
         }
-        let error = Diagnostic::error(
-            target.span,
-            "only coordinates and their velocities have start values",
-        );
-        self.report(error.help("write `q1 = …;` or `der(q1) = …;`"))
     }
 
     /// Reads a part of the picture. Its numbers are sizes in units of their own.

@@ -2,7 +2,7 @@
 
 use super::lower::Lowering;
 use super::scope::{Kind, twice};
-use super::unit::{Dimension, ENERGY, NONE, Unit};
+use super::unit::{Dimension, ENERGY, NONE, POWER, Unit};
 use super::value::{Scalar, Value};
 use super::{Constraint, Direction, Event, Force, Output, Summand};
 use crate::diagnostic::{Diagnostic, Span};
@@ -17,8 +17,9 @@ pub struct Named {
     outputs: FxHashMap<String, Span>,
     events: FxHashMap<String, Span>,
     constraints: FxHashMap<String, Span>,
-    /// Start entries: coordinate, whether the velocity is meant.
-    pub starts: FxHashMap<(u32, bool), Span>,
+    /// Start entries: coordinate, whether the velocity is meant; with the number of parts
+    /// around.
+    pub starts: FxHashMap<(u32, bool), (Span, usize)>,
 }
 
 impl Lowering<'_> {
@@ -35,6 +36,9 @@ impl Lowering<'_> {
             ItemKind::Declaration(d) if d.kind == Declared::Output => self.output(item, d),
             ItemKind::Declaration(d) => self.outermost(&d.name),
             ItemKind::Coordinate { name, .. } => self.outermost(name),
+            ItemKind::Function(function) => self.in_no_part(&function.name, "a function"),
+            ItemKind::Part(part) => self.in_no_part(&part.name, "a part"),
+            ItemKind::Use(library) => self.in_no_part(library, "`use`"),
             ItemKind::Let(_) => Some(()),
             ItemKind::Energy(kind, value) => self.energy(*kind, value),
             ItemKind::Force { force, on } => self.force(force, on, item.span),
@@ -62,6 +66,15 @@ impl Lowering<'_> {
                 this.unused(&local);
             }),
         }
+    }
+
+    /// Refuses what stands in front of parts and loops.
+    fn in_no_part(&mut self, name: &Name, what: &str) -> Option<()> {
+        if self.indices.is_empty() && self.frame.prefix.is_empty() {
+            return Some(());
+        }
+        let message = format!("{what} stands outside parts and loops");
+        self.report(Diagnostic::error(name.span, message).help("write it in the mechanism itself"))
     }
 
     /// Refuses a declaration inside a loop.
@@ -107,7 +120,7 @@ impl Lowering<'_> {
         self.legal_energy(kind, e, value)?;
         let summand = Summand {
             value: value.id,
-            span: e.span,
+            span: self.place_of(e.span),
         };
         match kind {
             Energy::Kinetic => self.mechanism.kinetic.push(summand),
@@ -135,9 +148,10 @@ impl Lowering<'_> {
                 "a number works on a coordinate, an angle or a length, a vector on a point",
             ));
         }
-        self.legal_target(on, &point)?;
+        let on_velocity = self.legal_target(on, &point)?;
+        let product = if on_velocity { POWER } else { ENERGY };
         for (f, x) in strength.scalars().into_iter().zip(point.scalars()) {
-            self.force_unit(force, f.unit, on, x.unit)?;
+            self.force_unit((force, f.unit), (on, x.unit), product)?;
         }
         let ids = |value: Value| {
             value
@@ -149,16 +163,23 @@ impl Lowering<'_> {
         self.mechanism.forces.push(Force {
             force: ids(strength),
             on: ids(point),
-            span,
+            on_velocity,
+            span: self.place_of(span),
         });
         Some(())
     }
 
-    fn force_unit(&mut self, force: &Expr, strength: Unit, on: &Expr, point: Unit) -> Option<()> {
+    /// Refuses a force whose product with what it works on is no energy, or no power.
+    fn force_unit(
+        &mut self,
+        (force, strength): (&Expr, Unit),
+        (on, point): (&Expr, Unit),
+        product: Dimension,
+    ) -> Option<()> {
         let Unit::Known(place) = point.power(-1.0) else {
             return Some(());
         };
-        let wanted = ENERGY.times(place);
+        let wanted = product.times(place);
         match strength {
             Unit::Known(found) if found != wanted => {
                 let units = [wanted, found];
@@ -217,7 +238,7 @@ impl Lowering<'_> {
                 residual,
                 holonomic,
                 text,
-                span,
+                span: self.place_of(span),
             });
         }
         if !active {
@@ -240,7 +261,7 @@ impl Lowering<'_> {
     }
 
     /// An equation as written, with the component and the indices it is for.
-    fn row_text(&self, text: &str, suffix: &str) -> String {
+    pub fn row_text(&self, text: &str, suffix: &str) -> String {
         let row = match suffix.strip_prefix('.') {
             Some(axis) => format!(" [{axis}]"),
             None if suffix.is_empty() => String::new(),
@@ -256,23 +277,27 @@ impl Lowering<'_> {
         } else {
             format!(" [{}]", indices.join(", "))
         };
-        format!("{text}{row}{indices}")
+        let part = match self.frame.prefix.strip_suffix('.') {
+            Some(part) => format!(" in {part}"),
+            None => String::new(),
+        };
+        format!("{text}{row}{indices}{part}")
     }
 
     /// The name of what is declared inside loops: `hit[0]`, `hit[1]`.
     fn indexed(&self, name: &str) -> String {
         let indices: String = self.indices.iter().map(|(_, i)| format!("[{i}]")).collect();
-        format!("{name}{indices}")
+        format!("{}{indices}", self.evaluator.scope.full(name))
     }
 
     fn output(&mut self, item: &Item, declaration: &Declaration) -> Option<()> {
-        let unit = self.unit(declaration.unit.as_ref());
+        let checked = self.unit(declaration.unit.as_ref());
         let value = self.evaluator.evaluate(&declaration.value)?;
         let name = self.indexed(&declaration.name.text);
         for (scalar, suffix) in value.scalars().into_iter().zip(value.suffixes()) {
-            self.fits(declaration, unit, scalar)?;
-            let mut quantity =
-                super::declare::quantity(item, &declaration.name, declaration.unit.as_ref());
+            self.fits(declaration, checked, scalar)?;
+            let unit = declaration.unit.as_ref();
+            let mut quantity = self.quantity(item, &declaration.name, unit);
             quantity.name = format!("{name}{suffix}");
             self.column_is_free(&quantity.name, &declaration.name)?;
             self.mechanism.outputs.push(Output {
@@ -315,7 +340,7 @@ impl Lowering<'_> {
             name: full,
             value: scalar.id,
             direction,
-            span,
+            span: self.place_of(span),
         });
         Some(())
     }

@@ -19,8 +19,16 @@ pub struct Matrix {
     /// The entries, row by row.
     pub rows: Vec<Vec<Scalar>>,
     /// The angular velocity in the body frame, where the matrix is known to be a
-    /// rotation: far shorter than what comes out of RᵀṘ.
+    /// rotation: far shorter than what comes out of RᵀṘ. That of a rotation in the plane is
+    /// about the third axis.
     pub spin: Option<[Scalar; 3]>,
+}
+
+impl Matrix {
+    /// Whether it has as many rows as columns.
+    pub fn is_square(&self) -> bool {
+        self.rows.iter().all(|row| row.len() == self.rows.len())
+    }
 }
 
 /// An array: `coord n[K]` or `let n[i in 0..K]`.

@@ -2,6 +2,7 @@
 
 use crate::diagnostic::Span;
 use crate::expr::{Comparison, Number};
+use std::rc::Rc;
 
 /// A name and where it stands.
 #[derive(Clone, Debug)]
@@ -39,6 +40,12 @@ pub enum ItemKind {
     },
     /// `let n[range] = value;`
     Let(Box<Let>),
+    /// `fn f(x, y) = value;`
+    Function(Rc<Function>),
+    /// `part P(x, y) { items }`
+    Part(Box<Part>),
+    /// `use name;`
+    Use(Name),
     /// `kinetic`, `potential` or `dissipation`.
     Energy(Energy, Expr),
     /// `force F on x;`
@@ -88,10 +95,33 @@ pub struct Declaration {
     pub kind: Declared,
     /// Its name.
     pub name: Name,
+    /// Its elements, for an array.
+    pub size: Option<Box<Size>>,
     /// The unit, if it is given.
     pub unit: Option<UnitExpr>,
     /// The value, default or law.
     pub value: Expr,
+}
+
+impl Declaration {
+    /// The formulas in it.
+    pub fn formulas(&self) -> Vec<&Expr> {
+        let size = match self.size.as_deref() {
+            None => Vec::new(),
+            Some(Size::Count(count)) => vec![count],
+            Some(Size::Each(range)) => vec![&range.from, &range.to],
+        };
+        [size, vec![&self.value]].concat()
+    }
+}
+
+/// The elements of a declared array.
+#[derive(Clone, Debug)]
+pub enum Size {
+    /// `[K]`: so many, counted from 0.
+    Count(Expr),
+    /// `[i in 0..K]`: one for each index.
+    Each(Range),
 }
 
 /// The kinds of declaration with a unit and a value.
@@ -118,6 +148,48 @@ pub struct Let {
     pub unit: Option<UnitExpr>,
     /// The value.
     pub value: Expr,
+}
+
+/// `fn f(x, y: unit): unit = value;`
+#[derive(Clone, Debug)]
+pub struct Function {
+    /// Its name.
+    pub name: Name,
+    /// What it is a function of.
+    pub arguments: Vec<Argument>,
+    /// The unit of its value, if one is given.
+    pub unit: Option<UnitExpr>,
+    /// The value.
+    pub value: Expr,
+}
+
+/// `part P(x, y: unit) { items }`
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// Its name.
+    pub name: Name,
+    /// What it is given where it is used.
+    pub arguments: Vec<Argument>,
+    /// What stands between its braces.
+    pub items: Vec<Item>,
+}
+
+/// An argument of a function or a part.
+#[derive(Clone, Debug)]
+pub struct Argument {
+    /// Its name.
+    pub name: Name,
+    /// Its unit, if one is given.
+    pub unit: Option<UnitExpr>,
+}
+
+impl Let {
+    /// The formulas in it.
+    pub fn formulas(&self) -> Vec<&Expr> {
+        let range = self.range.iter();
+        let range = range.flat_map(|range| [&range.from, &range.to]);
+        range.chain([&self.value]).collect()
+    }
 }
 
 /// The three scalar functions that forces come from.
@@ -160,7 +232,7 @@ pub enum Drawing {
 pub enum StartItem {
     /// `target = value;` or `target ~ value;`
     Entry {
-        /// A coordinate or `der(coordinate)`.
+        /// A coordinate, `der(coordinate)`, or any formula.
         target: Expr,
         /// `=` (held) or `~` (a guess).
         held: bool,
@@ -215,8 +287,12 @@ pub enum ExprKind {
     Vector(Vec<Expr>),
     /// `.x`, `.y` or `.z`, by number.
     Component(Box<Expr>, usize),
+    /// `part.name`
+    Member(Box<Expr>, Name),
     /// `array[index]`
     Index(Box<Expr>, Box<Expr>),
+    /// `[a, b, c] unit`
+    InUnit(Box<Expr>, UnitExpr),
     /// `if condition then a else b`
     If(Box<Condition>, Box<Expr>, Box<Expr>),
 }

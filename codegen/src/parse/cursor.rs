@@ -13,12 +13,13 @@ pub struct Reported;
 pub type Parsed<T> = Result<T, Reported>;
 
 /// Words that begin a statement, with an example of each.
-pub const STATEMENTS: [(&str, &str); 14] = [
+pub const STATEMENTS: [(&str, &str); 17] = [
     ("const", "const g: m/s^2 = 9.81;"),
     ("param", "param L1: m = 0.5;"),
     ("coord", "coord q1: rad;"),
     ("input", "input u: N*m = 0;"),
     ("let", "let c = [L1*cos(q1), L1*sin(q1)];"),
+    ("fn", "fn spring(d: m): N = -k*d;"),
     ("kinetic", "kinetic 1/2*m1*norm2(der(c));"),
     ("potential", "potential m1*g*c.y;"),
     ("dissipation", "dissipation 1/2*d*der(q1)^2;"),
@@ -28,6 +29,8 @@ pub const STATEMENTS: [(&str, &str); 14] = [
     ("output", "output x: m = c.x;"),
     ("event", "event top: q1 - pi/2 rising;"),
     ("draw", "draw line([0, 0], c);"),
+    ("part", "part Rod(foot, m: kg) { coord q: rad; … }"),
+    ("use", "use parts;"),
 ];
 
 /// Words that hold statements and formulas together.

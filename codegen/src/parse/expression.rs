@@ -5,7 +5,7 @@
 //! tightly than a product: `-x^2 = -(x^2)`, `2^-1 = 1/2`.
 
 use super::ast::{Expr, ExprKind, Name, Range};
-use super::cursor::{Cursor, Parsed};
+use super::cursor::{CONNECTIVES, Cursor, DIRECTIONS, Parsed};
 use super::literal::read_number;
 use super::token::TokenKind;
 use crate::diagnostic::{Diagnostic, Span};
@@ -103,7 +103,15 @@ impl Cursor<'_> {
     pub fn postfix(&mut self) -> Parsed<Expr> {
         let mut value = self.atom()?;
         for _ in 0..super::NESTING {
-            if self.take_symbol(".") {
+            if self.at_symbol(".") && self.at_member(&value) {
+                self.advance();
+                let name = self.expect_name("a name", "")?;
+                let span = value.span.to(name.span);
+                value = Expr {
+                    span,
+                    kind: ExprKind::Member(Box::new(value), name),
+                };
+            } else if self.take_symbol(".") {
                 let axis = self.axis()?;
                 let span = value.span.to(self.last_span());
                 value = Expr {
@@ -128,6 +136,18 @@ impl Cursor<'_> {
         }
         let error = Diagnostic::error(self.span(), "too many components and indices in a row");
         Err(self.fail(error.help("give a part a name of its own with `let`")))
+    }
+
+    /// Whether behind the dot that comes next stands a name in a part.
+    fn at_member(&self, inside: &Expr) -> bool {
+        let of_a_name = matches!(
+            inside.kind,
+            ExprKind::Name(_) | ExprKind::Index(..) | ExprKind::Member(..)
+        );
+        match &self.peek_at(1).kind {
+            TokenKind::Word(word) => of_a_name && !["x", "y", "z"].contains(&word.as_str()),
+            _ => false,
+        }
     }
 
     fn axis(&mut self) -> Parsed<usize> {
@@ -290,10 +310,30 @@ impl Cursor<'_> {
         let start = self.span();
         self.advance();
         let parts = self.arguments("]")?;
-        Ok(Expr {
+        let vector = Expr {
             span: start.to(self.last_span()),
             kind: ExprKind::Vector(parts),
+        };
+        if !self.at_unit_behind() {
+            return Ok(vector);
+        }
+        let unit = self.unit()?;
+        Ok(Expr {
+            span: start.to(self.last_span()),
+            kind: ExprKind::InUnit(Box::new(vector), unit),
         })
+    }
+
+    /// Whether a unit stands behind the vector that was read last: a word on its line
+    /// that holds no statement together.
+    fn at_unit_behind(&self) -> bool {
+        let TokenKind::Word(word) = &self.peek().kind else {
+            return false;
+        };
+        let here = self.span().start.line == self.last_span().end.line;
+        let directs = DIRECTIONS.iter().any(|(direction, _)| direction == word);
+        let connects = CONNECTIVES.contains(&word.as_str());
+        here && !directs && !connects && !self.at_statement()
     }
 }
 

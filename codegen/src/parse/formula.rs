@@ -219,6 +219,7 @@ impl ModelError {
             offset: size(offset),
         };
         let span = Span {
+            library: false,
             start: at(0, 0),
             end: at(name.chars().count(), name.len()),
         };

@@ -1,6 +1,6 @@
 //! Statements: the words that begin them, and the file around them.
 
-use super::ast::{Declaration, Declared, Energy, Expr, ExprKind, Item, ItemKind, Let, Name};
+use super::ast::{Declaration, Declared, Energy, Expr, ExprKind, Item, ItemKind, Let, Name, Size};
 use super::cursor::{Cursor, DIRECTIONS, Parsed, SHAPES, STATEMENTS};
 use super::model::Model;
 use super::token::TokenKind;
@@ -32,7 +32,7 @@ impl Cursor<'_> {
     }
 
     /// Hands over the statements of a block.
-    fn block(&mut self, help: &str, mut add: impl FnMut(Item)) -> Parsed<()> {
+    pub fn block(&mut self, help: &str, mut add: impl FnMut(Item)) -> Parsed<()> {
         self.expect_symbol("{", help)?;
         let depth = self.block_depth();
         while !self.at_block_end(depth) {
@@ -58,6 +58,15 @@ impl Cursor<'_> {
     /// Whether the bracket that closes a block comes next.
     pub fn at_block_end(&self, depth: usize) -> bool {
         self.peek().kind == TokenKind::End || (self.at_symbol("}") && self.depth() < depth)
+    }
+
+    /// Reads statements that stand in no mechanism, up to the end of the file.
+    pub fn statements(&mut self) -> Vec<Item> {
+        let mut items = Vec::new();
+        while self.peek().kind != TokenKind::End {
+            items.extend(self.statement(0, Self::item, is_block));
+        }
+        items
     }
 
     fn item(&mut self) -> Parsed<Item> {
@@ -102,6 +111,9 @@ impl Cursor<'_> {
             "output" => self.declaration(Declared::Output, word)?,
             "coord" => self.coordinate()?,
             "let" => self.let_item()?,
+            "fn" => self.function()?,
+            "part" => return self.part(),
+            "use" => ItemKind::Use(self.expect_name("the name of a library", &example(word))?),
             "kinetic" => ItemKind::Energy(Energy::Kinetic, self.expression()?),
             "potential" => ItemKind::Energy(Energy::Potential, self.expression()?),
             "dissipation" => ItemKind::Energy(Energy::Dissipation, self.expression()?),
@@ -171,11 +183,15 @@ impl Cursor<'_> {
             Declared::Output => "the output",
         };
         let name = self.name(what, word)?;
-        if self.at_symbol("[") {
-            let error = Diagnostic::error(self.span(), format!("`{word}` has no arrays"));
-            let help = "arrays are declared with `coord n[K]` and `let n[i in 0..K] = …`";
+        if kind == Declared::Output && self.at_symbol("[") {
+            let error = Diagnostic::error(self.span(), "an output has no size of its own");
+            let help = "an output of a vector or an array has a column for each element";
             return Err(self.fail(error.help(help)));
         }
+        let size = self.size(&format!(
+            "an array is written `{word} {}[3] = …;`",
+            name.text
+        ))?;
         self.one_name(&name, word, " = …")?;
         let unit = self.optional_unit()?;
         self.expect_symbol("=", &example(word))?;
@@ -183,9 +199,24 @@ impl Cursor<'_> {
         Ok(ItemKind::Declaration(Declaration {
             kind,
             name,
+            size,
             unit,
             value,
         }))
+    }
+
+    /// Reads `[K]` or `[i in 0..K]` if it comes next.
+    fn size(&mut self, help: &str) -> Parsed<Option<Box<Size>>> {
+        if !self.take_symbol("[") {
+            return Ok(None);
+        }
+        let each = matches!(&self.peek_at(1).kind, TokenKind::Word(word) if word == "in");
+        let size = match each {
+            true => Size::Each(self.range(help)?),
+            false => Size::Count(self.expression()?),
+        };
+        self.expect_symbol("]", help)?;
+        Ok(Some(Box::new(size)))
     }
 
     /// Refuses a list of names.
@@ -341,7 +372,10 @@ impl Cursor<'_> {
 
 /// Whether a statement has statements or entries inside.
 fn is_block(item: &Item) -> bool {
-    matches!(item.kind, ItemKind::For(..) | ItemKind::Start(_))
+    matches!(
+        item.kind,
+        ItemKind::For(..) | ItemKind::Start(_) | ItemKind::Part(_)
+    )
 }
 
 /// How a statement is written.

@@ -17,6 +17,7 @@ mod choice;
 mod cursor;
 mod expression;
 mod formula;
+mod function;
 mod item;
 mod literal;
 mod model;
@@ -30,8 +31,9 @@ mod unit;
 pub(crate) use cursor::{CONNECTIVES, DIRECTIONS, SHAPES, STATEMENTS};
 pub use formula::{Formula, ModelError};
 pub use model::Model;
+pub(crate) use print::formula as written;
 
-use crate::diagnostic::{Diagnostics, without_mark};
+use crate::diagnostic::{Diagnostics, LIBRARY, without_mark};
 
 /// Levels of brackets, of `if`, of powers and of signs inside one another. People
 /// need about ten; the recursive reader has room for these.
@@ -73,6 +75,18 @@ pub(crate) fn read(source: &str) -> (Option<Model>, Diagnostics) {
     });
     wrong.append(cursor.diagnostics);
     (model, wrong)
+}
+
+/// Reads the library of parts.
+pub(crate) fn library() -> Vec<ast::Item> {
+    let Ok(mut tokens) = token::tokenize(LIBRARY) else {
+        return Vec::new();
+    };
+    tokens
+        .list
+        .iter_mut()
+        .for_each(|token| token.span.library = true);
+    cursor::Cursor::new(LIBRARY, tokens).statements()
 }
 
 /// Reads one formula that stands by itself, as it would stand in a description.

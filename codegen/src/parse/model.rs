@@ -232,6 +232,7 @@ impl Model {
         self.statement(ItemKind::Declaration(Declaration {
             kind,
             name: here(name),
+            size: None,
             unit,
             value,
         }))

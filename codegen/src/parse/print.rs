@@ -5,8 +5,8 @@
 //!      part of them; doc comments are.
 
 use super::ast::{
-    Condition, Declared, Drawing, Energy, Expr, ExprKind, Item, ItemKind, Range, StartItem,
-    UnitExpr,
+    Argument, Condition, Declaration, Declared, Drawing, Energy, Expr, ExprKind, Item, ItemKind,
+    Range, Size, StartItem, UnitExpr,
 };
 use super::cursor::{DIRECTIONS, SHAPES};
 use super::model::Model;
@@ -49,16 +49,7 @@ fn doc_lines(docs: &str, depth: usize) -> String {
 
 fn statement(kind: &ItemKind, depth: usize) -> String {
     match kind {
-        ItemKind::Declaration(d) => {
-            let word = match d.kind {
-                Declared::Constant => "const",
-                Declared::Parameter => "param",
-                Declared::Input => "input",
-                Declared::Output => "output",
-            };
-            let unit = unit(d.unit.as_ref());
-            format!("{word} {}{unit} = {};", d.name.text, formula(&d.value))
-        }
+        ItemKind::Declaration(d) => declaration(d),
         ItemKind::Coordinate {
             name,
             size,
@@ -74,13 +65,21 @@ fn statement(kind: &ItemKind, depth: usize) -> String {
             let unit = unit(l.unit.as_ref());
             format!("let {}{index}{unit} = {};", l.name.text, formula(&l.value))
         }
-        ItemKind::Energy(kind, value) => {
-            let word = match kind {
-                Energy::Kinetic => "kinetic",
-                Energy::Potential => "potential",
-                Energy::Dissipation => "dissipation",
-            };
-            format!("{word} {};", formula(value))
+        ItemKind::Function(f) => {
+            let (name, unit) = (&f.name.text, unit(f.unit.as_ref()));
+            let arguments = arguments(&f.arguments);
+            format!("fn {name}({arguments}){unit} = {};", formula(&f.value))
+        }
+        ItemKind::Part(p) => {
+            let items = block(&p.items, depth + 1);
+            let (name, arguments) = (&p.name.text, arguments(&p.arguments));
+            format!("part {name}({arguments}) {{\n{items}{}}}", indent(depth))
+        }
+        ItemKind::Use(library) => format!("use {};", library.text),
+        ItemKind::Energy(Energy::Kinetic, value) => format!("kinetic {};", formula(value)),
+        ItemKind::Energy(Energy::Potential, value) => format!("potential {};", formula(value)),
+        ItemKind::Energy(Energy::Dissipation, value) => {
+            format!("dissipation {};", formula(value))
         }
         ItemKind::Force { force, on } => format!("force {} on {};", formula(force), formula(on)),
         ItemKind::Constraint {
@@ -105,6 +104,27 @@ fn statement(kind: &ItemKind, depth: usize) -> String {
             format!("for {} {{\n{items}{}}}", range(over), indent(depth))
         }
     }
+}
+
+fn declaration(d: &Declaration) -> String {
+    let word = match d.kind {
+        Declared::Constant => "const",
+        Declared::Parameter => "param",
+        Declared::Input => "input",
+        Declared::Output => "output",
+    };
+    let size = match d.size.as_deref() {
+        None => String::new(),
+        Some(Size::Count(count)) => format!("[{}]", formula(count)),
+        Some(Size::Each(over)) => format!("[{}]", range(over)),
+    };
+    let (name, unit, value) = (&d.name.text, unit(d.unit.as_ref()), formula(&d.value));
+    format!("{word} {name}{size}{unit} = {value};")
+}
+
+fn arguments(arguments: &[Argument]) -> String {
+    let text = |x: &Argument| format!("{}{}", x.name.text, unit(x.unit.as_ref()));
+    arguments.iter().map(text).collect::<Vec<_>>().join(", ")
 }
 
 fn draw(shape: Drawing, arguments: &[Expr]) -> String {
@@ -172,7 +192,9 @@ pub fn formula(e: &Expr) -> String {
             let axis = ["x", "y", "z"].get(*axis).unwrap_or(&"z");
             format!("{}.{axis}", part_of(x))
         }
+        ExprKind::Member(x, name) => format!("{}.{}", part_of(x), name.text),
         ExprKind::Index(x, index) => format!("{}[{}]", part_of(x), formula(index)),
+        ExprKind::InUnit(inside, unit) => format!("{} {}", formula(inside), unit.text),
         ExprKind::If(condition, then, otherwise) => {
             let condition = self::condition(condition);
             let then = within(then, Binding::Sum);

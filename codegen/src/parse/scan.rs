@@ -189,6 +189,7 @@ impl Scanner<'_> {
         Span {
             start,
             end: self.position(),
+            library: false,
         }
     }
 

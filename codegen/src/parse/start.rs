@@ -25,7 +25,7 @@ impl Cursor<'_> {
             let items = self.deeper(Self::start_block)?;
             return Ok(StartItem::For(range, items));
         }
-        let target = self.postfix()?;
+        let target = self.expression()?;
         let held = self.at_symbol("=");
         if !held && !self.at_symbol("~") {
             return Err(self.unexpected("`=` or `~`", HELP));

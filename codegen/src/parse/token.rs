@@ -157,7 +157,14 @@ impl Flattener<'_> {
             column: number(last.chars().count() + 1),
             offset: number(self.source.len()),
         };
-        self.push(TokenKind::End, Span { start: end, end });
+        self.push(
+            TokenKind::End,
+            Span {
+                start: end,
+                end,
+                library: false,
+            },
+        );
     }
 }
 
@@ -213,6 +220,7 @@ fn place(span: proc_macro2::Span) -> Span {
         offset: number(offset),
     };
     Span {
+        library: false,
         start: position(span.start(), bytes.start),
         end: position(span.end(), bytes.end),
     }

@@ -41,7 +41,8 @@ impl Cursor<'_> {
         self.unit().map(Some)
     }
 
-    fn unit(&mut self) -> Parsed<UnitExpr> {
+    /// Reads a unit.
+    pub fn unit(&mut self) -> Parsed<UnitExpr> {
         let start = self.span();
         let factors = self.unit_product()?;
         let span = start.to(self.last_span());

@@ -17,7 +17,13 @@ fn samples() -> Vec<String> {
         constraint der(p[0]) = der(p[1]); start { q = 45*deg; for i in 0..K { p[i] ~ 0.7; } der(q) = 1e-3; }
         output w = omega(R); event e: q - pi crossing; draw line([0, 0, 0], d); draw circle(d[0], a/10); }"
         .replace(": m/s^2", "").replace(": m", "").replace(": rad", "").replace(": N*m", "");
-    vec![everything, library()[0].1.clone()]
+    let parts = "mechanism Parts {\n use parts; const v[5] = [1, 2, 3, 4, 5]; param c: m = [1, 0.5]; fn f(x, y: rad): m = x*cos(y)*c + [1, 0] m;
+        param w[i in 0..2] = v[i]; input u[2]: N = [t, 1]; part Link(foot: m, n) { coord q: rad; coord s[n]; let tip = foot + rot(q)*c;
+        let bob = PointMass(tip, 2, [0, -9.81]); kinetic sum(i in 0..n, der(s[i])^2)*w[0]; force v[1]*w[1] on omega(rot(q));
+        start { q = 0.1; } output a = tip; }
+        let one = Link([0, 0], 1); let row[i in 0..2] = Link(if i == 0 then one.tip else row[i-1].tip, i + 1);
+        constraint row[1].tip = f(2, one.q); force u on row[0].tip; start { row[0].s[0] = 1; } }".to_string();
+    vec![everything, parts, library()[0].1.clone()]
 }
 
 /// Analyses and renders; the result doesn't matter, coming back does.

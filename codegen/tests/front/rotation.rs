@@ -157,8 +157,8 @@ fn a_rotation_about_one_axis_has_a_plain_angular_velocity() {
 #[test]
 fn omega_and_rotations_refuse_what_they_are_not_for() {
     refuse_saying(
-        &with("let a = omega([[1, 0], [0, 1]]);"),
-        "takes a 3 × 3 matrix",
+        &with("let a = omega([[1, 0, 0], [0, 1, 0]]);"),
+        "takes a 2 × 2 or a 3 × 3 matrix",
     );
     refuse_saying(
         &with("let a = omega(rotz(der(q)));"),
@@ -171,5 +171,22 @@ fn omega_and_rotations_refuse_what_they_are_not_for() {
     refuse_saying(
         &with("let a = rotz([q, w]);"),
         "the angle of a rotation has to be a number",
+    );
+}
+
+#[test]
+fn the_angular_velocity_in_the_plane_is_a_number() {
+    let source = with(
+        "let R = rot(q)*transpose(rot(w))*rot(t);
+         let S = [[cos(q*w), -sin(q*w)], [sin(q*w), cos(q*w)]];
+         output a = omega(R); output b = der(q) - der(w) + 1;
+         output c = omega(S); output d = der(q*w);",
+    );
+    let m = accept(&source);
+    assert_close(output(&m, "a"), output(&m, "b"));
+    assert_close(output(&m, "c"), output(&m, "d"));
+    refuse_saying(
+        &with("output a = omega([q, w]);"),
+        "a 2 × 2 or a 3 × 3 matrix",
     );
 }

@@ -3,6 +3,7 @@
 //! In:  nothing.
 //! Out: [`AssemblyError`].
 
+use super::StartFault;
 use crate::number::Number;
 use crate::{Quantity, Real, Structure};
 use core::fmt::{Display, Formatter, Result};
@@ -45,6 +46,8 @@ pub enum AssemblyError<T, const N: usize, const R: usize> {
         /// Which velocities are held.
         held: [bool; N],
     },
+    /// Equations of the `start` block don't hold.
+    Start(StartFault<T, N>),
     /// The mechanism can move with a negative kinetic energy.
     NegativeInertia {
         /// Time of the start (s).
@@ -90,6 +93,7 @@ impl<T: Real, const N: usize, const R: usize> Display for AssemblyError<T, N, R>
                 )?;
                 advice(f, structure.coordinates, held, ("der(", ")"))
             }
+            Self::Start(fault) => fault.fmt(f),
             Self::NegativeInertia {
                 t,
                 structure,
@@ -137,7 +141,7 @@ fn rows<T: Real, const R: usize>(
 }
 
 /// What to write instead.
-fn advice<const N: usize>(
+pub(super) fn advice<const N: usize>(
     f: &mut Formatter<'_>,
     coordinates: &[Quantity],
     conflicting: &[bool; N],

@@ -3,6 +3,9 @@
 //! In:  a mechanism, the [`Start`] of its description, the time.
 //! Out: a state on the constraints, positions and velocities, to round-off.
 //!
+//! Equations of the `start` block that are no values of coordinates are met first, together
+//! with the constraints ([`meet`]); what that gives is the guess of the rest.
+//!
 //! Held values stay as they are. The others change as little as they can, each
 //! weighed with the square root of its inertia, so that the answer does not
 //! depend on units: the branch nearest to the guesses is found. Where the
@@ -13,12 +16,14 @@
 //! ([`crate::projection`]).
 
 mod decomposition;
+mod equations;
 mod error;
 mod inertia;
 mod position;
 mod scales;
 mod velocity;
 
+pub use equations::{StartEquations, StartFault, meet};
 pub use error::AssemblyError;
 
 use crate::{Mechanism, Position, Real, Start, State};
@@ -37,6 +42,7 @@ use nalgebra::SVector;
 ///   guess or the mass matrix, is infinite or NaN.
 /// - [`AssemblyError::Positions`] and [`AssemblyError::Velocities`] if the held
 ///   values contradict the constraints; with the error of each constraint.
+/// - [`AssemblyError::Start`] if equations of the `start` block don't hold with them.
 /// - [`AssemblyError::NegativeInertia`] if the kinetic energy is negative for some
 ///   velocities.
 pub fn assemble<T, M, const N: usize, const R: usize>(
@@ -54,6 +60,10 @@ where
     if !state.is_finite() {
         return Err(AssemblyError::NotFinite { t });
     }
+    let mut met = *start;
+    mechanism.begin(&mut met, t).map_err(AssemblyError::Start)?;
+    state.q = SVector::from_fn(|i, _| met.q[i].value);
+    state.v = SVector::from_fn(|i, _| met.v[i].value);
     if R > 0 {
         position::assemble(mechanism, &mut state, &start.q.map(|initial| initial.held))?;
         velocity::assemble(mechanism, &mut state, &start.v.map(|initial| initial.held))?;

@@ -1,0 +1,78 @@
+//! Starts that are given by formulas.
+
+use super::{accept, assert_close, refuse_saying, state, with};
+use bricard_codegen::derive::derive;
+use bricard_codegen::{Settings, compile_source, examine};
+
+#[test]
+fn a_formula_with_a_start_value_is_an_equation_for_positions_or_for_velocities() {
+    let mut m = accept(&with(
+        "param a = 1; part P(x) { start { sin(x) + x = 2; } } let p = P(w);
+         start { [q*w, w] = [a, 2]; der(q*w) = 3*a; q^2 + der(w) = 1; }",
+    ));
+    let texts = m.start_equations.iter().map(|row| row.text.as_str());
+    assert_eq!(
+        texts.collect::<Vec<_>>(),
+        [
+            "sin(x) + x = 2 in p",
+            "[q*w, w] = [a, 2] [x]",
+            "der(q*w) = 3*a",
+            "q^2 + der(w) = 1"
+        ]
+    );
+    assert_eq!(m.starts.len(), 1, "w itself has a value");
+    let equations = derive(&mut m).expect("equations of a usual length");
+    let (q, w, a) = (0.51, 0.80, 1.31);
+    let at = |e| m.graph.evaluate(e, &state);
+    let positions = equations.start_positions;
+    assert_close(at(positions.errors[1]), q * w - a);
+    assert_close(at(positions.slopes[1][0]), w);
+    let velocities = equations.start_velocities;
+    assert_close(at(velocities.errors[0]), -3.0 * a);
+    assert_close(at(velocities.slopes[0][1]), q);
+    assert_close(at(velocities.errors[1]), q * q - 1.0);
+    assert_close(at(velocities.slopes[1][1]), 1.0);
+}
+
+#[test]
+fn a_start_without_equations_emits_nothing_for_them() {
+    let code = |start: &str| {
+        let source = with(&format!("start {{ {start} }}"));
+        let compiled = compile_source(&source, "test", "test.mech", &Settings::default());
+        compiled.expect("a description that is right").code
+    };
+    assert!(!code("q = 1;").contains("StartEquations"));
+    let code = code("q + w = 1;");
+    assert!(code.contains("meet::<T, Self, 2, 0, 1, 0>"), "{code}");
+}
+
+#[test]
+fn what_can_not_be_met_is_refused() {
+    refuse_saying(&with("start { abs(q) = 1; }"), "has to be smooth");
+    refuse_saying(&with("start { der(q)^2 = 1; }"), "linear in the velocities");
+    refuse_saying(
+        &with("start { q + w ~ 1; }"),
+        "only coordinates and their velocities are guessed",
+    );
+    refuse_saying(
+        &with("input u = 1; start { q + u = 1; }"),
+        "can't contain an input",
+    );
+    refuse_saying(
+        &with("start { q + w = q; }"),
+        "built of numbers, constants and parameters",
+    );
+}
+
+#[test]
+fn a_start_that_equations_contradict_is_warned_of() {
+    let said = |start: &str| {
+        let source = with(&format!("constraint q = 2*w; start {{ {start} }}"));
+        let (_, warnings) = examine(&source, &Settings::default()).expect("legal");
+        warnings.render("test.mech", &source)
+    };
+    assert_eq!(said("q = 1; q + w = 3/2; der(q + w) = 1;"), "");
+    assert!(said("q = 1; q + w = 1;").contains("the start can't be assembled"));
+    let held = said("q = 1; der(q) = 2; der(w - q) = 0;");
+    assert!(held.contains("the held velocities contradict"), "{held}");
+}

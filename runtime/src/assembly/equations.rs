@@ -1,0 +1,216 @@
+//! Equations of the `start` block: formulas that have a value at the start.
+//!
+//! In:  a mechanism with such equations, its start.
+//! Out: the start moved onto them and the constraints, or which of them does not hold.
+//!
+//! They are further rows of the constraints while positions are assembled, and others while
+//! velocities are: a position that is given says nothing about velocities.
+
+use super::error::{AssemblyError, advice};
+use super::{position, velocity};
+use crate::number::Number;
+use crate::{Energy, Mechanism, Position, Real, Start, State, Structure, Terms};
+use core::fmt::{self, Display, Formatter};
+use nalgebra::{SMatrix, SVector};
+
+/// What a mechanism with such equations provides.
+///
+/// Errors are those of the equations in their order, slopes their derivatives by the
+/// coordinates, one equation after the other; as many of them as there is room for.
+pub trait StartEquations<T: Real, const N: usize> {
+    /// What the equations for positions are off by.
+    fn position_errors(&self, state: &State<T, N>, values: &mut [T]);
+    /// Their derivatives by the coordinates.
+    fn position_slopes(&self, state: &State<T, N>, values: &mut [T]);
+    /// What the equations for velocities would be off by at rest.
+    fn velocity_errors(&self, state: &State<T, N>, values: &mut [T]);
+    /// Their derivatives by the velocities.
+    fn velocity_slopes(&self, state: &State<T, N>, values: &mut [T]);
+}
+
+/// Which equations of the `start` block do not hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StartFault<T, const N: usize> {
+    /// Time of the start (s).
+    pub t: T,
+    /// The constraints and the equations, for their texts.
+    pub structure: &'static Structure,
+    /// The row that is farthest off, and by how much; `None` if something is infinite or
+    /// NaN.
+    pub farthest: Option<(usize, T)>,
+    /// Whether velocities don't satisfy it, else positions.
+    pub velocities: bool,
+    /// Which held values stand in the way.
+    pub conflicting: [bool; N],
+}
+
+/// Moves a start onto the equations of a mechanism, of which `structures` lists the
+/// constraints with those for positions, `P`, and with those for velocities, `V`.
+///
+/// # Errors
+///
+/// [`StartFault`] if they don't hold together with the held values.
+pub fn meet<T, M, const N: usize, const R: usize, const P: usize, const V: usize>(
+    mechanism: &M,
+    structures: [&'static Structure; 2],
+    start: &mut Start<T, N>,
+    t: T,
+) -> Result<(), StartFault<T, N>>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + StartEquations<T, N>,
+{
+    let q = SVector::from_fn(|i, _| start.q[i].value);
+    let v = SVector::from_fn(|i, _| start.v[i].value);
+    let mut state = State { t, q, v };
+    let [positions, velocities] = structures;
+    if P > 0 {
+        let rows = Further::<M, R> {
+            mechanism,
+            structure: positions,
+            velocities: false,
+        };
+        let held = start.q.map(|initial| initial.held);
+        position::assemble::<T, _, N, P>(&rows, &mut state, &held)
+            .map_err(|error| fault(error, t, positions))?;
+    }
+    if V > 0 {
+        let rows = Further::<M, R> {
+            mechanism,
+            structure: velocities,
+            velocities: true,
+        };
+        let held = start.v.map(|initial| initial.held);
+        velocity::assemble::<T, _, N, V>(&rows, &mut state, &held)
+            .map_err(|error| fault(error, t, velocities))?;
+    }
+    for i in 0..N {
+        (start.q[i].value, start.v[i].value) = (state.q[i], state.v[i]);
+    }
+    Ok(())
+}
+
+/// A mechanism with further rows behind its `R` constraints.
+struct Further<'a, M, const R: usize> {
+    mechanism: &'a M,
+    structure: &'static Structure,
+    /// Whether the rows are those for velocities.
+    velocities: bool,
+}
+
+impl<T, M, const N: usize, const R: usize, const S: usize> Mechanism<T, N, S> for Further<'_, M, R>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + StartEquations<T, N>,
+{
+    fn structure(&self) -> &'static Structure {
+        self.structure
+    }
+
+    /// Those of the mechanism: the further rows hold at the start and not afterwards.
+    fn terms(&self, state: &State<T, N>, out: &mut Terms<T, N, S>) {
+        let mut own = Terms::<T, N, R>::default();
+        self.mechanism.terms(state, &mut own);
+        (out.mass, out.force) = (own.mass, own.force);
+        for k in 0..R.min(S) {
+            out.bias[k] = own.bias[k];
+            (0..N).for_each(|j| out.jacobian[(k, j)] = own.jacobian[(k, j)]);
+        }
+    }
+
+    fn position(&self, state: &State<T, N>, out: &mut Position<T, N, S>) {
+        let mut terms = Terms::<T, N, R>::default();
+        self.mechanism.terms(state, &mut terms);
+        let mut own = Position::<T, N, R>::default();
+        self.mechanism.position(state, &mut own);
+        out.mass = terms.mass;
+        let (mut errors, mut slopes) = (SVector::<T, S>::zeros(), SMatrix::<T, N, S>::zeros());
+        let further = errors.as_mut_slice().get_mut(R..).unwrap_or_default();
+        let further_slopes = slopes.as_mut_slice().get_mut(R * N..).unwrap_or_default();
+        if self.velocities {
+            self.mechanism.velocity_errors(state, further);
+            self.mechanism.velocity_slopes(state, further_slopes);
+        } else {
+            self.mechanism.position_errors(state, further);
+            self.mechanism.position_slopes(state, further_slopes);
+        }
+        out.jacobian = slopes.transpose();
+        for k in 0..R.min(S) {
+            (0..N).for_each(|j| out.jacobian[(k, j)] = own.jacobian[(k, j)]);
+            (out.residual[k], out.drift[k]) = (own.residual[k], own.drift[k]);
+        }
+        for k in R..S {
+            let place = match self.velocities {
+                true => &mut out.drift,
+                false => &mut out.residual,
+            };
+            place[k] = errors[k];
+        }
+    }
+
+    fn energy(&self, state: &State<T, N>) -> Energy<T> {
+        self.mechanism.energy(state)
+    }
+}
+
+fn fault<T: Real, const N: usize, const S: usize>(
+    error: AssemblyError<T, N, S>,
+    t: T,
+    structure: &'static Structure,
+) -> StartFault<T, N> {
+    let (residual, velocities, conflicting) = match error {
+        AssemblyError::Positions {
+            residual,
+            conflicting,
+            ..
+        } => (Some(residual), false, conflicting),
+        AssemblyError::Velocities {
+            residual,
+            conflicting,
+            ..
+        } => (Some(residual), true, conflicting),
+        AssemblyError::NoBranch { held, .. } => (Some(SVector::zeros()), true, held),
+        _ => (None, false, [false; N]),
+    };
+    let farthest = residual.map(|rows| {
+        let far = |a: usize, b: usize| if rows[b].abs() > rows[a].abs() { b } else { a };
+        let row = (0..S).reduce(far).unwrap_or(0);
+        (row, rows.get(row).copied().unwrap_or(T::zero()))
+    });
+    StartFault {
+        t,
+        structure,
+        farthest,
+        velocities,
+        conflicting,
+    }
+}
+
+impl<T: Real, const N: usize> Display for StartFault<T, N> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Some((row, error)) = self.farthest else {
+            return write!(
+                f,
+                "an equation of `start`, or a constraint or the mass matrix, is infinite or NaN at \
+                 t = {t} s; check the values in `start` and the parameters",
+                t = Number(&self.t)
+            );
+        };
+        let (what, hold, per, around) = match self.velocities {
+            true => ("velocities", "satisfy", " per second", ("der(", ")")),
+            false => ("position", "satisfies", "", ("", "")),
+        };
+        write!(
+            f,
+            "no {what} near the start {hold} the constraints and the equations of `start`: "
+        )?;
+        self.structure.write_constraint(f, row)?;
+        let holonomic = self.structure.constraints.get(row);
+        let per = match holonomic.is_some_and(|row| row.holonomic) {
+            true => per,
+            false => "",
+        };
+        write!(f, " is off by {error}{per}", error = Number(&error))?;
+        advice(f, self.structure.coordinates, &self.conflicting, around)
+    }
+}
