@@ -104,6 +104,12 @@ pub enum CommandError {
         /// What became of the rows computed before.
         kept: String,
     },
+    /// A description that could not be compiled, or whose program could not be started.
+    Compile(String),
+    /// A mechanism that can't be watched, and why.
+    Watch(String, String),
+    /// A file or folder of the cache that could not be used.
+    Cache(PathBuf, io::Error),
     /// A folder that is there already.
     Exists(PathBuf),
     /// A name that a crate can't have.
@@ -209,6 +215,14 @@ impl Display for CommandError {
                 write!(f, "can't go on from {}: {reason}", path.display())
             }
             Self::Interrupted { kept } => write!(f, "interrupted{kept}"),
+            Self::Watch(name, reason) => write!(f, "can't watch {name}: {reason}"),
+            Self::Compile(reason) => f.write_str(reason),
+            Self::Cache(path, error) => write!(
+                f,
+                "could not keep what was compiled in {}: {error}; make room there (`bricard cache \
+                 --clear` does), or name another folder with XDG_CACHE_HOME",
+                path.display()
+            ),
             Self::Exists(path) => write!(
                 f,
                 "{} is there already, and nothing in it was changed; choose another name",

@@ -13,10 +13,11 @@ mod path;
 
 use crate::arguments::{Landing, MethodName};
 use crate::error::CommandError;
-use crate::mechanism::{AnyMechanism, find};
+use crate::mechanism::find;
 use crate::output::{print, say};
-use crate::run::{Plan, RowSink};
+use crate::run::{Plan, RowSink, run};
 use crate::table::{Align, headed};
+use bricard_driver::AnyMechanism;
 use bricard_runtime::{Audit, Options, Pace, Scheme};
 use path::{Path, path};
 
@@ -208,9 +209,7 @@ fn stages(method: MethodName) -> &'static [f64] {
 /// When a mechanism first passes a singular position (s).
 fn first_passage(name: &str, mechanism: &dyn AnyMechanism) -> Result<f64, CommandError> {
     let plan = Plan::new(Options::dop853(LOOK, SEARCH), Some(LOOK), Vec::new());
-    let report = mechanism
-        .run(&plan, &mut Nowhere)
-        .map_err(|stopped| stopped.error)?;
+    let report = run(mechanism, &plan, &mut Nowhere).map_err(|stopped| stopped.error)?;
     match report.passages.first() {
         Some(passage) => Ok(passage.t),
         None => Err(failed(format!(

@@ -5,7 +5,7 @@
 
 use super::reference::Exact;
 use crate::arguments::{FormName, MethodName};
-use crate::mechanism::{AnyMechanism, Race};
+use bricard_driver::{AnyMechanism, Race};
 use bricard_runtime::{Audit, Options, Pace};
 use std::time::Duration;
 

@@ -5,7 +5,7 @@
 
 use crate::changes::Changes;
 use crate::error::CommandError;
-use crate::mechanism::Given;
+use bricard_driver::Given;
 use bricard_reference::{DoubleDouble, reference_from};
 use bricard_runtime::{Initial, Interface, Mechanism, Real, Visitor, Whole};
 
