@@ -7,13 +7,15 @@ use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
 /// What a program of one mechanism is built from.
-const SHARED: [&str; 6] = [
+const SHARED: [&str; 8] = [
     "Cargo.toml",
     "Cargo.lock",
     "runtime/Cargo.toml",
     "runtime/src",
     "driver/Cargo.toml",
     "driver/src",
+    "reference/Cargo.toml",
+    "reference/src",
 ];
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -3,11 +3,13 @@
 //! In:  what the command line calls it.
 //! Out: [`AnyMechanism`], on which the commands work.
 
+use crate::check::read;
 use crate::compiled;
 use crate::error::CommandError;
 use crate::plot::Shape;
 use crate::show::freedom;
-use bricard_driver::{AnyMechanism, forget, state_of};
+use bricard_driver::{AnyMechanism, Precise, forget, state_of};
+use bricard_reference::DoubleDouble;
 use bricard_runtime::{Canvas, Interface, Mechanism, Settings, Solver, Visitor, Whole, assemble};
 use std::path::{self, Path};
 
@@ -37,6 +39,18 @@ pub fn file(name: &str) -> Option<&Path> {
     is_file.then_some(path)
 }
 
+/// What tells a mechanism from all others: its name, or the text of its file.
+///
+/// # Errors
+///
+/// [`CommandError::Read`].
+pub fn identity(name: &str) -> Result<String, CommandError> {
+    match file(name) {
+        Some(file) => Ok(format!("{:016x}", compiled::hash([&*read(file)?]))),
+        None => Ok(name.to_string()),
+    }
+}
+
 /// The names that [`find`] knows.
 pub fn names() -> impl Iterator<Item = &'static str> {
     let library = bricard::NAMES.iter();
@@ -58,6 +72,36 @@ impl Visitor<f64> for Forget {
         M: Mechanism<f64, N, R> + Interface<f64, N> + Clone + 'static,
     {
         forget::<N, R>(Box::new(mechanism))
+    }
+}
+
+/// The same mechanism in numbers of 106 bits.
+///
+/// # Errors
+///
+/// As [`find`]; the benchmark problems are not there in these numbers.
+pub fn precise(name: &str) -> Result<Box<dyn Precise>, CommandError> {
+    if let Some(file) = file(name) {
+        return Ok(Box::new(compiled::open_precise(file)?));
+    }
+    bricard::visit(name, Widen).ok_or_else(|| CommandError::UnknownName {
+        kind: "mechanism",
+        owner: String::new(),
+        name: name.to_string(),
+        known: bricard::NAMES.iter().map(|name| name.to_string()).collect(),
+    })
+}
+
+struct Widen;
+
+impl Visitor<DoubleDouble> for Widen {
+    type Output = Box<dyn Precise>;
+
+    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
+    where
+        M: Mechanism<DoubleDouble, N, R> + Interface<DoubleDouble, N> + Clone + 'static,
+    {
+        bricard_reference::precise::<N, R>(Box::new(mechanism))
     }
 }
 

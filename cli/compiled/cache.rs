@@ -7,9 +7,9 @@
 //! process builds at a time; the others wait for it, and need no lock for what is there.
 
 use super::compiler::Toolchain;
-use super::hash;
 use super::program::name;
 use super::shared::{SOURCES, create};
+use super::{Digits, hash};
 use crate::error::CommandError;
 use crate::output::say;
 use std::env;
@@ -86,11 +86,14 @@ impl Cache {
     }
 }
 
-/// The part of the cache that belongs to one version of the sources and of the toolchain.
+/// The part of the cache that belongs to one version of the sources and of the toolchain,
+/// and to one kind of numbers.
 #[derive(Clone, Debug)]
 pub struct Version {
     cache: Cache,
     folder: PathBuf,
+    /// The numbers that its programs compute with.
+    pub digits: Digits,
 }
 
 impl Version {
@@ -104,13 +107,18 @@ impl Version {
     const DESCRIPTION: &str = "description.mech";
 
     /// The part of a toolchain, and of the sources that this command carries.
-    pub fn new(cache: &Cache, toolchain: &Toolchain) -> Self {
+    pub fn new(cache: &Cache, toolchain: &Toolchain, digits: Digits) -> Self {
         let sources = SOURCES.iter().flat_map(|(name, text)| [*name, *text]);
         let key = hash(sources.chain([toolchain.identity.as_str()]));
-        let name = format!("{}-{key:016x}", env!("CARGO_PKG_VERSION"));
+        let kind = match digits {
+            Digits::Double => "",
+            Digits::Many => "-precise",
+        };
+        let name = format!("{}-{key:016x}{kind}", env!("CARGO_PKG_VERSION"));
         Self {
             cache: cache.clone(),
             folder: cache.root.join(name),
+            digits,
         }
     }
 

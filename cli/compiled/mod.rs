@@ -19,11 +19,12 @@ mod shared;
 
 use crate::check::read;
 use crate::error::CommandError;
-use bricard_driver::Link;
+use bricard_driver::{Link, PreciseLink};
 use cache::{Cache, Version};
 use compiler::Toolchain;
 use program::Program;
-use std::path::Path;
+use std::io;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Compiles a description if it is not in the cache, and starts its program.
@@ -33,23 +34,53 @@ use std::process::Command;
 /// What is wrong with the description, in the words of `bricard check`; what stands in the
 /// way of compiling it.
 pub fn open(file: &Path) -> Result<Link, CommandError> {
+    start(&program(file, Digits::Double)?, Link::start)
+}
+
+/// As [`open`], in numbers of 106 bits.
+///
+/// # Errors
+///
+/// As [`open`].
+pub fn open_precise(file: &Path) -> Result<PreciseLink, CommandError> {
+    start(&program(file, Digits::Many)?, PreciseLink::start)
+}
+
+/// The numbers that a program computes with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Digits {
+    /// `f64`.
+    Double,
+    /// 106 bits, to compare runs with.
+    Many,
+}
+
+/// The program of a description, from the cache or built.
+fn program(file: &Path, digits: Digits) -> Result<PathBuf, CommandError> {
     let source = read(file)?;
     let toolchain = Toolchain::find();
     let cache = Cache::find()?;
     let known = toolchain.as_ref().ok().and_then(|toolchain| {
-        let version = Version::new(&cache, toolchain);
+        let version = Version::new(&cache, toolchain, digits);
         version.program(file, &source)
     });
-    let program = match known {
-        Some(program) => program,
+    match known {
+        Some(program) => Ok(program),
         None => {
             // A wrong description is the first thing to know, toolchain or not.
             let program = Program::generate(file, &source)?;
             let toolchain = toolchain?;
-            program.build(&Version::new(&cache, &toolchain), &toolchain)?
+            program.build(&Version::new(&cache, &toolchain, digits), &toolchain)
         }
-    };
-    Link::start(Command::new(&program)).map_err(|error| {
+    }
+}
+
+/// Starts a program.
+fn start<L>(
+    program: &Path,
+    link: impl FnOnce(Command) -> io::Result<L>,
+) -> Result<L, CommandError> {
+    link(Command::new(program)).map_err(|error| {
         CommandError::Compile(format!(
             "the program {} could not be started: {error}; if programs can't run there, name \
              another folder with XDG_CACHE_HOME, and if it is damaged, say `bricard cache --clear`",

@@ -45,7 +45,7 @@ impl<'a> Program<'a> {
         let kind = type_name(&compiled.name);
         let main = format!(
             "fn main() -> std::process::ExitCode {{\n    \
-             sized::serve(Box::new({MODULE}::{kind}::<f64>::default()))\n}}\n"
+             sized::serve(Box::new({MODULE}::{kind}::<sized::Number>::default()))\n}}\n"
         );
         Ok(Self {
             file,
@@ -70,9 +70,12 @@ impl<'a> Program<'a> {
         let scratch = Scratch::new(version)?;
         scratch.write(Path::new("main.rs"), &self.code)?;
         let built = scratch.folder("program")?;
-        let mut rustc = rustc(&[&version.libraries(), &sized]);
+        let mut rustc = rustc(
+            &[&version.libraries(), &sized],
+            &["bricard_runtime", "sized"].map(String::from),
+        );
         rustc
-            .args(["--extern", "sized", "-C", "strip=symbols", "main.rs", "-o"])
+            .args(["-C", "strip=symbols", "main.rs", "-o"])
             .arg(built.join(Version::EXECUTABLE));
         let failed = format!("{} could not be compiled", self.file.display());
         output(rustc, scratch.path(), &failed)?;

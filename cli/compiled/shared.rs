@@ -4,6 +4,7 @@
 //! Out: libraries in the cache: the runtime and the driver with all that they depend on,
 //!      and the driver for each pair of sizes.
 
+use super::Digits;
 use super::cache::{Scratch, Version};
 use super::compiler::{Toolchain, command, output};
 use crate::error::CommandError;
@@ -17,8 +18,32 @@ use std::process::Command;
 /// Paths and texts of the sources.
 pub const SOURCES: &[(&str, &str)] = &include!(concat!(env!("OUT_DIR"), "/sources.rs"));
 
-/// The packages among them.
-const PACKAGES: [&str; 2] = ["runtime", "driver"];
+impl Digits {
+    /// The packages among the sources that are needed.
+    fn packages(self) -> &'static [&'static str] {
+        match self {
+            Self::Double => &["runtime", "driver"],
+            Self::Many => &["runtime", "driver", "reference"],
+        }
+    }
+
+    /// What descriptions of one pair of sizes share: a `main` but for the mechanism.
+    fn serve(self, [coordinates, constraints]: [usize; 2]) -> String {
+        let (number, serve) = match self {
+            Self::Double => ("f64", "bricard_driver::serve(mechanism)"),
+            Self::Many => (
+                "bricard_reference::DoubleDouble",
+                "bricard_driver::serve_precise(bricard_reference::precise(mechanism))",
+            ),
+        };
+        let kind = format!("dyn bricard_runtime::Whole<Number, {coordinates}, {constraints}>");
+        format!(
+            "pub type Number = {number};\n\n\
+             pub fn serve(mechanism: Box<{kind}>) -> std::process::ExitCode {{\n    \
+             {serve}\n}}\n"
+        )
+    }
+}
 
 /// Builds what all descriptions share, unless it is there.
 ///
@@ -35,8 +60,10 @@ pub fn libraries(version: &Version, toolchain: &Toolchain) -> Result<PathBuf, Co
          about 15 s",
     );
     let scratch = Scratch::new(version)?;
+    let packages = version.digits.packages();
     for (name, text) in SOURCES {
-        scratch.write(&Path::new("sources").join(name), &manifest(name, text))?;
+        let text = manifest(name, text, packages);
+        scratch.write(&Path::new("sources").join(name), &text)?;
     }
     let sources = scratch.path().join("sources");
     let built = scratch.folder("libraries")?;
@@ -91,7 +118,7 @@ fn is_library(file: &Path) -> bool {
 
 /// A manifest without what only tests and the whole workspace need; any other text as it
 /// is.
-fn manifest(name: &str, text: &str) -> String {
+fn manifest(name: &str, text: &str, packages: &[&str]) -> String {
     if name == "Cargo.lock" || !name.ends_with(".toml") {
         return text.to_string();
     }
@@ -101,7 +128,7 @@ fn manifest(name: &str, text: &str) -> String {
         false => !["[[test]]", "[dev-dependencies]"].contains(&section),
     };
     let mut manifest = match is_root {
-        true => format!("[workspace]\nmembers = {PACKAGES:?}\nresolver = \"3\"\n\n"),
+        true => format!("[workspace]\nmembers = {packages:?}\nresolver = \"3\"\n\n"),
         false => String::new(),
     };
     let mut keep = false;
@@ -134,22 +161,13 @@ pub fn sized(
     }
     let scratch = Scratch::new(version)?;
     let built = scratch.folder("sized")?;
-    let kind = format!("dyn bricard_runtime::Whole<f64, {coordinates}, {constraints}>");
-    let text = format!(
-        "pub fn serve(mechanism: Box<{kind}>) -> std::process::ExitCode {{\n    \
-         bricard_driver::serve(mechanism)\n}}\n"
-    );
+    let text = version.digits.serve([coordinates, constraints]);
     scratch.write(Path::new("sized.rs"), &text)?;
-    let mut rustc = rustc(&[&libraries]);
+    let packages = version.digits.packages().iter();
+    let crates: Vec<String> = packages.map(|name| format!("bricard_{name}")).collect();
+    let mut rustc = rustc(&[&libraries], &crates);
     rustc
-        .args([
-            "--crate-type",
-            "lib",
-            "--extern",
-            "bricard_driver",
-            "sized.rs",
-            "--out-dir",
-        ])
+        .args(["--crate-type", "lib", "sized.rs", "--out-dir"])
         .arg(&built);
     let failed = format!(
         "the driver for {coordinates} coordinates and {constraints} constraint equations could \
@@ -160,8 +178,8 @@ pub fn sized(
     Ok(sized)
 }
 
-/// The compiler, with folders of libraries.
-pub fn rustc(libraries: &[&Path]) -> Command {
+/// The compiler, with folders of libraries and the crates that are used of them.
+pub fn rustc(libraries: &[&Path], crates: &[String]) -> Command {
     let mut rustc = command("rustc");
     rustc.args([
         "--edition",
@@ -171,7 +189,9 @@ pub fn rustc(libraries: &[&Path]) -> Command {
         "--cap-lints",
         "allow",
     ]);
-    rustc.args(["--extern", "bricard_runtime"]);
+    for name in crates {
+        rustc.args(["--extern", name]);
+    }
     for folder in libraries {
         rustc.arg("-L").arg(folder);
     }

@@ -4,7 +4,8 @@
 //! [`forget`] makes an [`AnyMechanism`] of a generated mechanism; everything behind it is
 //! compiled once for each pair of sizes. [`serve`] puts one behind standard input and
 //! output, for a program that does nothing else; [`Link`] is the other end, and an
-//! [`AnyMechanism`] too.
+//! [`AnyMechanism`] too. [`Precise`], with [`serve_precise`] and [`PreciseLink`], is the
+//! same for motions to many more digits.
 //!
 //! Not here: what a run is for. Files, progress and Ctrl-C are the business of whoever
 //! watches it ([`Watch`]).
@@ -13,6 +14,7 @@ mod any;
 mod column;
 mod leg;
 mod link;
+mod precise;
 mod serve;
 mod wire;
 mod writer;
@@ -21,4 +23,5 @@ pub use any::{AnyMechanism, Given, Race, forget, state_of};
 pub use column::{Column, WORDS};
 pub use leg::{Leg, Reached, Watch};
 pub use link::Link;
+pub use precise::{Altered, Around, Exact, Path, Precise, PreciseLink, serve_precise};
 pub use serve::serve;

@@ -7,7 +7,7 @@
 
 use crate::any::{AnyMechanism, Given, Race};
 use crate::leg::{Leg, Reached, Watch};
-use crate::wire::{Reply, Request, receive, send};
+use crate::wire::{Reply, Request, Wire, receive, send};
 use bricard_runtime::{Options, Structure};
 use std::cell::RefCell;
 use std::io::{self, BufReader, BufWriter, Write};
@@ -22,7 +22,7 @@ pub struct Link {
 
 /// The two pipes, and the program behind them.
 #[derive(Debug)]
-struct Ends {
+pub(crate) struct Ends {
     to: BufWriter<ChildStdin>,
     from: BufReader<ChildStdout>,
     program: Child,
@@ -34,35 +34,15 @@ impl Link {
     /// # Errors
     ///
     /// What the system says.
-    pub fn start(mut program: Command) -> io::Result<Self> {
-        apart(&mut program);
-        let mut program = program
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()?;
-        let (Some(to), Some(from)) = (program.stdin.take(), program.stdout.take()) else {
-            return Err(io::Error::other("it has no standard input or output"));
-        };
-        let mut ends = Ends {
-            to: BufWriter::new(to),
-            from: BufReader::with_capacity(1 << 16, from),
-            program,
-        };
+    pub fn start(program: Command) -> io::Result<Self> {
+        let mut ends = Ends::start(program)?;
         match receive(&mut ends.from)? {
             Reply::Structure(structure) => Ok(Self {
                 structure: Box::leak(Box::new(structure)),
                 ends: RefCell::new(ends),
             }),
-            _ => Err(io::Error::other("it is no mechanism")),
+            _ => Err(io::Error::other(Ends::NONSENSE)),
         }
-    }
-
-    /// Asks, and waits for the answer.
-    fn ask(&self, request: &Request) -> Result<Reply, String> {
-        let mut ends = self.ends.borrow_mut();
-        ends.tell(request)
-            .and_then(|()| receive(&mut ends.from))
-            .map_err(|error| ends.gone(&error))
     }
 
     /// Tells what needs no answer. Where the program has gone, the next question says so.
@@ -72,15 +52,41 @@ impl Link {
 }
 
 impl Ends {
-    fn tell(&mut self, request: &Request) -> io::Result<()> {
+    /// What is said of an answer to another question.
+    pub(crate) const NONSENSE: &str = "the compiled mechanism answers something else";
+
+    /// Starts a program.
+    pub(crate) fn start(mut program: Command) -> io::Result<Self> {
+        apart(&mut program);
+        let mut program = program
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()?;
+        let (Some(to), Some(from)) = (program.stdin.take(), program.stdout.take()) else {
+            return Err(io::Error::other("it has no standard input or output"));
+        };
+        Ok(Self {
+            to: BufWriter::new(to),
+            from: BufReader::with_capacity(1 << 16, from),
+            program,
+        })
+    }
+
+    /// Asks, and waits for the answer.
+    pub(crate) fn ask<W: Wire>(&mut self, question: &impl Wire) -> Result<W, String> {
+        let told = self.tell(question);
+        told.and_then(|()| receive(&mut self.from))
+            .map_err(|error| self.gone(&error))
+    }
+
+    fn tell(&mut self, request: &impl Wire) -> io::Result<()> {
         send(&mut self.to, request)?;
         self.to.flush()
     }
 
     /// What became of the program.
     fn gone(&mut self, error: &io::Error) -> String {
-        let status = self.program.try_wait();
-        match status {
+        match self.program.try_wait() {
             Ok(Some(status)) => format!("the compiled mechanism has ended: {status}"),
             _ => format!("the compiled mechanism does not answer: {error}"),
         }
@@ -109,8 +115,6 @@ fn apart(program: &mut Command) {
         program.creation_flags(CREATE_NEW_PROCESS_GROUP);
     }
 }
-
-const NONSENSE: &str = "the compiled mechanism answers something else";
 
 impl AnyMechanism for Link {
     fn structure(&self) -> &'static Structure {
@@ -141,7 +145,7 @@ impl AnyMechanism for Link {
                 Reply::Row(values) => watch.row(&values),
                 Reply::At(t, steps) => watch.at(t, steps),
                 Reply::Leg(reached) => return reached,
-                _ => return Err(NONSENSE.to_string()),
+                _ => return Err(Ends::NONSENSE.to_string()),
             };
             if flow.is_break() {
                 stopped = true;
@@ -152,9 +156,13 @@ impl AnyMechanism for Link {
     }
 
     fn race(&self, from: Option<&[f64]>, options: &Options<f64>) -> Result<Race, String> {
-        match self.ask(&Request::Race(from.map(<[f64]>::to_vec), *options))? {
+        match self
+            .ends
+            .borrow_mut()
+            .ask(&Request::Race(from.map(<[f64]>::to_vec), *options))?
+        {
             Reply::Race(race) => race,
-            _ => Err(NONSENSE.to_string()),
+            _ => Err(Ends::NONSENSE.to_string()),
         }
     }
 }

@@ -5,7 +5,7 @@
 
 use crate::any::{AnyMechanism, forget};
 use crate::leg::Watch;
-use crate::wire::{Reply, Request, receive, send};
+use crate::wire::{Reply, Request, Wire, receive, send};
 use bricard_runtime::Whole;
 use std::io::{self, BufWriter, Stdout, Write};
 use std::mem;
@@ -35,7 +35,11 @@ pub fn serve<const N: usize, const R: usize>(mechanism: Box<dyn Whole<f64, N, R>
 }
 
 fn answer(mut mechanism: Box<dyn AnyMechanism>) -> io::Result<()> {
-    let requests = listen();
+    let requests = listen(|request| {
+        if *request == Request::Stop {
+            WANTED.store(true, Ordering::Relaxed);
+        }
+    });
     let mut out = Out::new();
     out.send(&Reply::Structure(*mechanism.structure()))?;
     for request in requests {
@@ -61,16 +65,17 @@ fn answer(mut mechanism: Box<dyn AnyMechanism>) -> io::Result<()> {
     Ok(())
 }
 
-/// Reads requests as they come, also while a run goes on: it may be one to stop. Where
-/// whoever asks has gone, so has the reason to go on.
-fn listen() -> Receiver<Request> {
+/// Reads what is asked as it comes, also while something is computed, and takes note of it
+/// at once. Where whoever asks has gone, so has the reason to go on.
+pub(crate) fn listen<W>(note: impl Fn(&W) + Send + 'static) -> Receiver<W>
+where
+    W: Wire + Send + 'static,
+{
     let (sender, requests) = channel();
     thread::spawn(move || {
         let mut input = io::stdin().lock();
-        while let Ok(request) = receive::<Request>(&mut input) {
-            if request == Request::Stop {
-                WANTED.store(true, Ordering::Relaxed);
-            }
+        while let Ok(request) = receive(&mut input) {
+            note(&request);
             if sender.send(request).is_err() {
                 break;
             }

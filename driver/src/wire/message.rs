@@ -1,7 +1,7 @@
 //! What is said between a mechanism in a program of its own and whoever started it.
 
 use super::{Wire, record::choices};
-use crate::{Given, Leg, Race, Reached};
+use crate::{Altered, Around, Exact, Given, Leg, Path, Race, Reached};
 use bricard_runtime::{Options, Structure};
 
 /// What the mechanism is asked for.
@@ -36,7 +36,27 @@ pub(crate) enum Reply {
     Race(Result<Race, String>),
 }
 
+/// What a mechanism in numbers of many digits is asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Question {
+    /// Wants [`Answer::Exact`].
+    Exact(Altered, f64),
+    /// Wants [`Answer::Path`].
+    Path(Around),
+}
+
+/// What it answers.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Answer {
+    /// The end of a motion.
+    Exact(Result<Exact, String>),
+    /// States around a passage.
+    Path(Result<Path, String>),
+}
+
 choices! {
+    Question { 0 => Exact(altered, until), 1 => Path(around) }
+    Answer { 0 => Exact(exact), 1 => Path(path) }
     Request {
         0 => Parameter(place, value), 1 => Input(place, value), 2 => Begin(given), 3 => Leg(leg),
         4 => Stop, 5 => Race(from, options)

@@ -8,8 +8,10 @@
 
 mod message;
 mod record;
+#[cfg(test)]
+mod tests;
 
-pub(crate) use message::{Reply, Request};
+pub(crate) use message::{Answer, Question, Reply, Request};
 
 use std::io::{self, Read, Write};
 use std::time::Duration;

@@ -1,7 +1,7 @@
 //! Structs and enums of the runtime as bytes: field by field, variant by variant.
 
 use super::Wire;
-use crate::{Column, Given, Leg, Race, Reached};
+use crate::{Altered, Around, Column, Exact, Given, Leg, Path, Race, Reached};
 use bricard_runtime::{
     Audit, ConstraintRow, Counters, Declared, Direction, Event, Form, Options, Origin, Pace,
     Passage, Quantity, Scheme, Settings, Stabilisation, Structure,
@@ -77,6 +77,10 @@ records! {
     }
     Given { coordinate, velocity, held, value }
     Race { end, steps, evaluations, wall }
+    Altered { parameters, inputs, given }
+    Exact { end, error }
+    Around { about, places, span }
+    Path { passage, rows }
     Leg { options, from, every, columns, rows, short }
     Reached {
         state, origin, rows, error, steps, rejected, wall, constraint_error, energy_error,
