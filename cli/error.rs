@@ -106,7 +106,9 @@ pub enum CommandError {
     },
     /// A description that could not be compiled, or whose program could not be started.
     Compile(String),
-    /// A mechanism that can't be watched, and why.
+    /// A name where a file is wanted.
+    NoFile(String),
+    /// A file that can't be watched, and why.
     Watch(String, String),
     /// A file or folder of the cache that could not be used.
     Cache(PathBuf, io::Error),
@@ -158,6 +160,7 @@ impl CommandError {
             | Self::UselessOption { .. }
             | Self::FileKind { .. }
             | Self::Checkpoint { .. }
+            | Self::NoFile(_)
             | Self::Name { .. } => WRONG_COMMAND_LINE,
             Self::NobodyReads => 0,
             Self::Interrupted { .. } => INTERRUPTED,
@@ -215,6 +218,10 @@ impl Display for CommandError {
                 write!(f, "can't go on from {}: {reason}", path.display())
             }
             Self::Interrupted { kept } => write!(f, "interrupted{kept}"),
+            Self::NoFile(name) => write!(
+                f,
+                "`{name}` is a name, and this takes the file of a description, such as `./{name}.mech`"
+            ),
             Self::Watch(name, reason) => write!(f, "can't watch {name}: {reason}"),
             Self::Compile(reason) => f.write_str(reason),
             Self::Cache(path, error) => write!(

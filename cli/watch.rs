@@ -25,13 +25,12 @@ const REST: Duration = Duration::from_millis(30);
 ///
 /// # Errors
 ///
-/// [`CommandError::Watch`]: there is no file to watch, or the system can't; and
+/// [`CommandError::NoFile`], [`CommandError::Watch`], and at its end
 /// [`CommandError::Interrupted`].
 pub fn watch(arguments: &Simulate) -> Result<(), CommandError> {
     let failed = |reason: String| CommandError::Watch(arguments.name.clone(), reason);
     let Some(file) = file(&arguments.name) else {
-        let reason = "it is a name of the library; give the file of a description";
-        return Err(failed(reason.to_string()));
+        return Err(CommandError::NoFile(arguments.name.clone()));
     };
     // The folder is watched: a new file under the old name is another file.
     let folder = match file.parent() {

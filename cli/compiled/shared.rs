@@ -85,7 +85,7 @@ fn compiled(sources: &Path, toolchain: &Toolchain) -> Result<Vec<PathBuf>, Comma
             .args([
                 "build",
                 "--release",
-                "--message-format=json",
+                "--message-format=json-render-diagnostics",
                 "--target-dir",
             ])
             .arg("target")
