@@ -30,7 +30,8 @@ fn embed() -> Result<(), Box<dyn Error>> {
     let mut files = Vec::new();
     for shared in SHARED {
         println!("cargo::rerun-if-changed={shared}");
-        collect(Path::new(shared), &mut files)?;
+        // A package in a registry is without the others: the command is built from a checkout.
+        collect(Path::new(shared), &mut files).map_err(|error| format!("{shared}: {error}"))?;
     }
     files.sort();
     let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR")?);

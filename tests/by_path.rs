@@ -304,7 +304,7 @@ fn the_cache_is_shown_and_cleared() {
 fn a_run_by_path_goes_on_from_its_checkpoint_unless_the_file_is_edited() {
     let folder = folder("resumed");
     write(&folder, "p.mech", &pendulum("Resumed", 0.5));
-    let long = ["simulate", "p.mech", "--step", "0.002", "--until", "120"];
+    let long = ["simulate", "p.mech", "--step", "0.002", "--until", "600"];
     let with = |more: &[&'static str]| [&long[..], more].concat();
     done(
         &folder,
@@ -440,7 +440,7 @@ fn a_file_is_compared_with_many_digits_as_the_mechanism_of_the_library_is() {
             "--methods",
             "dp5",
             "--set",
-            "m=0.3",
+            "m1=0.3",
             "--csv",
             "a.csv",
         ];

@@ -10,6 +10,7 @@ use super::compiler::{Toolchain, command, output};
 use crate::error::CommandError;
 use crate::output::say;
 use serde_json::Value;
+use std::ffi::OsStr;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -112,8 +113,11 @@ fn files(message: &Value) -> Vec<PathBuf> {
     names.filter_map(Value::as_str).map(PathBuf::from).collect()
 }
 
+/// Whether a file is a library, or one of the macros that a library names.
 fn is_library(file: &Path) -> bool {
-    file.extension().is_some_and(|kind| kind == "rlib")
+    let kinds = ["rlib", "so", "dylib", "dll"];
+    let kind = file.extension().and_then(OsStr::to_str);
+    kind.is_some_and(|kind| kinds.contains(&kind))
 }
 
 /// A manifest without what only tests and the whole workspace need; any other text as it
