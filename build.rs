@@ -3,6 +3,7 @@
 
 use bricard_codegen::Builder;
 use std::error::Error;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
@@ -18,6 +19,9 @@ const SHARED: [&str; 8] = [
     "reference/src",
 ];
 
+/// What makes a program of it.
+const MAKERS: [&str; 3] = ["codegen/Cargo.toml", "codegen/src", "cli/compiled"];
+
 fn main() -> Result<(), Box<dyn Error>> {
     Builder::new()
         .coriolis_matrix(true)
@@ -25,27 +29,36 @@ fn main() -> Result<(), Box<dyn Error>> {
     embed()
 }
 
-/// Writes `OUT_DIR/sources.rs`: pairs of paths and texts, in alphabetical order.
+/// Writes `OUT_DIR/sources.rs`: a key, which changes with the sources and with what makes a
+/// program of them, and pairs of paths and texts, in alphabetical order.
 fn embed() -> Result<(), Box<dyn Error>> {
+    let (shared, makers) = (below(&SHARED)?, below(&MAKERS)?);
+    let mut key = DefaultHasher::new();
+    for file in shared.iter().chain(&makers) {
+        (file, fs::read(file)?).hash(&mut key);
+    }
+    let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR")?);
+    let mut text = format!("({}, &[\n", key.finish());
+    for file in shared {
+        let name = file.to_string_lossy().replace('\\', "/");
+        let place = root.join(file);
+        text.push_str(&format!("({name:?}, include_str!({place:?})),\n"));
+    }
+    text.push_str("])");
+    fs::write(PathBuf::from(env::var("OUT_DIR")?).join("sources.rs"), text)?;
+    Ok(())
+}
+
+/// All files of some folders.
+fn below(folders: &[&str]) -> Result<Vec<PathBuf>, Box<dyn Error>> {
     let mut files = Vec::new();
-    for shared in SHARED {
-        println!("cargo::rerun-if-changed={shared}");
+    for folder in folders {
+        println!("cargo::rerun-if-changed={folder}");
         // A package in a registry is without the others: the command is built from a checkout.
-        collect(Path::new(shared), &mut files).map_err(|error| format!("{shared}: {error}"))?;
+        collect(Path::new(folder), &mut files).map_err(|error| format!("{folder}: {error}"))?;
     }
     files.sort();
-    let root = PathBuf::from(env::var("CARGO_MANIFEST_DIR")?);
-    let mut list = String::from("[\n");
-    for file in files {
-        let name = file.to_string_lossy().replace('\\', "/");
-        list.push_str(&format!(
-            "({name:?}, include_str!({:?})),\n",
-            root.join(file)
-        ));
-    }
-    list.push(']');
-    fs::write(PathBuf::from(env::var("OUT_DIR")?).join("sources.rs"), list)?;
-    Ok(())
+    Ok(files)
 }
 
 /// All files of a folder, or one file.

@@ -108,8 +108,7 @@ impl Version {
 
     /// The part of a toolchain, and of the sources that this command carries.
     pub fn new(cache: &Cache, toolchain: &Toolchain, digits: Digits) -> Self {
-        let sources = SOURCES.iter().flat_map(|(name, text)| [*name, *text]);
-        let key = hash(sources.chain([toolchain.identity.as_str()]));
+        let key = hash([&*SOURCES.0.to_string(), &*toolchain.identity]);
         let kind = match digits {
             Digits::Double => "",
             Digits::Many => "-precise",

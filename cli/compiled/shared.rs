@@ -16,8 +16,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Paths and texts of the sources.
-pub const SOURCES: &[(&str, &str)] = &include!(concat!(env!("OUT_DIR"), "/sources.rs"));
+/// What changes with the sources and with what makes a program of them, and the paths and
+/// texts of the sources.
+type Sources = (u64, &'static [(&'static str, &'static str)]);
+pub const SOURCES: Sources = include!(concat!(env!("OUT_DIR"), "/sources.rs"));
 
 impl Digits {
     /// The packages among the sources that are needed.
@@ -62,7 +64,7 @@ pub fn libraries(version: &Version, toolchain: &Toolchain) -> Result<PathBuf, Co
     );
     let scratch = Scratch::new(version)?;
     let packages = version.digits.packages();
-    for (name, text) in SOURCES {
+    for (name, text) in SOURCES.1 {
         let text = manifest(name, text, packages);
         scratch.write(&Path::new("sources").join(name), &text)?;
     }

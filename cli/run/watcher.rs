@@ -29,6 +29,16 @@ impl<'a> Watcher<'a> {
         }
     }
 
+    /// Breaks the run off if Ctrl-C was pressed.
+    fn listen(&mut self) -> ControlFlow<()> {
+        match interrupt::is_wanted() {
+            true => self.refuse(CommandError::Interrupted {
+                kept: String::new(),
+            }),
+            false => ControlFlow::Continue(()),
+        }
+    }
+
     fn refuse(&mut self, error: CommandError) -> ControlFlow<()> {
         self.refused = Some(error);
         ControlFlow::Break(())
@@ -38,17 +48,13 @@ impl<'a> Watcher<'a> {
 impl Watch for Watcher<'_> {
     fn row(&mut self, values: &[f64]) -> ControlFlow<()> {
         match self.sink.row(values) {
-            Ok(()) => ControlFlow::Continue(()),
+            Ok(()) => self.listen(),
             Err(error) => self.refuse(error),
         }
     }
 
     fn at(&mut self, t: f64, steps: u64) -> ControlFlow<()> {
         self.progress.at(t, steps);
-        if interrupt::is_wanted() {
-            let kept = String::new();
-            return self.refuse(CommandError::Interrupted { kept });
-        }
-        ControlFlow::Continue(())
+        self.listen()
     }
 }
