@@ -218,23 +218,11 @@ impl Display for CommandError {
                 write!(f, "can't go on from {}: {reason}", path.display())
             }
             Self::Interrupted { kept } => write!(f, "interrupted{kept}"),
-            Self::NoFile(name) => write!(
-                f,
-                "`{name}` is a name, and this takes the file of a description, such as `./{name}.mech`"
-            ),
+            Self::NoFile(name) => no_file(f, name),
             Self::Watch(name, reason) => write!(f, "can't watch {name}: {reason}"),
             Self::Compile(reason) => f.write_str(reason),
-            Self::Cache(path, error) => write!(
-                f,
-                "could not keep what was compiled in {}: {error}; make room there (`bricard cache \
-                 --clear` does), or name another folder with XDG_CACHE_HOME",
-                path.display()
-            ),
-            Self::Exists(path) => write!(
-                f,
-                "{} is there already, and nothing in it was changed; choose another name",
-                path.display()
-            ),
+            Self::Cache(path, error) => cache(f, path, error),
+            Self::Exists(path) => exists(f, path),
             Self::Name { name, why } => write!(f, "a crate can't be called `{name}`: {why}"),
             Self::Said => Ok(()),
             Self::OutOfBounds(broken) => {
@@ -244,6 +232,30 @@ impl Display for CommandError {
             Self::NobodyReads => f.write_str("nobody reads standard output any more"),
         }
     }
+}
+
+fn no_file(f: &mut Formatter<'_>, name: &str) -> fmt::Result {
+    write!(
+        f,
+        "`{name}` is a name, and this takes the file of a description, such as `./{name}.mech`"
+    )
+}
+
+fn cache(f: &mut Formatter<'_>, path: &Path, error: &io::Error) -> fmt::Result {
+    let path = path.display();
+    write!(
+        f,
+        "could not keep what was compiled in {path}: {error}; make room there (`bricard cache \
+         --clear` does), or name another folder with XDG_CACHE_HOME"
+    )
+}
+
+fn exists(f: &mut Formatter<'_>, path: &Path) -> fmt::Result {
+    write!(
+        f,
+        "{} is there already, and nothing in it was changed; choose another name",
+        path.display()
+    )
 }
 
 fn same_file(f: &mut Formatter<'_>, [one, other]: &[&str; 2], path: &Path) -> fmt::Result {

@@ -95,8 +95,12 @@ pub fn output(mut command: Command, folder: &Path, failed: &str) -> Result<Outpu
         false => {
             let said = String::from_utf8_lossy(&output.stderr);
             let status = output.status;
+            let room = match said.contains("os error 28") || said.contains("No space left") {
+                true => "\nthe disk is full: make room, or name another folder with XDG_CACHE_HOME",
+                false => "",
+            };
             Err(CommandError::Compile(format!(
-                "{failed} ({name}: {status})\n{}",
+                "{failed} ({name}: {status})\n{}{room}",
                 said.trim_end()
             )))
         }

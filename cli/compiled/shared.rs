@@ -58,10 +58,14 @@ pub fn libraries(version: &Version, toolchain: &Toolchain) -> Result<PathBuf, Co
     if libraries.is_dir() {
         return Ok(libraries);
     }
-    say(
-        "compiling what all mechanisms share: once for this version of bricard and of Rust, \
-         about 15 s",
-    );
+    let numbers = match version.digits {
+        Digits::Double => "",
+        Digits::Many => " in numbers of 106 bits",
+    };
+    say(&format!(
+        "compiling what all mechanisms share{numbers}: once for this version of bricard and of \
+         Rust, about 15 s"
+    ));
     let scratch = Scratch::new(version)?;
     let packages = version.digits.packages();
     for (name, text) in SOURCES.1 {
