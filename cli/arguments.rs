@@ -39,6 +39,10 @@ pub enum Command {
     Landing(Landing),
     /// Check a description without compiling it
     Check(Check),
+    /// Simulate a description, and again each time its file is saved
+    Watch(Box<Simulate>),
+    /// Say where compiled descriptions are kept, and how large they are
+    Cache(Cache),
     /// Begin a crate: a commented mechanism, its build script, a program that
     /// simulates it
     New(New),
@@ -70,6 +74,14 @@ pub struct Check {
     pub json: bool,
 }
 
+/// Arguments of `cache`.
+#[derive(Args, Debug)]
+pub struct Cache {
+    /// Remove everything that was compiled
+    #[arg(long)]
+    pub clear: bool,
+}
+
 /// Arguments of `new`.
 #[derive(Args, Debug)]
 pub struct New {
@@ -84,8 +96,9 @@ pub struct New {
 /// Arguments of `landing`.
 #[derive(Args, Debug)]
 pub struct Landing {
-    /// Mechanisms that pass a singular position
-    #[arg(default_values = ["slider_crank", "slider_crank_driven", "double_four_bar"])]
+    /// Mechanisms that pass a singular position: names of `bricard list`, or files of
+    /// descriptions
+    #[arg(value_name = "NAME|FILE.mech", default_values = ["slider_crank", "slider_crank_driven", "double_four_bar"])]
     pub names: Vec<String>,
     /// Integrators, with commas between them
     #[arg(long, value_enum, value_delimiter = ',', default_values = ["rk4", "dp5", "dop853"])]
@@ -95,7 +108,8 @@ pub struct Landing {
 /// Arguments of `workprecision`.
 #[derive(Args, Debug)]
 pub struct WorkPrecision {
-    /// The mechanism: a name of `bricard list`
+    /// The mechanism: a name of `bricard list`, or the file of a description
+    #[arg(value_name = "NAME|FILE.mech")]
     pub name: String,
     /// Time at which runs end, in seconds
     #[arg(long, value_name = "T", default_value = "8", allow_hyphen_values = true, value_parser = formula::number)]
@@ -152,7 +166,8 @@ what --columns asks for. Numbers read back to the same bits.
 Exit status: 0; 1 if the run failed and 130 if Ctrl-C ended it (the rows computed so \
 far are kept); 2 if the command line is wrong.")]
 pub struct Simulate {
-    /// The mechanism: a name of `bricard list`
+    /// The mechanism: a name of `bricard list`, or the file of a description
+    #[arg(value_name = "NAME|FILE.mech")]
     pub name: String,
     /// Time at which to stop, in seconds
     #[arg(long, value_name = "T", default_value = "10", allow_hyphen_values = true, value_parser = formula::number)]

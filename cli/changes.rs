@@ -5,7 +5,7 @@
 
 use crate::error::CommandError;
 use crate::formula::Assignment;
-use crate::mechanism::{AnyMechanism, Given};
+use bricard_driver::{AnyMechanism, Given};
 use bricard_runtime::{Quantity, Structure};
 
 /// What is changed.

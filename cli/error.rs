@@ -104,6 +104,14 @@ pub enum CommandError {
         /// What became of the rows computed before.
         kept: String,
     },
+    /// A description that could not be compiled, or whose program could not be started.
+    Compile(String),
+    /// A name where a file is wanted.
+    NoFile(String),
+    /// A file that can't be watched, and why.
+    Watch(String, String),
+    /// A file or folder of the cache that could not be used.
+    Cache(PathBuf, io::Error),
     /// A folder that is there already.
     Exists(PathBuf),
     /// A name that a crate can't have.
@@ -152,6 +160,7 @@ impl CommandError {
             | Self::UselessOption { .. }
             | Self::FileKind { .. }
             | Self::Checkpoint { .. }
+            | Self::NoFile(_)
             | Self::Name { .. } => WRONG_COMMAND_LINE,
             Self::NobodyReads => 0,
             Self::Interrupted { .. } => INTERRUPTED,
@@ -209,11 +218,11 @@ impl Display for CommandError {
                 write!(f, "can't go on from {}: {reason}", path.display())
             }
             Self::Interrupted { kept } => write!(f, "interrupted{kept}"),
-            Self::Exists(path) => write!(
-                f,
-                "{} is there already, and nothing in it was changed; choose another name",
-                path.display()
-            ),
+            Self::NoFile(name) => no_file(f, name),
+            Self::Watch(name, reason) => write!(f, "can't watch {name}: {reason}"),
+            Self::Compile(reason) => f.write_str(reason),
+            Self::Cache(path, error) => cache(f, path, error),
+            Self::Exists(path) => exists(f, path),
             Self::Name { name, why } => write!(f, "a crate can't be called `{name}`: {why}"),
             Self::Said => Ok(()),
             Self::OutOfBounds(broken) => {
@@ -223,6 +232,30 @@ impl Display for CommandError {
             Self::NobodyReads => f.write_str("nobody reads standard output any more"),
         }
     }
+}
+
+fn no_file(f: &mut Formatter<'_>, name: &str) -> fmt::Result {
+    write!(
+        f,
+        "`{name}` is a name, and this takes the file of a description, such as `./{name}.mech`"
+    )
+}
+
+fn cache(f: &mut Formatter<'_>, path: &Path, error: &io::Error) -> fmt::Result {
+    let path = path.display();
+    write!(
+        f,
+        "could not keep what was compiled in {path}: {error}; make room there (`bricard cache \
+         --clear` does), or name another folder with XDG_CACHE_HOME"
+    )
+}
+
+fn exists(f: &mut Formatter<'_>, path: &Path) -> fmt::Result {
+    write!(
+        f,
+        "{} is there already, and nothing in it was changed; choose another name",
+        path.display()
+    )
 }
 
 fn same_file(f: &mut Formatter<'_>, [one, other]: &[&str; 2], path: &Path) -> fmt::Result {

@@ -8,10 +8,12 @@
 //! know every mechanism of the library by its name.
 
 mod arguments;
+mod cache;
 mod changes;
 mod check;
 mod checkpoint;
 mod column;
+mod compiled;
 mod error;
 mod figure;
 mod formula;
@@ -31,6 +33,7 @@ mod show;
 mod simulate;
 mod table;
 mod validate;
+mod watch;
 mod workprecision;
 
 use arguments::{Arguments, Command};
@@ -59,6 +62,8 @@ fn perform(command: &Command) -> Result<(), CommandError> {
         Command::Reproduce(arguments) => reproduce::reproduce(arguments),
         Command::WorkPrecision(arguments) => workprecision::workprecision(arguments),
         Command::Landing(arguments) => landing::landing(arguments),
+        Command::Watch(arguments) => watch::watch(arguments),
+        Command::Cache(arguments) => cache::cache(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::New(arguments) => new::new(arguments),
         Command::Validate(arguments) => validate::validate(arguments),

@@ -1,75 +1,27 @@
-//! A mechanism of the library, its type and sizes forgotten.
+//! Finding a mechanism: one of the library by its name, or that of a file by its path.
 //!
-//! In:  a name.
+//! In:  what the command line calls it.
 //! Out: [`AnyMechanism`], on which the commands work.
-//!
-//! The type of a mechanism is forgotten before anything is done with it, so that
-//! the simulation is compiled once for each pair of sizes, not for each mechanism.
 
+use crate::check::read;
+use crate::compiled;
 use crate::error::CommandError;
 use crate::plot::Shape;
-use crate::run::{Plan, Report, RowSink, Stopped, run};
 use crate::show::freedom;
-use bricard_runtime::nalgebra::SVector;
-use bricard_runtime::{
-    Canvas, Initial, Interface, Mechanism, Options, Settings, Solver, Start, State, Structure,
-    Visitor, Whole, assemble, simulate,
-};
-use std::time::{Duration, Instant};
+use bricard_driver::{AnyMechanism, Precise, forget, state_of};
+use bricard_reference::DoubleDouble;
+use bricard_runtime::{Canvas, Interface, Mechanism, Settings, Solver, Visitor, Whole, assemble};
+use std::path::{self, Path};
 
-/// What the commands do with a mechanism.
-pub trait AnyMechanism {
-    /// What was known when its code was generated.
-    fn structure(&self) -> &'static Structure;
-    /// Sets a parameter, by its place.
-    fn set_parameter(&mut self, index: usize, value: f64);
-    /// Holds an input at a value, by its place.
-    fn hold_input(&mut self, index: usize, value: f64);
-    /// Gives a coordinate or a velocity at the start.
-    fn begin(&mut self, given: Given);
-    /// In words: rank of the constraints at the start, and what is left free.
-    fn freedom(&self) -> String;
-    /// Simulates.
-    fn run(&self, plan: &Plan, sink: &mut dyn RowSink) -> Result<Report, Stopped>;
-    /// Simulates with nothing recorded or audited, against the clock: from a state
-    /// (time, coordinates, velocities) as it is, or from the assembled start.
-    fn race(&self, from: Option<&[f64]>, options: &Options<f64>) -> Result<Race, String>;
-    /// The picture at a state: time, coordinates, velocities.
-    fn shapes(&self, row: &[f64]) -> Vec<Shape>;
-}
-
-/// A run against the clock.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Race {
-    /// The coordinates at its end.
-    pub end: Vec<f64>,
-    /// Accepted steps.
-    pub steps: u64,
-    /// Accelerations.
-    pub evaluations: u64,
-    /// Time it took, without the assembly.
-    pub wall: Duration,
-}
-
-/// A value given at the start.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Given {
-    /// The coordinate, by its place.
-    pub coordinate: usize,
-    /// Whether it is its velocity that is given.
-    pub velocity: bool,
-    /// Whether it is held, or a guess.
-    pub held: bool,
-    /// The value (SI).
-    pub value: f64,
-}
-
-/// Finds a mechanism of the library or of the benchmark problems.
+/// Finds a mechanism of the library or of the benchmark problems, or compiles a file.
 ///
 /// # Errors
 ///
-/// [`CommandError::UnknownName`].
+/// [`CommandError::UnknownName`]; what stands in the way of the file.
 pub fn find(name: &str) -> Result<Box<dyn AnyMechanism>, CommandError> {
+    if let Some(file) = file(name) {
+        return Ok(Box::new(compiled::open(file)?));
+    }
     let found = bricard::visit(name, Forget).or_else(|| bricard_benchmarks::visit(name, Forget));
     found.ok_or_else(|| CommandError::UnknownName {
         kind: "mechanism",
@@ -77,6 +29,26 @@ pub fn find(name: &str) -> Result<Box<dyn AnyMechanism>, CommandError> {
         name: name.to_string(),
         known: names().map(str::to_string).collect(),
     })
+}
+
+/// The file that is meant, if it is not a name: it ends in `.mech`, or lies in a folder.
+pub fn file(name: &str) -> Option<&Path> {
+    let path = Path::new(name);
+    let is_file =
+        path.extension().is_some_and(|kind| kind == "mech") || name.contains(path::is_separator);
+    is_file.then_some(path)
+}
+
+/// What tells a mechanism from all others: its name, or the text of its file.
+///
+/// # Errors
+///
+/// [`CommandError::Read`].
+pub fn identity(name: &str) -> Result<String, CommandError> {
+    match file(name) {
+        Some(file) => Ok(format!("{:016x}", compiled::hash([&*read(file)?]))),
+        None => Ok(name.to_string()),
+    }
 }
 
 /// The names that [`find`] knows.
@@ -99,115 +71,95 @@ impl Visitor<f64> for Forget {
     where
         M: Mechanism<f64, N, R> + Interface<f64, N> + Clone + 'static,
     {
-        let mechanism: Box<dyn Whole<f64, N, R>> = Box::new(mechanism);
-        Box::new(Sized {
-            mechanism,
-            given: Vec::new(),
-        })
+        forget::<N, R>(Box::new(mechanism))
     }
 }
 
-/// A mechanism of `N` coordinates and `R` constraint equations, and what is given
-/// for its start.
-struct Sized<const N: usize, const R: usize> {
-    mechanism: Box<dyn Whole<f64, N, R>>,
-    given: Vec<Given>,
+/// The same mechanism in numbers of 106 bits.
+///
+/// # Errors
+///
+/// As [`find`]; the benchmark problems are not there in these numbers.
+pub fn precise(name: &str) -> Result<Box<dyn Precise>, CommandError> {
+    if let Some(file) = file(name) {
+        return Ok(Box::new(compiled::open_precise(file)?));
+    }
+    bricard::visit(name, Widen).ok_or_else(|| CommandError::UnknownName {
+        kind: "mechanism",
+        owner: String::new(),
+        name: name.to_string(),
+        known: bricard::NAMES.iter().map(|name| name.to_string()).collect(),
+    })
 }
 
-impl<const N: usize, const R: usize> Sized<N, R> {
-    /// The `start` block of the description, with what is given instead.
-    fn start(&self) -> Start<f64, N> {
-        let mut start = self.mechanism.start();
-        for given in &self.given {
-            let entries = if given.velocity {
-                &mut start.v
-            } else {
-                &mut start.q
-            };
-            if let Some(entry) = entries.get_mut(given.coordinate) {
-                *entry = Initial {
-                    value: given.value,
-                    held: given.held,
-                };
-            }
-        }
-        start
+struct Widen;
+
+impl Visitor<DoubleDouble> for Widen {
+    type Output = Box<dyn Precise>;
+
+    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
+    where
+        M: Mechanism<DoubleDouble, N, R> + Interface<DoubleDouble, N> + Clone + 'static,
+    {
+        bricard_reference::precise::<N, R>(Box::new(mechanism))
     }
 }
 
-impl<const N: usize, const R: usize> AnyMechanism for Sized<N, R> {
-    fn structure(&self) -> &'static Structure {
-        self.mechanism.structure()
-    }
+/// In words: rank of the constraints of a mechanism of the library at its start, and what
+/// is left free; `None` if there is no such mechanism.
+pub fn freedom_at_start(name: &str) -> Option<String> {
+    bricard::visit(name, Freedom).or_else(|| bricard_benchmarks::visit(name, Freedom))
+}
 
-    fn set_parameter(&mut self, index: usize, value: f64) {
-        self.mechanism.set_parameter(index, value);
-    }
+struct Freedom;
 
-    fn hold_input(&mut self, index: usize, value: f64) {
-        self.mechanism.set_input(index, Some(value));
-    }
+impl Visitor<f64> for Freedom {
+    type Output = String;
 
-    fn begin(&mut self, given: Given) {
-        self.given.push(given);
+    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
+    where
+        M: Mechanism<f64, N, R> + Interface<f64, N> + Clone + 'static,
+    {
+        free::<N, R>(&mechanism)
     }
+}
 
-    fn freedom(&self) -> String {
-        if R == 0 {
-            return freedom(N);
-        }
-        let mechanism: &dyn Whole<f64, N, R> = &*self.mechanism;
-        let state = match assemble(mechanism, &self.start(), 0.0) {
-            Ok(state) => state,
-            Err(error) => return format!("the start can't be assembled: {error}"),
-        };
-        match Solver::new(Settings::default()).on(mechanism).rank(&state) {
-            Ok(rank) => format!(
-                "at the start {} of {R} constraint equations are independent: {}",
-                rank.rank,
-                freedom(N - rank.rank)
-            ),
-            Err(error) => format!("the rank at the start can't be decided: {error}"),
-        }
+fn free<const N: usize, const R: usize>(mechanism: &dyn Whole<f64, N, R>) -> String {
+    if R == 0 {
+        return freedom(N);
     }
-
-    fn run(&self, plan: &Plan, sink: &mut dyn RowSink) -> Result<Report, Stopped> {
-        run(&*self.mechanism, &self.start(), plan, sink)
+    let state = match assemble(mechanism, &mechanism.start(), 0.0) {
+        Ok(state) => state,
+        Err(error) => return format!("the start can't be assembled: {error}"),
+    };
+    match Solver::new(Settings::default()).on(mechanism).rank(&state) {
+        Ok(rank) => format!(
+            "at the start {} of {R} constraint equations are independent: {}",
+            rank.rank,
+            freedom(N - rank.rank)
+        ),
+        Err(error) => format!("the rank at the start can't be decided: {error}"),
     }
+}
 
-    fn race(&self, from: Option<&[f64]>, options: &Options<f64>) -> Result<Race, String> {
-        let mechanism: &dyn Whole<f64, N, R> = &*self.mechanism;
-        let start = match from {
-            Some(row) => state_of(row),
-            None => assemble(mechanism, &self.start(), 0.0).map_err(|error| error.to_string())?,
-        };
-        let begun = Instant::now();
-        let result = simulate(mechanism, &start, options, &mut []);
-        let wall = begun.elapsed();
-        let summary = result.map_err(|failure| failure.error.to_string())?;
-        Ok(Race {
-            end: summary.end.q.iter().copied().collect(),
-            steps: summary.steps,
-            evaluations: summary.evaluations,
-            wall,
-        })
-    }
+/// The picture of a mechanism of the library at a state: time, coordinates, velocities.
+/// `None` if there is no such mechanism.
+pub fn shapes(name: &str, row: &[f64]) -> Option<Vec<Shape>> {
+    bricard::visit(name, Draw(row))
+}
 
-    fn shapes(&self, row: &[f64]) -> Vec<Shape> {
-        let state = state_of(row);
+struct Draw<'a>(&'a [f64]);
+
+impl Visitor<f64> for Draw<'_> {
+    type Output = Vec<Shape>;
+
+    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
+    where
+        M: Mechanism<f64, N, R> + Interface<f64, N> + Clone + 'static,
+    {
         let mut sheet = Sheet::default();
-        self.mechanism.draw(&state, &mut sheet);
+        mechanism.draw(&state_of(self.0), &mut sheet);
         sheet.shapes
-    }
-}
-
-/// The state in a row: time, coordinates, velocities.
-pub fn state_of<const N: usize>(row: &[f64]) -> State<f64, N> {
-    let at = |i: usize| row.get(i).copied().unwrap_or(0.0);
-    State {
-        t: at(0),
-        q: SVector::from_fn(|i, _| at(1 + i)),
-        v: SVector::from_fn(|i, _| at(1 + N + i)),
     }
 }
 

@@ -24,6 +24,8 @@ pub struct Progress {
     start: f64,
     until: f64,
     steps: u64,
+    /// The number of steps at which to look at the clock again.
+    look: u64,
     silent: bool,
 }
 
@@ -36,16 +38,18 @@ impl Progress {
             start,
             until,
             steps: 0,
+            look: STEPS_BETWEEN_LOOKS,
             silent: !(wanted && io::stderr().is_terminal()),
         }
     }
 
-    /// Takes note of a step to a time (s).
-    pub fn step(&mut self, t: f64) {
-        self.steps += 1;
-        if self.silent || !self.steps.is_multiple_of(STEPS_BETWEEN_LOOKS) {
+    /// Takes note of steps to a time (s).
+    pub fn at(&mut self, t: f64, steps: u64) {
+        self.steps += steps;
+        if self.silent || self.steps < self.look {
             return;
         }
+        self.look = self.steps + STEPS_BETWEEN_LOOKS;
         let due = self
             .shown
             .map_or(self.begun + PATIENCE, |shown| shown + PERIOD);

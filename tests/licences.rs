@@ -5,13 +5,14 @@ use serde_json::Value;
 use std::process::Command;
 
 /// Licences that ask for no more than being named, if that.
-const PERMISSIVE: [&str; 8] = [
+const PERMISSIVE: [&str; 9] = [
     "MIT",
     "Apache-2.0",
     "BSD-2-Clause",
     "BSD-3-Clause",
     "BSL-1.0",
     "CC0-1.0",
+    "ISC",
     "Unicode-3.0",
     "Zlib",
 ];

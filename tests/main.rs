@@ -3,6 +3,7 @@
 mod allocation;
 mod authoring;
 mod balance;
+mod by_path;
 mod closed_forms;
 mod command;
 mod compiled;

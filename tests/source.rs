@@ -4,9 +4,10 @@ use std::path::{Path, PathBuf};
 use std::{fs, iter};
 
 /// The folders that hold what is shipped.
-pub const EVERYWHERE: [&str; 5] = [
+pub const EVERYWHERE: [&str; 6] = [
     "codegen/src",
     "runtime/src",
+    "driver/src",
     "reference/src",
     "cli",
     "mechanisms",

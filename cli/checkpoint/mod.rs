@@ -5,7 +5,7 @@
 //!
 //! Not here: what stands in the file ([`text`]).
 //!
-//! A run with checkpoints is divided into legs of [`LEG_STEPS`] steps. Each begins
+//! A run with checkpoints is divided into legs of about a thousand steps. Each begins
 //! with nothing but a state and the beginning of the run, so that the bits of the next
 //! leg do not depend on whether the program was ended in between.
 
@@ -22,13 +22,6 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Steps of a leg.
-pub const LEG_STEPS: u64 = 1000;
-/// Steps by which a leg is longer where it would end next to a singular position.
-pub const EXTRA_STEPS: u64 = 100;
-/// A leg doesn't end where constraints are independent by less than this sine: a
-/// passage through a singular position belongs to one leg.
-pub const CALM_SINE: f64 = 0.3;
 /// How often the file is written while the run goes on.
 const PERIOD: Duration = Duration::from_secs(5);
 

@@ -9,16 +9,14 @@
 //! stage of the method, and goes on for 0.4 s. The distance is that of the fastest
 //! coordinate.
 
-mod path;
-
 use crate::arguments::{Landing, MethodName};
 use crate::error::CommandError;
-use crate::mechanism::{AnyMechanism, find};
+use crate::mechanism::{find, precise};
 use crate::output::{print, say};
-use crate::run::{Plan, RowSink};
+use crate::run::{Plan, RowSink, run};
 use crate::table::{Align, headed};
+use bricard_driver::{AnyMechanism, Around, Path, Precise};
 use bricard_runtime::{Audit, Options, Pace, Scheme};
-use path::{Path, path};
 
 /// How long a motion is followed (s).
 const SPAN: f64 = 0.4;
@@ -46,10 +44,12 @@ pub fn landing(arguments: &Landing) -> Result<(), CommandError> {
     for name in &arguments.names {
         let mechanism = find(name)?;
         let about = first_passage(name, mechanism.as_ref())?;
+        let mut precise = precise(name)?;
         for &method in &arguments.methods {
             say(&format!("{name}: landing with {}", Scheme::from(method)));
             for steps in STEPS {
-                let found = Landings::of(name, mechanism.as_ref(), (method, steps), about)?;
+                let found =
+                    Landings::of(precise.as_mut(), mechanism.as_ref(), (method, steps), about)?;
                 if !found.is_even() {
                     broken.push(format!("{name}, {}, {steps} steps", Scheme::from(method)));
                 }
@@ -90,23 +90,21 @@ struct Landings {
 
 impl Landings {
     fn of(
-        name: &str,
+        precise: &mut dyn Precise,
         mechanism: &dyn AnyMechanism,
         (method, steps): (MethodName, u32),
         about: f64,
     ) -> Result<Self, CommandError> {
         let step = SPAN / f64::from(steps);
-        let times = |speed: f64| {
-            let starts = starts(stages(method), step, speed);
-            let mut times: Vec<f64> = starts.iter().flat_map(|t| [*t, t + SPAN]).collect();
-            times.retain(|t| about + t > 0.0);
-            times.sort_by(f64::total_cmp);
-            times
+        let around = Around {
+            about,
+            places: places(stages(method), step),
+            span: SPAN,
         };
-        let exact = path(name, about, &times).map_err(failed)?;
+        let exact = precise.path(&around).map_err(failed)?;
         let mut errors = Vec::new();
         for row in &exact.rows {
-            let Some(end) = exact.row_at(row[0] + SPAN) else {
+            let Some(end) = row_at(&exact, row[0] + SPAN) else {
                 continue;
             };
             let mut options = Options::new(end[0], method.into(), Pace::Fixed { step });
@@ -151,27 +149,25 @@ impl Landings {
     }
 }
 
-impl Path {
-    /// The row at a time, if there is one.
-    fn row_at(&self, time: f64) -> Option<&path::Row> {
-        let near = |row: &&path::Row| (row[0] - time).abs() < 1e-9;
-        let after = self.rows.partition_point(|row| row[0] < time - 1e-9);
-        self.rows.get(after).filter(near)
-    }
+/// The row at a time, if there is one.
+fn row_at(path: &Path, time: f64) -> Option<&Vec<f64>> {
+    let near = |row: &&Vec<f64>| (row[0] - time).abs() < 1e-9;
+    let after = path.rows.partition_point(|row| row[0] < time - 1e-9);
+    path.rows.get(after).filter(near)
 }
 
-/// When runs begin, relative to the passage (s).
-fn starts(stages: &[f64], step: f64, speed: f64) -> Vec<f64> {
-    let mut starts = Vec::new();
+/// Where stages land, and how long before that runs begin (s).
+fn places(stages: &[f64], step: f64) -> Vec<(f64, f64)> {
+    let mut places = Vec::new();
     for stage in stages {
         for exponent in 1..=16 {
             for size in [1.0, -1.0, 3.3, -3.3] {
                 let distance = size * 10.0_f64.powi(-exponent);
-                starts.push(distance / speed - stage * step);
+                places.push((distance, stage * step));
             }
         }
     }
-    starts
+    places
 }
 
 /// The abscissae of the stages of a method.
@@ -208,9 +204,7 @@ fn stages(method: MethodName) -> &'static [f64] {
 /// When a mechanism first passes a singular position (s).
 fn first_passage(name: &str, mechanism: &dyn AnyMechanism) -> Result<f64, CommandError> {
     let plan = Plan::new(Options::dop853(LOOK, SEARCH), Some(LOOK), Vec::new());
-    let report = mechanism
-        .run(&plan, &mut Nowhere)
-        .map_err(|stopped| stopped.error)?;
+    let report = run(mechanism, &plan, &mut Nowhere).map_err(|stopped| stopped.error)?;
     match report.passages.first() {
         Some(passage) => Ok(passage.t),
         None => Err(failed(format!(

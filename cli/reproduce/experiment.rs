@@ -3,8 +3,9 @@
 use super::reference::{self, End};
 use crate::column::Column;
 use crate::error::CommandError;
-use crate::mechanism::{AnyMechanism, find};
-use crate::run::{Plan, Report, RowSink, Stopped};
+use crate::mechanism::find;
+use crate::run::{Plan, Report, RowSink, Stopped, run};
+use bricard_driver::AnyMechanism;
 use bricard_runtime::{Form, Options};
 
 /// The paper's step (s).
@@ -119,9 +120,7 @@ pub fn perform(experiment: &'static Experiment) -> Result<Outcome, CommandError>
     let mechanism = find(experiment.mechanism)?;
     let plan = plan(experiment, STEP, Form::Reduced);
     let mut rows = Rows::default();
-    let report = mechanism
-        .run(&plan, &mut rows)
-        .map_err(|stopped| stopped.error)?;
+    let report = run(mechanism.as_ref(), &plan, &mut rows).map_err(|stopped| stopped.error)?;
     Ok(Outcome {
         experiment,
         mechanism,

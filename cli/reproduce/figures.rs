@@ -3,6 +3,7 @@
 use super::experiment::Outcome;
 use crate::error::CommandError;
 use crate::figure::{ERRORS, coordinates, series};
+use crate::mechanism::shapes;
 use crate::plot::{Frame, Marks, Panel, Times, frames, panels};
 use std::path::Path;
 
@@ -86,7 +87,7 @@ fn configurations(outcome: &Outcome) -> Vec<Frame> {
             away(a).total_cmp(&away(b))
         });
         nearest
-            .map(|row| outcome.mechanism.shapes(row))
+            .and_then(|row| shapes(outcome.experiment.mechanism, row))
             .unwrap_or_default()
     };
     let frame = |i: usize| {

@@ -3,6 +3,7 @@
 use super::experiment::{Outcome, Rows, STEP, largest, named, plan};
 use super::report::Findings;
 use crate::error::CommandError;
+use crate::run::run;
 use crate::table::{Align, headed};
 use bricard_runtime::Form;
 
@@ -54,17 +55,15 @@ pub fn comparison(outcomes: &[Outcome], findings: &mut Findings) -> Result<Strin
 /// The largest difference of a coordinate between the two forms, as published or on the
 /// sheets of the constraint set.
 fn difference(outcome: &Outcome, published: bool) -> Result<f64, CommandError> {
-    let run = |form| {
+    let rows = |form| {
         let mut plan = plan(outcome.experiment, STEP, form);
         plan.options.settings.published = published;
         let mut rows = Rows::default();
-        outcome
-            .mechanism
-            .run(&plan, &mut rows)
+        run(outcome.mechanism.as_ref(), &plan, &mut rows)
             .map_err(|stopped| named(outcome.experiment, stopped))?;
         Ok::<_, CommandError>(rows.0)
     };
-    let (full, reduced) = (run(Form::Full)?, run(Form::Reduced)?);
+    let (full, reduced) = (rows(Form::Full)?, rows(Form::Reduced)?);
     if full.len() != reduced.len() {
         return Ok(f64::INFINITY);
     }
@@ -79,7 +78,7 @@ fn difference(outcome: &Outcome, published: bool) -> Result<f64, CommandError> {
 /// a broken promise: it has then passed one without a word.
 fn ending(outcome: &Outcome, form: Form, findings: &mut Findings) -> String {
     let plan = plan(outcome.experiment, STEP, form);
-    match outcome.mechanism.run(&plan, &mut Rows::default()) {
+    match run(outcome.mechanism.as_ref(), &plan, &mut Rows::default()) {
         Err(stopped) => match stopped.time {
             Some(t) => format!("ends at t = {t:.4} s"),
             None => "does not begin".to_string(),

@@ -10,6 +10,7 @@ use super::experiment::{EXPERIMENTS, Experiment, Rows, largest, named, plan};
 use super::report::Findings;
 use crate::error::CommandError;
 use crate::mechanism::find;
+use crate::run::run;
 use crate::table::{Align, headed};
 use bricard_runtime::Form;
 
@@ -84,8 +85,7 @@ fn row(title: &str, errors: &[f64], verdict: String) -> Vec<String> {
 fn at_end(experiment: &'static Experiment, step: f64) -> Result<f64, CommandError> {
     let mut rows = Rows::default();
     let plan = plan(experiment, step, Form::Reduced);
-    find(experiment.mechanism)?
-        .run(&plan, &mut rows)
+    run(find(experiment.mechanism)?.as_ref(), &plan, &mut rows)
         .map_err(|stopped| named(experiment, stopped))?;
     let end = rows
         .0
@@ -102,8 +102,7 @@ fn first_second(experiment: &'static Experiment, step: f64) -> Result<Vec<f64>, 
     let mut plan = plan(experiment, step, Form::Reduced);
     plan.options.until = 1.0;
     plan.every = Some(STEPS[0]);
-    find(experiment.mechanism)?
-        .run(&plan, &mut rows)
+    run(find(experiment.mechanism)?.as_ref(), &plan, &mut rows)
         .map_err(|stopped| named(experiment, stopped))?;
     Ok(rows
         .0

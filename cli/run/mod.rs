@@ -1,22 +1,18 @@
 //! A run: from a plan to rows and a report.
 //!
-//! In:  a mechanism, its start, a [`Plan`].
+//! In:  a mechanism, a [`Plan`].
 //! Out: rows to a [`RowSink`] while they are computed, a [`Report`].
-//!
-//! Compiled once for each pair of sizes.
 
 mod report;
-mod writer;
+mod watcher;
 
 pub use report::Report;
 
-use crate::checkpoint::{Keeper, Legs, Rows};
-use crate::column::Column;
+use crate::checkpoint::{Checkpoint, Keeper, Legs, Rows};
 use crate::error::CommandError;
-use crate::mechanism::state_of;
-use bricard_runtime::{AssemblyError, Options, Start, Whole, assemble, simulate};
-use std::time::Instant;
-use writer::Writer;
+use bricard_driver::{AnyMechanism, Column, Leg, Reached};
+use bricard_runtime::Options;
+use watcher::Watcher;
 
 /// How to integrate and what to record.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,6 +38,21 @@ impl Plan {
             columns,
             legs: None,
             watched: false,
+        }
+    }
+
+    /// The first part of the run, or the next one after a checkpoint.
+    fn leg(&self, from: Option<&Checkpoint>) -> Leg {
+        Leg {
+            options: Options {
+                origin: from.map(|checkpoint| checkpoint.origin),
+                ..self.options
+            },
+            from: from.map(|checkpoint| checkpoint.state.clone()),
+            every: self.every,
+            columns: self.columns.clone(),
+            rows: from.map_or(0, |checkpoint| checkpoint.rows.count),
+            short: self.legs.is_some(),
         }
     }
 }
@@ -82,67 +93,59 @@ fn failed(reason: String) -> CommandError {
 }
 
 /// What a start lacks, and how a guess is written here.
-fn reason<const N: usize, const R: usize>(error: &AssemblyError<f64, N, R>) -> String {
-    let text = error.to_string();
+fn with_guess(text: String) -> String {
     match text.contains("(`~`)") {
         true => format!("{text}; on the command line a guess is `--start 'NAME~VALUE'`"),
         false => text,
     }
 }
 
-/// Runs a mechanism from a start, or from the checkpoint of the plan.
+/// Runs a mechanism from its start, or from the checkpoint of the plan.
 ///
 /// # Errors
 ///
 /// [`Stopped`], with what was reached.
-pub fn run<const N: usize, const R: usize>(
-    mechanism: &dyn Whole<f64, N, R>,
-    start: &Start<f64, N>,
+pub fn run(
+    mechanism: &dyn AnyMechanism,
     plan: &Plan,
     sink: &mut dyn RowSink,
 ) -> Result<Report, Stopped> {
-    let refuse = |reason: String| Stopped {
-        error: failed(reason),
-        time: None,
-        report: None,
-    };
+    let structure = mechanism.structure();
     let from = plan.legs.as_ref().and_then(|legs| legs.from.as_ref());
-    let mut state = match from {
-        Some(checkpoint) => state_of(&checkpoint.state),
-        None => assemble(mechanism, start, 0.0).map_err(|error| refuse(reason(&error)))?,
-    };
-    let mut writer = Writer::new(plan, sink, state).map_err(|e| refuse(e.to_string()))?;
+    let mut report = from.map_or_else(Report::default, |from| from.report.clone());
+    let begun = from.and_then(|from| from.state.first().copied());
+    let mut watcher = Watcher::new(plan, begun.unwrap_or(0.0), sink);
     let mut keeper = plan.legs.as_ref().map(Keeper::new);
-    let (begun, before) = (Instant::now(), writer.done.wall);
+    let mut leg = plan.leg(from);
     loop {
-        let options = Options {
-            origin: writer.origin,
-            ..plan.options
-        };
-        let result = simulate(mechanism, &state, &options, &mut [&mut writer]);
-        let (summary, reason) = match result {
-            Ok(summary) => (summary, None),
-            Err(failure) => (failure.summary, Some(failure.error.to_string())),
-        };
-        state = summary.end;
-        writer.done.wall = before + begun.elapsed();
-        writer.done.add(&summary);
-        let mut error = reason.map(failed).or_else(|| writer.refused.take());
+        let reached = mechanism.leg(&leg, &mut watcher).map_err(|text| Stopped {
+            error: failed(with_guess(text)),
+            time: None,
+            report: None,
+        })?;
+        report.add(&reached, structure);
+        let time = reached.state.first().copied();
+        let stopped = reached.error.clone().map(failed);
+        let mut error = stopped.or_else(|| watcher.refused.take());
         if error.is_none() {
-            let ends = !writer.leg_is_over || state.t >= plan.options.until;
-            match (ends, &mut keeper) {
-                (true, _) | (_, None) => return Ok(writer.done),
-                (false, Some(keeper)) => {
-                    let taken = writer.checkpoint(&summary).and_then(|c| keeper.take(c));
-                    error = taken.err();
+            let more = leg.short && time < Some(plan.options.until);
+            let Some(keeper) = keeper.as_mut().filter(|_| more) else {
+                return Ok(report);
+            };
+            let checkpoint = checkpoint(reached, &report, watcher.sink);
+            match checkpoint {
+                Ok(checkpoint) => {
+                    leg = plan.leg(Some(&checkpoint));
+                    error = keeper.take(checkpoint).err();
                 }
+                Err(refused) => error = Some(refused),
             }
         } else if let Some(keeper) = &mut keeper {
             // What stopped the run is the news, even if this fails, too.
             let _written = keeper.write();
         }
         if let Some(error) = error {
-            let (time, report) = (Some(state.t), Some(Box::new(writer.done)));
+            let report = Some(Box::new(report));
             return Err(Stopped {
                 error,
                 time,
@@ -150,4 +153,26 @@ pub fn run<const N: usize, const R: usize>(
             });
         }
     }
+}
+
+/// The checkpoint at the end of a leg.
+///
+/// # Errors
+///
+/// What stands in the way of the rows.
+fn checkpoint(
+    reached: Reached,
+    report: &Report,
+    sink: &mut dyn RowSink,
+) -> Result<Checkpoint, CommandError> {
+    let rows = sink.settle()?;
+    Ok(Checkpoint {
+        origin: reached.origin,
+        state: reached.state,
+        rows: Rows {
+            count: reached.rows,
+            ..rows
+        },
+        report: report.clone(),
+    })
 }

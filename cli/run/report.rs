@@ -1,9 +1,10 @@
 //! What was done in a run, and how well.
 //!
-//! In:  the summaries of its legs.
+//! In:  what was reached by its legs.
 //! Out: a [`Report`].
 
-use bricard_runtime::{Counters, Passage, Summary};
+use bricard_driver::Reached;
+use bricard_runtime::{Counters, Passage, Structure};
 use std::time::Duration;
 
 /// What was done in a run, and how well.
@@ -28,13 +29,16 @@ pub struct Report {
 }
 
 impl Report {
-    /// Adds what was done in a leg.
-    pub fn add<const N: usize>(&mut self, summary: &Summary<f64, N>) {
-        self.steps += summary.steps;
-        self.rejected += summary.rejected;
-        let constraint = summary.constraint_error.map_or(0.0, |error| error.position);
-        self.constraint_error = self.constraint_error.max(constraint);
-        self.energy_error = self.energy_error.max(summary.energy_error.unwrap_or(0.0));
-        self.counters += summary.counters;
+    /// Adds what was done in a leg of a mechanism with this structure.
+    pub fn add(&mut self, reached: &Reached, structure: &Structure) {
+        self.steps += reached.steps;
+        self.rejected += reached.rejected;
+        self.wall += reached.wall;
+        self.constraint_error = self.constraint_error.max(reached.constraint_error);
+        self.energy_error = self.energy_error.max(reached.energy_error);
+        self.passages.extend(&reached.passages);
+        let event = |(place, t): &(usize, f64)| Some((structure.events.get(*place)?.name, *t));
+        self.events.extend(reached.events.iter().filter_map(event));
+        self.counters += reached.counters;
     }
 }

@@ -15,12 +15,11 @@ use crate::arguments::Show;
 use crate::check::read;
 use crate::error::CommandError;
 use crate::list::first_sentence;
-use crate::mechanism::{find, source};
+use crate::mechanism::{file, find, freedom_at_start, source};
 use crate::output::print;
 use bricard_codegen::expr::{Notation, Symbol};
 use bricard_codegen::model::{Described, Mechanism};
 use bricard_codegen::{Settings, analyse, derive};
-use std::path::Path;
 
 /// Prints the equations of motion.
 pub fn show(arguments: &Show) -> Result<(), CommandError> {
@@ -70,11 +69,7 @@ struct Subject {
 impl Subject {
     /// The subject of a name of the library or of a path.
     fn of(name: &str) -> Result<Self, CommandError> {
-        let path = Path::new(name);
-        if path
-            .extension()
-            .is_some_and(|extension| extension == "mech")
-        {
+        if let Some(path) = file(name) {
             return Ok(Self {
                 file: name.to_string(),
                 source: read(path)?,
@@ -87,7 +82,7 @@ impl Subject {
         Ok(Self {
             file: structure.file.to_string(),
             source,
-            start: Some(mechanism.freedom()),
+            start: freedom_at_start(name),
         })
     }
 }

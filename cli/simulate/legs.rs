@@ -4,6 +4,7 @@ use crate::arguments::Simulate;
 use crate::changes::Changes;
 use crate::checkpoint::{Checkpoint, Legs, read};
 use crate::error::CommandError;
+use crate::mechanism::identity;
 use crate::output::{probe, say};
 use crate::run::Plan;
 use bricard_runtime::{Options, Structure};
@@ -26,7 +27,7 @@ pub fn legs(
     if let Some(file) = &arguments.checkpoint {
         probe(file)?;
     }
-    let run = described(arguments, plan, changes);
+    let run = described(arguments, plan, changes)?;
     let from = arguments.resume.as_ref();
     let from = from.map(|file| read(file, &run, structure)).transpose()?;
     if let (Some(file), Some(checkpoint)) = (&arguments.resume, &from) {
@@ -52,14 +53,16 @@ fn goes_further(until: f64, file: &Path, checkpoint: &Checkpoint) -> Result<(), 
 
 /// Everything that decides the bits of a run, in words. Its end is not among it: a run
 /// may be taken up again to go further.
-fn described(arguments: &Simulate, plan: &Plan, changes: &Changes) -> String {
-    let (version, name) = (env!("CARGO_PKG_VERSION"), &arguments.name);
+fn described(arguments: &Simulate, plan: &Plan, changes: &Changes) -> Result<String, CommandError> {
+    let (version, name) = (env!("CARGO_PKG_VERSION"), identity(&arguments.name)?);
     let options = Options {
         until: 0.0,
         ..plan.options
     };
     let (every, columns) = (plan.every, &plan.columns);
-    format!("bricard {version}: {name} {changes:?} {options:?} {every:?} {columns:?}")
+    Ok(format!(
+        "bricard {version}: {name} {changes:?} {options:?} {every:?} {columns:?}"
+    ))
 }
 
 /// Says that a run can be taken up again, if it can.

@@ -18,7 +18,7 @@ use crate::interrupt;
 use crate::mechanism::find;
 use crate::output::say;
 use crate::plot::Marks;
-use crate::run::{Report, Stopped};
+use crate::run::{Report, Stopped, run};
 use bricard_runtime::Structure;
 use record::Record;
 
@@ -40,7 +40,7 @@ pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
         record.go_on(checkpoint);
     }
     interrupt::listen();
-    let result = mechanism.run(&plan, &mut record);
+    let result = run(mechanism.as_ref(), &plan, &mut record);
     let report = match &result {
         Ok(report) => Some(report),
         Err(stopped) => stopped.report.as_deref(),

@@ -5,8 +5,9 @@
 
 use crate::column::{Column, header};
 use crate::error::CommandError;
-use crate::mechanism::{AnyMechanism, Given, find};
-use crate::run::{Plan, Report, RowSink};
+use crate::mechanism::find;
+use crate::run::{Plan, Report, RowSink, run};
+use bricard_driver::{AnyMechanism, Given};
 use bricard_runtime::{Options, Pace, Scheme, Structure};
 
 /// A benchmark problem.
@@ -133,7 +134,7 @@ fn perform(problem: &'static Problem, tolerance: (f64, f64)) -> Result<Outcome, 
     columns.extend((0..structure.outputs.len()).map(Column::Output));
     let mut ends = Ends::default();
     let plan = problem.plan(problem.scheme, tolerance, columns.clone());
-    let result = match mechanism.run(&plan, &mut ends) {
+    let result = match run(mechanism.as_ref(), &plan, &mut ends) {
         Ok(report) => figures(problem, structure, &columns, &ends, report)
             .and_then(|figures| compared(problem, mechanism.as_ref(), figures)),
         Err(stopped) => Err(stopped.error.to_string()),
@@ -195,9 +196,8 @@ fn compared(
         return Ok(figures);
     }
     let plan = problem.plan(Scheme::Dp5, problem.tolerance, Vec::new());
-    let explicit = mechanism
-        .run(&plan, &mut Ends::default())
-        .map_err(|stopped| stopped.error.to_string())?;
+    let explicit =
+        run(mechanism, &plan, &mut Ends::default()).map_err(|stopped| stopped.error.to_string())?;
     let ratio = explicit.steps as f64 / figures.report.steps.max(1) as f64;
     Ok(Figures {
         stiffness: Some(ratio),

@@ -3,9 +3,8 @@
 //! In:  a mechanism, methods and forms, where the motion ends exactly.
 //! Out: a [`Series`] for each pair: error and time at several settings.
 
-use super::reference::Exact;
 use crate::arguments::{FormName, MethodName};
-use crate::mechanism::{AnyMechanism, Race};
+use bricard_driver::{AnyMechanism, Exact, Race};
 use bricard_runtime::{Audit, Options, Pace};
 use std::time::Duration;
 

@@ -23,6 +23,10 @@ pub struct Settings {
 pub struct Compiled {
     /// The name after `mechanism`.
     pub name: String,
+    /// How many coordinates the generated code has.
+    pub coordinates: usize,
+    /// How many constraint equations.
+    pub constraints: usize,
     /// The module, as Rust text.
     pub code: String,
     /// What is doubtful in the description.
@@ -61,6 +65,8 @@ pub fn compile_source(
     let code = emit::render(&tokens);
     Ok(Compiled {
         name: mechanism.name,
+        coordinates: mechanism.coordinates.len(),
+        constraints: mechanism.constraints.len(),
         code,
         warnings,
     })

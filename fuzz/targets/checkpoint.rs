@@ -13,10 +13,11 @@ mod run {
     pub use crate::report::Report;
 }
 
-use bricard_runtime::nalgebra::SVector;
-use bricard_runtime::{Interface, Mechanism, Options, State, Visitor, simulate};
+use bricard_driver::{Leg, Watch, forget};
+use bricard_runtime::{Interface, Mechanism, Options, Visitor};
 use libfuzzer_sys::fuzz_target;
 use serde_json::Value;
+use std::ops::ControlFlow;
 use text::{Checkpoint, checksum};
 
 /// What checkpoints are of: a loop with singular positions.
@@ -44,25 +45,43 @@ impl Visitor<f64> for GoesOn<'_> {
         let again = checkpoint.text(RUN);
         let read = Checkpoint::read(&again, RUN, mechanism.structure());
         assert_eq!(read.map(|read| read.text(RUN)), Ok(again), "read otherwise");
-        let [t, values @ ..] = checkpoint.state.as_slice() else {
+        let Some(t) = checkpoint.state.first() else {
             panic!("a checkpoint without a state");
         };
-        let [q, v] = [&values[..N], &values[N..]].map(SVector::from_column_slice);
-        let state = State::new(*t, q, v);
         let mut options = Options::dop853(t + FURTHER, 1e-6);
         options.most_steps = Some(MOST_STEPS);
         options.origin = Some(checkpoint.origin);
+        let leg = Leg {
+            options,
+            from: Some(checkpoint.state.clone()),
+            every: None,
+            columns: Vec::new(),
+            rows: checkpoint.rows.count,
+            short: false,
+        };
+        let structure = mechanism.structure();
         let mut report = checkpoint.report;
-        match simulate(&mechanism, &state, &options, &mut []) {
-            Ok(summary) => report.add(&summary),
-            Err(failure) => {
-                assert!(
-                    !failure.error.to_string().is_empty(),
-                    "failed without a word"
-                );
-                report.add(&failure.summary);
+        match forget::<N, R>(Box::new(mechanism)).leg(&leg, &mut Nobody) {
+            Ok(reached) => {
+                let silent = reached.error.as_ref().is_some_and(String::is_empty);
+                assert!(!silent, "failed without a word");
+                report.add(&reached, structure);
             }
+            Err(reason) => assert!(!reason.is_empty(), "refused without a word"),
         }
+    }
+}
+
+/// Watches nothing.
+struct Nobody;
+
+impl Watch for Nobody {
+    fn row(&mut self, _values: &[f64]) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+
+    fn at(&mut self, _t: f64, _steps: u64) -> ControlFlow<()> {
+        ControlFlow::Continue(())
     }
 }
 

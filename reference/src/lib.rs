@@ -11,8 +11,10 @@
 mod double_double;
 mod function;
 mod motion;
+mod precise;
 mod real;
 mod text;
 
 pub use double_double::DoubleDouble;
 pub use motion::{Reference, ReferenceError, reference, reference_from, states_at};
+pub use precise::precise;

@@ -1,22 +1,48 @@
-//! Rows, progress and legs: what watches a run for the command line.
+//! Simulates a part of a run and turns its states into rows.
 //!
-//! In:  steps.
-//! Out: rows to a [`RowSink`], a line of progress, [`Checkpoint`]s at the ends of legs.
+//! In:  a mechanism, a state, a [`Leg`].
+//! Out: rows to a [`Watch`], [`Reached`].
+//!
+//! Compiled once for each pair of sizes.
 
-use super::{Plan, Report, RowSink};
-use crate::checkpoint::{CALM_SINE, Checkpoint, EXTRA_STEPS, LEG_STEPS, Rows};
+use crate::any::row_of;
 use crate::column::Column;
-use crate::error::CommandError;
-use crate::interrupt;
-use crate::progress::Progress;
+use crate::leg::{CALM_SINE, EXTRA_STEPS, Leg, Reached, STEPS, Watch};
 use bricard_runtime::{
     BadInterval, DynamicsError, Observer, Occurrence, Origin, Passage, Probe, Sampler, State, Step,
-    Summary,
+    Summary, Whole, simulate,
 };
 use std::cell::RefCell;
-use std::iter::once;
 use std::ops::ControlFlow;
 use std::rc::Rc;
+use std::time::{Duration, Instant};
+
+/// Simulates a part of a run from a state.
+///
+/// # Errors
+///
+/// In words, why it could not begin. That it could not go on is no error here: what was
+/// done until then is kept.
+pub(crate) fn leg<const N: usize, const R: usize>(
+    mechanism: &dyn Whole<f64, N, R>,
+    state: State<f64, N>,
+    leg: &Leg,
+    watch: &mut dyn Watch,
+) -> Result<Reached, String> {
+    let mut writer = Writer::new(leg, state, watch).map_err(|error| error.to_string())?;
+    let begun = Instant::now();
+    let result = simulate(mechanism, &state, &leg.options, &mut [&mut writer]);
+    let wall = begun.elapsed();
+    let (summary, error) = match result {
+        Ok(summary) => (summary, None),
+        Err(failure) => (failure.summary, Some(failure.error.to_string())),
+    };
+    Ok(Reached {
+        error,
+        wall,
+        ..writer.reached(&summary)
+    })
+}
 
 type States<const N: usize> = Rc<RefCell<Vec<State<f64, N>>>>;
 type Collect<const N: usize> = Box<dyn FnMut(&State<f64, N>) -> ControlFlow<()>>;
@@ -25,40 +51,31 @@ type Collect<const N: usize> = Box<dyn FnMut(&State<f64, N>) -> ControlFlow<()>>
 const SHORT: f64 = 1e-9;
 
 /// Turns states into rows, and takes note of what happened on the way.
-pub(super) struct Writer<'a, const N: usize> {
+struct Writer<'a, const N: usize> {
+    leg: &'a Leg,
+    watch: &'a mut dyn Watch,
     sampler: Option<Sampler<f64, Collect<N>>>,
     sampled: States<N>,
-    columns: &'a [Column],
-    sink: &'a mut dyn RowSink,
     rows: u64,
-    progress: Progress,
-    /// The state that the run begins with, and the time at which it ends (s).
+    steps: u64,
+    /// The state that this part begins with.
     first: State<f64, N>,
-    until: f64,
-    /// The distance of the rows, and the time of the last one (s).
-    every: Option<f64>,
+    /// The time of the last row (s).
     last: f64,
-    /// Whether there are legs, and the steps of this one.
-    leg: Option<u64>,
-    /// Whether the run was broken off for the next leg.
-    pub(super) leg_is_over: bool,
     /// The beginning of the run, once it has begun.
-    pub(super) origin: Option<Origin<f64>>,
-    /// What the rows were refused for.
-    pub(super) refused: Option<CommandError>,
-    /// What was done.
-    pub(super) done: Report,
+    origin: Option<Origin<f64>>,
+    passages: Vec<Passage<f64>>,
+    events: Vec<(usize, f64)>,
 }
 
 impl<'a, const N: usize> Writer<'a, N> {
-    /// A writer of a plan's rows, from a state.
-    pub(super) fn new(
-        plan: &'a Plan,
-        sink: &'a mut dyn RowSink,
+    fn new(
+        leg: &'a Leg,
         first: State<f64, N>,
+        watch: &'a mut dyn Watch,
     ) -> Result<Self, BadInterval<f64>> {
         let sampled = States::default();
-        let mut sampler = match plan.every {
+        let mut sampler = match leg.every {
             Some(every) => {
                 let states = Rc::clone(&sampled);
                 let collect: Collect<N> = Box::new(move |state| {
@@ -69,78 +86,67 @@ impl<'a, const N: usize> Writer<'a, N> {
             }
             None => None,
         };
-        let from = plan.legs.as_ref().and_then(|legs| legs.from.as_ref());
-        if let (Some(sampler), Some(checkpoint)) = (&mut sampler, from) {
-            sampler.go_on(checkpoint.origin.t, checkpoint.rows.count);
+        let origin = leg.options.origin;
+        if let (Some(sampler), Some(origin)) = (&mut sampler, origin) {
+            sampler.go_on(origin.t, leg.rows);
         }
         Ok(Self {
+            leg,
+            watch,
             sampler,
             sampled,
-            columns: &plan.columns,
-            sink,
-            rows: from.map_or(0, |checkpoint| checkpoint.rows.count),
+            rows: leg.rows,
+            steps: 0,
             first,
-            until: plan.options.until,
-            every: plan.every,
             last: first.t,
-            progress: Progress::new(first.t, plan.options.until, plan.watched),
-            leg: plan.legs.as_ref().map(|_| 0),
-            leg_is_over: false,
-            origin: from.map(|checkpoint| checkpoint.origin),
-            refused: None,
-            done: from.map_or_else(Report::default, |checkpoint| checkpoint.report.clone()),
+            origin,
+            passages: Vec::new(),
+            events: Vec::new(),
         })
     }
 
-    /// The checkpoint at the end of a leg.
-    ///
-    /// # Errors
-    ///
-    /// What stands in the way of the rows.
-    pub(super) fn checkpoint(
-        &mut self,
-        summary: &Summary<f64, N>,
-    ) -> Result<Checkpoint, CommandError> {
+    /// Where this part ended, and what was done in it.
+    fn reached(self, summary: &Summary<f64, N>) -> Reached {
         let supplied = summary.energy_supplied.unwrap_or(0.0);
         let origin = self.origin.unwrap_or(Origin {
-            t: 0.0,
+            t: self.first.t,
             energy: 0.0,
             supplied,
         });
-        let origin = Origin { supplied, ..origin };
-        self.origin = Some(origin);
-        let rows = Rows {
-            count: self.rows,
-            ..self.sink.settle()?
-        };
-        let end = &summary.end;
-        let state = once(&end.t).chain(&end.q).chain(&end.v).copied().collect();
-        Ok(Checkpoint {
-            origin,
-            state,
-            rows,
-            report: self.done.clone(),
-        })
+        let constraint = summary.constraint_error.map_or(0.0, |error| error.position);
+        Reached {
+            state: row_of(&summary.end),
+            origin: Origin { supplied, ..origin },
+            rows: self.rows,
+            error: None,
+            steps: summary.steps,
+            rejected: summary.rejected,
+            wall: Duration::ZERO,
+            constraint_error: constraint,
+            energy_error: summary.energy_error.unwrap_or(0.0),
+            passages: self.passages,
+            events: self.events,
+            counters: summary.counters,
+        }
     }
 
-    /// Whether a leg ends with this state: where it is long enough, and the state is not
+    /// Whether this part ends with a state: where it is long enough, and the state is not
     /// next to a singular position.
-    fn ends_leg(
+    fn is_over(
         &mut self,
         state: &State<f64, N>,
         probe: &mut dyn Probe<f64, N>,
     ) -> Result<bool, DynamicsError<f64>> {
-        let Some(steps) = &mut self.leg else {
-            return Ok(false);
-        };
-        *steps += 1;
-        Ok(*steps >= LEG_STEPS
-            && (*steps >= LEG_STEPS + EXTRA_STEPS || probe.rank(state)?.sine >= CALM_SINE))
+        self.steps += 1;
+        Ok(self.leg.short
+            && self.steps >= STEPS
+            && (self.steps >= STEPS + EXTRA_STEPS || probe.rank(state)?.sine >= CALM_SINE))
     }
 
     /// Adds a row at the end of the run, where the last interval is a short one.
     fn end(&mut self, state: &State<f64, N>) {
-        let Some(every) = self.every.filter(|_| state.t >= self.until) else {
+        let until = self.leg.options.until;
+        let Some(every) = self.leg.every.filter(|_| state.t >= until) else {
             return;
         };
         let mut sampled = self.sampled.borrow_mut();
@@ -157,9 +163,8 @@ impl<'a, const N: usize> Writer<'a, N> {
     ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
         let states: Vec<_> = self.sampled.borrow_mut().drain(..).collect();
         for state in &states {
-            let row = row(state, self.columns, probe)?;
-            if let Err(error) = self.sink.row(&row) {
-                self.refused = Some(error);
+            let row = row(state, &self.leg.columns, probe)?;
+            if self.watch.row(&row).is_break() {
                 return Ok(ControlFlow::Break(()));
             }
             self.rows += 1;
@@ -175,10 +180,8 @@ impl<const N: usize> Observer<f64, N> for Writer<'_, N> {
         state: &State<f64, N>,
         probe: &mut dyn Probe<f64, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
-        self.leg_is_over = false;
-        self.leg = self.leg.map(|_| 0);
         if self.origin.is_some() {
-            // A later leg: its first row is the last one of the leg before.
+            // A later part: its first row is the last one of the part before.
             return Ok(ControlFlow::Continue(()));
         }
         let energy = probe.energy(state).balance;
@@ -210,32 +213,22 @@ impl<const N: usize> Observer<f64, N> for Writer<'_, N> {
             None => self.sampled.borrow_mut().push(*step.end()),
         }
         self.end(step.end());
-        self.progress.step(step.end().t);
-        let flow = self.write(probe)?;
-        if flow.is_break() {
-            return Ok(flow);
-        }
-        if interrupt::is_wanted() {
-            let kept = String::new();
-            self.refused = Some(CommandError::Interrupted { kept });
+        if self.write(probe)?.is_break() || self.watch.at(step.end().t, 1).is_break() {
             return Ok(ControlFlow::Break(()));
         }
-        self.leg_is_over = self.ends_leg(step.end(), probe)?;
-        match self.leg_is_over {
+        match self.is_over(step.end(), probe)? {
             true => Ok(ControlFlow::Break(())),
             false => Ok(ControlFlow::Continue(())),
         }
     }
 
     fn passage(&mut self, passage: &Passage<f64>) -> ControlFlow<()> {
-        self.done.passages.push(*passage);
+        self.passages.push(*passage);
         ControlFlow::Continue(())
     }
 
     fn event(&mut self, occurrence: &Occurrence<f64, N>) -> ControlFlow<()> {
-        self.done
-            .events
-            .push((occurrence.event.name, occurrence.state.t));
+        self.events.push((occurrence.index, occurrence.state.t));
         ControlFlow::Continue(())
     }
 
@@ -250,8 +243,7 @@ fn row<const N: usize>(
     columns: &[Column],
     probe: &mut dyn Probe<f64, N>,
 ) -> Result<Vec<f64>, DynamicsError<f64>> {
-    let mut row = vec![state.t];
-    row.extend(state.q.iter().chain(state.v.iter()));
+    let mut row = row_of(state);
     let reactions = columns
         .iter()
         .any(|column| matches!(column, Column::Reaction(_)));

@@ -1,0 +1,273 @@
+//! The folder in which compiled descriptions are kept.
+//!
+//! In:  what was built in a folder beside.
+//! Out: whole entries, found by what they were built from.
+//!
+//! An entry is built in a [`Scratch`] folder and gets its name when it is whole. One
+//! process builds at a time; the others wait for it, and need no lock for what is there.
+
+use super::compiler::Toolchain;
+use super::program::name;
+use super::shared::{SOURCES, create};
+use super::{Digits, hash};
+use crate::error::CommandError;
+use crate::output::say;
+use std::env;
+use std::fs::{self, DirEntry, File, TryLockError};
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+/// Programs that are kept of one version: the oldest go first.
+const MOST_PROGRAMS: usize = 100;
+/// Letters of a file's name in that of its program.
+const LETTERS: usize = 40;
+/// Tells programs that make backups to leave the folder out.
+const TAG: &str = "Signature: 8a477f597d28d172789f06886806bc55\n\
+                   # This folder holds mechanisms that bricard has compiled.\n";
+/// The folders of scratch begin like this.
+const SCRATCH: &str = "building";
+
+/// The cache.
+#[derive(Clone, Debug)]
+pub struct Cache {
+    /// Its folder.
+    pub root: PathBuf,
+}
+
+impl Cache {
+    /// The user's cache.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Compile`] if the system does not say where that is.
+    pub fn find() -> Result<Self, CommandError> {
+        let variable = |name| env::var_os(name).map(PathBuf::from);
+        // What is no absolute path has to be ignored, says the XDG specification.
+        let wanted = variable("XDG_CACHE_HOME").filter(|path| path.is_absolute());
+        let usual = || match env::consts::OS {
+            "windows" => variable("LOCALAPPDATA"),
+            "macos" => variable("HOME").map(|home| home.join("Library/Caches")),
+            _ => variable("HOME").map(|home| home.join(".cache")),
+        };
+        let folder = wanted.or_else(usual).filter(|path| path.is_absolute());
+        let folder = folder.ok_or_else(|| {
+            CommandError::Compile(
+                "there is no folder for compiled descriptions; name one with XDG_CACHE_HOME"
+                    .to_string(),
+            )
+        })?;
+        Ok(Self {
+            root: folder.join("bricard"),
+        })
+    }
+
+    /// Waits until no other process changes the cache; as long as the file is open, none
+    /// does.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Cache`].
+    pub fn lock(&self) -> Result<File, CommandError> {
+        create(&self.root)?;
+        let tag = self.root.join("CACHEDIR.TAG");
+        fs::write(&tag, TAG).map_err(|error| CommandError::Cache(tag, error))?;
+        let path = self.root.join("lock");
+        let failed = |error| CommandError::Cache(path.clone(), error);
+        let file = File::create(&path).map_err(failed)?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                say("waiting for another bricard that is compiling");
+                file.lock().map_err(failed)?;
+            }
+            Err(TryLockError::Error(error)) => return Err(failed(error)),
+        }
+        Ok(file)
+    }
+}
+
+/// The part of the cache that belongs to one version of the sources and of the toolchain,
+/// and to one kind of numbers.
+#[derive(Clone, Debug)]
+pub struct Version {
+    cache: Cache,
+    folder: PathBuf,
+    /// The numbers that its programs compute with.
+    pub digits: Digits,
+}
+
+impl Version {
+    /// The name of a program in its folder.
+    pub const EXECUTABLE: &str = if cfg!(windows) {
+        "mechanism.exe"
+    } else {
+        "mechanism"
+    };
+    /// The name of the description beside it.
+    const DESCRIPTION: &str = "description.mech";
+
+    /// The part of a toolchain, and of the sources that this command carries.
+    pub fn new(cache: &Cache, toolchain: &Toolchain, digits: Digits) -> Self {
+        let key = hash([&*SOURCES.0.to_string(), &*toolchain.identity]);
+        let kind = match digits {
+            Digits::Double => "",
+            Digits::Many => "-precise",
+        };
+        let name = format!("{}-{key:016x}{kind}", env!("CARGO_PKG_VERSION"));
+        Self {
+            cache: cache.clone(),
+            folder: cache.root.join(name),
+            digits,
+        }
+    }
+
+    /// Where the libraries are that all programs share.
+    pub fn libraries(&self) -> PathBuf {
+        self.folder.join("libraries")
+    }
+
+    /// Where the library for a pair of sizes is.
+    pub fn sized(&self, [coordinates, constraints]: [usize; 2]) -> PathBuf {
+        let name = format!("{coordinates}-{constraints}");
+        self.folder.join("sizes").join(name)
+    }
+
+    /// The program of a description, if it is there.
+    pub fn program(&self, file: &Path, source: &str) -> Option<PathBuf> {
+        let entry = self.entry(file, source);
+        let known = fs::read_to_string(entry.join(Self::DESCRIPTION)).ok()?;
+        (known == source).then(|| entry.join(Self::EXECUTABLE))
+    }
+
+    /// Where the program of a description belongs. The name of the file is part of the
+    /// program, which tells it.
+    fn entry(&self, file: &Path, source: &str) -> PathBuf {
+        let name = name(file);
+        let key = hash([&*name, source]);
+        let begin: String = name
+            .trim_end_matches(".mech")
+            .chars()
+            .take(LETTERS)
+            .collect();
+        self.folder
+            .join("programs")
+            .join(format!("{begin}-{key:016x}"))
+    }
+
+    /// As [`Cache::lock`].
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Cache`].
+    pub fn lock(&self) -> Result<File, CommandError> {
+        let lock = self.cache.lock()?;
+        // Nobody else builds now: what looks like it was left behind.
+        for entry in entries(&self.folder) {
+            if entry.file_name().to_string_lossy().starts_with(SCRATCH) {
+                let _stays = fs::remove_dir_all(entry.path());
+            }
+        }
+        Ok(lock)
+    }
+
+    /// Adds a program that was built, and makes room for it.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Cache`].
+    pub fn add(
+        &self,
+        scratch: Scratch,
+        built: &Path,
+        file: &Path,
+        source: &str,
+    ) -> Result<PathBuf, CommandError> {
+        let description = built.join(Self::DESCRIPTION);
+        fs::write(&description, source).map_err(|error| CommandError::Cache(description, error))?;
+        let entry = self.entry(file, source);
+        scratch.keep(built, &entry)?;
+        let mut programs = entries(&self.folder.join("programs"));
+        let age = |entry: &DirEntry| entry.metadata().and_then(|data| data.modified()).ok();
+        programs.sort_by_key(|entry| std::cmp::Reverse(age(entry)));
+        for old in programs.iter().skip(MOST_PROGRAMS) {
+            let _stays = fs::remove_dir_all(old.path());
+        }
+        Ok(entry.join(Self::EXECUTABLE))
+    }
+}
+
+/// The entries of a folder; none if there is no such folder.
+pub fn entries(folder: &Path) -> Vec<DirEntry> {
+    let entries = fs::read_dir(folder).into_iter().flatten();
+    entries.filter_map(Result::ok).collect()
+}
+
+/// A folder in which something is built. It goes with its owner.
+#[derive(Debug)]
+pub struct Scratch(PathBuf);
+
+impl Scratch {
+    /// An empty folder in the part of a version, so that what was built in it can be moved
+    /// to its place.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Cache`].
+    pub fn new(version: &Version) -> Result<Self, CommandError> {
+        let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH);
+        let nanos = now.map_or(0, |now| now.as_nanos());
+        let name = format!("{SCRATCH}-{}-{nanos}", std::process::id());
+        let folder = version.folder.join(name);
+        create(&folder)?;
+        Ok(Self(folder))
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.0
+    }
+
+    /// A folder in it.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Cache`].
+    pub fn folder(&self, name: &str) -> Result<PathBuf, CommandError> {
+        let folder = self.0.join(name);
+        create(&folder)?;
+        Ok(folder)
+    }
+
+    /// Writes a file in it.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Cache`].
+    pub fn write(&self, name: &Path, text: &str) -> Result<(), CommandError> {
+        let path = self.0.join(name);
+        if let Some(folder) = path.parent() {
+            create(folder)?;
+        }
+        fs::write(&path, text).map_err(|error| CommandError::Cache(path, error))
+    }
+
+    /// Gives what was built in a folder of it its name, all at once.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Cache`].
+    pub fn keep(&self, built: &Path, name: &Path) -> Result<(), CommandError> {
+        if let Some(folder) = name.parent() {
+            create(folder)?;
+        }
+        // What bears the name was not whole, or not what it should be.
+        let _nothing_there = fs::remove_dir_all(name);
+        fs::rename(built, name).map_err(|error| CommandError::Cache(name.to_path_buf(), error))
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        let _stays = fs::remove_dir_all(&self.0);
+    }
+}

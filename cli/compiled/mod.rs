@@ -1,0 +1,101 @@
+//! A mechanism of a file, compiled behind the scenes.
+//!
+//! In:  the path of a description.
+//! Out: a program of its own that simulates it, found in the cache or built.
+//!
+//! ```text
+//! description ── codegen ──> its code ──┐
+//! the sources that the command carries ─┴─ rustc ──> a program ── started ──> Link
+//! ```
+//!
+//! Three layers, each built once and kept ([`cache`]): what all programs share
+//! ([`shared`]), what those of one pair of sizes share, and the code of the description
+//! ([`program`]). Parameters and starts are told to the running program.
+
+pub mod cache;
+mod compiler;
+mod program;
+mod shared;
+
+use crate::check::read;
+use crate::error::CommandError;
+use bricard_driver::{Link, PreciseLink};
+use cache::{Cache, Version};
+use compiler::Toolchain;
+use program::Program;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Compiles a description if it is not in the cache, and starts its program.
+///
+/// # Errors
+///
+/// What is wrong with the description, in the words of `bricard check`; what stands in the
+/// way of compiling it.
+pub fn open(file: &Path) -> Result<Link, CommandError> {
+    start(&program(file, Digits::Double)?, Link::start)
+}
+
+/// As [`open`], in numbers of 106 bits.
+///
+/// # Errors
+///
+/// As [`open`].
+pub fn open_precise(file: &Path) -> Result<PreciseLink, CommandError> {
+    start(&program(file, Digits::Many)?, PreciseLink::start)
+}
+
+/// The numbers that a program computes with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Digits {
+    /// `f64`.
+    Double,
+    /// 106 bits, to compare runs with.
+    Many,
+}
+
+/// The program of a description, from the cache or built.
+fn program(file: &Path, digits: Digits) -> Result<PathBuf, CommandError> {
+    let source = read(file)?;
+    let toolchain = Toolchain::find();
+    let cache = Cache::find()?;
+    let known = toolchain.as_ref().ok().and_then(|toolchain| {
+        let version = Version::new(&cache, toolchain, digits);
+        version.program(file, &source)
+    });
+    match known {
+        Some(program) => Ok(program),
+        None => {
+            // A wrong description is the first thing to know, toolchain or not.
+            let program = Program::generate(file, &source)?;
+            let toolchain = toolchain?;
+            program.build(&Version::new(&cache, &toolchain, digits), &toolchain)
+        }
+    }
+}
+
+/// Starts a program.
+fn start<L>(
+    program: &Path,
+    link: impl FnOnce(Command) -> io::Result<L>,
+) -> Result<L, CommandError> {
+    link(Command::new(program)).map_err(|error| {
+        CommandError::Compile(format!(
+            "the program {} could not be started: {error}; if programs can't run there, name \
+             another folder with XDG_CACHE_HOME, and if it is damaged, say `bricard cache --clear`",
+            program.display()
+        ))
+    })
+}
+
+/// A short name for a text: the hash of Fowler, Noll and Vo (FNV-1a, 64 bits).
+pub fn hash<'a>(parts: impl IntoIterator<Item = &'a str>) -> u64 {
+    // What ends a part occurs in no text.
+    let bytes = |part: &'a str| part.bytes().chain([0xff]);
+    let step = |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    parts
+        .into_iter()
+        .flat_map(bytes)
+        .fold(0xcbf2_9ce4_8422_2325, step)
+}

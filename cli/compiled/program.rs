@@ -1,0 +1,84 @@
+//! The program of one description.
+//!
+//! In:  a description.
+//! Out: a program in the cache.
+
+use super::cache::{Scratch, Version};
+use super::compiler::{Toolchain, output};
+use super::shared::{rustc, sized};
+use crate::error::CommandError;
+use crate::output::say;
+use bricard_codegen::emit::type_name;
+use bricard_codegen::{Settings, compile_source};
+use std::path::{Path, PathBuf};
+
+/// The module that a description becomes.
+const MODULE: &str = "described";
+
+/// A description and the code that was generated from it.
+pub struct Program<'a> {
+    file: &'a Path,
+    source: &'a str,
+    code: String,
+    sizes: [usize; 2],
+}
+
+/// The name of a file without its folder: a program is the same wherever the file lies.
+pub fn name(file: &Path) -> String {
+    let name = file.file_name().unwrap_or(file.as_os_str());
+    name.to_string_lossy().into_owned()
+}
+
+impl<'a> Program<'a> {
+    /// Generates the code of a description, and says what is doubtful about it.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Description`].
+    pub fn generate(file: &'a Path, source: &'a str) -> Result<Self, CommandError> {
+        let shown = file.display().to_string();
+        let compiled = compile_source(source, MODULE, &name(file), &Settings::default())
+            .map_err(|errors| CommandError::Description(errors.render(&shown, source)))?;
+        if !compiled.warnings.is_empty() {
+            say(compiled.warnings.render(&shown, source).trim_end());
+        }
+        let kind = type_name(&compiled.name);
+        let main = format!(
+            "fn main() -> std::process::ExitCode {{\n    \
+             sized::serve(Box::new({MODULE}::{kind}::<sized::Number>::default()))\n}}\n"
+        );
+        Ok(Self {
+            file,
+            source,
+            code: compiled.code + &main,
+            sizes: [compiled.coordinates, compiled.constraints],
+        })
+    }
+
+    /// Builds the program, unless another process has done so meanwhile.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Cache`], [`CommandError::Compile`].
+    pub fn build(self, version: &Version, toolchain: &Toolchain) -> Result<PathBuf, CommandError> {
+        let _alone = version.lock()?;
+        if let Some(program) = version.program(self.file, self.source) {
+            return Ok(program);
+        }
+        let sized = sized(version, toolchain, self.sizes)?;
+        say(&format!("compiling {}", self.file.display()));
+        let scratch = Scratch::new(version)?;
+        scratch.write(Path::new("main.rs"), &self.code)?;
+        let built = scratch.folder("program")?;
+        let mut rustc = rustc(
+            &[&version.libraries(), &sized],
+            &["bricard_runtime", "sized"].map(String::from),
+        );
+        rustc
+            .args(["-C", "strip=symbols", "main.rs", "-o"])
+            .arg(built.join(Version::EXECUTABLE));
+        let failed = format!("{} could not be compiled", self.file.display());
+        output(rustc, scratch.path(), &failed)?;
+        version.add(scratch, &built, self.file, self.source)
+    }
+}

@@ -1,0 +1,219 @@
+//! What compiled descriptions share.
+//!
+//! In:  the sources that the command carries.
+//! Out: libraries in the cache: the runtime and the driver with all that they depend on,
+//!      and the driver for each pair of sizes.
+
+use super::Digits;
+use super::cache::{Scratch, Version};
+use super::compiler::{Toolchain, command, output};
+use crate::error::CommandError;
+use crate::output::say;
+use serde_json::Value;
+use std::ffi::OsStr;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// What changes with the sources and with what makes a program of them, and the paths and
+/// texts of the sources.
+type Sources = (u64, &'static [(&'static str, &'static str)]);
+pub const SOURCES: Sources = include!(concat!(env!("OUT_DIR"), "/sources.rs"));
+
+impl Digits {
+    /// The packages among the sources that are needed.
+    fn packages(self) -> &'static [&'static str] {
+        match self {
+            Self::Double => &["runtime", "driver"],
+            Self::Many => &["runtime", "driver", "reference"],
+        }
+    }
+
+    /// What descriptions of one pair of sizes share: a `main` but for the mechanism.
+    fn serve(self, [coordinates, constraints]: [usize; 2]) -> String {
+        let (number, serve) = match self {
+            Self::Double => ("f64", "bricard_driver::serve(mechanism)"),
+            Self::Many => (
+                "bricard_reference::DoubleDouble",
+                "bricard_driver::serve_precise(bricard_reference::precise(mechanism))",
+            ),
+        };
+        let kind = format!("dyn bricard_runtime::Whole<Number, {coordinates}, {constraints}>");
+        format!(
+            "pub type Number = {number};\n\n\
+             pub fn serve(mechanism: Box<{kind}>) -> std::process::ExitCode {{\n    \
+             {serve}\n}}\n"
+        )
+    }
+}
+
+/// Builds what all descriptions share, unless it is there.
+///
+/// # Errors
+///
+/// [`CommandError::Cache`], [`CommandError::Compile`].
+pub fn libraries(version: &Version, toolchain: &Toolchain) -> Result<PathBuf, CommandError> {
+    let libraries = version.libraries();
+    if libraries.is_dir() {
+        return Ok(libraries);
+    }
+    let numbers = match version.digits {
+        Digits::Double => "",
+        Digits::Many => " in numbers of 106 bits",
+    };
+    say(&format!(
+        "compiling what all mechanisms share{numbers}: once for this version of bricard and of \
+         Rust, about 15 s"
+    ));
+    let scratch = Scratch::new(version)?;
+    let packages = version.digits.packages();
+    for (name, text) in SOURCES.1 {
+        let text = manifest(name, text, packages);
+        scratch.write(&Path::new("sources").join(name), &text)?;
+    }
+    let sources = scratch.path().join("sources");
+    let built = scratch.folder("libraries")?;
+    for library in compiled(&sources, toolchain)? {
+        if let Some(name) = library.file_name() {
+            fs::copy(&library, built.join(name))
+                .map_err(|error| CommandError::Cache(library.clone(), error))?;
+        }
+    }
+    scratch.keep(&built, &libraries)?;
+    Ok(libraries)
+}
+
+/// Compiles the sources; the libraries that came of it.
+fn compiled(sources: &Path, toolchain: &Toolchain) -> Result<Vec<PathBuf>, CommandError> {
+    let cargo = |network: &[&str]| {
+        let mut cargo = command("cargo");
+        cargo
+            .args([
+                "build",
+                "--release",
+                "--message-format=json-render-diagnostics",
+                "--target-dir",
+            ])
+            .arg("target")
+            .args(["--target", &toolchain.host])
+            .args(network);
+        cargo
+    };
+    let failed = "what all mechanisms share could not be compiled; the first time it may need a \
+                  network, for nalgebra and what that depends on";
+    // Whoever has built bricard has all of it, so the network is asked last.
+    let run = |cargo: Command| output(cargo, sources, failed);
+    let output = run(cargo(&["--offline"])).or_else(|_| run(cargo(&[])))?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    let messages = text
+        .lines()
+        .filter_map(|line| serde_json::from_str(line).ok());
+    let files = messages.flat_map(|message: Value| files(&message));
+    Ok(files.filter(|file| is_library(file)).collect())
+}
+
+/// The files of a message of cargo.
+fn files(message: &Value) -> Vec<PathBuf> {
+    let names = message["filenames"].as_array().into_iter().flatten();
+    names.filter_map(Value::as_str).map(PathBuf::from).collect()
+}
+
+/// Whether a file is a library, or one of the macros that a library names.
+fn is_library(file: &Path) -> bool {
+    let kinds = ["rlib", "so", "dylib", "dll"];
+    let kind = file.extension().and_then(OsStr::to_str);
+    kind.is_some_and(|kind| kinds.contains(&kind))
+}
+
+/// A manifest without what only tests and the whole workspace need; any other text as it
+/// is.
+fn manifest(name: &str, text: &str, packages: &[&str]) -> String {
+    if name == "Cargo.lock" || !name.ends_with(".toml") {
+        return text.to_string();
+    }
+    let is_root = name == "Cargo.toml";
+    let wanted = |section: &str| match is_root {
+        true => section.starts_with("[workspace."),
+        false => !["[[test]]", "[dev-dependencies]"].contains(&section),
+    };
+    let mut manifest = match is_root {
+        true => format!("[workspace]\nmembers = {packages:?}\nresolver = \"3\"\n\n"),
+        false => String::new(),
+    };
+    let mut keep = false;
+    for line in text.lines() {
+        if line.starts_with('[') {
+            keep = wanted(line);
+        }
+        if keep {
+            manifest.push_str(line);
+            manifest.push('\n');
+        }
+    }
+    manifest
+}
+
+/// Builds what descriptions of one pair of sizes share, unless it is there.
+///
+/// # Errors
+///
+/// [`CommandError::Cache`], [`CommandError::Compile`].
+pub fn sized(
+    version: &Version,
+    toolchain: &Toolchain,
+    [coordinates, constraints]: [usize; 2],
+) -> Result<PathBuf, CommandError> {
+    let libraries = libraries(version, toolchain)?;
+    let sized = version.sized([coordinates, constraints]);
+    if sized.is_dir() {
+        return Ok(sized);
+    }
+    let scratch = Scratch::new(version)?;
+    let built = scratch.folder("sized")?;
+    let text = version.digits.serve([coordinates, constraints]);
+    scratch.write(Path::new("sized.rs"), &text)?;
+    let packages = version.digits.packages().iter();
+    let crates: Vec<String> = packages.map(|name| format!("bricard_{name}")).collect();
+    let mut rustc = rustc(&[&libraries], &crates);
+    rustc
+        .args(["--crate-type", "lib", "sized.rs", "--out-dir"])
+        .arg(&built);
+    let failed = format!(
+        "the driver for {coordinates} coordinates and {constraints} constraint equations could \
+         not be compiled"
+    );
+    output(rustc, scratch.path(), &failed)?;
+    scratch.keep(&built, &sized)?;
+    Ok(sized)
+}
+
+/// The compiler, with folders of libraries and the crates that are used of them.
+pub fn rustc(libraries: &[&Path], crates: &[String]) -> Command {
+    let mut rustc = command("rustc");
+    rustc.args([
+        "--edition",
+        "2024",
+        "-C",
+        "opt-level=3",
+        "--cap-lints",
+        "allow",
+    ]);
+    for name in crates {
+        rustc.args(["--extern", name]);
+    }
+    for folder in libraries {
+        rustc.arg("-L").arg(folder);
+    }
+    rustc
+}
+
+/// Creates a folder and all above it.
+///
+/// # Errors
+///
+/// What the system says.
+pub fn create(folder: &Path) -> Result<(), CommandError> {
+    let failed = |error: io::Error| CommandError::Cache(folder.to_path_buf(), error);
+    fs::create_dir_all(folder).map_err(failed)
+}

@@ -1,0 +1,27 @@
+//! Runs a mechanism whose type and sizes are forgotten, in the same program or in one of
+//! its own.
+//!
+//! [`forget`] makes an [`AnyMechanism`] of a generated mechanism; everything behind it is
+//! compiled once for each pair of sizes. [`serve`] puts one behind standard input and
+//! output, for a program that does nothing else; [`Link`] is the other end, and an
+//! [`AnyMechanism`] too. [`Precise`], with [`serve_precise`] and [`PreciseLink`], is the
+//! same for motions to many more digits.
+//!
+//! Not here: what a run is for. Files, progress and Ctrl-C are the business of whoever
+//! watches it ([`Watch`]).
+
+mod any;
+mod column;
+mod leg;
+mod link;
+mod precise;
+mod serve;
+mod wire;
+mod writer;
+
+pub use any::{AnyMechanism, Given, Race, forget, state_of};
+pub use column::{Column, WORDS};
+pub use leg::{Leg, Reached, Watch};
+pub use link::Link;
+pub use precise::{Altered, Around, Exact, Path, Precise, PreciseLink, serve_precise};
+pub use serve::serve;

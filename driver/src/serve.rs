@@ -1,0 +1,133 @@
+//! A mechanism behind standard input and output.
+//!
+//! In:  requests on standard input.
+//! Out: replies on standard output.
+
+use crate::any::{AnyMechanism, forget};
+use crate::leg::Watch;
+use crate::wire::{Reply, Request, Wire, receive, send};
+use bricard_runtime::Whole;
+use std::io::{self, BufWriter, Stdout, Write};
+use std::mem;
+use std::ops::ControlFlow;
+use std::process::{self, ExitCode};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// How often whoever waits hears of a run.
+const PERIOD: Duration = Duration::from_millis(50);
+/// Steps between looks at the clock.
+const STEPS_BETWEEN_LOOKS: u64 = 16;
+
+/// Whether the run should end.
+static WANTED: AtomicBool = AtomicBool::new(false);
+
+/// Answers what is asked about a mechanism until nobody asks any more: the whole of a
+/// program's `main`.
+pub fn serve<const N: usize, const R: usize>(mechanism: Box<dyn Whole<f64, N, R>>) -> ExitCode {
+    match answer(forget(mechanism)) {
+        Ok(()) => ExitCode::SUCCESS,
+        // Nobody is there to be told.
+        Err(_) => ExitCode::FAILURE,
+    }
+}
+
+fn answer(mut mechanism: Box<dyn AnyMechanism>) -> io::Result<()> {
+    let requests = listen(|request| {
+        if *request == Request::Stop {
+            WANTED.store(true, Ordering::Relaxed);
+        }
+    });
+    let mut out = Out::new();
+    out.send(&Reply::Structure(*mechanism.structure()))?;
+    for request in requests {
+        let reply = match request {
+            Request::Parameter(index, value) => {
+                mechanism.set_parameter(index, value);
+                continue;
+            }
+            Request::Input(index, value) => {
+                mechanism.hold_input(index, value);
+                continue;
+            }
+            Request::Begin(given) => {
+                mechanism.begin(given);
+                continue;
+            }
+            Request::Stop => continue,
+            Request::Leg(leg) => Reply::Leg(mechanism.leg(&leg, &mut out)),
+            Request::Race(from, options) => Reply::Race(mechanism.race(from.as_deref(), &options)),
+        };
+        out.send(&reply)?;
+    }
+    Ok(())
+}
+
+/// Reads what is asked as it comes, also while something is computed, and takes note of it
+/// at once. Where whoever asks has gone, so has the reason to go on.
+pub(crate) fn listen<W>(note: impl Fn(&W) + Send + 'static) -> Receiver<W>
+where
+    W: Wire + Send + 'static,
+{
+    let (sender, requests) = channel();
+    thread::spawn(move || {
+        let mut input = io::stdin().lock();
+        while let Ok(request) = receive(&mut input) {
+            note(&request);
+            if sender.send(request).is_err() {
+                break;
+            }
+        }
+        process::exit(0);
+    });
+    requests
+}
+
+/// Standard output, of which rows fill large pieces.
+struct Out {
+    out: BufWriter<Stdout>,
+    told: Instant,
+    /// Steps that nobody has heard of.
+    steps: u64,
+}
+
+impl Out {
+    fn new() -> Self {
+        Self {
+            out: BufWriter::with_capacity(1 << 16, io::stdout()),
+            told: Instant::now(),
+            steps: 0,
+        }
+    }
+
+    fn send(&mut self, reply: &Reply) -> io::Result<()> {
+        send(&mut self.out, reply)?;
+        self.out.flush()?;
+        self.told = Instant::now();
+        Ok(())
+    }
+}
+
+fn flow(sent: io::Result<()>) -> ControlFlow<()> {
+    match sent {
+        Ok(()) if !WANTED.load(Ordering::Relaxed) => ControlFlow::Continue(()),
+        _ => ControlFlow::Break(()),
+    }
+}
+
+impl Watch for Out {
+    fn row(&mut self, values: &[f64]) -> ControlFlow<()> {
+        flow(send(&mut self.out, &Reply::Row(values.to_vec())))
+    }
+
+    fn at(&mut self, t: f64, steps: u64) -> ControlFlow<()> {
+        self.steps += steps;
+        if !self.steps.is_multiple_of(STEPS_BETWEEN_LOOKS) || self.told.elapsed() < PERIOD {
+            return flow(Ok(()));
+        }
+        let steps = mem::take(&mut self.steps);
+        flow(self.send(&Reply::At(t, steps)))
+    }
+}

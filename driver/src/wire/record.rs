@@ -1,0 +1,101 @@
+//! Structs and enums of the runtime as bytes: field by field, variant by variant.
+
+use super::Wire;
+use crate::{Altered, Around, Column, Exact, Given, Leg, Path, Race, Reached};
+use bricard_runtime::{
+    Audit, ConstraintRow, Counters, Declared, Direction, Event, Form, Options, Origin, Pace,
+    Passage, Quantity, Scheme, Settings, Stabilisation, Structure,
+};
+
+/// Structs by their fields. A field that is missing here does not compile.
+macro_rules! records {
+    ($($name:ident $(<$scalar:ty>)? { $($field:ident),* })*) => {$(
+        impl Wire for $name $(<$scalar>)? {
+            fn put(&self, out: &mut Vec<u8>) {
+                let Self { $($field),* } = self;
+                $($field.put(out);)*
+            }
+
+            fn take(from: &mut &[u8]) -> Option<Self> {
+                $(let $field = Wire::take(from)?;)*
+                Some(Self { $($field),* })
+            }
+        }
+    )*};
+}
+
+/// Enums by numbers of their variants. A variant that is missing here does not compile.
+macro_rules! choices {
+    ($($name:ident $(<$scalar:ty>)? {
+        $($number:literal => $variant:ident $(($($part:ident),*))? $({ $($field:ident),* })?),*
+    })*) => {$(
+        impl Wire for $name $(<$scalar>)? {
+            fn put(&self, out: &mut Vec<u8>) {
+                match self {
+                    $(Self::$variant $(($($part),*))? $({ $($field),* })? => {
+                        let number: u8 = $number;
+                        number.put(out);
+                        $($($part.put(out);)*)?
+                        $($($field.put(out);)*)?
+                    })*
+                }
+            }
+
+            fn take(from: &mut &[u8]) -> Option<Self> {
+                Some(match u8::take(from)? {
+                    $($number => {
+                        $($(let $part = Wire::take(from)?;)*)?
+                        $($(let $field = Wire::take(from)?;)*)?
+                        Self::$variant $(($($part),*))? $({ $($field),* })?
+                    })*
+                    _ => return None,
+                })
+            }
+        }
+    )*};
+}
+pub(super) use choices;
+
+records! {
+    Structure {
+        name, docs, file, coordinates, described, parameters, inputs, outputs, events,
+        constraints, constant_mass, conservative, drawn, regular
+    }
+    Quantity { name, unit, docs }
+    Declared { quantity, given_by }
+    ConstraintRow { text, line, holonomic }
+    Event { name, direction }
+    Options<f64> { until, scheme, pace, settings, keep_energy, audit, most_steps, origin }
+    Settings<f64> { form, stabilisation, published }
+    Audit { constraints, energy, passages }
+    Origin<f64> { t, energy, supplied }
+    Passage<f64> { t, sine, rank, regular }
+    Counters {
+        cheap_accelerations, landed_accelerations, robust_accelerations, rank_decisions,
+        undetermined, mass_factorisations, constraint_factorisations, row_choices,
+        projections, projection_iterations, robust_projections
+    }
+    Given { coordinate, velocity, held, value }
+    Race { end, steps, evaluations, wall }
+    Altered { parameters, inputs, given }
+    Exact { end, error }
+    Around { about, places, span }
+    Path { passage, rows }
+    Leg { options, from, every, columns, rows, short }
+    Reached {
+        state, origin, rows, error, steps, rejected, wall, constraint_error, energy_error,
+        passages, events, counters
+    }
+}
+
+choices! {
+    Direction { 0 => Rising, 1 => Falling, 2 => Crossing }
+    Scheme { 0 => Rk4, 1 => Dp5, 2 => Dop853, 3 => Radau5, 4 => Radau9 }
+    Pace<f64> { 0 => Fixed { step }, 1 => Adaptive { relative, absolute } }
+    Form { 0 => Reduced, 1 => Full, 2 => Multipliers, 3 => Partitioning }
+    Stabilisation<f64> { 0 => Projection, 1 => Baumgarte { alpha, beta }, 2 => None }
+    Column {
+        0 => Energy, 1 => Kinetic, 2 => Potential, 3 => ConstraintError, 4 => VelocityError,
+        5 => Rank, 6 => Reaction(place), 7 => Output(place)
+    }
+}

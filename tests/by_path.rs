@@ -1,0 +1,460 @@
+//! A mechanism that is given by the path of its file: compiled once, kept, and moved as
+//! one of the library is.
+//!
+//! All tests but those about the cache itself share one, in the target folder: what is
+//! common to all programs is compiled once for each version of the sources.
+
+use crate::command::{Ran, folder, read};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::thread;
+use std::time::{Duration, Instant, SystemTime};
+
+/// Long enough for any machine to compile what there is to compile.
+const PATIENCE: Duration = Duration::from_secs(240);
+/// Bytes of rows after which a run has come to the end of a leg.
+const LEGS: u64 = 300_000;
+
+/// A pendulum, of which each test has its own by a name and a number.
+fn pendulum(name: &str, length: f64) -> String {
+    format!(
+        "mechanism {name} {{
+    param L: m = {length};
+    param m: kg = 1;
+    const g: m/s^2 = 9.81;
+    coord q: rad;
+    kinetic 1/2*m*L^2*der(q)^2;
+    potential -m*g*L*cos(q);
+    start {{ q = 30*deg; }}
+    event bottom: sin(q) crossing;
+}}
+"
+    )
+}
+
+fn cache() -> PathBuf {
+    PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("cache")
+}
+
+/// The command in a folder, with the shared cache.
+fn bricard(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_bricard"));
+    command
+        .current_dir(folder)
+        .env("XDG_CACHE_HOME", cache())
+        .args(arguments);
+    command
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> Ran {
+    let output = bricard(folder, arguments).output();
+    read(output.expect("the command starts"))
+}
+
+/// Runs the command, which has to succeed.
+fn done(folder: &Path, arguments: &[&str]) -> Ran {
+    let ran = run(folder, arguments);
+    assert_eq!(ran.status, Some(0), "{arguments:?}: {}", ran.err);
+    ran
+}
+
+fn write(folder: &Path, name: &str, text: &str) {
+    fs::write(folder.join(name), text).expect("the folder is ours");
+}
+
+/// The folders in the cache that begin with a name.
+fn programs(begin: &str) -> Vec<PathBuf> {
+    let versions = fs::read_dir(cache().join("bricard")).expect("something was compiled");
+    let programs = versions
+        .flatten()
+        .filter_map(|version| fs::read_dir(version.path().join("programs")).ok());
+    let begins = |path: &PathBuf| {
+        let name = path.file_name().and_then(|name| name.to_str());
+        name.is_some_and(|name| name.starts_with(begin))
+    };
+    let paths = programs.flatten().flatten().map(|entry| entry.path());
+    paths.filter(begins).collect()
+}
+
+fn compiles(ran: &Ran, file: &str) -> bool {
+    ran.err.contains(&format!("compiling {file}"))
+}
+
+// The library has to be optimised as in this workspace's profiles: what the compiler makes
+// of a formula without may round otherwise.
+#[test]
+fn a_file_moves_as_the_mechanism_of_the_library_does() {
+    let folder = folder("same");
+    let library = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
+    let file = "slider_crank.mech";
+    fs::copy(library.join(file), folder.join(file)).expect("it is in the library");
+    let columns = ["--columns", "energy,constraint_error,rank,reactions"];
+    for options in [
+        &["--until", "3", "--every", "0.1"][..],
+        &["--until", "2", "--step", "0.01", "--form", "full"],
+        &[
+            "--until", "1", "--method", "radau5", "--set", "m1=2", "--start", "q1=1.2",
+        ],
+    ] {
+        let arguments = |name| [&["simulate", name], options, &columns].concat();
+        let (named, given) = (
+            done(&folder, &arguments("slider_crank")),
+            done(&folder, &arguments(file)),
+        );
+        assert!(named.out.lines().count() > 10, "{}", named.out);
+        assert_eq!(named.out, given.out, "{options:?}");
+        let summary = |ran: &Ran| {
+            let lines = ran
+                .err
+                .lines()
+                .filter(|line| !line.starts_with("wall time"));
+            let lines = lines.skip_while(|line| !line.starts_with("steps"));
+            lines.map(String::from).collect::<Vec<_>>()
+        };
+        assert_eq!(summary(&named), summary(&given));
+    }
+}
+
+#[test]
+fn only_an_edited_file_is_compiled_again() {
+    let folder = folder("edited");
+    write(&folder, "once.mech", &pendulum("Once", 0.5));
+    let simulate = ["simulate", "once.mech", "--until", "1", "--every", "0.25"];
+    let first = done(&folder, &simulate);
+    let modified = |path: &PathBuf| -> SystemTime {
+        let data = fs::metadata(path.join("mechanism")).or_else(|_| fs::metadata(path));
+        data.and_then(|data| data.modified()).expect("it is there")
+    };
+    let before: Vec<_> = programs("once-").iter().map(modified).collect();
+    for more in [&["--set", "L=0.7"][..], &["--start", "q=1"], &[]] {
+        let ran = done(&folder, &[&simulate, more].concat());
+        assert!(!compiles(&ran, "once.mech"), "{more:?}: {}", ran.err);
+        assert_eq!(ran.out == first.out, more.is_empty(), "{more:?}");
+    }
+    // The same file elsewhere is the same mechanism.
+    let inner = folder.join("inner");
+    fs::create_dir_all(&inner).expect("the folder is ours");
+    write(&inner, "once.mech", &pendulum("Once", 0.5));
+    let ran = done(
+        &folder,
+        &[
+            "simulate",
+            "inner/once.mech",
+            "--until",
+            "1",
+            "--every",
+            "0.25",
+        ],
+    );
+    assert!(!compiles(&ran, "inner/once.mech"), "{}", ran.err);
+    let after: Vec<_> = programs("once-").iter().map(modified).collect();
+    assert_eq!(before, after);
+
+    let edited = format!("{}// {:?}\n", pendulum("Once", 0.7), SystemTime::now());
+    write(&folder, "once.mech", &edited);
+    let ran = done(&folder, &simulate);
+    assert!(compiles(&ran, "once.mech"), "{}", ran.err);
+    assert_ne!(ran.out, first.out);
+    let set = [
+        "simulate",
+        "inner/once.mech",
+        "--until",
+        "1",
+        "--every",
+        "0.25",
+        "--set",
+        "L=0.7",
+    ];
+    assert_eq!(ran.out, done(&folder, &set).out);
+}
+
+#[test]
+fn a_wrong_file_gets_the_messages_of_check() {
+    let folder = folder("wrong");
+    write(
+        &folder,
+        "wrong.mech",
+        "mechanism W { coord q: m; kinetic 1/2*m*der(q)^2; }\n",
+    );
+    let checked = run(&folder, &["check", "wrong.mech"]);
+    // With a compiler or without.
+    for path in [std::env::var_os("PATH"), None] {
+        let mut simulate = bricard(&folder, &["simulate", "wrong.mech"]);
+        simulate.env("PATH", path.unwrap_or_default());
+        let ran = read(simulate.output().expect("the command starts"));
+        assert_eq!((ran.status, &ran.err), (checked.status, &checked.err));
+        assert!(ran.err.contains("`m` is not declared"), "{}", ran.err);
+    }
+    let missing = run(&folder, &["simulate", "nowhere.mech"]);
+    assert_eq!(missing.status, Some(1));
+    assert!(
+        missing.err.contains("could not read nowhere.mech"),
+        "{}",
+        missing.err
+    );
+    let name = run(&folder, &["simulate", "slider_crnk"]);
+    assert!(
+        name.err.contains("did you mean `slider_crank`?"),
+        "{}",
+        name.err
+    );
+}
+
+#[test]
+fn what_stands_in_the_way_of_compiling_is_said() {
+    let folder = folder("hindered");
+    let file = "hindered.mech";
+    let new = format!("{}// {:?}\n", pendulum("Hindered", 0.5), SystemTime::now());
+    write(&folder, file, &new);
+    let refused = |command: &mut Command, said: &str| {
+        let ran = read(command.output().expect("the command starts"));
+        assert_eq!(ran.status, Some(1), "{}", ran.err);
+        assert!(ran.err.contains(said), "{}", ran.err);
+    };
+    let simulate = || bricard(&folder, &["simulate", file]);
+    refused(simulate().env("PATH", ""), "`rustc` was not found");
+    // A file is no place for a cache.
+    let place = folder.join(file);
+    refused(
+        simulate().env("XDG_CACHE_HOME", &place),
+        "name another folder with XDG_CACHE_HOME",
+    );
+    refused(
+        simulate().env_remove("XDG_CACHE_HOME").env_remove("HOME"),
+        "name one with XDG_CACHE_HOME",
+    );
+}
+
+#[test]
+fn what_was_left_half_built_is_cleared_away_and_never_used() {
+    let folder = folder("left");
+    write(&folder, "left.mech", &pendulum("Left", 0.5));
+    done(&folder, &["simulate", "left.mech", "--until", "0.1"]);
+    let entry = programs("left-").pop().expect("it was compiled");
+    let version = entry.ancestors().nth(2).expect("it lies in a version");
+    let left = version.join("building-0-0");
+    fs::create_dir_all(left.join("program")).expect("the cache is ours");
+    // Without its description an entry is not whole.
+    fs::remove_file(entry.join("description.mech")).expect("the cache is ours");
+    fs::write(entry.join("mechanism"), "").expect("the cache is ours");
+    let ran = done(&folder, &["simulate", "left.mech", "--until", "0.1"]);
+    assert!(compiles(&ran, "left.mech"), "{}", ran.err);
+    assert!(!left.exists());
+}
+
+#[test]
+fn two_commands_compile_one_file_once() {
+    let folder = folder("twice");
+    let new = format!("{}// {:?}\n", pendulum("Twice", 0.5), SystemTime::now());
+    write(&folder, "twice.mech", &new);
+    let start = || {
+        bricard(&folder, &["simulate", "twice.mech", "--until", "1"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the command starts")
+    };
+    let both = [start(), start()].map(|child| read(child.wait_with_output().expect("it ends")));
+    let [one, other] = &both;
+    assert_eq!(
+        [one.status, other.status],
+        [Some(0); 2],
+        "{}{}",
+        one.err,
+        other.err
+    );
+    assert_eq!(one.out, other.out);
+    let compiled = both.iter().filter(|ran| compiles(ran, "twice.mech"));
+    assert_eq!(compiled.count(), 1, "{}{}", one.err, other.err);
+}
+
+#[test]
+fn the_cache_is_shown_and_cleared() {
+    let folder = folder("cache");
+    let command = |arguments: &[&str]| {
+        let mut command = bricard(&folder, arguments);
+        command.env("XDG_CACHE_HOME", &folder);
+        read(command.output().expect("the command starts"))
+    };
+    let ran = command(&["cache"]);
+    assert!(
+        ran.out.contains("nothing has been compiled yet"),
+        "{}",
+        ran.out
+    );
+    let program = folder.join("bricard/0.1.0-abc/programs/crane-123");
+    fs::create_dir_all(&program).expect("the folder is ours");
+    fs::write(program.join("mechanism"), vec![0; 2_500_000]).expect("the folder is ours");
+    let ran = command(&["cache"]);
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    let line = |begin: &str| {
+        let mut lines = ran.out.lines().map(str::trim);
+        let found = lines.rfind(|line| line.starts_with(begin));
+        found.unwrap_or_default().to_string()
+    };
+    assert!(line("crane-123").ends_with(" 2.5"), "{}", ran.out);
+    assert!(line("0.1.0-abc").ends_with(" 0.0"), "{}", ran.out);
+    let ran = command(&["cache", "--clear"]);
+    assert!(ran.out.contains("2.5 MB were removed"), "{}", ran.out);
+    assert!(!program.exists());
+    assert!(folder.is_dir());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_run_by_path_goes_on_from_its_checkpoint_unless_the_file_is_edited() {
+    let folder = folder("resumed");
+    write(&folder, "p.mech", &pendulum("Resumed", 0.5));
+    let long = ["simulate", "p.mech", "--step", "0.002", "--until", "600"];
+    let with = |more: &[&'static str]| [&long[..], more].concat();
+    done(
+        &folder,
+        &with(&["--out", "whole.csv", "--checkpoint", "whole"]),
+    );
+    let child = bricard(
+        &folder,
+        &with(&["--out", "parts.csv", "--checkpoint", "parts"]),
+    )
+    .stderr(Stdio::piped())
+    .spawn()
+    .expect("the command starts");
+    let [whole, parts] = ["whole.csv", "parts.csv"].map(|name| folder.join(name));
+    wait_until("a leg", || {
+        fs::metadata(&parts).is_ok_and(|file| file.len() > LEGS)
+    });
+    press_ctrl_c(&child);
+    let ran = read(child.wait_with_output().expect("it ends"));
+    assert!(ran.err.contains("`--resume parts`"), "{}", ran.err);
+    let torn = fs::read(&parts).expect("the rows are kept");
+    let resume = with(&["--out", "parts.csv", "--resume", "parts"]);
+    write(&folder, "p.mech", &pendulum("Resumed", 0.6));
+    let refused = run(&folder, &resume);
+    assert_eq!(refused.status, Some(2), "{}", refused.err);
+    assert!(
+        refused.err.contains("one of another run"),
+        "{}",
+        refused.err
+    );
+    write(&folder, "p.mech", &pendulum("Resumed", 0.5));
+    done(&folder, &resume);
+    let [one, two] = [&whole, &parts].map(|path| fs::read(path).expect("rows"));
+    assert!(
+        torn.len() < one.len(),
+        "it was over before it was interrupted"
+    );
+    assert!(one == two, "the bytes differ");
+}
+
+/// Waits until something is the case.
+fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
+    let begun = Instant::now();
+    while !is_so() {
+        assert!(begun.elapsed() < PATIENCE, "{what} never came");
+        thread::sleep(Duration::from_millis(10));
+    }
+}
+
+#[cfg(unix)]
+fn press_ctrl_c(child: &std::process::Child) {
+    let id = child.id().to_string();
+    let pressed = Command::new("kill").args(["-INT", &id]).status();
+    assert!(pressed.is_ok_and(|status| status.success()));
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_by_path_keeps_its_rows_and_says_what_was_done() {
+    let folder = folder("interrupted_by_path");
+    write(&folder, "long.mech", &pendulum("Long", 0.5));
+    let long = ["simulate", "long.mech", "--until", "1e7", "--step", "0.01"];
+    let child = bricard(&folder, &[&long[..], &["--out", "rows.csv"]].concat())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    let rows = folder.join("rows.csv");
+    wait_until("a row", || {
+        fs::metadata(&rows).is_ok_and(|file| file.len() > 0)
+    });
+    press_ctrl_c(&child);
+    let ran = read(child.wait_with_output().expect("it ends"));
+    assert_eq!(ran.status, Some(130), "{}", ran.err);
+    let rows = fs::read_to_string(&rows).expect("the rows are kept");
+    let said = format!("the {} rows computed before", rows.lines().count() - 1);
+    assert!(ran.err.contains(&said), "{}", ran.err);
+    assert!(ran.err.contains("energy drift"), "{}", ran.err);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_watched_file_runs_again_when_it_is_saved() {
+    let folder = folder("watched");
+    write(&folder, "seen.mech", &pendulum("Seen", 0.5));
+    let child = bricard(
+        &folder,
+        &["watch", "seen.mech", "--until", "0.5", "--out", "rows.csv"],
+    )
+    .stderr(Stdio::piped())
+    .spawn()
+    .expect("the command starts");
+    let rows = || fs::read_to_string(folder.join("rows.csv")).unwrap_or_default();
+    // The end of a run is its last row.
+    let is_whole = |rows: &str| {
+        rows.lines()
+            .last()
+            .is_some_and(|row| row.starts_with("0.5,"))
+    };
+    wait_until("the first run", || is_whole(&rows()));
+    let first = rows();
+    // A mistake is said, and the watch goes on.
+    write(&folder, "seen.mech", "mechanism Seen {");
+    thread::sleep(Duration::from_millis(300));
+    write(&folder, "seen.mech", &pendulum("Seen", 0.9));
+    wait_until("the second run", || rows() != first && is_whole(&rows()));
+    press_ctrl_c(&child);
+    let ran = read(child.wait_with_output().expect("it ends"));
+    assert_eq!(ran.status, Some(130), "{}", ran.err);
+    assert!(ran.err.contains("the description is wrong"), "{}", ran.err);
+    assert!(
+        ran.err.contains("waiting until seen.mech is saved"),
+        "{}",
+        ran.err
+    );
+    let name = run(&folder, &["watch", "slider_crank"]);
+    assert_eq!(name.status, Some(2), "{}", name.err);
+    assert!(
+        name.err.contains("takes the file of a description"),
+        "{}",
+        name.err
+    );
+}
+
+#[test]
+fn a_file_is_compared_with_many_digits_as_the_mechanism_of_the_library_is() {
+    let folder = folder("precise");
+    let library = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
+    let file = "cart_pole.mech";
+    fs::copy(library.join(file), folder.join(file)).expect("it is in the library");
+    let measure = |name| {
+        let options = [
+            "--until",
+            "0.5",
+            "--methods",
+            "dp5",
+            "--set",
+            "m1=0.3",
+            "--csv",
+            "a.csv",
+        ];
+        done(&folder, &[&["workprecision", name], &options[..]].concat());
+        let table = fs::read_to_string(folder.join("a.csv")).expect("it was written");
+        let without_time = |line: &str| {
+            let cells = line.split(',').enumerate().filter(|(place, _)| *place != 4);
+            cells.map(|(_, cell)| cell.to_string()).collect::<Vec<_>>()
+        };
+        table.lines().map(without_time).collect::<Vec<_>>()
+    };
+    let (named, given) = (measure("cart_pole"), measure(file));
+    assert!(named.len() > 10, "{named:?}");
+    assert_eq!(named, given);
+}
