@@ -3,6 +3,7 @@
 //! In:  a name, about when a singular position is passed.
 //! Out: when exactly, how fast, and states at any times around it.
 
+use crate::number::largest;
 use bricard_reference::{DoubleDouble, states_at};
 use bricard_runtime::{
     Interface, Mechanism, Real, Settings, Solver, State, Visitor, Whole, assemble,
@@ -69,8 +70,8 @@ fn follow<const N: usize, const R: usize>(
         assemble(mechanism, &mechanism.start(), number(0.0)).map_err(|error| error.to_string())?;
     let passage = passage(mechanism, &start, wanted.about)?;
     let there = one(mechanism, &start, passage)?;
-    let speed = there.v.iter().map(|v| v.to_f64().abs());
-    let times: Vec<DoubleDouble> = (wanted.times)(speed.fold(0.0, f64::max))
+    let speed = largest(there.v.iter().map(|v| v.to_f64()));
+    let times: Vec<DoubleDouble> = (wanted.times)(speed)
         .into_iter()
         .map(|time| passage + number(time))
         .collect();

@@ -106,13 +106,6 @@ impl Outcome {
     }
 }
 
-/// The largest absolute value; not a number if one of them is none.
-pub fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values
-        .map(f64::abs)
-        .fold(0.0, |most, x| if x > most || x.is_nan() { x } else { most })
-}
-
 /// Runs an experiment as the paper did: RK4 with fixed step, positions and
 /// velocities projected after each step.
 pub fn perform(experiment: &'static Experiment) -> Result<Outcome, CommandError> {

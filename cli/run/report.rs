@@ -3,6 +3,7 @@
 //! In:  the summaries of its legs.
 //! Out: a [`Report`].
 
+use crate::number::largest;
 use bricard_runtime::{Counters, Passage, Summary};
 use std::time::Duration;
 
@@ -33,8 +34,9 @@ impl Report {
         self.steps += summary.steps;
         self.rejected += summary.rejected;
         let constraint = summary.constraint_error.map_or(0.0, |error| error.position);
-        self.constraint_error = self.constraint_error.max(constraint);
-        self.energy_error = self.energy_error.max(summary.energy_error.unwrap_or(0.0));
+        self.constraint_error = largest([self.constraint_error, constraint]);
+        let energy = summary.energy_error.unwrap_or(0.0);
+        self.energy_error = largest([self.energy_error, energy]);
         self.counters += summary.counters;
     }
 }

@@ -6,6 +6,7 @@
 use super::reference::Exact;
 use crate::arguments::{FormName, MethodName};
 use crate::mechanism::{AnyMechanism, Race};
+use crate::number::largest;
 use bricard_runtime::{Audit, Options, Pace};
 use std::time::Duration;
 
@@ -121,10 +122,10 @@ fn repeated(mechanism: &dyn AnyMechanism, options: &Options<f64>) -> Result<Race
 }
 
 fn point(setting: String, race: &Race, exact: &Exact) -> Point {
-    let differences = race.end.iter().zip(&exact.end).map(|(a, b)| (a - b).abs());
+    let differences = race.end.iter().zip(&exact.end).map(|(a, b)| a - b);
     Point {
         setting,
-        error: differences.fold(0.0, f64::max),
+        error: largest(differences),
         steps: race.steps,
         evaluations: race.evaluations,
         wall: race.wall,

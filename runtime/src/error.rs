@@ -45,6 +45,33 @@ impl Display for Singularity {
     }
 }
 
+/// What is watched along a motion and not needed to compute it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Watched {
+    /// The kinetic energy.
+    KineticEnergy,
+    /// The potential energy.
+    PotentialEnergy,
+    /// The power that is supplied.
+    Power,
+    /// The errors of the constraints.
+    ConstraintError,
+    /// The function of an event, by name.
+    Event(&'static str),
+}
+
+impl Display for Watched {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self {
+            Self::KineticEnergy => f.write_str("the kinetic energy"),
+            Self::PotentialEnergy => f.write_str("the potential energy"),
+            Self::Power => f.write_str("the power that is supplied"),
+            Self::ConstraintError => f.write_str("the error of a constraint"),
+            Self::Event(name) => write!(f, "the function of the event `{name}`"),
+        }
+    }
+}
+
 /// Why an acceleration or a projection could not be computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum DynamicsError<T> {
@@ -52,6 +79,13 @@ pub enum DynamicsError<T> {
     NotFinite {
         /// Time of the state (s).
         t: T,
+    },
+    /// The motion is finite so far, but a quantity that is watched is infinite or NaN.
+    WatchedNotFinite {
+        /// Time of the state (s).
+        t: T,
+        /// The quantity.
+        quantity: Watched,
     },
     /// The form of the equations has no solution here: the rows of the
     /// constraint Jacobian are dependent, or nearly so.
@@ -113,6 +147,7 @@ impl<T: Real> DynamicsError<T> {
     pub fn time(&self) -> T {
         match *self {
             Self::NotFinite { t }
+            | Self::WatchedNotFinite { t, .. }
             | Self::SingularPosition { t, .. }
             | Self::SingularConfiguration { t, .. }
             | Self::NotRegular { t, .. }
@@ -129,6 +164,12 @@ impl<T: Real> Display for DynamicsError<T> {
                 f,
                 "at t = {t} s the equations of motion gave a number that is infinite or NaN; \
                  look for a force or an input that grows without bound, or take a smaller step",
+                t = Number(t)
+            ),
+            Self::WatchedNotFinite { t, quantity } => write!(
+                f,
+                "at t = {t} s {quantity} is infinite or NaN; look for the root or the logarithm \
+                 of a negative number, or a division by zero, in what it is made of",
                 t = Number(t)
             ),
             Self::SingularPosition {

@@ -24,7 +24,7 @@ pub use catalogue::Visitor;
 pub use dynamics::{
     ConstrainedSystem, ConstraintError, Counters, Form, Rank, Settings, Solver, Stabilisation,
 };
-pub use error::{DynamicsError, Singularity};
+pub use error::{DynamicsError, Singularity, Watched};
 pub use integrator::{
     Dop853, Dp5, IntegrateError, Integrator, Radau5, Radau9, Rk4, Step, Tolerance,
 };

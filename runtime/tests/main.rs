@@ -5,6 +5,7 @@ mod assembly;
 mod bridge;
 mod conserve;
 mod dynamics;
+mod finite;
 mod hits;
 mod integrator;
 mod landing;

@@ -112,8 +112,9 @@ impl Function2 {
     pub fn apply(self, x: f64, y: f64) -> f64 {
         match self {
             Function2::Atan2 => x.atan2(y),
-            Function2::Min => x.min(y),
-            Function2::Max => x.max(y),
+            Function2::Min if x < y || x.is_nan() => x,
+            Function2::Max if x > y || x.is_nan() => x,
+            Function2::Min | Function2::Max => y,
             Function2::Pow => x.powf(y),
         }
     }

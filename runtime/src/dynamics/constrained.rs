@@ -235,16 +235,11 @@ where
         self.mechanism.position(state, position);
         let velocity = position.jacobian * state.v + position.drift;
         for row in 0..R {
-            error.position = larger(error.position, position.residual[row].abs());
-            error.velocity = larger(error.velocity, velocity[row].abs());
+            error.position = error.position.max(position.residual[row].abs());
+            error.velocity = error.velocity.max(velocity[row].abs());
         }
         error
     }
-}
-
-/// The larger of two sizes; not finite if one of them is not.
-fn larger<T: Real>(a: T, b: T) -> T {
-    if b > a || !b.is_finite() { b } else { a }
 }
 
 impl<M, T: Real, const N: usize, const R: usize> System<T, N> for ConstrainedSystem<'_, M, T, N, R>

@@ -276,7 +276,7 @@ impl<T: Real, const N: usize> Pace<T, N> {
         } else {
             T::from_f64(FIRST_STEP) * size / slope
         };
-        let guess = guess.min(span);
+        let guess = if guess < span { guess } else { span };
         let curvature = self.curvature(method, system, a, guess);
         let change = slope.max(curvature);
         let better = if change.is_finite() && change > T::from_f64(1e-15) {

@@ -12,7 +12,9 @@
 //! chapter 4.
 
 use super::SimulateError;
-use crate::{Direction, DynamicsError, Event, Interface, Occurrence, Probe, Real, State, Step};
+use crate::{
+    Direction, DynamicsError, Event, Interface, Occurrence, Probe, Real, State, Step, Watched,
+};
 
 /// Events a mechanism may have.
 pub(super) const ROOM: usize = 64;
@@ -83,7 +85,7 @@ impl<T: Real> Events<T> {
                 room: ROOM,
             });
         }
-        let values = evaluate(mechanism, state);
+        let values = evaluate(mechanism, events, state).map_err(SimulateError::Observe)?;
         Ok(Self { events, values })
     }
 
@@ -107,7 +109,8 @@ impl<T: Real> Events<T> {
             count: 0,
         };
         let state = on_constraints(probe, step, to)?;
-        let before = core::mem::replace(&mut self.values, evaluate(mechanism, &state));
+        let after = evaluate(mechanism, self.events, &state)?;
+        let before = core::mem::replace(&mut self.values, after);
         for (index, event) in self.events.iter().enumerate() {
             let (low, high) = (before[index], self.values[index]);
             let rising = low < T::zero() && high >= T::zero();
@@ -120,7 +123,7 @@ impl<T: Real> Events<T> {
             if happened {
                 let mut function = |t: T| {
                     let state = on_constraints(probe, step, t)?;
-                    Ok(evaluate(mechanism, &state)[index])
+                    Ok(evaluate(mechanism, self.events, &state)?[index])
                 };
                 let t = zero(&mut function, (from, low), (to, high))?;
                 let state = on_constraints(probe, step, t)?;
@@ -136,15 +139,26 @@ impl<T: Real> Events<T> {
     }
 }
 
-/// The event functions at a state.
-fn evaluate<T, I, const N: usize>(mechanism: &I, state: &State<T, N>) -> [T; ROOM]
+/// The event functions at a state, where all have a value. One that is infinite has a sign,
+/// one that is not a number would never change it.
+fn evaluate<T, I, const N: usize>(
+    mechanism: &I,
+    events: &[Event],
+    state: &State<T, N>,
+) -> Result<[T; ROOM], DynamicsError<T>>
 where
     T: Real,
     I: Interface<T, N> + ?Sized,
 {
     let mut values = [T::zero(); ROOM];
     mechanism.events(state, &mut values);
-    values
+    for (event, value) in events.iter().zip(&values) {
+        if value.partial_cmp(&T::zero()).is_none() {
+            let (t, quantity) = (state.t, Watched::Event(event.name));
+            return Err(DynamicsError::WatchedNotFinite { t, quantity });
+        }
+    }
+    Ok(values)
 }
 
 /// The state at a time within a step; the ends are on the constraints already.
