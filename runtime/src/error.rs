@@ -4,7 +4,7 @@
 //! Out: one enum per stage, with data and a message for people.
 
 use crate::number::Number;
-use crate::{Form, Real, Structure};
+use crate::{Condition, Form, Real, Structure};
 use core::fmt::{Display, Formatter, Result};
 
 /// Kinds of singular configurations in which a motion ends.
@@ -58,6 +58,8 @@ pub enum Watched {
     ConstraintError,
     /// The function of an event, by name.
     Event(&'static str),
+    /// A side of a condition, as the description writes it.
+    Condition(&'static str),
 }
 
 impl Display for Watched {
@@ -68,6 +70,7 @@ impl Display for Watched {
             Self::Power => f.write_str("the power that is supplied"),
             Self::ConstraintError => f.write_str("the error of a constraint"),
             Self::Event(name) => write!(f, "the function of the event `{name}`"),
+            Self::Condition(text) => write!(f, "what is compared in `{text}`"),
         }
     }
 }
@@ -129,6 +132,13 @@ pub enum DynamicsError<T> {
         /// The mechanism, for the names.
         structure: &'static Structure,
     },
+    /// A condition of the forces changes again and again without time going on.
+    Sticks {
+        /// Time of the state (s).
+        t: T,
+        /// The condition.
+        condition: &'static Condition,
+    },
     /// The position could not be brought back onto the constraints.
     ProjectionFailed {
         /// Time of the state (s).
@@ -152,6 +162,7 @@ impl<T: Real> DynamicsError<T> {
             | Self::SingularConfiguration { t, .. }
             | Self::NotRegular { t, .. }
             | Self::MassSingular { t, .. }
+            | Self::Sticks { t, .. }
             | Self::ProjectionFailed { t, .. } => t,
         }
     }
@@ -205,6 +216,15 @@ impl<T: Real> Display for DynamicsError<T> {
                 coordinate,
                 structure,
             } => write_massless(f, t, (*coordinate, structure)),
+            Self::Sticks { t, condition } => write!(
+                f,
+                "at t = {t} s the condition `{text}` (line {line}) changes again and again \
+                 without time going on; write a force that rises steeply instead of jumping, \
+                 such as `tanh(x/d)` for `sign(x)`",
+                t = Number(t),
+                text = condition.text,
+                line = condition.line
+            ),
             Self::ProjectionFailed {
                 t,
                 residual,

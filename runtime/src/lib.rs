@@ -3,6 +3,7 @@
 
 mod assembly;
 mod catalogue;
+mod crossing;
 mod dynamics;
 mod error;
 mod integrator;
@@ -29,9 +30,9 @@ pub use integrator::{
     Dop853, Dp5, IntegrateError, Integrator, Radau5, Radau9, Rk4, Step, Tolerance,
 };
 pub use model::{
-    Canvas, ConstraintRow, Correction, Declared, Described, Direction, Energy, Event, Initial,
-    Interface, Linearised, Mechanism, Pivots, Position, Quantity, Regular, Start, Structure, Terms,
-    Whole,
+    Canvas, Condition, ConstraintRow, Correction, Declared, Described, Direction, Energy, Event,
+    Initial, Interface, Linearised, Mechanism, Pivots, Position, Quantity, Regular, Sides, Start,
+    Structure, Switch, Terms, Whole,
 };
 pub use nalgebra;
 #[cfg(feature = "std")]
@@ -45,4 +46,4 @@ pub use simulate::{
 };
 pub use singular::Passage;
 pub use state::State;
-pub use system::{Slope, System};
+pub use system::{Slope, Switching, System};

@@ -46,6 +46,17 @@ pub trait Mechanism<T: Real, const N: usize, const R: usize> {
         false
     }
 
+    /// What decides the conditions of the forces by its sign, and its rate at an
+    /// acceleration, as many as `values` has room for; the conditions.
+    fn switches(
+        &self,
+        _state: &State<T, N>,
+        _acceleration: &SVector<T, N>,
+        _values: &mut [Switch<T>],
+    ) -> &'static [Condition] {
+        &[]
+    }
+
     /// Energies and the power that is supplied from outside.
     fn energy(&self, state: &State<T, N>) -> Energy<T>;
 
@@ -120,6 +131,8 @@ pub struct Terms<T, const N: usize, const R: usize> {
     pub jacobian: SMatrix<T, R, N>,
     /// `p₂ = −(Ȧ q̇ + ḃ)`, `R`.
     pub bias: SVector<T, R>,
+    /// What holds the conditions; read, not written.
+    pub sides: Sides,
 }
 
 /// The acceleration by the regular path, and how far it can be trusted.
@@ -129,6 +142,8 @@ pub struct Regular<T, const N: usize, const R: usize> {
     pub acceleration: SVector<T, N>,
     /// What was divided by.
     pub pivots: Pivots<T, N, R>,
+    /// What holds the conditions; read, not written.
+    pub sides: Sides,
 }
 
 /// One step of a projection by the regular path, and how far it can be trusted.
@@ -184,13 +199,15 @@ pub struct Linearised<T, const N: usize, const R: usize> {
     pub row_by_position: SMatrix<T, R, N>,
     /// `∂p₂/∂q̇`, `R × N`.
     pub row_by_velocity: SMatrix<T, R, N>,
+    /// What holds the conditions; read, not written.
+    pub sides: Sides,
 }
 
 macro_rules! zeroed {
-    ($name:ident { $($field:ident),* }) => {
+    ($name:ident { $($field:ident),* } $($sides:ident)?) => {
         impl<T: Real, const N: usize, const R: usize> Default for $name<T, N, R> {
             fn default() -> Self {
-                Self { $($field: SMatrix::zeros()),* }
+                Self { $($field: SMatrix::zeros(),)* $($sides: Sides::FREE)? }
             }
         }
     };
@@ -200,7 +217,7 @@ zeroed!(Terms {
     force,
     jacobian,
     bias
-});
+} sides);
 zeroed!(Position {
     mass,
     residual,
@@ -212,7 +229,7 @@ zeroed!(Linearised {
     force_by_velocity,
     row_by_position,
     row_by_velocity
-});
+} sides);
 zeroed!(Pivots {
     mass_pivots,
     mass_diagonal,
@@ -225,6 +242,7 @@ impl<T: Real, const N: usize, const R: usize> Default for Regular<T, N, R> {
         Self {
             acceleration: SVector::zeros(),
             pivots: Pivots::default(),
+            sides: Sides::FREE,
         }
     }
 }
@@ -238,6 +256,74 @@ impl<T: Real, const N: usize, const R: usize> Default for Correction<T, N, R> {
             pivots: Pivots::default(),
         }
     }
+}
+
+/// On which side of zero a run holds the switching functions that decide the conditions of
+/// the forces, so that the forces are smooth over a step. Where nothing is held, the state
+/// decides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sides {
+    /// The functions that are held, a bit for each.
+    held: u128,
+    /// Those of them that are held above zero.
+    above: u128,
+}
+
+impl Sides {
+    /// Nothing is held.
+    pub const FREE: Self = Self { held: 0, above: 0 };
+    /// Functions that can be held.
+    pub const ROOM: usize = 128;
+
+    fn bit(index: u32) -> u128 {
+        1_u128.checked_shl(index).unwrap_or(0)
+    }
+
+    /// Whether a function is above zero: as it is held, or else as was found.
+    #[inline(always)]
+    pub fn above(self, index: u32, found: bool) -> bool {
+        match self.held & Self::bit(index) {
+            0 => found,
+            bit => self.above & bit != 0,
+        }
+    }
+
+    /// Whether a function is below zero: as it is held, or else as was found.
+    #[inline(always)]
+    pub fn below(self, index: u32, found: bool) -> bool {
+        !self.above(index, !found)
+    }
+
+    /// Holds a function above zero, or below it.
+    pub fn hold(&mut self, index: u32, above: bool) {
+        let bit = Self::bit(index);
+        self.held |= bit;
+        if above {
+            self.above |= bit;
+        } else {
+            self.above &= !bit;
+        }
+    }
+}
+
+/// A function whose sign decides a condition.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Switch<T> {
+    /// Its value.
+    pub value: T,
+    /// How fast it grows (1/s times its unit).
+    pub rate: T,
+}
+
+/// A condition of the forces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Condition {
+    /// As the description writes it.
+    pub text: &'static str,
+    /// The line of the statement.
+    pub line: u32,
+    /// Whether the forces are continuous where it changes, but for the slope.
+    pub kinks: bool,
 }
 
 /// Energies at a state.

@@ -43,6 +43,46 @@ pub enum Comparison {
     NotEqual,
 }
 
+/// What a choice depends on: a comparison, and the switching function whose side decides it
+/// while a run holds that.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Test {
+    /// The comparison.
+    pub comparison: Comparison,
+    /// The side that a run may hold; none if the comparison always decides.
+    pub held: Option<Side>,
+}
+
+/// A side of a switching function, by its index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Side {
+    /// The function is positive.
+    Above(u32),
+    /// It is negative.
+    Below(u32),
+}
+
+impl From<Comparison> for Test {
+    fn from(comparison: Comparison) -> Self {
+        Self {
+            comparison,
+            held: None,
+        }
+    }
+}
+
+impl Test {
+    /// Whether it holds where nothing is held.
+    pub fn holds(self, a: f64, b: f64) -> bool {
+        self.comparison.holds(a, b)
+    }
+
+    /// The sign of its comparison in a description.
+    pub fn sign(self) -> &'static str {
+        self.comparison.sign()
+    }
+}
+
 impl Function {
     /// Every function with the name it has in a description.
     pub const ALL: [(Function, &'static str); 14] = [

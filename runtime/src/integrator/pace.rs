@@ -14,7 +14,7 @@ use super::IntegrateError;
 use super::control::{Control, Tolerance, check_bound};
 use super::step::Step;
 use super::tableau::Tableau;
-use crate::{DynamicsError, Real, State, System};
+use crate::{DynamicsError, Real, State, Switching, System};
 use nalgebra::SVector;
 
 /// The first step should change the slope by this fraction (Hairer's guess).
@@ -65,8 +65,15 @@ pub(super) trait Trial<T: Real, const N: usize> {
     /// The error of the trial step in units of the tolerance.
     fn error(&self, tolerance: &Tolerance<T, N>) -> T;
 
-    /// Completes an accepted step: the slope at its end, and its inside.
-    fn accept<Y: System<T, N> + ?Sized>(&mut self, system: &mut Y) -> Result<(), DynamicsError<T>>;
+    /// Completes an accepted step: the slope at its end, and so much of its inside.
+    fn accept<Y: System<T, N> + ?Sized>(
+        &mut self,
+        system: &mut Y,
+        inside: Inside,
+    ) -> Result<(), DynamicsError<T>>;
+
+    /// What is kept of the inside of steps.
+    fn kept(&self) -> Inside;
 }
 
 /// What decides how long a step is.
@@ -107,29 +114,68 @@ impl<K: Trial<T, N>, T: Real, const N: usize> Paced<K, T, N> {
         bound: T,
     ) -> Result<&Step<T, N>, IntegrateError<T>> {
         check_bound(state.t, bound)?;
-        system.begin(state);
-        let slope = match self.method.begin(system, state) {
-            Err(error) => match system.escalate()? {
-                true => self.method.begin(system, state)?,
-                false => return Err(error.into()),
-            },
-            Ok(slope) => slope,
+        let switches = system.begin(state);
+        let inside = match switches {
+            true => Inside::Full,
+            false => self.method.kept(),
         };
+        let mut slope = self.begin(system, state)?;
+        let mut bound = bound;
+        loop {
+            self.advance(system, &slope, bound)?;
+            self.method.accept(system, inside)?;
+            match system.switch(self.method.step())? {
+                Switching::Nowhere => break,
+                Switching::AtEnd => {
+                    self.method.forget();
+                    break;
+                }
+                Switching::Within(t) => bound = t,
+                Switching::AtStart => {
+                    self.method.forget();
+                    slope = self.begin(system, state)?;
+                }
+            }
+            self.method.step().rejected += 1;
+        }
+        let step = self.method.step();
+        system.commit(step)?;
+        Ok(step)
+    }
+
+    /// The acceleration at the start of a step.
+    fn begin<Y: System<T, N> + ?Sized>(
+        &mut self,
+        system: &mut Y,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, IntegrateError<T>> {
+        match self.method.begin(system, state) {
+            Err(error) => match system.escalate()? {
+                true => Ok(self.method.begin(system, state)?),
+                false => Err(error.into()),
+            },
+            Ok(slope) => Ok(slope),
+        }
+    }
+
+    /// Makes attempts at a step until one is accepted.
+    fn advance<Y: System<T, N> + ?Sized>(
+        &mut self,
+        system: &mut Y,
+        slope: &SVector<T, N>,
+        bound: T,
+    ) -> Result<(), IntegrateError<T>> {
         match &mut self.pace {
-            None => in_parts(state.t, bound, |end| {
+            None => in_parts(self.method.step().start.t, bound, |end| {
                 attempt(&mut self.method, system, end)?;
                 if !verify(&mut self.method, system)? {
                     attempt(&mut self.method, system, end)?;
                     verify(&mut self.method, system)?;
                 }
                 Ok::<_, IntegrateError<T>>(())
-            })?,
-            Some(pace) => pace.advance(&mut self.method, system, &slope, bound)?,
+            }),
+            Some(pace) => pace.advance(&mut self.method, system, slope, bound),
         }
-        self.method.accept(system)?;
-        let step = self.method.step();
-        system.commit(step)?;
-        Ok(step)
     }
 }
 

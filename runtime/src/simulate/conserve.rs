@@ -17,7 +17,7 @@
 //! section IV.4 (projection methods).
 
 use crate::observer::balance;
-use crate::{ConstrainedSystem, DynamicsError, Mechanism, Real, Slope, State, Step, System};
+use crate::{ConstrainedSystem, DynamicsError, Mechanism, Real, Slope, State, Step, Switching, System};
 use nalgebra::SVector;
 
 /// Largest change of the kinetic energy that is made up for, relative to it.
@@ -104,8 +104,8 @@ where
         }
     }
 
-    fn begin(&mut self, state: &State<T, N>) {
-        self.system.begin(state);
+    fn begin(&mut self, state: &State<T, N>) -> bool {
+        self.system.begin(state)
     }
 
     fn escalate(&mut self) -> Result<bool, DynamicsError<T>> {
@@ -114,6 +114,10 @@ where
 
     fn verify(&mut self, start: &State<T, N>, end: &State<T, N>) -> Result<(), DynamicsError<T>> {
         self.system.verify(start, end)
+    }
+
+    fn switch(&mut self, step: &Step<T, N>) -> Result<Switching<T>, DynamicsError<T>> {
+        self.system.switch(step)
     }
 
     fn commit(&mut self, step: &Step<T, N>) -> Result<(), DynamicsError<T>> {

@@ -12,15 +12,13 @@
 //! chapter 4.
 
 use super::SimulateError;
+use crate::crossing::zero;
 use crate::{
     Direction, DynamicsError, Event, Interface, Occurrence, Probe, Real, State, Step, Watched,
 };
 
 /// Events a mechanism may have.
 pub(super) const ROOM: usize = 64;
-/// Steps of Brent's method. Bisection alone would need fewer than this for any
-/// pair of numbers of a float type; it never takes three times as many.
-const MOST_STEPS: usize = 400;
 
 /// Watches the event functions of a mechanism.
 #[derive(Clone, Debug)]
@@ -172,59 +170,4 @@ fn on_constraints<T: Real, const N: usize>(
         probe.project(&mut state)?;
     }
     Ok(state)
-}
-
-/// A zero of a function between two times at which it has opposite signs.
-fn zero<T: Real>(
-    function: &mut dyn FnMut(T) -> Result<T, DynamicsError<T>>,
-    (mut a, mut fa): (T, T),
-    (mut b, mut fb): (T, T),
-) -> Result<T, DynamicsError<T>> {
-    let two = T::from_f64(2.0);
-    // `b` is the best so far, `a` the one before, `c` on the other side of zero.
-    let (mut c, mut fc) = (a, fa);
-    let mut last = b - a;
-    let mut before_last = last;
-    for _ in 0..MOST_STEPS {
-        if fc.abs() < fb.abs() {
-            (a, b, c) = (b, c, b);
-            (fa, fb, fc) = (fb, fc, fb);
-        }
-        let half = (c - b) / two;
-        let resolution = T::EPSILON * b.abs();
-        if fb == T::zero() || half.abs() <= resolution {
-            break;
-        }
-        let guess = interpolate((a, fa), (b, fb), (c, fc));
-        let step = guess - b;
-        let inside = (step / half) > T::zero() && (step / half) < T::from_f64(1.5);
-        if inside && step.abs() < (before_last / two).abs() {
-            (before_last, last) = (last, step);
-        } else {
-            (before_last, last) = (half, half);
-        }
-        (a, fa) = (b, fb);
-        b += if last.abs() > resolution {
-            last
-        } else {
-            resolution * half.sign()
-        };
-        fb = function(b)?;
-        if fb.sign() == fc.sign() {
-            (c, fc) = (a, fa);
-            last = b - a;
-            before_last = last;
-        }
-    }
-    Ok(b)
-}
-
-/// Inverse quadratic interpolation, or the secant where two points are one.
-fn interpolate<T: Real>((a, fa): (T, T), (b, fb): (T, T), (c, fc): (T, T)) -> T {
-    if a == c || fa == fc || fa == fb {
-        return b - fb * (c - b) / (fc - fb);
-    }
-    a * fb * fc / ((fa - fb) * (fa - fc))
-        + b * fa * fc / ((fb - fa) * (fb - fc))
-        + c * fa * fb / ((fc - fa) * (fc - fb))
 }

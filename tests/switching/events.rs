@@ -1,0 +1,1 @@
+//! Events that come in pairs within a step are found.

@@ -1,0 +1,4 @@
+//! Forces that jump and kink, and events, against closed forms.
+
+mod events;
+mod jumps;
