@@ -213,7 +213,10 @@ fn what_leaves_the_range_behaves_as_in_53_bits() {
     let none = infinity - infinity;
     assert!(none.to_f64().is_nan());
     for value in [none.max(infinity), infinity.max(none), none.min(infinity)] {
-        assert!(value.to_f64().is_nan(), "what is no number is not swallowed");
+        assert!(
+            value.to_f64().is_nan(),
+            "what is no number is not swallowed"
+        );
     }
     assert_eq!(DoubleDouble::from(1e4).exp().to_f64(), f64::INFINITY);
     assert!(DoubleDouble::from(-1.0).sqrt().to_f64().is_nan());

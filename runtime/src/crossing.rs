@@ -73,7 +73,7 @@ pub(crate) fn nodes<T: Real>((from, to): (T, T)) -> [T; NODES] {
 
 impl<T: Real> Samples<T> {
     /// Samples a function on an interval.
-    fn of<E>(
+    pub(crate) fn of<E>(
         function: &mut dyn FnMut(T) -> Result<T, E>,
         interval: (T, T),
     ) -> Result<Self, E> {
@@ -91,7 +91,10 @@ impl<T: Real> Samples<T> {
 
     /// What the polynomial through the samples does.
     fn shape(&self) -> Shape {
-        let largest = self.values.iter().fold(T::zero(), |most: T, x| most.max(x.abs()));
+        let largest = self
+            .values
+            .iter()
+            .fold(T::zero(), |most: T, x| most.max(x.abs()));
         if largest == T::zero() {
             return Shape::Monotone;
         }

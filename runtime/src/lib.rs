@@ -13,6 +13,7 @@ mod number;
 mod observer;
 mod projection;
 mod real;
+mod sides;
 mod simulate;
 mod sincos;
 mod singular;
@@ -30,9 +31,9 @@ pub use integrator::{
     Dop853, Dp5, IntegrateError, Integrator, Radau5, Radau9, Rk4, Step, Tolerance,
 };
 pub use model::{
-    Canvas, Condition, ConstraintRow, Correction, Declared, Described, Direction, Energy, Event,
-    Initial, Interface, Linearised, Mechanism, Pivots, Position, Quantity, Regular, Sides, Start,
-    Structure, Switch, Terms, Whole,
+    Canvas, ConstraintRow, Correction, Declared, Described, Direction, Energy, Event, Initial,
+    Interface, Linearised, Mechanism, Pivots, Position, Quantity, Regular, Start, Structure, Terms,
+    Whole,
 };
 pub use nalgebra;
 #[cfg(feature = "std")]
@@ -41,6 +42,7 @@ pub use observer::{
     BadInterval, ConstraintAudit, EnergyAudit, Observer, Occurrence, Probe, Sampler,
 };
 pub use real::Real;
+pub use sides::{Condition, Sides, Switch};
 pub use simulate::{
     Audit, Failure, Options, Origin, Pace, Scheme, SimulateError, Stepper, Summary, simulate,
 };

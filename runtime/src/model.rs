@@ -8,7 +8,7 @@
 //! code writes the entries that can differ from zero and no others, so a buffer
 //! must be a fresh one or one that the same mechanism filled before.
 
-use crate::{Real, State};
+use crate::{Condition, Real, Sides, State, Switch};
 use nalgebra::{SMatrix, SVector};
 
 /// The equations of motion of a mechanism with `N` coordinates and `R`
@@ -256,74 +256,6 @@ impl<T: Real, const N: usize, const R: usize> Default for Correction<T, N, R> {
             pivots: Pivots::default(),
         }
     }
-}
-
-/// On which side of zero a run holds the switching functions that decide the conditions of
-/// the forces, so that the forces are smooth over a step. Where nothing is held, the state
-/// decides.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Sides {
-    /// The functions that are held, a bit for each.
-    held: u128,
-    /// Those of them that are held above zero.
-    above: u128,
-}
-
-impl Sides {
-    /// Nothing is held.
-    pub const FREE: Self = Self { held: 0, above: 0 };
-    /// Functions that can be held.
-    pub const ROOM: usize = 128;
-
-    fn bit(index: u32) -> u128 {
-        1_u128.checked_shl(index).unwrap_or(0)
-    }
-
-    /// Whether a function is above zero: as it is held, or else as was found.
-    #[inline(always)]
-    pub fn above(self, index: u32, found: bool) -> bool {
-        match self.held & Self::bit(index) {
-            0 => found,
-            bit => self.above & bit != 0,
-        }
-    }
-
-    /// Whether a function is below zero: as it is held, or else as was found.
-    #[inline(always)]
-    pub fn below(self, index: u32, found: bool) -> bool {
-        !self.above(index, !found)
-    }
-
-    /// Holds a function above zero, or below it.
-    pub fn hold(&mut self, index: u32, above: bool) {
-        let bit = Self::bit(index);
-        self.held |= bit;
-        if above {
-            self.above |= bit;
-        } else {
-            self.above &= !bit;
-        }
-    }
-}
-
-/// A function whose sign decides a condition.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Switch<T> {
-    /// Its value.
-    pub value: T,
-    /// How fast it grows (1/s times its unit).
-    pub rate: T,
-}
-
-/// A condition of the forces.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Condition {
-    /// As the description writes it.
-    pub text: &'static str,
-    /// The line of the statement.
-    pub line: u32,
-    /// Whether the forces are continuous where it changes, but for the slope.
-    pub kinks: bool,
 }
 
 /// Energies at a state.

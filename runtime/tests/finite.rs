@@ -106,9 +106,10 @@ fn energy_that_is_not_a_number_cannot_be_kept() {
     for (q, early) in [(1.0, false), (0.25, true)] {
         let failure = simulate::<_, _, 1, 0>(&mechanism, &start(q), &options, &mut [])
             .expect_err("the energy is spoiled");
-        let SimulateError::Integrate(IntegrateError::Dynamics(
-            DynamicsError::WatchedNotFinite { t, quantity },
-        )) = failure.error
+        let SimulateError::Integrate(IntegrateError::Dynamics(DynamicsError::WatchedNotFinite {
+            t,
+            quantity,
+        })) = failure.error
         else {
             panic!("{failure:?}");
         };

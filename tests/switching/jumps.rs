@@ -19,9 +19,17 @@ fn methods(until: f64) -> Vec<Options<f64>> {
         relative: 1e-8,
         absolute: 1e-8,
     };
-    let all = [Scheme::Rk4, Scheme::Dp5, Scheme::Dop853, Scheme::Radau5, Scheme::Radau9];
+    let all = [
+        Scheme::Rk4,
+        Scheme::Dp5,
+        Scheme::Dop853,
+        Scheme::Radau5,
+        Scheme::Radau9,
+    ];
     let fixed = all.map(|scheme| Options::new(until, scheme, fixed));
-    let adaptive = all[1..].iter().map(|scheme| Options::new(until, *scheme, adaptive));
+    let adaptive = all[1..]
+        .iter()
+        .map(|scheme| Options::new(until, *scheme, adaptive));
     fixed.into_iter().chain(adaptive).collect()
 }
 
@@ -139,7 +147,11 @@ fn the_work_of_a_push_that_ends_at_a_place_is_exact_in_a_loop() {
         let end = summary.end;
         let work = 2.0 * (end.q[0].min(0.25) - 0.2);
         let off = energy(&end) - energy(&start) - work;
-        let most = if options.scheme == Scheme::Dp5 { 1e-8 } else { 1e-11 };
+        let most = if options.scheme == Scheme::Dp5 {
+            1e-8
+        } else {
+            1e-11
+        };
         assert!(off.abs() < most, "{off:e}: {:?}", options.scheme);
     }
 }
@@ -154,10 +166,15 @@ fn a_stepper_and_a_run_end_alike() {
     .expect("the pace is positive");
     let mut state = state([0.0], [0.0]);
     for _ in 0..100 {
-        stepper.step(&Placed::default(), &mut state, 0.1).expect("a step");
+        stepper
+            .step(&Placed::default(), &mut state, 0.1)
+            .expect("a step");
     }
     let (x, v) = placed(10.0);
-    assert!((state.q[0] - x).abs() < 1e-11 && (state.v[0] - v).abs() < 1e-11, "{state:?}");
+    assert!(
+        (state.q[0] - x).abs() < 1e-11 && (state.v[0] - v).abs() < 1e-11,
+        "{state:?}"
+    );
 }
 
 #[test]
@@ -175,6 +192,10 @@ fn a_place_that_both_sides_push_back_to_from_rest_is_an_error_that_names_the_con
         };
         assert!(t < 1e-3, "{t}");
         assert_eq!(condition.line, 5);
-        assert!(condition.text.starts_with("if x < 1/2"), "{}", condition.text);
+        assert!(
+            condition.text.starts_with("if x < 1/2"),
+            "{}",
+            condition.text
+        );
     }
 }

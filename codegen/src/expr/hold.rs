@@ -109,10 +109,8 @@ impl Graph {
         met_in: ExprId,
         kinks: bool,
     ) -> Option<Side> {
-        let difference = self.weighted_sum(
-            Number::ZERO,
-            &[(b, Number::ONE), (a, Number::MINUS_ONE)],
-        );
+        let difference =
+            self.weighted_sum(Number::ZERO, &[(b, Number::ONE), (a, Number::MINUS_ONE)]);
         let fixed = |symbol: &Symbol| matches!(symbol, Symbol::Parameter(_));
         if self.symbols(difference).iter().all(fixed) {
             return None;

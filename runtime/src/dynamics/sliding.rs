@@ -67,13 +67,19 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// The conditions that the motion slides along.
-    fn sliding_list(&self, state: &State<T, N>) -> Result<([usize; ROOM], usize), DynamicsError<T>> {
+    fn sliding_list(
+        &self,
+        state: &State<T, N>,
+    ) -> Result<([usize; ROOM], usize), DynamicsError<T>> {
         let mut list = [0; ROOM];
         let mut count = 0;
         for (index, condition) in self.conditions.list.iter().enumerate().take(Sides::ROOM) {
             if self.conditions.slides(index) {
                 if count == ROOM {
-                    return Err(DynamicsError::Sticks { t: state.t, condition });
+                    return Err(DynamicsError::Sticks {
+                        t: state.t,
+                        condition,
+                    });
                 }
                 list[count] = index;
                 count += 1;
@@ -122,7 +128,10 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 fn solve<T: Real>(table: &mut [[T; ROOM + 1]; ROOM], count: usize) -> [T; ROOM] {
     for k in 0..count {
         let size = |row: usize| table[row][k].abs();
-        let pivot = (k..count).fold(k, |best, row| if size(row) > size(best) { row } else { best });
+        let pivot = (k..count).fold(
+            k,
+            |best, row| if size(row) > size(best) { row } else { best },
+        );
         table.swap(k, pivot);
         let head = table[k];
         if head[k] == T::zero() {

@@ -161,7 +161,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 return Ok(Switching::AtStart);
             }
             Some((index, t)) => {
-                let tries = aim.filter(|aim| aim.index == index).map_or(0, |aim| aim.tries + 1);
+                let tries = aim
+                    .filter(|aim| aim.index == index)
+                    .map_or(0, |aim| aim.tries + 1);
                 if t < end - same && tries <= REFINEMENTS {
                     self.conditions.aim = Some(Aim { index, tries });
                     return Ok(Switching::Within(t));
@@ -175,7 +177,10 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 }
                 Some(aim) => {
                     if let Some(t) = self.refined(mechanism, step, aim, same)? {
-                        self.conditions.aim = Some(Aim { tries: aim.tries + 1, ..aim });
+                        self.conditions.aim = Some(Aim {
+                            tries: aim.tries + 1,
+                            ..aim
+                        });
                         return Ok(Switching::Within(t));
                     }
                     aim.index
@@ -286,7 +291,10 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                         t,
                         quantity: Watched::Condition(list[index].text),
                     };
-                    value.partial_cmp(&T::zero()).map(|_| value).ok_or(undefined)
+                    value
+                        .partial_cmp(&T::zero())
+                        .map(|_| value)
+                        .ok_or(undefined)
                 };
                 let mut samples = [T::zero(); NODES];
                 for (sample, values) in samples.iter_mut().zip(&sampled) {
@@ -313,7 +321,9 @@ pub(super) fn earliest<T: Real>(
     side: T,
     noise: T,
 ) -> Result<Option<T>, DynamicsError<T>> {
-    let size = values.iter().fold(T::zero(), |most: T, x| most.max(x.abs()));
+    let size = values
+        .iter()
+        .fold(T::zero(), |most: T, x| most.max(x.abs()));
     let margin = noise * size * side;
     for value in &mut values {
         *value += margin;

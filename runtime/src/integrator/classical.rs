@@ -18,8 +18,6 @@ use crate::linalg::add_scaled;
 use crate::{DynamicsError, Real, State, Switching, System};
 use nalgebra::SVector;
 
-/// Times within a step at which it is looked at.
-const LOOKS: u8 = 1;
 /// Accelerations of a step, but for that at its start.
 const STAGES: u32 = 3;
 
@@ -40,7 +38,7 @@ impl<T: Real, const N: usize> Rk4<T, N> {
     pub fn new() -> Self {
         Self {
             inside: Inside::Full,
-            step: Step::new(LOOKS),
+            step: Step::new(),
             last: None,
         }
     }

@@ -41,7 +41,7 @@ impl<T: Real, const N: usize, const S: usize> Explicit<T, N, S> {
         Self {
             tableau,
             inside: Inside::Full,
-            step: Step::new(tableau.looks),
+            step: Step::new(),
             slopes: Slopes::new(),
             end_known: false,
         }

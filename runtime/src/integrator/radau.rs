@@ -88,7 +88,7 @@ impl<T: Real, const N: usize, const S: usize> Radau<T, N, S> {
             tableau,
             coefficients: Collocation::new(),
             inside: Inside::Full,
-            step: Step::new(tableau.looks),
+            step: Step::new(),
             enough: tolerance.part(NEWTON_PART),
             tolerable,
             tolerance,

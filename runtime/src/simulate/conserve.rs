@@ -17,7 +17,9 @@
 //! section IV.4 (projection methods).
 
 use crate::observer::balance;
-use crate::{ConstrainedSystem, DynamicsError, Mechanism, Real, Slope, State, Step, Switching, System};
+use crate::{
+    ConstrainedSystem, DynamicsError, Mechanism, Real, Slope, State, Step, Switching, System,
+};
 use nalgebra::SVector;
 
 /// Largest change of the kinetic energy that is made up for, relative to it.
