@@ -19,6 +19,8 @@ pub enum Singularity {
     Touching,
     /// At rest, or next to it, nothing tells which of the sheets that cross is meant.
     Undetermined,
+    /// The gradient of a constraint vanishes wherever it holds.
+    Vanishing,
 }
 
 impl Display for Singularity {
@@ -36,6 +38,11 @@ impl Display for Singularity {
             Self::Touching => {
                 "depends on the others where branches of motion touch, so that the way on can't be \
                  told; describe the branch that is meant by constraints of its own"
+            }
+            Self::Vanishing => {
+                "has a gradient that vanishes not only here but wherever it holds, so that it \
+                 restricts no motion; if it says that a square is zero, write what is squared; \
+                 else check the parameters"
             }
             Self::Undetermined => {
                 "depends on the others, and nothing tells which of the branches of motion that \

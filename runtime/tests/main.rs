@@ -15,4 +15,5 @@ mod scan;
 mod simulate;
 mod stiff;
 mod toys;
+mod vanishing;
 mod words;

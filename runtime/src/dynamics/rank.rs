@@ -7,12 +7,15 @@
 use super::{Solver, Source, Which};
 use crate::linalg::{Breakdown, add_scaled, dot, norm, orthogonalise, scaled};
 use crate::tolerance::{difference, negligible, regular};
-use crate::{DynamicsError, Mechanism, Real, State};
+use crate::{DynamicsError, Mechanism, Real, Singularity, State};
 use nalgebra::{SMatrix, SVector};
 
 /// Part of a displacement that the singular value of a row is, at least, whose gradient
 /// is lost only where the displacement begins.
 const RETURNS: f64 = 1e-2;
+/// Newton's corrections that bring a neighbour onto the constraints. Where their gradient
+/// vanishes wherever they hold, each halves the distance, and the gradient with it.
+const CORRECTIONS: usize = 16;
 
 /// Rows in the metric, combined until they are orthogonal.
 pub(crate) struct Combined<T, const N: usize, const R: usize> {
@@ -83,6 +86,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             self.factorise_metric(mechanism, Source::Position, state.t)?;
             let here = self.rank_here(which, regular(), state.t)?;
             let mut best = (here.0, state.q);
+            let mut vanishes = false;
             if best.0 < self.rows.count(which) {
                 let ahead = self.ahead(state);
                 let around = self.neighbours(state, &here.1);
@@ -97,9 +101,16 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                     let least = difference::<T>() * T::from_f64(RETURNS);
                     let (rank, _) = self.rank_here(which, least, state.t)?;
                     if rank > best.0 {
-                        best = (rank, q);
+                        match self.stays(mechanism, moved, which, (rank, least))? {
+                            true => best = (rank, q),
+                            false => vanishes = true,
+                        }
                     }
                 }
+            }
+            if vanishes && best.0 == here.0 {
+                mechanism.position(state, &mut self.position);
+                return Err(self.vanishing(mechanism, state, which));
             }
             self.rows.observe_rank(best.0, which);
             regular_at = best.1;
@@ -113,6 +124,52 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.choose_rows();
         mechanism.position(state, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, state.t)
+    }
+
+    /// Whether a rank next to a state is still there where the constraints hold.
+    fn stays<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        mut state: State<T, N>,
+        which: Which,
+        (wanted, least): (usize, T),
+    ) -> Result<bool, DynamicsError<T>> {
+        for _ in 0..CORRECTIONS {
+            mechanism.position(&state, &mut self.position);
+            self.factorise_metric(mechanism, Source::Position, state.t)?;
+            let (rank, combined) = self.rank_here(which, least, state.t)?;
+            if rank < wanted {
+                return Ok(false);
+            }
+            let right = self.scaled(&-self.position.residual);
+            let mut w = [T::zero(); N];
+            for (k, value) in combined.values.iter().enumerate().take(rank) {
+                let share = dot(&combined.left.data.0[k], &right) / *value;
+                add_scaled(&mut w, share, &combined.directions.data.0[k]);
+            }
+            state.q += self.lower(w);
+        }
+        Ok(true)
+    }
+
+    /// The error of constraints whose gradient vanishes wherever they hold, with the row
+    /// whose gradient is smallest at the position in the buffer.
+    fn vanishing<M: Mechanism<T, N, R> + ?Sized>(
+        &self,
+        mechanism: &M,
+        state: &State<T, N>,
+        which: Which,
+    ) -> DynamicsError<T> {
+        let rows = self.lift_rows(Source::Position, which);
+        let taking_part = (0..R).filter(|row| self.rows.takes_part(*row, which));
+        let size = |row: usize| norm(&rows.data.0[row]);
+        let smallest = |best: usize, row: usize| if size(row) < size(best) { row } else { best };
+        DynamicsError::SingularConfiguration {
+            t: state.t,
+            kind: Singularity::Vanishing,
+            row: taking_part.reduce(smallest).unwrap_or(0),
+            structure: mechanism.structure(),
+        }
     }
 
     /// How many singular values are above a bound at the position in the buffer.
