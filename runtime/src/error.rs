@@ -223,33 +223,45 @@ impl<T: Real> Display for DynamicsError<T> {
                 coordinate,
                 structure,
             } => write_massless(f, t, (*coordinate, structure)),
-            Self::Sticks { t, condition } => write!(
-                f,
-                "at t = {t} s the condition `{text}` (line {line}) changes again and again \
-                 without time going on; write a force that rises steeply instead of jumping, \
-                 such as `tanh(x/d)` for `sign(x)`",
-                t = Number(t),
-                text = condition.text,
-                line = condition.line
-            ),
+            Self::Sticks { t, condition } => write_sticking(f, t, condition),
             Self::ProjectionFailed {
                 t,
                 residual,
                 row,
                 structure,
-            } => {
-                write!(f, "at t = {t} s the constraint ", t = Number(t))?;
-                structure.write_constraint(f, *row)?;
-                write!(
-                    f,
-                    " is violated by {residual} and the position could not be brought back onto \
-                     it; take a smaller step, or check that the constraints can be satisfied \
-                     together",
-                    residual = Number(residual)
-                )
-            }
+            } => write_off(f, t, residual, (*row, structure)),
         }
     }
+}
+
+/// Which condition gets nowhere.
+fn write_sticking<T: Real>(f: &mut Formatter<'_>, t: &T, condition: &Condition) -> Result {
+    write!(
+        f,
+        "at t = {t} s the condition `{text}` (line {line}) changes again and again without time \
+         going on; write a force that rises steeply instead of jumping, such as `tanh(x/d)` for \
+         `sign(x)`",
+        t = Number(t),
+        text = condition.text,
+        line = condition.line
+    )
+}
+
+/// Which constraint can't be satisfied.
+fn write_off<T: Real>(
+    f: &mut Formatter<'_>,
+    t: &T,
+    residual: &T,
+    (row, structure): (usize, &Structure),
+) -> Result {
+    write!(f, "at t = {t} s the constraint ", t = Number(t))?;
+    structure.write_constraint(f, row)?;
+    write!(
+        f,
+        " is violated by {residual} and the position could not be brought back onto it; take a \
+         smaller step, or check that the constraints can be satisfied together",
+        residual = Number(residual)
+    )
 }
 
 /// Which coordinate can move without kinetic energy.

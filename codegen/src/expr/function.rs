@@ -51,6 +51,9 @@ pub struct Test {
     pub comparison: Comparison,
     /// The side that a run may hold; none if the comparison always decides.
     pub held: Option<Side>,
+    /// Whether what it chooses between has the same value and the same first two
+    /// derivatives where it changes.
+    pub smooth: bool,
 }
 
 /// A side of a switching function, by its index.
@@ -67,6 +70,7 @@ impl From<Comparison> for Test {
         Self {
             comparison,
             held: None,
+            smooth: false,
         }
     }
 }

@@ -48,15 +48,14 @@ impl Graph {
         let zero = self.integer(0);
         let node = self.node(e).clone();
         match &node {
-            Node::Select(test, [a, b, then, otherwise]) if test.held.is_none() => {
+            Node::Select(test, [a, b, then, otherwise]) if test.held.is_none() && !test.smooth => {
                 let ordered = matches!(test.comparison, Comparison::Less | Comparison::LessEqual);
                 let [a, b, then, otherwise] = [a, b, then, otherwise].map(of);
                 let held = match ordered {
                     true => self.side(switches, (a, b), e, false),
                     false => None,
                 };
-                let comparison = test.comparison;
-                self.select(Test { comparison, held }, a, b, then, otherwise)
+                self.select(Test { held, ..*test }, a, b, then, otherwise)
             }
             Node::Function(Function::Abs, x) => {
                 let x = of(x);
@@ -67,8 +66,11 @@ impl Graph {
                 let x = of(x);
                 let (one, minus) = (self.integer(1), self.integer(-1));
                 let held = self.side(switches, (zero, x), e, false);
-                let [less, at_most] = [Comparison::Less, Comparison::LessEqual]
-                    .map(|comparison| Test { comparison, held });
+                let [less, at_most] =
+                    [Comparison::Less, Comparison::LessEqual].map(|comparison| Test {
+                        held,
+                        ..comparison.into()
+                    });
                 // Zero at zero, where nothing is held.
                 let rest = self.select(at_most, zero, x, zero, minus);
                 self.select(less, zero, x, one, rest)
@@ -97,8 +99,11 @@ impl Graph {
         [then, otherwise]: [ExprId; 2],
     ) -> ExprId {
         let held = self.side(switches, (a, b), met_in, true);
-        let comparison = Comparison::Less;
-        self.select(Test { comparison, held }, a, b, then, otherwise)
+        let test = Test {
+            held,
+            ..Comparison::Less.into()
+        };
+        self.select(test, a, b, then, otherwise)
     }
 
     /// The side of a switching function on which `a < b`; none if it never changes.

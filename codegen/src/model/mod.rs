@@ -25,6 +25,7 @@ mod si;
 mod sound;
 mod start;
 mod statement;
+mod table;
 mod unit;
 mod value;
 
