@@ -4,6 +4,7 @@ use super::reference::{self, End};
 use crate::column::Column;
 use crate::error::CommandError;
 use crate::mechanism::{AnyMechanism, find};
+use crate::number::largest;
 use crate::run::{Plan, Report, RowSink, Stopped};
 use bricard_runtime::{Form, Options};
 
