@@ -110,7 +110,7 @@ impl<T: Real> Samples<T> {
         for k in (1..NODES).rev() {
             slope[k - 1] = slope[k + 1] + number(2.0 * k as f64) * c[k];
         }
-        slope[0] = slope[0] * number(0.5);
+        slope[0] *= number(0.5);
         let doubt = doubt * number((DEGREE * DEGREE) as f64);
         if slope[0].abs() > sum(&slope[1..]) + doubt {
             Shape::Monotone

@@ -24,7 +24,9 @@ static WITH_EVENT: Structure = Structure {
 /// An oscillator that is sound but for its energies, which are spoiled from the
 /// displacement 1/2 downwards.
 #[derive(Clone, Copy, Debug)]
-struct Spoiled(fn(&mut Energy<f64>));
+struct Spoiled(Spoiler);
+
+type Spoiler = fn(&mut Energy<f64>);
 
 impl Mechanism<f64, 1, 0> for Spoiled {
     fn structure(&self) -> &'static Structure {
@@ -58,7 +60,7 @@ fn complaint(error: SimulateError<f64>) -> (f64, Watched) {
 
 #[test]
 fn a_run_ends_where_an_energy_or_the_power_stops_being_a_number() {
-    let spoilers: [(fn(&mut Energy<f64>), Watched, &str); 4] = [
+    let spoilers: [(Spoiler, Watched, &str); 4] = [
         (
             |energy| (energy.potential, energy.balance) = (f64::NAN, f64::NAN),
             Watched::PotentialEnergy,

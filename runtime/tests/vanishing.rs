@@ -29,12 +29,15 @@ const fn coordinate(name: &'static str) -> Quantity {
     }
 }
 
+/// A value, its gradient and its second derivatives.
+type Jet = (f64, SVector<f64, 2>, SMatrix<f64, 2, 2>);
+
 /// A unit mass in the plane with one constraint `u^n = excess`, where `u` is a function of
 /// the position with a constant matrix of second derivatives.
 #[derive(Clone, Copy, Debug)]
 struct Power {
     /// `u`, its gradient and its second derivatives.
-    u: fn(&SVector<f64, 2>) -> (f64, SVector<f64, 2>, SMatrix<f64, 2, 2>),
+    u: fn(&SVector<f64, 2>) -> Jet,
     n: i32,
     excess: f64,
 }
@@ -83,17 +86,17 @@ impl Mechanism<f64, 2, 1> for Power {
     }
 }
 
-fn circle(q: &SVector<f64, 2>) -> (f64, SVector<f64, 2>, SMatrix<f64, 2, 2>) {
+fn circle(q: &SVector<f64, 2>) -> Jet {
     (q.norm_squared() - 1.0, q * 2.0, SMatrix::identity() * 2.0)
 }
 
-fn cross(q: &SVector<f64, 2>) -> (f64, SVector<f64, 2>, SMatrix<f64, 2, 2>) {
+fn cross(q: &SVector<f64, 2>) -> Jet {
     let (x, y) = (q[0] - 1.0, q[1] - 1.0);
     (x * y, [y, x].into(), [[0.0, 1.0], [1.0, 0.0]].into())
 }
 
 /// Two parabolas that touch.
-fn touching(q: &SVector<f64, 2>) -> (f64, SVector<f64, 2>, SMatrix<f64, 2, 2>) {
+fn touching(q: &SVector<f64, 2>) -> Jet {
     let (x, y) = (q[0] - 1.0, q[1] - 1.0);
     let slope = [-4.0 * x.powi(3), 2.0 * y].into();
     (
