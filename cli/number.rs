@@ -1,7 +1,7 @@
-//! Numbers as text that reads back to the same bits.
+//! Numbers as text that reads back to the same bits, and the largest of several.
 //!
-//! In:  a number.
-//! Out: its shortest digits.
+//! In:  numbers.
+//! Out: their shortest digits; a number that is none if one of them is none.
 
 /// A number in the fewest digits that read back to the same bits.
 pub fn exact(value: f64) -> String {
@@ -9,5 +9,24 @@ pub fn exact(value: f64) -> String {
     match text.strip_suffix(".0") {
         Some(whole) => whole.to_string(),
         None => text,
+    }
+}
+
+/// The largest absolute value; not a number if one of them is none.
+pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    let sizes = values.into_iter().map(f64::abs);
+    sizes.fold(0.0, |most, x| if x > most || x.is_nan() { x } else { most })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::largest;
+
+    #[test]
+    fn the_largest_of_numbers_is_none_if_one_is_none() {
+        assert_eq!(largest([1.0, -3.0, 2.0]), 3.0);
+        for values in [[f64::NAN, 1.0], [1.0, f64::NAN]] {
+            assert!(largest(values).is_nan());
+        }
     }
 }

@@ -31,7 +31,7 @@ pub fn evaluate<D: Dual>(graph: &Graph, root: ExprId, values: &dyn Fn(Symbol) ->
             Node::Function2(function, x, y) => call2(*function, of(x), of(y)),
             Node::Select(comparison, [a, b, then, otherwise]) => {
                 let (a, b) = (of(a), of(b));
-                let holds = match comparison {
+                let holds = match comparison.comparison {
                     Comparison::Less => a < b,
                     Comparison::LessEqual => a <= b,
                     Comparison::Equal => a == b,

@@ -12,6 +12,7 @@
 use crate::arguments::{Landing, MethodName};
 use crate::error::CommandError;
 use crate::mechanism::{find, precise};
+use crate::number::largest;
 use crate::output::{print, say};
 use crate::run::{Plan, RowSink, run};
 use crate::table::{Align, headed};
@@ -110,8 +111,8 @@ impl Landings {
             let mut options = Options::new(end[0], method.into(), Pace::Fixed { step });
             options.audit = Audit::NONE;
             let found = mechanism.race(Some(row), &options).map_err(failed)?.end;
-            let differences = found.iter().zip(&end[1..]).map(|(a, b)| (a - b).abs());
-            errors.push(differences.fold(0.0, f64::max));
+            let differences = found.iter().zip(&end[1..]).map(|(a, b)| a - b);
+            errors.push(largest(differences));
         }
         errors.sort_by(f64::total_cmp);
         match errors.is_empty() {

@@ -4,6 +4,7 @@ use super::reference::{self, End};
 use crate::column::Column;
 use crate::error::CommandError;
 use crate::mechanism::find;
+use crate::number::largest;
 use crate::run::{Plan, Report, RowSink, Stopped, run};
 use bricard_driver::AnyMechanism;
 use bricard_runtime::{Form, Options};
@@ -105,13 +106,6 @@ impl Outcome {
         let column = 1 + 2 * self.n_coordinates() + which;
         largest(self.rows.iter().filter_map(|row| row.get(column).copied()))
     }
-}
-
-/// The largest absolute value; not a number if one of them is none.
-pub fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values
-        .map(f64::abs)
-        .fold(0.0, |most, x| if x > most || x.is_nan() { x } else { most })
 }
 
 /// Runs an experiment as the paper did: RK4 with fixed step, positions and

@@ -1,8 +1,9 @@
 //! The forms of the equations of motion, compared.
 
-use super::experiment::{Outcome, Rows, STEP, largest, named, plan};
+use super::experiment::{Outcome, Rows, STEP, named, plan};
 use super::report::Findings;
 use crate::error::CommandError;
+use crate::number::largest;
 use crate::run::run;
 use crate::table::{Align, headed};
 use bricard_runtime::Form;
@@ -19,7 +20,7 @@ pub fn comparison(outcomes: &[Outcome], findings: &mut Findings) -> Result<Strin
         let published = difference(outcome, true)?;
         let difference = difference(outcome, false)?;
         let what = format!("{}: `full` and `reduced` differ", experiment.title);
-        let most = difference.max(published);
+        let most = largest([difference, published]);
         let verdict = findings.judge(&what, most, experiment.angle_bound);
         rows.push(vec![
             experiment.title.to_string(),

@@ -6,10 +6,11 @@
 //! order is judged over the first second, in which each mechanism passes one or
 //! two singular positions; both are shown.
 
-use super::experiment::{EXPERIMENTS, Experiment, Rows, largest, named, plan};
+use super::experiment::{EXPERIMENTS, Experiment, Rows, named, plan};
 use super::report::Findings;
 use crate::error::CommandError;
 use crate::mechanism::find;
+use crate::number::largest;
 use crate::run::run;
 use crate::table::{Align, headed};
 use bricard_runtime::Form;

@@ -1,7 +1,8 @@
 //! The numbers of the experiments, as tables.
 
-use super::experiment::{Outcome, STEP, largest};
+use super::experiment::{Outcome, STEP};
 use super::reference::{PASSAGES, PASSAGES_IN_PAPER};
+use crate::number::largest;
 use crate::table::{Align, headed};
 
 /// Distance at which a passage counts as the exact one, whose time is rounded to
@@ -170,7 +171,7 @@ pub fn symmetry(outcomes: &[Outcome], findings: &mut Findings) -> String {
         return String::new();
     };
     let apart = |row: &Vec<f64>| match row[..] {
-        [_, q1, _, q3, _, q5, ..] => (q1 - q3).abs().max((q1 - q5).abs()),
+        [_, q1, _, q3, _, q5, ..] => largest([q1 - q3, q1 - q5]),
         _ => f64::NAN,
     };
     let most = largest(outcome.rows.iter().map(apart));

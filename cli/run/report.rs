@@ -3,6 +3,7 @@
 //! In:  what was reached by its legs.
 //! Out: a [`Report`].
 
+use crate::number::largest;
 use bricard_driver::Reached;
 use bricard_runtime::{Counters, Passage, Structure};
 use std::time::Duration;
@@ -34,8 +35,8 @@ impl Report {
         self.steps += reached.steps;
         self.rejected += reached.rejected;
         self.wall += reached.wall;
-        self.constraint_error = self.constraint_error.max(reached.constraint_error);
-        self.energy_error = self.energy_error.max(reached.energy_error);
+        self.constraint_error = largest([self.constraint_error, reached.constraint_error]);
+        self.energy_error = largest([self.energy_error, reached.energy_error]);
         self.passages.extend(&reached.passages);
         let event = |(place, t): &(usize, f64)| Some((structure.events.get(*place)?.name, *t));
         self.events.extend(reached.events.iter().filter_map(event));

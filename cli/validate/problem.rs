@@ -6,6 +6,7 @@
 use crate::column::{Column, header};
 use crate::error::CommandError;
 use crate::mechanism::find;
+use crate::number::largest;
 use crate::run::{Plan, Report, RowSink, run};
 use bricard_driver::{AnyMechanism, Given};
 use bricard_runtime::{Options, Pace, Scheme, Structure};
@@ -162,12 +163,7 @@ fn figures(
             Measure::Absolute => away,
             Measure::Relative => away / exact.abs(),
         };
-        // Not a number counts as an error of any size.
-        error = if away.is_nan() {
-            f64::INFINITY
-        } else {
-            error.max(away)
-        };
+        error = largest([error, away]);
     }
     let balance = match problem.work {
         None => report.energy_error,

@@ -4,6 +4,7 @@
 //! Out: a [`Series`] for each pair: error and time at several settings.
 
 use crate::arguments::{FormName, MethodName};
+use crate::number::largest;
 use bricard_driver::{AnyMechanism, Exact, Race};
 use bricard_runtime::{Audit, Options, Pace};
 use std::time::Duration;
@@ -120,10 +121,10 @@ fn repeated(mechanism: &dyn AnyMechanism, options: &Options<f64>) -> Result<Race
 }
 
 fn point(setting: String, race: &Race, exact: &Exact) -> Point {
-    let differences = race.end.iter().zip(&exact.end).map(|(a, b)| (a - b).abs());
+    let differences = race.end.iter().zip(&exact.end).map(|(a, b)| a - b);
     Point {
         setting,
-        error: differences.fold(0.0, f64::max),
+        error: largest(differences),
         steps: race.steps,
         evaluations: race.evaluations,
         wall: race.wall,

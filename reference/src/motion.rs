@@ -100,7 +100,7 @@ where
     let changes = (fine.q - coarse.q)
         .iter()
         .chain((fine.v - coarse.v).iter())
-        .fold(0.0, |most: f64, x| most.max(x.to_f64().abs()));
+        .fold(0.0, |most: f64, x| Real::max(most, x.to_f64().abs()));
     Ok(Reference {
         end: fine,
         error: changes,

@@ -81,7 +81,7 @@ fn path<const N: usize, const R: usize>(
     let there = one(mechanism, &start, passage)?;
     let speed = there.v.iter().map(|v| v.to_f64().abs());
     let times: Vec<DoubleDouble> = around
-        .times(speed.fold(0.0, f64::max))
+        .times(speed.fold(0.0, Real::max))
         .into_iter()
         .map(|time| passage + number(time))
         .collect();

@@ -84,18 +84,18 @@ impl Real for DoubleDouble {
     }
 
     fn min(self, other: Self) -> Self {
-        if other < self || self.high().is_nan() {
-            other
-        } else {
+        if self < other || self.high().is_nan() {
             self
+        } else {
+            other
         }
     }
 
     fn max(self, other: Self) -> Self {
-        if other > self || self.high().is_nan() {
-            other
-        } else {
+        if self > other || self.high().is_nan() {
             self
+        } else {
+            other
         }
     }
 }

@@ -210,7 +210,14 @@ fn what_leaves_the_range_behaves_as_in_53_bits() {
         infinity.min(DoubleDouble::from(2.0)),
         DoubleDouble::from(2.0)
     );
-    assert!((infinity - infinity).to_f64().is_nan());
+    let none = infinity - infinity;
+    assert!(none.to_f64().is_nan());
+    for value in [none.max(infinity), infinity.max(none), none.min(infinity)] {
+        assert!(
+            value.to_f64().is_nan(),
+            "what is no number is not swallowed"
+        );
+    }
     assert_eq!(DoubleDouble::from(1e4).exp().to_f64(), f64::INFINITY);
     assert!(DoubleDouble::from(-1.0).sqrt().to_f64().is_nan());
     assert_eq!(DoubleDouble::zero().sqrt(), DoubleDouble::zero());

@@ -4,7 +4,7 @@
 //! Out: one enum per stage, with data and a message for people.
 
 use crate::number::Number;
-use crate::{Form, Real, Structure};
+use crate::{Condition, Form, Real, Structure};
 use core::fmt::{Display, Formatter, Result};
 
 /// Kinds of singular configurations in which a motion ends.
@@ -19,6 +19,8 @@ pub enum Singularity {
     Touching,
     /// At rest, or next to it, nothing tells which of the sheets that cross is meant.
     Undetermined,
+    /// The gradient of a constraint vanishes wherever it holds.
+    Vanishing,
 }
 
 impl Display for Singularity {
@@ -37,11 +39,46 @@ impl Display for Singularity {
                 "depends on the others where branches of motion touch, so that the way on can't be \
                  told; describe the branch that is meant by constraints of its own"
             }
+            Self::Vanishing => {
+                "has a gradient that vanishes not only here but wherever it holds, so that it \
+                 restricts no motion; if it says that a square is zero, write what is squared; \
+                 else check the parameters"
+            }
             Self::Undetermined => {
                 "depends on the others, and nothing tells which of the branches of motion that \
                  cross there is meant; begin next to this configuration, or with a velocity"
             }
         })
+    }
+}
+
+/// What is watched along a motion and not needed to compute it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Watched {
+    /// The kinetic energy.
+    KineticEnergy,
+    /// The potential energy.
+    PotentialEnergy,
+    /// The power that is supplied.
+    Power,
+    /// The errors of the constraints.
+    ConstraintError,
+    /// The function of an event, by name.
+    Event(&'static str),
+    /// A side of a condition, as the description writes it.
+    Condition(&'static str),
+}
+
+impl Display for Watched {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self {
+            Self::KineticEnergy => f.write_str("the kinetic energy"),
+            Self::PotentialEnergy => f.write_str("the potential energy"),
+            Self::Power => f.write_str("the power that is supplied"),
+            Self::ConstraintError => f.write_str("the error of a constraint"),
+            Self::Event(name) => write!(f, "the function of the event `{name}`"),
+            Self::Condition(text) => write!(f, "what is compared in `{text}`"),
+        }
     }
 }
 
@@ -52,6 +89,13 @@ pub enum DynamicsError<T> {
     NotFinite {
         /// Time of the state (s).
         t: T,
+    },
+    /// The motion is finite so far, but a quantity that is watched is infinite or NaN.
+    WatchedNotFinite {
+        /// Time of the state (s).
+        t: T,
+        /// The quantity.
+        quantity: Watched,
     },
     /// The form of the equations has no solution here: the rows of the
     /// constraint Jacobian are dependent, or nearly so.
@@ -95,6 +139,13 @@ pub enum DynamicsError<T> {
         /// The mechanism, for the names.
         structure: &'static Structure,
     },
+    /// A condition of the forces changes again and again without time going on.
+    Sticks {
+        /// Time of the state (s).
+        t: T,
+        /// The condition.
+        condition: &'static Condition,
+    },
     /// The position could not be brought back onto the constraints.
     ProjectionFailed {
         /// Time of the state (s).
@@ -113,10 +164,12 @@ impl<T: Real> DynamicsError<T> {
     pub fn time(&self) -> T {
         match *self {
             Self::NotFinite { t }
+            | Self::WatchedNotFinite { t, .. }
             | Self::SingularPosition { t, .. }
             | Self::SingularConfiguration { t, .. }
             | Self::NotRegular { t, .. }
             | Self::MassSingular { t, .. }
+            | Self::Sticks { t, .. }
             | Self::ProjectionFailed { t, .. } => t,
         }
     }
@@ -129,6 +182,12 @@ impl<T: Real> Display for DynamicsError<T> {
                 f,
                 "at t = {t} s the equations of motion gave a number that is infinite or NaN; \
                  look for a force or an input that grows without bound, or take a smaller step",
+                t = Number(t)
+            ),
+            Self::WatchedNotFinite { t, quantity } => write!(
+                f,
+                "at t = {t} s {quantity} is infinite or NaN; look for the root or the logarithm \
+                 of a negative number, or a division by zero, in what it is made of",
                 t = Number(t)
             ),
             Self::SingularPosition {
@@ -164,24 +223,45 @@ impl<T: Real> Display for DynamicsError<T> {
                 coordinate,
                 structure,
             } => write_massless(f, t, (*coordinate, structure)),
+            Self::Sticks { t, condition } => write_sticking(f, t, condition),
             Self::ProjectionFailed {
                 t,
                 residual,
                 row,
                 structure,
-            } => {
-                write!(f, "at t = {t} s the constraint ", t = Number(t))?;
-                structure.write_constraint(f, *row)?;
-                write!(
-                    f,
-                    " is violated by {residual} and the position could not be brought back onto \
-                     it; take a smaller step, or check that the constraints can be satisfied \
-                     together",
-                    residual = Number(residual)
-                )
-            }
+            } => write_off(f, t, residual, (*row, structure)),
         }
     }
+}
+
+/// Which condition gets nowhere.
+fn write_sticking<T: Real>(f: &mut Formatter<'_>, t: &T, condition: &Condition) -> Result {
+    write!(
+        f,
+        "at t = {t} s the condition `{text}` (line {line}) changes again and again without time \
+         going on; write a force that rises steeply instead of jumping, such as `tanh(x/d)` for \
+         `sign(x)`",
+        t = Number(t),
+        text = condition.text,
+        line = condition.line
+    )
+}
+
+/// Which constraint can't be satisfied.
+fn write_off<T: Real>(
+    f: &mut Formatter<'_>,
+    t: &T,
+    residual: &T,
+    (row, structure): (usize, &Structure),
+) -> Result {
+    write!(f, "at t = {t} s the constraint ", t = Number(t))?;
+    structure.write_constraint(f, row)?;
+    write!(
+        f,
+        " is violated by {residual} and the position could not be brought back onto it; take a \
+         smaller step, or check that the constraints can be satisfied together",
+        residual = Number(residual)
+    )
 }
 
 /// Which coordinate can move without kinetic energy.

@@ -3,6 +3,7 @@
 
 mod assembly;
 mod catalogue;
+mod crossing;
 mod dynamics;
 mod error;
 mod integrator;
@@ -12,6 +13,7 @@ mod number;
 mod observer;
 mod projection;
 mod real;
+mod sides;
 mod simulate;
 mod sincos;
 mod singular;
@@ -24,7 +26,7 @@ pub use catalogue::Visitor;
 pub use dynamics::{
     ConstrainedSystem, ConstraintError, Counters, Form, Rank, Settings, Solver, Stabilisation,
 };
-pub use error::{DynamicsError, Singularity};
+pub use error::{DynamicsError, Singularity, Watched};
 pub use integrator::{
     Dop853, Dp5, IntegrateError, Integrator, Radau5, Radau9, Rk4, Step, Tolerance,
 };
@@ -40,9 +42,10 @@ pub use observer::{
     BadInterval, ConstraintAudit, EnergyAudit, Observer, Occurrence, Probe, Sampler,
 };
 pub use real::Real;
+pub use sides::{Condition, Sides, Switch};
 pub use simulate::{
     Audit, Failure, Options, Origin, Pace, Scheme, SimulateError, Stepper, Summary, simulate,
 };
 pub use singular::Passage;
 pub use state::State;
-pub use system::{Slope, System};
+pub use system::{Slope, Switching, System};

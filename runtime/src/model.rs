@@ -9,7 +9,7 @@
 //! must be a fresh one or one that the same mechanism filled before.
 
 use crate::assembly::StartFault;
-use crate::{Real, State};
+use crate::{Condition, Real, Sides, State, Switch};
 use nalgebra::{SMatrix, SVector};
 
 /// The equations of motion of a mechanism with `N` coordinates and `R`
@@ -55,6 +55,17 @@ pub trait Mechanism<T: Real, const N: usize, const R: usize> {
     /// [`StartFault`] if they don't hold together with the held values.
     fn begin(&self, _start: &mut Start<T, N>, _t: T) -> Result<(), StartFault<T, N>> {
         Ok(())
+    }
+
+    /// What decides the conditions of the forces by its sign, and its rate at an
+    /// acceleration, as many as `values` has room for; the conditions.
+    fn switches(
+        &self,
+        _state: &State<T, N>,
+        _acceleration: &SVector<T, N>,
+        _values: &mut [Switch<T>],
+    ) -> &'static [Condition] {
+        &[]
     }
 
     /// Energies and the power that is supplied from outside.
@@ -131,6 +142,8 @@ pub struct Terms<T, const N: usize, const R: usize> {
     pub jacobian: SMatrix<T, R, N>,
     /// `p₂ = −(Ȧ q̇ + ḃ)`, `R`.
     pub bias: SVector<T, R>,
+    /// What holds the conditions; read, not written.
+    pub sides: Sides,
 }
 
 /// The acceleration by the regular path, and how far it can be trusted.
@@ -142,6 +155,8 @@ pub struct Regular<T, const N: usize, const R: usize> {
     pub pivots: Pivots<T, N, R>,
     /// Read, not written: the weights `W` of the rows that are [`Structure::weighed`], `R`.
     pub weights: SVector<T, R>,
+    /// What holds the conditions; read, not written.
+    pub sides: Sides,
 }
 
 /// One step of a projection by the regular path, and how far it can be trusted.
@@ -200,13 +215,15 @@ pub struct Linearised<T, const N: usize, const R: usize> {
     pub row_by_position: SMatrix<T, R, N>,
     /// `∂p₂/∂q̇`, `R × N`.
     pub row_by_velocity: SMatrix<T, R, N>,
+    /// What holds the conditions; read, not written.
+    pub sides: Sides,
 }
 
 macro_rules! zeroed {
-    ($name:ident { $($field:ident),* }) => {
+    ($name:ident { $($field:ident),* } $($sides:ident)?) => {
         impl<T: Real, const N: usize, const R: usize> Default for $name<T, N, R> {
             fn default() -> Self {
-                Self { $($field: SMatrix::zeros()),* }
+                Self { $($field: SMatrix::zeros(),)* $($sides: Sides::FREE)? }
             }
         }
     };
@@ -216,7 +233,7 @@ zeroed!(Terms {
     force,
     jacobian,
     bias
-});
+} sides);
 zeroed!(Position {
     mass,
     residual,
@@ -228,7 +245,7 @@ zeroed!(Linearised {
     force_by_velocity,
     row_by_position,
     row_by_velocity
-});
+} sides);
 zeroed!(Pivots {
     mass_pivots,
     mass_diagonal,
@@ -242,6 +259,7 @@ impl<T: Real, const N: usize, const R: usize> Default for Regular<T, N, R> {
             acceleration: SVector::zeros(),
             pivots: Pivots::default(),
             weights: SVector::zeros(),
+            sides: Sides::FREE,
         }
     }
 }

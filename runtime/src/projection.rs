@@ -24,7 +24,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         state: &mut State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         if R == 0 || self.session.rests {
-            return Ok(());
+            return finite(state);
         }
         if !self.is_prepared() {
             self.prepare(mechanism, state)?;
@@ -39,11 +39,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             self.counters.projections += 1;
             *state = placed;
         }
-        if state.is_finite() {
-            Ok(())
-        } else {
-            Err(DynamicsError::NotFinite { t: state.t })
-        }
+        finite(state)
     }
 
     /// Projects a state where the constraints are regular.
@@ -176,5 +172,14 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             row,
             structure: mechanism.structure(),
         }
+    }
+}
+
+/// Refuses a state that is not finite.
+fn finite<T: Real, const N: usize>(state: &State<T, N>) -> Result<(), DynamicsError<T>> {
+    if state.is_finite() {
+        Ok(())
+    } else {
+        Err(DynamicsError::NotFinite { t: state.t })
     }
 }

@@ -84,9 +84,11 @@ pub trait Real:
     fn abs(self) -> Self;
     /// −1, 0 or 1: the sign, with 0 for 0 (unlike `f64::signum`).
     fn sign(self) -> Self;
-    /// The smaller of two numbers.
+    /// The smaller of two numbers; not a number if one of them is none (unlike
+    /// `f64::min`).
     fn min(self, other: Self) -> Self;
-    /// The larger of two numbers.
+    /// The larger of two numbers; not a number if one of them is none (unlike
+    /// `f64::max`).
     fn max(self, other: Self) -> Self;
 }
 
@@ -146,11 +148,19 @@ macro_rules! real_for_float {
             }
             #[inline(always)]
             fn min(self, other: Self) -> Self {
-                $float::min(self, other)
+                if self < other || self.is_nan() {
+                    self
+                } else {
+                    other
+                }
             }
             #[inline(always)]
             fn max(self, other: Self) -> Self {
-                $float::max(self, other)
+                if self > other || self.is_nan() {
+                    self
+                } else {
+                    other
+                }
             }
         }
     };
@@ -199,3 +209,26 @@ fn library_sin_cos(x: f64) -> (f64, f64) {
 
 real_for_float!(f64);
 real_for_float!(f32);
+
+#[cfg(test)]
+mod tests {
+    use super::Real;
+
+    /// The larger and the smaller of two numbers, by the trait.
+    fn both<T: Real>(a: f64, b: f64) -> [f64; 2] {
+        let (a, b) = (T::from_f64(a), T::from_f64(b));
+        [a.max(b).to_f64(), a.min(b).to_f64()]
+    }
+
+    #[test]
+    fn the_larger_and_the_smaller_of_two_numbers_keep_what_is_not_a_number() {
+        for (a, b) in [(f64::NAN, 1.0), (1.0, f64::NAN), (f64::NAN, f64::NAN)] {
+            for value in both::<f64>(a, b).into_iter().chain(both::<f32>(a, b)) {
+                assert!(value.is_nan(), "of {a} and {b}: {value}");
+            }
+        }
+        assert_eq!(both::<f64>(2.0, -3.0), [2.0, -3.0]);
+        assert_eq!(both::<f32>(-3.0, 2.0), [2.0, -3.0]);
+        assert_eq!(both::<f64>(f64::INFINITY, 1.0), [f64::INFINITY, 1.0]);
+    }
+}

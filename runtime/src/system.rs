@@ -19,11 +19,28 @@ pub struct Slope<T, const N: usize> {
     pub v: SMatrix<T, N, N>,
 }
 
+/// Where equations change with respect to a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Switching<T> {
+    /// Not within the step.
+    Nowhere,
+    /// At its end: the step stands, and what is known of the slope there is forgotten.
+    AtEnd,
+    /// At this time within it (s), where a step from the same start has to end.
+    Within(T),
+    /// At its start, where they have changed now: the step has to be made once more.
+    AtStart,
+}
+
 /// What an integrator sees: a first-order flow on (q, v) with a projection.
 pub trait System<T: Real, const N: usize> {
     /// Is told where a step begins, before each attempt at it. A system that follows a
-    /// motion goes on from there if its last accepted step ended there.
-    fn begin(&mut self, _state: &State<T, N>) {}
+    /// motion goes on from there if its last accepted step ended there. Says whether its
+    /// equations change along the way, so that [`switch`](Self::switch) has to be asked
+    /// about the inside of each step.
+    fn begin(&mut self, _state: &State<T, N>) -> bool {
+        false
+    }
 
     /// The acceleration `q̈` (m/s² or rad/s²) at a state, which need not satisfy
     /// the constraints: the stages of a step are off them by a little.
@@ -59,6 +76,16 @@ pub trait System<T: Real, const N: usize> {
     /// A [`DynamicsError`] that says what is wrong with it.
     fn verify(&mut self, _start: &State<T, N>, _end: &State<T, N>) -> Result<(), DynamicsError<T>> {
         Ok(())
+    }
+
+    /// Where the equations change within a step that is about to be accepted, which was
+    /// made with those from its start.
+    ///
+    /// # Errors
+    ///
+    /// A [`DynamicsError`] if that can't be told, or nothing can follow.
+    fn switch(&mut self, _step: &Step<T, N>) -> Result<Switching<T>, DynamicsError<T>> {
+        Ok(Switching::Nowhere)
     }
 
     /// Is told of an accepted step.

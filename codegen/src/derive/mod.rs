@@ -17,6 +17,7 @@ mod force;
 mod linearised;
 mod mass;
 mod swell;
+mod switch;
 mod weighed;
 
 pub use christoffel::coriolis_matrix;
@@ -95,8 +96,9 @@ pub struct Energies {
 /// # Errors
 ///
 /// More than [`EXPRESSIONS_MAX`] expressions, with the lines that most of them come
-/// from.
+/// from; more conditions than a run has room for.
 pub fn derive(mechanism: &mut Mechanism) -> Result<Equations, Diagnostics> {
+    switch::hold(mechanism)?;
     equations(mechanism).ok_or_else(|| swell::refusal(mechanism))
 }
 

@@ -1,7 +1,8 @@
 //! The equations of motion: the trait implementation, and the separate functions.
 
-use super::function::Body;
+use super::function::{Body, Decided};
 use super::linearised::{argument, linearised};
+use super::switches::switches;
 use super::{Method, Subject, Written, doc_lines, entry};
 use crate::derive::coriolis_matrix;
 use crate::expr::ExprId;
@@ -79,6 +80,7 @@ pub(super) fn mechanism(subject: &mut Subject) -> TokenStream {
     let energy = energy(subject);
     let linearised = linearised(subject);
     let begin = super::start::begin(subject);
+    let switches = switches(subject);
     let name = subject.type_name();
     quote! {
         impl<T: Real> Mechanism<T, #n, #r> for #name<T> {
@@ -91,6 +93,7 @@ pub(super) fn mechanism(subject: &mut Subject) -> TokenStream {
             #begin
             #energy
             #linearised
+            #switches
         }
     }
 }
@@ -110,7 +113,7 @@ fn regular(subject: &mut Subject, terms: &Wanted) -> TokenStream {
         state,
         cost,
         ..
-    } = subject.written(&solved_by.program, &solved);
+    } = subject.written(&solved_by.program, &solved, Decided::BySides);
     let out = argument("out", &statements);
     let (n, r) = subject.sizes();
     quote! {
@@ -142,7 +145,7 @@ fn correction(subject: &mut Subject) -> TokenStream {
         state,
         cost,
         ..
-    } = subject.written(&solved_by.program, &solved);
+    } = subject.written(&solved_by.program, &solved, Decided::BySides);
     let out = argument("out", &statements);
     let (n, r) = subject.sizes();
     quote! {

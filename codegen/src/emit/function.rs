@@ -8,9 +8,9 @@
 
 use super::literal;
 use super::name::Names;
-use crate::expr::{Comparison, Function, Function2, Symbol};
+use crate::expr::{Comparison, Function, Function2, Side, Symbol, Test};
 use crate::optimise::{Operation, Program, Slot, Value};
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
@@ -37,6 +37,15 @@ pub(super) struct Piece {
     operands: usize,
     /// A product in two parts: each stands anywhere, the second only inside brackets.
     factors: Option<(TokenStream, TokenStream)>,
+}
+
+/// What decides the conditions of a function.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Decided {
+    /// The state.
+    ByState,
+    /// The sides in the buffer `out`, where they are held.
+    BySides,
 }
 
 /// Where an output is assigned; `None` if whoever asks for the body does that.
@@ -69,10 +78,17 @@ impl Body {
     }
 
     /// Writes a program; `names` are the names that are taken.
-    pub fn of(program: &Program, symbols: &dyn Symbols, names: Names, place: Place) -> Self {
+    pub fn of(
+        program: &Program,
+        symbols: &dyn Symbols,
+        names: Names,
+        place: Place,
+        decided: Decided,
+    ) -> Self {
         let mut writer = Writer {
             program,
             symbols,
+            decided,
             names,
             uses: program.uses(),
             pieces: vec![None; program.len()],
@@ -109,6 +125,7 @@ impl Body {
 pub(super) struct Writer<'a> {
     pub(super) program: &'a Program,
     pub(super) symbols: &'a dyn Symbols,
+    decided: Decided,
     pub(super) names: Names,
     pub(super) uses: Vec<usize>,
     pieces: Vec<Option<Piece>>,
@@ -165,7 +182,7 @@ impl Writer<'_> {
             Operation::Quotient(x, y) => self.quotient(*x, *y),
             Operation::Function(function, x) => self.call(*function, *x),
             Operation::Function2(function, x, y) => self.call2(*function, *x, *y),
-            Operation::Select(comparison, parts) => self.select(*comparison, parts),
+            Operation::Select(test, parts) => self.select(*test, parts),
         };
         let short = piece.operands <= OPERANDS_MAX;
         let input = matches!(operation, Operation::Input(..));
@@ -345,16 +362,32 @@ impl Writer<'_> {
         }
     }
 
-    fn select(&self, comparison: Comparison, parts: &[Value; 4]) -> Piece {
+    fn select(&self, test: Test, parts: &[Value; 4]) -> Piece {
         let [a, b] = [0, 1].map(|i| self.bound(parts[i], Binding::Sum));
         let [then, otherwise] = [2, 3].map(|i| &self.piece(parts[i]).tokens);
-        let sign: TokenStream = match comparison {
+        let sign: TokenStream = match test.comparison {
             Comparison::Less => quote!(<),
             Comparison::LessEqual => quote!(<=),
             Comparison::Equal => quote!(==),
             Comparison::NotEqual => quote!(!=),
         };
-        let tokens = quote!(if #a #sign #b { #then } else { #otherwise });
+        let held = test.held.filter(|_| self.decided == Decided::BySides);
+        let condition = match held {
+            None => quote!(#a #sign #b),
+            Some(side) => {
+                let (Side::Above(index) | Side::Below(index)) = side;
+                let name = match side {
+                    Side::Above(_) => "above",
+                    Side::Below(_) => "below",
+                };
+                let (name, index) = (
+                    Ident::new(name, Span::call_site()),
+                    Literal::u32_unsuffixed(index),
+                );
+                quote!(out.sides.#name(#index, #a #sign #b))
+            }
+        };
+        let tokens = quote!(if #condition { #then } else { #otherwise });
         // Named, since an `if` cannot stand at the start of a longer expression.
         Piece {
             tokens,

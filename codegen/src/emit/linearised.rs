@@ -1,7 +1,7 @@
 //! The linearised equations of motion: a method of the trait implementation.
 
 use super::dynamics::matrix;
-use super::function::Body;
+use super::function::{Body, Decided};
 use super::{Subject, Written, entry_of_field};
 use crate::derive::linearise;
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
@@ -43,7 +43,10 @@ pub(super) fn linearised(subject: &mut Subject) -> TokenStream {
         state,
         cost,
         ..
-    } = subject.beside_derived(&wanted, subject.written(&program, &entry_of_field));
+    } = subject.beside_derived(
+        &wanted,
+        subject.written(&program, &entry_of_field, Decided::BySides),
+    );
     let out = if is_zero { "_out" } else { "out" };
     let out = Ident::new(out, Span::call_site());
     let acceleration = argument("acceleration", &statements);

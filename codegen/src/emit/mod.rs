@@ -16,6 +16,7 @@ mod literal;
 mod name;
 mod start;
 mod structure;
+mod switches;
 mod symbol;
 mod write;
 
@@ -25,7 +26,7 @@ use crate::derive::Equations;
 use crate::expr::{ExprId, Symbol};
 use crate::model::Mechanism;
 use crate::optimise::{Cost, Polynomials, Program, Slot, cost, derived_cost, optimise_among};
-use function::{Body, Place};
+use function::{Body, Decided, Place};
 use proc_macro2::{Ident, Literal, Span, TokenStream, TokenTree};
 use quote::quote;
 use symbol::SymbolNames;
@@ -116,6 +117,7 @@ pub fn module(
     let functions = dynamics::functions(&mut subject);
     let start_equations = start::equations(&mut subject);
     let interface = interface::interface(&mut subject);
+    let conditions = switches::table(&subject);
     let imports = imports(&subject, &dynamics);
     let mut docs = module_docs(&subject, origin);
     if !mentions(&dynamics, "linearised") {
@@ -132,6 +134,7 @@ pub fn module(
             pub const SOURCE: &str = #source;
 
             #structure
+            #conditions
             #parameters
             #inputs
             #holder
@@ -283,6 +286,9 @@ fn imports(subject: &Subject, dynamics: &TokenStream) -> TokenStream {
     if !subject.mechanism.events.is_empty() {
         names.extend(["Direction", "Event"]);
     }
+    if !subject.mechanism.switches.is_empty() {
+        names.extend(["Condition", "Switch"]);
+    }
     let optional = ["Correction", "Linearised", "Regular"];
     names.retain(|name| !optional.contains(name) || mentions(dynamics, name));
     names.sort_unstable();
@@ -335,7 +341,8 @@ impl Subject<'_> {
         };
         let write = |(row, e): (usize, ExprId)| {
             let program = crate::optimise::plain(&self.mechanism.graph, &[(slot(row), e)]);
-            let body = Body::of(&program, &self.names, self.names.taken.clone(), &|_| None);
+            let taken = self.names.taken.clone();
+            let body = Body::of(&program, &self.names, taken, &|_| None, Decided::ByState);
             let (statements, value) = (&body.statements, body.output(slot(row)));
             if statements.is_empty() {
                 value
@@ -364,7 +371,7 @@ impl Subject<'_> {
 
     fn body(&mut self, wanted: &[(Slot, ExprId)], place: Place) -> Written {
         let program = self.program(wanted);
-        self.beside_derived(wanted, self.written(&program, place))
+        self.beside_derived(wanted, self.written(&program, place, Decided::ByState))
     }
 
     /// Says besides what the program would cost as it was derived.
@@ -376,8 +383,9 @@ impl Subject<'_> {
         written
     }
 
-    fn written(&self, program: &Program, place: Place) -> Written {
-        let body = Body::of(program, &self.names, self.names.taken.clone(), place);
+    fn written(&self, program: &Program, place: Place, decided: Decided) -> Written {
+        let taken = self.names.taken.clone();
+        let body = Body::of(program, &self.names, taken, place, decided);
         let state = if SymbolNames::reads_state(program) {
             "state"
         } else {
@@ -400,13 +408,15 @@ impl Subject<'_> {
             buffer,
             wanted,
         } = method;
+        let program = self.program(&wanted);
+        let written = self.written(&program, &entry_of_field, Decided::BySides);
         let Written {
             body: Body { statements, .. },
             is_zero,
             state,
             cost,
             ..
-        } = self.body(&wanted, &entry_of_field);
+        } = self.beside_derived(&wanted, written);
         let out = if is_zero { "_out" } else { "out" };
         let out = Ident::new(out, Span::call_site());
         let (docs, name) = (doc_lines(docs), Ident::new(name, Span::call_site()));

@@ -43,6 +43,50 @@ pub enum Comparison {
     NotEqual,
 }
 
+/// What a choice depends on: a comparison, and the switching function whose side decides it
+/// while a run holds that.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Test {
+    /// The comparison.
+    pub comparison: Comparison,
+    /// The side that a run may hold; none if the comparison always decides.
+    pub held: Option<Side>,
+    /// Whether what it chooses between has the same value and the same first two
+    /// derivatives where it changes.
+    pub smooth: bool,
+}
+
+/// A side of a switching function, by its index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Side {
+    /// The function is positive.
+    Above(u32),
+    /// It is negative.
+    Below(u32),
+}
+
+impl From<Comparison> for Test {
+    fn from(comparison: Comparison) -> Self {
+        Self {
+            comparison,
+            held: None,
+            smooth: false,
+        }
+    }
+}
+
+impl Test {
+    /// Whether it holds where nothing is held.
+    pub fn holds(self, a: f64, b: f64) -> bool {
+        self.comparison.holds(a, b)
+    }
+
+    /// The sign of its comparison in a description.
+    pub fn sign(self) -> &'static str {
+        self.comparison.sign()
+    }
+}
+
 impl Function {
     /// Every function with the name it has in a description.
     pub const ALL: [(Function, &'static str); 14] = [
@@ -112,8 +156,9 @@ impl Function2 {
     pub fn apply(self, x: f64, y: f64) -> f64 {
         match self {
             Function2::Atan2 => x.atan2(y),
-            Function2::Min => x.min(y),
-            Function2::Max => x.max(y),
+            Function2::Min if x < y || x.is_nan() => x,
+            Function2::Max if x > y || x.is_nan() => x,
+            Function2::Min | Function2::Max => y,
             Function2::Pow => x.powf(y),
         }
     }

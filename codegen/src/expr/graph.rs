@@ -9,7 +9,7 @@
 //! coefficient; both sorted by id. A sum inside a sum stays whole: what the
 //! description shares stays shared. Products are flattened, never expanded.
 
-use super::{Comparison, Function, Function2, Number};
+use super::{Function, Function2, Number, Test};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 use std::collections::hash_map::Entry;
@@ -74,7 +74,7 @@ pub enum Node {
     /// A function of two arguments.
     Function2(Function2, ExprId, ExprId),
     /// `if left ⋈ right then … else …`, where that makes a difference.
-    Select(Comparison, [ExprId; 4]),
+    Select(Test, [ExprId; 4]),
 }
 
 /// All expressions of one mechanism.
@@ -346,7 +346,7 @@ impl Graph {
     /// `if left ⋈ right then … else …`.
     pub fn select(
         &mut self,
-        comparison: Comparison,
+        test: impl Into<Test>,
         left: ExprId,
         right: ExprId,
         then: ExprId,
@@ -355,7 +355,7 @@ impl Graph {
         if then == otherwise {
             return then;
         }
-        self.intern(Node::Select(comparison, [left, right, then, otherwise]))
+        self.intern(Node::Select(test.into(), [left, right, then, otherwise]))
     }
 
     /// The number that an expression is, if it is one.

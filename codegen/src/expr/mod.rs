@@ -9,6 +9,7 @@ mod diff;
 mod eval;
 mod function;
 mod graph;
+mod hold;
 mod number;
 mod print;
 mod reach;
@@ -16,7 +17,8 @@ mod substitute;
 
 pub(crate) use bits::Bits;
 pub use diff::Direction;
-pub use function::{Comparison, Function, Function2};
+pub use function::{Comparison, Function, Function2, Side, Test};
 pub use graph::{ExprId, Graph, Node, Symbol};
+pub use hold::{Switch, Switches};
 pub use number::Number;
 pub use print::Notation;

@@ -95,7 +95,7 @@ impl Graph {
                 Node::Function2(function, ..) => {
                     matches!(function, Function2::Min | Function2::Max)
                 }
-                Node::Select(..) => true,
+                Node::Select(test, _) => !test.smooth,
                 _ => false,
             })
     }

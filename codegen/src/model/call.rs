@@ -11,7 +11,7 @@ use crate::parse::ast::{Expr, ExprKind, Name};
 
 /// Functions of more than one number or of something else than a number: name,
 /// number of arguments, how they are written.
-const OTHERS: [(&str, usize, &str); 15] = [
+const OTHERS: [(&str, usize, &str); 17] = [
     ("atan2", 2, "atan2(y, x)"),
     ("min", 2, "min(a, b)"),
     ("max", 2, "max(a, b)"),
@@ -27,6 +27,8 @@ const OTHERS: [(&str, usize, &str); 15] = [
     ("rotz", 1, "rotz(angle)"),
     ("quat", 4, "quat(e0, e1, e2, e3)"),
     ("omega", 1, "omega(R)"),
+    ("table", 2, "table([[0, 1], [2, 3]], x)"),
+    ("spline", 2, "spline([[0, 1], [2, 3]], x)"),
 ];
 
 /// Names that other languages have for the same.
@@ -99,6 +101,7 @@ impl Evaluator {
             "atan2" => self.binary(Function2::Atan2, arguments, span),
             "min" => self.binary(Function2::Min, arguments, span),
             "max" => self.binary(Function2::Max, arguments, span),
+            "table" | "spline" => self.table(&name.text, arguments),
             _ => self.geometric(&name.text, arguments, span),
         }
     }

@@ -86,8 +86,8 @@ impl FactTable {
                 facts.kinked |= matches!(function, Function2::Min | Function2::Max);
                 facts.degree = opaque(facts.degree);
             }
-            Node::Select(..) => {
-                facts.kinked = true;
+            Node::Select(test, _) => {
+                facts.kinked |= !test.smooth;
                 facts.degree = opaque(facts.degree);
             }
             Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Sum(..) => {}

@@ -29,6 +29,7 @@ mod si;
 mod sound;
 mod start;
 mod statement;
+mod table;
 mod unit;
 mod value;
 
@@ -81,6 +82,24 @@ pub struct Mechanism {
     /// The coordinates that were declared, where some of them were eliminated; empty
     /// where all are among `coordinates`.
     pub described: Vec<Described>,
+    /// What decides the forces along a motion by its sign; found when the equations of
+    /// motion are derived.
+    pub switches: Vec<Switch>,
+}
+
+/// A switching function and how it changes along a motion.
+#[derive(Clone, Debug)]
+pub struct Switch {
+    /// The function.
+    pub value: ExprId,
+    /// Its rate, of the accelerations.
+    pub rate: ExprId,
+    /// What it decides, as the description writes it.
+    pub text: String,
+    /// Where it was written: the statement.
+    pub span: Span,
+    /// Whether the forces are continuous where it is zero, but for the slope.
+    pub kinks: bool,
 }
 
 /// A coordinate as the description declares it, in terms of those that were kept.
@@ -264,6 +283,7 @@ impl Mechanism {
             events: Vec::new(),
             shapes: Vec::new(),
             described: Vec::new(),
+            switches: Vec::new(),
         }
     }
 

@@ -4,7 +4,7 @@
 //! operations; operands come before their users. It knows no mechanics: an
 //! output is an entry of a named array.
 
-use crate::expr::{Comparison, Function, Function2, Number, Symbol};
+use crate::expr::{Function, Function2, Number, Symbol, Test};
 use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
 
@@ -47,7 +47,7 @@ pub enum Operation {
     /// A function of two arguments.
     Function2(Function2, Value, Value),
     /// `if left ⋈ right then … else …`.
-    Select(Comparison, [Value; 4]),
+    Select(Test, [Value; 4]),
 }
 
 impl Operation {

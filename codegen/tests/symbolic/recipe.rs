@@ -109,7 +109,7 @@ pub fn evaluated(graph: &Graph, root: ExprId, values: &[f64; SYMBOLS.len()]) -> 
                 }),
             Node::Function(function, x) => of(x).function(*function),
             Node::Function2(function, x, y) => of(x).function2(*function, of(y)),
-            Node::Select(comparison, parts) => Jet::choose(*comparison, parts.each_ref().map(of)),
+            Node::Select(test, parts) => Jet::choose(test.comparison, parts.each_ref().map(of)),
         };
         known.insert(e, value);
     }

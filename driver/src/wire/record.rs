@@ -59,7 +59,7 @@ pub(super) use choices;
 records! {
     Structure {
         name, docs, file, coordinates, described, parameters, inputs, outputs, events,
-        constraints, constant_mass, conservative, drawn, regular
+        constraints, weighed, constant_mass, conservative, drawn, regular
     }
     Quantity { name, unit, docs }
     Declared { quantity, given_by }

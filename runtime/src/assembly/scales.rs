@@ -63,8 +63,12 @@ impl<T: Real, const N: usize, const R: usize> Scales<T, N, R> {
                     let entry = row(j, &columns);
                     sum + entry * entry
                 });
-                norms[k] = norms[k].max(square.sqrt());
-                reach[k] = reach[k].max((0..N).fold(T::zero(), |sum, j| sum + row(j, &sizes)));
+                let length = (0..N).fold(T::zero(), |sum, j| sum + row(j, &sizes));
+                // A neighbour outside the domain of a root tells nothing.
+                if square.is_finite() && length.is_finite() {
+                    norms[k] = norms[k].max(square.sqrt());
+                    reach[k] = reach[k].max(length);
+                }
             }
         }
         let inverse = |x: T| {

@@ -6,7 +6,7 @@
 use super::{Solver, Source, Which};
 use crate::singular::Found;
 use crate::tolerance::{passes, regular, window};
-use crate::{Counters, DynamicsError, Mechanism, Real, Slope, State, Step, System};
+use crate::{Counters, DynamicsError, Mechanism, Real, Slope, State, Step, Switching, System};
 use nalgebra::SVector;
 
 /// A mechanism bound to the solver of its equations, by [`Solver::on`].
@@ -66,6 +66,7 @@ where
     pub fn acceleration(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>> {
         let solver = &mut *self.solver;
         solver.begin_step(state);
+        solver.release();
         match solver.acceleration(self.mechanism, state) {
             Err(error) => match solver.escalate(self.mechanism)? {
                 true => solver.acceleration(self.mechanism, state),
@@ -235,16 +236,11 @@ where
         self.mechanism.position(state, position);
         let velocity = position.jacobian * state.v + position.drift;
         for row in 0..R {
-            error.position = larger(error.position, position.residual[row].abs());
-            error.velocity = larger(error.velocity, velocity[row].abs());
+            error.position = error.position.max(position.residual[row].abs());
+            error.velocity = error.velocity.max(velocity[row].abs());
         }
         error
     }
-}
-
-/// The larger of two sizes; not finite if one of them is not.
-fn larger<T: Real>(a: T, b: T) -> T {
-    if b > a || !b.is_finite() { b } else { a }
 }
 
 impl<M, T: Real, const N: usize, const R: usize> System<T, N> for ConstrainedSystem<'_, M, T, N, R>
@@ -252,13 +248,14 @@ where
     M: Mechanism<T, N, R> + ?Sized,
 {
     #[inline]
-    fn begin(&mut self, state: &State<T, N>) {
+    fn begin(&mut self, state: &State<T, N>) -> bool {
         self.solver.begin_step(state);
+        self.solver.hold(self.mechanism, state)
     }
 
     #[inline]
     fn acceleration(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>> {
-        self.solver.acceleration(self.mechanism, state)
+        self.solver.held_acceleration(self.mechanism, state)
     }
 
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
@@ -271,6 +268,10 @@ where
 
     fn verify(&mut self, start: &State<T, N>, end: &State<T, N>) -> Result<(), DynamicsError<T>> {
         self.solver.verify(self.mechanism, start, end)
+    }
+
+    fn switch(&mut self, step: &Step<T, N>) -> Result<Switching<T>, DynamicsError<T>> {
+        self.solver.switch(self.mechanism, step)
     }
 
     fn commit(&mut self, step: &Step<T, N>) -> Result<(), DynamicsError<T>> {

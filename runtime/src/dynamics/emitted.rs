@@ -73,7 +73,10 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         state: &State<T, N>,
         acceleration: &mut SVector<T, N>,
     ) -> T {
-        let mut small = Regular::default();
+        let mut small = Regular {
+            sides: self.regular.sides,
+            ..Regular::default()
+        };
         let regular = if N + R <= IN_REGISTERS {
             &mut small
         } else {

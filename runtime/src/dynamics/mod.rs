@@ -24,8 +24,10 @@ mod reduced;
 mod rows;
 mod settings;
 mod sizes;
+mod sliding;
 mod slope;
 mod solver;
+mod switching;
 mod verify;
 
 pub use constrained::{ConstrainedSystem, ConstraintError, Rank};

@@ -5,14 +5,24 @@
 //!      singular values; the null-space form by a rank decision alone.
 
 use super::{Solver, Source, Which};
-use crate::linalg::{Breakdown, add_scaled, dot, norm, orthogonalise, scaled};
+use crate::linalg::{Breakdown, add_scaled, dot, eigen, norm, orthogonalise, scaled};
+use crate::singular::{orthonormal, remove};
 use crate::tolerance::{difference, negligible, regular};
-use crate::{DynamicsError, Mechanism, Real, State};
+use crate::{DynamicsError, Mechanism, Real, Singularity, State};
 use nalgebra::{SMatrix, SVector};
 
 /// Part of a displacement that the singular value of a row is, at least, whose gradient
 /// is lost only where the displacement begins.
 const RETURNS: f64 = 1e-2;
+/// Newton's corrections that bring a neighbour onto the constraints. Where their gradient
+/// vanishes wherever they hold, each halves the distance, and the gradient with it.
+const CORRECTIONS: usize = 16;
+
+/// Second derivatives below this part of the largest are none.
+const FLAT: f64 = 1e-3;
+/// How far, relative to the coordinates, the neighbours lie that tell whether constraints
+/// that touch zero go through it.
+const ASIDE: f64 = 1e-2;
 
 /// Rows in the metric, combined until they are orthogonal.
 pub(crate) struct Combined<T, const N: usize, const R: usize> {
@@ -79,30 +89,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     ) -> Result<(), DynamicsError<T>> {
         let mut regular_at = state.q;
         for which in [Which::Holonomic, Which::All] {
-            mechanism.position(state, &mut self.position);
-            self.factorise_metric(mechanism, Source::Position, state.t)?;
-            let here = self.rank_here(which, regular(), state.t)?;
-            let mut best = (here.0, state.q);
-            if best.0 < self.rows.count(which) {
-                let ahead = self.ahead(state);
-                let around = self.neighbours(state, &here.1);
-                for neighbour in core::iter::once(ahead).chain(around) {
-                    let Some(q) = neighbour else { continue };
-                    if best.0 > here.0 {
-                        break;
-                    }
-                    let moved = State { q, ..*state };
-                    mechanism.position(&moved, &mut self.position);
-                    self.factorise_metric(mechanism, Source::Position, state.t)?;
-                    let least = difference::<T>() * T::from_f64(RETURNS);
-                    let (rank, _) = self.rank_here(which, least, state.t)?;
-                    if rank > best.0 {
-                        best = (rank, q);
-                    }
-                }
-            }
-            self.rows.observe_rank(best.0, which);
-            regular_at = best.1;
+            let (rank, q) = self.rank_nearby(mechanism, state, which)?;
+            self.rows.observe_rank(rank, which);
+            regular_at = q;
         }
         let moved = State {
             q: regular_at,
@@ -113,6 +102,132 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.choose_rows();
         mechanism.position(state, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, state.t)
+    }
+
+    /// The rank at a state, or next to it if it is higher there, and where.
+    fn rank_nearby<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        which: Which,
+    ) -> Result<(usize, SVector<T, N>), DynamicsError<T>> {
+        mechanism.position(state, &mut self.position);
+        self.factorise_metric(mechanism, Source::Position, state.t)?;
+        let (rank_here, combined) = self.rank_here(which, regular(), state.t)?;
+        if rank_here == self.rows.count(which) {
+            return Ok((rank_here, state.q));
+        }
+        let vanishing = self.vanishing_row(which);
+        let mut lost = None;
+        let ahead = self.ahead(state);
+        let around = self.neighbours(state, &combined);
+        for q in core::iter::once(ahead).chain(around).flatten() {
+            let moved = State { q, ..*state };
+            mechanism.position(&moved, &mut self.position);
+            self.factorise_metric(mechanism, Source::Position, state.t)?;
+            let least = difference::<T>() * T::from_f64(RETURNS);
+            let (rank, _) = self.rank_here(which, least, state.t)?;
+            if rank <= rank_here {
+                continue;
+            }
+            if vanishing.is_none() || self.stays(mechanism, moved, which, (rank, least))? {
+                return Ok((rank, q));
+            }
+            lost = lost.or(vanishing.map(|row| (row, (rank, q))));
+        }
+        mechanism.position(state, &mut self.position);
+        self.factorise_metric(mechanism, Source::Position, state.t)?;
+        match lost {
+            Some((row, _)) if self.is_square(mechanism, state, &combined, rank_here) => {
+                Err(DynamicsError::SingularConfiguration {
+                    t: state.t,
+                    kind: Singularity::Vanishing,
+                    row,
+                    structure: mechanism.structure(),
+                })
+            }
+            Some((_, elsewhere)) => Ok(elsewhere),
+            None => Ok((rank_here, state.q)),
+        }
+    }
+
+    /// Whether the combination of rows that loses its gradient at a state is like a square
+    /// that vanishes along a line: its second derivatives have one sign but for directions
+    /// along which it is flat, and there it does not become negative.
+    fn is_square<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        combined: &Combined<T, N, R>,
+        rank: usize,
+    ) -> bool {
+        let count = N - rank;
+        let strong = &combined.directions.data.0[..rank];
+        let kernel = orthonormal(count, |axis| remove(axis, strong));
+        let second = self.second_derivatives(mechanism, state, combined, &kernel, count);
+        let (values, vectors) = eigen(second, count);
+        let most = (0..count).fold(T::zero(), |most: T, k| most.max(values[k].abs()));
+        let flat = |k: &usize| values[*k].abs() <= most * T::from_f64(FLAT);
+        let mut steep = (0..count).filter(|k| !flat(k)).map(|k| values[k].sign());
+        let Some(sign) = steep
+            .next()
+            .filter(|first| steep.all(|other| other == *first))
+        else {
+            return false;
+        };
+        let value_at = |solver: &mut Self, q: SVector<T, N>| {
+            mechanism.position(&State { q, ..*state }, &mut solver.position);
+            let right = solver.scaled(&solver.position.residual);
+            dot(&combined.left.data.0[rank], &right) * sign
+        };
+        let mut lines = 0;
+        for k in (0..count).filter(flat) {
+            lines += 1;
+            let mut along = [T::zero(); N];
+            for (share, axis) in vectors[k].iter().zip(&kernel.data.0[..count]) {
+                add_scaled(&mut along, *share, axis);
+            }
+            let moved = self.lower(along) * (self.reach * T::from_f64(ASIDE));
+            for q in [state.q + moved, state.q - moved] {
+                if value_at(self, q) < -T::EPSILON * self.reach {
+                    return false;
+                }
+            }
+        }
+        lines > 0
+    }
+
+    /// Whether a rank next to a state is still there where the constraints hold.
+    fn stays<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        mut state: State<T, N>,
+        which: Which,
+        (wanted, least): (usize, T),
+    ) -> Result<bool, DynamicsError<T>> {
+        for _ in 0..CORRECTIONS {
+            mechanism.position(&state, &mut self.position);
+            self.factorise_metric(mechanism, Source::Position, state.t)?;
+            let (rank, combined) = self.rank_here(which, least, state.t)?;
+            if rank < wanted {
+                return Ok(false);
+            }
+            let right = self.scaled(&-self.position.residual);
+            let mut w = [T::zero(); N];
+            for (k, value) in combined.values.iter().enumerate().take(rank) {
+                let share = dot(&combined.left.data.0[k], &right) / *value;
+                add_scaled(&mut w, share, &combined.directions.data.0[k]);
+            }
+            state.q += self.lower(w);
+        }
+        Ok(true)
+    }
+
+    /// A row whose gradient vanishes at the position in the buffer, if there is one.
+    fn vanishing_row(&self, which: Which) -> Option<usize> {
+        let rows = self.lift_rows(Source::Position, which);
+        let vanishes = |row: &usize| norm(&rows.data.0[*row]) <= regular();
+        (0..R).find(|row| self.rows.takes_part(*row, which) && vanishes(row))
     }
 
     /// How many singular values are above a bound at the position in the buffer.

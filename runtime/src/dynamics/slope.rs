@@ -34,7 +34,10 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let free = self.free_acceleration(&bias);
         let multiplier = self.lifted.multiplier(&free, &bias);
         let acceleration = self.regular_acceleration(&bias);
-        let mut out = Linearised::default();
+        let mut out = Linearised {
+            sides: self.terms.sides,
+            ..Linearised::default()
+        };
         mechanism
             .linearised(state, &acceleration, &multiplier, &mut out)
             .then(|| Slope {

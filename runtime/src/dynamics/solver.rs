@@ -6,6 +6,7 @@
 //! Nothing allocates: all buffers have the sizes of the mechanism and live here
 //! or on the stack.
 
+use super::switching::Conditions;
 use super::{ConstrainedSystem, Lifted, Metric, Rows, Which};
 use crate::linalg::{Frame, NotDefinite};
 use crate::singular::{Obstacle, Session};
@@ -39,6 +40,7 @@ pub struct Solver<T, const N: usize, const R: usize> {
     pub(crate) regular: Regular<T, N, R>,
     pub(crate) correction: Correction<T, N, R>,
     pub(crate) session: Session<T, N, R>,
+    pub(super) conditions: Conditions<T, N>,
     /// Whether the mechanism provides emitted solves, as far as is known.
     pub(crate) emitted: bool,
     /// Whether emitted code may be called before anything else is asked.
@@ -77,6 +79,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             regular: Regular::default(),
             correction: Correction::default(),
             session: Session::new(),
+            conditions: Conditions::new(),
             emitted: true,
             expected: false,
             safe: None,
@@ -96,6 +99,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.metric.forget();
         self.safe = None;
         self.expect_regular();
+        let conditions = mechanism.switches(&State::default(), &SVector::zeros(), &mut []);
+        self.conditions.forget(conditions);
         ConstrainedSystem::new(mechanism, self)
     }
 

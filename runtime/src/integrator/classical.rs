@@ -15,11 +15,9 @@ use super::pace::{Inside, in_parts};
 use super::step::Step;
 use super::{IntegrateError, Integrator};
 use crate::linalg::add_scaled;
-use crate::{DynamicsError, Real, State, System};
+use crate::{DynamicsError, Real, State, Switching, System};
 use nalgebra::SVector;
 
-/// Times within a step at which it is looked at.
-const LOOKS: u8 = 1;
 /// Accelerations of a step, but for that at its start.
 const STAGES: u32 = 3;
 
@@ -40,7 +38,7 @@ impl<T: Real, const N: usize> Rk4<T, N> {
     pub fn new() -> Self {
         Self {
             inside: Inside::Full,
-            step: Step::new(LOOKS),
+            step: Step::new(),
             last: None,
         }
     }
@@ -53,6 +51,56 @@ impl<T: Real, const N: usize> Rk4<T, N> {
 
     pub(crate) fn keep(&mut self, inside: Inside) {
         self.inside = inside;
+    }
+
+    /// Goes towards a time; whether the equations change along the way.
+    #[inline(always)]
+    fn go<Y: System<T, N> + ?Sized>(
+        &mut self,
+        system: &mut Y,
+        state: &State<T, N>,
+        known: Option<SVector<T, N>>,
+        bound: T,
+    ) -> Result<bool, IntegrateError<T>> {
+        let (switches, first, end) = in_parts(state.t, bound, |end| {
+            match attempt(system, state, known, end) {
+                Err(error) => match system.escalate()? {
+                    true => attempt(system, state, known, end),
+                    false => Err(error),
+                },
+                made => made,
+            }
+        })?;
+        (self.step.start, self.step.end) = (*state, end);
+        self.step.span = T::zero();
+        if switches || self.inside != Inside::Nothing {
+            self.complete(system, &first)?;
+        }
+        Ok(switches)
+    }
+
+    /// Makes the step again until it ends where the equations first change.
+    #[cold]
+    fn switch<Y: System<T, N> + ?Sized>(
+        &mut self,
+        system: &mut Y,
+        state: &State<T, N>,
+    ) -> Result<(), IntegrateError<T>> {
+        let mut bound = self.step.end.t;
+        loop {
+            match system.switch(&self.step)? {
+                Switching::Nowhere => return Ok(()),
+                Switching::AtEnd => {
+                    self.forget();
+                    return Ok(());
+                }
+                Switching::Within(t) => bound = t,
+                Switching::AtStart => {}
+            }
+            self.step.rejected += 1;
+            self.step.evaluations += STAGES + 1;
+            self.go(system, state, None, bound)?;
+        }
     }
 
     /// The polynomials between the ends, if anyone wants them.
@@ -87,19 +135,10 @@ impl<T: Real, const N: usize> Integrator<T, N> for Rk4<T, N> {
         check_bound(state.t, bound)?;
         let known = self.last.take().filter(|_| self.step.end == *state);
         self.step.evaluations = STAGES + u32::from(known.is_none());
-        let (first, end) = in_parts(state.t, bound, |end| {
-            match attempt(system, state, known, end) {
-                Err(error) => match system.escalate()? {
-                    true => attempt(system, state, known, end),
-                    false => Err(error),
-                },
-                made => made,
-            }
-        })?;
-        (self.step.start, self.step.end) = (*state, end);
-        self.step.span = T::zero();
-        if self.inside != Inside::Nothing {
-            self.complete(system, &first)?;
+        self.step.rejected = 0;
+        let switches = self.go(system, state, known, bound)?;
+        if switches {
+            self.switch(system, state)?;
         }
         system.commit(&self.step)?;
         Ok(&self.step)
@@ -113,8 +152,8 @@ fn attempt<T: Real, Y: System<T, N> + ?Sized, const N: usize>(
     state: &State<T, N>,
     known: Option<SVector<T, N>>,
     bound: T,
-) -> Result<(SVector<T, N>, State<T, N>), DynamicsError<T>> {
-    system.begin(state);
+) -> Result<(bool, SVector<T, N>, State<T, N>), DynamicsError<T>> {
+    let switches = system.begin(state);
     let first = match known {
         Some(acceleration) => acceleration,
         None => system.acceleration(state)?,
@@ -122,7 +161,7 @@ fn attempt<T: Real, Y: System<T, N> + ?Sized, const N: usize>(
     let mut end = classical(system, state, &first, bound)?;
     system.project(&mut end)?;
     system.verify(state, &end)?;
-    Ok((first, end))
+    Ok((switches, first, end))
 }
 
 /// The state at the end of a step, not yet projected.

@@ -16,7 +16,6 @@ use super::tableau::Tableau;
 pub(crate) static DOP853: Tableau = Tableau {
     order: 8,
     error_order: 8,
-    looks: 4,
     jumps: (1.0 / 3.0, 6.0),
     gains: Gains::CALM,
     nodes: &[

@@ -41,7 +41,7 @@ impl<T: Real, const N: usize, const S: usize> Explicit<T, N, S> {
         Self {
             tableau,
             inside: Inside::Full,
-            step: Step::new(tableau.looks),
+            step: Step::new(),
             slopes: Slopes::new(),
             end_known: false,
         }
@@ -187,15 +187,23 @@ impl<T: Real, const N: usize, const S: usize> Trial<T, N> for Explicit<T, N, S> 
         }
     }
 
-    fn accept<Y: System<T, N> + ?Sized>(&mut self, system: &mut Y) -> Result<(), DynamicsError<T>> {
-        if self.inside == Inside::Nothing {
+    fn kept(&self) -> Inside {
+        self.inside
+    }
+
+    fn accept<Y: System<T, N> + ?Sized>(
+        &mut self,
+        system: &mut Y,
+        inside: Inside,
+    ) -> Result<(), DynamicsError<T>> {
+        if inside == Inside::Nothing {
             self.step.span = T::zero();
             return Ok(());
         }
         self.know_end(system)?;
         let (first, last) = (self.slopes.a[0], self.slopes.a[self.tableau.stages()]);
         let h = self.step.set_ends(&first, &last);
-        if self.inside == Inside::Hermite || self.tableau.dense.is_empty() {
+        if inside == Inside::Hermite || self.tableau.dense.is_empty() {
             self.step.interpolant.complete_hermite(h, &first, &last);
             return Ok(());
         }

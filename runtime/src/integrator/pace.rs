@@ -14,7 +14,7 @@ use super::IntegrateError;
 use super::control::{Control, Tolerance, check_bound};
 use super::step::Step;
 use super::tableau::Tableau;
-use crate::{DynamicsError, Real, State, System};
+use crate::{DynamicsError, Real, State, Switching, System};
 use nalgebra::SVector;
 
 /// The first step should change the slope by this fraction (Hairer's guess).
@@ -65,8 +65,15 @@ pub(super) trait Trial<T: Real, const N: usize> {
     /// The error of the trial step in units of the tolerance.
     fn error(&self, tolerance: &Tolerance<T, N>) -> T;
 
-    /// Completes an accepted step: the slope at its end, and its inside.
-    fn accept<Y: System<T, N> + ?Sized>(&mut self, system: &mut Y) -> Result<(), DynamicsError<T>>;
+    /// Completes an accepted step: the slope at its end, and so much of its inside.
+    fn accept<Y: System<T, N> + ?Sized>(
+        &mut self,
+        system: &mut Y,
+        inside: Inside,
+    ) -> Result<(), DynamicsError<T>>;
+
+    /// What is kept of the inside of steps.
+    fn kept(&self) -> Inside;
 }
 
 /// What decides how long a step is.
@@ -107,28 +114,68 @@ impl<K: Trial<T, N>, T: Real, const N: usize> Paced<K, T, N> {
         bound: T,
     ) -> Result<&Step<T, N>, IntegrateError<T>> {
         check_bound(state.t, bound)?;
-        system.begin(state);
-        let slope = match self.method.begin(system, state) {
-            Err(error) => match system.escalate()? {
-                true => self.method.begin(system, state)?,
-                false => return Err(error.into()),
-            },
-            Ok(slope) => slope,
+        let switches = system.begin(state);
+        let inside = match switches {
+            true => Inside::Full,
+            false => self.method.kept(),
         };
-        match &mut self.pace {
-            None => in_parts(state.t, bound, |end| {
-                attempt(&mut self.method, system, end)?;
-                if !complete(&mut self.method, system)? {
-                    attempt(&mut self.method, system, end)?;
-                    complete(&mut self.method, system)?;
+        let mut slope = self.begin(system, state)?;
+        let mut bound = bound;
+        loop {
+            self.advance(system, &slope, bound, inside)?;
+            match system.switch(self.method.step())? {
+                Switching::Nowhere => break,
+                Switching::AtEnd => {
+                    self.method.forget();
+                    break;
                 }
-                Ok::<_, IntegrateError<T>>(())
-            })?,
-            Some(pace) => pace.advance(&mut self.method, system, &slope, bound)?,
+                Switching::Within(t) => bound = t,
+                Switching::AtStart => {
+                    self.method.forget();
+                    slope = self.begin(system, state)?;
+                }
+            }
+            self.method.step().rejected += 1;
         }
         let step = self.method.step();
         system.commit(step)?;
         Ok(step)
+    }
+
+    /// The acceleration at the start of a step.
+    fn begin<Y: System<T, N> + ?Sized>(
+        &mut self,
+        system: &mut Y,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, IntegrateError<T>> {
+        match self.method.begin(system, state) {
+            Err(error) => match system.escalate()? {
+                true => Ok(self.method.begin(system, state)?),
+                false => Err(error.into()),
+            },
+            Ok(slope) => Ok(slope),
+        }
+    }
+
+    /// Makes attempts at a step until one is accepted.
+    fn advance<Y: System<T, N> + ?Sized>(
+        &mut self,
+        system: &mut Y,
+        slope: &SVector<T, N>,
+        bound: T,
+        inside: Inside,
+    ) -> Result<(), IntegrateError<T>> {
+        match &mut self.pace {
+            None => in_parts(self.method.step().start.t, bound, |end| {
+                attempt(&mut self.method, system, end)?;
+                if !complete(&mut self.method, system, inside)? {
+                    attempt(&mut self.method, system, end)?;
+                    complete(&mut self.method, system, inside)?;
+                }
+                Ok::<_, IntegrateError<T>>(())
+            }),
+            Some(pace) => pace.advance(&mut self.method, system, slope, (bound, inside)),
+        }
     }
 }
 
@@ -187,9 +234,10 @@ fn attempt<K: Trial<T, N>, T: Real, Y: System<T, N> + ?Sized, const N: usize>(
 fn complete<K: Trial<T, N>, T: Real, Y: System<T, N> + ?Sized, const N: usize>(
     method: &mut K,
     system: &mut Y,
+    inside: Inside,
 ) -> Result<bool, IntegrateError<T>> {
     let mut once = || {
-        method.accept(system)?;
+        method.accept(system, inside)?;
         let Step { start, end, .. } = *method.step();
         system.verify(&start, &end)
     };
@@ -209,7 +257,7 @@ impl<T: Real, const N: usize> Pace<T, N> {
         method: &mut K,
         system: &mut Y,
         slope: &SVector<T, N>,
-        bound: T,
+        (bound, inside): (T, Inside),
     ) -> Result<(), IntegrateError<T>> {
         let t = method.step().start.t;
         if self.control.h <= T::zero() {
@@ -223,7 +271,7 @@ impl<T: Real, const N: usize> Pace<T, N> {
                 Ok(end) => end,
                 Err(underflow) => return Err(obstacle.unwrap_or(underflow)),
             };
-            let error = match self.trial(method, system, end) {
+            let error = match self.trial(method, system, (end, inside)) {
                 Ok(Some(error)) => error,
                 Ok(None) => continue,
                 Err(failure) if is_final(&failure) => return Err(failure),
@@ -249,11 +297,11 @@ impl<T: Real, const N: usize> Pace<T, N> {
         &self,
         method: &mut K,
         system: &mut Y,
-        end: T,
+        (end, inside): (T, Inside),
     ) -> Result<Option<T>, IntegrateError<T>> {
         attempt(method, system, end)?;
         let error = method.error(&self.tolerance);
-        if error <= T::one() && !complete(method, system)? {
+        if error <= T::one() && !complete(method, system, inside)? {
             return Ok(None);
         }
         Ok(Some(error))
@@ -279,7 +327,7 @@ impl<T: Real, const N: usize> Pace<T, N> {
         } else {
             T::from_f64(FIRST_STEP) * size / slope
         };
-        let guess = guess.min(span);
+        let guess = if guess < span { guess } else { span };
         let curvature = self.curvature(method, system, a, guess);
         let change = slope.max(curvature);
         let better = if change.is_finite() && change > T::from_f64(1e-15) {

@@ -88,7 +88,7 @@ impl<T: Real, const N: usize, const S: usize> Radau<T, N, S> {
             tableau,
             coefficients: Collocation::new(),
             inside: Inside::Full,
-            step: Step::new(tableau.looks),
+            step: Step::new(),
             enough: tolerance.part(NEWTON_PART),
             tolerable,
             tolerance,
@@ -340,9 +340,17 @@ impl<T: Real, const N: usize, const S: usize> Trial<T, N> for Radau<T, N, S> {
         tolerance.norm((q, v), &self.step.start, &self.step.end)
     }
 
-    fn accept<Y: System<T, N> + ?Sized>(&mut self, _: &mut Y) -> Result<(), DynamicsError<T>> {
+    fn kept(&self) -> Inside {
+        self.inside
+    }
+
+    fn accept<Y: System<T, N> + ?Sized>(
+        &mut self,
+        _: &mut Y,
+        inside: Inside,
+    ) -> Result<(), DynamicsError<T>> {
         let h = self.step.length();
-        if self.inside != Inside::Nothing {
+        if inside != Inside::Nothing {
             let states: [_; S] = core::array::from_fn(|i| self.stage(&self.a, h, i));
             let inner = S - 1;
             self.step

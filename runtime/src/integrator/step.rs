@@ -16,7 +16,6 @@ pub struct Step<T, const N: usize> {
     pub(crate) end: State<T, N>,
     pub(crate) rejected: u32,
     pub(crate) evaluations: u32,
-    pub(crate) looks: u8,
     /// The length of the step as it was integrated: longer than from start to
     /// end if it was cut.
     pub(crate) span: T,
@@ -24,14 +23,13 @@ pub struct Step<T, const N: usize> {
 }
 
 impl<T: Real, const N: usize> Step<T, N> {
-    pub(crate) fn new(looks: u8) -> Self {
+    pub(crate) fn new() -> Self {
         let (start, end) = (State::default(), State::default());
         Self {
             start,
             end,
             rejected: 0,
             evaluations: 0,
-            looks,
             span: T::zero(),
             interpolant: Interpolant::default(),
         }
@@ -61,21 +59,6 @@ impl<T: Real, const N: usize> Step<T, N> {
     /// included.
     pub fn evaluations(&self) -> u32 {
         self.evaluations
-    }
-
-    /// Times at which to look at a quantity so as not to miss what comes and goes
-    /// within the step: equally spaced, the last is its end. Methods of high order
-    /// take long steps and more looks.
-    pub fn look_times(&self) -> impl Iterator<Item = T> + use<T, N> {
-        let (start, end, length, looks) = (self.start.t, self.end.t, self.length(), self.looks);
-        (1..=looks).map(move |i| {
-            let part = f64::from(i) / f64::from(looks);
-            if i == looks {
-                end
-            } else {
-                start + length * T::from_f64(part)
-            }
-        })
     }
 
     /// Joins both ends, given the accelerations there; the length of the step.

@@ -26,9 +26,6 @@ pub(crate) struct Tableau {
     pub(crate) order: u8,
     /// Order of the error estimate plus one: the estimate is `O(h^error_order)`.
     pub(crate) error_order: u8,
-    /// How many times within a step an observer should look, so as not to miss
-    /// what comes and goes: methods of high order take long steps.
-    pub(crate) looks: u8,
     /// By how much a step may shrink and grow at once.
     pub(crate) jumps: (f64, f64),
     /// How the control of the step answers to errors.
@@ -70,7 +67,6 @@ impl Tableau {
 pub(crate) static DP5: Tableau = Tableau {
     order: 5,
     error_order: 5,
-    looks: 2,
     jumps: (0.2, 10.0),
     gains: Gains::CALM,
     nodes: &[
@@ -141,7 +137,6 @@ const fn implicit(stages: u8) -> Tableau {
     Tableau {
         order: 2 * stages - 1,
         error_order: stages + 1,
-        looks: stages,
         jumps: (0.2, 8.0),
         gains: Gains::QUICK,
         nodes: &[],

@@ -4,7 +4,7 @@
 //! Out: the largest errors.
 
 use super::{Observer, Probe};
-use crate::{ConstraintError, DynamicsError, Real, State, Step};
+use crate::{ConstraintError, DynamicsError, Real, State, Step, Watched};
 use core::ops::ControlFlow;
 
 /// Keeps the largest constraint errors at the ends of steps.
@@ -30,10 +30,20 @@ impl<T: Real> ConstraintAudit<T> {
         self.largest
     }
 
-    fn look<const N: usize>(&mut self, state: &State<T, N>, probe: &mut dyn Probe<T, N>) {
+    fn look<const N: usize>(
+        &mut self,
+        state: &State<T, N>,
+        probe: &mut dyn Probe<T, N>,
+    ) -> Result<ControlFlow<()>, DynamicsError<T>> {
         let error = probe.constraint_error(state);
         self.largest.position = self.largest.position.max(error.position);
         self.largest.velocity = self.largest.velocity.max(error.velocity);
+        if (error.position + error.velocity).is_finite() {
+            Ok(ControlFlow::Continue(()))
+        } else {
+            let (t, quantity) = (state.t, Watched::ConstraintError);
+            Err(DynamicsError::WatchedNotFinite { t, quantity })
+        }
     }
 }
 
@@ -44,8 +54,7 @@ impl<T: Real, const N: usize> Observer<T, N> for ConstraintAudit<T> {
         probe: &mut dyn Probe<T, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<T>> {
         *self = Self::new();
-        self.look(state, probe);
-        Ok(ControlFlow::Continue(()))
+        self.look(state, probe)
     }
 
     fn step(
@@ -53,8 +62,7 @@ impl<T: Real, const N: usize> Observer<T, N> for ConstraintAudit<T> {
         step: &Step<T, N>,
         probe: &mut dyn Probe<T, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<T>> {
-        self.look(step.end(), probe);
-        Ok(ControlFlow::Continue(()))
+        self.look(step.end(), probe)
     }
 
     fn looks_inside(&self) -> bool {

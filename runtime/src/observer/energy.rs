@@ -9,7 +9,7 @@
 //! [`Energy::balance`]: crate::Energy::balance
 
 use super::{Observer, Probe};
-use crate::{DynamicsError, Real, State, Step};
+use crate::{DynamicsError, Energy, Real, State, Step, Watched};
 use core::ops::ControlFlow;
 
 /// Compares the energy with the power that was supplied.
@@ -64,6 +64,19 @@ impl<T: Real> EnergyAudit<T> {
     }
 }
 
+/// The energy whose balance is kept, or which of its parts is not finite.
+pub(crate) fn balance<T: Real>(t: T, energy: &Energy<T>) -> Result<T, DynamicsError<T>> {
+    if energy.balance.is_finite() {
+        return Ok(energy.balance);
+    }
+    let quantity = if energy.kinetic.is_finite() {
+        Watched::PotentialEnergy
+    } else {
+        Watched::KineticEnergy
+    };
+    Err(DynamicsError::WatchedNotFinite { t, quantity })
+}
+
 /// Gauss's formula with four nodes on [0, 1], exact for polynomials of degree 7:
 /// `(node, weight)`.
 fn gauss<T: Real>() -> [(T, T); 4] {
@@ -89,7 +102,7 @@ impl<T: Real, const N: usize> Observer<T, N> for EnergyAudit<T> {
         probe: &mut dyn Probe<T, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<T>> {
         *self = Self::default();
-        self.start = probe.energy(state).balance;
+        self.start = balance(state.t, &probe.energy(state))?;
         self.conservative = probe.structure().conservative;
         Ok(ControlFlow::Continue(()))
     }
@@ -103,11 +116,18 @@ impl<T: Real, const N: usize> Observer<T, N> for EnergyAudit<T> {
             let h = step.length();
             let mut mean = T::zero();
             for (node, weight) in gauss::<T>() {
-                mean += weight * probe.power(&step.at(step.start().t + h * node))?;
+                let t = step.start().t + h * node;
+                let power = probe.power(&step.at(t))?;
+                if !power.is_finite() {
+                    let quantity = Watched::Power;
+                    return Err(DynamicsError::WatchedNotFinite { t, quantity });
+                }
+                mean += weight * power;
             }
             self.supply(mean * h);
         }
-        self.error = probe.energy(step.end()).balance - self.start - self.supplied;
+        let balance = balance(step.end().t, &probe.energy(step.end()))?;
+        self.error = balance - self.start - self.supplied;
         self.largest = self.largest.max(self.error.abs());
         Ok(ControlFlow::Continue(()))
     }

@@ -15,6 +15,7 @@ mod sampler;
 
 pub use constraint::ConstraintAudit;
 pub use energy::EnergyAudit;
+pub(crate) use energy::balance;
 pub use probe::Probe;
 #[cfg(feature = "std")]
 pub use recorder::Recorder;

@@ -16,7 +16,10 @@
 //! Source: Hairer, Lubich & Wanner, Geometric Numerical Integration (2006),
 //! section IV.4 (projection methods).
 
-use crate::{ConstrainedSystem, DynamicsError, Mechanism, Real, Slope, State, Step, System};
+use crate::observer::balance;
+use crate::{
+    ConstrainedSystem, DynamicsError, Mechanism, Real, Slope, State, Step, Switching, System,
+};
 use nalgebra::SVector;
 
 /// Largest change of the kinetic energy that is made up for, relative to it.
@@ -58,25 +61,31 @@ where
     }
 
     /// Keeps the energy of a state from now on, or a given one.
-    pub(super) fn keep(&mut self, state: &State<T, N>, given: Option<T>) {
-        let own = || self.system.mechanism().energy(state).balance;
-        self.energy = Some(given.unwrap_or_else(own));
+    pub(super) fn keep(
+        &mut self,
+        state: &State<T, N>,
+        given: Option<T>,
+    ) -> Result<(), DynamicsError<T>> {
+        let own = balance(state.t, &self.system.mechanism().energy(state))?;
+        self.energy = Some(given.unwrap_or(own));
+        Ok(())
     }
 
     /// Makes the velocity longer or shorter until the energy is right.
-    fn restore(&self, state: &mut State<T, N>, energy: T) {
+    fn restore(&self, state: &mut State<T, N>, energy: T) -> Result<(), DynamicsError<T>> {
         let mechanism = self.system.mechanism();
         let rest = State {
             v: SVector::zeros(),
             ..*state
         };
-        let at_rest = mechanism.energy(&rest).balance;
-        let kinetic = mechanism.energy(state).balance - at_rest;
+        let at_rest = balance(state.t, &mechanism.energy(&rest))?;
+        let kinetic = balance(state.t, &mechanism.energy(state))? - at_rest;
         let change = (energy - at_rest - kinetic) / kinetic;
         // Not so if the mechanism rests: the quotient is then infinite or NaN.
         if change.abs() <= T::from_f64(LARGEST_CHANGE) {
             state.v *= (T::one() + change).sqrt();
         }
+        Ok(())
     }
 }
 
@@ -91,14 +100,14 @@ where
 
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
         System::project(&mut self.system, state)?;
-        if let Some(energy) = self.energy {
-            self.restore(state, energy);
+        match self.energy {
+            Some(energy) => self.restore(state, energy),
+            None => Ok(()),
         }
-        Ok(())
     }
 
-    fn begin(&mut self, state: &State<T, N>) {
-        self.system.begin(state);
+    fn begin(&mut self, state: &State<T, N>) -> bool {
+        self.system.begin(state)
     }
 
     fn escalate(&mut self) -> Result<bool, DynamicsError<T>> {
@@ -107,6 +116,10 @@ where
 
     fn verify(&mut self, start: &State<T, N>, end: &State<T, N>) -> Result<(), DynamicsError<T>> {
         self.system.verify(start, end)
+    }
+
+    fn switch(&mut self, step: &Step<T, N>) -> Result<Switching<T>, DynamicsError<T>> {
+        self.system.switch(step)
     }
 
     fn commit(&mut self, step: &Step<T, N>) -> Result<(), DynamicsError<T>> {

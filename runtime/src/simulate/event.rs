@@ -1,68 +1,52 @@
 //! Events, located within steps.
 //!
-//! In:  the event functions at several times of a step.
+//! In:  the event functions along a step.
 //! Out: [`Occurrence`]s in the order of time.
 //!
-//! The function of an event is evaluated on states that are back on the
-//! constraints, and its zero is found by Brent's method to the round-off of
-//! time. An event whose function is zero at the start of a run has not happened;
-//! one that reaches zero has, even if it turns back.
-//!
-//! Source: Brent, Algorithms for Minimization without Derivatives (1973),
-//! chapter 4.
+//! Changes of sign are looked for on the step's interpolant ([`crate::crossing`]), also
+//! those that come in pairs. The zero is then found by Brent's method to the round-off of
+//! time, with the function evaluated on states that are back on the constraints. An event
+//! whose function is zero at the start of a run has not happened; one that reaches zero
+//! has, even if it turns back.
 
 use super::SimulateError;
-use crate::{Direction, DynamicsError, Event, Interface, Occurrence, Probe, Real, State, Step};
+use crate::crossing::{Left, NODES, Samples, first_crossing, nodes, zero};
+use crate::{
+    Direction, DynamicsError, Event, Interface, Occurrence, Probe, Real, State, Step, Watched,
+};
 
 /// Events a mechanism may have.
 pub(super) const ROOM: usize = 64;
-/// Steps of Brent's method. Bisection alone would need fewer than this for any
-/// pair of numbers of a float type; it never takes three times as many.
-const MOST_STEPS: usize = 400;
+/// Times closer than this multiple of the round-off of time are one.
+const SAME_TIME: f64 = 8.0;
 
 /// Watches the event functions of a mechanism.
 #[derive(Clone, Debug)]
 pub(super) struct Events<T> {
     events: &'static [Event],
-    values: [T; ROOM],
+    /// The signs that the functions had last; zero where they were zero.
+    sides: [T; ROOM],
+    /// When each event happens next within the step at hand.
+    next: [Option<Next<T>>; ROOM],
 }
 
-/// Occurrences within a part of a step, in the order of time.
-#[derive(Clone, Debug)]
-pub(super) struct Found<T, const N: usize> {
-    list: [Option<Occurrence<T, N>>; ROOM],
-    count: usize,
-}
-
-impl<T: Real, const N: usize> Found<T, N> {
-    /// The occurrences, the earliest first.
-    pub(super) fn iter(&self) -> impl Iterator<Item = &Occurrence<T, N>> {
-        self.list[..self.count].iter().flatten()
-    }
-
-    fn insert(&mut self, occurrence: Occurrence<T, N>) {
-        let later = |other: &Option<Occurrence<T, N>>| {
-            other
-                .as_ref()
-                .is_some_and(|other| other.state.t > occurrence.state.t)
-        };
-        let place = self.list[..self.count]
-            .iter()
-            .position(later)
-            .unwrap_or(self.count);
-        if self.count < ROOM {
-            self.list[place..=self.count].rotate_right(1);
-            self.list[place] = Some(occurrence);
-            self.count += 1;
-        }
-    }
+/// When an event happens.
+#[derive(Clone, Copy, Debug)]
+struct Next<T> {
+    /// On the step's interpolant.
+    t: T,
+    /// Times between which the function changes its sign.
+    bracket: (T, T),
+    /// Whether it goes up.
+    rising: bool,
 }
 
 impl<T: Real> Default for Events<T> {
     fn default() -> Self {
         Self {
             events: &[],
-            values: [T::zero(); ROOM],
+            sides: [T::zero(); ROOM],
+            next: [None; ROOM],
         }
     }
 }
@@ -83,68 +67,181 @@ impl<T: Real> Events<T> {
                 room: ROOM,
             });
         }
-        let values = evaluate(mechanism, state);
-        Ok(Self { events, values })
+        let values = evaluate(mechanism, events, state).map_err(SimulateError::Observe)?;
+        Ok(Self {
+            events,
+            sides: values.map(T::sign),
+            next: [None; ROOM],
+        })
     }
 
     pub(super) fn is_empty(&self) -> bool {
         self.events.is_empty()
     }
 
-    /// Looks at the step up to the time `to`, where it has looked up to `from`.
+    /// Looks for the first occurrence of each event in a step.
     pub(super) fn look<I, const N: usize>(
+        &mut self,
+        mechanism: &I,
+        step: &Step<T, N>,
+    ) -> Result<(), DynamicsError<T>>
+    where
+        I: Interface<T, N> + ?Sized,
+    {
+        let times = nodes((step.start().t, step.end().t));
+        let mut sampled = [[T::zero(); ROOM]; NODES];
+        for (values, t) in sampled.iter_mut().zip(times) {
+            *values = evaluate(mechanism, self.events, &step.at(t))?;
+        }
+        for index in 0..self.events.len() {
+            let values = sampled.map(|values| values[index]);
+            let samples = Samples { times, values };
+            self.next[index] = self.search(mechanism, step, index, samples)?;
+        }
+        Ok(())
+    }
+
+    /// The next occurrence of the step that was looked at, the earliest first.
+    pub(super) fn next<I, const N: usize>(
         &mut self,
         mechanism: &I,
         probe: &mut dyn Probe<T, N>,
         step: &Step<T, N>,
-        (from, to): (T, T),
-    ) -> Result<Found<T, N>, DynamicsError<T>>
+    ) -> Result<Option<Occurrence<T, N>>, DynamicsError<T>>
     where
         I: Interface<T, N> + ?Sized,
     {
-        let mut found = Found {
-            list: [None; ROOM],
-            count: 0,
-        };
-        let state = on_constraints(probe, step, to)?;
-        let before = core::mem::replace(&mut self.values, evaluate(mechanism, &state));
-        for (index, event) in self.events.iter().enumerate() {
-            let (low, high) = (before[index], self.values[index]);
-            let rising = low < T::zero() && high >= T::zero();
-            let falling = low > T::zero() && high <= T::zero();
-            let happened = match event.direction {
-                Direction::Rising => rising,
-                Direction::Falling => falling,
-                Direction::Crossing => rising || falling,
-            };
-            if happened {
-                let mut function = |t: T| {
-                    let state = on_constraints(probe, step, t)?;
-                    Ok(evaluate(mechanism, &state)[index])
-                };
-                let t = zero(&mut function, (from, low), (to, high))?;
-                let state = on_constraints(probe, step, t)?;
-                found.insert(Occurrence {
-                    index,
-                    event,
-                    rising,
-                    state,
-                });
+        let mut first: Option<(usize, Next<T>)> = None;
+        for (index, next) in self.next.iter().enumerate() {
+            if let Some(next) = *next
+                && first.is_none_or(|(_, earlier)| next.t < earlier.t)
+            {
+                first = Some((index, next));
             }
         }
-        Ok(found)
+        let Some((index, next)) = first else {
+            return Ok(None);
+        };
+        let t = self.polished(mechanism, probe, step, (index, next))?;
+        let occurrence = Occurrence {
+            index,
+            event: &self.events[index],
+            rising: next.rising,
+            state: on_constraints(probe, step, t)?,
+        };
+        let events = self.events;
+        let mut value = |t| Ok(evaluate(mechanism, events, &step.at(t))?[index]);
+        let left = rest(&mut value, (next.t.max(t), step.end().t))?;
+        self.next[index] = match left {
+            Some(samples) => self.search(mechanism, step, index, samples)?,
+            None => None,
+        };
+        Ok(Some(occurrence))
+    }
+
+    /// Where an event happens first within what was sampled of a step.
+    fn search<I, const N: usize>(
+        &mut self,
+        mechanism: &I,
+        step: &Step<T, N>,
+        index: usize,
+        mut samples: Samples<T>,
+    ) -> Result<Option<Next<T>>, DynamicsError<T>>
+    where
+        I: Interface<T, N> + ?Sized,
+    {
+        let (events, end) = (self.events, step.end().t);
+        let mut value = |t| Ok(evaluate(mechanism, events, &step.at(t))?[index]);
+        loop {
+            let side = &mut self.sides[index];
+            let found = first_crossing(&mut value, &samples, side, Left::AtZero)?;
+            let Some((from, to)) = found else {
+                return Ok(None);
+            };
+            let rising = *side < T::zero();
+            let (before, after) = (value(from)?, value(to)?);
+            let t = match before.sign() == *side {
+                true => zero(&mut value, (from, before), (to, after))?,
+                false => from,
+            };
+            *side = match value(t)? == T::zero() {
+                true => T::zero(),
+                false => -*side,
+            };
+            let counts = match events[index].direction {
+                Direction::Rising => rising,
+                Direction::Falling => !rising,
+                Direction::Crossing => true,
+            };
+            if counts {
+                let bracket = (from, to);
+                return Ok(Some(Next { t, bracket, rising }));
+            }
+            match rest(&mut value, (t, end))? {
+                Some(left) => samples = left,
+                None => return Ok(None),
+            }
+        }
+    }
+
+    /// The time of an occurrence on states that are back on the constraints, if the
+    /// function changes its sign there, too.
+    fn polished<I, const N: usize>(
+        &self,
+        mechanism: &I,
+        probe: &mut dyn Probe<T, N>,
+        step: &Step<T, N>,
+        (index, next): (usize, Next<T>),
+    ) -> Result<T, DynamicsError<T>>
+    where
+        I: Interface<T, N> + ?Sized,
+    {
+        let mut value = |t| {
+            let state = on_constraints(probe, step, t)?;
+            Ok(evaluate(mechanism, self.events, &state)?[index])
+        };
+        let (from, to) = next.bracket;
+        let (before, after) = (value(from)?, value(to)?);
+        if from < to && before != T::zero() && before.sign() != after.sign() {
+            zero(&mut value, (from, before), (to, after))
+        } else {
+            Ok(next.t)
+        }
     }
 }
 
-/// The event functions at a state.
-fn evaluate<T, I, const N: usize>(mechanism: &I, state: &State<T, N>) -> [T; ROOM]
+/// Samples of what is left of a step, if anything is.
+fn rest<T: Real>(
+    value: &mut dyn FnMut(T) -> Result<T, DynamicsError<T>>,
+    (from, to): (T, T),
+) -> Result<Option<Samples<T>>, DynamicsError<T>> {
+    let shortest = T::EPSILON * T::from_f64(SAME_TIME) * from.abs().max(to.abs());
+    if to - from <= shortest {
+        return Ok(None);
+    }
+    Samples::of(value, (from, to)).map(Some)
+}
+
+/// The event functions at a state, where all have a value. One that is infinite has a sign,
+/// one that is not a number would never change it.
+fn evaluate<T, I, const N: usize>(
+    mechanism: &I,
+    events: &[Event],
+    state: &State<T, N>,
+) -> Result<[T; ROOM], DynamicsError<T>>
 where
     T: Real,
     I: Interface<T, N> + ?Sized,
 {
     let mut values = [T::zero(); ROOM];
     mechanism.events(state, &mut values);
-    values
+    for (event, value) in events.iter().zip(&values) {
+        if value.partial_cmp(&T::zero()).is_none() {
+            let (t, quantity) = (state.t, Watched::Event(event.name));
+            return Err(DynamicsError::WatchedNotFinite { t, quantity });
+        }
+    }
+    Ok(values)
 }
 
 /// The state at a time within a step; the ends are on the constraints already.
@@ -158,59 +255,4 @@ fn on_constraints<T: Real, const N: usize>(
         probe.project(&mut state)?;
     }
     Ok(state)
-}
-
-/// A zero of a function between two times at which it has opposite signs.
-fn zero<T: Real>(
-    function: &mut dyn FnMut(T) -> Result<T, DynamicsError<T>>,
-    (mut a, mut fa): (T, T),
-    (mut b, mut fb): (T, T),
-) -> Result<T, DynamicsError<T>> {
-    let two = T::from_f64(2.0);
-    // `b` is the best so far, `a` the one before, `c` on the other side of zero.
-    let (mut c, mut fc) = (a, fa);
-    let mut last = b - a;
-    let mut before_last = last;
-    for _ in 0..MOST_STEPS {
-        if fc.abs() < fb.abs() {
-            (a, b, c) = (b, c, b);
-            (fa, fb, fc) = (fb, fc, fb);
-        }
-        let half = (c - b) / two;
-        let resolution = T::EPSILON * b.abs();
-        if fb == T::zero() || half.abs() <= resolution {
-            break;
-        }
-        let guess = interpolate((a, fa), (b, fb), (c, fc));
-        let step = guess - b;
-        let inside = (step / half) > T::zero() && (step / half) < T::from_f64(1.5);
-        if inside && step.abs() < (before_last / two).abs() {
-            (before_last, last) = (last, step);
-        } else {
-            (before_last, last) = (half, half);
-        }
-        (a, fa) = (b, fb);
-        b += if last.abs() > resolution {
-            last
-        } else {
-            resolution * half.sign()
-        };
-        fb = function(b)?;
-        if fb.sign() == fc.sign() {
-            (c, fc) = (a, fa);
-            last = b - a;
-            before_last = last;
-        }
-    }
-    Ok(b)
-}
-
-/// Inverse quadratic interpolation, or the secant where two points are one.
-fn interpolate<T: Real>((a, fa): (T, T), (b, fb): (T, T), (c, fc): (T, T)) -> T {
-    if a == c || fa == fc || fa == fb {
-        return b - fb * (c - b) / (fc - fb);
-    }
-    a * fb * fc / ((fa - fb) * (fa - fc))
-        + b * fa * fc / ((fb - fa) * (fb - fc))
-        + c * fa * fb / ((fc - fa) * (fc - fb))
 }

@@ -116,7 +116,10 @@ where
             if !self.mechanism.structure().conservative {
                 return Err(SimulateError::NotConservative);
             }
-            self.system.keep(&state, origin.map(|origin| origin.energy));
+            let energy = origin.map(|origin| origin.energy);
+            self.system
+                .keep(&state, energy)
+                .map_err(IntegrateError::Dynamics)?;
         }
         let flow = self
             .watchers

@@ -158,22 +158,19 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
         if self.events.is_empty() {
             return Ok(None);
         }
-        let mut from = step.start().t;
-        for to in step.look_times() {
-            let found = self.events.look(interface, probe, step, (from, to));
-            for occurrence in found.map_err(SimulateError::Observe)?.iter() {
-                done.events += 1;
-                let mut flow = ControlFlow::Continue(());
-                for observer in self.observers.iter_mut() {
-                    if observer.event(occurrence).is_break() {
-                        flow = ControlFlow::Break(());
-                    }
-                }
-                if flow.is_break() {
-                    return Ok(Some(step.cut(occurrence.state)));
+        let observe = SimulateError::Observe;
+        self.events.look(interface, step).map_err(observe)?;
+        while let Some(occurrence) = self.events.next(interface, probe, step).map_err(observe)? {
+            done.events += 1;
+            let mut flow = ControlFlow::Continue(());
+            for observer in self.observers.iter_mut() {
+                if observer.event(&occurrence).is_break() {
+                    flow = ControlFlow::Break(());
                 }
             }
-            from = to;
+            if flow.is_break() {
+                return Ok(Some(step.cut(occurrence.state)));
+            }
         }
         Ok(None)
     }

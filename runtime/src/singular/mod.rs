@@ -29,4 +29,4 @@ pub use passage::Passage;
 pub(crate) use place::Placement;
 pub(crate) use session::{Placed, Session};
 pub(crate) use sheet::Point;
-pub(crate) use start::Start;
+pub(crate) use start::{Start, orthonormal, remove};

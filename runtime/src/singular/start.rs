@@ -268,7 +268,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// The second derivatives, along some directions, of the combination of rows that
     /// loses its gradient.
-    fn second_derivatives<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn second_derivatives<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
@@ -352,7 +352,7 @@ fn nearer<T: Real>([first, second]: [T; 2], factor: T) -> Option<usize> {
 
 /// An orthonormal basis, in the first columns, of what is left of the axes when `remove`
 /// takes away what is decided.
-fn orthonormal<T: Real, const N: usize>(
+pub(crate) fn orthonormal<T: Real, const N: usize>(
     count: usize,
     remove: impl Fn(&mut [T; N]),
 ) -> SMatrix<T, N, N> {
@@ -373,7 +373,7 @@ fn orthonormal<T: Real, const N: usize>(
 }
 
 /// Subtracts from a vector its parts along orthonormal directions.
-fn remove<T: Real, const N: usize>(x: &mut [T; N], directions: &[[T; N]]) {
+pub(crate) fn remove<T: Real, const N: usize>(x: &mut [T; N], directions: &[[T; N]]) {
     for direction in directions {
         let share = dot(direction, x);
         add_scaled(x, -share, direction);

@@ -1,0 +1,148 @@
+//! What jumps or kinks along a motion, hung on the sides of switching functions.
+//!
+//! In:  expressions with comparisons, `abs`, `sign`, `min`, `max`.
+//! Out: equal ones in which each of these asks on which side of zero a switching function
+//!      is, and the list of those functions.
+//!
+//! A comparison `a < b` has the switching function `b − a`. Comparisons of the same
+//! difference share one. What depends on parameters alone never changes along a motion
+//! and stays as it is; so does what tells equal from unequal, which no step can find.
+
+use super::{Comparison, ExprId, Function, Function2, Graph, Node, Number, Side, Symbol, Test};
+use rustc_hash::FxHashMap;
+
+/// A function whose sign decides something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Switch {
+    /// The function.
+    pub function: ExprId,
+    /// The expression that it was first met in.
+    pub met_in: ExprId,
+    /// Whether all that it decides is continuous where it is zero, but for the slope.
+    pub kinks: bool,
+}
+
+/// Switching functions, each once.
+#[derive(Clone, Debug, Default)]
+pub struct Switches {
+    /// The functions, in the order in which they were met.
+    pub list: Vec<Switch>,
+    known: FxHashMap<ExprId, ExprId>,
+}
+
+impl Graph {
+    /// Hangs what jumps or kinks in an expression on switching functions.
+    pub fn hold(&mut self, root: ExprId, switches: &mut Switches) -> ExprId {
+        for e in self.reachable(&[root]) {
+            if !switches.known.contains_key(&e) {
+                let held = self.hold_node(e, switches);
+                switches.known.insert(e, held);
+            }
+        }
+        switches.known[&root]
+    }
+
+    /// The same for one node whose children are done.
+    fn hold_node(&mut self, e: ExprId, switches: &mut Switches) -> ExprId {
+        let of = |x: &ExprId| switches.known[x];
+        let zero = self.integer(0);
+        let node = self.node(e).clone();
+        match &node {
+            Node::Select(test, [a, b, then, otherwise]) if test.held.is_none() && !test.smooth => {
+                let ordered = matches!(test.comparison, Comparison::Less | Comparison::LessEqual);
+                let [a, b, then, otherwise] = [a, b, then, otherwise].map(of);
+                let held = match ordered {
+                    true => self.side(switches, (a, b), e, false),
+                    false => None,
+                };
+                self.select(Test { held, ..*test }, a, b, then, otherwise)
+            }
+            Node::Function(Function::Abs, x) => {
+                let x = of(x);
+                let opposite = self.neg(x);
+                self.select_less(switches, (x, zero), e, [opposite, x])
+            }
+            Node::Function(Function::Sign, x) => {
+                let x = of(x);
+                let (one, minus) = (self.integer(1), self.integer(-1));
+                let held = self.side(switches, (zero, x), e, false);
+                let [less, at_most] =
+                    [Comparison::Less, Comparison::LessEqual].map(|comparison| Test {
+                        held,
+                        ..comparison.into()
+                    });
+                // Zero at zero, where nothing is held.
+                let rest = self.select(at_most, zero, x, zero, minus);
+                self.select(less, zero, x, one, rest)
+            }
+            Node::Function2(Function2::Min, x, y) => {
+                let (x, y) = (of(x), of(y));
+                self.select_less(switches, (y, x), e, [y, x])
+            }
+            Node::Function2(Function2::Max, x, y) => {
+                let (x, y) = (of(x), of(y));
+                self.select_less(switches, (x, y), e, [y, x])
+            }
+            _ => {
+                let known = &switches.known;
+                self.rebuild(e, &|child| known[&child])
+            }
+        }
+    }
+
+    /// `if a < b then … else …`, where the two are equal for equal `a` and `b`.
+    fn select_less(
+        &mut self,
+        switches: &mut Switches,
+        (a, b): (ExprId, ExprId),
+        met_in: ExprId,
+        [then, otherwise]: [ExprId; 2],
+    ) -> ExprId {
+        let held = self.side(switches, (a, b), met_in, true);
+        let test = Test {
+            held,
+            ..Comparison::Less.into()
+        };
+        self.select(test, a, b, then, otherwise)
+    }
+
+    /// The side of a switching function on which `a < b`; none if it never changes.
+    fn side(
+        &mut self,
+        switches: &mut Switches,
+        (a, b): (ExprId, ExprId),
+        met_in: ExprId,
+        kinks: bool,
+    ) -> Option<Side> {
+        let difference =
+            self.weighted_sum(Number::ZERO, &[(b, Number::ONE), (a, Number::MINUS_ONE)]);
+        let fixed = |symbol: &Symbol| matches!(symbol, Symbol::Parameter(_));
+        if self.symbols(difference).iter().all(fixed) {
+            return None;
+        }
+        let opposite = self.neg(difference);
+        let is = |function| move |switch: &Switch| switch.function == function;
+        let list = &mut switches.list;
+        let (place, above) = match list.iter().position(is(difference)) {
+            Some(place) => (place, true),
+            None => match list.iter().position(is(opposite)) {
+                Some(place) => (place, false),
+                None => {
+                    list.push(Switch {
+                        function: difference,
+                        met_in,
+                        kinks: true,
+                    });
+                    (list.len() - 1, true)
+                }
+            },
+        };
+        list[place].kinks &= kinks;
+        let index = u32::try_from(place).unwrap_or(u32::MAX);
+        Some(if above {
+            Side::Above(index)
+        } else {
+            Side::Below(index)
+        })
+    }
+}

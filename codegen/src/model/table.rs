@@ -1,0 +1,200 @@
+//! Tables: functions through given points, piecewise linear or smooth.
+//!
+//! In:  a list of pairs and a formula.
+//! Out: choices between pieces, each a polynomial of the formula.
+//!
+//! A piecewise linear function keeps its last values beyond the ends. A spline is the
+//! natural cubic one: its second derivative is continuous and zero at the ends, beyond
+//! which it goes on straight.
+//!
+//! Source: de Boor, A Practical Guide to Splines (1978), chapter IV.
+
+use super::evaluate::Evaluator;
+use super::unit::Unit;
+use super::value::{Scalar, Value};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::expr::{Comparison, ExprId, Number, Test};
+use crate::parse::ast::{Expr, ExprKind};
+
+/// A point of a table.
+struct Point {
+    at: Scalar,
+    /// The value of `at`, which is a constant.
+    place: f64,
+    value: Scalar,
+    spans: [Span; 2],
+}
+
+impl Evaluator {
+    /// `table(pairs, x)` or, if it is smooth, `spline(pairs, x)`.
+    pub(super) fn table(&mut self, name: &str, arguments: &[Expr]) -> Option<Value> {
+        let smooth = name == "spline";
+        let (points, x) = (
+            self.points(name, &arguments[0]),
+            self.scalar(&arguments[1], &format!("what `{name}` is a function of")),
+        );
+        let (points, x) = (points?, x?);
+        let mut unit = points[0].value.unit;
+        for pair in points.windows(2) {
+            let [first, second] = pair else { continue };
+            let what = "the first column of this table";
+            self.same_unit([(x, arguments[1].span), (first.at, first.spans[0])], what)?;
+            self.same_unit(
+                [(first.at, first.spans[0]), (second.at, second.spans[0])],
+                what,
+            )?;
+            let values = [
+                (first.value, first.spans[1]),
+                (second.value, second.spans[1]),
+            ];
+            let common = self.same_unit(values, "the second column of this table")?;
+            if unit == Unit::Number {
+                unit = common;
+            }
+        }
+        let id = match smooth {
+            true => self.spline(&points, x.id)?,
+            false => self.polygon(&points, x.id),
+        };
+        let span = arguments[0].span.to(arguments[1].span);
+        let id = self.sound(id, span)?;
+        Some(Value::Scalar(Scalar { id, unit }))
+    }
+
+    /// The points of a list of pairs, in rising order.
+    fn points(&mut self, name: &str, list: &Expr) -> Option<Vec<Point>> {
+        let help = format!("write `{name}([[0, 1], [2, 3]], t)`: at 0 it is 1, at 2 it is 3");
+        let rows = match &list.kind {
+            ExprKind::Vector(rows) if rows.len() >= 2 => rows,
+            _ => {
+                let message = format!("`{name}` begins with a list of two or more pairs");
+                return self.report(Diagnostic::error(list.span, message).help(help));
+            }
+        };
+        let mut points: Vec<Point> = Vec::new();
+        for row in rows {
+            let [at, value] = match &row.kind {
+                ExprKind::Vector(pair) if pair.len() == 2 => [&pair[0], &pair[1]],
+                _ => {
+                    let error = Diagnostic::error(row.span, "this is not a pair of numbers");
+                    return self.report(error.help(help));
+                }
+            };
+            let spans = [at.span, value.span];
+            let (at, value) = (
+                self.scalar(at, "the first number of a pair")?,
+                self.scalar(value, "the second number of a pair")?,
+            );
+            let Some(place) = self.facts(at.id).value.filter(|x| x.is_finite()) else {
+                let error = Diagnostic::error(spans[0], "where a table changes has to be constant");
+                return self.report(error.help("make it a number or a `const`"));
+            };
+            if let Some(before) = points.last().filter(|before| before.place >= place) {
+                let message = format!("{place} does not come after {}", before.place);
+                let error = Diagnostic::error(spans[0], message);
+                return self.report(error.help("put the pairs in rising order, each place once"));
+            }
+            points.push(Point {
+                at,
+                place,
+                value,
+                spans,
+            });
+        }
+        Some(points)
+    }
+
+    /// Straight pieces between the points.
+    fn polygon(&mut self, points: &[Point], x: ExprId) -> ExprId {
+        let mut result = points[points.len() - 1].value.id;
+        for pair in points.windows(2).rev() {
+            let [from, to] = pair else { continue };
+            let rise = self.graph.sub(to.value.id, from.value.id);
+            let run = self.graph.sub(to.at.id, from.at.id);
+            let slope = self.graph.div(rise, run);
+            let along = self.graph.sub(x, from.at.id);
+            let climb = self.graph.mul(slope, along);
+            let piece = self.graph.add(from.value.id, climb);
+            result = self
+                .graph
+                .select(Comparison::Less, x, to.at.id, piece, result);
+        }
+        let first = &points[0];
+        let (at, value) = (first.at.id, first.value.id);
+        self.graph.select(Comparison::Less, x, at, value, result)
+    }
+
+    /// The natural cubic spline through the points.
+    fn spline(&mut self, points: &[Point], x: ExprId) -> Option<ExprId> {
+        let mut values = Vec::new();
+        for point in points {
+            let Some(value) = self.facts(point.value.id).value else {
+                let error =
+                    Diagnostic::error(point.spans[1], "the points of a spline are constant");
+                let help = "make it a number or a `const`, and multiply the spline by a parameter";
+                return self.report(error.help(help));
+            };
+            values.push(value);
+        }
+        let places: Vec<f64> = points.iter().map(|point| point.place).collect();
+        let bends = bends(&places, &values);
+        let smooth = Test {
+            smooth: true,
+            ..Comparison::Less.into()
+        };
+        let last = places.len() - 1;
+        let mut pieces = vec![[values[0], 0.0, 0.0, 0.0]];
+        for i in 0..last {
+            let run = places[i + 1] - places[i];
+            let (bend, next) = (bends[i], bends[i + 1]);
+            let slope = (values[i + 1] - values[i]) / run - run * (2.0 * bend + next) / 6.0;
+            pieces.push([values[i], slope, bend / 2.0, (next - bend) / (6.0 * run)]);
+        }
+        pieces[0][1] = pieces[1][1];
+        let run = places[last] - places[last - 1];
+        let arrival = pieces[last][1] + run * (bends[last - 1] + bends[last]) / 2.0;
+        let mut result = self.cubic([values[last], arrival, 0.0, 0.0], places[last], x);
+        for (i, piece) in pieces.into_iter().enumerate().rev() {
+            // The first piece goes on straight from the first point.
+            let cubic = self.cubic(piece, places[i.saturating_sub(1)], x);
+            let end = points[i].at.id;
+            result = self.graph.select(smooth, x, end, cubic, result);
+        }
+        Some(result)
+    }
+
+    /// `c₀ + c₁ d + c₂ d² + c₃ d³` with the distance `d` from a place.
+    fn cubic(&mut self, coefficients: [f64; 4], place: f64, x: ExprId) -> ExprId {
+        let distance = self
+            .graph
+            .weighted_sum(Number::float(-place), &[(x, Number::ONE)]);
+        let mut sum = self.graph.number(Number::float(coefficients[3]));
+        for coefficient in coefficients[..3].iter().rev() {
+            let product = self.graph.mul(sum, distance);
+            sum = self
+                .graph
+                .weighted_sum(Number::float(*coefficient), &[(product, Number::ONE)]);
+        }
+        sum
+    }
+}
+
+/// The second derivatives at the points of a natural spline: zero at both ends, between
+/// them those for which the first derivative is continuous. By elimination without
+/// pivots, which the diagonal is large enough for.
+fn bends(places: &[f64], values: &[f64]) -> Vec<f64> {
+    let last = places.len() - 1;
+    let (mut above, mut right) = (vec![0.0; last + 1], vec![0.0; last + 1]);
+    for i in 1..last {
+        let (before, after) = (places[i] - places[i - 1], places[i + 1] - places[i]);
+        let turn = (values[i + 1] - values[i]) / after - (values[i] - values[i - 1]) / before;
+        let pivot = 2.0 * (before + after) - before * above[i - 1];
+        above[i] = after / pivot;
+        right[i] = (6.0 * turn - before * right[i - 1]) / pivot;
+    }
+    let mut bends = vec![0.0; last + 1];
+    for i in (1..last).rev() {
+        bends[i] = right[i] - above[i] * bends[i + 1];
+    }
+    bends
+}

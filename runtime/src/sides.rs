@@ -1,0 +1,96 @@
+//! Conditions of forces, and what holds them.
+//!
+//! In:  nothing.
+//! Out: [`Sides`], which generated code asks instead of the state; [`Switch`] and
+//!      [`Condition`], which say what decides otherwise.
+//!
+//! Not here: when a condition changes ([`crate::dynamics`], `switching.rs`).
+
+/// On which side of zero a run holds the switching functions that decide the conditions of
+/// the forces, so that the forces are smooth over a step. Where nothing is held, the state
+/// decides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sides {
+    /// The functions that are held, a bit for each.
+    held: u128,
+    /// Those of them that are held above zero.
+    above: u128,
+}
+
+impl Sides {
+    /// Nothing is held.
+    pub const FREE: Self = Self { held: 0, above: 0 };
+    /// Functions that can be held.
+    pub const ROOM: usize = 128;
+
+    fn bit(index: u32) -> u128 {
+        1_u128.checked_shl(index).unwrap_or(0)
+    }
+
+    /// Whether a function is above zero: as it is held, or else as was found.
+    #[inline(always)]
+    pub fn above(self, index: u32, found: bool) -> bool {
+        match self.held & Self::bit(index) {
+            0 => found,
+            bit => self.above & bit != 0,
+        }
+    }
+
+    /// Whether a function is below zero: as it is held, or else as was found.
+    #[inline(always)]
+    pub fn below(self, index: u32, found: bool) -> bool {
+        !self.above(index, !found)
+    }
+
+    /// Holds a function above zero, or below it.
+    pub fn hold(&mut self, index: u32, above: bool) {
+        let bit = Self::bit(index);
+        self.held |= bit;
+        if above {
+            self.above |= bit;
+        } else {
+            self.above &= !bit;
+        }
+    }
+}
+
+/// A function whose sign decides a condition.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Switch<T> {
+    /// Its value.
+    pub value: T,
+    /// How fast it grows (1/s times its unit).
+    pub rate: T,
+}
+
+/// A condition of the forces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Condition {
+    /// As the description writes it.
+    pub text: &'static str,
+    /// The line of the statement.
+    pub line: u32,
+    /// Whether the forces are continuous where it changes, but for the slope.
+    pub kinks: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Sides;
+
+    #[test]
+    fn what_is_held_decides_and_what_is_not_held_follows_what_was_found() {
+        let mut sides = Sides::FREE;
+        sides.hold(3, true);
+        sides.hold(127, false);
+        for found in [true, false] {
+            assert!(sides.above(3, found) && !sides.below(3, found));
+            assert!(!sides.above(127, found) && sides.below(127, found));
+            assert_eq!(sides.above(4, found), found);
+            assert_eq!(sides.below(4, found), found);
+            assert_eq!(sides.above(128, found), found, "beyond the room");
+        }
+        sides.hold(3, false);
+        assert!(sides.below(3, false));
+    }
+}

@@ -1,0 +1,197 @@
+//! Constraints whose gradient vanishes wherever they hold restrict no motion, and are
+//! refused; those whose gradient vanishes at one place are passed.
+
+use crate::toys::{Framed, PLAIN};
+use bricard_runtime::nalgebra::{SMatrix, SVector};
+use bricard_runtime::{
+    ConstraintRow, DynamicsError, Energy, IntegrateError, Mechanism, Options, Position, Quantity,
+    SimulateError, Singularity, State, Structure, Terms, simulate,
+};
+
+/// Two coordinates without units, so that they may be angles and the usual size of the
+/// row is that at other angles.
+static LOOSE: Structure = Structure {
+    coordinates: &[coordinate("x"), coordinate("y")],
+    constraints: &[ConstraintRow {
+        text: "u^n = e",
+        line: 7,
+        holonomic: true,
+    }],
+    conservative: true,
+    ..PLAIN
+};
+
+const fn coordinate(name: &'static str) -> Quantity {
+    Quantity {
+        name,
+        unit: "",
+        docs: "",
+    }
+}
+
+/// A value, its gradient and its second derivatives.
+type Jet = (f64, SVector<f64, 2>, SMatrix<f64, 2, 2>);
+
+/// A unit mass in the plane with one constraint `u^n = excess`, where `u` is a function of
+/// the position with a constant matrix of second derivatives.
+#[derive(Clone, Copy, Debug)]
+struct Power {
+    /// `u`, its gradient and its second derivatives.
+    u: fn(&SVector<f64, 2>) -> Jet,
+    n: i32,
+    excess: f64,
+}
+
+impl Power {
+    fn gradient(&self, q: &SVector<f64, 2>) -> SVector<f64, 2> {
+        let (u, slope, _) = (self.u)(q);
+        slope * (f64::from(self.n) * u.powi(self.n - 1))
+    }
+}
+
+impl Mechanism<f64, 2, 1> for Power {
+    fn structure(&self) -> &'static Structure {
+        &LOOSE
+    }
+
+    fn terms(&self, state: &State<f64, 2>, out: &mut Terms<f64, 2, 1>) {
+        let (u, slope, second) = (self.u)(&state.q);
+        let (n, rate) = (f64::from(self.n), slope.dot(&state.v));
+        let bend = state.v.dot(&(second * state.v));
+        let curved = if self.n > 1 {
+            (n - 1.0) * u.powi(self.n - 2)
+        } else {
+            0.0
+        };
+        out.mass = SMatrix::identity();
+        out.force[1] = -9.81;
+        out.jacobian = self.gradient(&state.q).transpose();
+        out.bias[0] = -n * (curved * rate * rate + u.powi(self.n - 1) * bend);
+    }
+
+    fn position(&self, state: &State<f64, 2>, out: &mut Position<f64, 2, 1>) {
+        out.mass = SMatrix::identity();
+        out.residual[0] = (self.u)(&state.q).0.powi(self.n) - self.excess;
+        out.jacobian = self.gradient(&state.q).transpose();
+    }
+
+    fn energy(&self, state: &State<f64, 2>) -> Energy<f64> {
+        let (kinetic, potential) = (0.5 * state.v.norm_squared(), 9.81 * state.q[1]);
+        Energy {
+            kinetic,
+            potential,
+            balance: kinetic + potential,
+            power: 0.0,
+        }
+    }
+}
+
+fn circle(q: &SVector<f64, 2>) -> Jet {
+    (q.norm_squared() - 1.0, q * 2.0, SMatrix::identity() * 2.0)
+}
+
+fn cross(q: &SVector<f64, 2>) -> Jet {
+    let (x, y) = (q[0] - 1.0, q[1] - 1.0);
+    (x * y, [y, x].into(), [[0.0, 1.0], [1.0, 0.0]].into())
+}
+
+/// Two parabolas that touch.
+fn touching(q: &SVector<f64, 2>) -> Jet {
+    let (x, y) = (q[0] - 1.0, q[1] - 1.0);
+    let slope = [-4.0 * x.powi(3), 2.0 * y].into();
+    (
+        y * y - x.powi(4),
+        slope,
+        [[-12.0 * x * x, 0.0], [0.0, 2.0]].into(),
+    )
+}
+
+fn state(q: [f64; 2], v: [f64; 2]) -> State<f64, 2> {
+    State::new(0.0, q.into(), v.into())
+}
+
+#[test]
+fn a_gradient_that_vanishes_wherever_the_constraint_holds_is_refused_at_the_start() {
+    let twice = Power {
+        u: circle,
+        n: 2,
+        excess: 0.0,
+    };
+    for (mechanism, start) in [
+        (twice, state([0.6, 0.8], [0.0, 0.0])),
+        (twice, state([0.6, 0.8], [0.8, -0.6])),
+    ] {
+        for options in [Options::rk4(2.0, 0.01), Options::dp5(2.0, 1e-8)] {
+            let mechanism = Framed::new(mechanism, &LOOSE);
+            let failure = simulate::<_, _, 2, 1>(&mechanism, &start, &options, &mut [])
+                .expect_err("it restricts nothing");
+            let SimulateError::Integrate(IntegrateError::Dynamics(
+                DynamicsError::SingularConfiguration { t, kind, row, .. },
+            )) = failure.error
+            else {
+                panic!("{failure:?}");
+            };
+            assert_eq!((t, kind, row), (0.0, Singularity::Vanishing, 0));
+            let said = failure.to_string();
+            assert!(
+                said.contains("vanishes not only here but wherever it holds"),
+                "{said}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_same_constraint_is_obeyed_where_its_gradient_does_not_vanish() {
+    let mechanism = Framed::new(
+        Power {
+            u: circle,
+            n: 2,
+            excess: 0.25,
+        },
+        &LOOSE,
+    );
+    let start = state([1.5_f64.sqrt(), 0.0], [0.0, 0.0]);
+    let options = Options::dop853(2.0, 1e-11);
+    let summary = simulate::<_, _, 2, 1>(&mechanism, &start, &options, &mut [])
+        .unwrap_or_else(|failure| panic!("{failure}"));
+    assert!((summary.end.q.norm_squared() - 1.5).abs() < 1e-13);
+}
+
+#[test]
+fn a_start_where_two_lines_cross_is_not_refused() {
+    let mechanism = Framed::new(
+        Power {
+            u: cross,
+            n: 1,
+            excess: 0.0,
+        },
+        &LOOSE,
+    );
+    let options = Options::dop853(1.0, 1e-11);
+    let start = state([1.0, 1.0], [1.0, 0.0]);
+    let summary = simulate::<_, _, 2, 1>(&mechanism, &start, &options, &mut [])
+        .unwrap_or_else(|failure| panic!("{failure}"));
+    assert!(
+        (summary.end.q - SVector::from([2.0, 1.0])).norm() < 1e-9,
+        "{:?}",
+        summary.end
+    );
+}
+
+#[test]
+fn parabolas_that_touch_are_not_taken_for_a_square() {
+    let mechanism = Framed::new(
+        Power {
+            u: touching,
+            n: 1,
+            excess: 0.0,
+        },
+        &LOOSE,
+    );
+    let start = state([1.0, 1.0], [1.0, 0.0]);
+    let failure = simulate::<_, _, 2, 1>(&mechanism, &start, &Options::rk4(1.0, 0.01), &mut [])
+        .expect_err("nothing tells which one is meant");
+    let vanishing = format!("{:?}", failure.error).contains("Vanishing");
+    assert!(!vanishing, "{failure}");
+}

@@ -1,0 +1,96 @@
+//! Events that come in pairs within a step are found.
+
+use bricard_runtime::nalgebra::SVector;
+use bricard_runtime::{
+    DynamicsError, Observer, Occurrence, Options, Pace, Probe, Scheme, State, Step, simulate,
+};
+use bricard_switching::contact::Contact;
+use core::ops::ControlFlow;
+
+/// Collects when events happen.
+#[derive(Default)]
+struct Diary(Vec<(usize, f64, bool)>);
+
+impl<const N: usize> Observer<f64, N> for Diary {
+    fn step(
+        &mut self,
+        _step: &Step<f64, N>,
+        _probe: &mut dyn Probe<f64, N>,
+    ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn event(&mut self, found: &Occurrence<f64, N>) -> ControlFlow<()> {
+        self.0.push((found.index, found.state.t, found.rising));
+        ControlFlow::Continue(())
+    }
+}
+
+/// When `cos(10 t)` passes `±d`, with whether its square grows there, until a time.
+fn passages(d: f64, until: f64) -> Vec<(f64, bool)> {
+    let mut times = Vec::new();
+    for half_turn in 0..1000 {
+        for (angle, grows) in [(d.acos(), false), ((-d).acos(), true)] {
+            times.push((
+                (std::f64::consts::PI * f64::from(half_turn) + angle) / 10.0,
+                grows,
+            ));
+        }
+    }
+    times.retain(|(t, _)| *t < until);
+    times
+}
+
+/// Runs the oscillator beside the bouncing mass and compares its events.
+#[track_caller]
+fn check(d: f64, options: &Options<f64>, most: f64) {
+    let mut mechanism = Contact::default();
+    mechanism.parameters.d = d;
+    let start = State::new(0.0, SVector::from([1.0, 1.0]), SVector::zeros());
+    let mut diary = Diary::default();
+    simulate::<_, _, 2, 0>(&mechanism, &start, options, &mut [&mut diary])
+        .unwrap_or_else(|failure| panic!("{failure}"));
+    let found: Vec<_> = diary.0.iter().filter(|(index, ..)| *index == 0).collect();
+    let exact = passages(d, options.until);
+    assert_eq!(found.len(), exact.len(), "d = {d:e} {:?}", options.scheme);
+    for ((_, t, rising), (wanted, grows)) in found.iter().zip(&exact) {
+        assert!((t - wanted).abs() < most, "{t} instead of {wanted}");
+        assert_eq!(rising, grows, "at {t}");
+    }
+    let times: Vec<f64> = diary.0.iter().map(|(_, t, _)| *t).collect();
+    assert!(times.is_sorted(), "in the order of time");
+}
+
+#[test]
+fn a_function_that_dips_below_zero_for_a_moment_is_seen_eleven_times() {
+    let fixed = Options::new(3.5, Scheme::Dop853, Pace::Fixed { step: 0.02 });
+    for options in [Options::dp5(3.5, 1e-9), Options::dop853(3.5, 1e-10), fixed] {
+        check(1e-5, &options, 1e-8);
+    }
+}
+
+#[test]
+fn pairs_of_any_distance_are_found_where_they_are() {
+    // Multiples of the golden ratio, modulo one, as exponents.
+    for i in 1..60 {
+        let exponent = 6.0 * ((0.618_033_988_749_894_9 * f64::from(i)) % 1.0);
+        check(10.0_f64.powf(-exponent), &Options::dop853(7.0, 1e-11), 1e-9);
+    }
+}
+
+#[test]
+fn a_function_that_only_just_misses_zero_has_no_event() {
+    // The largest displacement is one.
+    let mut mechanism = Contact::default();
+    mechanism.parameters.d = 1.0 + 1e-7;
+    let start = State::new(0.0, SVector::from([1.0, 1.0]), SVector::zeros());
+    let mut diary = Diary::default();
+    let options = Options::dop853(7.0, 1e-11);
+    simulate::<_, _, 2, 0>(&mechanism, &start, &options, &mut [&mut diary])
+        .unwrap_or_else(|failure| panic!("{failure}"));
+    assert!(
+        diary.0.iter().all(|(index, ..)| *index == 1),
+        "{:?}",
+        diary.0
+    );
+}

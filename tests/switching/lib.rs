@@ -1,0 +1,3 @@
+//! Mechanisms whose forces jump.
+
+include!(concat!(env!("OUT_DIR"), "/mechanisms.rs"));

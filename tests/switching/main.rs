@@ -1,0 +1,5 @@
+//! Forces that jump and kink, and events, against closed forms.
+
+mod events;
+mod jumps;
+mod tables;
