@@ -11,6 +11,7 @@ mod legality;
 mod mechanisms;
 mod model;
 mod names;
+mod pages;
 mod robustness;
 mod rotation;
 mod scale;
