@@ -249,3 +249,19 @@ fn links_between_pages_lead_somewhere() {
     assert!(broken.is_empty(), "{}", broken.join("\n"));
     assert!(seen > 100, "only {seen} links");
 }
+
+#[test]
+fn the_table_of_contents_lists_every_page() {
+    let contents = page("docs/README.md").links();
+    let names = pages().into_iter().filter_map(|page| {
+        let folder = page.path.parent()?;
+        let is_other = folder.ends_with("docs") && !page.path.ends_with("README.md");
+        is_other.then(|| {
+            page.path
+                .file_name()
+                .map(|name| name.to_string_lossy().into_owned())
+        })?
+    });
+    let missing: Vec<String> = names.filter(|name| !contents.contains(name)).collect();
+    assert!(missing.is_empty(), "docs/README.md lacks {missing:?}");
+}
