@@ -23,6 +23,7 @@ mod licences;
 mod linearised;
 mod motion;
 mod order;
+mod pages;
 mod random;
 mod readme;
 mod reduction;

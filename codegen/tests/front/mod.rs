@@ -14,6 +14,7 @@ mod lists;
 mod mechanisms;
 mod model;
 mod names;
+mod pages;
 mod parts;
 mod robustness;
 mod rotation;
