@@ -139,7 +139,7 @@ impl Visitor<f64> for Compare {
     {
         let mechanism: &dyn Whole<f64, N, R> = &mechanism;
         let start = assemble(mechanism, &mechanism.start(), 0.0).expect("the start assembles");
-        let options = Options::dop853(0.31 * step_scale(self.name), 1e-10);
+        let options = Options::dop853(0.19 * step_scale(self.name), 1e-10);
         let run = simulate(mechanism, &start, &options, &mut []);
         let state = run.unwrap_or_else(|failure| panic!("{failure}")).end;
         let mut solver = Solver::new(Settings::default());

@@ -18,6 +18,7 @@ mod simulate;
 mod sincos;
 mod singular;
 mod state;
+mod structure;
 mod system;
 mod tolerance;
 
@@ -31,9 +32,8 @@ pub use integrator::{
     Dop853, Dp5, IntegrateError, Integrator, Radau5, Radau9, Rk4, Step, Tolerance,
 };
 pub use model::{
-    Canvas, ConstraintRow, Correction, Declared, Described, Direction, Energy, Event, Initial,
-    Interface, Linearised, Mechanism, Pivots, Position, Quantity, Regular, Start, Structure, Terms,
-    Whole,
+    Canvas, Correction, Described, Energy, Initial, Interface, Linearised, Mechanism, Pivots,
+    Position, Regular, Start, Terms, Whole,
 };
 pub use nalgebra;
 #[cfg(feature = "std")]
@@ -48,4 +48,5 @@ pub use simulate::{
 };
 pub use singular::Passage;
 pub use state::State;
+pub use structure::{ConstraintRow, Declared, Direction, Event, Quantity, Structure};
 pub use system::{Slope, Switching, System};

@@ -10,6 +10,7 @@
 //! matrix stands for.
 
 mod along;
+mod block;
 mod cholesky;
 mod column;
 mod elimination;
@@ -23,10 +24,11 @@ mod tests;
 mod triangle;
 
 pub(crate) use along::project_onto;
+pub(crate) use block::Block;
 pub(crate) use cholesky::{Cholesky, NotDefinite, is_definite};
 pub(crate) use column::{add_scaled, dot, norm, scaled};
 pub(crate) use elimination::Elimination;
-pub(crate) use frame::{Block, Frame};
+pub(crate) use frame::Frame;
 pub(crate) use gram::Gram;
 pub(crate) use jacobi::{Breakdown, orthogonalise};
 pub(crate) use subset::independent_rows;
