@@ -12,6 +12,8 @@ use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
 /// A sine that falls below this part of what it is at both ends of a step may have been
 /// zero between.
 const DIP: f64 = 0.5;
+/// A sine that falls below this part is looked after.
+const FALL: f64 = 0.9;
 /// Sines above this are far from singular configurations.
 const FAR: f64 = 0.5;
 /// Looks into a step without a chart that came nearer to a singular configuration: it may
@@ -63,8 +65,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let after = self.session.trial.end.sqrt();
         let lowest = self.session.trial.lowest.sqrt().min(after);
         let before = self.session.sine.unwrap_or(after);
-        let falls = lowest < T::from_f64(FAR) && lowest < before.min(after);
-        if falls && lowest < before.min(after) * T::from_f64(DIP) {
+        let least = before.min(after);
+        let falls = lowest < T::from_f64(FAR) && lowest < least * T::from_f64(FALL);
+        if falls && lowest < least * T::from_f64(DIP) {
             return self.want_chart(mechanism, end.t);
         }
         let comes_near = self.needs_chart(before, after, lowest);
