@@ -22,14 +22,25 @@ const ROOM: usize = 16;
 
 impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// The acceleration with the conditions held, also where the motion slides along some.
+    #[inline(always)]
     pub(super) fn held_acceleration<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        if self.conditions.sliding == 0 {
-            return self.acceleration(mechanism, state);
+        match self.conditions.sliding {
+            0 => self.acceleration(mechanism, state),
+            _ => self.sliding_acceleration(mechanism, state),
         }
+    }
+
+    /// The acceleration of a motion that slides.
+    #[inline(never)]
+    fn sliding_acceleration<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
         let (list, count) = self.sliding_list(state)?;
         let list = &list[..count];
         let mut sides = self.conditions.sides;
