@@ -10,6 +10,7 @@ use crate::mechanism::file;
 use crate::output::say;
 use crate::simulate::simulate;
 use notify::{RecursiveMode, Watcher, recommended_watcher};
+use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
@@ -38,9 +39,18 @@ pub fn watch(arguments: &Simulate) -> Result<(), CommandError> {
         _ => Path::new("."),
     };
     let (sender, changes) = channel();
+    let name = file.file_name().map(OsStr::to_owned);
     let mut watcher = recommended_watcher(move |event: notify::Result<notify::Event>| {
-        // Nobody listens any more when the command ends.
-        let _ended = sender.send(event);
+        // Somebody who reads files of the folder again and again must not keep it from
+        // coming to rest.
+        let concerns = event.as_ref().map_or(true, |event| {
+            let mut paths = event.paths.iter();
+            !event.kind.is_access() && paths.any(|path| path.file_name() == name.as_deref())
+        });
+        if concerns {
+            // Nobody listens any more when the command ends.
+            let _ended = sender.send(event);
+        }
     })
     .map_err(|error| failed(error.to_string()))?;
     watcher

@@ -63,10 +63,12 @@ fn write(folder: &Path, name: &str, text: &str) {
     fs::write(folder.join(name), text).expect("the folder is ours");
 }
 
-/// The folders in the cache that begin with a name.
+/// The folders in the cache that begin with a name, of all versions.
 fn programs(begin: &str) -> Vec<PathBuf> {
-    let versions = fs::read_dir(cache().join("bricard")).expect("something was compiled");
+    let versions = fs::read_dir(cache().join("bricard"));
     let programs = versions
+        .into_iter()
+        .flatten()
         .flatten()
         .filter_map(|version| fs::read_dir(version.path().join("programs")).ok());
     let begins = |path: &PathBuf| {
@@ -229,9 +231,13 @@ fn what_stands_in_the_way_of_compiling_is_said() {
 #[test]
 fn what_was_left_half_built_is_cleared_away_and_never_used() {
     let folder = folder("left");
-    write(&folder, "left.mech", &pendulum("Left", 0.5));
+    let before = programs("left-");
+    let new = format!("{}// {:?}\n", pendulum("Left", 0.5), SystemTime::now());
+    write(&folder, "left.mech", &new);
     done(&folder, &["simulate", "left.mech", "--until", "0.1"]);
-    let entry = programs("left-").pop().expect("it was compiled");
+    let mut entries = programs("left-").into_iter();
+    let entry = entries.find(|entry| !before.contains(entry));
+    let entry = entry.expect("it was compiled");
     let version = entry.ancestors().nth(2).expect("it lies in a version");
     let left = version.join("building-0-0");
     fs::create_dir_all(left.join("program")).expect("the cache is ours");
