@@ -5,88 +5,75 @@
 
 use crate::error::CommandError;
 use crate::formula::Assignment;
-use bricard_driver::{AnyMechanism, Given};
+use bricard_driver::{AnyMechanism, Changes, Given};
 use bricard_runtime::{Quantity, Structure};
 
-/// What is changed.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Changes {
-    /// Parameters by place, and their values.
-    pub parameters: Vec<(usize, f64)>,
-    /// Inputs by place, and the values they are held at.
-    pub inputs: Vec<(usize, f64)>,
-    /// Values given at the start.
-    pub given: Vec<Given>,
+/// Finds the places of `--set` and `--start` in a mechanism, which is called
+/// `owner` in messages.
+///
+/// # Errors
+///
+/// [`CommandError::UnknownName`], [`CommandError::Twice`].
+pub fn find(
+    structure: &Structure,
+    owner: &str,
+    set: &[Assignment],
+    start: &[Assignment],
+) -> Result<Changes, CommandError> {
+    once("--set", set)?;
+    once("--start", start)?;
+    let mut changes = Changes::default();
+    for assignment in set {
+        put(&mut changes, structure, owner, assignment)?;
+    }
+    for assignment in start {
+        changes.given.push(given(structure, owner, assignment)?);
+    }
+    Ok(changes)
 }
 
-impl Changes {
-    /// Finds the places of `--set` and `--start` in a mechanism, which is called
-    /// `owner` in messages.
-    ///
-    /// # Errors
-    ///
-    /// [`CommandError::UnknownName`], [`CommandError::Twice`].
-    pub fn find(
-        structure: &Structure,
-        owner: &str,
-        set: &[Assignment],
-        start: &[Assignment],
-    ) -> Result<Self, CommandError> {
-        once("--set", set)?;
-        once("--start", start)?;
-        let mut changes = Self::default();
-        for assignment in set {
-            changes.set(structure, owner, assignment)?;
-        }
-        for assignment in start {
-            changes.given.push(given(structure, owner, assignment)?);
-        }
-        Ok(changes)
-    }
+/// What is set to a negative mass or moment of inertia. The kinetic energy may be
+/// positive all the same, by what else moves.
+pub fn negative_inertia<'a>(changes: &Changes, structure: &'a Structure) -> Vec<&'a str> {
+    let quantity = |(index, value): &(usize, f64)| {
+        let quantity = structure.parameters.get(*index)?;
+        let inertia = ["kg", "kg*m^2"].contains(&quantity.unit);
+        (inertia && *value < 0.0).then_some(quantity.name)
+    };
+    changes.parameters.iter().filter_map(quantity).collect()
+}
 
-    /// What is set to a negative mass or moment of inertia. The kinetic energy may be
-    /// positive all the same, by what else moves.
-    pub fn negative_inertia<'a>(&self, structure: &'a Structure) -> Vec<&'a str> {
-        let quantity = |(index, value): &(usize, f64)| {
-            let quantity = structure.parameters.get(*index)?;
-            let inertia = ["kg", "kg*m^2"].contains(&quantity.unit);
-            (inertia && *value < 0.0).then_some(quantity.name)
-        };
-        self.parameters.iter().filter_map(quantity).collect()
+/// Changes a mechanism.
+pub fn apply(changes: &Changes, mechanism: &mut dyn AnyMechanism) {
+    for (index, value) in &changes.parameters {
+        mechanism.set_parameter(*index, *value);
     }
+    for (index, value) in &changes.inputs {
+        mechanism.hold_input(*index, *value);
+    }
+    for given in &changes.given {
+        mechanism.begin(*given);
+    }
+}
 
-    /// Changes a mechanism.
-    pub fn apply(&self, mechanism: &mut dyn AnyMechanism) {
-        for (index, value) in &self.parameters {
-            mechanism.set_parameter(*index, *value);
-        }
-        for (index, value) in &self.inputs {
-            mechanism.hold_input(*index, *value);
-        }
-        for given in &self.given {
-            mechanism.begin(*given);
+fn put(
+    changes: &mut Changes,
+    structure: &Structure,
+    owner: &str,
+    assignment: &Assignment,
+) -> Result<(), CommandError> {
+    let parameter = place(structure.parameters, &assignment.name);
+    let input = place(structure.inputs, &assignment.name);
+    match (parameter, input) {
+        (Some(index), _) => changes.parameters.push((index, assignment.value)),
+        (None, Some(index)) => changes.inputs.push((index, assignment.value)),
+        (None, None) => {
+            let all = structure.parameters.iter().chain(structure.inputs);
+            let known = all.map(|quantity| quantity.name.to_string()).collect();
+            return Err(unknown("parameter or input", owner, assignment, known));
         }
     }
-
-    fn set(
-        &mut self,
-        structure: &Structure,
-        owner: &str,
-        assignment: &Assignment,
-    ) -> Result<(), CommandError> {
-        let parameter = place(structure.parameters, &assignment.name);
-        let input = place(structure.inputs, &assignment.name);
-        match (parameter, input) {
-            (Some(index), _) => self.parameters.push((index, assignment.value)),
-            (None, Some(index)) => self.inputs.push((index, assignment.value)),
-            (None, None) => {
-                let all = structure.parameters.iter().chain(structure.inputs);
-                let known = all.map(|quantity| quantity.name.to_string()).collect();
-                return Err(unknown("parameter or input", owner, assignment, known));
-            }
-        }
-        Ok(())
-    }
+    Ok(())
 }
 
 /// Refuses a name that is given two values, of which the last would win silently.

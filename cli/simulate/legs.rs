@@ -1,12 +1,12 @@
 //! Which checkpoints a run writes and goes on from, from the options of the command line.
 
 use crate::arguments::Simulate;
-use crate::changes::Changes;
 use crate::checkpoint::{Checkpoint, Legs, read};
 use crate::error::CommandError;
 use crate::mechanism::identity;
 use crate::output::{probe, say};
 use crate::run::Plan;
+use bricard_driver::Changes;
 use bricard_runtime::{Options, Structure};
 use std::path::Path;
 

@@ -11,7 +11,7 @@ pub mod summary;
 pub use choices::TOLERANCE;
 
 use crate::arguments::Simulate;
-use crate::changes::Changes;
+use crate::changes;
 use crate::column::columns;
 use crate::error::CommandError;
 use crate::interrupt;
@@ -26,11 +26,11 @@ use record::Record;
 pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
     let mut mechanism = find(&arguments.name)?;
     let structure = mechanism.structure();
-    let changes = Changes::find(structure, &arguments.name, &arguments.set, &arguments.start)?;
-    for name in changes.negative_inertia(structure) {
+    let changes = changes::find(structure, &arguments.name, &arguments.set, &arguments.start)?;
+    for name in changes::negative_inertia(&changes, structure) {
         say(&format!("warning: `{name}` is an inertia, and negative"));
     }
-    changes.apply(mechanism.as_mut());
+    changes::apply(&changes, mechanism.as_mut());
     let columns = columns(&arguments.columns, structure, &arguments.name)?;
     let mut plan = choices::plan(arguments, columns.clone())?;
     choices::check_files(arguments)?;

@@ -7,7 +7,7 @@ mod measure;
 mod reference;
 
 use crate::arguments::{FormName, MethodName, WorkPrecision};
-use crate::changes::Changes;
+use crate::changes;
 use crate::error::CommandError;
 use crate::mechanism::find;
 use crate::output::{print, probe, say};
@@ -34,8 +34,8 @@ pub fn workprecision(arguments: &WorkPrecision) -> Result<(), CommandError> {
     }
     let mut mechanism = find(&arguments.name)?;
     let structure = mechanism.structure();
-    let changes = Changes::find(structure, &arguments.name, &arguments.set, &arguments.start)?;
-    changes.apply(mechanism.as_mut());
+    let changes = changes::find(structure, &arguments.name, &arguments.set, &arguments.start)?;
+    changes::apply(&changes, mechanism.as_mut());
     for path in [&arguments.out, &arguments.csv].into_iter().flatten() {
         probe(path)?;
     }

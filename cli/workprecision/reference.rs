@@ -3,10 +3,9 @@
 //! In:  a name, what is changed, the time of the end.
 //! Out: the coordinates there.
 
-use crate::changes::Changes;
 use crate::error::CommandError;
 use crate::mechanism::precise;
-use bricard_driver::{Altered, Exact};
+use bricard_driver::{Changes, Exact};
 
 /// Computes a motion with the parameters that runs in `f64` have, rounded as they are
 /// there.
@@ -15,14 +14,9 @@ use bricard_driver::{Altered, Exact};
 ///
 /// [`CommandError::Run`] if the mechanism can't be assembled or a run failed.
 pub fn exact(name: &str, changes: &Changes, until: f64) -> Result<Exact, CommandError> {
-    let altered = Altered {
-        parameters: changes.parameters.clone(),
-        inputs: changes.inputs.clone(),
-        given: changes.given.clone(),
-    };
     let refuse = |reason: String| CommandError::Run {
         reason: format!("the motion to compare with could not be computed: {reason}"),
         kept: String::new(),
     };
-    precise(name)?.exact(&altered, until).map_err(refuse)
+    precise(name)?.exact(changes, until).map_err(refuse)
 }

@@ -23,5 +23,5 @@ pub use any::{AnyMechanism, Given, Race, forget, state_of};
 pub use column::{Column, WORDS};
 pub use leg::{Leg, Reached, Watch};
 pub use link::Link;
-pub use precise::{Altered, Around, Exact, Path, Precise, PreciseLink, serve_precise};
+pub use precise::{Around, Changes, Exact, Path, Precise, PreciseLink, serve_precise};
 pub use serve::serve;

@@ -15,14 +15,14 @@ use std::process::{Command, ExitCode};
 /// A mechanism in numbers of many digits. What fails says why in words.
 pub trait Precise {
     /// The coordinates at the end of a motion.
-    fn exact(&mut self, altered: &Altered, until: f64) -> Result<Exact, String>;
+    fn exact(&mut self, changes: &Changes, until: f64) -> Result<Exact, String>;
     /// States around a passage through a singular position.
     fn path(&mut self, around: &Around) -> Result<Path, String>;
 }
 
 /// What is changed of a mechanism, by place.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Altered {
+pub struct Changes {
     /// Parameters, and their values.
     pub parameters: Vec<(usize, f64)>,
     /// Inputs, and the values they are held at.
@@ -80,7 +80,7 @@ pub fn serve_precise(mut mechanism: Box<dyn Precise>) -> ExitCode {
     let mut out = io::stdout();
     for question in listen(|_: &Question| {}) {
         let answer = match question {
-            Question::Exact(altered, until) => Answer::Exact(mechanism.exact(&altered, until)),
+            Question::Exact(changes, until) => Answer::Exact(mechanism.exact(&changes, until)),
             Question::Path(around) => Answer::Path(mechanism.path(&around)),
         };
         if send(&mut out, &answer).and_then(|()| out.flush()).is_err() {
@@ -106,8 +106,8 @@ impl PreciseLink {
 }
 
 impl Precise for PreciseLink {
-    fn exact(&mut self, altered: &Altered, until: f64) -> Result<Exact, String> {
-        match self.0.ask(&Question::Exact(altered.clone(), until))? {
+    fn exact(&mut self, changes: &Changes, until: f64) -> Result<Exact, String> {
+        match self.0.ask(&Question::Exact(changes.clone(), until))? {
             Answer::Exact(exact) => exact,
             Answer::Path(_) => Err(Ends::NONSENSE.to_string()),
         }

@@ -4,7 +4,7 @@
 //! Out: states, rounded.
 
 use crate::{DoubleDouble, reference_from, states_at};
-use bricard_driver::{Altered, Around, Exact, Given, Path, Precise};
+use bricard_driver::{Around, Changes, Exact, Given, Path, Precise};
 use bricard_runtime::{Initial, Real, Settings, Solver, State, Whole, assemble};
 
 /// How long before the passage the search for it begins (s).
@@ -29,15 +29,15 @@ pub fn precise<const N: usize, const R: usize>(
 struct Wide<const N: usize, const R: usize>(Box<dyn Whole<DoubleDouble, N, R>>);
 
 impl<const N: usize, const R: usize> Precise for Wide<N, R> {
-    fn exact(&mut self, altered: &Altered, until: f64) -> Result<Exact, String> {
+    fn exact(&mut self, changes: &Changes, until: f64) -> Result<Exact, String> {
         let wide = DoubleDouble::from_f64;
-        for (index, value) in &altered.parameters {
+        for (index, value) in &changes.parameters {
             self.0.set_parameter(*index, wide(*value));
         }
-        for (index, value) in &altered.inputs {
+        for (index, value) in &changes.inputs {
             self.0.set_input(*index, Some(wide(*value)));
         }
-        exact(&*self.0, &altered.given, until)
+        exact(&*self.0, &changes.given, until)
     }
 
     fn path(&mut self, around: &Around) -> Result<Path, String> {

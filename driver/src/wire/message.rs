@@ -1,7 +1,7 @@
 //! What is said between a mechanism in a program of its own and whoever started it.
 
 use super::{Wire, record::choices};
-use crate::{Altered, Around, Exact, Given, Leg, Path, Race, Reached};
+use crate::{Around, Changes, Exact, Given, Leg, Path, Race, Reached};
 use bricard_runtime::{Options, Structure};
 
 /// What the mechanism is asked for.
@@ -40,7 +40,7 @@ pub(crate) enum Reply {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Question {
     /// Wants [`Answer::Exact`].
-    Exact(Altered, f64),
+    Exact(Changes, f64),
     /// Wants [`Answer::Path`].
     Path(Around),
 }
@@ -55,7 +55,7 @@ pub(crate) enum Answer {
 }
 
 choices! {
-    Question { 0 => Exact(altered, until), 1 => Path(around) }
+    Question { 0 => Exact(changes, until), 1 => Path(around) }
     Answer { 0 => Exact(exact), 1 => Path(path) }
     Request {
         0 => Parameter(place, value), 1 => Input(place, value), 2 => Begin(given), 3 => Leg(leg),

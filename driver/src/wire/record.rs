@@ -1,7 +1,7 @@
 //! Structs and enums of the runtime as bytes: field by field, variant by variant.
 
 use super::Wire;
-use crate::{Altered, Around, Column, Exact, Given, Leg, Path, Race, Reached};
+use crate::{Around, Changes, Column, Exact, Given, Leg, Path, Race, Reached};
 use bricard_runtime::{
     Audit, ConstraintRow, Counters, Declared, Direction, Event, Form, Options, Origin, Pace,
     Passage, Quantity, Scheme, Settings, Stabilisation, Structure,
@@ -77,7 +77,7 @@ records! {
     }
     Given { coordinate, velocity, held, value }
     Race { end, steps, evaluations, wall }
-    Altered { parameters, inputs, given }
+    Changes { parameters, inputs, given }
     Exact { end, error }
     Around { about, places, span }
     Path { passage, rows }
