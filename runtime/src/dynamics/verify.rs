@@ -5,7 +5,7 @@
 //!      that was not seen, left its sheet, or lost energy.
 
 use super::{Solver, Source, Which};
-use crate::singular::{Chart, Obstacle, Placement, Point, Start};
+use crate::singular::{Chart, Obstacle, Placement, Point, Reference, Start};
 use crate::tolerance::{negligible, safe_steps, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
 
@@ -81,11 +81,14 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             return self.want_chart(mechanism, end.t);
         };
         let mut sheet = self.sheet(mechanism, &chart);
-        for k in 1..=LOOKS {
-            let there = start.towards(end, T::from_f64(k as f64 / LOOKS as f64));
-            if sheet.sign_changes(start, &there) != Some(0) {
-                return self.want_chart(mechanism, end.t);
-            }
+        let stays = sheet.reference(start).is_some_and(|reference| {
+            (1..=LOOKS).all(|k| {
+                let there = start.towards(end, T::from_f64(k as f64 / LOOKS as f64));
+                sheet.sign_changes(&reference, &there) == Some(0)
+            })
+        });
+        if !stays {
+            return self.want_chart(mechanism, end.t);
         }
         self.session.trial.chart = Some(chart).filter(|_| comes_near);
         Ok(())
@@ -117,7 +120,12 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         self.session.trial.chart = None;
-        let changes = self.sheet(mechanism, chart).sign_changes(start, end);
+        let mut sheet = self.sheet(mechanism, chart);
+        let reference = sheet.reference(start);
+        let changes = match &reference {
+            Some(reference) => sheet.sign_changes(reference, end),
+            None => None,
+        };
         if changes != Some(0) && mechanism.structure().regular {
             return Err(self.not_regular(mechanism, end)?);
         }
@@ -131,7 +139,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             });
         }
         if changes != Some(0) && !self.session.trial.crosses {
-            self.verify_crossing(mechanism, chart, start, end)?;
+            self.verify_crossing(mechanism, chart, reference.as_ref(), (start, end))?;
         }
         self.verify_energy(mechanism, start, end)?;
         let Some(placed) = self.session.trial.placed.take() else {
@@ -173,14 +181,15 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         &mut self,
         mechanism: &M,
         chart: &Chart<T, N, R>,
-        start: &State<T, N>,
-        end: &State<T, N>,
+        reference: Option<&Reference<T, N, R>>,
+        (start, end): (&State<T, N>, &State<T, N>),
     ) -> Result<(), DynamicsError<T>> {
         let (mut before, mut after) = (T::zero(), T::one());
         let mut sheet = self.sheet(mechanism, chart);
         for _ in 0..BISECTIONS {
             let middle = (before + after) * T::from_f64(0.5);
-            match sheet.sign_changes(start, &start.towards(end, middle)) {
+            let there = start.towards(end, middle);
+            match reference.and_then(|from| sheet.sign_changes(from, &there)) {
                 Some(0) => before = middle,
                 _ => after = middle,
             }

@@ -24,8 +24,8 @@ mod start;
 
 pub(crate) use chart::Chart;
 pub(crate) use obstacle::Obstacle;
-pub(crate) use passage::Found;
 pub use passage::Passage;
+pub(crate) use passage::{Found, Reference};
 pub(crate) use place::Placement;
 pub(crate) use session::{Placed, Session};
 pub(crate) use sheet::Point;

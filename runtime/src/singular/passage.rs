@@ -106,6 +106,12 @@ impl<T: Real, const R: usize> Signs<T, R> {
     }
 }
 
+/// The start of a step: the order of elimination for all of its states, and the signs.
+pub(crate) struct Reference<T, const N: usize, const R: usize> {
+    like: Frame<T, N, R>,
+    signs: Signs<T, R>,
+}
+
 /// A look into a step.
 #[derive(Clone)]
 struct Look<T, const R: usize> {
@@ -128,14 +134,24 @@ impl<M, T: Real, const N: usize, const R: usize> Sheet<'_, M, T, N, R>
 where
     M: Mechanism<T, N, R> + ?Sized,
 {
-    /// How many sheets are crossed from one state to another; `None` where that can't be
-    /// told.
-    pub(crate) fn sign_changes(&mut self, from: &State<T, N>, to: &State<T, N>) -> Option<usize> {
-        self.eliminate_widely(from).ok()?;
-        let like = self.frame.clone();
-        let before = Signs::of(&like);
-        self.eliminate(to, Some(&like)).ok()?;
-        Some(Signs::of(self.frame).changes_from(&before))
+    /// What states of a step that begins here are compared with; `None` where the
+    /// constraints can't be eliminated.
+    pub(crate) fn reference(&mut self, start: &State<T, N>) -> Option<Reference<T, N, R>> {
+        self.eliminate_widely(start).ok()?;
+        Some(Reference {
+            like: self.frame.clone(),
+            signs: Signs::of(self.frame),
+        })
+    }
+
+    /// How many sheets are crossed on the way to a state; `None` where that can't be told.
+    pub(crate) fn sign_changes(
+        &mut self,
+        from: &Reference<T, N, R>,
+        to: &State<T, N>,
+    ) -> Option<usize> {
+        self.eliminate(to, Some(&from.like)).ok()?;
+        Some(Signs::of(self.frame).changes_from(&from.signs))
     }
 
     /// The passages of a step whose states are `at`, by its chart.
@@ -146,11 +162,11 @@ where
         regular: usize,
     ) -> Found<T> {
         let mut found = Found::new();
-        if self.eliminate_widely(start).is_err() {
+        let Some(reference) = self.reference(start) else {
             return found;
-        }
+        };
         let view = View {
-            like: self.frame.clone(),
+            like: reference.like,
             at,
             start: start.t,
             length: end.t - start.t,
