@@ -32,6 +32,31 @@ pub enum Switching<T> {
     AtStart,
 }
 
+/// Does something with a system; once more if it fails and the system then wants to look
+/// more closely.
+///
+/// # Errors
+///
+/// The error of what is done, or that no closer look helps.
+#[inline]
+pub(crate) fn escalating<T, Y, V, E, const N: usize>(
+    system: &mut Y,
+    mut once: impl FnMut(&mut Y) -> Result<V, E>,
+) -> Result<V, E>
+where
+    T: Real,
+    Y: System<T, N> + ?Sized,
+    E: From<DynamicsError<T>>,
+{
+    match once(system) {
+        Err(error) => match system.escalate()? {
+            true => once(system),
+            false => Err(error),
+        },
+        done => done,
+    }
+}
+
 /// What an integrator sees: a first-order flow on (q, v) with a projection.
 pub trait System<T: Real, const N: usize> {
     /// Is told where a step begins, before each attempt at it. A system that follows a

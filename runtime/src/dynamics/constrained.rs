@@ -5,6 +5,7 @@
 
 use super::{Solver, Source, Which};
 use crate::singular::Found;
+use crate::system::escalating;
 use crate::tolerance::{passes, regular, window};
 use crate::{Counters, DynamicsError, Mechanism, Real, Slope, State, Step, Switching, System};
 use nalgebra::SVector;
@@ -64,16 +65,11 @@ where
     /// As [`System::acceleration`]; in a singular configuration also where nothing tells
     /// which sheet of the constraint set is meant.
     pub fn acceleration(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>> {
-        let solver = &mut *self.solver;
-        solver.begin_step(state);
-        solver.release();
-        match solver.acceleration(self.mechanism, state) {
-            Err(error) => match solver.escalate(self.mechanism)? {
-                true => solver.acceleration(self.mechanism, state),
-                false => Err(error),
-            },
-            found => found,
-        }
+        self.solver.begin_step(state);
+        self.solver.release();
+        escalating(self, |system| {
+            system.solver.acceleration(system.mechanism, state)
+        })
     }
 
     /// Begins at a state, which is moved onto the constraints if it is not on them to
@@ -84,7 +80,14 @@ where
         tolerance: Option<T>,
     ) -> Result<(), DynamicsError<T>> {
         self.solver.expect_error(tolerance);
-        self.solver.start(self.mechanism, state)
+        self.solver.begin_step(state);
+        if !self.solver.places_starts() {
+            return Ok(());
+        }
+        self.solver.prepare(self.mechanism, state)?;
+        let mut placed = *state;
+        self.project_within(&mut placed)?;
+        self.solver.start(self.mechanism, state, &placed)
     }
 
     /// The acceleration at a state within a step from the last accepted one, or at any
@@ -146,15 +149,11 @@ where
         if solver.session.chart.is_none() {
             solver.begin_step(state);
         }
-        let mut projected = *state;
-        if let Err(error) = solver.project(self.mechanism, &mut projected) {
-            if !solver.escalate(self.mechanism)? {
-                return Err(error);
-            }
-            projected = *state;
-            solver.project(self.mechanism, &mut projected)?;
-        }
-        *state = projected;
+        *state = escalating(self, |system| {
+            let mut projected = *state;
+            system.solver.project(system.mechanism, &mut projected)?;
+            Ok::<_, DynamicsError<T>>(projected)
+        })?;
         Ok(())
     }
 

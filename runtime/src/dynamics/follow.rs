@@ -43,25 +43,19 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         (tolerance * T::from_f64(0.1)).max(resolvable())
     }
 
-    /// Begins at a state, which is moved onto the constraints if it is not on them to
-    /// round-off.
+    /// Whether a start is put onto the constraints.
+    pub(crate) fn places_starts(&self) -> bool {
+        R > 0 && self.settings.stabilisation == Stabilisation::Projection
+    }
+
+    /// Begins at a state, or at where it was put onto the constraints if it is not on them
+    /// to round-off.
     pub(crate) fn start<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &mut State<T, N>,
+        placed: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        self.begin_step(state);
-        if R == 0 || self.settings.stabilisation != Stabilisation::Projection {
-            return Ok(());
-        }
-        self.prepare(mechanism, state)?;
-        let mut placed = *state;
-        if let Err(error) = self.project(mechanism, &mut placed) {
-            if !self.escalate(mechanism)? {
-                return Err(error);
-            }
-            self.project(mechanism, &mut placed)?;
-        }
         mechanism.position(state, &mut self.position);
         let (worst, _) = self.residual(&self.position.residual);
         let speed = self.position.jacobian * state.v + self.position.drift;
@@ -69,17 +63,17 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let rate = self.metric.factor.length(&state.v.data.0[0]);
         let most = T::from_f64(MOST_ROUND_OFF) * round_off();
         // False for NaN, too.
-        let (on, rests) = (worst <= most * self.reach, fastest <= most * rate);
+        let (is_on, stays_on) = (worst <= most * self.reach, fastest <= most * rate);
         let moved = self.metric.factor.length(&(placed.q - state.q).data.0[0]);
-        if on && moved > regular::<T>() * self.reach {
+        if is_on && moved > regular::<T>() * self.reach {
             return Err(self.refusal(mechanism, Obstacle::Undetermined, state.t));
         }
-        if !on {
-            *state = placed;
-        } else if !rests {
+        if !is_on {
+            *state = *placed;
+        } else if !stays_on {
             state.v = placed.v;
         }
-        if !on || !rests {
+        if !is_on || !stays_on {
             self.session.begin(state);
         }
         Ok(())

@@ -15,6 +15,7 @@ use super::pace::{Inside, in_parts};
 use super::step::Step;
 use super::{IntegrateError, Integrator};
 use crate::linalg::add_scaled;
+use crate::system::escalating;
 use crate::{DynamicsError, Real, State, Switching, System};
 use nalgebra::SVector;
 
@@ -63,13 +64,7 @@ impl<T: Real, const N: usize> Rk4<T, N> {
         bound: T,
     ) -> Result<bool, IntegrateError<T>> {
         let (switches, first, end) = in_parts(state.t, bound, |end| {
-            match attempt(system, state, known, end) {
-                Err(error) => match system.escalate()? {
-                    true => attempt(system, state, known, end),
-                    false => Err(error),
-                },
-                made => made,
-            }
+            escalating(system, |system| attempt(system, state, known, end))
         })?;
         (self.step.start, self.step.end) = (*state, end);
         self.step.span = T::zero();

@@ -14,6 +14,7 @@ use super::IntegrateError;
 use super::control::{Control, Tolerance, check_bound};
 use super::step::Step;
 use super::tableau::Tableau;
+use crate::system::escalating;
 use crate::{DynamicsError, Real, State, Switching, System};
 use nalgebra::SVector;
 
@@ -148,13 +149,8 @@ impl<K: Trial<T, N>, T: Real, const N: usize> Paced<K, T, N> {
         system: &mut Y,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, IntegrateError<T>> {
-        match self.method.begin(system, state) {
-            Err(error) => match system.escalate()? {
-                true => Ok(self.method.begin(system, state)?),
-                false => Err(error.into()),
-            },
-            Ok(slope) => Ok(slope),
-        }
+        let slope = escalating(system, |system| self.method.begin(system, state))?;
+        Ok(slope)
     }
 
     /// Makes attempts at a step until one is accepted.
@@ -216,17 +212,10 @@ fn attempt<K: Trial<T, N>, T: Real, Y: System<T, N> + ?Sized, const N: usize>(
     system: &mut Y,
     end: T,
 ) -> Result<(), IntegrateError<T>> {
-    let once = |method: &mut K, system: &mut Y| -> Result<(), IntegrateError<T>> {
+    escalating(system, |system| {
         system.begin(&method.step().start);
         method.attempt(system, end)
-    };
-    match once(method, system) {
-        Err(failure) => match system.escalate()? {
-            true => once(method, system),
-            false => Err(failure),
-        },
-        Ok(()) => Ok(()),
-    }
+    })
 }
 
 /// Completes a trial step that is about to be accepted and has it verified; `false` if it
