@@ -5,7 +5,7 @@
 //!      that was not seen, left its sheet, or lost energy.
 
 use super::{Solver, Source, Which};
-use crate::singular::{Chart, Obstacle, Placement, Point, Reference, Start};
+use crate::singular::{Chart, Obstacle, Placed, Placement, Point, Reference, Start};
 use crate::tolerance::{negligible, safe_steps, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
 
@@ -156,23 +156,34 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         if placed.sine > window() {
             self.learn_rows();
         }
+        let next = self.chart_after(chart, end, placed);
+        if next.is_none() {
+            return Err(self.refusal(mechanism, Obstacle::NotRegular, end.t));
+        }
+        self.session.trial.chart = next;
+        Ok(())
+    }
+
+    /// The chart that a step ends with, where its end was placed; none if that is not regular.
+    fn chart_after(
+        &self,
+        chart: &Chart<T, N, R>,
+        end: &State<T, N>,
+        placed: Placed<T, N>,
+    ) -> Option<Chart<T, N, R>> {
         let (metric, rows) = (&self.metric, &self.rows);
-        let next = Chart::new(
+        let mut next = Chart::new(
             end,
             placed.tangent,
             chart.freedoms,
             metric,
             rows,
             (self.reach, self.accepted()),
-        );
-        let Some(mut next) = next else {
-            return Err(self.refusal(mechanism, Obstacle::NotRegular, end.t));
-        };
+        )?;
         next.set_drift(placed.drift, chart.pace);
         next.spacing = placed.spacing;
         next.gap = placed.gap || chart.gap && placed.sine < window();
-        self.session.trial.chart = Some(next);
-        Ok(())
+        Some(next)
     }
 
     /// A step on which signs changed, none of whose states is next to a singular
