@@ -88,40 +88,61 @@ impl<T: Real, const R: usize> Block<T, R> {
     /// number of negative eigenvalues of the symmetric part of this block in bases in
     /// which the other one is the identity.
     pub(crate) fn sign_changes_from(&self, other: &Self) -> usize {
-        let size = self.size.min(other.size);
+        let (here, pivots) = self.in_bases_of(other);
+        let size = here.size;
+        if pivots[..size].contains(&T::zero()) {
+            return 0;
+        }
+        let mut symmetric = Self::zeros(size);
+        for i in 0..size {
+            for j in 0..size {
+                let sum = here.entries[i][j] + here.entries[j][i];
+                symmetric.entries[i][j] = sum / (pivots[i] * pivots[j]).sqrt();
+            }
+        }
+        symmetric.negative_eigenvalues()
+    }
+
+    /// This block in bases in which another one is diagonal, and what it is there: its
+    /// pivots in an elimination with complete pivoting, the largest first, none negative.
+    pub(crate) fn in_bases_of(&self, other: &Self) -> (Self, [T; R]) {
         let (mut here, mut there) = (self.clone(), other.clone());
-        let mut root = [T::zero(); R];
-        for step in 0..size {
+        here.size = self.size.min(other.size);
+        let mut pivots = [T::zero(); R];
+        for step in 0..here.size {
             let Some((row, column)) = there.largest(step) else {
-                return 0;
+                break;
             };
             there.swap(step, row, column);
             here.swap(step, row, column);
             let pivot = there.entries[step];
             let above = here.entries[step];
-            for later in step + 1..size {
+            for later in step + 1..here.size {
                 let share = -there.entries[later][step] / pivot[step];
                 add_scaled(&mut here.entries[later], share, &above);
                 add_scaled(&mut there.entries[later], share, &pivot);
             }
-            for row in &mut here.entries[..size] {
-                for later in step + 1..size {
+            for row in &mut here.entries[..here.size] {
+                for later in step + 1..here.size {
                     row[later] -= row[step] * pivot[later] / pivot[step];
                 }
                 if pivot[step] < T::zero() {
                     row[step] = -row[step];
                 }
             }
-            root[step] = pivot[step].abs().sqrt();
+            pivots[step] = pivot[step].abs();
         }
-        let mut symmetric = Self::zeros(size);
-        for i in 0..size {
-            for j in 0..size {
-                let sum = here.entries[i][j] + here.entries[j][i];
-                symmetric.entries[i][j] = sum / (root[i] * root[j]);
-            }
+        (here, pivots)
+    }
+
+    /// Its last rows and columns, so many.
+    pub(crate) fn last(&self, count: usize) -> Self {
+        let mut last = Self::zeros(count);
+        let first = self.size - count;
+        for (target, row) in last.entries.iter_mut().zip(&self.entries[first..self.size]) {
+            target[..count].copy_from_slice(&row[first..self.size]);
         }
-        symmetric.negative_eigenvalues()
+        last
     }
 
     /// By Sylvester's law of inertia, from symmetric elimination with the largest
@@ -182,7 +203,7 @@ impl<T: Real, const R: usize> Block<T, R> {
 }
 
 /// Where the largest of some entries is, and its size.
-pub(super) fn largest_of<T: Real>(entries: &[T]) -> (usize, T) {
+pub(crate) fn largest_of<T: Real>(entries: &[T]) -> (usize, T) {
     let entries = entries.iter().enumerate();
     entries.fold((0, -T::one()), |best, (column, entry)| {
         if entry.abs() > best.1 {

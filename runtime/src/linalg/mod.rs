@@ -24,7 +24,7 @@ mod tests;
 mod triangle;
 
 pub(crate) use along::project_onto;
-pub(crate) use block::Block;
+pub(crate) use block::{Block, largest_of};
 pub(crate) use cholesky::{Cholesky, NotDefinite, is_definite};
 pub(crate) use column::{add_scaled, dot, norm, scaled};
 pub(crate) use elimination::Elimination;

@@ -10,8 +10,8 @@
 use super::nodes::SIDE;
 use super::obstacle::Obstacle;
 use super::sheet::Sheet;
-use crate::linalg::{Block, Frame, dot, norm};
-use crate::tolerance::{difference, hull, spacing};
+use crate::linalg::{Block, Frame, largest_of, norm};
+use crate::tolerance::{difference, hull, spacing, window};
 use crate::{Mechanism, Real, State};
 use nalgebra::SVector;
 
@@ -123,39 +123,37 @@ where
         clock: Option<T>,
         best: &mut Option<Best<T, N>>,
     ) -> Result<(), Obstacle> {
-        let mut direction = self.line(shares, clock);
+        let direction = self.line(shares, clock);
         let here = like.block();
         let change = self.change(state, like, &direction)?;
-        let centres = (0..here.size).map(|row| {
-            let (value, slope) = (&here.entries[row], &change.entries[row]);
-            -dot(value, slope) / dot(slope, slope)
-        });
-        // The nearest one; NaN is none.
-        let nearest = centres.fold(T::from_f64(f64::INFINITY), |best, centre| {
-            if centre.abs() < best.abs() {
-                centre
-            } else {
-                best
+        // Where the block is diagonal, its last entries are those that nearly vanish, and
+        // the others are those of rows that only might have.
+        let (slopes, values) = change.in_bases_of(here);
+        let values = &values[..here.size];
+        let weak = values.iter().filter(|value| **value < window()).count();
+        let counts = [1, weak];
+        for count in &counts[..if weak > 1 { 2 } else { 1 }] {
+            let values = &values[here.size - count..];
+            let Some((centre, rate)) = meeting(&slopes.last(*count), values) else {
+                continue;
+            };
+            let mut step = spacing::<T>() * self.chart.reach.min(T::one() / rate);
+            for _ in 0..LEVELS {
+                if centre.abs() > step * hull() {
+                    break;
+                }
+                let least = best.as_ref().map(|best| best.score);
+                let score = clearance_of(here, &change, (centre, step), least);
+                if least.is_none_or(|least| score > least) {
+                    let direction = Direction {
+                        centre,
+                        rate,
+                        ..direction
+                    };
+                    *best = Some(Best { direction, score });
+                }
+                step *= T::from_f64(0.5);
             }
-        });
-        direction.rate = change.clone().smallest();
-        direction.centre = nearest;
-        // False for NaN, too.
-        let leads = direction.rate > T::zero() && nearest.is_finite();
-        if !leads {
-            return Ok(());
-        }
-        let mut step = spacing::<T>() * self.chart.reach.min(T::one() / direction.rate);
-        for _ in 0..LEVELS {
-            if nearest.abs() > step * hull() {
-                break;
-            }
-            let least = best.as_ref().map(|best| best.score);
-            let score = clearance_of(here, &change, (nearest, step), least);
-            if least.is_none_or(|least| score > least) {
-                *best = Some(Best { direction, score });
-            }
-            step *= T::from_f64(0.5);
         }
         Ok(())
     }
@@ -197,6 +195,24 @@ where
         let difference = self.frame.block().plus(-T::one(), like.block());
         Ok(Block::zeros(difference.size).plus(T::one() / distance, &difference))
     }
+}
+
+/// Where the nearest of some singular values passes zero, and how fast the slowest of them
+/// changes, to first order; none if one of them stays what it is.
+fn meeting<T: Real, const R: usize>(slopes: &Block<T, R>, values: &[T]) -> Option<(T, T)> {
+    let mut nearest = T::from_f64(f64::INFINITY);
+    for (i, value) in values.iter().enumerate() {
+        let centre = -*value / slopes.entries[i][i];
+        // NaN is none.
+        if centre.abs() < nearest.abs() {
+            nearest = centre;
+        }
+    }
+    let rate = slopes.clone().smallest();
+    let largest = slopes.entries[..slopes.size].iter();
+    let largest = largest.fold(T::zero(), |most, row| most.max(largest_of(row).1));
+    let changes = rate > difference::<T>() * largest;
+    (changes && nearest.is_finite()).then_some((nearest, rate))
 }
 
 fn norm_of<T: Real>(shares: &[T]) -> T {
