@@ -76,7 +76,7 @@ macro_rules! never_wrong {
 }
 
 never_wrong! {
-    pendulum_minute pendulum_named cart_minute cart_short rhombus turning slow rest_beside
+    pendulum_minute pendulum_named cart_minute cart_short mast rhombus turning slow rest_beside
     slider_rest rest_on curves_named curves surfaces_named surfaces grazing near three_curves
     three_surfaces tacnode cusp cone instant four_bar gaps gaps_wide slider driven driven_stops
     knife_edges products trees duplicated

@@ -133,6 +133,26 @@ pub fn cart_short(random: &mut Random, _: usize) -> Trial {
     cart(random).until(1.5)
 }
 
+/// A parallelogram on a carriage with two pendulums: one loop of it is singular at a time
+/// when its rows are nearly dependent on each other, too.
+pub fn mast(random: &mut Random, index: usize) -> Trial {
+    let set = match index {
+        0 => Vec::new(),
+        _ => vec![
+            ("L", random.between(0.3, 0.8)),
+            ("W", random.between(0.4, 1.5)),
+            ("x0", random.within(0.2)),
+            ("a0", random.within(PI)),
+            ("wa", random.within(6.0)),
+            ("b0", random.within(1.0)),
+            ("wb", random.within(3.0)),
+            ("c0", random.within(1.0)),
+            ("wc", random.within(3.0)),
+        ],
+    };
+    Trial::short("mast", "mast_reduced", set).until(1.5)
+}
+
 /// A rhombus, singular wherever two links lie on each other.
 pub fn rhombus(random: &mut Random, _: usize) -> Trial {
     let set = vec![
