@@ -160,10 +160,18 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// Takes note of the sizes of the rows at an accepted state that emitted code
     /// corrected.
-    pub(crate) fn learn_emitted_rows(&mut self) {
+    pub(crate) fn learn_emitted_rows<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) {
         for row in 0..R {
-            self.rows
-                .observe(row, self.correction.pivots.row_squares[row]);
+            let alone = || {
+                mechanism.position(state, &mut self.position);
+                self.position.row_alone(row)
+            };
+            let size = self.correction.pivots.row_squares[row];
+            self.rows.observe(row, size, alone);
         }
     }
 

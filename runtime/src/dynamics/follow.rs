@@ -328,7 +328,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         if self.session.chart.is_some() {
             self.look_back(mechanism, step);
         } else if self.session.trial.by_emitted {
-            self.learn_emitted_rows();
+            self.learn_emitted_rows(mechanism, &step.end);
         }
         if self.session.trial.chart.is_some() {
             self.session.chart = self.session.trial.chart.take();

@@ -293,7 +293,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     pub(crate) fn learn_rows(&mut self) {
         for row in 0..R {
             let vector = self.metric.lift(&self.position.jacobian, row);
-            self.rows.observe(row, dot(&vector, &vector));
+            let alone = || self.position.row_alone(row);
+            self.rows.observe(row, dot(&vector, &vector), alone);
         }
     }
 

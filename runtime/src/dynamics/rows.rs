@@ -19,6 +19,8 @@ use nalgebra::SMatrix;
 pub(crate) struct Rows<T, const R: usize> {
     /// Squared reference sizes.
     size: [T; R],
+    /// The largest ratio of squared sizes with and without coupling that counts.
+    coupling: [T; R],
     /// Their inverses.
     inverse_size: [T; R],
     /// What rows are multiplied by to have size one.
@@ -41,6 +43,7 @@ impl<T: Real, const R: usize> Rows<T, R> {
     pub(crate) fn new(holonomic: impl Fn(usize) -> bool) -> Self {
         Self {
             size: [T::zero(); R],
+            coupling: [T::from_f64(f64::INFINITY); R],
             inverse_size: [T::one() / T::zero(); R],
             scale: [T::zero(); R],
             weight: [T::zero(); R],
@@ -54,17 +57,24 @@ impl<T: Real, const R: usize> Rows<T, R> {
         }
     }
 
-    /// Takes note of the squared size of a row.
+    /// Takes note of the squared size of a row, which is `Σ aⱼ²/mⱼⱼ` in the metric of each
+    /// coordinate alone.
     #[inline]
-    pub(crate) fn observe(&mut self, row: usize, size: T) {
+    pub(crate) fn observe(&mut self, row: usize, size: T, alone: impl FnOnce() -> T) {
         if size > self.size[row] {
-            self.grow(row, size);
+            self.grow(row, size.min(self.coupling[row] * alone()));
         }
+    }
+
+    /// The squared size of a row beyond this many times that in the metric of each
+    /// coordinate alone is due to a mass matrix that is nearly singular, and does not count.
+    pub(crate) fn expect_coupling(&mut self, row: usize, coupling: T) {
+        self.coupling[row] = coupling;
     }
 
     #[cold]
     fn grow(&mut self, row: usize, size: T) {
-        if size.is_finite() {
+        if size.is_finite() && size > self.size[row] {
             self.size[row] = size;
             self.inverse_size[row] = T::one() / size;
             self.scale[row] = T::one() / size.sqrt();

@@ -13,7 +13,8 @@ use super::solver::Source;
 use super::{Metric, Solver};
 use crate::linalg::{dot, is_definite};
 use crate::tolerance::regular;
-use crate::{Mechanism, Quantity, Real, State};
+use crate::{Mechanism, Position, Quantity, Real, State};
+use core::cmp::Ordering;
 use nalgebra::SMatrix;
 
 /// How many times the angles are turned.
@@ -21,6 +22,31 @@ const SAMPLES: usize = 8;
 /// Fractional parts of the square and cube root of 2 and such numbers spread
 /// evenly when multiplied by integers.
 const STRIDES: [f64; 2] = [0.618_033_988_749_894_9, 0.414_213_562_373_095];
+
+/// How much more than usual the masses that a row connects may be coupled for its size to
+/// count: the mass matrix may be nearly singular at some positions, where rows are as
+/// large as one likes.
+const UNUSUAL: f64 = 4.0;
+
+/// The squared size of a row.
+#[derive(Clone, Copy, Default)]
+struct RowSize<T> {
+    /// In the metric of the kinetic energy.
+    whole: T,
+    /// In that of each coordinate alone.
+    alone: T,
+}
+
+impl<T: Real> RowSize<T> {
+    /// How much the coupling of the masses adds; infinite where the row restricts a
+    /// coordinate without inertia.
+    fn coupling(self) -> T {
+        match self.alone.is_finite() {
+            true => self.whole / self.alone,
+            false => self.alone,
+        }
+    }
+}
 
 impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// Takes note of the mean sizes of the rows over some turned positions.
@@ -33,20 +59,24 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let sure = coordinates.iter().all(|c| !c.unit.is_empty());
         self.sample_mass(mechanism, state);
         let here = self.sizes(mechanism, state);
-        let mut sums = [T::zero(); R];
-        for sample in 1..=SAMPLES {
-            let turned = self.sizes(mechanism, &turned(state, coordinates, sample));
-            for (sum, size) in sums.iter_mut().zip(turned) {
-                *sum += size;
-            }
-        }
+        let samples: [[RowSize<T>; R]; SAMPLES] = core::array::from_fn(|sample| {
+            self.sizes(mechanism, &turned(state, coordinates, sample + 1))
+        });
         self.metric.forget();
         for row in 0..R {
-            let mean = sums[row] / T::from_f64(SAMPLES as f64);
-            let vanishes = here[row] <= regular::<T>() * regular::<T>() * mean;
-            self.rows.observe(row, here[row]);
+            let of_row = samples.map(|sizes| sizes[row]);
+            let coupling = median(of_row.map(RowSize::coupling));
+            self.rows
+                .expect_coupling(row, coupling * T::from_f64(UNUSUAL));
+            let mean = |part: fn(&RowSize<T>) -> T| {
+                let sum = of_row.iter().fold(T::zero(), |sum, size| sum + part(size));
+                sum / T::from_f64(SAMPLES as f64)
+            };
+            let (whole, alone) = (mean(|size| size.whole), mean(|size| size.alone));
+            let vanishes = here[row].whole <= regular::<T>() * regular::<T>() * whole;
+            self.rows.observe(row, here[row].whole, || here[row].alone);
             if sure || vanishes {
-                self.rows.observe(row, mean);
+                self.rows.observe(row, whole, || alone);
             }
         }
     }
@@ -78,14 +108,14 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         }
     }
 
-    /// Squared sizes of all rows at a position; zero where they are not finite or
-    /// have no metric.
+    /// The sizes of all rows at a position; zero where they are not finite or have no
+    /// metric.
     fn sizes<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
-    ) -> [T; R] {
-        let mut sizes = [T::zero(); R];
+    ) -> [RowSize<T>; R] {
+        let mut sizes = [RowSize::default(); R];
         mechanism.position(state, &mut self.position);
         self.metric.forget();
         let t = state.t;
@@ -97,11 +127,28 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 let vector = self.metric.lift(&self.position.jacobian, row);
                 let square = dot(&vector, &vector);
                 if square.is_finite() {
-                    *size = square;
+                    *size = RowSize {
+                        whole: square,
+                        alone: self.position.row_alone(row),
+                    };
                 }
             }
         }
         sizes
+    }
+}
+
+impl<T: Real, const N: usize, const R: usize> Position<T, N, R> {
+    /// The squared size of a row in the metric of each coordinate alone, `Σ aⱼ²/mⱼⱼ`;
+    /// infinite if it restricts a coordinate without inertia.
+    pub(super) fn row_alone(&self, row: usize) -> T {
+        (0..N).fold(T::zero(), |sum, j| {
+            let lever = self.jacobian[(row, j)];
+            match lever == T::zero() {
+                true => sum,
+                false => sum + lever * lever / self.mass[(j, j)].max(T::zero()),
+            }
+        })
     }
 }
 
@@ -119,4 +166,21 @@ fn turned<T: Real, const N: usize>(
         }
     }
     turned
+}
+
+/// The median of the numbers that are finite; infinite if there is none.
+fn median<T: Real>(mut numbers: [T; SAMPLES]) -> T {
+    let mut count = 0;
+    for place in 0..SAMPLES {
+        if numbers[place].is_finite() {
+            numbers.swap(count, place);
+            count += 1;
+        }
+    }
+    let finite = &mut numbers[..count];
+    finite.sort_unstable_by(|a, b| a.partial_cmp(b).unwrap_or(Ordering::Equal));
+    finite
+        .get(count / 2)
+        .copied()
+        .unwrap_or(T::from_f64(f64::INFINITY))
 }

@@ -42,6 +42,7 @@ pub const SERIES: &[Series] = &[
     series("cart_minute", 30, 1000, MIDDLE, parallelograms::cart_minute),
     series("cart_short", 60, 1000, USUAL, parallelograms::cart_short),
     series("mast", 60, 1000, USUAL, parallelograms::mast),
+    series("mast_minute", 10, 300, MIDDLE, parallelograms::mast_minute),
     series("rhombus", 60, 1000, USUAL, parallelograms::rhombus),
     series("turning", 60, 1000, USUAL, parallelograms::turning),
     series("slow", 60, 1000, USUAL, parallelograms::slow),

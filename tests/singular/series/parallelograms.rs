@@ -153,6 +153,11 @@ pub fn mast(random: &mut Random, index: usize) -> Trial {
     Trial::short("mast", "mast_reduced", set).until(1.5)
 }
 
+/// The same for a minute.
+pub fn mast_minute(random: &mut Random, index: usize) -> Trial {
+    invariants(mast(random, index).until(MINUTE))
+}
+
 /// A rhombus, singular wherever two links lie on each other.
 pub fn rhombus(random: &mut Random, _: usize) -> Trial {
     let set = vec![
