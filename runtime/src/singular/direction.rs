@@ -211,7 +211,7 @@ fn meeting<T: Real, const R: usize>(slopes: &Block<T, R>, values: &[T]) -> Optio
     let rate = slopes.clone().smallest();
     let largest = slopes.entries[..slopes.size].iter();
     let largest = largest.fold(T::zero(), |most, row| most.max(largest_of(row).1));
-    let changes = rate > difference::<T>() * largest;
+    let changes = rate > difference::<T>() * largest.min(T::one());
     (changes && nearest.is_finite()).then_some((nearest, rate))
 }
 
