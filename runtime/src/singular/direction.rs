@@ -123,7 +123,7 @@ where
         clock: Option<T>,
         best: &mut Option<Best<T, N>>,
     ) -> Result<(), Obstacle> {
-        let direction = self.line(shares, clock);
+        let mut direction = self.line(shares, clock);
         let here = like.block();
         let change = self.change(state, like, &direction)?;
         // Where the block is diagonal, its last entries are those that nearly vanish, and
@@ -131,29 +131,23 @@ where
         let (slopes, values) = change.in_bases_of(here);
         let values = &values[..here.size];
         let weak = values.iter().filter(|value| **value < window()).count();
-        let counts = [1, weak];
-        for count in &counts[..if weak > 1 { 2 } else { 1 }] {
-            let values = &values[here.size - count..];
-            let Some((centre, rate)) = meeting(&slopes.last(*count), values) else {
-                continue;
-            };
-            let mut step = spacing::<T>() * self.chart.reach.min(T::one() / rate);
-            for _ in 0..LEVELS {
-                if centre.abs() > step * hull() {
-                    break;
-                }
-                let least = best.as_ref().map(|best| best.score);
-                let score = clearance_of(here, &change, (centre, step), least);
-                if least.is_none_or(|least| score > least) {
-                    let direction = Direction {
-                        centre,
-                        rate,
-                        ..direction
-                    };
-                    *best = Some(Best { direction, score });
-                }
-                step *= T::from_f64(0.5);
+        let meets = |count: usize| meeting(&slopes.last(count), &values[here.size - count..]);
+        // A row beside the singular ones may not change at all.
+        let Some((centre, rate)) = meets(weak.max(1)).or_else(|| meets(1)) else {
+            return Ok(());
+        };
+        (direction.centre, direction.rate) = (centre, rate);
+        let mut step = spacing::<T>() * self.chart.reach.min(T::one() / rate);
+        for _ in 0..LEVELS {
+            if centre.abs() > step * hull() {
+                break;
             }
+            let least = best.as_ref().map(|best| best.score);
+            let score = clearance_of(here, &change, (centre, step), least);
+            if least.is_none_or(|least| score > least) {
+                *best = Some(Best { direction, score });
+            }
+            step *= T::from_f64(0.5);
         }
         Ok(())
     }
