@@ -143,39 +143,33 @@ where
         direction: &Direction<T, N>,
         angle: T,
     ) -> Result<Option<Best<T, N>>, Obstacle> {
+        let known = self.chart.spacing;
+        let mut width = (spacing::<T>() * self.chart.reach * direction.rate).min(spacing());
+        if known > T::zero() {
+            // Mostly the last spacing serves again.
+            if let Ok(Some(last)) = self.between_nodes(state, like, direction, (known, angle))
+                && last.score <= resolved()
+            {
+                return Ok(Some(last));
+            }
+            width = width.min(known * T::from_f64(4.0));
+        }
         let mut best: Option<Best<T, N>> = None;
         let mut why = None;
-        let mut width = (spacing::<T>() * self.chart.reach * direction.rate).min(spacing());
-        if self.chart.spacing > T::zero() {
-            width = width.min(self.chart.spacing * T::from_f64(4.0));
-        }
-        let mut found = Interpolated::new();
         for _ in 0..LEVELS {
-            if direction.centre.abs() * direction.rate > hull::<T>() * width {
-                break;
-            }
-            match self.interpolate(state, direction, width, like, &mut found) {
-                Ok(()) if self.is_on_sheet(direction, width, angle, &found) => {
-                    let error = self.error(state, direction.rate, &found);
-                    let score = error + found.noise * T::EPSILON;
-                    let known = best
-                        .as_ref()
-                        .map_or(T::from_f64(f64::INFINITY), |b| b.score);
-                    if score < known {
-                        best = Some(Best {
-                            found: found.clone(),
-                            score,
-                            error,
-                            spacing: width,
-                        });
-                    } else if score > known * T::from_f64(4.0) {
-                        break;
+            match self.between_nodes(state, like, direction, (width, angle)) {
+                Ok(None) => break,
+                Ok(Some(found)) => {
+                    let least = best.as_ref().map(|best| best.score);
+                    let resolves = found.error <= resolved();
+                    let worse = least.is_some_and(|least| found.score > least * T::from_f64(4.0));
+                    if least.is_none_or(|least| found.score < least) {
+                        best = Some(found);
                     }
-                    if error <= resolved() {
+                    if resolves || worse {
                         break;
                     }
                 }
-                Ok(()) => why = Some(Obstacle::NotContracting),
                 Err(obstacle) => why = Some(obstacle),
             }
             width *= T::from_f64(0.5);
@@ -184,6 +178,32 @@ where
             (None, Some(why)) => Err(why),
             (best, _) => Ok(best),
         }
+    }
+
+    /// Interpolates between nodes of a spacing; `None` if the state is outside.
+    fn between_nodes(
+        &mut self,
+        state: &State<T, N>,
+        like: &Frame<T, N, R>,
+        direction: &Direction<T, N>,
+        (width, angle): (T, T),
+    ) -> Result<Option<Best<T, N>>, Obstacle> {
+        if direction.centre.abs() * direction.rate > hull::<T>() * width {
+            return Ok(None);
+        }
+        let mut found = Interpolated::new();
+        self.interpolate(state, direction, width, like, &mut found)?;
+        if !self.is_on_sheet(direction, width, angle, &found) {
+            return Err(Obstacle::NotContracting);
+        }
+        let error = self.error(state, direction.rate, &found);
+        let score = error + found.noise * T::EPSILON;
+        Ok(Some(Best {
+            found,
+            score,
+            error,
+            spacing: width,
+        }))
     }
 
     /// The angle between the sheets that cross, in the plane of the direction; about one
