@@ -29,6 +29,7 @@ mod readme;
 mod reduction;
 mod reference;
 mod resume;
+mod skipping;
 mod source;
 mod starts;
 mod stiff;

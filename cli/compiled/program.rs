@@ -45,7 +45,7 @@ impl<'a> Program<'a> {
         let kind = type_name(&compiled.name);
         let main = format!(
             "fn main() -> std::process::ExitCode {{\n    \
-             sized::serve(Box::new({MODULE}::{kind}::<sized::Number>::default()))\n}}\n"
+             sized::serve(|| Box::new({MODULE}::{kind}::<sized::Number>::default()))\n}}\n"
         );
         Ok(Self {
             file,

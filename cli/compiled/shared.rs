@@ -33,16 +33,19 @@ impl Digits {
     /// What descriptions of one pair of sizes share: a `main` but for the mechanism.
     fn serve(self, [coordinates, constraints]: [usize; 2]) -> String {
         let (number, serve) = match self {
-            Self::Double => ("f64", "bricard_driver::serve(mechanism)"),
+            Self::Double => ("f64", "bricard_driver::serve(make)".to_string()),
             Self::Many => (
                 "bricard_reference::DoubleDouble",
-                "bricard_driver::serve_precise(bricard_reference::precise(mechanism))",
+                format!(
+                    "bricard_driver::with_room::<Number, {coordinates}, {constraints}>(move || {{\n        \
+                     bricard_driver::serve_precise(bricard_reference::precise(make()))\n    }})"
+                ),
             ),
         };
         let kind = format!("dyn bricard_runtime::Whole<Number, {coordinates}, {constraints}>");
         format!(
             "pub type Number = {number};\n\n\
-             pub fn serve(mechanism: Box<{kind}>) -> std::process::ExitCode {{\n    \
+             pub fn serve(make: fn() -> Box<{kind}>) -> std::process::ExitCode {{\n    \
              {serve}\n}}\n"
         )
     }

@@ -5,7 +5,7 @@ use bricard_codegen::expr::ExprId;
 use bricard_codegen::model::Mechanism;
 use bricard_codegen::optimise::{Slot, cost, optimise};
 
-type Wanted = Vec<(Slot, ExprId)>;
+pub(super) type Wanted = Vec<(Slot, ExprId)>;
 
 /// One line for each function that a simulation calls: the arrays that it
 /// computes together, and its operations.
@@ -50,7 +50,7 @@ pub fn costs(mechanism: &mut Mechanism, equations: &Equations) -> String {
     text
 }
 
-fn vector(array: &'static str, entries: &[ExprId]) -> Wanted {
+pub(super) fn vector(array: &'static str, entries: &[ExprId]) -> Wanted {
     let slot = |(row, &e)| {
         (
             Slot {
@@ -64,7 +64,7 @@ fn vector(array: &'static str, entries: &[ExprId]) -> Wanted {
     entries.iter().enumerate().map(slot).collect()
 }
 
-fn matrix(array: &'static str, rows: &Matrix) -> Wanted {
+pub(super) fn matrix(array: &'static str, rows: &Matrix) -> Wanted {
     let entry = |(row, entries): (usize, &Vec<ExprId>)| {
         let slot = move |(column, &e): (usize, &ExprId)| (Slot { array, row, column }, e);
         entries.iter().enumerate().map(slot).collect::<Vec<_>>()

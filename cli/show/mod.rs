@@ -10,6 +10,7 @@
 mod cost;
 mod names;
 mod sections;
+mod skipped;
 
 use crate::arguments::Show;
 use crate::check::read;
@@ -35,6 +36,7 @@ pub fn show(arguments: &Show) -> Result<(), CommandError> {
     let equations = derive::derive(&mut mechanism).map_err(rendered)?;
     let sections = sections::sections(&mut mechanism, &equations);
     let costs = cost::costs(&mut mechanism, &equations);
+    let skipped = skipped::skipped(&mut mechanism, &equations);
     if !mechanism.described.is_empty() {
         // The rank at the start is that of all constraints.
         subject.start = None;
@@ -47,13 +49,14 @@ pub fn show(arguments: &Show) -> Result<(), CommandError> {
         let comment = heading
             .lines()
             .chain(costs.lines())
+            .chain(skipped.lines())
             .map(|line| format!("% {line}\n"));
         let body = sections::latex(&mut graph, &sections, &names);
         format!("{}\n{body}", comment.collect::<String>())
     } else {
         let names = |symbol: Symbol| mechanism.symbol_text(symbol);
         let body = sections::text(&mut graph, &sections, &names);
-        format!("{heading}\n{body}{costs}")
+        format!("{heading}\n{body}{costs}{skipped}")
     })
 }
 

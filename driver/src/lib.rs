@@ -24,4 +24,4 @@ pub use column::{Column, WORDS};
 pub use leg::{Leg, Reached, Watch};
 pub use link::Link;
 pub use precise::{Around, Changes, Exact, Path, Precise, PreciseLink, serve_precise};
-pub use serve::serve;
+pub use serve::{serve, with_room};

@@ -1,0 +1,191 @@
+//! What the generated programs leave out, and what that saves.
+//!
+//! In:  the equations of motion.
+//! Out: a line for each thing that this mechanism doesn't need, with the operations that
+//!      a program for any mechanism of its size would spend on it.
+
+use super::cost::{matrix, vector};
+use bricard_codegen::derive::Equations;
+use bricard_codegen::expr::{ExprId, Graph, Symbol};
+use bricard_codegen::model::Mechanism;
+use bricard_codegen::optimise::{Cost, cost, optimise, regular_acceleration};
+use std::collections::BTreeSet;
+
+/// The section, empty where everything is needed.
+pub fn skipped(mechanism: &mut Mechanism, equations: &Equations) -> String {
+    let lines = [
+        coriolis(&mechanism.graph, equations),
+        constant_mass(&mechanism.graph, equations),
+        solve(mechanism, equations),
+        repeated(&mechanism.graph, equations),
+        time(&mechanism.graph, equations),
+        ignorable(mechanism, equations),
+        folded(mechanism),
+        no_constraints(equations),
+        on_request(mechanism, equations),
+    ];
+    let lines: Vec<String> = lines.into_iter().flatten().collect();
+    match lines.is_empty() {
+        true => String::new(),
+        false => format!("\nleft out\n{}\n", lines.join("\n")),
+    }
+}
+
+fn total(cost: Cost) -> usize {
+    cost.sums + cost.products + cost.quotients + cost.angles + cost.functions
+}
+
+fn plural(count: usize, one: &str, more: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { more })
+}
+
+fn zeros<'a>(graph: &Graph, entries: impl Iterator<Item = &'a ExprId>) -> usize {
+    entries.filter(|e| graph.is_zero(**e)).count()
+}
+
+/// Products `Cᵢⱼ q̇ⱼ` that vanish.
+fn coriolis(graph: &Graph, equations: &Equations) -> Option<String> {
+    let n = equations.coriolis.len();
+    let absent = zeros(graph, equations.coriolis.iter());
+    // Christoffel symbols take n²(n + 1)/2 slopes of M; each entry n² products with them.
+    let each = 2 * n * n;
+    (absent > 0).then(|| match absent == n {
+        true => format!("Coriolis terms: there are none; {} operations", n * each),
+        false => format!(
+            "Coriolis terms: {absent} of {n} are zero; {} operations",
+            absent * each
+        ),
+    })
+}
+
+/// A mass matrix that is factorised once.
+fn constant_mass(graph: &Graph, equations: &Equations) -> Option<String> {
+    let moves = |symbol: &Symbol| matches!(symbol, Symbol::Time | Symbol::Coordinate(_));
+    let constant = |e: &ExprId| !graph.symbols(*e).iter().any(moves);
+    let n = equations.mass.len();
+    let all = equations.mass.iter().flatten().all(constant);
+    all.then(|| {
+        format!("slopes of M, and its factorisation but for the first: M is constant; {} operations a factorisation", (n * n * n + 2 * n) / 3)
+    })
+}
+
+/// What zeros of M and G save in the solve.
+fn solve(mechanism: &mut Mechanism, equations: &Equations) -> Option<String> {
+    let (n, r) = (equations.mass.len(), equations.jacobian.len());
+    let graph = &mechanism.graph;
+    let absent = zeros(graph, equations.mass.iter().flatten())
+        + 2 * zeros(graph, equations.jacobian.iter().flatten());
+    let wanted = [
+        matrix("mass", &equations.mass),
+        vector("force", &equations.force),
+        matrix("jacobian", &equations.jacobian),
+        vector("bias", &equations.bias),
+    ];
+    let laws: Vec<ExprId> = mechanism.inputs.iter().map(|input| input.law).collect();
+    let terms = optimise(&mut mechanism.graph, &laws, &wanted.concat());
+    let solved = regular_acceleration(&terms, (n, r), &equations.weighed)?;
+    let spent = total(cost(&solved.program)).saturating_sub(total(cost(&terms)));
+    // Cholesky factors of M and of G M⁻¹ Gᵀ, products for that, and four substitutions.
+    let cube = |k: usize| (k * k * k + 2 * k) / 3;
+    let dense = cube(n) + n * n * r + n * r * r + cube(r) + 2 * n * n + 2 * r * r + 4 * n * r;
+    (absent > 0 && spent < dense).then(|| {
+        format!(
+            "zeros of M and G in the solve: {absent} of {} entries; {spent} operations instead of {dense}",
+            n * n + 2 * n * r
+        )
+    })
+}
+
+/// Entries that are equal to others.
+fn repeated(graph: &Graph, equations: &Equations) -> Option<String> {
+    let e = equations;
+    let entries = e.mass.iter().chain(&e.jacobian).flatten();
+    let entries: Vec<ExprId> = entries
+        .chain(&e.force)
+        .chain(&e.bias)
+        .copied()
+        .filter(|entry| !graph.is_zero(*entry) && graph.constant_value(*entry).is_none())
+        .collect();
+    let distinct: BTreeSet<ExprId> = entries.iter().copied().collect();
+    let again = entries.len() - distinct.len();
+    (again > 0).then(|| {
+        format!(
+            "{} that {} another one",
+            plural(again, "entry", "entries"),
+            if again == 1 { "equals" } else { "equal" }
+        )
+    })
+}
+
+/// Derivatives by time where nothing moves by itself.
+fn time(graph: &Graph, equations: &Equations) -> Option<String> {
+    let r = equations.drift.len();
+    let still = zeros(graph, equations.drift.iter());
+    (still > 0).then(|| match still == r {
+        true => "partial derivatives of the constraints by time: none of them moves by itself".into(),
+        false => format!("partial derivatives by time of {still} of {r} constraint equations, which do not move by themselves"),
+    })
+}
+
+/// Coordinates on which nothing depends.
+fn ignorable(mechanism: &Mechanism, equations: &Equations) -> Option<String> {
+    let e = equations;
+    let graph = &mechanism.graph;
+    let entries = e.mass.iter().chain(&e.jacobian).flatten();
+    let entries = entries.chain(&e.force).chain(&e.residual).chain(&e.bias);
+    let present: BTreeSet<Symbol> = entries.flat_map(|entry| graph.symbols(*entry)).collect();
+    let absent = mechanism.coordinates.iter().enumerate();
+    let absent: Vec<&str> = absent
+        .filter(|(i, _)| !present.contains(&Symbol::Coordinate(*i as u32)))
+        .map(|(_, coordinate)| coordinate.name.as_str())
+        .collect();
+    (!absent.is_empty()).then(|| {
+        format!(
+            "functions of {}: no term depends on {} (ignorable)",
+            absent.join(", "),
+            if absent.len() == 1 { "it" } else { "them" }
+        )
+    })
+}
+
+fn folded(mechanism: &Mechanism) -> Option<String> {
+    let count = mechanism.constants.len();
+    (count > 0).then(|| {
+        format!(
+            "{} that are folded into numbers",
+            plural(count, "constant", "constants")
+        )
+    })
+}
+
+fn no_constraints(equations: &Equations) -> Option<String> {
+    equations.jacobian.is_empty().then(|| {
+        "projection, rank decisions, and all that singular configurations need: there are no constraints".into()
+    })
+}
+
+/// What is computed only when it is asked for.
+fn on_request(mechanism: &mut Mechanism, equations: &Equations) -> Option<String> {
+    let laws: Vec<ExprId> = mechanism.inputs.iter().map(|input| input.law).collect();
+    let energies = equations.energies;
+    let energies = [
+        energies.kinetic,
+        energies.potential,
+        energies.balance,
+        energies.power,
+    ];
+    let outputs: Vec<ExprId> = mechanism
+        .outputs
+        .iter()
+        .map(|output| output.value)
+        .collect();
+    let mut said = Vec::new();
+    for (name, values) in [("the energies", energies.as_slice()), ("outputs", &outputs)] {
+        let program = optimise(&mut mechanism.graph, &laws, &vector("asked", values));
+        let spent = total(cost(&program));
+        if spent > 0 {
+            said.push(format!("{name} ({spent} operations)"));
+        }
+    }
+    (!said.is_empty()).then(|| format!("{}, until they are asked for", said.join(" and ")))
+}

@@ -1,0 +1,131 @@
+//! What a description doesn't need is left out of its program, and `bricard show` says
+//! so: each on a pair of descriptions that differ in that one thing.
+
+use bricard_codegen::{Settings, compile_source};
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// What `show` says is left out.
+fn left_out(test: &str, source: &str) -> String {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("skipping");
+    fs::create_dir_all(&folder).expect("a folder can be made");
+    let file = folder.join(format!("{test}.mech"));
+    fs::write(&file, source).expect("the folder is ours");
+    let show = Command::new(env!("CARGO_BIN_EXE_bricard"))
+        .arg("show")
+        .arg(&file)
+        .output()
+        .expect("the command starts");
+    assert!(show.status.success(), "{source}");
+    let text = String::from_utf8(show.stdout).expect("the command prints text");
+    let section = text.split_once("\nleft out\n");
+    section.map_or(String::new(), |(_, section)| section.to_string())
+}
+
+fn code(source: &str) -> String {
+    let compiled = compile_source(source, "pair", "pair.mech", &Settings::default());
+    let compiled = compiled.unwrap_or_else(|errors| panic!("{}", errors.render("pair", source)));
+    compiled.code
+}
+
+/// The function of a name in generated code, to the next function.
+fn function<'a>(code: &'a str, name: &str) -> &'a str {
+    let (_, rest) = code.split_once(&format!("fn {name}")).expect(name);
+    rest.split_once("\n    fn ").map_or(rest, |(body, _)| body)
+}
+
+/// Checks that a line about something stands below `with` alone.
+fn differs(test: &str, about: &str, [without, with]: [&str; 2]) -> String {
+    let (plain, said) = (left_out(test, without), left_out(test, with));
+    assert!(!plain.contains(about), "{about}\n{plain}");
+    let line = said.lines().find(|line| line.contains(about));
+    line.unwrap_or_else(|| panic!("{about}\n{said}"))
+        .to_string()
+}
+
+const CART: &str = "mechanism Cart { param m: kg = 1; param l: m = 2; const g: m/s^2 = 9.81;
+    coord x: m; coord a: rad; let P = [x + l*sin(a), -l*cos(a)];
+    kinetic 1/2*m*der(x)^2 + 1/2*m*norm2(der(P)); potential m*g*P.y; start { a = 1; } }";
+
+/// The same mass at a distance that does not turn.
+const SLIDES: &str = "mechanism Cart { param m: kg = 1; param l: m = 2; const g: m/s^2 = 9.81;
+    coord x: m; coord a: m; let P = [x + a, -l];
+    kinetic 1/2*m*der(x)^2 + 1/2*m*norm2(der(P)); potential m*g*P.y*a/l; start { a = 1; } }";
+
+#[test]
+fn a_constant_mass_matrix_has_no_coriolis_terms_and_is_factorised_once() {
+    let line = differs("constant", "M is constant", [CART, SLIDES]);
+    assert!(line.contains("operations"), "{line}");
+    assert!(left_out("constant", SLIDES).contains("Coriolis terms: there are none"));
+    assert!(code(SLIDES).contains("constant_mass: true"));
+    assert!(code(CART).contains("constant_mass: false"));
+}
+
+#[test]
+fn functions_of_a_coordinate_that_enters_nothing_are_not_written() {
+    let sprung = CART.replace("potential m*g*P.y;", "potential m*g*P.y + m*g*x^2/l;");
+    let line = differs("ignorable", "(ignorable)", [&sprung, CART]);
+    assert!(line.starts_with("functions of x:"), "{line}");
+    assert!(function(&code(CART), "terms").contains("let [_, a] = state.q"));
+    assert!(function(&code(&sprung), "terms").contains("let [x, a] = state.q"));
+}
+
+const HUNG: &str = "mechanism Hung { param m: kg = 1; param l: m = 2; const g: m/s^2 = 9.81;
+    coord x: m; coord y: m; kinetic 1/2*m*(der(x)^2 + der(y)^2); potential m*g*y;
+    constraint x^2 + y^2 = l^2; start { x = 1; y ~ -1; } }";
+
+#[test]
+fn constraints_that_stand_still_have_no_derivatives_by_time() {
+    let driven = HUNG
+        .replace("= l^2;", "= (l*(1 + 0.1*sin(t/w)))^2;")
+        .replace("const g", "const w: s = 1; const g");
+    differs(
+        "clock",
+        "derivatives of the constraints by time",
+        [&driven, HUNG],
+    );
+    let drift = |source: &str| function(&code(source), "position").contains("out.drift");
+    assert!(drift(&driven));
+    assert!(!drift(HUNG));
+}
+
+#[test]
+fn without_constraints_nothing_is_projected() {
+    differs("free", "there are no constraints", [HUNG, CART]);
+    assert!(code(HUNG).contains("fn correction"));
+    assert!(!code(CART).contains("fn correction"));
+}
+
+#[test]
+fn zeros_shorten_the_solve() {
+    // In a full matrix nothing is zero.
+    let full = HUNG.replace("der(y)^2)", "der(y)^2 + der(x)*der(y))");
+    let line = differs("zeros", "zeros of M and G", [&full, HUNG]);
+    let counts: Vec<usize> = line
+        .split(|c: char| !c.is_ascii_digit())
+        .filter_map(|word| word.parse().ok())
+        .collect();
+    let [zeros, entries, spent, dense] = counts[..] else {
+        panic!("{line}");
+    };
+    assert!(zeros == 2 && entries == 8 && spent < dense, "{line}");
+}
+
+#[test]
+fn constants_become_numbers() {
+    let open = CART.replace("const g", "param g");
+    let line = differs("folded", "folded into numbers", [&open, CART]);
+    assert!(line.starts_with("1 constant"), "{line}");
+    assert!(function(&code(CART), "terms").contains("9.81"));
+    assert!(!function(&code(&open), "terms").contains("9.81"));
+}
+
+#[test]
+fn outputs_cost_nothing_until_they_are_asked_for() {
+    let watched = CART.replace("start {", "output tip: m = P.x*cos(a); start {");
+    let line = differs("asked", "outputs (", [CART, &watched]);
+    assert!(line.contains("until they are asked for"), "{line}");
+    let terms = |source: &str| function(&code(source), "terms").to_string();
+    assert_eq!(terms(CART), terms(&watched));
+}
