@@ -82,7 +82,7 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
     /// As [`step`](Self::step), and [`SimulateError::TooMuchWork`] if that is not enough:
     /// `state` is then the last good one, which may be a part of the way ahead. The stepper
     /// can go on from there. What is asked for when nothing is left gets no answer and ends
-    /// the step, not at once but after a few evaluations more.
+    /// the step, not at once but after a few dozen evaluations more at most.
     pub fn step_within<M>(
         &mut self,
         mechanism: &M,
