@@ -231,16 +231,26 @@ fn is_excerpt(block: &str, file: &str) -> bool {
 
 #[test]
 fn code_on_the_pages_about_other_machines_is_that_of_the_examples() {
-    let pages: [(&str, &[&str]); 1] = [(
-        "docs/bare_metal.md",
-        &[
-            "examples/bare_metal/Cargo.toml",
-            "examples/bare_metal/src/lib.rs",
-            "examples/bare_metal/firmware/memory.x",
-            "examples/bare_metal/firmware/src/bin/double.rs",
-            "examples/bare_metal/run",
-        ],
-    )];
+    let pages: [(&str, &[&str]); 2] = [
+        (
+            "docs/bare_metal.md",
+            &[
+                "examples/bare_metal/Cargo.toml",
+                "examples/bare_metal/src/lib.rs",
+                "examples/bare_metal/firmware/src/bin/double.rs",
+            ],
+        ),
+        (
+            "docs/browser.md",
+            &[
+                "examples/web/Cargo.toml",
+                "examples/web/src/lib.rs",
+                "examples/web/package/package.json",
+                "examples/web/package/README.md",
+                "examples/web/page/index.html",
+            ],
+        ),
+    ];
     for (name, files) in pages {
         let files = files.iter().map(|file| page(file).text);
         let files: Vec<String> = files.collect();
