@@ -30,7 +30,7 @@ pub type Shared<M, const N: usize, const R: usize> = spin::LazyLock<spin::Mutex<
 
 /// Exports a mechanism: its type, its coordinates, its constraint equations.
 ///
-/// ```ignore
+/// ```text
 /// bricard_runtime::include_mechanism!("engine");
 /// bricard_wasm::module!(engine::Engine<f64>, 3, 2);
 /// ```
