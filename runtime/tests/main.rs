@@ -4,6 +4,7 @@ mod allocation;
 mod assembly;
 mod bridge;
 mod conserve;
+mod deadline;
 mod dynamics;
 mod finite;
 mod hits;

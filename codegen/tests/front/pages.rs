@@ -219,6 +219,63 @@ fn the_program_of_the_tutorial_is_the_one_that_is_built() {
     }
 }
 
+/// Whether the lines of a block follow each other in a file, indented as a whole or not.
+/// Lines between some of them may be left out, each time with `…` in their place.
+fn is_excerpt(block: &str, file: &str) -> bool {
+    let lines: Vec<&str> = file.lines().map(str::trim).collect();
+    block.split("…\n").all(|part| {
+        let part: Vec<&str> = part.lines().map(str::trim).collect();
+        lines.windows(part.len().max(1)).any(|lines| lines == part)
+    })
+}
+
+#[test]
+fn code_on_the_pages_about_other_machines_is_that_of_the_examples() {
+    let pages: [(&str, &[&str]); 2] = [
+        (
+            "docs/bare_metal.md",
+            &[
+                "examples/bare_metal/Cargo.toml",
+                "examples/bare_metal/src/lib.rs",
+                "examples/bare_metal/firmware/src/bin/double.rs",
+            ],
+        ),
+        (
+            "docs/browser.md",
+            &[
+                "examples/web/Cargo.toml",
+                "examples/web/src/lib.rs",
+                "examples/web/package/package.json",
+                "examples/web/package/README.md",
+                "examples/web/page/index.html",
+            ],
+        ),
+    ];
+    for (name, files) in pages {
+        let files = files.iter().map(|file| page(file).text);
+        let files: Vec<String> = files.collect();
+        let page = page(name);
+        let blocks = page.blocks();
+        let code = blocks.iter().filter(|block| block.language != "text");
+        let mut seen = 0;
+        for block in code {
+            let found = files.iter().any(|file| is_excerpt(&block.text, file));
+            assert!(found, "{name}: in no file of the example:\n{}", block.text);
+            seen += 1;
+        }
+        assert!(seen > 2, "{name}: only {seen} blocks");
+    }
+}
+
+#[test]
+fn an_excerpt_has_the_lines_of_a_file_in_their_order() {
+    let file = "a {\n    b;\n    c;\n    d;\n}\n";
+    assert!(is_excerpt("b;\nc;\n", file));
+    assert!(is_excerpt("a {\n…\nd;\n", file));
+    assert!(!is_excerpt("b;\nd;\n", file));
+    assert!(!is_excerpt("e;\n", file));
+}
+
 #[test]
 fn links_between_pages_lead_somewhere() {
     let mut seen = 0;

@@ -53,6 +53,13 @@ pub enum SimulateError<T> {
         /// The number of steps.
         steps: u64,
     },
+    /// A step needs more evaluations of the equations than it was granted.
+    TooMuchWork {
+        /// Time that was reached (s).
+        t: T,
+        /// The evaluations that it was granted.
+        most: u32,
+    },
     /// The mechanism has more events than the runtime has room for.
     TooManyEvents {
         /// How many it has.
@@ -114,6 +121,12 @@ impl<T: Real> Display for SimulateError<T> {
                 f,
                 "after {steps} steps the run had only come to t = {t} s; allow more steps or a \
                  larger tolerance",
+                t = Number(t)
+            ),
+            Self::TooMuchWork { t, most } => write!(
+                f,
+                "{most} evaluations of the equations are too few for the step at t = {t} s; \
+                 grant more, or take a shorter step",
                 t = Number(t)
             ),
             Self::TooManyEvents { events, room } => {

@@ -9,6 +9,7 @@ mod conserve;
 mod error;
 mod event;
 mod grid;
+mod metered;
 mod options;
 mod stepper;
 mod summary;

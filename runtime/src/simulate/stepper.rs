@@ -5,6 +5,7 @@
 //!
 //! Not here: observers and audits ([`super::simulate`]).
 
+use super::metered::Metered;
 use super::options::{Driver, Pace, Scheme};
 use super::{Grid, SimulateError};
 use crate::integrator::Inside;
@@ -67,6 +68,37 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
             go(&mut self.driver, &mut system, state, grid.time(i))?;
         }
         go(&mut self.driver, &mut system, state, until)
+    }
+
+    /// The same within a deadline: moves `state` on by `span` seconds with at most `most`
+    /// evaluations of the equations of motion and says how many it took.
+    ///
+    /// All other work of a step is in proportion to them, because every loop of the
+    /// runtime is over sizes of the mechanism, or has a constant bound, or evaluates the
+    /// equations in each turn. So a time measured for one evaluation bounds that of a step.
+    ///
+    /// # Errors
+    ///
+    /// As [`step`](Self::step), and [`SimulateError::TooMuchWork`] if that is not enough:
+    /// `state` is then the last good one, which may be a part of the way ahead. The stepper
+    /// can go on from there. What is asked for when nothing is left gets no answer and ends
+    /// the step, not at once but after a few dozen evaluations more at most.
+    pub fn step_within<M>(
+        &mut self,
+        mechanism: &M,
+        state: &mut State<T, N>,
+        span: T,
+        most: u32,
+    ) -> Result<u32, SimulateError<T>>
+    where
+        M: Mechanism<T, N, R> + ?Sized,
+    {
+        let metered = Metered::new(mechanism, most);
+        let result = self.step(&metered, state, span);
+        if metered.is_exceeded() {
+            return Err(SimulateError::TooMuchWork { t: state.t, most });
+        }
+        result.map(|()| metered.asked())
     }
 
     /// What the solver did so far.

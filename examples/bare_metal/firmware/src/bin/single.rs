@@ -1,0 +1,10 @@
+//! The control loop with `f32`.
+#![no_std]
+#![no_main]
+
+use cortex_m_rt::entry;
+
+#[entry]
+fn main() -> ! {
+    firmware::run::<f32>()
+}

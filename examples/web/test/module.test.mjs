@@ -1,0 +1,111 @@
+// The package as a user installs it: equal to native code to the last bit, through singular
+// positions; about as fast; and clear about mistakes.
+import assert from "node:assert/strict";
+import { statSync } from "node:fs";
+import { test } from "node:test";
+import { Mechanism, MechanismError } from "bricard-engine";
+import { CASES, run } from "./cases.mjs";
+import { native } from "./native.mjs";
+
+/** How many times as long as native code the module may take, once it is warm. */
+const SLOWER = 2;
+
+const natively = native();
+
+test("every state equals that of native code to the last bit", async () => {
+  for (const [place, each] of CASES.entries()) {
+    const engine = await Mechanism.load();
+    const states = run(engine, each);
+    for (const [i, state] of states.entries()) {
+      assert.deepEqual(state, natively[place].states[i], JSON.stringify(each));
+    }
+    assert.ok(engine.state.q[0] > 20, "the crank turns through singular positions");
+  }
+});
+
+test(`a run takes at most ${SLOWER} times as long as in native code`, async () => {
+  for (const [place, each] of CASES.entries()) {
+    const engine = await Mechanism.load();
+    let shortest = Infinity;
+    for (let i = 0; i < each.repeat; i++) {
+      const begin = performance.now();
+      run(engine, each);
+      shortest = Math.min(shortest, (performance.now() - begin) / 1000);
+    }
+    const ratio = shortest / natively[place].seconds;
+    const times = [shortest, natively[place].seconds].map((time) => (time * 1000).toFixed(2));
+    console.log(`${each.method}: ${times[0]} ms, native ${times[1]} ms, ratio ${ratio.toFixed(2)}`);
+    assert.ok(ratio <= SLOWER, `${each.method}: ${ratio}`);
+  }
+});
+
+test("the mechanism says what it has", async () => {
+  const engine = await Mechanism.load();
+  assert.equal(engine.name, "Engine");
+  assert.deepEqual(engine.coordinates.map(({ name }) => name), ["crank", "rod", "slider"]);
+  assert.deepEqual(engine.parameters[0], {
+    name: "L",
+    unit: "m",
+    docs: "length of crank and connecting rod",
+  });
+  assert.equal(engine.parameter("ms"), 0.5);
+  assert.equal(engine.set({ ms: 0.7 }).parameter("ms"), 0.7);
+});
+
+test("energy, reactions and pictures are those of a mechanism", async () => {
+  const engine = await Mechanism.load();
+  engine.assemble({ held: { "der(crank)": 8 } });
+  const sum = ({ kinetic, potential }) => kinetic + potential;
+  const before = sum(engine.energy);
+  engine.advance(3);
+  assert.ok(Math.abs(sum(engine.energy) - before) < 1e-6 * before);
+  const { accelerations, reactions } = engine.forces;
+  // A reaction does no work, and the slider has no force but this one.
+  const power = reactions.reduce((sum, r, i) => sum + r * engine.state.v[i], 0);
+  assert.ok(Math.abs(power) < 1e-9);
+  assert.ok(Math.abs(reactions[2] + 0.5 * accelerations[2]) < 1e-9);
+  const [line] = engine.shapes;
+  assert.equal(line.kind, "line");
+  assert.ok(Math.abs(Math.hypot(...line.points[1]) - 0.5) < 1e-12);
+  assert.ok(Math.abs(line.points[2][0] - engine.state.q[2]) < 1e-12);
+});
+
+test("two mechanisms share nothing, and a state can be set", async () => {
+  const [one, two] = [await Mechanism.load(), await Mechanism.load()];
+  one.set({ ms: 2 }).assemble().advance(1);
+  two.assemble().advance(1);
+  assert.notDeepEqual(one.state, two.state);
+  const kept = two.state;
+  const there = two.advance(1.5).state;
+  two.state = kept;
+  // The steps are not the same ones.
+  two.advance(1.5).state.q.forEach((q, i) => assert.ok(Math.abs(q - there.q[i]) < 1e-6));
+});
+
+test("mistakes are errors that say what is wrong", async () => {
+  const engine = await Mechanism.load();
+  const fails = (act, message) => assert.throws(act, (error) => {
+    assert.ok(error instanceof MechanismError, String(error));
+    assert.match(error.message, message);
+    return true;
+  });
+  fails(() => engine.set({ mass: 1 }), /Engine has no "mass" among its parameters: L, m, ms, J/);
+  fails(() => engine.set({ ms: "1" }), /ms must be a number, not "1"/);
+  fails(() => engine.set({ ms: NaN }), /a number is wanted, not NaN/);
+  fails(() => engine.advance(1), /isn't assembled yet/);
+  fails(() => engine.state, /isn't assembled yet/);
+  fails(() => engine.method("euler"), /there is no method "euler"; there are rk4/);
+  fails(() => engine.method("rk4", { rtol: 1e-6 }), /has no error estimate/);
+  fails(() => engine.assemble({ held: { crank: 0, rod: 2 } }), /./);
+  engine.assemble();
+  fails(() => engine.advance(-1), /the end must be a number and not come earlier/);
+  fails(() => (engine.state = { t: 0, q: [1], v: [1] }), /3 coordinates/);
+  assert.equal(engine.advance(0.1).state.t, 0.1);
+  await assert.rejects(Mechanism.load(new ArrayBuffer(3)), WebAssembly.CompileError);
+});
+
+test("the module is small", () => {
+  const bytes = statSync(new URL(import.meta.resolve("bricard-engine/mechanism.wasm"))).size;
+  console.log(`${bytes} bytes`);
+  assert.ok(bytes < 600_000);
+});

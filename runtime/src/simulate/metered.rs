@@ -1,0 +1,140 @@
+//! A mechanism whose equations are evaluated a limited number of times.
+//!
+//! In:  a mechanism, how many evaluations are granted.
+//! Out: the same mechanism, and how often it was asked.
+//!
+//! What is asked for beyond the limit is spoilt: every entry that isn't zero becomes NaN,
+//! upon which whatever goes on in a step comes to its end. Entries that are zero stay so,
+//! because nobody would write them again.
+
+use crate::assembly::StartFault;
+use crate::{
+    Condition, Correction, Energy, Linearised, Mechanism, Position, Real, Regular, Start, State,
+    Structure, Switch, Terms,
+};
+use core::cell::Cell;
+use nalgebra::SVector;
+
+/// Counts the evaluations of a mechanism's equations and spoils those beyond a limit.
+pub(super) struct Metered<'a, M: ?Sized> {
+    mechanism: &'a M,
+    most: u32,
+    asked: Cell<u32>,
+}
+
+impl<'a, M: ?Sized> Metered<'a, M> {
+    /// None asked for yet.
+    pub(super) fn new(mechanism: &'a M, most: u32) -> Self {
+        Self {
+            mechanism,
+            most,
+            asked: Cell::new(0),
+        }
+    }
+
+    /// How many evaluations were asked for, those that were refused included.
+    pub(super) fn asked(&self) -> u32 {
+        self.asked.get()
+    }
+
+    /// Whether some were refused.
+    pub(super) fn is_exceeded(&self) -> bool {
+        self.asked.get() > self.most
+    }
+
+    /// Takes note of an evaluation and spoils it if it is one too many.
+    #[inline]
+    fn count<'b, T: Real>(&self, entries: impl IntoIterator<Item = &'b mut T>) {
+        self.asked.set(self.asked.get().saturating_add(1));
+        if self.is_exceeded() {
+            spoil(entries);
+        }
+    }
+}
+
+/// Makes everything NaN that isn't zero.
+#[cold]
+fn spoil<'b, T: Real>(entries: impl IntoIterator<Item = &'b mut T>) {
+    for entry in entries {
+        if *entry != T::zero() {
+            *entry = T::from_f64(f64::NAN);
+        }
+    }
+}
+
+impl<M, T: Real, const N: usize, const R: usize> Mechanism<T, N, R> for Metered<'_, M>
+where
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    fn structure(&self) -> &'static Structure {
+        self.mechanism.structure()
+    }
+
+    fn terms(&self, state: &State<T, N>, out: &mut Terms<T, N, R>) {
+        self.mechanism.terms(state, out);
+        let rows = out.jacobian.iter_mut().chain(&mut out.bias);
+        self.count(out.mass.iter_mut().chain(&mut out.force).chain(rows));
+    }
+
+    fn regular(&self, state: &State<T, N>, out: &mut Regular<T, N, R>) -> bool {
+        let provided = self.mechanism.regular(state, out);
+        let pivots = out.pivots.mass_pivots.iter_mut();
+        let pivots = pivots.chain(&mut out.pivots.row_pivots);
+        self.count(out.acceleration.iter_mut().chain(pivots));
+        provided
+    }
+
+    fn position(&self, state: &State<T, N>, out: &mut Position<T, N, R>) {
+        self.mechanism.position(state, out);
+        let rows = out.residual.iter_mut().chain(&mut out.drift);
+        let rows = rows.chain(out.jacobian.iter_mut());
+        self.count(out.mass.iter_mut().chain(rows));
+    }
+
+    fn correction(&self, state: &State<T, N>, out: &mut Correction<T, N, R>) -> bool {
+        let provided = self.mechanism.correction(state, out);
+        let pivots = out.pivots.mass_pivots.iter_mut();
+        let pivots = pivots.chain(&mut out.pivots.row_pivots);
+        self.count(out.residual.iter_mut().chain(pivots));
+        provided
+    }
+
+    fn begin(&self, start: &mut Start<T, N>, t: T) -> Result<(), StartFault<T, N>> {
+        self.mechanism.begin(start, t)
+    }
+
+    fn switches(
+        &self,
+        state: &State<T, N>,
+        acceleration: &SVector<T, N>,
+        values: &mut [Switch<T>],
+    ) -> &'static [Condition] {
+        let conditions = self.mechanism.switches(state, acceleration, values);
+        // An empty slice asks for the conditions alone.
+        if !values.is_empty() {
+            self.count(values.iter_mut().map(|switch| &mut switch.value));
+        }
+        conditions
+    }
+
+    fn energy(&self, state: &State<T, N>) -> Energy<T> {
+        self.mechanism.energy(state)
+    }
+
+    fn linearised(
+        &self,
+        state: &State<T, N>,
+        acceleration: &SVector<T, N>,
+        multiplier: &SVector<T, R>,
+        out: &mut Linearised<T, N, R>,
+    ) -> bool {
+        let mechanism = self.mechanism;
+        let provided = mechanism.linearised(state, acceleration, multiplier, out);
+        let by_velocity = out.force_by_velocity.iter_mut();
+        let by_velocity = by_velocity.chain(out.row_by_velocity.iter_mut());
+        let by_position = out.force_by_position.iter_mut();
+        let by_position = by_position.chain(out.row_by_position.iter_mut());
+        self.count(by_position.chain(by_velocity));
+        provided
+    }
+}

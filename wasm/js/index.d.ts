@@ -1,0 +1,70 @@
+/** What a mechanism has of one name. */
+export interface Quantity {
+  readonly name: string;
+  /** As the description writes it; empty if it gives none. */
+  readonly unit: string;
+  readonly docs: string;
+}
+
+/** Time (s), coordinates and velocities, in the order of `coordinates`. */
+export interface State {
+  t: number;
+  q: number[];
+  v: number[];
+}
+
+export type Method = "rk4" | "dp5" | "dop853" | "radau5" | "radau9";
+
+/** Steps that follow the accepted error, or steps of one length (s). */
+export type Steps = { rtol?: number; atol?: number } | { step: number };
+
+/** A shape of a picture; points in metres. */
+export type Shape =
+  | { kind: "line" | "polygon" | "trace"; points: [number, number, number][] }
+  | { kind: "circle"; points: [number, number, number][]; radius: number };
+
+/** What went wrong, in the words of the runtime. */
+export class MechanismError extends Error {}
+
+/** A mechanism compiled by bricard. Each has an instance of the module of its own. */
+export class Mechanism {
+  /** Loads a module: by default the one of this package. */
+  static load(
+    source?: URL | string | Response | BufferSource | WebAssembly.Module,
+  ): Promise<Mechanism>;
+  constructor(instance: WebAssembly.Instance);
+
+  readonly name: string;
+  readonly docs: string;
+  readonly coordinates: readonly Quantity[];
+  readonly parameters: readonly Quantity[];
+  readonly inputs: readonly Quantity[];
+  readonly outputs: readonly Quantity[];
+
+  /** The value of a parameter (SI). */
+  parameter(name: string): number;
+  /** Sets parameters by name (SI). */
+  set(values: Record<string, number>): this;
+  /** Holds inputs at values; `null` returns one to its default law. */
+  input(values: Record<string, number | null>): this;
+  /** Chooses the method, and how long its steps are; `dop853` to 1e-9 by default. */
+  method(name: Method, steps?: Steps): this;
+  /** Puts the mechanism together at t = 0; velocities are called `der(name)`. */
+  assemble(start?: {
+    held?: Record<string, number>;
+    guessed?: Record<string, number>;
+  }): this;
+  /** Moves on to a time (s). */
+  advance(time: number): this;
+
+  /** Where the motion is. A state that is set has to be on the constraints. */
+  state: State;
+  /** The outputs by name. */
+  readonly results: Record<string, number>;
+  /** Kinetic and potential energy (J), and the power (W) that is supplied. */
+  readonly energy: { kinetic: number; potential: number; power: number };
+  /** Accelerations, and the generalized reaction forces of the constraints. */
+  readonly forces: { accelerations: number[]; reactions: number[] };
+  /** The picture. */
+  readonly shapes: Shape[];
+}

@@ -1,0 +1,92 @@
+//! A mechanism as a WebAssembly module.
+//!
+//! In:  a generated mechanism.
+//! Out: the functions of a module, by [`module!`], which `js/index.js` calls.
+//!
+//! ```text
+//! JavaScript ── numbers ──> exported functions ──> Session ──> the runtime
+//!            <── reads numbers and text in the module's memory
+//! ```
+//!
+//! A module holds one mechanism: for two, it is instantiated twice. So there are no handles
+//! and nothing is shared. Only numbers go in; arrays and texts are read in the module's
+//! memory, where [`Session`] keeps them. No standard library and no allocator is needed.
+#![cfg_attr(not(test), no_std)]
+
+mod describe;
+mod picture;
+mod session;
+mod text;
+
+pub use picture::Picture;
+pub use session::{ROOM, Session};
+pub use text::Text;
+
+/// The version of the exported functions; `js/index.js` refuses another.
+pub const VERSION: u32 = 1;
+
+/// The one session of a module.
+pub type Shared<M, const N: usize, const R: usize> = spin::LazyLock<spin::Mutex<Session<M, N, R>>>;
+
+/// Exports a mechanism: its type, its coordinates, its constraint equations.
+///
+/// ```text
+/// bricard_runtime::include_mechanism!("engine");
+/// bricard_wasm::module!(engine::Engine<f64>, 3, 2);
+/// ```
+///
+/// Names that are exported have to be unique in the whole program, which the compiler
+/// can't see: that is why Rust calls them unsafe. A module has nothing but these.
+#[macro_export]
+macro_rules! module {
+    ($mechanism:ty, $n:literal, $r:literal) => {
+        static SESSION: $crate::Shared<$mechanism, $n, $r> =
+            $crate::Shared::new(|| $crate::Session::new(<$mechanism>::default()).into());
+
+        $crate::export! {
+            SESSION:
+            version() -> u32;
+            numbers() -> *const f64;
+            room() -> u32;
+            text() -> *const u8;
+            length() -> u32;
+            describe() -> u32;
+            parameter(index: u32) -> f64;
+            set_parameter(index: u32, value: f64) -> u32;
+            set_input(index: u32, value: f64) -> u32;
+            free_input(index: u32) -> u32;
+            begin(place: u32, value: f64, held: u32) -> u32;
+            forget() -> u32;
+            fixed(scheme: u32, step: f64) -> u32;
+            adaptive(scheme: u32, relative: f64, absolute: f64) -> u32;
+            assemble() -> u32;
+            place(index: u32, value: f64) -> u32;
+            advance(time: f64) -> u32;
+            state() -> u32;
+            outputs() -> u32;
+            energy() -> u32;
+            forces() -> u32;
+            draw() -> u32;
+        }
+
+        #[cfg(target_os = "unknown")]
+        #[panic_handler]
+        fn panic(_: &core::panic::PanicInfo) -> ! {
+            core::arch::wasm32::unreachable()
+        }
+    };
+}
+
+/// Exports methods of a session as functions.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! export {
+    ($session:ident: $($name:ident($($argument:ident: $kind:ty),*) -> $result:ty;)*) => {
+        $(
+            #[unsafe(no_mangle)]
+            extern "C" fn $name($($argument: $kind),*) -> $result {
+                $session.lock().$name($($argument),*)
+            }
+        )*
+    };
+}
