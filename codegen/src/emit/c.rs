@@ -161,7 +161,7 @@ impl<'a> Constants<'a> {
             let constant = self.unique(&format!("{}_{letter}_{}", self.prefix, plain(name)));
             let end = if place + 1 == entries.len() { "" } else { "," };
             let first = docs.lines().next().unwrap_or_default();
-            let said = [name, unit, first].map(|text| comment(text));
+            let said = [*name, *unit, first].map(comment);
             let said: Vec<String> = said.into_iter().filter(|text| !text.is_empty()).collect();
             text += &format!("    {constant} = {place}{end} /* {} */\n", said.join(", "));
         }
