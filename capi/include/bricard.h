@@ -113,6 +113,9 @@ enum {
 /* What keeps a motion on the constraints: bricard_options.stabilisation. */
 enum { BRICARD_PROJECTION = 0, BRICARD_NONE = 1, BRICARD_BAUMGARTE = 2 };
 
+/* Shapes of a picture. */
+enum { BRICARD_LINE = 0, BRICARD_CIRCLE = 1, BRICARD_POLYGON = 2, BRICARD_TRACE = 3 };
+
 /* What rows hold besides t, q, v, in this order: bricard_watch.columns, or-ed. */
 enum {
     BRICARD_WITH_OUTPUTS = 1,
@@ -223,6 +226,8 @@ typedef struct bricard_interface {
     bricard_status (*row_size)(bricard *m, uint32_t columns, size_t *size);
     bricard_status (*evaluate)(bricard *m, int quantity, const bricard_point *at, double *out,
                                size_t n);
+    bricard_status (*draw)(bricard *m, const bricard_point *at, double *out, size_t n,
+                           size_t *count);
     bricard_status (*project)(bricard *m, double t, double *q, double *v, size_t n);
     bricard_status (*save)(bricard *m, double *out, size_t n);
     bricard_status (*load)(bricard *m, const double *saved, size_t n);
@@ -473,6 +478,15 @@ static inline bricard_status bricard_evaluate(bricard *m, int quantity, const br
                                               double *out, size_t n)
 {
     return m ? m->interface_->evaluate(m, quantity, at, out, n) : BRICARD_ERROR_NULL;
+}
+
+/* Draws the mechanism at a state: for each shape BRICARD_LINE, ..., the number of its points,
+   x, y, z of each, and the radius of a circle. `count` tells how many numbers that is, also
+   where there is not room for all; `out` may be NULL with n = 0. */
+static inline bricard_status bricard_draw(bricard *m, const bricard_point *at, double *out,
+                                          size_t n, size_t *count)
+{
+    return m ? m->interface_->draw(m, at, out, n, count) : BRICARD_ERROR_NULL;
 }
 
 /* Brings a state near the constraints onto them. */

@@ -160,6 +160,8 @@ pub struct Interface {
     pub size: unsafe extern "C" fn(*mut Handle, c_int, *mut usize) -> Status,
     pub row_size: unsafe extern "C" fn(*mut Handle, u32, *mut usize) -> Status,
     pub evaluate: unsafe extern "C" fn(*mut Handle, c_int, *const Point, *mut f64, usize) -> Status,
+    pub draw:
+        unsafe extern "C" fn(*mut Handle, *const Point, *mut f64, usize, *mut usize) -> Status,
     pub project: unsafe extern "C" fn(*mut Handle, f64, *mut f64, *mut f64, usize) -> Status,
     pub save: unsafe extern "C" fn(*mut Handle, *mut f64, usize) -> Status,
     pub load: unsafe extern "C" fn(*mut Handle, *const f64, usize) -> Status,

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! [`Engine`] is safe Rust: a mechanism, where it is, and how it is integrated. What is
-//! `unsafe` stands in `pointer`, `border` and `conduct`, where pointers are read and
+//! `unsafe` stands in `pointer`, `border`, `states` and `conduct`, where pointers are read and
 //! written, in `handle`, which lends the engine out, and in `callback`, where functions of
 //! the program are called.
 //!
@@ -19,6 +19,7 @@ mod abi;
 mod border;
 mod callback;
 mod conduct;
+mod draw;
 mod engine;
 mod evaluate;
 mod fed;
@@ -27,6 +28,7 @@ mod motion;
 mod names;
 mod pointer;
 mod saved;
+mod states;
 mod status;
 mod table;
 mod text;

@@ -4,12 +4,15 @@
 //! Out: states, numbers; a [`Status`] and a message where that fails.
 
 use crate::Embedded;
+use crate::draw::Pencil;
 use crate::engine::{Engine, Outcome};
 use crate::evaluate::{Quantity, evaluate};
 use crate::names::List;
 use crate::status::{Status, time};
 use crate::watch::{Ended, Listeners, Writer};
-use bricard_runtime::{Observer, Options, Sampler, SimulateError, State, Summary, simulate};
+use bricard_runtime::{
+    Interface, Observer, Options, Sampler, SimulateError, State, Summary, simulate,
+};
 use core::cell::Cell;
 use core::ops::ControlFlow;
 use core::sync::atomic::AtomicBool;
@@ -134,14 +137,7 @@ where
     ) -> Outcome {
         let wanted = quantity.size(self.structure(), N, R);
         self.expect_length(out.len(), wanted, "this")?;
-        let state = match at {
-            Some(state) if !state.is_finite() => {
-                let reason = "the state to evaluate at is infinite or NaN";
-                return self.refuse(Status::NotFinite, &reason);
-            }
-            Some(state) => state,
-            None => self.state()?,
-        };
+        let state = self.point(at)?;
         match evaluate(&self.fed, &mut self.inquiry, quantity, &state, out) {
             Ok(()) if self.fed.take_failed().is_some() => self.refuse(
                 Status::Callback,
@@ -157,6 +153,30 @@ where
             Ok(()) => Ok(()),
             Err(error) => Err(self.fault(&SimulateError::Observe(error))),
         }
+    }
+
+    /// A state to evaluate at; where the mechanism is if none is given.
+    fn point(&mut self, at: Option<State<f64, N>>) -> Outcome<State<f64, N>> {
+        match at {
+            Some(state) if !state.is_finite() => {
+                let reason = "the state to evaluate at is infinite or NaN";
+                self.refuse(Status::NotFinite, &reason)
+            }
+            Some(state) => Ok(state),
+            None => self.state(),
+        }
+    }
+
+    /// Draws the mechanism, as many numbers as there is room for; how many there are.
+    ///
+    /// # Errors
+    ///
+    /// [`Status::NotFinite`], [`Status::Order`].
+    pub fn draw(&mut self, at: Option<State<f64, N>>, out: &mut [f64]) -> Outcome<usize> {
+        let state = self.point(at)?;
+        let mut pencil = Pencil::new(out);
+        self.fed.draw(&state, &mut pencil);
+        Ok(pencil.count)
     }
 
     /// Brings a state near the constraints onto them.

@@ -9,7 +9,7 @@ use crate::engine::Engine;
 use crate::handle::{Body, Handle, caught};
 use crate::pointer::give;
 use crate::status::Status;
-use crate::{border, conduct};
+use crate::{border, conduct, states};
 use core::marker::PhantomData;
 use core::ptr;
 
@@ -48,20 +48,21 @@ impl<M: Embedded<N, R>, const N: usize, const R: usize> Table<M, N, R> {
         start: border::start::<M, N, R>,
         set_start: border::set_start::<M, N, R>,
         assemble: border::assemble::<M, N, R>,
-        state: border::state::<M, N, R>,
-        set_state: border::set_state::<M, N, R>,
+        state: states::state::<M, N, R>,
+        set_state: states::set_state::<M, N, R>,
         options: conduct::options::<M, N, R>,
         set_options: conduct::set_options::<M, N, R>,
         run: conduct::run::<M, N, R>,
         stop: conduct::stop::<M, N, R>,
         step: border::step::<M, N, R>,
         step_once: border::step_once::<M, N, R>,
-        size: border::size::<M, N, R>,
+        size: states::size::<M, N, R>,
         row_size: conduct::row_size::<M, N, R>,
-        evaluate: border::evaluate::<M, N, R>,
-        project: border::project::<M, N, R>,
-        save: border::save::<M, N, R>,
-        load: border::load::<M, N, R>,
+        evaluate: states::evaluate::<M, N, R>,
+        draw: states::draw::<M, N, R>,
+        project: states::project::<M, N, R>,
+        save: states::save::<M, N, R>,
+        load: states::load::<M, N, R>,
     };
 }
 

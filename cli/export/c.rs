@@ -5,7 +5,7 @@
 //!      build all that elsewhere.
 
 use super::Subject;
-use super::folder::Folder;
+use super::folder::{Folder, vacant};
 use super::sources;
 use crate::compiled::{Library, generate, library, module_of};
 use crate::error::CommandError;
@@ -27,6 +27,8 @@ pub fn export(subject: &Subject, out: Option<&Path>) -> Result<(), CommandError>
     let module = module_of(&subject.file);
     let path = out.map_or_else(|| PathBuf::from(&module), Path::to_path_buf);
     let compiled = generate(&subject.file, &subject.source, true)?;
+    vacant(&path)?;
+    let built = library(&subject.file, &subject.source)?;
     let folder = Folder::new(&path)?;
     let called = Library::called(&module);
     let about = format!("The mechanism {}, for programs in C", compiled.name);
@@ -46,7 +48,6 @@ pub fn export(subject: &Subject, out: Option<&Path>) -> Result<(), CommandError>
             .replace("MODULE", &module)
     };
     folder.write("example.c", &fill(EXAMPLE))?;
-    let built = library(&subject.file, &subject.source)?;
     for file in [Library::shared(&module), Library::fixed(&module)] {
         folder.copy(&built.folder.join(&file), &format!("lib/{file}"))?;
     }

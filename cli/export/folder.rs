@@ -10,6 +10,19 @@ use std::path::{Path, PathBuf};
 /// The file by which a folder that was exported is known.
 const MARK: &str = ".bricard-export";
 
+/// Refuses a folder in which there is something that was not exported.
+///
+/// # Errors
+///
+/// [`CommandError::Exists`].
+pub fn vacant(path: &Path) -> Result<(), CommandError> {
+    let is_empty = || fs::read_dir(path).is_ok_and(|mut all| all.next().is_none());
+    match path.exists() && !is_empty() && !path.join(MARK).is_file() {
+        true => Err(CommandError::Exists(path.to_path_buf())),
+        false => Ok(()),
+    }
+}
+
 /// A folder that is new, or that an earlier export has made.
 pub struct Folder(PathBuf);
 
@@ -20,10 +33,7 @@ impl Folder {
     ///
     /// [`CommandError::Exists`] if something else is in it, [`CommandError::Write`].
     pub fn new(path: &Path) -> Result<Self, CommandError> {
-        let is_empty = |path: &Path| fs::read_dir(path).is_ok_and(|mut all| all.next().is_none());
-        if path.exists() && !is_empty(path) && !path.join(MARK).is_file() {
-            return Err(CommandError::Exists(path.to_path_buf()));
-        }
+        vacant(path)?;
         let folder = Self(path.to_path_buf());
         let said = format!(
             "Written by `bricard export` {}, which may replace what is here.\n",

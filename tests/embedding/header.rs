@@ -28,7 +28,7 @@ fn the_header_has_the_functions_of_the_table_in_its_order() {
     let table = names(table, "pub struct Interface {", "\n}", in_rust);
     assert_eq!(table[0], "abi");
     assert_eq!(header, table[1..]);
-    assert_eq!(header.len(), 33);
+    assert_eq!(header.len(), 34);
 }
 
 #[test]

@@ -254,6 +254,13 @@ fn what_is_evaluated_is_what_rust_evaluates() {
     let mut functions = [0.0];
     engine.events(&state, &mut functions);
     assert_eq!(said("function"), [functions]);
+    let pin = [0.5 * state.q[0].cos(), 0.5 * state.q[0].sin()];
+    let line = [
+        0.0, 3.0, 0.0, 0.0, 0.0, pin[0], pin[1], 0.0, state.q[2], 0.0, 0.0,
+    ];
+    for (drawn, wanted) in said("drawn")[0].iter().zip(line) {
+        assert!((drawn - wanted).abs() < 1e-15, "{drawn} {wanted}");
+    }
     let rank = solver.on(&engine).rank(&state).expect("finite");
     assert_eq!(said("rank"), [[2.0, 2.0, rank.sine]]);
 }

@@ -279,6 +279,10 @@ static void evaluate(void)
         DONE(m, bricard_evaluate(m, all[i].quantity, &at, out, size));
         say(all[i].word, out, size);
     }
+    DONE(m, bricard_draw(m, &at, NULL, 0, &size));
+    CHECK(size == 11);
+    DONE(m, bricard_draw(m, &at, out, 16, &size));
+    say("drawn", out, size);
     /* The result may lie where the state does. */
     DONE(m, bricard_evaluate(m, BRICARD_ACCELERATION, &at, v, ENGINE_N));
     say("acceleration", v, ENGINE_N);
