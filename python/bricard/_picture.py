@@ -72,9 +72,10 @@ _PAGE = """<figure style="margin:0;max-width:32em">
 def html(result: "Result") -> str:
     """The page; a table of the summary where the description draws nothing."""
     summary = escaping.escape(str(result.summary))
-    rows = np.unique(np.linspace(0, len(result) - 1, _FRAMES).astype(int)) if len(result) else []
+    rows = np.unique(np.linspace(0, len(result) - 1, min(_FRAMES, len(result))).astype(int))
     handle = result._beginning
-    pictures = [handle.shapes(result.t[row], result.q[row].copy(), result.v[row].copy()) for row in rows]
+    states = [(result.t[row], result.q[row].copy(), result.v[row].copy()) for row in rows]
+    pictures = [handle.shapes(*state) for state in states]
     if not any(pictures):
         return f"<p>{escaping.escape(result.mechanism.name)}: {summary}</p>"
     points = np.concatenate([_flat(points) for shapes in pictures for _, points, _ in shapes])

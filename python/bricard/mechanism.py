@@ -16,7 +16,7 @@ import numpy as np
 from . import _abi, _compile
 from ._handle import Handle, Quantity, point_of
 from ._run import Plan, run
-from .errors import InvalidValue, UnknownName
+from .errors import InvalidValue
 from .result import Result
 
 Numbers = Union[Sequence[float], np.ndarray]
@@ -24,9 +24,9 @@ Law = Union[float, Callable[..., float]]
 
 
 class State(NamedTuple):
-    """Time (s), coordinates and velocities (SI)."""
+    """Time (s), coordinates and velocities (SI); of many times, a row for each."""
 
-    t: float
+    t: Any
     q: np.ndarray
     v: np.ndarray
 
@@ -331,7 +331,7 @@ def _drive(handle: Handle, inputs: Mapping[str, Optional[Law]], raised: list) ->
             handle.laws.pop(index, None)
 
 
-def _law(name: str, law: Callable[..., float], n: int, raised: list) -> "_abi.Law":
+def _law(name: str, law: Callable[..., float], n: int, raised: list) -> Any:
     """A function that the library calls at the stages of steps."""
     try:
         parameters = inspect.signature(law).parameters.values()
@@ -416,6 +416,3 @@ def _place(what: str, choices: Sequence[str], choice: str) -> int:
     if choice not in choices:
         raise InvalidValue(f"there is no {what} {choice!r}; there are {', '.join(choices)}")
     return choices.index(choice)
-
-
-__all__ = ["Guess", "Mechanism", "Quantity", "State", "UnknownName", "guess"]

@@ -54,7 +54,8 @@ class Summary(NamedTuple):
 
     @classmethod
     def of(cls, told: "_abi.Summary", stopped: bool) -> "Summary":
-        return cls(*(getattr(told, name) for name in cls._fields[:-1]), stopped)
+        counts = {name: getattr(told, name) for name in cls._fields[:-1]}
+        return cls(**counts, stopped=stopped)
 
     def __str__(self) -> str:
         return (

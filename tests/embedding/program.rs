@@ -1,8 +1,8 @@
 //! Programs in C and C++, compiled with all warnings as errors, and run.
 
-use std::env;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::{env, fs};
 
 /// What no warning may come of.
 const WARNINGS: [&str; 4] = ["-Wall", "-Wextra", "-Werror", "-pedantic"];
@@ -35,6 +35,19 @@ fn here() -> &'static Path {
 
 /// Compiles a program of the folder `c`.
 pub fn compile(name: &str, language: Language, linked: Linked) -> PathBuf {
+    let source = here().join("c").join(name).with_extension("c");
+    compile_file(&source, name, language, linked)
+}
+
+/// Compiles a program in C.
+pub fn compile_text(name: &str, text: &str) -> PathBuf {
+    let source = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let source = source.with_extension("c");
+    fs::write(&source, text).expect("the folder is ours");
+    compile_file(&source, name, Language::C, Linked::Shared)
+}
+
+fn compile_file(source: &Path, name: &str, language: Language, linked: Linked) -> PathBuf {
     let (compiler, standard, kind) = match language {
         Language::C => ("cc", "-std=c99", "c"),
         Language::Cpp => ("c++", "-std=c++17", "c++"),
@@ -46,7 +59,7 @@ pub fn compile(name: &str, language: Language, linked: Linked) -> PathBuf {
     command
         .args(WARNINGS)
         .args([standard, "-g", "-O1", "-x", kind])
-        .arg(here().join("c").join(name).with_extension("c"))
+        .arg(source)
         .args(["-x", "none", "-o"])
         .arg(&program)
         .arg("-I")

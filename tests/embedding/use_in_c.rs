@@ -1,6 +1,6 @@
 //! What the C programs check by themselves.
 
-use crate::program::{Language, Linked, compile, finished};
+use crate::program::{Language, Linked, compile, compile_text, finished};
 use std::process::Command;
 
 #[test]
@@ -29,6 +29,21 @@ fn shared_and_static_library_c_and_cpp_move_alike() {
 fn four_threads_move_four_mechanisms_alike() {
     let program = compile("threads", Language::C, Linked::Shared);
     finished(&mut Command::new(program));
+}
+
+/// The chapter's controller, with an engine of the same names.
+#[test]
+fn the_controller_of_the_chapter_holds_its_speed() {
+    let page = include_str!("../../docs/embedding.md");
+    let block = page.split("```c\n").nth(1).expect("a program");
+    let text = block.split("```").next().expect("it ends");
+    let text = text.replace("crank.h", "engine.h");
+    let text = text
+        .replace("CRANK_", "ENGINE_")
+        .replace("crank_create", "engine_create");
+    let program = compile_text("controller", &text);
+    let said = finished(&mut Command::new(program));
+    assert_eq!(said, "5000 ticks, 10.0000 rad/s\n");
 }
 
 /// Valgrind is asked where it is installed.
