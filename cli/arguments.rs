@@ -104,8 +104,8 @@ pub struct Export {
     /// What to write
     #[arg(long, value_enum)]
     pub to: Target,
-    /// Where it goes [default: a folder here, with the name of the mechanism's file]
-    #[arg(long, value_name = "DIR")]
+    /// Where it goes [default: here, with the name of the mechanism's file]
+    #[arg(long, value_name = "DIR|FILE.fmu")]
     pub out: Option<PathBuf>,
 }
 
@@ -117,6 +117,8 @@ pub enum Target {
     /// A shared and a static library with headers, pkg-config and CMake files, an example,
     /// and the sources to build them elsewhere
     C,
+    /// An FMU of FMI 2.0, for model exchange and co-simulation: the file NAME.fmu
+    Fmi2,
     /// The shared library alone, which stays among what was compiled; its path is printed
     Library,
 }

@@ -13,7 +13,7 @@
 //! ([`program`]). Parameters and starts are told to the running program.
 
 pub mod cache;
-mod compiler;
+pub mod compiler;
 mod library;
 mod program;
 pub mod shared;

@@ -7,6 +7,7 @@
 //! Not here: a folder that something else has made is never touched.
 
 mod c;
+mod fmi;
 mod folder;
 mod rust;
 mod sources;
@@ -58,6 +59,7 @@ pub fn export(arguments: &Export) -> Result<(), CommandError> {
     match arguments.to {
         Target::Rust => rust::export(&subject, out),
         Target::C => c::export(&subject, out),
+        Target::Fmi2 => fmi::export(&subject, out),
         Target::Library => {
             if out.is_some() {
                 return Err(CommandError::UselessOption {
