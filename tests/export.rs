@@ -165,7 +165,16 @@ fn what_can_not_be_exported_is_refused_and_nothing_is_touched() {
             2,
             "the library stays in the cache",
         ),
-        (&["slider_crank", "--to", "cobol"], 2, "rust, c, library"),
+        (
+            &["slider_crank", "--to", "fmi2", "--out", "x"],
+            2,
+            "write `--out NAME.fmu`",
+        ),
+        (
+            &["slider_crank", "--to", "cobol"],
+            2,
+            "rust, c, fmi2, library",
+        ),
     ] {
         let ran = bricard(&folder, &[&["export"], arguments].concat());
         assert_eq!(ran.status, Some(status), "{arguments:?}: {}", ran.err);

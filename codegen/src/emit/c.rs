@@ -199,3 +199,34 @@ fn comment(text: &str) -> String {
         .replace("/*", "/ *")
         .replace("??", "? ?")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Constants, comment, plain};
+
+    #[test]
+    fn names_become_identifiers_of_c_and_stay_apart() {
+        assert_eq!(plain("theta[0]"), "theta_0");
+        assert_eq!(plain("p.x"), "p_x");
+        assert_eq!(plain("größe"), "gru00f6u00dfe");
+        let mut names = Constants::of("ARM");
+        let entries = [
+            ("a[0]", "", ""),
+            ("a_0", "m", "second\nline"),
+            ("A_0", "", ""),
+        ];
+        let text = names.places("Coordinates.", "Q", &entries);
+        assert!(text.contains("ARM_Q_a_0 = 0, /* a[0] */"), "{text}");
+        assert!(
+            text.contains("ARM_Q_a_0_2 = 1, /* a_0, m, second */"),
+            "{text}"
+        );
+        assert!(text.contains("ARM_Q_A_0 = 2 /* A_0 */"), "{text}");
+        assert_eq!(names.places("Inputs.", "U", &[]), "");
+    }
+
+    #[test]
+    fn documentation_ends_no_comment() {
+        assert_eq!(comment("a */ b /* c ??/ d"), "a * / b / * c ? ?/ d");
+    }
+}
