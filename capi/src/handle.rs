@@ -124,8 +124,10 @@ pub(crate) fn caught(act: impl FnOnce() -> Status) -> Status {
     match catch_unwind(AssertUnwindSafe(act)) {
         Ok(status) => status,
         Err(payload) => {
-            // Dropping it could panic again.
-            core::mem::forget(payload);
+            // Dropping it could panic again; what that leaves is lost.
+            if let Err(again) = catch_unwind(AssertUnwindSafe(|| drop(payload))) {
+                core::mem::forget(again);
+            }
             Status::Panic
         }
     }
