@@ -13,9 +13,12 @@
 //! ([`program`]). Parameters and starts are told to the running program.
 
 pub mod cache;
-mod compiler;
+pub mod compiler;
+mod library;
 mod program;
-mod shared;
+pub mod shared;
+
+pub use library::{Library, generate, library, module_of};
 
 use crate::check::read;
 use crate::error::CommandError;
