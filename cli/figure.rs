@@ -22,22 +22,40 @@ pub const ERRORS: Scale = Scale::Logarithmic {
 /// All coordinates and added columns of a recording.
 pub fn overview(structure: &Structure, columns: &[Column], rows: &[Vec<f64>]) -> Vec<Panel> {
     let mut panels = coordinates(structure, rows);
-    let first = 1 + 2 * structure.coordinates.len();
-    let added: Vec<Curve> = columns
-        .iter()
-        .enumerate()
-        .map(|(i, column)| Curve {
-            axis: axis(*column, structure),
-            scale: match column {
-                Column::ConstraintError | Column::VelocityError => ERRORS,
-                Column::Rank => Scale::Whole,
-                _ => Scale::Linear,
-            },
-            series: series(column.name(structure), first + i, rows),
-        })
-        .collect();
-    panels.extend(grouped(added));
+    panels.extend(added(structure, columns, rows));
     panels
+}
+
+/// The added columns, those of one kind and unit together.
+pub fn added(structure: &Structure, columns: &[Column], rows: &[Vec<f64>]) -> Vec<Panel> {
+    let first = 1 + 2 * structure.coordinates.len();
+    let added = columns.iter().enumerate().map(|(i, column)| Curve {
+        axis: axis(*column, structure),
+        scale: match column {
+            Column::ConstraintError | Column::VelocityError => ERRORS,
+            Column::Rank => Scale::Whole,
+            _ => Scale::Linear,
+        },
+        series: series(column.name(structure), first + i, rows),
+    });
+    grouped(added.collect())
+}
+
+/// The velocities, those of one unit together.
+pub fn velocities(structure: &Structure, rows: &[Vec<f64>]) -> Vec<Panel> {
+    let first = 1 + structure.coordinates.len();
+    let all = structure.coordinates.iter().enumerate();
+    let curves = all.map(|(i, coordinate)| Curve {
+        axis: match coordinate.unit {
+            "rad" => "angular velocity [rad/s]".to_string(),
+            "m" => "velocity [m/s]".to_string(),
+            "" => "velocity".to_string(),
+            unit => format!("velocity [{unit}/s]"),
+        },
+        scale: Scale::Linear,
+        series: series(format!("der({})", coordinate.name), first + i, rows),
+    });
+    grouped(curves.collect())
 }
 
 /// The coordinates, those of one unit together.

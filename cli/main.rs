@@ -24,6 +24,7 @@ mod mechanism;
 mod new;
 mod number;
 mod output;
+mod page;
 mod parquet;
 mod plot;
 mod progress;

@@ -1,4 +1,4 @@
-//! Drawings to SVG files, or to pages that hold them.
+//! Drawings to SVG files.
 
 use super::style::DETAIL;
 use crate::error::CommandError;
@@ -37,27 +37,6 @@ pub fn write(
         height * DETAIL
     );
     let shown_size = format!("width=\"{width}\" height=\"{height}\"");
-    let mut text = text.replacen(&drawn_size, &shown_size, 1);
-    if path
-        .extension()
-        .is_some_and(|kind| kind.eq_ignore_ascii_case("html"))
-    {
-        text = page(path, &text);
-    }
+    let text = text.replacen(&drawn_size, &shown_size, 1);
     fs::write(path, text).map_err(|error| CommandError::write(path, error))
-}
-
-/// A page with nothing but a picture, which scales with the window.
-fn page(path: &Path, svg: &str) -> String {
-    let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    let title = name
-        .replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;");
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <title>{title}</title>\n\
-         <style>body {{ margin: 0 }} svg {{ display: block; margin: auto; max-width: 100%; \
-         height: auto }}</style>\n</head>\n<body>\n{svg}\n</body>\n</html>\n"
-    )
 }

@@ -4,6 +4,7 @@ use super::record::is_parquet;
 use crate::arguments::{MethodName, Simulate};
 use crate::column::Column;
 use crate::error::CommandError;
+use crate::page::is_page;
 use crate::run::Plan;
 use bricard_codegen::diagnostic::figure;
 use bricard_runtime::{Options, Pace, Settings};
@@ -23,6 +24,10 @@ const MOST_ROWS: f64 = 1e10;
 /// Intervals of a plot, unless their length is given: the steps of an adaptive
 /// method are too long for a smooth curve.
 const PLOTTED: f64 = 1000.0;
+
+/// The same for each second of a page, on which the mechanism moves, and the most of them.
+const FRAMES: f64 = 100.0;
+const MOST_FRAMES: f64 = 6000.0;
 
 /// The plan of a run.
 ///
@@ -54,7 +59,12 @@ pub fn plan(arguments: &Simulate, columns: Vec<Column>) -> Result<Plan, CommandE
     options.keep_energy = arguments.keep_energy;
     let adaptive = matches!(options.pace, Pace::Adaptive { .. });
     let smooth = adaptive && arguments.plot.is_some() && arguments.until > 0.0;
-    let every = every.or(smooth.then_some(arguments.until / PLOTTED));
+    let moving = arguments.plot.as_deref().is_some_and(is_page);
+    let intervals = match moving {
+        true => (FRAMES * arguments.until).clamp(PLOTTED, MOST_FRAMES),
+        false => PLOTTED,
+    };
+    let every = every.or(smooth.then_some(arguments.until / intervals));
     bounded(arguments, every, options.pace)?;
     Ok(Plan {
         watched: true,

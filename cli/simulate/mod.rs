@@ -5,6 +5,7 @@
 
 mod choices;
 mod legs;
+mod picture;
 mod record;
 pub mod summary;
 
@@ -17,13 +18,18 @@ use crate::error::CommandError;
 use crate::interrupt;
 use crate::mechanism::find;
 use crate::output::say;
-use crate::plot::Marks;
-use crate::run::{Report, Stopped, run};
-use bricard_runtime::Structure;
+use crate::page::Live;
+use crate::run::{Stopped, run};
+use picture::Picture;
 use record::Record;
 
 /// Simulates a mechanism.
 pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
+    simulate_for(arguments, None)
+}
+
+/// Simulates a mechanism for a page that is kept up to date, if there is one.
+pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), CommandError> {
     let mut mechanism = find(&arguments.name)?;
     let structure = mechanism.structure();
     let changes = changes::find(structure, &arguments.name, &arguments.set, &arguments.start)?;
@@ -36,6 +42,7 @@ pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
     choices::check_files(arguments)?;
     plan.legs = legs::legs(arguments, &plan, &changes, structure)?;
     let mut record = Record::open(arguments, structure, &columns)?;
+    plan.columns = picture::columns(arguments, &columns, structure);
     if let Some(checkpoint) = plan.legs.as_ref().and_then(|legs| legs.from.as_ref()) {
         record.go_on(checkpoint);
     }
@@ -45,10 +52,17 @@ pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
         Ok(report) => Some(report),
         Err(stopped) => stopped.report.as_deref(),
     };
-    let marks = report
-        .map(|report| marks(report, structure))
-        .unwrap_or_default();
-    let kept = record.close(arguments, &marks, structure, &columns)?;
+    let picture = Picture {
+        arguments,
+        mechanism: mechanism.as_ref(),
+        plan: &plan,
+        report,
+        error: result.as_ref().err().map(|stopped| &stopped.error),
+        live,
+    };
+    let kept = record.close(arguments.plot.as_deref(), |path, rows| {
+        picture.draw(path, rows)
+    })?;
     if let Some(report) = report.filter(|report| result.is_ok() || report.steps > 0) {
         say(summary::summary(report, structure).trim_end());
     }
@@ -63,21 +77,4 @@ pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
             }
         }
     }
-}
-
-/// What is marked in a plot: singular positions, and the events by name.
-fn marks(report: &Report, structure: &Structure) -> Vec<Marks> {
-    let passages = report.passages.iter().map(|passage| passage.t);
-    let passages = Marks {
-        times: passages.collect(),
-        name: "singular position".to_string(),
-    };
-    let events = structure.events.iter().map(|event| {
-        let of_name = report.events.iter().filter(|(name, _)| *name == event.name);
-        Marks {
-            times: of_name.map(|(_, t)| *t).collect(),
-            name: event.name.to_string(),
-        }
-    });
-    std::iter::once(passages).chain(events).collect()
 }

@@ -9,6 +9,13 @@ const LISTED: usize = 20;
 
 /// What was done and how well, one quantity in a line.
 pub fn summary(report: &Report, structure: &Structure) -> String {
+    let rows = quantities(report, structure);
+    let rows: Vec<Vec<String>> = rows.into_iter().map(Vec::from).collect();
+    aligned(&rows, &[Align::Left, Align::Left])
+}
+
+/// What was done and how well: quantities and their values.
+pub fn quantities(report: &Report, structure: &Structure) -> Vec<[String; 2]> {
     let mut rows = vec![
         ["steps".to_string(), report.steps.to_string()],
         ["rejected steps".to_string(), report.rejected.to_string()],
@@ -41,8 +48,7 @@ pub fn summary(report: &Report, structure: &Structure) -> String {
             .iter()
             .map(|event| events(event.name, report)),
     );
-    let rows: Vec<Vec<String>> = rows.into_iter().map(Vec::from).collect();
-    aligned(&rows, &[Align::Left, Align::Left])
+    rows
 }
 
 fn energy(report: &Report, structure: &Structure) -> [String; 2] {
