@@ -45,7 +45,8 @@ function remembered() {
 function begin() {
   document.title = `${run.mechanism} · ${run.program}`;
   $("name").textContent = run.mechanism;
-  $("docs").textContent = run.docs.trim();
+  // Lines end where they ended in the file, paragraphs where there is an empty one.
+  $("docs").textContent = run.docs.trim().replace(/\s*\n\s*\n\s*/g, "\u2029").replace(/\s*\n\s*/g, " ").replaceAll("\u2029", "\n");
   if (run.error) complain(run.error);
   const times = numbers(run.times, Float64Array);
   const scene = run.scene ? new Scene(run.scene) : null;
