@@ -4,10 +4,12 @@
 //! Out: JSON. Long rows of numbers are there as their bytes, in base 64.
 
 use super::Run;
+use super::equations::mathml;
 use super::thin::{evenly, kept};
-use crate::figure::{added, coordinates, velocities};
+use crate::figure::{added, chosen, coordinates, velocities};
 use crate::number::exact;
 use crate::plot::{Marks, Panel, Scale};
+use crate::scene::is_spatial;
 use base64::{Engine, engine::general_purpose::STANDARD};
 use bricard_codegen::words;
 use bricard_driver::{Drawn, Scene};
@@ -23,8 +25,6 @@ const ROWS: usize = 6000;
 const PLACES: usize = 100_000;
 /// Times of one kind that are marked.
 const MARKS: usize = 500;
-/// Numbers of a point.
-const AXES: usize = 3;
 
 /// All that a page tells of a run.
 ///
@@ -36,9 +36,15 @@ pub fn data(run: &Run) -> Result<Value, String> {
     let width = run.rows.first().map_or(1, Vec::len);
     let places = kept(run.rows, (NUMBERS / width).min(ROWS));
     let rows: Vec<Vec<f64>> = places.iter().map(|i| run.rows[*i].clone()).collect();
-    let mut panels = coordinates(structure, &rows);
-    panels.extend(velocities(structure, &rows));
-    panels.extend(added(structure, run.columns, &rows));
+    let panels = match run.curves {
+        [] => {
+            let mut all = coordinates(structure, &rows);
+            all.extend(velocities(structure, &rows));
+            all.extend(added(structure, run.columns, &rows));
+            all
+        }
+        places => chosen(structure, run.columns, &rows, places),
+    };
     let times: Vec<f64> = rows.iter().filter_map(|row| row.first().copied()).collect();
     let first = run.mechanism.scene(&run.rows[..run.rows.len().min(1)])?;
     Ok(json!({
@@ -49,6 +55,7 @@ pub fn data(run: &Run) -> Result<Value, String> {
         "command": command(),
         "source": run.source.as_ref().map(|(file, text)| json!({ "file": file, "text": text })),
         "words": words_of_the_language(),
+        "equations": mathml(run.source.as_ref().map(|(_, text)| text.as_str())),
         "parameters": parameters(structure, &first),
         "start": start(structure, run.rows),
         "settings": run.settings,
@@ -185,26 +192,10 @@ fn moving(run: &Run, first: &Scene) -> Result<Option<Value>, String> {
     });
     Ok(Some(json!({
         "shapes": shapes.collect::<Vec<_>>(),
-        "spatial": scene.frames.iter().any(|frame| is_spatial(&scene.shapes, frame)),
+        "spatial": is_spatial(&scene),
         "times": doubles(&times),
         "frames": singles(scene.frames.iter().flatten()),
     })))
-}
-
-/// Whether a point lies outside the plane of x and y.
-fn is_spatial(shapes: &[Drawn], frame: &[f64]) -> bool {
-    let mut rest = frame;
-    shapes.iter().any(|shape| {
-        let (points, more) = match shape {
-            Drawn::Line(points) | Drawn::Polygon(points) => (*points, 0),
-            Drawn::Circle => (1, 1),
-            Drawn::Trace => (1, 0),
-        };
-        let (places, after) = rest.split_at(rest.len().min(AXES * points));
-        rest = after.get(more..).unwrap_or_default();
-        let mut heights = places.iter().skip(2).step_by(AXES);
-        heights.any(|z| *z != 0.0)
-    })
 }
 
 fn doubles(values: &[f64]) -> String {
@@ -216,20 +207,4 @@ fn doubles(values: &[f64]) -> String {
 fn singles<'a>(values: impl Iterator<Item = &'a f64>) -> String {
     let bytes: Vec<u8> = values.flat_map(|x| (*x as f32).to_le_bytes()).collect();
     STANDARD.encode(bytes)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::is_spatial;
-    use bricard_driver::Drawn;
-
-    #[test]
-    fn a_radius_is_no_height() {
-        let shapes = [Drawn::Circle, Drawn::Line(2)];
-        let flat = [1.0, 2.0, 0.0, 5.0, 1.0, 2.0, 0.0, 1.0, 2.0, 0.0];
-        assert!(!is_spatial(&shapes, &flat));
-        let mut deep = flat;
-        deep[9] = 0.5;
-        assert!(is_spatial(&shapes, &deep));
-    }
 }

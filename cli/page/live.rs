@@ -6,8 +6,9 @@
 //!
 //! A page that was opened as a file may read scripts beside it, and nothing else.
 
-use super::{page, replace};
+use super::page;
 use crate::error::CommandError;
+use crate::output::replace;
 use serde_json::json;
 use std::cell::Cell;
 use std::ffi::OsString;
@@ -69,7 +70,7 @@ impl Live {
         if !self.page.exists() {
             let live = json!({ "script": self.name(), "version": self.version });
             let data = json!({ "live": live, "error": message });
-            replace(&self.page, &page("bricard", &data))?;
+            replace(&self.page, page("bricard", &data).as_bytes())?;
         }
         self.say(&json!({ "error": message }))
     }
@@ -81,6 +82,6 @@ impl Live {
     }
 
     fn say(&self, news: &serde_json::Value) -> Result<(), CommandError> {
-        replace(&self.script, &format!("bricardLive({news});\n"))
+        replace(&self.script, format!("bricardLive({news});\n").as_bytes())
     }
 }

@@ -8,6 +8,7 @@
 //! name and no comment ever becomes markup.
 
 mod data;
+mod equations;
 mod live;
 mod thin;
 
@@ -15,13 +16,11 @@ pub use live::Live;
 
 use crate::column::Column;
 use crate::error::CommandError;
+use crate::output::replace;
 use bricard_driver::{AnyMechanism, WORDS};
 use bricard_runtime::Structure;
 use serde_json::Value;
-use std::ffi::OsStr;
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process;
+use std::path::Path;
 
 /// The page, with `{{NAME}}` where something has to go.
 const TEMPLATE: &str = include_str!("assets/page.html");
@@ -58,6 +57,9 @@ pub struct Run<'a> {
     pub source: Option<(String, String)>,
     /// Columns besides time, coordinates and velocities.
     pub columns: &'a [Column],
+    /// The columns that are drawn over time, by their places in the rows; all if there are
+    /// none.
+    pub curves: &'a [usize],
     /// The rows.
     pub rows: &'a [Vec<f64>],
     /// What happened, and when.
@@ -105,7 +107,7 @@ pub fn columns(wanted: &[Column], structure: &Structure) -> Vec<Column> {
 pub fn write(path: &Path, run: &Run) -> Result<(), CommandError> {
     let failed = |reason| CommandError::Draw(path.to_path_buf(), reason);
     let data = data::data(run).map_err(failed)?;
-    replace(path, &page(run.mechanism.structure().name, &data))?;
+    replace(path, page(run.mechanism.structure().name, &data).as_bytes())?;
     run.live.map_or(Ok(()), Live::renew)
 }
 
@@ -141,34 +143,6 @@ fn marker(text: &str) -> Option<(&str, &str, &str)> {
 fn escaped(text: &str) -> String {
     let text = text.replace('&', "&amp;");
     text.replace('<', "&lt;").replace('>', "&gt;")
-}
-
-/// Writes a whole file in place of what bears its name, all at once. What is no file, such
-/// as a pipe, is written to.
-///
-/// # Errors
-///
-/// [`CommandError::Write`].
-fn replace(path: &Path, text: &str) -> Result<(), CommandError> {
-    let failed = |error| CommandError::write(path, error);
-    // A link stays one.
-    let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
-    if place.exists() && !place.is_file() {
-        return fs::write(&place, text).map_err(failed);
-    }
-    let beside = beside(&place);
-    let written = fs::write(&beside, text).and_then(|()| fs::rename(&beside, &place));
-    if written.is_err() {
-        let _nothing_left = fs::remove_file(&beside);
-    }
-    written.map_err(failed)
-}
-
-/// A name beside a file that nobody else uses.
-fn beside(path: &Path) -> PathBuf {
-    let name = path.file_name().unwrap_or(OsStr::new("page"));
-    let name = format!(".{}.{}", name.to_string_lossy(), process::id());
-    path.with_file_name(name)
 }
 
 #[cfg(test)]

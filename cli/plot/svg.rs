@@ -19,9 +19,23 @@ pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// [`CommandError::Draw`] and [`CommandError::Write`].
 pub fn write(
     path: &Path,
-    (width, height): (u32, u32),
+    size: (u32, u32),
     draw: impl FnOnce(&Area) -> Drawn,
 ) -> Result<(), CommandError> {
+    let text = text(path, size, draw)?;
+    fs::write(path, text).map_err(|error| CommandError::write(path, error))
+}
+
+/// Draws a picture of a size (pixels); `path` is where it will go, for messages.
+///
+/// # Errors
+///
+/// [`CommandError::Draw`].
+pub fn text(
+    path: &Path,
+    (width, height): (u32, u32),
+    draw: impl FnOnce(&Area) -> Drawn,
+) -> Result<String, CommandError> {
     let mut text = String::new();
     let drawn = {
         let root = SVGBackend::with_string(&mut text, (width * DETAIL, height * DETAIL))
@@ -37,6 +51,5 @@ pub fn write(
         height * DETAIL
     );
     let shown_size = format!("width=\"{width}\" height=\"{height}\"");
-    let text = text.replacen(&drawn_size, &shown_size, 1);
-    fs::write(path, text).map_err(|error| CommandError::write(path, error))
+    Ok(text.replacen(&drawn_size, &shown_size, 1))
 }

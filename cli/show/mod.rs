@@ -57,6 +57,21 @@ pub fn show(arguments: &Show) -> Result<(), CommandError> {
     })
 }
 
+/// The equations of motion of a description: of each array what it is, and its entries with
+/// their values in LaTeX. `None` if the description is wrong.
+pub fn equations(source: &str) -> Option<Vec<(&'static str, Vec<[String; 2]>)>> {
+    let (mut mechanism, _warnings) = analyse(source, &Settings::default()).ok()?;
+    let equations = derive::derive(&mut mechanism).ok()?;
+    let sections = sections::sections(&mut mechanism, &equations);
+    let mut graph = std::mem::take(&mut mechanism.graph);
+    let names = |symbol: Symbol| names::latex(&mechanism.symbol_text(symbol));
+    let mut all = Vec::new();
+    for section in &sections {
+        all.push((section.title(), section.lines(&mut graph, &names).collect()));
+    }
+    Some(all)
+}
+
 /// Whose equations are wanted.
 struct Subject {
     file: String,

@@ -4,6 +4,7 @@
 //! Out: CSV or Parquet, a summary on standard error, SVG or HTML.
 
 mod choices;
+mod film;
 mod legs;
 mod picture;
 mod record;
@@ -17,7 +18,7 @@ use crate::column::columns;
 use crate::error::CommandError;
 use crate::interrupt;
 use crate::mechanism::find;
-use crate::output::say;
+use crate::output::{print, say};
 use crate::page::Live;
 use crate::run::{Stopped, run};
 use picture::Picture;
@@ -33,8 +34,13 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
     let mut mechanism = find(&arguments.name)?;
     let structure = mechanism.structure();
     let changes = changes::find(structure, &arguments.name, &arguments.set, &arguments.start)?;
+    let tell = |text: &str| {
+        if !arguments.quiet {
+            say(text);
+        }
+    };
     for name in changes::negative_inertia(&changes, structure) {
-        say(&format!("warning: `{name}` is an inertia, and negative"));
+        tell(&format!("warning: `{name}` is an inertia, and negative"));
     }
     changes::apply(&changes, mechanism.as_mut());
     let columns = columns(&arguments.columns, structure, &arguments.name)?;
@@ -42,7 +48,8 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
     choices::check_files(arguments)?;
     plan.legs = legs::legs(arguments, &plan, &changes, structure)?;
     let mut record = Record::open(arguments, structure, &columns)?;
-    plan.columns = picture::columns(arguments, &columns, structure);
+    let shown = picture::shown(arguments, &columns, structure)?;
+    plan.columns = shown.columns.clone();
     if let Some(checkpoint) = plan.legs.as_ref().and_then(|legs| legs.from.as_ref()) {
         record.go_on(checkpoint);
     }
@@ -56,15 +63,18 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
         arguments,
         mechanism: mechanism.as_ref(),
         plan: &plan,
+        shown: &shown,
         report,
         error: result.as_ref().err().map(|stopped| &stopped.error),
         live,
     };
-    let kept = record.close(arguments.plot.as_deref(), |path, rows| {
-        picture.draw(path, rows)
-    })?;
+    let kept = record.close(|rows| picture.draw(rows))?;
     if let Some(report) = report.filter(|report| result.is_ok() || report.steps > 0) {
-        say(summary::summary(report, structure).trim_end());
+        tell(summary::summary(report, structure).trim_end());
+    }
+    if let Some(report) = report.filter(|_| arguments.json) {
+        let error = result.as_ref().err().map(|stopped| &stopped.error);
+        print(&summary::json(report, structure, error))?;
     }
     match result {
         Ok(_) => Ok(()),

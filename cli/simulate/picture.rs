@@ -5,14 +5,16 @@
 
 use crate::arguments::Simulate;
 use crate::check::read;
-use crate::column::Column;
+use crate::column::{Column, columns, header};
 use crate::error::CommandError;
-use crate::figure::overview;
+use crate::figure::{chosen, named, overview};
 use crate::mechanism::{file, source};
 use crate::number::exact;
 use crate::page::{self, Live, is_page};
-use crate::plot::{Marks, Times, panels};
+use crate::plot::{Marks, Times, panels_as_svg, phase_as_svg};
+use crate::raster;
 use crate::run::{Plan, Report};
+use crate::simulate::film::film;
 use crate::simulate::summary::quantities;
 use bricard_driver::AnyMechanism;
 use bricard_runtime::{Pace, Stabilisation, Structure};
@@ -24,8 +26,10 @@ pub struct Picture<'a> {
     pub arguments: &'a Simulate,
     /// The mechanism, as it was set.
     pub mechanism: &'a dyn AnyMechanism,
-    /// How it was integrated, and the columns of the rows.
+    /// How it was integrated.
     pub plan: &'a Plan,
+    /// What is shown of the rows.
+    pub shown: &'a Shown,
     /// What was done.
     pub report: Option<&'a Report>,
     /// Why it ended early.
@@ -34,21 +38,103 @@ pub struct Picture<'a> {
     pub live: Option<&'a Live>,
 }
 
-/// The columns that the run has to give: those that are wanted, and those of a page.
-pub fn columns(arguments: &Simulate, wanted: &[Column], structure: &Structure) -> Vec<Column> {
-    match arguments.plot.as_deref().is_some_and(is_page) {
+/// What is shown of the rows.
+pub struct Shown {
+    /// The columns that the run has to give besides coordinates and velocities.
+    pub columns: Vec<Column>,
+    /// The places in the rows of what is drawn over time; all if there are none.
+    curves: Vec<usize>,
+    /// The places of what is drawn over one another.
+    phase: Option<[usize; 2]>,
+}
+
+/// What the command line asks for: columns, those of a page, and those that are drawn.
+///
+/// # Errors
+///
+/// [`CommandError::UnknownName`].
+pub fn shown(
+    arguments: &Simulate,
+    wanted: &[Column],
+    structure: &Structure,
+) -> Result<Shown, CommandError> {
+    let mut all = match arguments.plot.as_deref().is_some_and(is_page) {
         true => page::columns(wanted, structure),
         false => wanted.to_vec(),
+    };
+    let owner = &arguments.name;
+    let mut curves = Vec::new();
+    for word in &arguments.curves {
+        curves.extend(places(word, &mut all, structure, owner)?);
     }
+    let mut place = |word: &String| {
+        let found = places(word, &mut all, structure, owner)?;
+        // Of a vector the first component.
+        Ok(found.first().copied().unwrap_or(0))
+    };
+    let phase = match &arguments.phase {
+        Some([x, y]) => Some([place(x)?, place(y)?]),
+        None => None,
+    };
+    Ok(Shown {
+        columns: all,
+        curves,
+        phase,
+    })
+}
+
+/// The places in the rows of what a word means. Columns that are missing are added.
+fn places(
+    word: &str,
+    all: &mut Vec<Column>,
+    structure: &Structure,
+    owner: &str,
+) -> Result<Vec<usize>, CommandError> {
+    let word = word.trim();
+    let always = header(structure, &[]);
+    if let Some(place) = always.iter().position(|name| name == word) {
+        return Ok(vec![place]);
+    }
+    let found = columns(&[word.to_string()], structure, owner);
+    let found = found.map_err(|error| match error {
+        CommandError::UnknownName { known, .. } => CommandError::UnknownName {
+            kind: "coordinate, velocity, column or output",
+            owner: owner.to_string(),
+            name: word.to_string(),
+            known: always.iter().cloned().chain(known).collect(),
+        },
+        error => error,
+    })?;
+    let place = |column: Column| {
+        let known = all.iter().position(|known| *known == column);
+        let place = known.unwrap_or_else(|| {
+            all.push(column);
+            all.len() - 1
+        });
+        always.len() + place
+    };
+    Ok(found.into_iter().map(place).collect())
 }
 
 impl Picture<'_> {
-    /// Draws rows into a file.
+    /// Draws rows into the files that are wanted. Returns their names.
     ///
     /// # Errors
     ///
     /// [`CommandError::Write`], [`CommandError::Draw`].
-    pub fn draw(&self, path: &Path, rows: &[Vec<f64>]) -> Result<(), CommandError> {
+    pub fn draw(&self, rows: &[Vec<f64>]) -> Result<Vec<String>, CommandError> {
+        let (plot, path) = (&self.arguments.plot, &self.arguments.film);
+        if let Some(plot) = plot {
+            self.plot(plot, rows)?;
+        }
+        if let Some(path) = path {
+            film(path, &self.arguments.name, self.mechanism, rows)?;
+        }
+        let files = plot.iter().chain(path);
+        Ok(files.map(|path| path.display().to_string()).collect())
+    }
+
+    fn plot(&self, path: &Path, rows: &[Vec<f64>]) -> Result<(), CommandError> {
         let structure = self.mechanism.structure();
         let marks = self.report.map(|report| marks(report, structure));
         let marks = marks.unwrap_or_default();
@@ -60,8 +146,16 @@ impl Picture<'_> {
             values: &values,
             marks: &marks,
         };
-        let curves = overview(structure, &self.plan.columns, rows);
-        panels(path, &self.arguments.name, times, &curves)
+        let (title, columns) = (&self.arguments.name, &self.shown.columns);
+        if let Some(pair) = self.shown.phase {
+            let pair = pair.map(|place| named(structure, columns, rows, place));
+            return raster::write(path, &phase_as_svg(path, title, &pair)?);
+        }
+        let curves = match &self.shown.curves[..] {
+            [] => overview(structure, columns, rows),
+            places => chosen(structure, columns, rows, places),
+        };
+        raster::write(path, &panels_as_svg(path, title, times, &curves)?)
     }
 
     fn page(&self, path: &Path, rows: &[Vec<f64>], marks: &[Marks]) -> Result<(), CommandError> {
@@ -77,7 +171,8 @@ impl Picture<'_> {
             mechanism: self.mechanism,
             name,
             source,
-            columns: &self.plan.columns,
+            columns: &self.shown.columns,
+            curves: &self.shown.curves,
             rows,
             marks,
             settings: self.settings(),

@@ -76,16 +76,16 @@ impl Record {
         structure: &Structure,
         columns: &[Column],
     ) -> Result<Self, CommandError> {
-        if let Some(plot) = &arguments.plot {
-            probe(plot)?;
-        }
-        let wanted = arguments.out.is_some() || arguments.plot.is_none();
+        let pictures = || arguments.plot.iter().chain(&arguments.film);
+        pictures().try_for_each(|path| probe(path))?;
+        let drawn = pictures().next().is_some();
+        let wanted = arguments.out.is_some() || !drawn;
         let header = header(structure, columns);
         let open = || Table::new(arguments.out.as_deref(), &header);
         Ok(Self {
             table: wanted.then(open).transpose()?,
             width: header.len(),
-            rows: arguments.plot.is_some().then(Vec::new),
+            rows: drawn.then(Vec::new),
             count: 0,
             last: 0.0,
         })
@@ -99,26 +99,24 @@ impl Record {
         }
     }
 
-    /// Writes what is still to be written; `draw` draws the rows. Returns what to say of the
-    /// rows if the run failed.
+    /// Writes what is still to be written; `draw` draws the rows and says where. Returns what
+    /// to say of the rows if the run failed.
     ///
     /// # Errors
     ///
     /// A [`CommandError`] if a file can't be written to its end.
     pub fn close(
         &mut self,
-        plot: Option<&Path>,
-        draw: impl FnOnce(&Path, &[Vec<f64>]) -> Result<(), CommandError>,
+        draw: impl FnOnce(&[Vec<f64>]) -> Result<Vec<String>, CommandError>,
     ) -> Result<String, CommandError> {
         let mut places = Vec::new();
         // A reader of the rows that has gone is no reason not to draw the picture.
         let finished = self.table.as_mut().map_or(Ok(()), Table::finish);
         places.extend(self.table.as_ref().map(Table::destination));
-        if let (Some(path), Some(rows)) = (plot, &self.rows)
+        if let Some(rows) = &self.rows
             && self.count > 0
         {
-            draw(path, rows)?;
-            places.push(path.display().to_string());
+            places.extend(draw(rows)?);
         }
         finished?;
         Ok(match self.count {

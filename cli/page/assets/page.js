@@ -65,6 +65,7 @@ function begin() {
   controls(player, view);
   marks(player);
   facts(run);
+  equations(run);
   const kept = times.length;
   $("thinned").textContent =
     kept < run.rows ? `Of ${run.rows} rows ${kept} are shown: the lowest and the highest value of each curve in each span of time, and evenly between them. The picture has ${scene ? scene.times.length : 0} frames.` : "";
@@ -141,6 +142,7 @@ function controls(player, view) {
   const theme = document.documentElement.dataset;
   let before = "";
   addEventListener("beforeprint", () => {
+    for (const box of document.querySelectorAll("details")) box.open = true;
     before = theme.theme ?? "";
     theme.theme = "light";
     repaint(player, view);

@@ -76,6 +76,27 @@ function command(text) {
   return element("div", { class: "command" }, line, button);
 }
 
+/** The equations of motion. Of MathML nothing but MathML is taken. */
+function equations(run) {
+  if (run.equations.length === 0) return;
+  const place = document.getElementById("equations");
+  const constrained = run.equations.some(({ title }) => title.includes("G = "));
+  place.append(
+    element("h2", {}, "Equations of motion"),
+    element("p", { class: "hint" }, constrained ? "M q̈ + C q̇ + h = Q + Gᵀλ, G q̈ = p₂, with these entries:" : "M q̈ + C q̇ + h = Q, with these entries:"),
+  );
+  for (const { title, zeros, long, lines } of run.equations) {
+    const box = element("details", {}, element("summary", {}, title));
+    for (const line of lines) {
+      const math = new DOMParser().parseFromString(line, "application/xml").documentElement;
+      box.append(element("div", { class: "formula" }, document.importNode(math, true)));
+    }
+    if (long) box.append(element("p", { class: "hint" }, `These are too long for a page: bricard show ${run.name} prints them.`));
+    else if (zeros > 0) box.append(element("p", { class: "hint" }, lines.length > 0 ? `The other entries (${zeros}) are zero.` : "All entries are zero."));
+    place.append(box);
+  }
+}
+
 function facts(run) {
   const left = element("div");
   if (run.source) {
