@@ -62,7 +62,7 @@ pub fn sections(mechanism: &mut Mechanism, equations: &Equations) -> Vec<Section
             vector(
                 "bias p2 of the acceleration level G q̈ = p2",
                 "p2",
-                "p_2",
+                "(p_2)",
                 &equations.bias,
             ),
         ]);

@@ -218,6 +218,32 @@ test("a curve can be switched off, and charts zoom together", async () => {
   await page.close();
 });
 
+test("the equations of motion are there as formulas", async () => {
+  const { page, wrong } = await open("crank.html");
+  const [count, names, text] = await page.evaluate(() => {
+    const all = [...document.querySelectorAll("#equations math")];
+    document.querySelector("#equations details").open = true;
+    const spaces = new Set(all.map((math) => math.namespaceURI.split("/").pop()));
+    return [all.length, [...spaces], document.querySelector("#equations details").textContent];
+  });
+  assert.ok(count > 10, `${count} formulas`);
+  assert.deepEqual(names, ["MathML"]);
+  assert.match(text, /mass matrix/);
+  assert.equal(await page.$("#equations merror, #equations parsererror"), null);
+  assert.deepEqual(wrong, []);
+  await page.close();
+});
+
+test("a page of one row stands still", async () => {
+  bricard("simulate", "slider_crank", "--until", "0", "--plot", "still.html");
+  const { page, wrong } = await open("still.html");
+  await page.keyboard.press("Space");
+  await drawn(page);
+  assert.equal(await page.evaluate(() => bricard.player.playing), false);
+  assert.deepEqual(wrong, []);
+  await page.close();
+});
+
 test("nothing that a hostile description says does anything", async () => {
   write("hostile.mech", HOSTILE);
   bricard("simulate", "hostile.mech", "--until", "2", "--plot", "hostile.html");

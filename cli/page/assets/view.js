@@ -2,6 +2,8 @@
 // space it goes round. Everything is drawn on a plain canvas, the farthest first.
 
 const COLOURS = 7;
+/** Points of a path: more are not seen. */
+const PATH = 1500;
 
 function colour(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
@@ -272,9 +274,10 @@ class View {
       const ink = this.ink.bodies[(place + 3) % COLOURS];
       place += 1;
       const all = scene.times.length;
-      const past = Array.from({ length: now + 1 }, (_, frame) => at(frame)).flat();
-      past.push(...this.points(scene.at(t), shape));
-      const future = Array.from({ length: all - now }, (_, i) => at(now + i)).flat();
+      const step = Math.ceil(all / PATH);
+      const past = Array.from({ length: Math.floor(now / step) + 1 }, (_, i) => at(i * step)).flat();
+      past.push(...at(now), ...this.points(scene.at(t), shape));
+      const future = Array.from({ length: Math.ceil((all - now) / step) }, (_, i) => at(now + i * step)).flat();
       this.pen.globalAlpha = 0.22;
       this.stroke(future, 1.5, ink);
       this.pen.globalAlpha = 0.9;
