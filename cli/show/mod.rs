@@ -57,9 +57,12 @@ pub fn show(arguments: &Show) -> Result<(), CommandError> {
     })
 }
 
-/// The equations of motion of a description: of each array what it is, and its entries with
-/// their values in LaTeX. `None` if the description is wrong.
-pub fn equations(source: &str) -> Option<Vec<(&'static str, Vec<[String; 2]>)>> {
+/// Of an array of the equations of motion what it is, and its entries with their values, in
+/// LaTeX.
+pub type Array = (&'static str, Vec<[String; 2]>);
+
+/// The equations of motion of a description; `None` if it is wrong.
+pub fn equations(source: &str) -> Option<Vec<Array>> {
     let (mut mechanism, _warnings) = analyse(source, &Settings::default()).ok()?;
     let equations = derive::derive(&mut mechanism).ok()?;
     let sections = sections::sections(&mut mechanism, &equations);
