@@ -14,7 +14,7 @@ use std::path::PathBuf;
 pub struct Arguments {
     /// What to do.
     #[command(subcommand)]
-    pub command: Command,
+    pub command: Option<Command>,
 }
 
 /// What to do.
@@ -45,6 +45,10 @@ pub enum Command {
     Cache(Cache),
     /// Write a mechanism as a crate of Rust, or as a library for C and C++
     Export(Export),
+    /// Print what makes a shell complete the command's words
+    Completions(Completions),
+    /// Write the manual's pages
+    Man(Man),
     /// Begin a crate: a commented mechanism, its build script, a program that
     /// simulates it
     New(New),
@@ -82,6 +86,22 @@ pub struct Cache {
     /// Remove everything that was compiled
     #[arg(long)]
     pub clear: bool,
+}
+
+/// Arguments of `completions`.
+#[derive(Args, Debug)]
+pub struct Completions {
+    /// The shell
+    #[arg(value_enum)]
+    pub shell: ShellName,
+}
+
+/// Arguments of `man`.
+#[derive(Args, Debug)]
+pub struct Man {
+    /// The folder that the pages go to
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
 }
 
 /// Arguments of `new`.
@@ -254,9 +274,52 @@ pub struct Simulate {
     /// added to those of --out
     #[arg(long, value_name = "FILE", conflicts_with = "plot")]
     pub resume: Option<PathBuf>,
-    /// Draw coordinates and added columns over time
-    #[arg(long, value_name = "FILE.svg|.html")]
+    /// Draw coordinates and added columns over time; as .html, a page on which the mechanism
+    /// moves
+    #[arg(long, value_name = "FILE.html|.svg|.png|.pdf")]
     pub plot: Option<PathBuf>,
+    /// What --plot draws over time, with commas between them: coordinates, velocities
+    /// der(NAME), columns [default: all]
+    #[arg(
+        long,
+        value_name = "LIST",
+        value_delimiter = ',',
+        requires = "plot",
+        conflicts_with = "phase"
+    )]
+    pub curves: Vec<String>,
+    /// Make --plot draw one quantity over another, instead of over time
+    #[arg(long, value_name = "X,Y", value_parser = pair, requires = "plot")]
+    pub phase: Option<[String; 2]>,
+    /// Film the mechanism: a moving picture (.gif), or a strip of configurations
+    #[arg(
+        long,
+        value_name = "FILE.gif|.svg|.png|.pdf",
+        conflicts_with = "resume"
+    )]
+    pub film: Option<PathBuf>,
+    /// Say nothing but errors
+    #[arg(long)]
+    pub quiet: bool,
+    /// Print the summary as one JSON object to standard output
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// The shells by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ShellName {
+    /// Bourne Again Shell
+    Bash,
+    /// Elvish
+    Elvish,
+    /// Fish
+    Fish,
+    /// PowerShell
+    #[value(name = "powershell")]
+    PowerShell,
+    /// Z Shell
+    Zsh,
 }
 
 /// The integrators by name.
@@ -308,6 +371,20 @@ impl From<FormName> for Form {
             FormName::Multipliers => Form::Multipliers,
             FormName::Partitioning => Form::Partitioning,
         }
+    }
+}
+
+/// Reads the names of two quantities.
+fn pair(text: &str) -> Result<[String; 2], String> {
+    let names: Vec<String> = text
+        .split(',')
+        .map(|name| name.trim().to_string())
+        .collect();
+    let refused = |_| "write two names with a comma between them, such as `q1,der(q1)`";
+    let pair: [String; 2] = names.try_into().map_err(refused)?;
+    match pair.iter().any(String::is_empty) {
+        true => Err("a name is missing beside the comma".to_string()),
+        false => Ok(pair),
     }
 }
 

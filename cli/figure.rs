@@ -22,37 +22,95 @@ pub const ERRORS: Scale = Scale::Logarithmic {
 /// All coordinates and added columns of a recording.
 pub fn overview(structure: &Structure, columns: &[Column], rows: &[Vec<f64>]) -> Vec<Panel> {
     let mut panels = coordinates(structure, rows);
-    let first = 1 + 2 * structure.coordinates.len();
-    let added: Vec<Curve> = columns
-        .iter()
-        .enumerate()
-        .map(|(i, column)| Curve {
-            axis: axis(*column, structure),
-            scale: match column {
-                Column::ConstraintError | Column::VelocityError => ERRORS,
-                Column::Rank => Scale::Whole,
-                _ => Scale::Linear,
-            },
-            series: series(column.name(structure), first + i, rows),
-        })
-        .collect();
-    panels.extend(grouped(added));
+    panels.extend(added(structure, columns, rows));
     panels
+}
+
+/// The added columns, those of one kind and unit together.
+pub fn added(structure: &Structure, columns: &[Column], rows: &[Vec<f64>]) -> Vec<Panel> {
+    let first = 1 + 2 * structure.coordinates.len();
+    let all = 0..columns.len();
+    grouped(
+        all.map(|i| curve(structure, columns, rows, first + i))
+            .collect(),
+    )
+}
+
+/// The velocities, those of one unit together.
+pub fn velocities(structure: &Structure, rows: &[Vec<f64>]) -> Vec<Panel> {
+    let n = structure.coordinates.len();
+    let places = 1 + n..=2 * n;
+    grouped(places.map(|i| curve(structure, &[], rows, i)).collect())
+}
+
+/// Some columns of the rows, by their places.
+pub fn chosen(
+    structure: &Structure,
+    columns: &[Column],
+    rows: &[Vec<f64>],
+    places: &[usize],
+) -> Vec<Panel> {
+    let curves = places.iter().map(|i| curve(structure, columns, rows, *i));
+    grouped(curves.collect())
+}
+
+/// A column of the rows, by its place, named with its unit.
+pub fn named(structure: &Structure, columns: &[Column], rows: &[Vec<f64>], place: usize) -> Series {
+    let Curve { axis, series, .. } = curve(structure, columns, rows, place);
+    let name = match axis.split_once('[') {
+        Some((_, unit)) => format!("{} [{unit}", series.name),
+        None => series.name,
+    };
+    Series { name, ..series }
+}
+
+/// A column of the rows, by its place behind the time.
+fn curve(structure: &Structure, columns: &[Column], rows: &[Vec<f64>], place: usize) -> Curve {
+    let n = structure.coordinates.len();
+    let coordinate = |i: usize| structure.coordinates.get(i);
+    let with_unit = |what: &str, unit: &str, per: &str| match unit {
+        "" => what.to_string(),
+        unit => format!("{what} [{unit}{per}]"),
+    };
+    let linear = |axis, name| Curve {
+        axis,
+        scale: Scale::Linear,
+        series: series(name, place, rows),
+    };
+    if let Some(coordinate) = place.checked_sub(1).and_then(coordinate) {
+        let axis = match coordinate.unit {
+            "rad" => ANGLE.to_string(),
+            "m" => "position [m]".to_string(),
+            unit => with_unit("coordinate", unit, ""),
+        };
+        return linear(axis, coordinate.name.to_string());
+    }
+    if let Some(coordinate) = place.checked_sub(1 + n).and_then(coordinate) {
+        let axis = match coordinate.unit {
+            "rad" => "angular velocity [rad/s]".to_string(),
+            unit => with_unit("velocity", unit, "/s"),
+        };
+        return linear(axis, format!("der({})", coordinate.name));
+    }
+    let column = place.checked_sub(1 + 2 * n).and_then(|i| columns.get(i));
+    let Some(column) = column else {
+        return linear("time [s]".to_string(), "t".to_string());
+    };
+    Curve {
+        axis: axis(*column, structure),
+        scale: match column {
+            Column::ConstraintError | Column::VelocityError => ERRORS,
+            Column::Rank => Scale::Whole,
+            _ => Scale::Linear,
+        },
+        series: series(column.name(structure), place, rows),
+    }
 }
 
 /// The coordinates, those of one unit together.
 pub fn coordinates(structure: &Structure, rows: &[Vec<f64>]) -> Vec<Panel> {
-    let curve = |(i, coordinate): (usize, &bricard_runtime::Quantity)| Curve {
-        axis: match coordinate.unit {
-            "rad" => ANGLE.to_string(),
-            "m" => "position [m]".to_string(),
-            "" => "coordinate".to_string(),
-            unit => format!("coordinate [{unit}]"),
-        },
-        scale: Scale::Linear,
-        series: series(coordinate.name.to_string(), 1 + i, rows),
-    };
-    let all = structure.coordinates.iter().enumerate().map(curve);
+    let places = 1..=structure.coordinates.len();
+    let all = places.map(|i| curve(structure, &[], rows, i));
     // Beside an angle that goes on and on one that oscillates would look like a line.
     let (turning, others): (Vec<Curve>, Vec<Curve>) =
         all.partition(|curve| curve.axis == ANGLE && span(&curve.series) > TURNS);

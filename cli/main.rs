@@ -21,15 +21,19 @@ mod formula;
 mod interrupt;
 mod landing;
 mod list;
+mod manual;
 mod mechanism;
 mod new;
 mod number;
 mod output;
+mod page;
 mod parquet;
 mod plot;
 mod progress;
+mod raster;
 mod reproduce;
 mod run;
+mod scene;
 mod show;
 mod simulate;
 mod table;
@@ -44,7 +48,8 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    match perform(&arguments.command) {
+    let performed = arguments.command.as_ref().map_or_else(greet, perform);
+    match performed {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             if !error.is_silent() {
@@ -53,6 +58,18 @@ fn main() -> ExitCode {
             ExitCode::from(error.status())
         }
     }
+}
+
+/// What somebody sees who types nothing but the command's name.
+fn greet() -> Result<(), CommandError> {
+    output::print(
+        "bricard simulates closed-loop mechanisms straight through their singular positions.\n\n\
+         Begin with\n  \
+         bricard list                                      what mechanisms there are\n  \
+         bricard simulate slider_crank --plot crank.html   one of them; open crank.html to see it move\n  \
+         bricard new my-engine                             a mechanism of your own\n\n\
+         `bricard --help` lists all commands.\n",
+    )
 }
 
 fn perform(command: &Command) -> Result<(), CommandError> {
@@ -68,6 +85,8 @@ fn perform(command: &Command) -> Result<(), CommandError> {
         Command::Check(arguments) => check::check(arguments),
         Command::Export(arguments) => export::export(arguments),
         Command::New(arguments) => new::new(arguments),
+        Command::Completions(arguments) => manual::completions(arguments),
+        Command::Man(arguments) => manual::man(arguments),
         Command::Validate(arguments) => validate::validate(arguments),
     }
 }

@@ -6,11 +6,10 @@
 use crate::check::read;
 use crate::compiled;
 use crate::error::CommandError;
-use crate::plot::Shape;
 use crate::show::freedom;
-use bricard_driver::{AnyMechanism, Precise, forget, state_of};
+use bricard_driver::{AnyMechanism, Precise, forget};
 use bricard_reference::DoubleDouble;
-use bricard_runtime::{Canvas, Interface, Mechanism, Settings, Solver, Visitor, Whole, assemble};
+use bricard_runtime::{Interface, Mechanism, Settings, Solver, Visitor, Whole, assemble};
 use std::path::{self, Path};
 
 /// Finds a mechanism of the library or of the benchmark problems, or compiles a file.
@@ -139,60 +138,5 @@ fn free<const N: usize, const R: usize>(mechanism: &dyn Whole<f64, N, R>) -> Str
             freedom(N - rank.rank)
         ),
         Err(error) => format!("the rank at the start can't be decided: {error}"),
-    }
-}
-
-/// The picture of a mechanism of the library at a state: time, coordinates, velocities.
-/// `None` if there is no such mechanism.
-pub fn shapes(name: &str, row: &[f64]) -> Option<Vec<Shape>> {
-    bricard::visit(name, Draw(row))
-}
-
-struct Draw<'a>(&'a [f64]);
-
-impl Visitor<f64> for Draw<'_> {
-    type Output = Vec<Shape>;
-
-    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
-    where
-        M: Mechanism<f64, N, R> + Interface<f64, N> + Clone + 'static,
-    {
-        let mut sheet = Sheet::default();
-        mechanism.draw(&state_of(self.0), &mut sheet);
-        sheet.shapes
-    }
-}
-
-/// Collects the shapes of a picture. What lies in space is seen from the front,
-/// a little from the right and from above.
-#[derive(Default)]
-struct Sheet {
-    shapes: Vec<Shape>,
-}
-
-/// How far a metre of depth moves a point to the left and down (m).
-const DEPTH: [f64; 2] = [-0.35, -0.25];
-
-fn seen([x, y, z]: [f64; 3]) -> [f64; 2] {
-    [x + DEPTH[0] * z, y + DEPTH[1] * z]
-}
-
-impl Canvas<f64> for Sheet {
-    fn line(&mut self, points: &[[f64; 3]]) {
-        self.shapes
-            .push(Shape::Line(points.iter().copied().map(seen).collect()));
-    }
-
-    fn circle(&mut self, centre: [f64; 3], radius: f64) {
-        self.shapes.push(Shape::Circle(seen(centre), radius));
-    }
-
-    fn polygon(&mut self, points: &[[f64; 3]]) {
-        self.shapes
-            .push(Shape::Polygon(points.iter().copied().map(seen).collect()));
-    }
-
-    fn trace(&mut self, point: [f64; 3]) {
-        self.shapes.push(Shape::Trace(seen(point)));
     }
 }

@@ -7,9 +7,11 @@ use crate::checkpoint::Rows;
 use crate::error::CommandError;
 use crate::number::exact;
 use csv::{ErrorKind, Writer};
+use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use std::process;
 
 /// What messages call standard output.
 const STANDARD_OUTPUT: &str = "standard output";
@@ -39,6 +41,34 @@ pub fn say(line: &str) {
 /// [`CommandError::Write`].
 pub fn write(path: &Path, text: &str) -> Result<(), CommandError> {
     fs::write(path, text).map_err(|error| CommandError::write(path, error))
+}
+
+/// Writes a whole file in place of what bears its name, all at once. What is no file, such
+/// as a pipe, is written to.
+///
+/// # Errors
+///
+/// [`CommandError::Write`].
+pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), CommandError> {
+    let failed = |error| CommandError::write(path, error);
+    // A link stays one.
+    let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+    if place.exists() && !place.is_file() {
+        return fs::write(&place, bytes).map_err(failed);
+    }
+    let beside = beside(&place);
+    let written = fs::write(&beside, bytes).and_then(|()| fs::rename(&beside, &place));
+    if written.is_err() {
+        let _nothing_left = fs::remove_file(&beside);
+    }
+    written.map_err(failed)
+}
+
+/// A name beside a file that nobody else uses.
+fn beside(path: &Path) -> PathBuf {
+    let name = path.file_name().unwrap_or(OsStr::new("file"));
+    let name = format!(".{}.{}", name.to_string_lossy(), process::id());
+    path.with_file_name(name)
 }
 
 /// Finds out whether a file can be written, before anything is computed for it.

@@ -8,7 +8,8 @@ use crate::error::CommandError;
 use crate::interrupt;
 use crate::mechanism::file;
 use crate::output::say;
-use crate::simulate::simulate;
+use crate::page::{Live, is_page};
+use crate::simulate::simulate_for;
 use notify::{RecursiveMode, Watcher, recommended_watcher};
 use std::ffi::OsStr;
 use std::fs;
@@ -57,17 +58,27 @@ pub fn watch(arguments: &Simulate) -> Result<(), CommandError> {
         .watch(folder, RecursiveMode::NonRecursive)
         .map_err(|error| failed(error.to_string()))?;
     interrupt::listen();
+    let page = arguments.plot.as_deref().filter(|path| is_page(path));
     loop {
         let seen = fs::read(file).ok();
-        if let Err(error) = simulate(arguments) {
-            match error {
-                CommandError::Interrupted { .. } | CommandError::NobodyReads => return Err(error),
-                error => say(&format!("error: {error}")),
+        let live = page.map(Live::beside);
+        match (simulate_for(arguments, live.as_ref()), &live) {
+            (Ok(()), _) => {}
+            (Err(error), live) => {
+                if let CommandError::Interrupted { .. } | CommandError::NobodyReads = error {
+                    live.iter().for_each(|live| live.end());
+                    return Err(error);
+                }
+                if let Some(live) = live {
+                    live.complain(&error.to_string())?;
+                }
+                say(&format!("error: {error}"));
             }
         }
         say(&format!("waiting until {} is saved", file.display()));
         wait(file, seen.as_deref(), &changes).map_err(failed)?;
         if interrupt::is_wanted() {
+            live.iter().for_each(Live::end);
             let kept = String::new();
             return Err(CommandError::Interrupted { kept });
         }

@@ -162,7 +162,11 @@ fn options_that_contradict_each_other_are_refused() {
     let unknown = [&name[..], &["--method", "rk5"]].concat();
     check_refused(&unknown, 2, &["rk4, dp5, dop853"]);
     check_refused(&["simulat"], 2, &["simulate"]);
-    check_refused(&[], 2, &["Usage"]);
+    let greeted = bricard(&[]);
+    assert_eq!(greeted.status, Some(0), "{}", greeted.err);
+    for first in ["bricard list", "bricard simulate", "bricard new"] {
+        assert!(greeted.out.contains(first), "{}", greeted.out);
+    }
 }
 
 #[test]
@@ -180,8 +184,20 @@ fn files_that_cannot_be_written_are_found_out_before_the_run() {
     ]
     .concat();
     check_refused(&resumed, 2, &["run.parquet", "checkpoint", "--out run.csv"]);
-    let pdf = [&name[..], &["--plot", "run.pdf"]].concat();
-    check_refused(&pdf, 2, &["run.pdf", "--plot run.svg", "--plot run.html"]);
+    let bmp = [&name[..], &["--plot", "run.bmp"]].concat();
+    check_refused(&bmp, 2, &["run.bmp", "--plot run.svg", "--plot run.html"]);
+    let phase = [&name[..], &["--plot", "run.html", "--phase", "q1,q2"]].concat();
+    check_refused(&phase, 2, &["run.html", "--plot run.svg"]);
+    let alone = [&name[..], &["--plot", "run.svg", "--phase", "q1"]].concat();
+    check_refused(&alone, 2, &["two names", "q1,der(q1)"]);
+    let film = [&name[..], &["--film", "run.mp4"]].concat();
+    check_refused(&film, 2, &["run.mp4", "--film run.gif"]);
+    let missing = [&name[..], &["--film", "/nonexistent/run.gif"]].concat();
+    check_refused(&missing, 1, &["could not write /nonexistent/run.gif"]);
+    let both = [&name[..], &["--json"]].concat();
+    check_refused(&both, 2, &["--json and --out", "standard output"]);
+    let curve = [&name[..], &["--plot", "run.svg", "--curves", "q1,enrgy"]].concat();
+    check_refused(&curve, 2, &["`enrgy`", "did you mean `energy`"]);
     check_refused(
         &["reproduce", "--out", "/proc/figures"],
         1,

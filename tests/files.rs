@@ -67,20 +67,97 @@ fn a_run_that_fails_leaves_parquet_that_can_be_read() {
     );
 }
 
-#[test]
-fn a_page_holds_the_picture() {
-    let path = folder("page").join("a<b.html");
+/// Simulates the slider-crank for a second into a file of a folder of its own; the file's
+/// bytes.
+fn drawn(name: &str, options: &[&str]) -> Vec<u8> {
+    let folder = folder(&name.replace('.', "_"));
+    let path = folder.join(name);
     let text = path.to_string_lossy();
-    let ran = bricard(&["simulate", "slider_crank", "--until", "1", "--plot", &text]);
+    let run = ["simulate", "slider_crank", "--until", "1"];
+    let ran = bricard(&[&run[..], options, &[&text]].concat());
     assert_eq!(ran.status, Some(0), "{}", ran.err);
-    let page = fs::read_to_string(&path).expect("a page");
-    for part in [
-        "<!DOCTYPE html>",
-        "<title>a&lt;b</title>",
-        "<svg",
-        "</svg>",
-        "</html>",
-    ] {
-        assert!(page.contains(part), "no `{part}` in the page");
+    assert_eq!(ran.out, "");
+    let names = fs::read_dir(&folder).expect("a folder");
+    assert_eq!(names.count(), 1, "something else was left behind");
+    fs::read(&path).expect("a file")
+}
+
+#[test]
+fn a_page_is_whole_and_needs_nothing_else() {
+    let page = String::from_utf8(drawn("a<b.html", &["--plot"])).expect("text");
+    let start = "<!DOCTYPE html>\n<html lang=\"en\">";
+    assert!(page.starts_with(start) && page.ends_with("</html>\n"));
+    assert!(page.contains("<title>SliderCrank</title>"));
+    for elsewhere in ["src=\"http", "href=\"http", "@import", "url("] {
+        assert!(!page.contains(elsewhere), "{elsewhere}");
     }
+}
+
+#[test]
+fn pictures_are_of_the_kind_that_their_names_say() {
+    let png = drawn("run.png", &["--plot"]);
+    assert!(png.starts_with(b"\x89PNG\r\n\x1a\n"));
+    let pdf = drawn("run.pdf", &["--plot"]);
+    assert!(pdf.starts_with(b"%PDF-"));
+    // Its letters are letters, of a font that it brings along.
+    let has = |what: &[u8]| pdf.windows(what.len()).any(|part| part == what);
+    assert!(has(b"/FontFile") && has(b"DejaVu"));
+    let gif = drawn("film.gif", &["--film"]);
+    assert!(gif.starts_with(b"GIF89a") && gif.ends_with(b";"));
+    let frames = gif.windows(4).filter(|part| *part == b"\x21\xf9\x04\x04");
+    let frames = frames.count();
+    assert!(frames >= 25, "{frames} frames of a second");
+    let strip = String::from_utf8(drawn("strip.svg", &["--film"])).expect("text");
+    for caption in ["t = 0.00 s", "t = 0.40 s", "t = 1.00 s"] {
+        assert!(strip.contains(caption), "no `{caption}`");
+    }
+}
+
+#[test]
+fn a_picture_holds_the_chosen_curves_and_no_others() {
+    let options = ["--curves", "q3,energy", "--plot"];
+    let svg = String::from_utf8(drawn("chosen.svg", &options)).expect("text");
+    for (name, there) in [("q3", true), ("energy [J]", true), ("angle [rad]", false)] {
+        assert_eq!(svg.contains(name), there, "{name}");
+    }
+    let options = ["--phase", "q1,der(q1)", "--plot"];
+    let svg = String::from_utf8(drawn("phase.svg", &options)).expect("text");
+    assert!(svg.contains("q1 [rad]") && svg.contains("der(q1) [rad/s]"));
+    assert!(!svg.contains("time t"));
+}
+
+#[test]
+fn a_summary_as_json_says_what_was_done() {
+    let path = folder("json").join("run.csv");
+    let text = path.to_string_lossy();
+    let run = [
+        "simulate",
+        "slider_crank",
+        "--until",
+        "1",
+        "--json",
+        "--quiet",
+    ];
+    let ran = bricard(&[&run[..], &["--out", &text]].concat());
+    assert_eq!((ran.status, ran.err.as_str()), (Some(0), ""));
+    let summary: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
+    assert_eq!(summary["mechanism"], "SliderCrank");
+    assert!(summary["steps"].as_u64() > Some(5));
+    let passage = summary["passages"][0].as_f64().expect("a time");
+    assert!((passage - 0.877).abs() < 1e-3, "{passage}");
+    assert!(summary["error"].is_null());
+}
+
+#[test]
+fn shells_and_the_manual_know_the_commands() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let ran = bricard(&["completions", shell]);
+        assert_eq!(ran.status, Some(0), "{}", ran.err);
+        assert!(ran.out.contains("simulate") && ran.out.contains("stabilisation"));
+    }
+    let folder = folder("manual");
+    let ran = bricard(&["man", &folder.to_string_lossy()]);
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    let page = fs::read_to_string(folder.join("bricard-simulate.1")).expect("a page");
+    assert!(page.contains("stabilisation"));
 }

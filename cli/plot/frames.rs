@@ -5,6 +5,7 @@ use super::style::{DETAIL, FONT, GHOST, GRID, HEADING, INK, TEXT, colour};
 use super::svg::{self, Area, Drawn};
 use crate::error::CommandError;
 use plotters::prelude::*;
+use std::fs;
 use std::path::Path;
 
 /// A part of the picture of a mechanism, in metres.
@@ -57,13 +58,46 @@ const BORDER: f64 = 0.08;
 /// (one at the origin: in metres).
 const SMALLEST: f64 = 1e-9;
 
-/// Draws configurations in one scale, equal in both directions.
+/// Draws configurations in one scale, equal in both directions, and writes them.
 ///
 /// # Errors
 ///
 /// As [`svg::write`].
 pub fn frames(path: &Path, title: &str, frames: &[Frame]) -> Result<(), CommandError> {
+    let text = frames_as_svg(path, title, frames)?;
+    fs::write(path, text).map_err(|error| CommandError::write(path, error))
+}
+
+/// Draws configurations in one scale, equal in both directions.
+///
+/// # Errors
+///
+/// As [`svg::text`].
+pub fn frames_as_svg(path: &Path, title: &str, frames: &[Frame]) -> Result<String, CommandError> {
+    strip(path, title, frames, bounds(frames))
+}
+
+/// Draws each configuration for itself, all in one scale.
+///
+/// # Errors
+///
+/// As [`svg::text`].
+pub fn film_as_svg<'a>(
+    path: &'a Path,
+    title: &'a str,
+    frames: &'a [Frame],
+) -> impl Iterator<Item = Result<String, CommandError>> + 'a {
     let bounds = bounds(frames);
+    let each = frames.iter().map(std::slice::from_ref);
+    each.map(move |frame| strip(path, title, frame, bounds))
+}
+
+fn strip(
+    path: &Path,
+    title: &str,
+    frames: &[Frame],
+    bounds: ([f64; 2], [f64; 2]),
+) -> Result<String, CommandError> {
     let (across, up) = (bounds.1[0] - bounds.0[0], bounds.1[1] - bounds.0[1]);
     let picture = (f64::from(WIDTH) * (up / across).clamp(0.3, 2.0)) as u32;
     let columns = u32::try_from(frames.len().clamp(1, COLUMNS)).unwrap_or(1);
@@ -72,7 +106,7 @@ pub fn frames(path: &Path, title: &str, frames: &[Frame]) -> Result<(), CommandE
         columns * WIDTH + 24,
         TITLE + rows * (CAPTION + picture + 8) + 8,
     );
-    svg::write(path, size, |root| {
+    svg::text(path, size, |root| {
         let style = TextStyle::from((FONT, HEADING).into_font()).color(&INK);
         let head = i32::try_from(12 * DETAIL).unwrap_or(0);
         root.draw(&Text::new(title.to_string(), (head, head * 5 / 6), style))?;

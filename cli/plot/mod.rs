@@ -10,12 +10,14 @@ mod axis;
 mod curve;
 mod frames;
 mod panel;
+mod phase;
 mod style;
 mod svg;
 mod work;
 
-pub use frames::{Frame, Shape, frames};
-pub use panel::{Marks, Times, panels};
+pub use frames::{Frame, Shape, film_as_svg, frames, frames_as_svg};
+pub use panel::{Marks, Times, panels, panels_as_svg};
+pub use phase::phase_as_svg;
 pub use work::{Cloud, Mark, work_diagram};
 
 /// One diagram over time.

@@ -8,6 +8,7 @@ use super::{Panel, Scale};
 use crate::error::CommandError;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use std::fs;
 use std::path::Path;
 
 /// Width of a picture (pixels).
@@ -45,7 +46,7 @@ pub struct Marks {
     pub name: String,
 }
 
-/// Draws panels with a common axis of time (s).
+/// Draws panels with a common axis of time (s), and writes them.
 ///
 /// # Errors
 ///
@@ -56,6 +57,21 @@ pub fn panels(
     times: Times,
     panels: &[Panel],
 ) -> Result<(), CommandError> {
+    let text = panels_as_svg(path, title, times, panels)?;
+    fs::write(path, text).map_err(|error| CommandError::write(path, error))
+}
+
+/// Draws panels with a common axis of time (s).
+///
+/// # Errors
+///
+/// As [`svg::text`].
+pub fn panels_as_svg(
+    path: &Path,
+    title: &str,
+    times: Times,
+    panels: &[Panel],
+) -> Result<String, CommandError> {
     let prepared: Vec<_> = panels
         .iter()
         .map(|panel| curves(times.values, &panel.series, panel.scale))
@@ -74,7 +90,7 @@ pub fn panels(
     let mut known = times.values.iter().copied().filter(|t| has_place(*t));
     let from = known.next().unwrap_or(0.0);
     let time = widened((from, known.next_back().unwrap_or(from)));
-    svg::write(path, size, |root| {
+    svg::text(path, size, |root| {
         let (head, mut rest) = root.split_vertically(TITLE * DETAIL);
         heading(&head, title)?;
         for (i, (panel, (curves, range))) in panels.iter().zip(&prepared).enumerate() {

@@ -1,4 +1,4 @@
-//! Drawings to SVG files, or to pages that hold them.
+//! Drawings to SVG files.
 
 use super::style::DETAIL;
 use crate::error::CommandError;
@@ -19,9 +19,23 @@ pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// [`CommandError::Draw`] and [`CommandError::Write`].
 pub fn write(
     path: &Path,
-    (width, height): (u32, u32),
+    size: (u32, u32),
     draw: impl FnOnce(&Area) -> Drawn,
 ) -> Result<(), CommandError> {
+    let text = text(path, size, draw)?;
+    fs::write(path, text).map_err(|error| CommandError::write(path, error))
+}
+
+/// Draws a picture of a size (pixels); `path` is where it will go, for messages.
+///
+/// # Errors
+///
+/// [`CommandError::Draw`].
+pub fn text(
+    path: &Path,
+    (width, height): (u32, u32),
+    draw: impl FnOnce(&Area) -> Drawn,
+) -> Result<String, CommandError> {
     let mut text = String::new();
     let drawn = {
         let root = SVGBackend::with_string(&mut text, (width * DETAIL, height * DETAIL))
@@ -37,27 +51,5 @@ pub fn write(
         height * DETAIL
     );
     let shown_size = format!("width=\"{width}\" height=\"{height}\"");
-    let mut text = text.replacen(&drawn_size, &shown_size, 1);
-    if path
-        .extension()
-        .is_some_and(|kind| kind.eq_ignore_ascii_case("html"))
-    {
-        text = page(path, &text);
-    }
-    fs::write(path, text).map_err(|error| CommandError::write(path, error))
-}
-
-/// A page with nothing but a picture, which scales with the window.
-fn page(path: &Path, svg: &str) -> String {
-    let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    let title = name
-        .replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;");
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
-         <title>{title}</title>\n\
-         <style>body {{ margin: 0 }} svg {{ display: block; margin: auto; max-width: 100%; \
-         height: auto }}</style>\n</head>\n<body>\n{svg}\n</body>\n</html>\n"
-    )
+    Ok(text.replacen(&drawn_size, &shown_size, 1))
 }

@@ -3,8 +3,8 @@
 use super::experiment::Outcome;
 use crate::error::CommandError;
 use crate::figure::{ERRORS, coordinates, series};
-use crate::mechanism::shapes;
 use crate::plot::{Frame, Marks, Panel, Times, frames, panels};
+use crate::scene::shapes;
 use std::path::Path;
 
 /// Configurations that are drawn of the first second.
@@ -86,9 +86,12 @@ fn configurations(outcome: &Outcome) -> Vec<Frame> {
             let away = |row: &Vec<f64>| row.first().map_or(f64::INFINITY, |x| (x - t).abs());
             away(a).total_cmp(&away(b))
         });
-        nearest
-            .and_then(|row| shapes(outcome.experiment.mechanism, row))
-            .unwrap_or_default()
+        let scene = nearest.and_then(|row| outcome.mechanism.scene(std::slice::from_ref(row)).ok());
+        let drawn = scene.as_ref().and_then(|scene| {
+            let frame = scene.frames.first()?;
+            Some(shapes(scene, frame, false))
+        });
+        drawn.unwrap_or_default()
     };
     let frame = |i: usize| {
         let t = i as f64 / (FRAMES - 1) as f64;

@@ -60,6 +60,24 @@ pub fn show(arguments: &Show) -> Result<(), CommandError> {
     })
 }
 
+/// Of an array of the equations of motion what it is, and its entries with their values, in
+/// LaTeX.
+pub type Array = (&'static str, Vec<[String; 2]>);
+
+/// The equations of motion of a description; `None` if it is wrong.
+pub fn equations(source: &str) -> Option<Vec<Array>> {
+    let (mut mechanism, _warnings) = analyse(source, &Settings::default()).ok()?;
+    let equations = derive::derive(&mut mechanism).ok()?;
+    let sections = sections::sections(&mut mechanism, &equations);
+    let mut graph = std::mem::take(&mut mechanism.graph);
+    let names = |symbol: Symbol| names::latex(&mechanism.symbol_text(symbol));
+    let mut all = Vec::new();
+    for section in &sections {
+        all.push((section.title(), section.lines(&mut graph, &names).collect()));
+    }
+    Some(all)
+}
+
 /// Whose equations are wanted.
 struct Subject {
     file: String,

@@ -62,7 +62,7 @@ pub fn sections(mechanism: &mut Mechanism, equations: &Equations) -> Vec<Section
             vector(
                 "bias p2 of the acceleration level G q̈ = p2",
                 "p2",
-                "p_2",
+                "(p_2)",
                 &equations.bias,
             ),
         ]);
@@ -121,24 +121,35 @@ pub fn text(graph: &mut Graph, sections: &[Section], names: &dyn Fn(Symbol) -> S
 /// The entries as LaTeX, one `align*` for each array.
 pub fn latex(graph: &mut Graph, sections: &[Section], names: &dyn Fn(Symbol) -> String) -> String {
     let mut text = String::new();
-    for Section {
-        title,
-        latex,
-        entries,
-        ..
-    } in sections
-    {
-        text.push_str(&format!("% {title}\n\\begin{{align*}}\n"));
-        let lines: Vec<String> = places(entries)
-            .map(|(place, e)| {
-                let value = shortest(graph, e, Notation::Latex, names);
-                format!("{latex}_{{{place}}} &= {value}")
-            })
+    for section in sections {
+        let lines: Vec<String> = section
+            .lines(graph, names)
+            .map(|[entry, value]| format!("{entry} &= {value}"))
             .collect();
+        text.push_str(&format!("% {}\n\\begin{{align*}}\n", section.title));
         text.push_str(&lines.join(" \\\\\n"));
         text.push_str("\n\\end{align*}\n\n");
     }
     text
+}
+
+impl Section {
+    /// What it is.
+    pub fn title(&self) -> &'static str {
+        self.title
+    }
+
+    /// Each entry and its value, in LaTeX.
+    pub fn lines<'a>(
+        &'a self,
+        graph: &'a mut Graph,
+        names: &'a dyn Fn(Symbol) -> String,
+    ) -> impl Iterator<Item = [String; 2]> + 'a {
+        places(&self.entries).map(move |(place, e)| {
+            let value = shortest(graph, e, Notation::Latex, names);
+            [format!("{}_{{{place}}}", self.latex), value]
+        })
+    }
 }
 
 /// Each entry with its place, counted from 1.

@@ -4,10 +4,11 @@ use super::record::is_parquet;
 use crate::arguments::{MethodName, Simulate};
 use crate::column::Column;
 use crate::error::CommandError;
+use crate::page::is_page;
 use crate::run::Plan;
 use bricard_codegen::diagnostic::figure;
 use bricard_runtime::{Options, Pace, Settings};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Step of RK4, unless one is given (s).
 const STEP: f64 = 0.01;
@@ -17,12 +18,20 @@ pub const TOLERANCE: f64 = 1e-9;
 /// Kinds of files that rows are written to; one without a kind is CSV.
 const ROWS: [&str; 4] = ["csv", "txt", "dat", "parquet"];
 
+/// Kinds of files that plots and films are written to.
+const PLOTS: [&str; 4] = ["html", "svg", "png", "pdf"];
+const FILMS: [&str; 4] = ["gif", "svg", "png", "pdf"];
+
 /// More rows than this fill a disk: they are refused.
 const MOST_ROWS: f64 = 1e10;
 
 /// Intervals of a plot, unless their length is given: the steps of an adaptive
 /// method are too long for a smooth curve.
 const PLOTTED: f64 = 1000.0;
+
+/// The same for each second of a page, on which the mechanism moves, and the most of them.
+const FRAMES: f64 = 100.0;
+const MOST_FRAMES: f64 = 6000.0;
 
 /// The plan of a run.
 ///
@@ -53,11 +62,17 @@ pub fn plan(arguments: &Simulate, columns: Vec<Column>) -> Result<Plan, CommandE
     };
     options.keep_energy = arguments.keep_energy;
     let adaptive = matches!(options.pace, Pace::Adaptive { .. });
-    let smooth = adaptive && arguments.plot.is_some() && arguments.until > 0.0;
-    let every = every.or(smooth.then_some(arguments.until / PLOTTED));
+    let drawn = arguments.plot.is_some() || arguments.film.is_some();
+    let smooth = adaptive && drawn && arguments.until > 0.0;
+    let moving = arguments.plot.as_deref().is_some_and(is_page) || arguments.film.is_some();
+    let intervals = match moving {
+        true => (FRAMES * arguments.until).clamp(PLOTTED, MOST_FRAMES),
+        false => PLOTTED,
+    };
+    let every = every.or(smooth.then_some(arguments.until / intervals));
     bounded(arguments, every, options.pace)?;
     Ok(Plan {
-        watched: true,
+        watched: !arguments.quiet,
         ..Plan::new(options, every, columns)
     })
 }
@@ -168,12 +183,34 @@ pub fn check_files(arguments: &Simulate) -> Result<(), CommandError> {
             "rows can't be added to Parquet after a checkpoint; write `--out run.csv`",
         );
     }
+    let is_of = |path: &Path, kinds: &[&str]| {
+        kind(path).is_some_and(|kind| kinds.iter().any(|known| kind == *known))
+    };
     if let Some(plot) = &arguments.plot
-        && kind(plot).is_none_or(|kind| kind != "svg" && kind != "html")
+        && !is_of(plot, &PLOTS)
     {
         return refuse(
             plot,
-            "plots are drawn as SVG, alone or in a page; write `--plot run.svg` or `--plot run.html`",
+            "plots are pages, SVG, PNG or PDF; write `--plot run.html`, `--plot run.svg`, \
+             `--plot run.png` or `--plot run.pdf`",
+        );
+    }
+    if let Some(plot) = &arguments.plot
+        && arguments.phase.is_some()
+        && is_page(plot)
+    {
+        return refuse(
+            plot,
+            "one quantity over another is drawn as SVG, PNG or PDF; write `--plot run.svg`",
+        );
+    }
+    if let Some(film) = &arguments.film
+        && !is_of(film, &FILMS)
+    {
+        return refuse(
+            film,
+            "films are GIF, strips of configurations SVG, PNG or PDF; write `--film run.gif` or \
+             `--film run.svg`",
         );
     }
     Ok(())
@@ -181,9 +218,20 @@ pub fn check_files(arguments: &Simulate) -> Result<(), CommandError> {
 
 /// Refuses one file for two purposes: the one would replace the other.
 fn different(arguments: &Simulate) -> Result<(), CommandError> {
+    let rows_go_there = match &arguments.out {
+        Some(out) => out == Path::new("-"),
+        None => arguments.plot.is_none() && arguments.film.is_none(),
+    };
+    if arguments.json && rows_go_there {
+        return Err(CommandError::SameFile {
+            options: ["--json", "--out"],
+            path: PathBuf::from("standard output"),
+        });
+    }
     let files = [
         ("--out", &arguments.out),
         ("--plot", &arguments.plot),
+        ("--film", &arguments.film),
         ("--checkpoint", &arguments.checkpoint),
     ];
     for (i, (option, file)) in files.iter().enumerate() {

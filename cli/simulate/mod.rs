@@ -4,7 +4,9 @@
 //! Out: CSV or Parquet, a summary on standard error, SVG or HTML.
 
 mod choices;
+mod film;
 mod legs;
+mod picture;
 mod record;
 pub mod summary;
 
@@ -16,19 +18,29 @@ use crate::column::columns;
 use crate::error::CommandError;
 use crate::interrupt;
 use crate::mechanism::find;
-use crate::output::say;
-use crate::plot::Marks;
-use crate::run::{Report, Stopped, run};
-use bricard_runtime::Structure;
+use crate::output::{print, say};
+use crate::page::Live;
+use crate::run::{Stopped, run};
+use picture::Picture;
 use record::Record;
 
 /// Simulates a mechanism.
 pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
+    simulate_for(arguments, None)
+}
+
+/// Simulates a mechanism for a page that is kept up to date, if there is one.
+pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), CommandError> {
     let mut mechanism = find(&arguments.name)?;
     let structure = mechanism.structure();
     let changes = changes::find(structure, &arguments.name, &arguments.set, &arguments.start)?;
+    let tell = |text: &str| {
+        if !arguments.quiet {
+            say(text);
+        }
+    };
     for name in changes::negative_inertia(&changes, structure) {
-        say(&format!("warning: `{name}` is an inertia, and negative"));
+        tell(&format!("warning: `{name}` is an inertia, and negative"));
     }
     changes::apply(&changes, mechanism.as_mut());
     let columns = columns(&arguments.columns, structure, &arguments.name)?;
@@ -36,6 +48,8 @@ pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
     choices::check_files(arguments)?;
     plan.legs = legs::legs(arguments, &plan, &changes, structure)?;
     let mut record = Record::open(arguments, structure, &columns)?;
+    let shown = picture::shown(arguments, &columns, structure)?;
+    plan.columns = shown.columns.clone();
     if let Some(checkpoint) = plan.legs.as_ref().and_then(|legs| legs.from.as_ref()) {
         record.go_on(checkpoint);
     }
@@ -45,12 +59,22 @@ pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
         Ok(report) => Some(report),
         Err(stopped) => stopped.report.as_deref(),
     };
-    let marks = report
-        .map(|report| marks(report, structure))
-        .unwrap_or_default();
-    let kept = record.close(arguments, &marks, structure, &columns)?;
+    let picture = Picture {
+        arguments,
+        mechanism: mechanism.as_ref(),
+        plan: &plan,
+        shown: &shown,
+        report,
+        error: result.as_ref().err().map(|stopped| &stopped.error),
+        live,
+    };
+    let kept = record.close(|rows| picture.draw(rows))?;
     if let Some(report) = report.filter(|report| result.is_ok() || report.steps > 0) {
-        say(summary::summary(report, structure).trim_end());
+        tell(summary::summary(report, structure).trim_end());
+    }
+    if let Some(report) = report.filter(|_| arguments.json) {
+        let error = result.as_ref().err().map(|stopped| &stopped.error);
+        print(&summary::json(report, structure, error))?;
     }
     match result {
         Ok(_) => Ok(()),
@@ -63,21 +87,4 @@ pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
             }
         }
     }
-}
-
-/// What is marked in a plot: singular positions, and the events by name.
-fn marks(report: &Report, structure: &Structure) -> Vec<Marks> {
-    let passages = report.passages.iter().map(|passage| passage.t);
-    let passages = Marks {
-        times: passages.collect(),
-        name: "singular position".to_string(),
-    };
-    let events = structure.events.iter().map(|event| {
-        let of_name = report.events.iter().filter(|(name, _)| *name == event.name);
-        Marks {
-            times: of_name.map(|(_, t)| *t).collect(),
-            name: event.name.to_string(),
-        }
-    });
-    std::iter::once(passages).chain(events).collect()
 }

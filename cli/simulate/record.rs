@@ -1,16 +1,14 @@
 //! Where the rows of a run go.
 //!
 //! In:  rows of numbers.
-//! Out: a table in a file or on standard output, a plot.
+//! Out: a table in a file or on standard output, and the rows kept for a picture.
 
 use crate::arguments::Simulate;
 use crate::checkpoint::{Checkpoint, Rows};
 use crate::column::{Column, header};
 use crate::error::CommandError;
-use crate::figure::overview;
 use crate::output::{CsvWriter, probe};
 use crate::parquet::ParquetWriter;
-use crate::plot::{Marks, Times, panels};
 use crate::run::RowSink;
 use bricard_runtime::Structure;
 use std::path::Path;
@@ -60,6 +58,8 @@ pub fn is_parquet(path: &Path) -> bool {
 /// Where the rows go.
 pub struct Record {
     table: Option<Table>,
+    /// Numbers of a row that the table gets: a picture may want more.
+    width: usize,
     rows: Option<Vec<Vec<f64>>>,
     count: usize,
     last: f64,
@@ -76,14 +76,16 @@ impl Record {
         structure: &Structure,
         columns: &[Column],
     ) -> Result<Self, CommandError> {
-        if let Some(plot) = &arguments.plot {
-            probe(plot)?;
-        }
-        let wanted = arguments.out.is_some() || arguments.plot.is_none();
-        let open = || Table::new(arguments.out.as_deref(), &header(structure, columns));
+        let pictures = || arguments.plot.iter().chain(&arguments.film);
+        pictures().try_for_each(|path| probe(path))?;
+        let drawn = pictures().next().is_some();
+        let wanted = arguments.out.is_some() || !drawn;
+        let header = header(structure, columns);
+        let open = || Table::new(arguments.out.as_deref(), &header);
         Ok(Self {
             table: wanted.then(open).transpose()?,
-            rows: arguments.plot.is_some().then(Vec::new),
+            width: header.len(),
+            rows: drawn.then(Vec::new),
             count: 0,
             last: 0.0,
         })
@@ -97,38 +99,24 @@ impl Record {
         }
     }
 
-    /// Writes what is still to be written. Returns what to say of the rows if
-    /// the run failed.
+    /// Writes what is still to be written; `draw` draws the rows and says where. Returns what
+    /// to say of the rows if the run failed.
     ///
     /// # Errors
     ///
     /// A [`CommandError`] if a file can't be written to its end.
     pub fn close(
         &mut self,
-        arguments: &Simulate,
-        marks: &[Marks],
-        structure: &Structure,
-        columns: &[Column],
+        draw: impl FnOnce(&[Vec<f64>]) -> Result<Vec<String>, CommandError>,
     ) -> Result<String, CommandError> {
         let mut places = Vec::new();
         // A reader of the rows that has gone is no reason not to draw the picture.
         let finished = self.table.as_mut().map_or(Ok(()), Table::finish);
         places.extend(self.table.as_ref().map(Table::destination));
-        if let (Some(path), Some(rows)) = (&arguments.plot, &self.rows)
+        if let Some(rows) = &self.rows
             && self.count > 0
         {
-            let values: Vec<f64> = rows.iter().filter_map(|row| row.first().copied()).collect();
-            let times = Times {
-                values: &values,
-                marks,
-            };
-            panels(
-                path,
-                &arguments.name,
-                times,
-                &overview(structure, columns, rows),
-            )?;
-            places.push(path.display().to_string());
+            places.extend(draw(rows)?);
         }
         finished?;
         Ok(match self.count {
@@ -145,7 +133,7 @@ impl Record {
 impl RowSink for Record {
     fn row(&mut self, values: &[f64]) -> Result<(), CommandError> {
         if let Some(table) = &mut self.table {
-            table.row(values)?;
+            table.row(values.get(..self.width).unwrap_or(values))?;
         }
         if let Some(rows) = &mut self.rows {
             rows.push(values.to_vec());

@@ -1,14 +1,23 @@
 //! A run in a few lines.
 
+use crate::error::CommandError;
 use crate::run::Report;
 use crate::table::{Align, aligned};
 use bricard_runtime::{Counters, Structure};
+use serde_json::{Value, json};
 
 /// Passages and events whose times are listed.
 const LISTED: usize = 20;
 
 /// What was done and how well, one quantity in a line.
 pub fn summary(report: &Report, structure: &Structure) -> String {
+    let rows = quantities(report, structure);
+    let rows: Vec<Vec<String>> = rows.into_iter().map(Vec::from).collect();
+    aligned(&rows, &[Align::Left, Align::Left])
+}
+
+/// What was done and how well: quantities and their values.
+pub fn quantities(report: &Report, structure: &Structure) -> Vec<[String; 2]> {
     let mut rows = vec![
         ["steps".to_string(), report.steps.to_string()],
         ["rejected steps".to_string(), report.rejected.to_string()],
@@ -41,8 +50,36 @@ pub fn summary(report: &Report, structure: &Structure) -> String {
             .iter()
             .map(|event| events(event.name, report)),
     );
-    let rows: Vec<Vec<String>> = rows.into_iter().map(Vec::from).collect();
-    aligned(&rows, &[Align::Left, Align::Left])
+    rows
+}
+
+/// The same as one JSON object, with a line feed at its end.
+pub fn json(report: &Report, structure: &Structure, error: Option<&CommandError>) -> String {
+    let passages: Vec<f64> = report.passages.iter().map(|passage| passage.t).collect();
+    let events = report.events.iter();
+    let events: Vec<Value> = events
+        .map(|(name, t)| json!({ "name": name, "t": t }))
+        .collect();
+    let object = json!({
+        "mechanism": structure.name,
+        "steps": report.steps,
+        "rejected_steps": report.rejected,
+        "wall_seconds": report.wall.as_secs_f64(),
+        "conservative": structure.conservative,
+        "energy_error": report.energy_error,
+        "constraint_error": report.constraint_error,
+        "passages": passages,
+        "events": events,
+        "accelerations": {
+            "cheap": report.counters.cheap_accelerations,
+            "beside_singular_positions": report.counters.landed_accelerations,
+            "across_singular_positions": report.counters.robust_accelerations,
+        },
+        "rank_decisions": report.counters.rank_decisions,
+        "undetermined": report.counters.undetermined,
+        "error": error.map(ToString::to_string),
+    });
+    format!("{object:#}\n")
 }
 
 fn energy(report: &Report, structure: &Structure) -> [String; 2] {

@@ -7,6 +7,7 @@
 //! the simulation is compiled once for each pair of sizes, not for each mechanism.
 
 use crate::leg::{Leg, Reached, Watch};
+use crate::scene::{Scene, scene};
 use crate::writer::leg;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{Initial, Options, Start, State, Structure, Whole, assemble, simulate};
@@ -27,6 +28,8 @@ pub trait AnyMechanism {
     /// Simulates with nothing recorded or audited, against the clock: from a state
     /// (time, coordinates, velocities) as it is, or from the assembled start.
     fn race(&self, from: Option<&[f64]>, options: &Options<f64>) -> Result<Race, String>;
+    /// What can be seen in some rows (time, coordinates, velocities).
+    fn scene(&self, rows: &[Vec<f64>]) -> Result<Scene, String>;
 }
 
 /// A run against the clock.
@@ -135,6 +138,10 @@ impl<const N: usize, const R: usize> AnyMechanism for Sized<N, R> {
             evaluations: summary.evaluations,
             wall,
         })
+    }
+
+    fn scene(&self, rows: &[Vec<f64>]) -> Result<Scene, String> {
+        Ok(scene(&*self.mechanism, rows))
     }
 }
 

@@ -7,6 +7,7 @@
 
 use crate::any::{AnyMechanism, Given, Race};
 use crate::leg::{Leg, Reached, Watch};
+use crate::scene::Scene;
 use crate::wire::{Reply, Request, Wire, receive, send};
 use bricard_runtime::{Options, Structure};
 use std::cell::RefCell;
@@ -162,6 +163,13 @@ impl AnyMechanism for Link {
             .ask(&Request::Race(from.map(<[f64]>::to_vec), *options))?
         {
             Reply::Race(race) => race,
+            _ => Err(Ends::NONSENSE.to_string()),
+        }
+    }
+
+    fn scene(&self, rows: &[Vec<f64>]) -> Result<Scene, String> {
+        match self.ends.borrow_mut().ask(&Request::Scene(rows.to_vec()))? {
+            Reply::Scene(scene) => scene,
             _ => Err(Ends::NONSENSE.to_string()),
         }
     }

@@ -87,6 +87,7 @@ fn answer(mut mechanism: Box<dyn AnyMechanism>) -> io::Result<()> {
             Request::Stop => continue,
             Request::Leg(leg) => Reply::Leg(mechanism.leg(&leg, &mut out)),
             Request::Race(from, options) => Reply::Race(mechanism.race(from.as_deref(), &options)),
+            Request::Scene(rows) => Reply::Scene(mechanism.scene(&rows)),
         };
         out.send(&reply)?;
     }

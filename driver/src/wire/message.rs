@@ -1,7 +1,7 @@
 //! What is said between a mechanism in a program of its own and whoever started it.
 
 use super::{Wire, record::choices};
-use crate::{Around, Changes, Exact, Given, Leg, Path, Race, Reached};
+use crate::{Around, Changes, Exact, Given, Leg, Path, Race, Reached, Scene};
 use bricard_runtime::{Options, Structure};
 
 /// What the mechanism is asked for.
@@ -19,6 +19,8 @@ pub(crate) enum Request {
     Stop,
     /// Wants [`Reply::Race`].
     Race(Option<Vec<f64>>, Options<f64>),
+    /// Wants [`Reply::Scene`].
+    Scene(Vec<Vec<f64>>),
 }
 
 /// What the mechanism answers.
@@ -34,6 +36,8 @@ pub(crate) enum Reply {
     Leg(Result<Reached, String>),
     /// The end of a run against the clock.
     Race(Result<Race, String>),
+    /// What can be seen in some rows.
+    Scene(Result<Scene, String>),
 }
 
 /// What a mechanism in numbers of many digits is asked for.
@@ -59,10 +63,10 @@ choices! {
     Answer { 0 => Exact(exact), 1 => Path(path) }
     Request {
         0 => Parameter(place, value), 1 => Input(place, value), 2 => Begin(given), 3 => Leg(leg),
-        4 => Stop, 5 => Race(from, options)
+        4 => Stop, 5 => Race(from, options), 6 => Scene(rows)
     }
     Reply {
         0 => Structure(structure), 1 => Row(values), 2 => At(time, steps), 3 => Leg(reached),
-        4 => Race(race)
+        4 => Race(race), 5 => Scene(scene)
     }
 }

@@ -1,7 +1,7 @@
 //! Structs and enums of the runtime as bytes: field by field, variant by variant.
 
 use super::Wire;
-use crate::{Around, Changes, Column, Exact, Given, Leg, Path, Race, Reached};
+use crate::{Around, Changes, Column, Drawn, Exact, Given, Leg, Path, Race, Reached, Scene};
 use bricard_runtime::{
     Audit, ConstraintRow, Counters, Declared, Direction, Event, Form, Options, Origin, Pace,
     Passage, Quantity, Scheme, Settings, Stabilisation, Structure,
@@ -81,6 +81,7 @@ records! {
     Exact { end, error }
     Around { about, places, span }
     Path { passage, rows }
+    Scene { parameters, shapes, frames }
     Leg { options, from, every, columns, rows, short }
     Reached {
         state, origin, rows, error, steps, rejected, wall, constraint_error, energy_error,
@@ -98,4 +99,5 @@ choices! {
         0 => Energy, 1 => Kinetic, 2 => Potential, 3 => ConstraintError, 4 => VelocityError,
         5 => Rank, 6 => Reaction(place), 7 => Output(place)
     }
+    Drawn { 0 => Line(points), 1 => Circle, 2 => Polygon(points), 3 => Trace }
 }

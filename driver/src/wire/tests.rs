@@ -1,7 +1,7 @@
 //! What is sent arrives to the same bits, or not at all.
 
 use super::{Reply, Request, receive, send};
-use crate::{Column, Given, Leg, Reached};
+use crate::{Column, Drawn, Given, Leg, Reached, Scene};
 use bricard_runtime::{
     ConstraintRow, Counters, Direction, Event, Options, Origin, Pace, Passage, Quantity, Scheme,
     Stabilisation, Structure,
@@ -102,6 +102,7 @@ fn messages_arrive_as_they_were_sent() {
         Request::Leg(leg()),
         Request::Stop,
         Request::Race(None, leg().options),
+        Request::Scene(vec![vec![0.0, 1.5], Vec::new()]),
     ] {
         let arrived: Request = receive(&mut &bytes(&request)[..]).expect("it is whole");
         assert_eq!(arrived, request);
@@ -112,6 +113,16 @@ fn messages_arrive_as_they_were_sent() {
         Reply::At(1.5, 32),
         Reply::Leg(Ok(reached())),
         Reply::Leg(Err("no start".to_string())),
+        Reply::Scene(Ok(Scene {
+            parameters: vec![0.5],
+            shapes: vec![
+                Drawn::Line(2),
+                Drawn::Circle,
+                Drawn::Polygon(3),
+                Drawn::Trace,
+            ],
+            frames: vec![vec![0.1, -0.0], Vec::new()],
+        })),
     ] {
         let arrived: Reply = receive(&mut &bytes(&reply)[..]).expect("it is whole");
         assert_eq!(arrived, reply);

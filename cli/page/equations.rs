@@ -1,0 +1,95 @@
+//! The equations of motion as MathML.
+//!
+//! In:  a description.
+//! Out: JSON: of each array what it is, and its entries that are not zero.
+
+use crate::show::equations;
+use pulldown_latex::config::{DisplayMode, RenderConfig};
+use pulldown_latex::{Parser, Storage, push_mathml};
+use serde_json::{Value, json};
+
+/// Letters of LaTeX that a page has room for.
+const MOST: usize = 15_000;
+
+/// The equations of motion of a description; none if it is not known.
+///
+/// `M q̈ + C q̇ + h = Q + Gᵀ λ`, `G q̈ = p₂`.
+pub fn mathml(source: Option<&str>) -> Vec<Value> {
+    let arrays = source.and_then(equations).unwrap_or_default();
+    let mut room = MOST;
+    let mut all = Vec::new();
+    for (title, entries) in arrays {
+        let count = entries.len();
+        let others = |[_, value]: &[String; 2]| value != "0";
+        let lines: Vec<[String; 2]> = entries.into_iter().filter(others).collect();
+        let length: usize = lines.iter().flatten().map(String::len).sum();
+        let fits = length <= room;
+        if fits {
+            room -= length;
+        }
+        let shown = lines.iter().filter(|_| fits);
+        all.push(json!({
+            "title": title,
+            "zeros": count - lines.len(),
+            "long": !fits,
+            "lines": shown.filter_map(formula).collect::<Vec<_>>(),
+        }));
+    }
+    all
+}
+
+/// An entry and its value.
+fn formula([entry, value]: &[String; 2]) -> Option<String> {
+    let storage = Storage::new();
+    let text = format!("{entry} = {value}");
+    let config = RenderConfig {
+        display_mode: DisplayMode::Block,
+        xml: true,
+        ..RenderConfig::default()
+    };
+    let mut mathml = String::new();
+    push_mathml(&mut mathml, Parser::new(&text, &storage), config).ok()?;
+    // What is no LaTeX is written as a message in red.
+    (!mathml.contains("<merror")).then_some(mathml)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{formula, mathml};
+
+    #[test]
+    fn formulas_of_the_library_are_mathml() {
+        for name in ["slider_crank", "rssr", "driven_pivot"] {
+            let source = bricard::source(name);
+            let all = source.and_then(crate::show::equations).unwrap_or_default();
+            let nonzero = all
+                .iter()
+                .flat_map(|(_, lines)| lines)
+                .filter(|[_, e]| e != "0");
+            let arrays = mathml(source);
+            let lines = arrays.iter().flat_map(|array| array["lines"].as_array());
+            let lines: Vec<_> = lines.flatten().filter_map(|line| line.as_str()).collect();
+            assert_eq!(lines.len(), nonzero.count(), "{name}: {arrays:?}");
+            assert!(lines.len() > 5, "{name}");
+            for line in lines {
+                assert!(
+                    line.starts_with("<math") && !line.contains("merror"),
+                    "{line}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_formula_says_what_it_says() {
+        let entry = [
+            "M_{1,1}".to_string(),
+            r"\tfrac{1}{4}\,m_{1}\,{L}^{2}".to_string(),
+        ];
+        let mathml = formula(&entry).expect("it is LaTeX");
+        assert!(
+            mathml.contains("<mfrac") && mathml.contains("<msup>"),
+            "{mathml}"
+        );
+    }
+}
