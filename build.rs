@@ -7,10 +7,13 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
-/// What a program of one mechanism is built from.
-const SHARED: [&str; 8] = [
+/// What a program, or a library, of one mechanism is built from.
+const SHARED: [&str; 11] = [
     "Cargo.toml",
     "Cargo.lock",
+    "capi/Cargo.toml",
+    "capi/include",
+    "capi/src",
     "runtime/Cargo.toml",
     "runtime/src",
     "driver/Cargo.toml",

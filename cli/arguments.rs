@@ -43,6 +43,8 @@ pub enum Command {
     Watch(Box<Simulate>),
     /// Say where compiled descriptions are kept, and how large they are
     Cache(Cache),
+    /// Write a mechanism as a crate of Rust, or as a library for C and C++
+    Export(Export),
     /// Begin a crate: a commented mechanism, its build script, a program that
     /// simulates it
     New(New),
@@ -91,6 +93,32 @@ pub struct New {
     /// was built from, if it is still there, else the published packages]
     #[arg(long, value_name = "DIR")]
     pub path: Option<PathBuf>,
+}
+
+/// Arguments of `export`.
+#[derive(Args, Debug)]
+pub struct Export {
+    /// A mechanism of the library, or the file of a description (FILE.mech)
+    #[arg(value_name = "NAME|FILE.mech")]
+    pub subject: String,
+    /// What to write
+    #[arg(long, value_enum)]
+    pub to: Target,
+    /// Where it goes [default: a folder here, with the name of the mechanism's file]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+}
+
+/// What a mechanism is exported to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Target {
+    /// A crate of generated Rust, readable and without a build script
+    Rust,
+    /// A shared and a static library with headers, pkg-config and CMake files, an example,
+    /// and the sources to build them elsewhere
+    C,
+    /// The shared library alone, which stays among what was compiled; its path is printed
+    Library,
 }
 
 /// Arguments of `landing`.

@@ -57,7 +57,8 @@ fn clear(cache: &Cache) -> Result<(), CommandError> {
     Ok(())
 }
 
-/// What is there, version by version: what programs share, and the programs.
+/// What is there, version by version: what programs share, the programs, and libraries for
+/// other languages.
 fn contents(root: &Path) -> Vec<Vec<String>> {
     let mut rows = Vec::new();
     for version in sorted(root) {
@@ -67,9 +68,11 @@ fn contents(root: &Path) -> Vec<Vec<String>> {
         let size: u64 = shared.iter().map(|folder| bytes(folder)).sum();
         let what = format!("shared by all, and by mechanisms of {count} pairs of sizes");
         rows.push(vec![version.clone(), what, in_megabytes(size)]);
-        for program in sorted(&folder.join("programs")) {
-            let size = megabytes(&folder.join("programs").join(&program));
-            rows.push(vec![String::new(), program, size]);
+        for shelf in ["programs", "exported"].map(|shelf| folder.join(shelf)) {
+            for entry in sorted(&shelf) {
+                let size = megabytes(&shelf.join(&entry));
+                rows.push(vec![String::new(), entry, size]);
+            }
         }
     }
     rows

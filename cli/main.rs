@@ -15,6 +15,7 @@ mod checkpoint;
 mod column;
 mod compiled;
 mod error;
+mod export;
 mod figure;
 mod formula;
 mod interrupt;
@@ -65,6 +66,7 @@ fn perform(command: &Command) -> Result<(), CommandError> {
         Command::Watch(arguments) => watch::watch(arguments),
         Command::Cache(arguments) => cache::cache(arguments),
         Command::Check(arguments) => check::check(arguments),
+        Command::Export(arguments) => export::export(arguments),
         Command::New(arguments) => new::new(arguments),
         Command::Validate(arguments) => validate::validate(arguments),
     }

@@ -13,6 +13,7 @@ mod double_double;
 mod dual;
 mod editors;
 mod eliminated;
+mod export;
 mod files;
 mod golden;
 mod identities;

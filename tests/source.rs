@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use std::{fs, iter};
 
 /// The folders that hold what is shipped.
-pub const EVERYWHERE: [&str; 6] = [
+pub const EVERYWHERE: [&str; 7] = [
+    "capi/src",
     "codegen/src",
     "runtime/src",
     "driver/src",

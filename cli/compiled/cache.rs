@@ -121,6 +121,17 @@ impl Version {
         }
     }
 
+    /// Where the libraries of a description for other languages are.
+    pub fn exported(&self, file: &Path, source: &str) -> PathBuf {
+        self.folder.join("exported").join(named(file, source))
+    }
+
+    /// Whether an entry is there and of a description.
+    pub fn holds(entry: &Path, source: &str) -> bool {
+        let known = fs::read_to_string(entry.join(Self::DESCRIPTION));
+        known.is_ok_and(|known| known == source)
+    }
+
     /// Where the libraries are that all programs share.
     pub fn libraries(&self) -> PathBuf {
         self.folder.join("libraries")
@@ -135,23 +146,12 @@ impl Version {
     /// The program of a description, if it is there.
     pub fn program(&self, file: &Path, source: &str) -> Option<PathBuf> {
         let entry = self.entry(file, source);
-        let known = fs::read_to_string(entry.join(Self::DESCRIPTION)).ok()?;
-        (known == source).then(|| entry.join(Self::EXECUTABLE))
+        Self::holds(&entry, source).then(|| entry.join(Self::EXECUTABLE))
     }
 
-    /// Where the program of a description belongs. The name of the file is part of the
-    /// program, which tells it.
+    /// Where the program of a description belongs.
     fn entry(&self, file: &Path, source: &str) -> PathBuf {
-        let name = name(file);
-        let key = hash([&*name, source]);
-        let begin: String = name
-            .trim_end_matches(".mech")
-            .chars()
-            .take(LETTERS)
-            .collect();
-        self.folder
-            .join("programs")
-            .join(format!("{begin}-{key:016x}"))
+        self.folder.join("programs").join(named(file, source))
     }
 
     /// As [`Cache::lock`].
@@ -182,18 +182,48 @@ impl Version {
         file: &Path,
         source: &str,
     ) -> Result<PathBuf, CommandError> {
+        let entry = self.entry(file, source);
+        self.shelve(scratch, built, &entry, source)?;
+        Ok(entry.join(Self::EXECUTABLE))
+    }
+
+    /// Adds what was built of a description as an entry, and makes room for it.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Cache`].
+    pub fn shelve(
+        &self,
+        scratch: Scratch,
+        built: &Path,
+        entry: &Path,
+        source: &str,
+    ) -> Result<(), CommandError> {
         let description = built.join(Self::DESCRIPTION);
         fs::write(&description, source).map_err(|error| CommandError::Cache(description, error))?;
-        let entry = self.entry(file, source);
-        scratch.keep(built, &entry)?;
-        let mut programs = entries(&self.folder.join("programs"));
+        scratch.keep(built, entry)?;
+        let shelf = entry.parent().unwrap_or(&self.folder);
+        let mut programs = entries(shelf);
         let age = |entry: &DirEntry| entry.metadata().and_then(|data| data.modified()).ok();
         programs.sort_by_key(|entry| std::cmp::Reverse(age(entry)));
         for old in programs.iter().skip(MOST_PROGRAMS) {
             let _stays = fs::remove_dir_all(old.path());
         }
-        Ok(entry.join(Self::EXECUTABLE))
+        Ok(())
     }
+}
+
+/// The name of the entry of a description. The name of the file is part of what was built,
+/// which tells it.
+fn named(file: &Path, source: &str) -> String {
+    let name = name(file);
+    let key = hash([&*name, source]);
+    let begin: String = name
+        .trim_end_matches(".mech")
+        .chars()
+        .take(LETTERS)
+        .collect();
+    format!("{begin}-{key:016x}")
 }
 
 /// The entries of a folder; none if there is no such folder.

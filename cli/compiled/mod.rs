@@ -14,8 +14,11 @@
 
 pub mod cache;
 mod compiler;
+mod library;
 mod program;
-mod shared;
+pub mod shared;
+
+pub use library::{Library, generate, library, module_of};
 
 use crate::check::read;
 use crate::error::CommandError;

@@ -25,7 +25,7 @@ impl Digits {
     /// The packages among the sources that are needed.
     fn packages(self) -> &'static [&'static str] {
         match self {
-            Self::Double => &["runtime", "driver"],
+            Self::Double => &["runtime", "driver", "capi"],
             Self::Many => &["runtime", "driver", "reference"],
         }
     }

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::{env, fs};
 
 /// Names that Rust or cargo keep for themselves, and those that the program uses.
-const RESERVED: [&str; 12] = [
+pub const RESERVED: [&str; 12] = [
     "alloc",
     "bricard_codegen",
     "bricard_runtime",

@@ -109,6 +109,14 @@ impl Builder {
         self
     }
 
+    /// Whether to generate what makes the mechanism known to C: the function by which a
+    /// library hands it out, which wants the package `bricard-capi`, and a header beside the
+    /// code, `OUT_DIR/NAME.h`, which goes with that package's `bricard.h`.
+    pub fn c_interface(mut self, wanted: bool) -> Self {
+        self.settings.options.c_interface = wanted;
+        self
+    }
+
     /// Writes to another folder than `OUT_DIR`.
     pub fn out_dir(mut self, folder: impl Into<PathBuf>) -> Self {
         self.out_dir = Some(folder.into());
@@ -160,7 +168,7 @@ impl Builder {
         let source = model.text().map_err(BuildError::Model)?;
         self.write(&file, &source)?;
         let (compiled, warnings) = self.text(&source, module, &file)?;
-        self.write(&format!("{module}.rs"), &compiled.code)?;
+        self.write_module(module, &compiled)?;
         Ok(warnings)
     }
 
@@ -173,7 +181,7 @@ impl Builder {
     pub fn try_compile(&self, description: &Path) -> Result<String, BuildError> {
         let stem = stem(description)?;
         let (compiled, warnings) = self.one(description, &stem)?;
-        self.write(&format!("{stem}.rs"), &compiled.code)?;
+        self.write_module(&stem, &compiled)?;
         Ok(warnings)
     }
 
@@ -192,6 +200,7 @@ impl Builder {
             match self.one(&description, &stem) {
                 Ok((compiled, warning)) => {
                     code.push_str(&compiled.code);
+                    self.write_header(&stem, &compiled)?;
                     names.push((stem, compiled.name));
                     warnings.push_str(&warning);
                 }
@@ -219,6 +228,19 @@ impl Builder {
             .map_err(|errors| BuildError::Description(errors.render(file, source)))?;
         let warnings = compiled.warnings.render(file, source);
         Ok((compiled, warnings))
+    }
+
+    /// Writes the code of one mechanism, and its header if one is wanted.
+    fn write_module(&self, stem: &str, compiled: &Compiled) -> Result<(), BuildError> {
+        self.write(&format!("{stem}.rs"), &compiled.code)?;
+        self.write_header(stem, compiled)
+    }
+
+    fn write_header(&self, stem: &str, compiled: &Compiled) -> Result<(), BuildError> {
+        match self.settings.options.c_interface {
+            true => self.write(&format!("{stem}.h"), &compiled.c_header),
+            false => Ok(()),
+        }
     }
 
     fn write(&self, name: &str, code: &str) -> Result<(), BuildError> {

@@ -29,6 +29,8 @@ pub struct Compiled {
     pub constraints: usize,
     /// The module, as Rust text.
     pub code: String,
+    /// Its header, for programs in C.
+    pub c_header: String,
     /// What is doubtful in the description.
     pub warnings: Diagnostics,
 }
@@ -64,6 +66,7 @@ pub fn compile_source(
     let tokens = emit::module(&mut mechanism, &equations, origin, settings.options);
     let code = emit::render(&tokens);
     Ok(Compiled {
+        c_header: emit::c_header(&mechanism, module),
         name: mechanism.name,
         coordinates: mechanism.coordinates.len(),
         constraints: mechanism.constraints.len(),

@@ -7,6 +7,7 @@
 //! Not here: mathematics. What is computed was decided by `optimise`.
 
 mod angles;
+mod c;
 mod described;
 mod dynamics;
 mod function;
@@ -20,6 +21,7 @@ mod switches;
 mod symbol;
 mod write;
 
+pub use c::c_header;
 pub use write::{catalogue, render, write_if_changed};
 
 use crate::derive::Equations;
@@ -39,6 +41,8 @@ pub struct Options {
     /// The constraints are declared to be regular: runs end with an error where they are
     /// not.
     pub regular: bool,
+    /// Emit the function by which a library hands the mechanism to programs in C.
+    pub c_interface: bool,
 }
 
 /// A description in its own words, for the emitted documentation.
@@ -125,6 +129,9 @@ pub fn module(
     }
     let module = Ident::new(&module_name(origin.module), Span::call_site());
     let source = origin.source;
+    let export = options
+        .c_interface
+        .then(|| c::export(subject.mechanism, origin.module));
     quote! {
         #(#[doc = #docs])*
         pub mod #module {
@@ -143,6 +150,8 @@ pub fn module(
             #start_equations
             #interface
         }
+
+        #export
     }
 }
 

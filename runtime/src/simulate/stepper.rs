@@ -101,6 +101,32 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
         result.map(|()| metered.asked())
     }
 
+    /// Moves `state` on by one accepted step, as long as the pace wants it and at most to
+    /// the time `bound` (s).
+    ///
+    /// # Errors
+    ///
+    /// [`SimulateError`] with the time; `state` is then the last good one.
+    pub fn step_once<M>(
+        &mut self,
+        mechanism: &M,
+        state: &mut State<T, N>,
+        bound: T,
+    ) -> Result<(), SimulateError<T>>
+    where
+        M: Mechanism<T, N, R> + ?Sized,
+    {
+        let grid = Grid::new(state.t, bound, self.pace)?;
+        if grid.intervals() == 0 {
+            return Ok(());
+        }
+        self.driver.forget();
+        self.solver.expect_error(self.driver.tolerance());
+        let mut system = self.solver.on(mechanism);
+        *state = *self.driver.step(&mut system, state, grid.time(1))?.end();
+        Ok(())
+    }
+
     /// What the solver did so far.
     pub fn counters(&self) -> Counters {
         self.solver.counters()

@@ -1,0 +1,382 @@
+//! A mechanism, where it is, and how it is integrated.
+//!
+//! In:  values.
+//! Out: an [`Engine`]; a [`Status`] and a message where something is refused.
+//!
+//! Nothing is allocated but by [`Engine::new`] and by copying.
+//!
+//! Not here: how it moves (`motion`).
+
+use crate::Embedded;
+use crate::fed::{Fed, Law};
+use crate::names::{Known, List, Names};
+use crate::status::Status;
+use crate::text::Text;
+use bricard_runtime::nalgebra::SVector;
+use bricard_runtime::{
+    Initial, Options, SimulateError, Solver, Start, State, Stepper, Structure, assemble,
+};
+use core::ffi::CStr;
+use core::fmt::Display;
+
+/// Whether something could be done; [`Engine::text`] says why not.
+pub type Outcome<V = ()> = Result<V, Status>;
+
+/// Accepted error of a step, relative and absolute, unless another is given.
+const TOLERANCE: f64 = 1e-9;
+
+/// A mechanism, where it is, and how it is integrated.
+#[derive(Debug)]
+pub struct Engine<M, const N: usize, const R: usize> {
+    pub(crate) fed: Fed<M>,
+    /// The values that inputs without a function are held at.
+    held: Box<[Option<f64>]>,
+    pub(crate) names: Names,
+    start: Start<f64, N>,
+    pub(crate) state: Option<State<f64, N>>,
+    options: Options<f64>,
+    pub(crate) stepper: Stepper<f64, N, R>,
+    /// Answers questions about states, apart from the motion.
+    pub(crate) inquiry: Solver<f64, N, R>,
+    pub(crate) text: Text,
+    /// When the last motion failed (s).
+    pub(crate) failed_at: Option<f64>,
+}
+
+impl<M, const N: usize, const R: usize> Engine<M, N, R>
+where
+    M: Embedded<N, R>,
+{
+    /// A mechanism with the parameters and the start of its description, not assembled.
+    ///
+    /// # Errors
+    ///
+    /// [`SimulateError`] if the default options are none.
+    pub fn new() -> Result<Self, SimulateError<f64>> {
+        let mechanism = M::default();
+        let structure = mechanism.structure();
+        let options = Options::dop853(0.0, TOLERANCE);
+        Ok(Self {
+            held: vec![None; structure.inputs.len()].into(),
+            names: Names::of(structure),
+            start: mechanism.start(),
+            state: None,
+            options,
+            stepper: Stepper::new(options.scheme, options.pace, options.settings)?,
+            inquiry: Solver::new(options.settings),
+            text: Text::new(),
+            failed_at: None,
+            fed: Fed::new(mechanism, structure.inputs.len()),
+        })
+    }
+
+    /// A copy, which goes on to the same bits.
+    pub fn copy(&self) -> Self {
+        Self {
+            fed: self.fed.clone(),
+            held: self.held.clone(),
+            names: self.names.clone(),
+            start: self.start,
+            state: self.state,
+            options: self.options,
+            stepper: self.stepper.clone(),
+            inquiry: self.inquiry.clone(),
+            text: Text::new(),
+            failed_at: None,
+        }
+    }
+
+    /// Becomes a copy of another, without allocating.
+    pub fn assign(&mut self, other: &Self) {
+        self.fed.clone_from(&other.fed);
+        self.held.clone_from(&other.held);
+        self.start = other.start;
+        self.state = other.state;
+        self.options = other.options;
+        self.stepper.clone_from(&other.stepper);
+        self.inquiry.clone_from(&other.inquiry);
+    }
+
+    /// What was known when the code was generated.
+    pub fn structure(&self) -> &'static Structure {
+        self.fed.mechanism.structure()
+    }
+
+    /// Refuses something, with a reason.
+    pub(crate) fn refuse<V>(&mut self, status: Status, reason: &dyn Display) -> Outcome<V> {
+        self.text.say(reason);
+        Err(status)
+    }
+
+    /// Refuses an array of another length than is wanted.
+    pub(crate) fn expect_length(&mut self, n: usize, wanted: usize, what: &str) -> Outcome {
+        match n == wanted {
+            true => Ok(()),
+            false => self.refuse(
+                Status::Length,
+                &format_args!("{what} has {wanted} numbers, not {n}"),
+            ),
+        }
+    }
+
+    /// Refuses a place at which there is nothing.
+    fn expect_index(&mut self, list: List, index: usize) -> Outcome {
+        let count = self.names.list(list).len();
+        let word = list.word();
+        match (index < count, count) {
+            (true, _) => Ok(()),
+            (false, 0) => self.refuse(Status::Index, &format_args!("there is no {word}")),
+            (false, _) => self.refuse(
+                Status::Index,
+                &format_args!("there is no {word} {index}: they are 0 to {}", count - 1),
+            ),
+        }
+    }
+
+    /// The place of a name in a list.
+    pub(crate) fn place_of(&mut self, list: List, name: &CStr) -> Outcome<usize> {
+        if let Some(place) = self.names.find(list, name) {
+            return Ok(place);
+        }
+        let entries = self.names.list(list);
+        let (word, name) = (list.word(), name.to_string_lossy());
+        self.text.say(&format_args!(
+            "there is no {word} `{name}`{}",
+            Known(entries)
+        ));
+        Err(Status::Name)
+    }
+
+    /// Refuses a number that is none.
+    fn expect_finite(&mut self, value: f64, list: List, index: usize) -> Outcome {
+        if value.is_finite() {
+            return Ok(());
+        }
+        let name = &self.names.list(list)[index].name;
+        let (word, name) = (list.word(), name.to_string_lossy());
+        self.text.say(&format_args!(
+            "the {word} `{name}` can't be {value}: give it a finite number"
+        ));
+        Err(Status::NotFinite)
+    }
+
+    /// A parameter.
+    ///
+    /// # Errors
+    ///
+    /// [`Status::Index`].
+    pub fn parameter(&mut self, index: usize) -> Outcome<f64> {
+        self.expect_index(List::Parameters, index)?;
+        Ok(self.parameter_at(index).unwrap_or_default())
+    }
+
+    pub(crate) fn parameter_at(&self, index: usize) -> Option<f64> {
+        self.fed.mechanism.parameter(index)
+    }
+
+    /// Sets a parameter.
+    ///
+    /// # Errors
+    ///
+    /// [`Status::Index`], [`Status::NotFinite`].
+    pub fn set_parameter(&mut self, index: usize, value: f64) -> Outcome {
+        self.expect_index(List::Parameters, index)?;
+        self.expect_finite(value, List::Parameters, index)?;
+        // The start of the description may depend on parameters, as long as nothing else
+        // was given.
+        let before = self.fed.mechanism.start();
+        self.fed.mechanism.set_parameter(index, value);
+        let after = self.fed.mechanism.start();
+        let given = self.start.q.iter_mut().chain(&mut self.start.v);
+        let before = before.q.iter().chain(&before.v);
+        let after = after.q.iter().chain(&after.v);
+        for ((given, before), after) in given.zip(before).zip(after) {
+            if given == before {
+                *given = *after;
+            }
+        }
+        Ok(())
+    }
+
+    /// The values that inputs are held at.
+    pub(crate) fn held(&self) -> &[Option<f64>] {
+        &self.held
+    }
+
+    /// Holds an input at a value.
+    ///
+    /// # Errors
+    ///
+    /// [`Status::Index`], [`Status::NotFinite`].
+    pub fn hold_input(&mut self, index: usize, value: f64) -> Outcome {
+        self.expect_index(List::Inputs, index)?;
+        self.expect_finite(value, List::Inputs, index)?;
+        self.feed(index, Some(value), None);
+        Ok(())
+    }
+
+    /// Returns an input to the law of the description.
+    ///
+    /// # Errors
+    ///
+    /// [`Status::Index`].
+    pub fn release_input(&mut self, index: usize) -> Outcome {
+        self.expect_index(List::Inputs, index)?;
+        self.feed(index, None, None);
+        Ok(())
+    }
+
+    /// Lets an input follow a function.
+    ///
+    /// # Errors
+    ///
+    /// [`Status::Index`].
+    pub(crate) fn drive_input(&mut self, index: usize, law: Law) -> Outcome {
+        self.expect_index(List::Inputs, index)?;
+        self.feed(index, None, Some(law));
+        Ok(())
+    }
+
+    fn feed(&mut self, index: usize, value: Option<f64>, law: Option<Law>) {
+        self.fed.mechanism.set_input(index, value);
+        self.held[index] = value;
+        self.fed.follow(index, law);
+    }
+
+    /// What is given for the start.
+    pub fn start(&self) -> Start<f64, N> {
+        self.start
+    }
+
+    /// What is given for the start of a coordinate or of its velocity.
+    ///
+    /// # Errors
+    ///
+    /// [`Status::Index`].
+    pub fn start_of(&mut self, index: usize, velocity: bool) -> Outcome<Initial<f64>> {
+        self.expect_index(List::Coordinates, index)?;
+        Ok(match velocity {
+            true => self.start.v[index],
+            false => self.start.q[index],
+        })
+    }
+
+    /// Gives a value, or a guess, for the start of a coordinate or of its velocity.
+    ///
+    /// # Errors
+    ///
+    /// [`Status::Index`], [`Status::NotFinite`].
+    pub fn set_start(&mut self, index: usize, velocity: bool, initial: Initial<f64>) -> Outcome {
+        self.expect_index(List::Coordinates, index)?;
+        self.expect_finite(initial.value, List::Coordinates, index)?;
+        match velocity {
+            true => self.start.v[index] = initial,
+            false => self.start.q[index] = initial,
+        }
+        Ok(())
+    }
+
+    /// Finds a state that keeps the held values of the start.
+    ///
+    /// # Errors
+    ///
+    /// [`Status::NotFinite`], [`Status::Assembly`].
+    pub fn assemble(&mut self, t: f64) -> Outcome {
+        if !t.is_finite() {
+            let reason = format_args!("the start can't be at t = {t} s");
+            return self.refuse(Status::NotFinite, &reason);
+        }
+        match assemble::<f64, _, N, R>(&self.fed, &self.start, t) {
+            Ok(state) => {
+                self.place(state);
+                Ok(())
+            }
+            Err(error) => self.refuse(Status::Assembly, &error),
+        }
+    }
+
+    /// Where the mechanism is, if it is anywhere.
+    pub(crate) fn state_if_any(&self) -> Option<State<f64, N>> {
+        self.state
+    }
+
+    /// Where the mechanism is.
+    ///
+    /// # Errors
+    ///
+    /// [`Status::Order`].
+    pub fn state(&mut self) -> Outcome<State<f64, N>> {
+        match self.state {
+            Some(state) => Ok(state),
+            None => {
+                let words = Status::Order.words().to_string_lossy();
+                self.refuse(Status::Order, &words)
+            }
+        }
+    }
+
+    /// Puts the mechanism somewhere.
+    ///
+    /// # Errors
+    ///
+    /// [`Status::NotFinite`].
+    pub fn set_state(&mut self, state: State<f64, N>) -> Outcome {
+        if !state.is_finite() {
+            let reason = "a state must be finite: a time, coordinate or velocity is not";
+            return self.refuse(Status::NotFinite, &reason);
+        }
+        self.place(state);
+        Ok(())
+    }
+
+    /// Begins at a state: what steps before it taught is forgotten.
+    pub(crate) fn place(&mut self, state: State<f64, N>) {
+        self.replace(Some(state), self.start);
+    }
+
+    pub(crate) fn replace(&mut self, state: Option<State<f64, N>>, start: Start<f64, N>) {
+        self.start = start;
+        self.state = state;
+        let Options {
+            scheme,
+            pace,
+            settings,
+            ..
+        } = self.options;
+        // The options were checked when they were set.
+        if let Ok(stepper) = Stepper::new(scheme, pace, settings) {
+            self.stepper = stepper;
+        }
+    }
+
+    /// How it is integrated.
+    pub fn options(&self) -> &Options<f64> {
+        &self.options
+    }
+
+    /// Chooses how it is integrated; the end of a run is told when it begins.
+    ///
+    /// # Errors
+    ///
+    /// [`Status::Argument`]; nothing is changed then.
+    pub fn set_options(&mut self, options: Options<f64>) -> Outcome {
+        match Stepper::new(options.scheme, options.pace, options.settings) {
+            Ok(stepper) => {
+                self.stepper = stepper;
+                self.inquiry = Solver::new(options.settings);
+                self.options = options;
+                Ok(())
+            }
+            Err(error) => self.refuse(Status::Argument, &error),
+        }
+    }
+}
+
+/// A state of some numbers.
+pub(crate) fn state_of<const N: usize>(t: f64, q: &[f64], v: &[f64]) -> State<f64, N> {
+    State {
+        t,
+        q: SVector::from_fn(|i, _| q[i]),
+        v: SVector::from_fn(|i, _| v[i]),
+    }
+}

@@ -1,0 +1,138 @@
+//! What can be evaluated at a state, and how many numbers it is.
+//!
+//! In:  a quantity, a state.
+//! Out: numbers; matrices row by row.
+
+use crate::Embedded;
+use crate::fed::Fed;
+use bricard_runtime::nalgebra::SMatrix;
+use bricard_runtime::{
+    DynamicsError, Interface, Mechanism, Position, Solver, State, Structure, Terms,
+};
+
+/// What can be evaluated at a state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// `M`, `N × N`.
+    Mass,
+    /// `p₁`, `N`.
+    Force,
+    /// `A`, `R × N`.
+    Jacobian,
+    /// `p₂`, `R`.
+    Bias,
+    /// `g`, `R`.
+    Residual,
+    /// `A q̇ + b`, `R`.
+    Rate,
+    /// `q̈`, `N`.
+    Acceleration,
+    /// `r`, `N`.
+    Reaction,
+    /// The outputs.
+    Outputs,
+    /// The functions of the events.
+    Events,
+    /// Kinetic and potential energy, their balance (J), and the power supplied (W).
+    Energy,
+    /// Rank, rank at regular positions, sine of the weakest row.
+    Rank,
+}
+
+impl Quantity {
+    /// All, in the order of their numbers.
+    pub const ALL: [Self; 12] = [
+        Self::Mass,
+        Self::Force,
+        Self::Jacobian,
+        Self::Bias,
+        Self::Residual,
+        Self::Rate,
+        Self::Acceleration,
+        Self::Reaction,
+        Self::Outputs,
+        Self::Events,
+        Self::Energy,
+        Self::Rank,
+    ];
+
+    /// The quantity of a number.
+    pub fn of(number: i32) -> Option<Self> {
+        usize::try_from(number)
+            .ok()
+            .and_then(|number| Self::ALL.get(number).copied())
+    }
+
+    /// How many numbers it is.
+    pub fn size(self, structure: &Structure, n: usize, r: usize) -> usize {
+        match self {
+            Self::Mass => n * n,
+            Self::Jacobian => r * n,
+            Self::Force | Self::Acceleration | Self::Reaction => n,
+            Self::Bias | Self::Residual | Self::Rate => r,
+            Self::Outputs => structure.outputs.len(),
+            Self::Events => structure.events.len(),
+            Self::Energy => 4,
+            Self::Rank => 3,
+        }
+    }
+}
+
+/// Writes a quantity at a state; there is room for all of it.
+pub(crate) fn evaluate<M, const N: usize, const R: usize>(
+    fed: &Fed<M>,
+    solver: &mut Solver<f64, N, R>,
+    quantity: Quantity,
+    state: &State<f64, N>,
+    out: &mut [f64],
+) -> Result<(), DynamicsError<f64>>
+where
+    M: Embedded<N, R>,
+{
+    match quantity {
+        Quantity::Mass | Quantity::Force | Quantity::Jacobian | Quantity::Bias => {
+            let mut terms = Terms::<f64, N, R>::default();
+            fed.terms(state, &mut terms);
+            match quantity {
+                Quantity::Mass => rows(&terms.mass, out),
+                Quantity::Force => rows(&terms.force, out),
+                Quantity::Jacobian => rows(&terms.jacobian, out),
+                _ => rows(&terms.bias, out),
+            }
+        }
+        Quantity::Residual | Quantity::Rate => {
+            let mut position = Position::<f64, N, R>::default();
+            fed.position(state, &mut position);
+            match quantity {
+                Quantity::Residual => rows(&position.residual, out),
+                _ => rows(&(position.jacobian * state.v + position.drift), out),
+            }
+        }
+        Quantity::Acceleration => rows(&solver.on(fed).acceleration(state)?, out),
+        Quantity::Reaction => rows(&solver.on(fed).reaction(state)?.1, out),
+        Quantity::Outputs => fed.outputs(state, out),
+        Quantity::Events => fed.events(state, out),
+        Quantity::Energy => {
+            let energy = fed.energy(state);
+            let values = [
+                energy.kinetic,
+                energy.potential,
+                energy.balance,
+                energy.power,
+            ];
+            out.copy_from_slice(&values);
+        }
+        Quantity::Rank => {
+            let rank = solver.on(fed).rank(state)?;
+            out.copy_from_slice(&[rank.rank as f64, rank.regular as f64, rank.sine]);
+        }
+    }
+    Ok(())
+}
+
+/// Writes a matrix row by row.
+fn rows<const A: usize, const B: usize>(matrix: &SMatrix<f64, A, B>, out: &mut [f64]) {
+    for (index, place) in out.iter_mut().enumerate().take(A * B) {
+        *place = matrix[(index / B, index % B)];
+    }
+}

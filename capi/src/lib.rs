@@ -1,0 +1,64 @@
+//! The C interface of mechanisms that bricard has compiled.
+//!
+//! In:  a generated mechanism.
+//! Out: a table of functions ([`Interface`]), which a library of the mechanism hands out
+//!      under the one name that it exports.
+//!
+//! ```text
+//! C program ── bricard.h ──> Interface ── border ──> Engine ──> the runtime
+//! ```
+//!
+//! [`Engine`] is safe Rust: a mechanism, where it is, and how it is integrated. What is
+//! `unsafe` stands in `pointer`, `border`, `states` and `conduct`, where pointers are read and
+//! written, in `handle`, which lends the engine out, and in `callback`, where functions of
+//! the program are called.
+//!
+//! Not here: the names that libraries export, which are written by whoever makes one.
+
+mod abi;
+mod border;
+mod callback;
+mod conduct;
+mod draw;
+mod engine;
+mod evaluate;
+mod fed;
+mod handle;
+mod motion;
+mod names;
+mod pointer;
+mod saved;
+mod states;
+mod status;
+mod table;
+mod text;
+mod watch;
+
+pub use abi::{ABI, Choices, HEADER, Interface, Point, Summary, Watch};
+pub use engine::Engine;
+pub use evaluate::Quantity;
+pub use handle::Handle;
+pub use names::List;
+pub use status::Status;
+pub use table::interface;
+
+/// What a mechanism has to be.
+pub trait Embedded<const N: usize, const R: usize>:
+    bricard_runtime::Mechanism<f64, N, R>
+    + bricard_runtime::Interface<f64, N>
+    + Clone
+    + Default
+    + Send
+    + 'static
+{
+}
+
+impl<M, const N: usize, const R: usize> Embedded<N, R> for M where
+    M: bricard_runtime::Mechanism<f64, N, R>
+        + bricard_runtime::Interface<f64, N>
+        + Clone
+        + Default
+        + Send
+        + 'static
+{
+}

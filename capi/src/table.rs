@@ -1,0 +1,86 @@
+//! The table of a mechanism's functions.
+//!
+//! In:  a mechanism's type.
+//! Out: an [`Interface`].
+
+use crate::Embedded;
+use crate::abi::{ABI, Interface};
+use crate::engine::Engine;
+use crate::handle::{Body, Handle, caught};
+use crate::pointer::give;
+use crate::status::Status;
+use crate::{border, conduct, states};
+use core::marker::PhantomData;
+use core::ptr;
+
+/// The table of a mechanism; null for a program that was compiled for another version of
+/// the header.
+pub fn interface<M: Embedded<N, R>, const N: usize, const R: usize>(abi: u32) -> *const Interface {
+    match abi {
+        ABI => Table::<M, N, R>::INTERFACE,
+        _ => ptr::null(),
+    }
+}
+
+/// Holds the table of a mechanism.
+pub(crate) struct Table<M, const N: usize, const R: usize>(PhantomData<M>);
+
+impl<M: Embedded<N, R>, const N: usize, const R: usize> Table<M, N, R> {
+    /// The functions, in the order of the header.
+    pub(crate) const INTERFACE: &'static Interface = &Interface {
+        abi: ABI,
+        create: create::<M, N, R>,
+        clone: border::clone::<M, N, R>,
+        assign: border::assign::<M, N, R>,
+        free: border::free::<M, N, R>,
+        message: border::message::<M, N, R>,
+        failed_at: border::failed_at::<M, N, R>,
+        count: border::count::<M, N, R>,
+        name: border::name::<M, N, R>,
+        unit: border::unit::<M, N, R>,
+        docs: border::docs::<M, N, R>,
+        find: border::find::<M, N, R>,
+        parameter: border::parameter::<M, N, R>,
+        set_parameter: border::set_parameter::<M, N, R>,
+        hold_input: border::hold_input::<M, N, R>,
+        release_input: border::release_input::<M, N, R>,
+        drive_input: border::drive_input::<M, N, R>,
+        start: border::start::<M, N, R>,
+        set_start: border::set_start::<M, N, R>,
+        assemble: border::assemble::<M, N, R>,
+        state: states::state::<M, N, R>,
+        set_state: states::set_state::<M, N, R>,
+        options: conduct::options::<M, N, R>,
+        set_options: conduct::set_options::<M, N, R>,
+        run: conduct::run::<M, N, R>,
+        stop: conduct::stop::<M, N, R>,
+        step: border::step::<M, N, R>,
+        step_once: border::step_once::<M, N, R>,
+        size: states::size::<M, N, R>,
+        row_size: conduct::row_size::<M, N, R>,
+        evaluate: states::evaluate::<M, N, R>,
+        draw: states::draw::<M, N, R>,
+        project: states::project::<M, N, R>,
+        save: states::save::<M, N, R>,
+        load: states::load::<M, N, R>,
+    };
+}
+
+unsafe extern "C" fn create<M: Embedded<N, R>, const N: usize, const R: usize>(
+    handle: *mut *mut Handle,
+) -> Status {
+    caught(|| {
+        if handle.is_null() {
+            return Status::Null;
+        }
+        let made = match Engine::<M, N, R>::new() {
+            Ok(engine) => Body::boxed(Table::<M, N, R>::INTERFACE, engine),
+            Err(_) => return Status::Panic,
+        };
+        // SAFETY: the header's promise for `handle`.
+        match unsafe { give(handle, made) } {
+            Ok(()) => Status::Ok,
+            Err(status) => status,
+        }
+    })
+}

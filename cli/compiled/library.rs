@@ -1,0 +1,151 @@
+//! The libraries of one description for other languages.
+//!
+//! In:  a description.
+//! Out: a shared and a static library in the cache.
+
+use super::Digits;
+use super::cache::{Cache, Scratch, Version};
+use super::compiler::{Toolchain, output};
+use super::program::name;
+use super::shared::{libraries, rustc};
+use crate::error::CommandError;
+use crate::output::say;
+use bricard_codegen::emit::module_name;
+use bricard_codegen::{Compiled, Settings, compile_source};
+use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What the static library has to be linked with, in a file beside it.
+const NATIVE: &str = "native";
+/// How the compiler begins to tell.
+const TOLD: &str = "native-static-libs:";
+
+/// The libraries of a mechanism.
+#[derive(Clone, Debug)]
+pub struct Library {
+    /// The folder they are in.
+    pub folder: PathBuf,
+    /// The name of the mechanism's module, of which those of the libraries are made.
+    pub module: String,
+}
+
+impl Library {
+    /// What a linker calls the library.
+    pub fn called(module: &str) -> String {
+        format!("bricard_{module}")
+    }
+
+    /// The file of the shared library.
+    pub fn shared(module: &str) -> String {
+        format!("{DLL_PREFIX}{}{DLL_SUFFIX}", Self::called(module))
+    }
+
+    /// The file of the static library.
+    pub fn fixed(module: &str) -> String {
+        match cfg!(windows) {
+            true => format!("{}.lib", Self::called(module)),
+            false => format!("lib{}.a", Self::called(module)),
+        }
+    }
+
+    /// What the static library has to be linked with.
+    pub fn native(&self) -> String {
+        fs::read_to_string(self.folder.join(NATIVE)).unwrap_or_default()
+    }
+}
+
+/// The name of the module of a description: that of its file, in letters that Rust knows.
+pub fn module_of(file: &Path) -> String {
+    let stem = file.file_stem().unwrap_or(file.as_os_str());
+    let letter = |letter: char| match letter.is_ascii_alphanumeric() {
+        true => letter,
+        false => '_',
+    };
+    let plain: String = stem.to_string_lossy().chars().map(letter).collect();
+    let plain = plain.trim_matches('_');
+    match plain.chars().next() {
+        Some(first) if first.is_ascii_alphabetic() => module_name(plain),
+        _ => module_name(&format!("mechanism_{plain}")),
+    }
+}
+
+/// Generates the code of a description for other languages, and says what is doubtful
+/// about it.
+///
+/// # Errors
+///
+/// [`CommandError::Description`].
+pub fn generate(file: &Path, source: &str, for_c: bool) -> Result<Compiled, CommandError> {
+    let mut settings = Settings::default();
+    settings.options.c_interface = for_c;
+    let shown = file.display().to_string();
+    let compiled = compile_source(source, &module_of(file), &name(file), &settings)
+        .map_err(|errors| CommandError::Description(errors.render(&shown, source)))?;
+    if !compiled.warnings.is_empty() {
+        say(compiled.warnings.render(&shown, source).trim_end());
+    }
+    Ok(compiled)
+}
+
+/// The libraries of a description, from the cache or built.
+///
+/// # Errors
+///
+/// What is wrong with the description, in the words of `bricard check`; what stands in the
+/// way of compiling it.
+pub fn library(file: &Path, source: &str) -> Result<Library, CommandError> {
+    let toolchain = Toolchain::find();
+    let cache = Cache::find()?;
+    let module = module_of(file);
+    if let Ok(toolchain) = &toolchain {
+        let version = Version::new(&cache, toolchain, Digits::Double);
+        let folder = version.exported(file, source);
+        if Version::holds(&folder, source) {
+            return Ok(Library { folder, module });
+        }
+    }
+    // A wrong description is the first thing to know, toolchain or not.
+    let compiled = generate(file, source, true)?;
+    let toolchain = toolchain?;
+    let version = Version::new(&cache, &toolchain, Digits::Double);
+    let folder = build((file, source), &compiled.code, &version, &toolchain)?;
+    Ok(Library { folder, module })
+}
+
+/// Builds the libraries, unless another process has done so meanwhile.
+fn build(
+    (file, source): (&Path, &str),
+    code: &str,
+    version: &Version,
+    toolchain: &Toolchain,
+) -> Result<PathBuf, CommandError> {
+    let _alone = version.lock()?;
+    let entry = version.exported(file, source);
+    if Version::holds(&entry, source) {
+        return Ok(entry);
+    }
+    let shared = libraries(version, toolchain)?;
+    say(&format!("compiling {}", file.display()));
+    let scratch = Scratch::new(version)?;
+    scratch.write(Path::new("lib.rs"), code)?;
+    let built = scratch.folder("exported")?;
+    let mut rustc = rustc(
+        &[&shared],
+        &["bricard_runtime", "bricard_capi"].map(String::from),
+    );
+    rustc
+        .args(["--crate-type", "cdylib", "--crate-type", "staticlib"])
+        .args(["--crate-name", &Library::called(&module_of(file))])
+        .args(["--print", "native-static-libs", "lib.rs", "--out-dir"])
+        .arg(&built);
+    let failed = format!("{} could not be compiled", file.display());
+    let output = output(rustc, scratch.path(), &failed)?;
+    let said = String::from_utf8_lossy(&output.stderr);
+    let native = said.lines().find_map(|line| line.split_once(TOLD));
+    let native = native.map_or("", |(_, native)| native.trim());
+    let place = built.join(NATIVE);
+    fs::write(&place, native).map_err(|error| CommandError::Cache(place, error))?;
+    version.shelve(scratch, &built, &entry, source)?;
+    Ok(entry)
+}

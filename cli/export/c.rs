@@ -1,0 +1,93 @@
+//! A mechanism as libraries for C and C++.
+//!
+//! In:  a description.
+//! Out: libraries, headers, files for pkg-config and CMake, an example, and the sources to
+//!      build all that elsewhere.
+
+use super::Subject;
+use super::folder::{Folder, vacant};
+use super::sources;
+use crate::compiled::{Library, generate, library, module_of};
+use crate::error::CommandError;
+use crate::output::print;
+use std::path::{Path, PathBuf};
+
+/// The header that is the same for all mechanisms.
+const HEADER: &str = include_str!("../../capi/include/bricard.h");
+const EXAMPLE: &str = include_str!("example.c");
+const CMAKE: &str = include_str!("config.cmake");
+
+/// Writes the folder.
+///
+/// # Errors
+///
+/// [`CommandError::Description`], [`CommandError::Exists`], [`CommandError::Write`], and what
+/// stands in the way of compiling.
+pub fn export(subject: &Subject, out: Option<&Path>) -> Result<(), CommandError> {
+    let module = module_of(&subject.file);
+    let path = out.map_or_else(|| PathBuf::from(&module), Path::to_path_buf);
+    let compiled = generate(&subject.file, &subject.source, true)?;
+    vacant(&path)?;
+    let built = library(&subject.file, &subject.source)?;
+    let folder = Folder::new(&path)?;
+    let called = Library::called(&module);
+    let about = format!("The mechanism {}, for programs in C", compiled.name);
+    let kinds = "crate-type = [\"cdylib\", \"staticlib\"]\ndoctest = false\n";
+    let packages = ["capi", "runtime"];
+    let manifest = sources::manifest(&called, &about, kinds, &packages);
+    folder.write("Cargo.toml", &manifest)?;
+    let front = format!("//! {about}: `include/{module}.h` tells how.\n\n");
+    folder.write("src/lib.rs", &(front + &compiled.code))?;
+    folder.write(&format!("{module}.mech"), &subject.source)?;
+    folder.write(".gitignore", "/target\n")?;
+    sources::write(&folder, &packages)?;
+    folder.write("include/bricard.h", HEADER)?;
+    folder.write(&format!("include/{module}.h"), &compiled.c_header)?;
+    let fill = |text: &str| {
+        text.replace("UPPER", &module.to_uppercase())
+            .replace("MODULE", &module)
+    };
+    folder.write("example.c", &fill(EXAMPLE))?;
+    for file in [Library::shared(&module), Library::fixed(&module)] {
+        folder.copy(&built.folder.join(&file), &format!("lib/{file}"))?;
+    }
+    let native = built.native();
+    folder.write(
+        &format!("lib/pkgconfig/{called}.pc"),
+        &package_config(&called, &about, &native),
+    )?;
+    let cmake = fill(CMAKE)
+        .replace("CALLED", &called)
+        .replace("SHARED", &Library::shared(&module))
+        .replace("FIXED", &Library::fixed(&module))
+        .replace("NATIVE", &native);
+    folder.write(&format!("lib/cmake/{called}/{called}-config.cmake"), &cmake)?;
+    print(&said(&path, &called))
+}
+
+/// The file of pkg-config; it may lie anywhere, with its folder.
+fn package_config(called: &str, about: &str, native: &str) -> String {
+    let version = env!("CARGO_PKG_VERSION");
+    format!(
+        "prefix=${{pcfiledir}}/../..
+
+Name: {called}
+Description: {about}
+Version: {version}
+Cflags: -I${{prefix}}/include
+Libs: -L${{prefix}}/lib -l{called}
+Libs.private: {native}
+"
+    )
+}
+
+fn said(path: &Path, called: &str) -> String {
+    let path = path.display();
+    format!(
+        "{path} holds the libraries `{called}`, headers and an example:\n\n    cd {path}\n    \
+         cc -std=c99 example.c -Iinclude -Llib -l{called} -Wl,-rpath,\"$PWD/lib\" -o example\n    \
+         ./example\n\n\
+         pkg-config and CMake find them in lib/; `cargo build --release` makes them anew, also \
+         on another\nmachine.\n"
+    )
+}

@@ -1,0 +1,98 @@
+//! A mechanism as a crate of generated Rust.
+//!
+//! In:  a description.
+//! Out: a crate without a build script, for people who keep generated code with their own.
+
+use super::Subject;
+use super::folder::Folder;
+use super::sources;
+use crate::compiled::{generate, module_of};
+use crate::error::CommandError;
+use crate::new::RESERVED;
+use crate::output::print;
+use bricard_codegen::emit::type_name;
+use std::path::{Path, PathBuf};
+
+/// Packages that the crate can't have the name of.
+const NEIGHBOURS: [&str; 2] = ["nalgebra", "num_traits"];
+
+/// Writes the crate.
+///
+/// # Errors
+///
+/// [`CommandError::Description`], [`CommandError::Exists`], [`CommandError::Write`].
+pub fn export(subject: &Subject, out: Option<&Path>) -> Result<(), CommandError> {
+    let module = module_of(&subject.file);
+    let compiled = generate(&subject.file, &subject.source, false)?;
+    let name = match RESERVED.contains(&&*module) || NEIGHBOURS.contains(&&*module) {
+        true => format!("{module}_mechanism"),
+        false => module.clone(),
+    };
+    let kind = type_name(&compiled.name);
+    let folder = Folder::new(&out.map_or_else(|| PathBuf::from(&module), Path::to_path_buf))?;
+    let about = format!("The mechanism {}, compiled by bricard", compiled.name);
+    let library = "doctest = false\n";
+    folder.write(
+        "Cargo.toml",
+        &sources::manifest(&name, &about, library, &["runtime"]),
+    )?;
+    folder.write("src/lib.rs", &(front(&compiled.name) + &compiled.code))?;
+    let example = EXAMPLE
+        .replace("CRATE", &name)
+        .replace("MODULE", &module)
+        .replace("KIND", &kind);
+    folder.write("examples/simulate.rs", &example)?;
+    folder.write(&format!("{module}.mech"), &subject.source)?;
+    folder.write(".gitignore", "/target\n")?;
+    sources::write(&folder, &["runtime"])?;
+    print(&format!(
+        "{} holds the crate `{name}`:\n\n    cd {}\n    cargo run --release --example simulate\n",
+        folder.path().display(),
+        folder.path().display()
+    ))
+}
+
+/// What the library begins with.
+fn front(name: &str) -> String {
+    format!(
+        "//! The mechanism {name}, as bricard has compiled it. `examples/simulate.rs` uses it.\n\n\
+         pub use bricard_runtime;\n\n"
+    )
+}
+
+const EXAMPLE: &str = r#"//! Simulates the mechanism for ten seconds: `cargo run --release --example simulate`.
+
+use CRATE::MODULE::KIND;
+use CRATE::bricard_runtime::{Interface, Mechanism, Options, Recorder, assemble, simulate};
+use std::error::Error;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    // Parameters have the values of the description; they are fields of
+    // `mechanism.parameters`.
+    let mechanism = KIND::<f64>::default();
+
+    // The guesses of `start` are moved until the constraints hold.
+    let start = assemble(&mechanism, &mechanism.start(), 0.0)?;
+
+    // Ten seconds by the Dormand–Prince method of order 8, to nine digits per step; a row
+    // each half second.
+    let options = Options::dop853(10.0, 1e-9);
+    let mut recorder = Recorder::new(0.5)?;
+    let summary = simulate(&mechanism, &start, &options, &mut [&mut recorder])?;
+
+    print!("{:>6}", "t");
+    for coordinate in mechanism.structure().coordinates {
+        print!(" {:>12}", coordinate.name);
+    }
+    println!();
+    for state in recorder.rows() {
+        print!("{:6.2}", state.t);
+        for value in &state.q {
+            print!(" {value:12.6}");
+        }
+        println!();
+    }
+    println!("{summary}");
+    Ok(())
+}
+"#;

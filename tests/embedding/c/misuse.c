@@ -1,0 +1,303 @@
+/* Does everything wrong that can be done wrong within the rules of bricard.h, and expects to
+   be told so. Correct C99, and correct C++. */
+#include "engine.h"
+
+#include "check.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double NOTHING = 0.0;
+
+static double not_a_number(void)
+{
+    return NOTHING / NOTHING;
+}
+
+/* A refusal with a word of its message. */
+#define REFUSED(m, call, status, word)                                                  \
+    do {                                                                                \
+        bricard_status refused_ = (call);                                               \
+        if (refused_ != (status) || !strstr(bricard_message(m), word)) {                \
+            fprintf(stderr, "%s:%d: %s: %d, %s\n", __FILE__, __LINE__, #call,           \
+                    (int)refused_, bricard_message(m));                                 \
+            exit(1);                                                                    \
+        }                                                                               \
+    } while (0)
+
+static void nulls(bricard *m)
+{
+    double x = 0.0;
+    bricard *none = NULL;
+    CHECK(engine_create(NULL) == BRICARD_ERROR_NULL);
+    CHECK(engine_interface(BRICARD_ABI + 1) == NULL);
+    CHECK(bricard_clone(NULL, &none) == BRICARD_ERROR_NULL);
+    CHECK(bricard_clone(m, NULL) == BRICARD_ERROR_NULL);
+    CHECK(bricard_assign(m, NULL) == BRICARD_ERROR_NULL);
+    bricard_free(NULL);
+    bricard_free(&none);
+    CHECK(strlen(bricard_message(NULL)) > 0);
+    CHECK(bricard_name(NULL, 0, 0) == NULL);
+    CHECK(bricard_step(NULL, 1.0) == BRICARD_ERROR_NULL);
+    CHECK(bricard_run(NULL, 1.0, NULL, NULL) == BRICARD_ERROR_NULL);
+    CHECK(bricard_parameter(m, 0, NULL) == BRICARD_ERROR_NULL);
+    CHECK(bricard_find(m, BRICARD_PARAMETERS, NULL, NULL) == BRICARD_ERROR_NULL);
+    CHECK(bricard_find(m, BRICARD_PARAMETERS, "L", NULL) == BRICARD_ERROR_NULL);
+    CHECK(bricard_set_state(m, 0.0, NULL, &x, ENGINE_N) == BRICARD_ERROR_NULL);
+    CHECK(bricard_evaluate(m, BRICARD_ENERGY, NULL, NULL, 4) < 0);
+    CHECK(bricard_drive_input(m, 0, NULL, NULL) == BRICARD_ERROR_NULL);
+    CHECK(bricard_get_options(m, NULL) == BRICARD_ERROR_NULL);
+    CHECK(bricard_set_options(m, NULL) == BRICARD_ERROR_NULL);
+    CHECK(bricard_failed_at(m, &x) == BRICARD_ERROR_ORDER);
+}
+
+static void names(bricard *m)
+{
+    size_t place = 7;
+    double x = 0.0;
+    CHECK(strcmp(bricard_name(m, BRICARD_MECHANISM, 0), "Engine") == 0);
+    CHECK(strcmp(bricard_unit(m, BRICARD_PARAMETERS, ENGINE_P_J), "kg*m^2") == 0);
+    CHECK(strcmp(bricard_docs(m, BRICARD_INPUTS, 0), "torque of the motor") == 0);
+    CHECK(bricard_name(m, BRICARD_INPUTS, 1) == NULL);
+    CHECK(bricard_name(m, 99, 0) == NULL);
+    DONE(m, bricard_find(m, BRICARD_OUTPUTS, "pin_at.y", &place));
+    CHECK(place == ENGINE_Y_pin_at_y);
+    REFUSED(m, bricard_find(m, BRICARD_PARAMETERS, "l", &place), BRICARD_ERROR_NAME,
+            "there is no parameter `l`; there are `L`, `m`");
+    CHECK(place == ENGINE_Y_pin_at_y);
+    REFUSED(m, bricard_find(m, -1, "L", &place), BRICARD_ERROR_ARGUMENT, "no list -1");
+    REFUSED(m, bricard_count(m, 7, &place), BRICARD_ERROR_ARGUMENT, "no list 7");
+    REFUSED(m, bricard_parameter(m, 4, &x), BRICARD_ERROR_INDEX, "they are 0 to 3");
+    REFUSED(m, bricard_set_parameter(m, (size_t)-1, 1.0), BRICARD_ERROR_INDEX, "parameter");
+    REFUSED(m, bricard_hold_input_named(m, "tork", 1.0), BRICARD_ERROR_NAME, "`torque`");
+    REFUSED(m, bricard_release_input(m, 1), BRICARD_ERROR_INDEX, "input");
+    REFUSED(m, bricard_set_start_named(m, "", 0, 1.0, 1), BRICARD_ERROR_NAME, "coordinate");
+    REFUSED(m, bricard_size(m, 12, &place), BRICARD_ERROR_ARGUMENT, "no quantity 12");
+    REFUSED(m, bricard_row_size(m, 16, &place), BRICARD_ERROR_ARGUMENT, "columns");
+}
+
+static void numbers(bricard *m)
+{
+    const double nan = not_a_number();
+    double q[ENGINE_N] = {0}, v[ENGINE_N] = {0}, out[9] = {0};
+    bricard_point at;
+    REFUSED(m, bricard_set_parameter(m, ENGINE_P_L, nan), BRICARD_ERROR_NOT_FINITE, "`L`");
+    REFUSED(m, bricard_hold_input(m, 0, 1.0 / NOTHING), BRICARD_ERROR_NOT_FINITE, "`torque`");
+    REFUSED(m, bricard_set_start(m, 0, 0, nan, 1), BRICARD_ERROR_NOT_FINITE, "`crank`");
+    REFUSED(m, bricard_assemble(m, nan), BRICARD_ERROR_NOT_FINITE, "t = NaN");
+    v[1] = nan;
+    REFUSED(m, bricard_set_state(m, 0.0, q, v, ENGINE_N), BRICARD_ERROR_NOT_FINITE, "finite");
+    REFUSED(m, bricard_set_state(m, 0.0, q, v, 2), BRICARD_ERROR_LENGTH, "3 numbers, not 2");
+    at.t = 0.0;
+    at.q = q;
+    at.v = v;
+    at.n = ENGINE_N;
+    REFUSED(m, bricard_evaluate(m, BRICARD_MASS, &at, out, 9), BRICARD_ERROR_NOT_FINITE, "NaN");
+    v[1] = 0.0;
+    REFUSED(m, bricard_evaluate(m, BRICARD_MASS, &at, out, 8), BRICARD_ERROR_LENGTH, "9");
+    at.n = 4;
+    REFUSED(m, bricard_evaluate(m, BRICARD_MASS, &at, out, 9), BRICARD_ERROR_LENGTH, "3");
+    REFUSED(m, bricard_load(m, out, 9), BRICARD_ERROR_LENGTH, "not 9");
+    REFUSED(m, bricard_save(m, out, 9), BRICARD_ERROR_LENGTH, "not 9");
+}
+
+static void order(bricard *m)
+{
+    double t = 0.0, q[ENGINE_N] = {0}, v[ENGINE_N] = {0};
+    REFUSED(m, bricard_step(m, 0.1), BRICARD_ERROR_ORDER, "bricard_assemble");
+    REFUSED(m, bricard_run(m, 0.1, NULL, NULL), BRICARD_ERROR_ORDER, "bricard_assemble");
+    REFUSED(m, bricard_state(m, &t, q, v, ENGINE_N), BRICARD_ERROR_ORDER, "bricard_assemble");
+    /* A crank that is longer than the rod can't lie across. */
+    DONE(m, bricard_set_start(m, ENGINE_Q_slider, 0, 3.0, 1));
+    REFUSED(m, bricard_assemble(m, 0.0), BRICARD_ERROR_ASSEMBLY, "no position");
+    DONE(m, bricard_set_start(m, ENGINE_Q_slider, 0, 0.7, 0));
+    DONE(m, bricard_assemble(m, 0.0));
+}
+
+static void options(bricard *m)
+{
+    bricard_options options, before;
+    memset(&options, 0, sizeof options);
+    REFUSED(m, bricard_set_options(m, &options), BRICARD_ERROR_ARGUMENT, "size");
+    DONE(m, bricard_get_options(m, &before));
+    options = before;
+    options.method = 5;
+    REFUSED(m, bricard_set_options(m, &options), BRICARD_ERROR_ARGUMENT, "method");
+    options = before;
+    options.rtol = 0.0;
+    REFUSED(m, bricard_set_options(m, &options), BRICARD_ERROR_ARGUMENT, "tolerance");
+    options = before;
+    options.rtol = not_a_number();
+    CHECK(bricard_set_options(m, &options) == BRICARD_ERROR_ARGUMENT);
+    options = before;
+    options.step = -1.0;
+    REFUSED(m, bricard_set_options(m, &options), BRICARD_ERROR_ARGUMENT, "positive");
+    options = before;
+    options.method = BRICARD_RK4;
+    REFUSED(m, bricard_set_options(m, &options), BRICARD_ERROR_ARGUMENT, "error estimate");
+    options = before;
+    options.stabilisation = BRICARD_BAUMGARTE;
+    REFUSED(m, bricard_set_options(m, &options), BRICARD_ERROR_ARGUMENT, "gains");
+    options = before;
+    options.keep_energy = 1;
+    DONE(m, bricard_set_options(m, &options));
+    REFUSED(m, bricard_run(m, 1.0, NULL, NULL), BRICARD_ERROR_ARGUMENT, "energy");
+    DONE(m, bricard_set_options(m, &before));
+    REFUSED(m, bricard_run(m, -1.0, NULL, NULL), BRICARD_ERROR_ARGUMENT, "earlier");
+    REFUSED(m, bricard_run(m, not_a_number(), NULL, NULL), BRICARD_ERROR_ARGUMENT, "end");
+    REFUSED(m, bricard_step(m, not_a_number()), BRICARD_ERROR_ARGUMENT, "end");
+    REFUSED(m, bricard_step_once(m, -2.0), BRICARD_ERROR_ARGUMENT, "end");
+}
+
+static int stop_soon(void *user, double t, uint64_t steps)
+{
+    (void)t;
+    CHECK(steps % 64 == 0);
+    ++*(int *)user;
+    return 1;
+}
+
+static int stop_at_event(void *user, size_t index, int rising, double t, const double *q,
+                         const double *v)
+{
+    (void)index;
+    (void)rising;
+    (void)q;
+    (void)v;
+    *(double *)user = t;
+    return 1;
+}
+
+static void watches(bricard *m)
+{
+    double rows[20] = {0}, t = 0.0, end = 0.0;
+    double q[ENGINE_N] = {0}, v[ENGINE_N] = {0};
+    int asked = 0;
+    bricard *copy = NULL;
+    bricard_watch watch;
+    memset(&watch, 0, sizeof watch);
+    REFUSED(m, bricard_run(m, 1.0, &watch, NULL), BRICARD_ERROR_ARGUMENT, "size");
+    watch = bricard_watch_nothing();
+    watch.every = -1.0;
+    REFUSED(m, bricard_run(m, 1.0, &watch, NULL), BRICARD_ERROR_ARGUMENT, "distance");
+    watch = bricard_watch_nothing();
+    watch.columns = 1u << 31;
+    REFUSED(m, bricard_run(m, 1.0, &watch, NULL), BRICARD_ERROR_ARGUMENT, "columns");
+    watch = bricard_watch_nothing();
+    watch.rows = rows;
+    watch.room = 6;
+    REFUSED(m, bricard_run(m, 1.0, &watch, NULL), BRICARD_ERROR_ARGUMENT, "room");
+    watch.rows = NULL;
+    watch.room = 20;
+    REFUSED(m, bricard_run(m, 1.0, &watch, NULL), BRICARD_ERROR_NULL, "place");
+    watch = bricard_watch_nothing();
+    watch.inside = 33;
+    REFUSED(m, bricard_run(m, 1.0, &watch, NULL), BRICARD_ERROR_ARGUMENT, "32");
+
+    /* Two rows fit; the third ends the run. */
+    DONE(m, bricard_clone(m, &copy));
+    watch = bricard_watch_nothing();
+    watch.every = 0.25;
+    watch.rows = rows;
+    watch.room = 20;
+    CHECK(bricard_run(copy, 5.0, &watch, NULL) == BRICARD_FULL);
+    CHECK(watch.written == 2 && rows[7] == 0.25);
+    bricard_free(&copy);
+
+    DONE(m, bricard_clone(m, &copy));
+    watch = bricard_watch_nothing();
+    watch.user = &asked;
+    watch.go_on = stop_soon;
+    CHECK(bricard_run(copy, 1000.0, &watch, NULL) == BRICARD_STOPPED);
+    CHECK(asked == 1);
+    DONE(copy, bricard_stop(copy));
+    CHECK(bricard_run(copy, 1000.0, NULL, NULL) == BRICARD_STOPPED);
+    DONE(copy, bricard_state(copy, &t, q, v, ENGINE_N));
+    DONE(copy, bricard_run(copy, t + 0.1, NULL, NULL));
+    bricard_free(&copy);
+
+    DONE(m, bricard_clone(m, &copy));
+    watch = bricard_watch_nothing();
+    watch.user = &end;
+    watch.event = stop_at_event;
+    CHECK(bricard_run(copy, 100.0, &watch, NULL) == BRICARD_STOPPED);
+    DONE(copy, bricard_state(copy, &t, q, v, ENGINE_N));
+    CHECK(t == end && t > 0.0 && fabs(cos(q[ENGINE_Q_crank])) < 1e-12);
+    bricard_free(&copy);
+}
+
+static int fails(void *user, double t, const double *q, const double *v, double *value)
+{
+    (void)user;
+    (void)q;
+    (void)v;
+    *value = 0.0;
+    return t > 0.5;
+}
+
+static int nonsense(void *user, double t, const double *q, const double *v, double *value)
+{
+    (void)user;
+    (void)q;
+    (void)v;
+    *value = t > 0.5 ? not_a_number() : 0.0;
+    return 0;
+}
+
+static int again(void *user, double t, const double *q, const double *v, double *value)
+{
+    bricard *m = *(bricard **)user;
+    double out[3] = {0};
+    (void)t;
+    (void)q;
+    (void)v;
+    *value = 0.0;
+    CHECK(bricard_step(m, 0.1) == BRICARD_ERROR_BUSY);
+    CHECK(bricard_evaluate(m, BRICARD_ACCELERATION, NULL, out, 3) == BRICARD_ERROR_BUSY);
+    CHECK(bricard_assign(m, m) == BRICARD_OK);
+    CHECK(strstr(bricard_message(m), "at work") != NULL);
+    return 0;
+}
+
+static void callbacks(bricard *m)
+{
+    double t = 0.0, at = 0.0, q[ENGINE_N] = {0}, v[ENGINE_N] = {0};
+    bricard *copy = NULL;
+    DONE(m, bricard_clone(m, &copy));
+    DONE(copy, bricard_drive_input(copy, 0, fails, NULL));
+    REFUSED(copy, bricard_run(copy, 1.0, NULL, NULL), BRICARD_ERROR_CALLBACK, "`torque` failed");
+    DONE(copy, bricard_failed_at(copy, &at));
+    DONE(copy, bricard_state(copy, &t, q, v, ENGINE_N));
+    CHECK(t >= 0.0 && t <= 0.5 && at >= t);
+    /* It goes on from the last good state. */
+    DONE(copy, bricard_release_input(copy, 0));
+    DONE(copy, bricard_run(copy, 1.0, NULL, NULL));
+    bricard_free(&copy);
+
+    DONE(m, bricard_clone(m, &copy));
+    DONE(copy, bricard_drive_input(copy, 0, nonsense, NULL));
+    REFUSED(copy, bricard_run(copy, 1.0, NULL, NULL), BRICARD_ERROR_RUN, "NaN");
+    REFUSED(copy, bricard_step(copy, 1.0), BRICARD_ERROR_RUN, "NaN");
+    bricard_free(&copy);
+
+    DONE(m, bricard_clone(m, &copy));
+    DONE(copy, bricard_drive_input(copy, 0, again, &copy));
+    DONE(copy, bricard_run(copy, 0.2, NULL, NULL));
+    DONE(copy, bricard_step(copy, 0.2));
+    bricard_free(&copy);
+}
+
+int main(void)
+{
+    bricard *m = NULL;
+    CHECK(engine_create(&m) == BRICARD_OK);
+    nulls(m);
+    names(m);
+    numbers(m);
+    order(m);
+    options(m);
+    watches(m);
+    callbacks(m);
+    bricard_free(&m);
+    return 0;
+}

@@ -1,0 +1,4 @@
+//! Two mechanisms in one library, for programs in C.
+
+bricard_runtime::include_mechanism!("engine");
+bricard_runtime::include_mechanism!("double_pendulum");

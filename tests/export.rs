@@ -1,0 +1,185 @@
+//! Mechanisms exported to other programs: the folders are whole, and their examples say what
+//! the command itself says.
+
+use crate::command::{Ran, folder, read};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// The command in a folder, with the cache that the tests share.
+fn bricard(folder: &Path, arguments: &[&str]) -> Ran {
+    let cache = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("cache");
+    let output = Command::new(env!("CARGO_BIN_EXE_bricard"))
+        .current_dir(folder)
+        .env("XDG_CACHE_HOME", cache)
+        .args(arguments)
+        .output();
+    read(output.expect("the command starts"))
+}
+
+/// Runs a command to its end, which has to be a good one; what it prints.
+fn finished(command: &mut Command) -> String {
+    let output = command.output().expect("it starts");
+    let Output {
+        status,
+        stdout,
+        stderr,
+    } = output;
+    let errors = String::from_utf8_lossy(&stderr);
+    assert!(status.success(), "{command:?}: {status}\n{errors}");
+    String::from_utf8(stdout).expect("text")
+}
+
+/// The last state that the command itself comes to, each number as examples print it.
+fn simulated(folder: &Path) -> Vec<String> {
+    let options = ["--until", "10", "--rtol", "1e-9", "--every", "0.5"];
+    let ran = bricard(
+        folder,
+        &[&["simulate", "slider_crank"], &options[..]].concat(),
+    );
+    let last = ran.out.lines().last().expect("rows").to_string();
+    let numbers = last.split(',').skip(1).take(3);
+    let six = |text: &str| format!("{:.6}", text.parse::<f64>().expect("a number"));
+    numbers.map(six).collect()
+}
+
+/// The state in the last row of an example, whose last line is a summary.
+fn last_row(said: &str) -> Vec<String> {
+    let row = said.lines().rev().nth(1).expect("rows");
+    row.split_whitespace().skip(1).map(str::to_string).collect()
+}
+
+#[test]
+fn a_crate_of_rust_builds_and_moves_as_the_command_does() {
+    let folder = folder("export_rust");
+    let ran = bricard(&folder, &["export", "slider_crank", "--to", "rust"]);
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    let made = folder.join("slider_crank");
+    assert!(!made.join("build.rs").exists());
+    // The versions of the workspace, which are here already.
+    let lock = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.lock");
+    fs::copy(lock, made.join("Cargo.lock")).expect("the folder is ours");
+    let target = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("exported");
+    let said = finished(
+        Command::new(env!("CARGO"))
+            .args(["run", "--offline", "--quiet", "--example", "simulate"])
+            .current_dir(&made)
+            .env("CARGO_PROFILE_DEV_OPT_LEVEL", "1")
+            .env("CARGO_TARGET_DIR", target),
+    );
+    assert_eq!(last_row(&said), simulated(&folder), "{said}");
+}
+
+#[test]
+fn a_folder_for_c_holds_libraries_and_an_example_that_moves_as_the_command_does() {
+    let folder = folder("export_c");
+    let ran = bricard(
+        &folder,
+        &["export", "slider_crank", "--to", "c", "--out", "c"],
+    );
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    let made = folder.join("c");
+    let strict = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic"];
+    let wanted = simulated(&folder);
+    let shared = format!("-Wl,-rpath,{}", made.join("lib").display());
+    finished(
+        Command::new("cc")
+            .args(strict)
+            .args(["example.c", "-Iinclude", "-Llib", "-lbricard_slider_crank"])
+            .args([&*shared, "-o", "shared"])
+            .current_dir(&made),
+    );
+    let said = finished(&mut Command::new(made.join("shared")));
+    assert_eq!(last_row(&said), wanted, "{said}");
+    let config = made.join("lib/pkgconfig/bricard_slider_crank.pc");
+    let config = fs::read_to_string(config).expect("it is there");
+    let native = config.split_once("Libs.private:").expect("it is told").1;
+    finished(
+        Command::new("cc")
+            .args(strict)
+            .args(["example.c", "-Iinclude", "lib/libbricard_slider_crank.a"])
+            .args(native.split_whitespace())
+            .args(["-o", "static"])
+            .current_dir(&made),
+    );
+    assert_eq!(
+        finished(&mut Command::new(made.join("static"))),
+        said,
+        "the static library"
+    );
+    let cmake = "lib/cmake/bricard_slider_crank/bricard_slider_crank-config.cmake";
+    let cmake = fs::read_to_string(made.join(cmake)).expect("it is there");
+    assert!(
+        cmake.contains("/lib/libbricard_slider_crank.a\""),
+        "{cmake}"
+    );
+    // What was exported before is written anew; the library alone is there already.
+    let again = bricard(
+        &folder,
+        &["export", "slider_crank", "--to", "c", "--out", "c"],
+    );
+    assert_eq!((again.status, &*again.err), (Some(0), ""));
+    let library = bricard(&folder, &["export", "slider_crank", "--to", "library"]);
+    assert!(Path::new(library.out.trim()).is_file(), "{}", library.out);
+}
+
+#[test]
+fn what_can_not_be_exported_is_refused_and_nothing_is_touched() {
+    let folder = folder("export_refused");
+    fs::write(folder.join("mine"), "mine").expect("the folder is ours");
+    let here = folder.display().to_string();
+    fs::write(
+        folder.join("wrong.mech"),
+        "mechanism A { coord q: rad; coord q: m; }",
+    )
+    .expect("the folder is ours");
+    for (arguments, status, word) in [
+        (
+            &["slider_crank", "--to", "rust", "--out", &*here][..],
+            1,
+            "is there already",
+        ),
+        (
+            &["slider_crank", "--to", "c", "--out", "mine"],
+            1,
+            "already",
+        ),
+        (
+            &["slider_crunk", "--to", "c"],
+            2,
+            "did you mean `slider_crank`?",
+        ),
+        (
+            &["none.mech", "--to", "rust"],
+            1,
+            "could not read none.mech",
+        ),
+        (&["wrong.mech", "--to", "rust"], 1, "`q` is declared twice"),
+        (
+            &["wrong.mech", "--to", "library"],
+            1,
+            "`q` is declared twice",
+        ),
+        (
+            &["slider_crank", "--to", "library", "--out", "x"],
+            2,
+            "the library stays in the cache",
+        ),
+        (&["slider_crank", "--to", "cobol"], 2, "rust, c, library"),
+    ] {
+        let ran = bricard(&folder, &[&["export"], arguments].concat());
+        assert_eq!(ran.status, Some(status), "{arguments:?}: {}", ran.err);
+        assert!(ran.err.contains(word), "{arguments:?}: {}", ran.err);
+    }
+    let left = fs::read_dir(&folder).expect("it is there").count();
+    assert_eq!(left, 2);
+    let output = Command::new(env!("CARGO_BIN_EXE_bricard"))
+        .current_dir(&folder)
+        .env("PATH", "")
+        .args(["export", "cart_pole", "--to", "c"])
+        .output();
+    let ran = read(output.expect("the command starts"));
+    assert_eq!(ran.status, Some(1));
+    assert!(ran.err.contains("install it (rustup)"), "{}", ran.err);
+    assert!(!folder.join("cart_pole").exists());
+}
