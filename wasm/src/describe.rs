@@ -53,3 +53,45 @@ fn string(text: &str, out: &mut dyn Write) -> Result {
     }
     out.write_char('"')
 }
+
+#[cfg(test)]
+mod tests {
+    use super::describe;
+    use crate::Text;
+    use bricard_runtime::{Quantity, Structure};
+
+    #[test]
+    fn what_json_does_not_take_as_it_is_is_escaped() {
+        const LENGTH: Quantity = Quantity {
+            name: "L[0]",
+            unit: "m",
+            docs: "the \"long\" one\n\\ ℓ",
+        };
+        let structure = Structure {
+            name: "Bar",
+            parameters: &[LENGTH, LENGTH],
+            ..Structure::PLAIN
+        };
+        let mut text = Text::new();
+        describe(&structure, &mut text).expect("there is room");
+        let length = r#"{"name":"L[0]","unit":"m","docs":"the \"long\" one\u000a\\ ℓ"}"#;
+        let rest = r#","inputs":[],"outputs":[]}"#;
+        let begin = r#"{"name":"Bar","docs":"","coordinates":[],"parameters":["#;
+        let wanted = [begin, length, ",", length, "]", rest];
+        let mut told = core::str::from_utf8(text.bytes()).expect("text");
+        for part in wanted {
+            told = told.strip_prefix(part).expect(part);
+        }
+        assert_eq!(told, "");
+    }
+
+    #[test]
+    fn a_description_without_room_is_refused() {
+        let long = "ℓ".repeat(Text::ROOM);
+        let structure = Structure {
+            docs: Box::leak(long.into_boxed_str()),
+            ..Structure::PLAIN
+        };
+        assert!(describe(&structure, &mut Text::new()).is_err());
+    }
+}

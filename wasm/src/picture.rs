@@ -66,3 +66,21 @@ impl Canvas<f64> for Picture<'_> {
         self.shape(TRACE, &[point]);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Picture;
+    use bricard_runtime::Canvas;
+
+    #[test]
+    fn shapes_are_kinds_counts_and_points_and_what_has_no_room_is_counted() {
+        let mut numbers = [9.0; 12];
+        let mut picture = Picture::new(&mut numbers);
+        picture.circle([1.0, 2.0, 3.0], 4.0);
+        picture.line(&[[5.0, 6.0, 7.0], [8.0, 8.5, 8.75]]);
+        assert_eq!(picture.length(), 14);
+        let circle = [1.0, 1.0, 1.0, 2.0, 3.0, 4.0];
+        assert_eq!(numbers[..6], circle);
+        assert_eq!(numbers[6..], [0.0, 2.0, 5.0, 6.0, 7.0, 8.0]);
+    }
+}

@@ -7,9 +7,7 @@
 //! numbers say how many. What doesn't exist fails.
 
 use crate::{Picture, Text, VERSION, describe};
-use bricard_runtime::{
-    Initial, Interface, Mechanism, Pace, Scheme, Settings, State, Stepper,
-};
+use bricard_runtime::{Initial, Interface, Mechanism, Pace, Scheme, Settings, State, Stepper};
 use core::fmt::{Display, Write};
 
 /// Numbers that can be read at once.
@@ -178,7 +176,12 @@ where
     pub fn assemble(&mut self) -> u32 {
         let mut start = self.mechanism.start();
         let [q, v] = &self.given;
-        for (start, given) in start.q.iter_mut().chain(&mut start.v).zip(q.iter().chain(v)) {
+        for (start, given) in start
+            .q
+            .iter_mut()
+            .chain(&mut start.v)
+            .zip(q.iter().chain(v))
+        {
             *start = given.unwrap_or(*start);
         }
         let state = match bricard_runtime::assemble(&self.mechanism, &start, 0.0) {

@@ -15,8 +15,15 @@ pub struct Text {
 }
 
 impl Text {
+    /// Bytes that there is room for.
+    #[cfg(test)]
+    pub const ROOM: usize = ROOM;
+
     /// An empty text.
-    #[expect(clippy::new_without_default, reason = "too large for one to be made in passing")]
+    #[expect(
+        clippy::new_without_default,
+        reason = "too large for one to be made in passing"
+    )]
     pub fn new() -> Self {
         Self {
             bytes: [0; ROOM],
@@ -39,7 +46,8 @@ impl Write for Text {
     fn write_str(&mut self, text: &str) -> Result {
         let end = self.length + text.len();
         let room = self.bytes.get_mut(self.length..end);
-        room.ok_or(core::fmt::Error)?.copy_from_slice(text.as_bytes());
+        room.ok_or(core::fmt::Error)?
+            .copy_from_slice(text.as_bytes());
         self.length = end;
         Ok(())
     }
