@@ -43,7 +43,7 @@ pub enum Command {
     Watch(Box<Simulate>),
     /// Say where compiled descriptions are kept, and how large they are
     Cache(Cache),
-    /// Write a mechanism as a crate of Rust, or as a library for C and C++
+    /// Write a mechanism as a crate of Rust, a library for C and C++, or a package for npm
     Export(Export),
     /// Begin a crate: a commented mechanism, its build script, a program that
     /// simulates it
@@ -117,6 +117,8 @@ pub enum Target {
     /// A shared and a static library with headers, pkg-config and CMake files, an example,
     /// and the sources to build them elsewhere
     C,
+    /// A WebAssembly module in a package for npm, for browsers and Node, with an example
+    Wasm,
     /// The shared library alone, which stays among what was compiled; its path is printed
     Library,
 }
