@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::{env, fs, io};
 
 /// What a program, or a library, of one mechanism is built from.
-const SHARED: [&str; 11] = [
+const SHARED: [&str; 13] = [
     "Cargo.toml",
     "Cargo.lock",
     "capi/Cargo.toml",
@@ -20,6 +20,8 @@ const SHARED: [&str; 11] = [
     "driver/src",
     "reference/Cargo.toml",
     "reference/src",
+    "wasm/Cargo.toml",
+    "wasm/src",
 ];
 
 /// What makes a program of it.

@@ -43,7 +43,7 @@ pub enum Command {
     Watch(Box<Simulate>),
     /// Say where compiled descriptions are kept, and how large they are
     Cache(Cache),
-    /// Write a mechanism as a crate of Rust, or as a library for C and C++
+    /// Write a mechanism as a crate of Rust, a library for C and C++, an FMU, or a package for npm
     Export(Export),
     /// Print what makes a shell complete the command's words
     Completions(Completions),
@@ -139,6 +139,8 @@ pub enum Target {
     C,
     /// An FMU of FMI 2.0, for model exchange and co-simulation: the file NAME.fmu
     Fmi2,
+    /// A WebAssembly module in a package for npm, for browsers and Node, with an example
+    Wasm,
     /// The shared library alone, which stays among what was compiled; its path is printed
     Library,
 }

@@ -50,6 +50,35 @@ fn last_row(said: &str) -> Vec<String> {
 }
 
 #[test]
+fn a_package_for_npm_is_whole_or_says_what_its_module_needs() {
+    let folder = folder("export_wasm");
+    let ran = bricard(&folder, &["export", "slider_crank", "--to", "wasm"]);
+    let made = folder.join("slider_crank");
+    for file in [
+        "index.js",
+        "index.d.ts",
+        "package.json",
+        "README.md",
+        "src/lib.rs",
+    ] {
+        assert!(made.join(file).is_file(), "{file}: {}", ran.err);
+    }
+    match ran.status {
+        Some(0) => {
+            let said = finished(Command::new("node").arg(made.join("example.mjs")));
+            let row = said.lines().next_back().expect("rows").split_whitespace();
+            assert_eq!(row.skip(1).collect::<Vec<_>>(), simulated(&folder));
+        }
+        status => {
+            let needs = "rustup target add wasm32-unknown-unknown";
+            assert_eq!(status, Some(1), "{}", ran.err);
+            assert!(ran.err.contains(needs), "{}", ran.err);
+            assert!(!made.join("mechanism.wasm").exists());
+        }
+    }
+}
+
+#[test]
 fn a_crate_of_rust_builds_and_moves_as_the_command_does() {
     let folder = folder("export_rust");
     let ran = bricard(&folder, &["export", "slider_crank", "--to", "rust"]);
@@ -173,7 +202,7 @@ fn what_can_not_be_exported_is_refused_and_nothing_is_touched() {
         (
             &["slider_crank", "--to", "cobol"],
             2,
-            "rust, c, fmi2, library",
+            "rust, c, fmi2, wasm, library",
         ),
     ] {
         let ran = bricard(&folder, &[&["export"], arguments].concat());

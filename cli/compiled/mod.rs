@@ -18,6 +18,7 @@ mod library;
 mod program;
 pub mod shared;
 
+pub use compiler::{command, output};
 pub use library::{Library, generate, library, module_of};
 
 use crate::check::read;

@@ -1,8 +1,8 @@
 //! `bricard export`: a mechanism for other programs.
 //!
 //! In:  a description.
-//! Out: a folder: a crate of generated Rust, or libraries for C with all that belongs to
-//!      them; each with an example that runs.
+//! Out: a folder: a crate of generated Rust, or libraries for C or a package for npm with
+//!      all that belongs to them; each with an example that runs.
 //!
 //! Not here: a folder that something else has made is never touched.
 
@@ -11,6 +11,7 @@ mod fmi;
 mod folder;
 mod rust;
 mod sources;
+mod wasm;
 
 use crate::arguments::{Export, Target};
 use crate::check::read;
@@ -60,6 +61,7 @@ pub fn export(arguments: &Export) -> Result<(), CommandError> {
         Target::Rust => rust::export(&subject, out),
         Target::C => c::export(&subject, out),
         Target::Fmi2 => fmi::export(&subject, out),
+        Target::Wasm => wasm::export(&subject, out),
         Target::Library => {
             if out.is_some() {
                 return Err(CommandError::UselessOption {

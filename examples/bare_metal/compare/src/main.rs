@@ -108,10 +108,11 @@ fn compare<T: Real>(report: &Report) -> Result<(), Box<dyn Error>> {
     let angle = here[&TICKS][0];
     let singular = ((angle + FRAC_PI_2) / PI).floor();
     println!("  the crank turns to {angle:.1} rad, through {singular} singular positions");
-    println!(
-        "  {} states differ from those here by {apart:e}",
-        report.states.len()
-    );
+    let states = report.states.len();
+    match apart > 0.0 {
+        true => println!("  {states} states differ from those here by {apart:.0e}"),
+        false => println!("  {states} states equal those here to the last bit"),
+    }
     println!("  and the crank from that in f64 by {off:.0e} rad");
     Ok(())
 }
