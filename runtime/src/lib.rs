@@ -48,5 +48,5 @@ pub use simulate::{
 };
 pub use singular::Passage;
 pub use state::State;
-pub use structure::{ConstraintRow, Declared, Direction, Event, Quantity, Structure};
+pub use structure::{ConstraintRow, Declared, Direction, Event, Multiplier, Quantity, Structure};
 pub use system::{Slope, Switching, System};

@@ -97,8 +97,20 @@ pub trait Interface<T: Real, const N: usize> {
     /// Held values and guesses of the initial state, from the `start` block.
     fn start(&self) -> Start<T, N>;
     /// Writes the outputs in the order of [`Structure::outputs`], as many as
-    /// `values` has room for.
+    /// `values` has room for. Those of accelerations are left as they are.
     fn outputs(&self, state: &State<T, N>, values: &mut [T]);
+    /// Writes the outputs of accelerations into the same places; nothing where there are
+    /// none, see [`Structure::accelerated`].
+    fn accelerated(
+        &self,
+        _state: &State<T, N>,
+        _acceleration: &SVector<T, N>,
+        _values: &mut [T],
+    ) {
+    }
+    /// Writes the inputs, held or by their laws, in the order of [`Structure::inputs`], as
+    /// many as `values` has room for; nothing where there are none.
+    fn inputs(&self, _state: &State<T, N>, _values: &mut [T]) {}
     /// Writes the event functions in the order of [`Structure::events`], as many
     /// as `values` has room for.
     fn events(&self, state: &State<T, N>, values: &mut [T]);

@@ -33,6 +33,16 @@ pub struct ConstraintRow {
     pub holonomic: bool,
 }
 
+/// The multiplier `λ` of a row of a constraint that has a name, `r = Aᵀλ`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Multiplier {
+    /// The name of its column, `reaction(pin)` or, for a row of a vector equation,
+    /// `reaction(pin).x`; its unit, empty if it is not known.
+    pub quantity: Quantity,
+    /// The row of `A`.
+    pub row: usize,
+}
+
 /// A coordinate as the description declares it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Declared {
@@ -83,10 +93,14 @@ pub struct Structure {
     pub inputs: &'static [Quantity],
     /// Observables.
     pub outputs: &'static [Quantity],
+    /// Some output is one of accelerations.
+    pub accelerated: bool,
     /// Events.
     pub events: &'static [Event],
     /// Constraint equations, in the order of the rows of `A`.
     pub constraints: &'static [ConstraintRow],
+    /// The multipliers of constraints that have a name, in the order of the rows of `A`.
+    pub multipliers: &'static [Multiplier],
     /// `M` depends on neither `t` nor `q`.
     pub constant_mass: bool,
     /// `balance` is conserved: no dissipation, applied force, input, or explicit
@@ -113,8 +127,10 @@ impl Structure {
         parameters: &[],
         inputs: &[],
         outputs: &[],
+        accelerated: false,
         events: &[],
         constraints: &[],
+        multipliers: &[],
         constant_mass: false,
         conservative: false,
         drawn: false,

@@ -14,6 +14,7 @@ mod interface;
 mod linearised;
 mod literal;
 mod name;
+mod outputs;
 mod start;
 mod structure;
 mod switches;
@@ -276,6 +277,9 @@ fn imports(subject: &Subject, dynamics: &TokenStream) -> TokenStream {
     ];
     if !subject.mechanism.constraints.is_empty() {
         names.extend(["ConstraintRow", "Correction", "Position"]);
+    }
+    if (subject.mechanism.constraints.iter()).any(|row| row.multiplier.is_some()) {
+        names.push("Multiplier");
     }
     if !subject.mechanism.described.is_empty() {
         names.extend(["ConstraintRow", "Declared", "Described"]);

@@ -19,6 +19,8 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
     let outputs = quantities(mechanism.outputs.iter().map(|o| &o.quantity));
     let described = described::table(subject);
     let constraints = mechanism.constraints.iter().map(constraint_row);
+    let accelerated = mechanism.outputs.iter().any(|o| o.accelerated);
+    let multipliers = multipliers(&mechanism.constraints);
     let events = mechanism.events.iter().map(|event| {
         let name = &event.name;
         let direction = match event.direction {
@@ -43,8 +45,10 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
             parameters: &[#(#parameters),*],
             inputs: &[#(#inputs),*],
             outputs: &[#(#outputs),*],
+            accelerated: #accelerated,
             events: &[#(#events),*],
             constraints: &[#(#constraints),*],
+            multipliers: &[#(#multipliers),*],
             constant_mass: #constant_mass,
             conservative: #conservative,
             drawn: #drawn,
@@ -73,6 +77,16 @@ pub(super) fn constraint_row(row: &Constraint) -> TokenStream {
     let (text, holonomic) = (&row.text, row.holonomic);
     let line = Literal::u32_unsuffixed(row.span.start.line);
     quote!(ConstraintRow { text: #text, line: #line, holonomic: #holonomic })
+}
+
+/// The entries of `Structure::multipliers`.
+fn multipliers(constraints: &[Constraint]) -> impl Iterator<Item = TokenStream> {
+    let rows = constraints.iter().enumerate();
+    rows.filter_map(|(row, constraint)| {
+        let quantity = quantity(constraint.multiplier.as_ref()?);
+        let row = Literal::usize_unsuffixed(row);
+        Some(quote!(Multiplier { quantity: #quantity, row: #row }))
+    })
 }
 
 fn constant_mass(subject: &Subject) -> bool {

@@ -275,10 +275,9 @@ impl Evaluator {
     /// The total derivative of a scalar in time.
     pub fn rate(&mut self, scalar: Scalar, span: Span) -> Option<Scalar> {
         let facts = self.facts(scalar.id);
-        if facts.velocity() {
-            let error = Diagnostic::error(span, "the derivative of a velocity");
-            let help = "accelerations follow from the equations of motion and can't stand in a description";
-            return self.report(error.labelled("this contains `der` already").help(help));
+        if facts.acceleration {
+            let error = Diagnostic::error(span, "the derivative of an acceleration is not known");
+            return self.report(error.labelled("this contains `der(der(…))` already"));
         }
         if facts.input {
             let error = Diagnostic::error(span, "the derivative of an input is not known");

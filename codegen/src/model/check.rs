@@ -170,6 +170,23 @@ impl Lowering<'_> {
         self.report(Diagnostic::error(span, message).help(help))
     }
 
+    /// Refuses accelerations outside outputs.
+    pub fn without_acceleration(
+        &mut self,
+        e: &Expr,
+        scalars: &[Scalar],
+        what: &str,
+    ) -> Option<()> {
+        let mut ids = scalars.iter().map(|scalar| scalar.id);
+        if !ids.any(|id| self.evaluator.facts(id).acceleration) {
+            return Some(());
+        }
+        let span = self.culprit(e, |facts| facts.acceleration);
+        let error = Diagnostic::error(span, format!("{what} can't contain an acceleration"));
+        let help = "accelerations follow from the equations of motion; they may stand in outputs";
+        self.report(error.help(help))
+    }
+
     /// The term of a sum that has some property, else the whole.
     fn culprit(&mut self, e: &Expr, bad: impl Fn(&Facts) -> bool) -> Span {
         self.culprit_in(e, &bad).unwrap_or(e.span)

@@ -11,7 +11,7 @@ use super::unit::Unit;
 use super::value::{Array, Scalar, Value};
 use super::{Input, Quantity};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::expr::Symbol;
+use crate::expr::{Direction, Symbol};
 use crate::parse::ast::{
     Declaration, Declared, Expr, ExprKind, Item, ItemKind, Let, Name, UnitExpr,
 };
@@ -169,13 +169,14 @@ impl<'a> Lowering<'a> {
 
     /// From here on `der` knows what moves.
     fn set_flow(&mut self) {
-        let count = self.mechanism.coordinates.len() as u32;
-        let moving = (0..count).map(Symbol::Coordinate);
-        let flow = self
-            .evaluator
-            .graph
-            .frozen_flow(moving.chain([Symbol::Time]));
-        self.evaluator.flow = flow;
+        let graph = &mut self.evaluator.graph;
+        let mut seeds = vec![(Symbol::Time, graph.integer(1))];
+        for i in 0..self.mechanism.coordinates.len() as u32 {
+            let (velocity, acceleration) = (Symbol::Velocity(i), Symbol::Acceleration(i));
+            seeds.push((Symbol::Coordinate(i), graph.symbol(velocity)));
+            seeds.push((velocity, graph.symbol(acceleration)));
+        }
+        self.evaluator.flow = Direction::new(seeds);
     }
 
     fn input_symbol(&mut self, declaration: &Declaration) -> Option<Value> {
@@ -200,6 +201,7 @@ impl<'a> Lowering<'a> {
         };
         self.evaluator.gains = false;
         let law = law?;
+        self.without_acceleration(&declaration.value, &law.scalars(), what)?;
         let (place, suffixes) = (declaration.value.span, symbols.suffixes());
         if law.suffixes() != suffixes {
             let message = format!("the elements of this law are {}, not numbers", law.shape());

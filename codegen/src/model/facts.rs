@@ -11,6 +11,8 @@ pub struct Facts {
     pub coordinate: bool,
     /// An external signal occurs.
     pub input: bool,
+    /// An acceleration occurs.
+    pub acceleration: bool,
     /// `abs`, `sign`, `min`, `max` or `if` occurs.
     pub kinked: bool,
     /// The degree in the velocities; [`NOT_POLYNOMIAL`] stands for more than two
@@ -77,6 +79,7 @@ impl FactTable {
             Node::Symbol(Symbol::Coordinate(_)) => facts.coordinate = true,
             Node::Symbol(Symbol::Velocity(_)) => facts.degree = 1,
             Node::Symbol(Symbol::Input(_)) => facts.input = true,
+            Node::Symbol(Symbol::Acceleration(_)) => facts.acceleration = true,
             Node::Product(factors) => facts.degree = self.product_degree(factors),
             Node::Function(function, _) => {
                 facts.kinked |= !function.is_differentiable();
@@ -103,6 +106,7 @@ impl FactTable {
             all.time |= facts.time;
             all.coordinate |= facts.coordinate;
             all.input |= facts.input;
+            all.acceleration |= facts.acceleration;
             all.kinked |= facts.kinked;
             all.degree = all.degree.max(facts.degree);
         }

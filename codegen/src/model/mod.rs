@@ -193,6 +193,8 @@ pub struct Constraint {
     /// The equation as written, with `[x]`, `[y]`, `[z]` behind it for a row of
     /// a vector equation and the values of the loop indices, if any.
     pub text: String,
+    /// Name and unit of its multiplier, if the constraint has a name.
+    pub multiplier: Option<Quantity>,
     /// Where it was written.
     pub span: Span,
 }
@@ -219,6 +221,8 @@ pub struct Output {
     pub quantity: Quantity,
     /// The value.
     pub value: ExprId,
+    /// Whether it is one of accelerations.
+    pub accelerated: bool,
 }
 
 /// An event function.

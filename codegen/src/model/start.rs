@@ -34,6 +34,9 @@ impl Lowering<'_> {
     fn start_entry(&mut self, target: &Expr, held: bool, value: &Expr) -> Option<()> {
         let wanted = self.evaluator.evaluate(target)?.operand();
         let given = self.evaluator.evaluate(value)?.operand();
+        for (side, value) in [(target, &wanted), (value, &given)] {
+            self.without_acceleration(side, &value.scalars(), "the start")?;
+        }
         if let Value::Array(_) | Value::Matrix(_) = wanted {
             let error = Diagnostic::error(target.span, "a whole array has no single start value");
             let help = "write `start { for i in 0..K { theta[i] ~ 0; } }`";
@@ -103,6 +106,7 @@ impl Lowering<'_> {
                 residual,
                 holonomic: !facts.velocity(),
                 text: self.row_text(&text, suffix),
+                multiplier: None,
                 span: self.place_of(span),
             };
             self.mechanism.start_equations.push(equation);
@@ -280,7 +284,7 @@ impl Lowering<'_> {
     fn drawable(&mut self, scalars: &[Scalar], span: Span) -> Option<()> {
         for scalar in scalars {
             let facts = self.evaluator.facts(scalar.id);
-            if facts.velocity() || facts.input {
+            if facts.velocity() || facts.input || facts.acceleration {
                 let error = Diagnostic::error(
                     span,
                     "a picture shows positions, this has a velocity or an input in it",

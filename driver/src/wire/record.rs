@@ -3,7 +3,7 @@
 use super::Wire;
 use crate::{Around, Changes, Column, Exact, Given, Leg, Path, Race, Reached};
 use bricard_runtime::{
-    Audit, ConstraintRow, Counters, Declared, Direction, Event, Form, Options, Origin, Pace,
+    Audit, ConstraintRow, Counters, Declared, Direction, Event, Form, Multiplier, Options, Origin, Pace,
     Passage, Quantity, Scheme, Settings, Stabilisation, Structure,
 };
 
@@ -58,12 +58,13 @@ pub(super) use choices;
 
 records! {
     Structure {
-        name, docs, file, coordinates, described, parameters, inputs, outputs, events,
-        constraints, weighed, constant_mass, conservative, drawn, regular
+        name, docs, file, coordinates, described, parameters, inputs, outputs, accelerated, events,
+        constraints, multipliers, weighed, constant_mass, conservative, drawn, regular
     }
     Quantity { name, unit, docs }
     Declared { quantity, given_by }
     ConstraintRow { text, line, holonomic }
+    Multiplier { quantity, row }
     Event { name, direction }
     Options<f64> { until, scheme, pace, settings, keep_energy, audit, most_steps, origin }
     Settings<f64> { form, stabilisation, published }
@@ -96,6 +97,7 @@ choices! {
     Stabilisation<f64> { 0 => Projection, 1 => Baumgarte { alpha, beta }, 2 => None }
     Column {
         0 => Energy, 1 => Kinetic, 2 => Potential, 3 => ConstraintError, 4 => VelocityError,
-        5 => Rank, 6 => Reaction(place), 7 => Output(place)
+        5 => Rank, 6 => Reaction(place), 7 => Output(place), 8 => Acceleration(place),
+        9 => Multiplier(place), 10 => Input(place)
     }
 }

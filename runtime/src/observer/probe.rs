@@ -43,6 +43,26 @@ pub trait Probe<T: Real, const N: usize> {
     /// A [`DynamicsError`] if the acceleration can't be computed.
     fn reaction(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>>;
 
+    /// Writes the multipliers of the constraints, `r = Aᵀλ`, as many as `values` has room
+    /// for; none where constraints depend on one another, so that nothing tells how they
+    /// share their reactions.
+    ///
+    /// # Errors
+    ///
+    /// A [`DynamicsError`] if the acceleration can't be computed.
+    fn multipliers(
+        &mut self,
+        state: &State<T, N>,
+        values: &mut [Option<T>],
+    ) -> Result<(), DynamicsError<T>>;
+
+    /// The acceleration.
+    ///
+    /// # Errors
+    ///
+    /// A [`DynamicsError`] if it can't be computed.
+    fn acceleration(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>>;
+
     /// Brings a state back onto the constraints.
     ///
     /// # Errors
@@ -51,7 +71,18 @@ pub trait Probe<T: Real, const N: usize> {
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>>;
 
     /// Writes the outputs, as many as `values` has room for.
-    fn outputs(&self, state: &State<T, N>, values: &mut [T]);
+    ///
+    /// # Errors
+    ///
+    /// A [`DynamicsError`] if some are of accelerations, which can't be computed.
+    fn outputs(
+        &mut self,
+        state: &State<T, N>,
+        values: &mut [T],
+    ) -> Result<(), DynamicsError<T>>;
+
+    /// Writes the inputs, as many as `values` has room for.
+    fn inputs(&self, state: &State<T, N>, values: &mut [T]);
 }
 
 impl<M, T, const N: usize, const R: usize> Probe<T, N> for ConstrainedSystem<'_, M, T, N, R>
@@ -92,11 +123,40 @@ where
         self.reaction_within(state)
     }
 
+    fn multipliers(
+        &mut self,
+        state: &State<T, N>,
+        values: &mut [Option<T>],
+    ) -> Result<(), DynamicsError<T>> {
+        let multipliers = self.multipliers_within(state)?;
+        for (place, value) in values.iter_mut().zip(multipliers) {
+            *place = value;
+        }
+        Ok(())
+    }
+
+    fn acceleration(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>> {
+        self.acceleration_within(state)
+    }
+
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
         self.project_within(state)
     }
 
-    fn outputs(&self, state: &State<T, N>, values: &mut [T]) {
+    fn outputs(
+        &mut self,
+        state: &State<T, N>,
+        values: &mut [T],
+    ) -> Result<(), DynamicsError<T>> {
         self.mechanism().outputs(state, values);
+        if self.mechanism().structure().accelerated {
+            let acceleration = self.acceleration_within(state)?;
+            self.mechanism().accelerated(state, &acceleration, values);
+        }
+        Ok(())
+    }
+
+    fn inputs(&self, state: &State<T, N>, values: &mut [T]) {
+        self.mechanism().inputs(state, values);
     }
 }
