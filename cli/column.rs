@@ -5,7 +5,7 @@
 
 use crate::error::CommandError;
 pub use bricard_driver::Column;
-use bricard_driver::WORDS;
+use bricard_driver::{WORDS, heads};
 use bricard_runtime::Structure;
 
 /// A word for columns of one kind, and the columns.
@@ -14,7 +14,7 @@ type Kind = (&'static str, fn(&Structure) -> Vec<Column>);
 /// The words that stand for all columns of a kind.
 const KINDS: [Kind; 3] = [
     ("reactions", |structure| {
-        every(structure.coordinates.len(), Column::Reaction)
+        every(structure.freedoms().len(), Column::Reaction)
     }),
     ("accelerations", |structure| {
         every(structure.coordinates.len(), Column::Acceleration)
@@ -80,7 +80,7 @@ fn singles(structure: &Structure) -> Vec<Column> {
     all.extend(every(structure.inputs.len(), Column::Input));
     all.extend(every(structure.multipliers.len(), Column::Multiplier));
     all.extend(every(structure.coordinates.len(), Column::Acceleration));
-    all.extend(every(structure.coordinates.len(), Column::Reaction));
+    all.extend(every(structure.freedoms().len(), Column::Reaction));
     all
 }
 
@@ -113,15 +113,9 @@ fn unknown(word: &str, structure: &Structure, mechanism: &str) -> CommandError {
     }
 }
 
-/// The header: time, coordinates, velocities, added columns.
+/// The header: what every row begins with, and added columns.
 pub fn header(structure: &Structure, columns: &[Column]) -> Vec<String> {
-    let names = structure
-        .coordinates
-        .iter()
-        .map(|coordinate| coordinate.name);
-    let mut header = vec!["t".to_string()];
-    header.extend(names.clone().map(String::from));
-    header.extend(names.map(|name| format!("der({name})")));
+    let mut header = heads(structure);
     header.extend(columns.iter().map(|column| column.name(structure)));
     header
 }

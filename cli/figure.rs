@@ -5,7 +5,8 @@
 
 use crate::column::Column;
 use crate::plot::{Panel, Scale, Series};
-use bricard_runtime::Structure;
+use bricard_driver::heads;
+use bricard_runtime::{Quantity, Structure};
 
 /// Curves in one panel, so that the legend fits beside it.
 const CURVES: usize = 9;
@@ -22,7 +23,7 @@ pub const ERRORS: Scale = Scale::Logarithmic {
 /// All coordinates and added columns of a recording.
 pub fn overview(structure: &Structure, columns: &[Column], rows: &[Vec<f64>]) -> Vec<Panel> {
     let mut panels = coordinates(structure, rows);
-    let first = 1 + 2 * structure.coordinates.len();
+    let first = heads(structure).len();
     let added: Vec<Curve> = columns
         .iter()
         .enumerate()
@@ -42,7 +43,9 @@ pub fn overview(structure: &Structure, columns: &[Column], rows: &[Vec<f64>]) ->
 
 /// The coordinates, those of one unit together.
 pub fn coordinates(structure: &Structure, rows: &[Vec<f64>]) -> Vec<Panel> {
-    let curve = |(i, coordinate): (usize, &bricard_runtime::Quantity)| Curve {
+    let freedoms = structure.freedoms();
+    let states = (structure.coordinates.iter().enumerate()).skip(freedoms.len());
+    let curve = |(i, coordinate): (usize, &Quantity)| Curve {
         axis: match coordinate.unit {
             "rad" => ANGLE.to_string(),
             "m" => "position [m]".to_string(),
@@ -52,7 +55,9 @@ pub fn coordinates(structure: &Structure, rows: &[Vec<f64>]) -> Vec<Panel> {
         scale: Scale::Linear,
         series: series(coordinate.name.to_string(), 1 + i, rows),
     };
-    let all = structure.coordinates.iter().enumerate().map(curve);
+    // States stand behind the velocities.
+    let states = states.map(|(i, state)| (i + freedoms.len(), state));
+    let all = freedoms.iter().enumerate().chain(states).map(curve);
     // Beside an angle that goes on and on one that oscillates would look like a line.
     let (turning, others): (Vec<Curve>, Vec<Curve>) =
         all.partition(|curve| curve.axis == ANGLE && span(&curve.series) > TURNS);
@@ -85,9 +90,11 @@ fn axis(column: Column, structure: &Structure) -> String {
         Column::Energy | Column::Kinetic | Column::Potential => "energy".to_string(),
         Column::ConstraintError | Column::VelocityError => "constraint error".to_string(),
         Column::Rank => "rank".to_string(),
-        Column::Reaction(_) => "reaction".to_string(),
+        Column::Reaction(_) | Column::Multiplier(_) => "reaction".to_string(),
+        Column::Acceleration(i) if i < structure.freedoms().len() => "acceleration".to_string(),
+        Column::Acceleration(_) => column.name(structure),
         // The components of one output lie in one panel.
-        Column::Output(_) => whole(&column.name(structure)).to_string(),
+        Column::Output(_) | Column::Input(_) => whole(&column.name(structure)).to_string(),
     };
     if unit.is_empty() {
         what

@@ -19,6 +19,7 @@ mod figure;
 mod formula;
 mod interrupt;
 mod landing;
+mod law;
 mod list;
 mod mechanism;
 mod new;

@@ -34,7 +34,16 @@ use std::process::Command;
 /// What is wrong with the description, in the words of `bricard check`; what stands in the
 /// way of compiling it.
 pub fn open(file: &Path) -> Result<Link, CommandError> {
-    start(&program(file, Digits::Double)?, Link::start)
+    open_text(file, &read(file)?)
+}
+
+/// As [`open`], a description that is in no file but called as if it were.
+///
+/// # Errors
+///
+/// As [`open`].
+pub fn open_text(file: &Path, source: &str) -> Result<Link, CommandError> {
+    start(&program(file, source, Digits::Double)?, Link::start)
 }
 
 /// As [`open`], in numbers of 106 bits.
@@ -43,7 +52,10 @@ pub fn open(file: &Path) -> Result<Link, CommandError> {
 ///
 /// As [`open`].
 pub fn open_precise(file: &Path) -> Result<PreciseLink, CommandError> {
-    start(&program(file, Digits::Many)?, PreciseLink::start)
+    start(
+        &program(file, &read(file)?, Digits::Many)?,
+        PreciseLink::start,
+    )
 }
 
 /// The numbers that a program computes with.
@@ -56,19 +68,18 @@ pub enum Digits {
 }
 
 /// The program of a description, from the cache or built.
-fn program(file: &Path, digits: Digits) -> Result<PathBuf, CommandError> {
-    let source = read(file)?;
+fn program(file: &Path, source: &str, digits: Digits) -> Result<PathBuf, CommandError> {
     let toolchain = Toolchain::find();
     let cache = Cache::find()?;
     let known = toolchain.as_ref().ok().and_then(|toolchain| {
         let version = Version::new(&cache, toolchain, digits);
-        version.program(file, &source)
+        version.program(file, source)
     });
     match known {
         Some(program) => Ok(program),
         None => {
             // A wrong description is the first thing to know, toolchain or not.
-            let program = Program::generate(file, &source)?;
+            let program = Program::generate(file, source)?;
             let toolchain = toolchain?;
             program.build(&Version::new(&cache, &toolchain, digits), &toolchain)
         }

@@ -92,12 +92,23 @@ pub fn freedom(n: usize) -> String {
     format!("{n} degree{} of freedom", if n == 1 { "" } else { "s" })
 }
 
+/// How many coordinates, states and constraint equations there are.
+pub fn sizes(mechanism: &Mechanism) -> String {
+    let states = match mechanism.states {
+        0 => String::new(),
+        1 => ", 1 state of the first order".to_string(),
+        n => format!(", {n} states of the first order"),
+    };
+    let (n, r) = (mechanism.freedoms(), mechanism.constraints.len());
+    format!("{n} coordinates{states}, {r} constraint equations")
+}
+
 fn heading(mechanism: &Mechanism, subject: &Subject) -> String {
-    let (n, r) = (mechanism.coordinates.len(), mechanism.constraints.len());
+    let (n, r) = (mechanism.freedoms(), mechanism.constraints.len());
     let mut lines = vec![
         format!("{}: {}", mechanism.name, first_sentence(&mechanism.docs)),
         format!("from {}", subject.file),
-        format!("{n} coordinates, {r} constraint equations"),
+        sizes(mechanism),
     ];
     lines.push(match &subject.start {
         Some(start) => start.clone(),
@@ -115,8 +126,9 @@ fn heading(mechanism: &Mechanism, subject: &Subject) -> String {
             &format!(" ({})", coordinate.unit)
         };
         let docs = first_sentence(&coordinate.docs);
+        let what = if i < n { "" } else { "the integral of " };
         lines.push(
-            format!("q[{}] is {}{unit}  {docs}", i + 1, coordinate.name)
+            format!("q[{}] is {what}{}{unit}  {docs}", i + 1, coordinate.name)
                 .trim_end()
                 .into(),
         );

@@ -15,7 +15,7 @@ use crate::changes;
 use crate::column::columns;
 use crate::error::CommandError;
 use crate::interrupt;
-use crate::mechanism::find;
+use crate::law::find_with;
 use crate::output::say;
 use crate::plot::Marks;
 use crate::run::{Report, Stopped, run};
@@ -24,9 +24,9 @@ use record::Record;
 
 /// Simulates a mechanism.
 pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
-    let mut mechanism = find(&arguments.name)?;
+    let (mut mechanism, set) = find_with(&arguments.name, &arguments.set)?;
     let structure = mechanism.structure();
-    let changes = changes::find(structure, &arguments.name, &arguments.set, &arguments.start)?;
+    let changes = changes::find(structure, &arguments.name, &set, &arguments.start)?;
     for name in changes::negative_inertia(&changes, structure) {
         say(&format!("warning: `{name}` is an inertia, and negative"));
     }

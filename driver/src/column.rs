@@ -39,13 +39,31 @@ pub const WORDS: [(&str, Column); 6] = [
     ("rank", Column::Rank),
 ];
 
+/// The names of time, coordinates, velocities and states of the first order, which every
+/// row begins with.
+pub fn heads(structure: &Structure) -> Vec<String> {
+    let freedoms = structure.freedoms();
+    let states = &structure.coordinates[freedoms.len()..];
+    let mut heads = vec!["t".to_string()];
+    heads.extend(freedoms.iter().map(|x| x.name.to_string()));
+    heads.extend(freedoms.iter().map(|x| format!("der({})", x.name)));
+    heads.extend(states.iter().map(|x| x.name.to_string()));
+    heads
+}
+
 impl Column {
     /// Its name in the header.
     pub fn name(self, structure: &Structure) -> String {
         let of = |list: &[Quantity], i: usize| list.get(i).map_or("?", |x| x.name);
         match self {
             Column::Reaction(i) => format!("r({})", of(structure.coordinates, i)),
-            Column::Acceleration(i) => format!("der(der({}))", of(structure.coordinates, i)),
+            Column::Acceleration(i) => {
+                let name = of(structure.coordinates, i);
+                match i < structure.freedoms().len() {
+                    true => format!("der(der({name}))"),
+                    false => format!("der({name})"),
+                }
+            }
             Column::Output(i) => of(structure.outputs, i).to_string(),
             Column::Input(i) => of(structure.inputs, i).to_string(),
             Column::Multiplier(i) => {
@@ -75,7 +93,7 @@ impl Column {
                 "rad" => "N·m",
                 _ => "",
             },
-            Column::Acceleration(i) => match of(structure.coordinates, i) {
+            Column::Acceleration(i) => match of(structure.freedoms(), i) {
                 "m" => "m/s²",
                 "rad" => "rad/s²",
                 _ => "",

@@ -243,7 +243,9 @@ fn row<const N: usize>(
     columns: &[Column],
     probe: &mut dyn Probe<f64, N>,
 ) -> Result<Vec<f64>, DynamicsError<f64>> {
-    let mut row = row_of(state);
+    let freedoms = probe.structure().freedoms().len();
+    let mut row = vec![state.t];
+    row.extend(state.q.iter().take(freedoms).chain(state.v.iter()));
     let known = Known::of(state, columns, probe)?;
     for column in columns {
         row.push(match column {

@@ -101,13 +101,7 @@ pub trait Interface<T: Real, const N: usize> {
     fn outputs(&self, state: &State<T, N>, values: &mut [T]);
     /// Writes the outputs of accelerations into the same places; nothing where there are
     /// none, see [`Structure::accelerated`].
-    fn accelerated(
-        &self,
-        _state: &State<T, N>,
-        _acceleration: &SVector<T, N>,
-        _values: &mut [T],
-    ) {
-    }
+    fn accelerated(&self, _state: &State<T, N>, _acceleration: &SVector<T, N>, _values: &mut [T]) {}
     /// Writes the inputs, held or by their laws, in the order of [`Structure::inputs`], as
     /// many as `values` has room for; nothing where there are none.
     fn inputs(&self, _state: &State<T, N>, _values: &mut [T]) {}

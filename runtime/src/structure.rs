@@ -84,6 +84,10 @@ pub struct Structure {
     pub file: &'static str,
     /// Generalized coordinates, in the order of `q`.
     pub coordinates: &'static [Quantity],
+    /// How many of the coordinates, the last ones, are integrals of states of the first
+    /// order: the velocity of such a coordinate is the state of its name, its acceleration
+    /// the rate of the state. It takes part in no energy.
+    pub states: usize,
     /// All coordinates that the description declares, where constraints gave some of them
     /// and they were eliminated; empty where all are in `coordinates`.
     pub described: &'static [Declared],
@@ -123,6 +127,7 @@ impl Structure {
         docs: "",
         file: "",
         coordinates: &[],
+        states: 0,
         described: &[],
         parameters: &[],
         inputs: &[],
@@ -140,6 +145,12 @@ impl Structure {
 }
 
 impl Structure {
+    /// The coordinates that the description declares as such.
+    pub fn freedoms(&self) -> &'static [Quantity] {
+        let count = self.coordinates.len().saturating_sub(self.states);
+        &self.coordinates[..count]
+    }
+
     /// Writes a coordinate as the description names it.
     pub(crate) fn write_coordinate(
         &self,

@@ -32,11 +32,15 @@ pub fn eliminate(mut mechanism: Mechanism) -> Result<Mechanism, Diagnostics> {
         return Err(swell::refusal(&mechanism));
     };
     let kept = Kept::of(&mut mechanism, &found);
+    let freedoms = mechanism.freedoms();
     let declared = std::mem::take(&mut mechanism.coordinates);
     for (i, quantity) in declared.into_iter().enumerate() {
         let row = found.iter().find(|e| e.coordinate == i).map(|e| e.row);
         if row.is_none() {
             mechanism.coordinates.push(quantity.clone());
+        }
+        if i >= freedoms {
+            continue;
         }
         mechanism.described.push(Described {
             quantity,

@@ -116,7 +116,7 @@ struct Motion {
 
 /// `M` and `p₁` with its parts, or nothing as soon as they are too long.
 fn motion(mechanism: &mut Mechanism) -> Option<Motion> {
-    let n = mechanism.coordinates.len();
+    let (n, freedoms) = (mechanism.coordinates.len(), mechanism.freedoms());
     let graph = &mut mechanism.graph;
     let kinetic = graph.sum(mechanism.kinetic.iter().map(|summand| summand.value));
     let potential = graph.sum(mechanism.potential.iter().map(|summand| summand.value));
@@ -124,11 +124,14 @@ fn motion(mechanism: &mut Mechanism) -> Option<Motion> {
 
     let momenta = mass::momenta(graph, kinetic, n);
     within_bounds(graph)?;
-    let mass = mass::mass_matrix(graph, &momenta);
+    let mut mass = mass::mass_matrix(graph, &momenta);
+    for (i, row) in mass.iter_mut().enumerate().skip(freedoms) {
+        row[i] = graph.integer(1);
+    }
     within_bounds(graph)?;
     let coriolis = force::coriolis_product(graph, kinetic, &momenta);
     let gravity = force::potential_force(graph, potential, n);
-    let applied = force::applied(graph, &mechanism.forces, dissipation, n);
+    let applied = force::applied(graph, &mechanism.forces, dissipation, (n, freedoms));
     let force = force::total(graph, &applied, &coriolis, &gravity);
     Some(Motion {
         kinetic,
@@ -144,7 +147,7 @@ fn motion(mechanism: &mut Mechanism) -> Option<Motion> {
 
 /// The equations, or nothing as soon as they are too long.
 fn equations(mechanism: &mut Mechanism) -> Option<Equations> {
-    let n = mechanism.coordinates.len();
+    let (n, freedoms) = (mechanism.coordinates.len(), mechanism.freedoms());
     let Motion {
         kinetic,
         potential,
@@ -165,7 +168,9 @@ fn equations(mechanism: &mut Mechanism) -> Option<Equations> {
     let positions = closure::closure(graph, &positions, n);
     let speeds = closure::closure(graph, &speeds, n);
     within_bounds(graph)?;
-    let energies = energy::energies(graph, kinetic, potential, &applied, &momenta);
+    // What acts on states does no work.
+    let (forces, momenta) = (&applied[..freedoms], &momenta[..freedoms]);
+    let energies = energy::energies(graph, kinetic, potential, forces, momenta);
     within_bounds(graph)?;
     let weighed = weighed::weighed(graph, &mass, &closure.jacobian);
     Some(Equations {

@@ -60,10 +60,8 @@ impl Numbers {
                 .collect()
         };
         let momenta = gradient(kinetic, Symbol::Velocity);
-        let mass = momenta
-            .into_iter()
-            .map(|p| gradient(p, Symbol::Velocity))
-            .collect();
+        let mass = momenta.into_iter().map(|p| gradient(p, Symbol::Velocity));
+        let mut mass: Vec<_> = mass.collect();
         let by = |holonomic| {
             if holonomic {
                 Symbol::Coordinate
@@ -82,6 +80,11 @@ impl Numbers {
                 true => graph.differentiate(row.residual, Symbol::Time),
                 false => row.residual,
             });
+        }
+        // The integrals of states have a mass of one.
+        let freedoms = mechanism.coordinates.len() - mechanism.states;
+        for (i, row) in mass.iter_mut().enumerate().skip(freedoms) {
+            row[i] = graph.integer(1);
         }
         let mut numbers = Self {
             mechanism,

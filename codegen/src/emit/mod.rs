@@ -170,13 +170,15 @@ fn module_docs(subject: &Subject, origin: Origin) -> Vec<String> {
         docs.trim()
     };
     let mut lines = doc_lines(docs);
-    let (n, r) = (
-        subject.equations.mass.len(),
-        subject.equations.jacobian.len(),
-    );
+    let (n, r) = subject.counts();
+    let states = match subject.mechanism.states {
+        0 => String::new(),
+        1 => ", the last of them the integral of a state".to_string(),
+        states => format!(", the last {states} of them integrals of states"),
+    };
     lines.push(String::new());
     lines.push(format!(
-        " Generated from `{}`: {n} coordinates, {r} constraint equations.",
+        " Generated from `{}`: {n} coordinates{states}, {r} constraint equations.",
         origin.file
     ));
     if let Some(eliminated) = described::docs(subject) {

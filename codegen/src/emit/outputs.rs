@@ -19,7 +19,13 @@ pub(super) fn outputs(subject: &mut Subject) -> TokenStream {
         return list(subject, "outputs", &values);
     }
     let n = subject.sizes().0;
-    let (places, Written { body, state, cost, .. }, computed) = chosen(subject, false);
+    let (
+        places,
+        Written {
+            body, state, cost, ..
+        },
+        computed,
+    ) = chosen(subject, false);
     if places.is_empty() {
         return quote!(fn outputs(&self, _state: &State<T, #n>, _values: &mut [T]) {});
     }
@@ -40,15 +46,19 @@ pub(super) fn outputs(subject: &mut Subject) -> TokenStream {
 /// `fn accelerated`; nothing where there are no such outputs.
 pub(super) fn accelerated(subject: &mut Subject) -> TokenStream {
     let n = subject.sizes().0;
-    let (places, Written { body, state, cost, .. }, computed) = chosen(subject, true);
+    let (
+        places,
+        Written {
+            body, state, cost, ..
+        },
+        computed,
+    ) = chosen(subject, true);
     if places.is_empty() {
         return TokenStream::new();
     }
     let statements = &body.statements;
-    let acceleration = super::linearised::argument(
-        "acceleration",
-        &quote!(#statements #(#computed)*),
-    );
+    let acceleration =
+        super::linearised::argument("acceleration", &quote!(#statements #(#computed)*));
     quote! {
         #[doc = #cost]
         fn accelerated(
@@ -81,7 +91,9 @@ fn chosen(subject: &mut Subject, accelerated: bool) -> (Vec<Literal>, Written, V
         .map(|(row, output)| (slot(row), output.value))
         .collect();
     let written = subject.body(&wanted, &|_| None);
-    let places = wanted.iter().map(|(slot, _)| Literal::usize_unsuffixed(slot.row));
+    let places = wanted
+        .iter()
+        .map(|(slot, _)| Literal::usize_unsuffixed(slot.row));
     let computed = wanted.iter().map(|(slot, _)| written.body.output(*slot));
     let (places, computed) = (places.collect(), computed.collect());
     (places, written, computed)

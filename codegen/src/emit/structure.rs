@@ -20,6 +20,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
     let described = described::table(subject);
     let constraints = mechanism.constraints.iter().map(constraint_row);
     let accelerated = mechanism.outputs.iter().any(|o| o.accelerated);
+    let states = Literal::usize_unsuffixed(mechanism.states);
     let multipliers = multipliers(&mechanism.constraints);
     let events = mechanism.events.iter().map(|event| {
         let name = &event.name;
@@ -41,6 +42,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
             docs: #docs,
             file: #file,
             coordinates: &[#(#coordinates),*],
+            states: #states,
             described: &[#(#described),*],
             parameters: &[#(#parameters),*],
             inputs: &[#(#inputs),*],
@@ -100,7 +102,9 @@ fn constant_mass(subject: &Subject) -> bool {
 fn conservative(subject: &Subject) -> bool {
     let graph = &subject.mechanism.graph;
     let still = |e: &ExprId| graph.is_zero(*e);
-    still(&subject.equations.energies.power) && subject.equations.drift.iter().all(still)
+    subject.mechanism.states == 0
+        && still(&subject.equations.energies.power)
+        && subject.equations.drift.iter().all(still)
 }
 
 /// What is said of parameters whose fields would have the same name.

@@ -39,7 +39,7 @@ pub struct Evaluator {
     pub flow: Direction,
     /// The parts and the quantities in them.
     pub parts: Parts,
-    facts: FactTable,
+    pub facts: FactTable,
     work: u64,
     /// The number of formulas inside one another.
     depth: usize,

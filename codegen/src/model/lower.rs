@@ -110,11 +110,12 @@ impl Lowering<'_> {
     /// What concerns the mechanism as a whole.
     fn whole(&mut self, model: &Model) {
         let (name, at) = (&model.name, model.name.span);
-        let declared = |item: &Item| matches!(item.kind, ItemKind::Coordinate { .. });
-        if !model.items.iter().any(declared) && self.mechanism.coordinates.is_empty() {
+        let declared = |item: &Item| matches!(item.kind, ItemKind::Coordinate { state: false, .. });
+        if !model.items.iter().any(declared) && self.mechanism.freedoms() == 0 {
             let error = Diagnostic::error(at, format!("`{}` has no coordinates", name.text));
             self.report::<()>(error.help("declare what moves, for example `coord q1: rad;`"));
         }
+        self.states_without_rate();
         if self.evaluator.diagnostics.error_count() > 0 {
             return;
         }
@@ -162,7 +163,8 @@ impl Lowering<'_> {
                 busy[*i as usize] = true;
             }
         }
-        let idle = m.coordinates.iter().zip(&busy).filter(|(_, busy)| !**busy);
+        let declared = m.coordinates[..m.freedoms()].iter();
+        let idle = declared.zip(&busy).filter(|(_, busy)| !**busy);
         let idle: Vec<(String, Span)> = idle.map(|(q, _)| (q.name.clone(), q.span)).collect();
         for (name, span) in idle {
             let message = format!("`{name}` takes part in no energy, force or constraint");

@@ -28,6 +28,7 @@ mod shape;
 mod si;
 mod sound;
 mod start;
+mod state;
 mod statement;
 mod table;
 mod unit;
@@ -53,6 +54,11 @@ pub struct Mechanism {
     /// Generalized coordinates, arrays unrolled; their index is the one of
     /// `Symbol::Coordinate` and `Symbol::Velocity`.
     pub coordinates: Vec<Quantity>,
+    /// How many of them, the last ones, are integrals of states of the first order: the
+    /// velocity of such a coordinate is the state, its mass one, and the force at it the
+    /// rate of the state. No formula contains the coordinate itself, and no energy the
+    /// state.
+    pub states: usize,
     /// Run-time parameters, in order of declaration.
     pub parameters: Vec<Parameter>,
     /// Constants that were folded, for the documentation of the emitted code.
@@ -273,6 +279,7 @@ impl Mechanism {
             docs: docs.to_string(),
             graph: Graph::new(),
             coordinates: Vec::new(),
+            states: 0,
             parameters: Vec::new(),
             constants: Vec::new(),
             inputs: Vec::new(),
@@ -291,15 +298,24 @@ impl Mechanism {
         }
     }
 
+    /// How many coordinates are declared as such.
+    pub fn freedoms(&self) -> usize {
+        self.coordinates.len() - self.states
+    }
+
     /// A symbol as the description writes it: `q1`, `der(q1)`, `L1`, `t`.
     pub fn symbol_text(&self, symbol: Symbol) -> String {
         let coordinate = |i: u32| &self.coordinates[i as usize].name;
         match symbol {
             Symbol::Time => "t".to_string(),
             Symbol::Coordinate(i) => coordinate(i).clone(),
+            Symbol::Velocity(i) if i as usize >= self.freedoms() => coordinate(i).clone(),
             Symbol::Velocity(i) => format!("der({})", coordinate(i)),
             Symbol::Parameter(i) => self.parameters[i as usize].quantity.name.clone(),
             Symbol::Input(i) => self.inputs[i as usize].quantity.name.clone(),
+            Symbol::Acceleration(i) if i as usize >= self.freedoms() => {
+                format!("der({})", coordinate(i))
+            }
             Symbol::Acceleration(i) => format!("der(der({}))", coordinate(i)),
             Symbol::Multiplier(i) => format!("lambda[{i}]"),
             Symbol::Weight(i) => format!("w[{i}]"),

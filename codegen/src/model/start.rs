@@ -76,13 +76,18 @@ impl Lowering<'_> {
         suffix: &str,
     ) -> Option<()> {
         let facts = self.evaluator.facts(scalar.id);
-        let (message, help) = if !facts.coordinate && !facts.velocity() {
+        let (message, help) = if !facts.coordinate && !facts.velocity() && !facts.state {
             let message = "only coordinates and their velocities have start values";
             (message, "write `q1 = …;` or `der(q1) = …;`")
         } else if facts.input {
             (
                 "an equation of the start can't contain an input",
                 "write out its law",
+            )
+        } else if facts.state {
+            (
+                "an equation of the start can't contain a state",
+                "give the state itself a value: `z = …;`",
             )
         } else if facts.kinked {
             let help = "`abs`, `sign`, `min`, `max` and `if` can't be met from any side";
@@ -122,7 +127,7 @@ impl Lowering<'_> {
         (given, value): (Scalar, &Expr),
     ) -> Option<()> {
         let facts = self.evaluator.facts(given.id);
-        if facts.time || facts.coordinate || facts.velocity() || facts.input {
+        if facts.time || facts.coordinate || facts.velocity() || facts.input || facts.state {
             let error = Diagnostic::error(
                 value.span,
                 "a start value is built of numbers, constants and parameters",
@@ -284,10 +289,10 @@ impl Lowering<'_> {
     fn drawable(&mut self, scalars: &[Scalar], span: Span) -> Option<()> {
         for scalar in scalars {
             let facts = self.evaluator.facts(scalar.id);
-            if facts.velocity() || facts.input || facts.acceleration {
+            if facts.velocity() || facts.input || facts.state || facts.acceleration {
                 let error = Diagnostic::error(
                     span,
-                    "a picture shows positions, this has a velocity or an input in it",
+                    "a picture shows positions, this has a velocity, an input or a state in it",
                 );
                 return self.report(error);
             }

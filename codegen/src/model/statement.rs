@@ -17,6 +17,8 @@ pub struct Named {
     outputs: FxHashMap<String, Span>,
     events: FxHashMap<String, Span>,
     constraints: FxHashMap<String, Span>,
+    /// States whose rate is given, by their coordinates.
+    pub rates: FxHashMap<u32, Span>,
     /// Start entries: coordinate, whether the velocity is meant; with the number of parts
     /// around.
     pub starts: FxHashMap<(u32, bool), (Span, usize)>,
@@ -40,6 +42,7 @@ impl Lowering<'_> {
             ItemKind::Part(part) => self.in_no_part(&part.name, "a part"),
             ItemKind::Use(library) => self.in_no_part(library, "`use`"),
             ItemKind::Let(_) => Some(()),
+            ItemKind::Rate { of, value } => self.state_rate(of, value, item.span),
             ItemKind::Energy(kind, value) => self.energy(*kind, value),
             ItemKind::Force { force, on } => self.force(force, on, item.span),
             ItemKind::Constraint {

@@ -109,7 +109,9 @@ impl Cursor<'_> {
             "param" => self.declaration(Declared::Parameter, word)?,
             "input" => self.declaration(Declared::Input, word)?,
             "output" => self.declaration(Declared::Output, word)?,
-            "coord" => self.coordinate()?,
+            "coord" => self.coordinate(false)?,
+            "state" => self.coordinate(true)?,
+            "der" => self.rate()?,
             "let" => self.let_item()?,
             "fn" => self.function()?,
             "part" => return self.part(),
@@ -142,7 +144,7 @@ impl Cursor<'_> {
             TokenKind::Symbol(symbol) => *symbol == "(",
             TokenKind::End => false,
         };
-        if same_line && goes_on && word != "coord" {
+        if same_line && goes_on && !matches!(word, "coord" | "state") {
             let [left, right] = [self.last_span(), next.span].map(|span| span.text(self.source));
             let left = if left == ")" { "(…)" } else { left };
             let right = if right == "(" { "(…)" } else { right };
@@ -234,27 +236,45 @@ impl Cursor<'_> {
         Err(self.fail(error.help(help)))
     }
 
-    fn coordinate(&mut self) -> Parsed<ItemKind> {
-        let name = self.name("the coordinate", "coord")?;
+    fn coordinate(&mut self, state: bool) -> Parsed<ItemKind> {
+        let (word, what) = match state {
+            true => ("state", "state"),
+            false => ("coord", "coordinate"),
+        };
+        let name = self.name(&format!("the {what}"), word)?;
         let mut size = None;
         if self.take_symbol("[") {
             size = Some(self.expression()?);
-            self.expect_symbol(
-                "]",
-                "an array of coordinates is written `coord theta[3]: rad;`",
-            )?;
+            let help = format!("an array of {what}s is written `{word} theta[3]: rad;`");
+            self.expect_symbol("]", &help)?;
         }
-        self.one_name(&name, "coord", ": …")?;
+        self.one_name(&name, word, ": …")?;
         let unit = self.optional_unit()?;
         if self.at_symbol("=") {
-            let error = Diagnostic::error(self.span(), "a coordinate has no value of its own");
+            let error = Diagnostic::error(self.span(), format!("a {what} has no value of its own"));
             let help = format!(
                 "its value at the start is written `start {{ {} = …; }}`",
                 name.text
             );
             return Err(self.fail(error.help(help)));
         }
-        Ok(ItemKind::Coordinate { name, size, unit })
+        Ok(ItemKind::Coordinate {
+            state,
+            name,
+            size,
+            unit,
+        })
+    }
+
+    /// `der(state) = formula`
+    fn rate(&mut self) -> Parsed<ItemKind> {
+        let example = example("der");
+        self.expect_symbol("(", &example)?;
+        let of = self.expression()?;
+        self.expect_symbol(")", &example)?;
+        self.expect_symbol("=", &example)?;
+        let value = self.expression()?;
+        Ok(ItemKind::Rate { of, value })
     }
 
     fn let_item(&mut self) -> Parsed<ItemKind> {

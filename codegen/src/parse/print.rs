@@ -51,13 +51,15 @@ fn statement(kind: &ItemKind, depth: usize) -> String {
     match kind {
         ItemKind::Declaration(d) => declaration(d),
         ItemKind::Coordinate {
+            state,
             name,
             size,
             unit: of,
         } => {
+            let word = if *state { "state" } else { "coord" };
             let size = size.as_ref().map(|size| format!("[{}]", formula(size)));
             let size = size.unwrap_or_default();
-            format!("coord {}{size}{};", name.text, unit(of.as_ref()))
+            format!("{word} {}{size}{};", name.text, unit(of.as_ref()))
         }
         ItemKind::Let(l) => {
             let index = l.range.as_ref().map(|r| format!("[{}]", range(r)));
@@ -82,6 +84,7 @@ fn statement(kind: &ItemKind, depth: usize) -> String {
             format!("dissipation {};", formula(value))
         }
         ItemKind::Force { force, on } => format!("force {} on {};", formula(force), formula(on)),
+        ItemKind::Rate { of, value } => format!("der({}) = {};", formula(of), formula(value)),
         ItemKind::Constraint {
             name, left, right, ..
         } => {

@@ -3,8 +3,8 @@
 use super::Wire;
 use crate::{Around, Changes, Column, Exact, Given, Leg, Path, Race, Reached};
 use bricard_runtime::{
-    Audit, ConstraintRow, Counters, Declared, Direction, Event, Form, Multiplier, Options, Origin, Pace,
-    Passage, Quantity, Scheme, Settings, Stabilisation, Structure,
+    Audit, ConstraintRow, Counters, Declared, Direction, Event, Form, Multiplier, Options, Origin,
+    Pace, Passage, Quantity, Scheme, Settings, Stabilisation, Structure,
 };
 
 /// Structs by their fields. A field that is missing here does not compile.
@@ -58,7 +58,7 @@ pub(super) use choices;
 
 records! {
     Structure {
-        name, docs, file, coordinates, described, parameters, inputs, outputs, accelerated, events,
+        name, docs, file, coordinates, states, described, parameters, inputs, outputs, accelerated, events,
         constraints, multipliers, weighed, constant_mass, conservative, drawn, regular
     }
     Quantity { name, unit, docs }

@@ -41,10 +41,7 @@ where
     /// # Errors
     ///
     /// As [`acceleration`](Self::acceleration).
-    pub fn multipliers(
-        &mut self,
-        state: &State<T, N>,
-    ) -> Result<[Option<T>; R], DynamicsError<T>> {
+    pub fn multipliers(&mut self, state: &State<T, N>) -> Result<[Option<T>; R], DynamicsError<T>> {
         let (_, reaction) = self.reaction(state)?;
         self.solver.shares_of(self.mechanism, state.t, &reaction)
     }
@@ -78,7 +75,9 @@ where
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         let acceleration = self.acceleration_within(state)?;
-        Ok(self.solver.held_reaction(self.mechanism, state, &acceleration))
+        Ok(self
+            .solver
+            .held_reaction(self.mechanism, state, &acceleration))
     }
 
     /// The multipliers within a step, likewise.

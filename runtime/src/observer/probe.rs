@@ -75,11 +75,7 @@ pub trait Probe<T: Real, const N: usize> {
     /// # Errors
     ///
     /// A [`DynamicsError`] if some are of accelerations, which can't be computed.
-    fn outputs(
-        &mut self,
-        state: &State<T, N>,
-        values: &mut [T],
-    ) -> Result<(), DynamicsError<T>>;
+    fn outputs(&mut self, state: &State<T, N>, values: &mut [T]) -> Result<(), DynamicsError<T>>;
 
     /// Writes the inputs, as many as `values` has room for.
     fn inputs(&self, state: &State<T, N>, values: &mut [T]);
@@ -143,11 +139,7 @@ where
         self.project_within(state)
     }
 
-    fn outputs(
-        &mut self,
-        state: &State<T, N>,
-        values: &mut [T],
-    ) -> Result<(), DynamicsError<T>> {
+    fn outputs(&mut self, state: &State<T, N>, values: &mut [T]) -> Result<(), DynamicsError<T>> {
         self.mechanism().outputs(state, values);
         if self.mechanism().structure().accelerated {
             let acceleration = self.acceleration_within(state)?;

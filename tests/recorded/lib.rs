@@ -1,0 +1,3 @@
+//! Mechanisms that are recorded.
+
+include!(concat!(env!("OUT_DIR"), "/mechanisms.rs"));
