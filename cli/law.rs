@@ -11,8 +11,7 @@ use crate::error::CommandError;
 use crate::formula::Setting;
 use crate::mechanism::{file, find, source};
 use bricard_codegen::diagnostic::Span;
-use bricard_codegen::parse::ast::{Declared, ItemKind, Model};
-use bricard_codegen::parse::parse;
+use bricard_codegen::parse::{Model, parse};
 use bricard_driver::AnyMechanism;
 use std::path::PathBuf;
 
@@ -77,7 +76,7 @@ fn replaced(
     let mut places: Vec<(Span, &str)> = Vec::new();
     let mut left = set.to_vec();
     for (name, law) in laws {
-        match place(model, name) {
+        match model.law_of(name) {
             Some(span) => {
                 places.push((span, law));
                 left.retain(|setting| setting.name() != *name);
@@ -93,20 +92,10 @@ fn replaced(
     Ok((text, left))
 }
 
-/// Where the law of an input stands.
-fn place(model: &Model, name: &str) -> Option<Span> {
-    model.items.iter().find_map(|item| match &item.kind {
-        ItemKind::Declaration(d) if d.kind == Declared::Input && d.name.text == name => {
-            Some(d.value.span)
-        }
-        _ => None,
-    })
-}
-
 /// Refuses a law for an element or a component of an input, and for one inside a part.
 fn whole(model: &Model, name: &str) -> Result<(), CommandError> {
     let first = name.split(['.', '[']).next().unwrap_or(name);
-    let reason = match place(model, first) {
+    let reason = match model.law_of(first) {
         _ if first == name => return Ok(()),
         Some(_) => format!("the law of `{first}` is given as a whole: write `{first}=…`"),
         None => "the law of an input inside a part stands in the description".to_string(),

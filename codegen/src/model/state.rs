@@ -15,34 +15,45 @@ use crate::parse::ast::Expr;
 impl Lowering<'_> {
     /// `der(of) = value`
     pub fn state_rate(&mut self, of: &Expr, value: &Expr, span: Span) -> Option<()> {
-        let (states, rates) = (self.evaluator.evaluate(of), self.evaluator.evaluate(value));
-        let (states, rates) = (states?.operand(), rates?.operand());
+        let states = self.evaluator.evaluate(of)?.operand();
+        for state in states.scalars() {
+            // A state whose rate is wrong has one all the same.
+            self.one_rate(state.id, of, span)?;
+        }
+        let rates = self.evaluator.evaluate(value)?.operand();
         self.without_acceleration(value, &rates.scalars(), "the rate of a state")?;
         if !states.same_shape(&rates) {
             let message = format!("this is {}, its rate {}", states.shape(), rates.shape());
             return self.report(Diagnostic::error(of.span.to(value.span), message));
         }
         for (state, rate) in states.scalars().into_iter().zip(rates.scalars()) {
-            let coordinate = self.state_of(state.id, of)?;
             let per_second = Scalar {
                 unit: state.unit.times(Unit::Known(PER_SECOND)),
                 ..state
             };
             let sides = [(per_second, of.span), (rate, value.span)];
             self.evaluator.same_unit(sides, "this rate")?;
-            let place = self.place_of(span);
-            if let Some(first) = self.named.rates.insert(coordinate, place) {
-                let error = Diagnostic::error(span, "this state has a rate already");
-                return self.report(error.also(first, "given here").help("remove one of them"));
-            }
+            let force = vec![self.evaluator.sound(rate.id, value.span)?];
             self.mechanism.forces.push(Force {
-                force: vec![self.evaluator.sound(rate.id, value.span)?],
+                force,
                 on: vec![state.id],
                 on_velocity: true,
-                span: place,
+                span: self.place_of(span),
             });
         }
         Some(())
+    }
+
+    /// Takes note that the rate of a state is given; refuses a second one.
+    fn one_rate(&mut self, state: ExprId, of: &Expr, span: Span) -> Option<()> {
+        let coordinate = self.state_of(state, of)?;
+        match self.named.rates.insert(coordinate, self.place_of(span)) {
+            Some(first) => {
+                let error = Diagnostic::error(span, "this state has a rate already");
+                self.report(error.also(first, "given here").help("remove one of them"))
+            }
+            None => Some(()),
+        }
     }
 
     /// The coordinate whose velocity a state is.

@@ -13,12 +13,11 @@ pub struct Reported;
 pub type Parsed<T> = Result<T, Reported>;
 
 /// Words that begin a statement, with an example of each.
-pub const STATEMENTS: [(&str, &str); 19] = [
+pub const STATEMENTS: [(&str, &str); 18] = [
     ("const", "const g: m/s^2 = 9.81;"),
     ("param", "param L1: m = 0.5;"),
     ("coord", "coord q1: rad;"),
     ("state", "state z: m; der(z) = goal - x;"),
-    ("der", "der(z) = goal - x;"),
     ("input", "input u: N*m = 0;"),
     ("let", "let c = [L1*cos(q1), L1*sin(q1)];"),
     ("fn", "fn spring(d: m): N = -k*d;"),

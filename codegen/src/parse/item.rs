@@ -75,7 +75,7 @@ impl Cursor<'_> {
         let TokenKind::Word(word) = self.peek().kind.clone() else {
             return Err(self.unexpected("a statement", &statement_help("")));
         };
-        if !self.at_statement() {
+        if !self.at_statement() && !self.at_rate() {
             let error = Diagnostic::error(start, format!("`{word}` does not begin a statement"));
             let help = match self.peek_at(1).kind {
                 TokenKind::Symbol("=") => {
@@ -266,13 +266,19 @@ impl Cursor<'_> {
         })
     }
 
+    /// Whether `der(` comes next, which begins a statement only where one has to begin:
+    /// lines of formulas may begin so, too.
+    fn at_rate(&self) -> bool {
+        self.at_word("der") && self.peek_at(1).kind == TokenKind::Symbol("(")
+    }
+
     /// `der(state) = formula`
     fn rate(&mut self) -> Parsed<ItemKind> {
-        let example = example("der");
-        self.expect_symbol("(", &example)?;
+        let help = "the rate of a state is written `der(z) = goal - x;`";
+        self.expect_symbol("(", help)?;
         let of = self.expression()?;
-        self.expect_symbol(")", &example)?;
-        self.expect_symbol("=", &example)?;
+        self.expect_symbol(")", help)?;
+        self.expect_symbol("=", help)?;
         let value = self.expression()?;
         Ok(ItemKind::Rate { of, value })
     }

@@ -54,6 +54,16 @@ impl Model {
         model
     }
 
+    /// Where the law of an input of the mechanism itself stands.
+    pub fn law_of(&self, input: &str) -> Option<Span> {
+        self.items.iter().find_map(|item| match &item.kind {
+            ItemKind::Declaration(d) if d.kind == Declared::Input && d.name.text == input => {
+                Some(d.value.span)
+            }
+            _ => None,
+        })
+    }
+
     /// As the parser begins one.
     pub(crate) fn named(name: Name, docs: String) -> Self {
         Self {
