@@ -199,6 +199,10 @@ pub struct Simulate {
     /// accurate; for comparison)
     #[arg(long, alias = "no-branch-rows")]
     pub published: bool,
+    /// Integrate across jumps and kinks of forces, instead of ending steps where they are
+    /// (less accurate; for forces that change sides more often than is worth a step)
+    #[arg(long)]
+    pub across_switches: bool,
     /// Distance of the rows in time, in seconds [default: a row after each step;
     /// T/1000 for a plot by an adaptive method]
     #[arg(long, value_name = "dt", allow_hyphen_values = true, value_parser = formula::number)]

@@ -42,7 +42,10 @@ pub fn find_with(
     };
     // What is wrong with a description is told when it is compiled.
     let (text, left) = match parse(&text) {
-        Ok(model) => replaced(&text, &model, &laws, set)?,
+        Ok(model) => match replaced(&text, &model, &laws, set)? {
+            Some(replaced) => replaced,
+            None => return Ok((find(name)?, set.to_vec())),
+        },
         Err(_) => (text, Vec::new()),
     };
     let opened = compiled::open_text(&file, &text).map_err(|error| match error {
@@ -66,13 +69,14 @@ fn law(setting: &Setting) -> Option<Law<'_>> {
 }
 
 /// A description with other laws, and the settings that are left: those of what is no
-/// input of the mechanism itself are wrong, which is found when they are looked up.
+/// input of the mechanism itself are wrong, which is found when they are looked up. None
+/// if no law is one of the mechanism's.
 fn replaced(
     text: &str,
     model: &Model,
     laws: &[Law],
     set: &[Setting],
-) -> Result<(String, Vec<Setting>), CommandError> {
+) -> Result<Option<(String, Vec<Setting>)>, CommandError> {
     let mut places: Vec<(Span, &str)> = Vec::new();
     let mut left = set.to_vec();
     for (name, law) in laws {
@@ -85,11 +89,14 @@ fn replaced(
         }
     }
     places.sort_by_key(|(span, _)| std::cmp::Reverse(span.range().start));
+    if places.is_empty() {
+        return Ok(None);
+    }
     let mut text = text.to_string();
     for (span, law) in places {
         text.replace_range(span.range(), law);
     }
-    Ok((text, left))
+    Ok(Some((text, left)))
 }
 
 /// Refuses a law for an element or a component of an input, and for one inside a part.

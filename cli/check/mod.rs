@@ -18,7 +18,7 @@ use std::path::Path;
 pub fn check(arguments: &Check) -> Result<(), CommandError> {
     let source = read(&arguments.file)?;
     let file = arguments.file.display().to_string();
-    let examined = examine(&source, &Settings::default());
+    let examined = examine(&source, &Settings::beside(&arguments.file));
     if arguments.json {
         print(&json::report(&file, &examined))?;
         return examined.map(|_| ()).map_err(|_| CommandError::Said);

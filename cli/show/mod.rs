@@ -21,6 +21,8 @@ use bricard_codegen::expr::{Notation, Symbol};
 use bricard_codegen::model::{Described, Mechanism};
 use bricard_codegen::{Settings, analyse, derive};
 
+use std::path::Path;
+
 /// Prints the equations of motion.
 pub fn show(arguments: &Show) -> Result<(), CommandError> {
     let mut subject = Subject::of(&arguments.subject)?;
@@ -28,7 +30,7 @@ pub fn show(arguments: &Show) -> Result<(), CommandError> {
         CommandError::Description(errors.render(&subject.file, &subject.source))
     };
     let (mut mechanism, _warnings) =
-        analyse(&subject.source, &Settings::default()).map_err(rendered)?;
+        analyse(&subject.source, &Settings::beside(Path::new(&subject.file))).map_err(rendered)?;
     if arguments.eliminate {
         mechanism = derive::eliminate(mechanism).map_err(rendered)?;
     }

@@ -22,7 +22,7 @@ mod structure;
 mod system;
 mod tolerance;
 
-pub use assembly::{AssemblyError, StartEquations, StartFault, assemble, meet};
+pub use assembly::{AssemblyError, StartEquations, StartFault, assemble, guess, meet};
 pub use catalogue::Visitor;
 pub use dynamics::{
     ConstrainedSystem, ConstraintError, Counters, Form, Rank, Settings, Solver, Stabilisation,

@@ -3,5 +3,6 @@
 use bricard_codegen::{BuildError, Builder};
 
 fn main() -> Result<(), BuildError> {
-    Builder::new().compile_dir(".")
+    Builder::new().compile_dir(".")?;
+    Builder::new().compile("../../mechanisms/whipple_bicycle.mech")
 }

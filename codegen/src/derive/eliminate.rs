@@ -150,6 +150,7 @@ fn rewrite(mechanism: &mut Mechanism, kept: &Kept, found: &[Explicit]) {
         constraints,
         starts,
         start_equations,
+        start_guesses,
         outputs,
         events,
         shapes,
@@ -167,6 +168,7 @@ fn rewrite(mechanism: &mut Mechanism, kept: &Kept, found: &[Explicit]) {
         .chain(forces.flat_map(|force| force.force.iter_mut().chain(&mut force.on)))
         .chain(constraints.iter_mut().map(|row| &mut row.residual))
         .chain(start_equations.iter_mut().map(|row| &mut row.residual))
+        .chain(start_guesses.iter_mut().map(|row| &mut row.residual))
         .chain(inputs.iter_mut().map(|input| &mut input.law))
         .chain(outputs.iter_mut().map(|output| &mut output.value))
         .chain(events.iter_mut().map(|event| &mut event.value))

@@ -63,9 +63,9 @@ pub struct Equations {
     pub bias: Vec<ExprId>,
     /// The energies.
     pub energies: Energies,
-    /// Equations of the start for positions: `g` and `∂g/∂q`.
+    /// Equations of the start for positions, those that are held first: `g` and `∂g/∂q`.
     pub start_positions: StartRows,
-    /// Equations of the start for velocities: `b` and `A` of `A q̇ + b = 0`.
+    /// Equations of the start for velocities, likewise: `b` and `A` of `A q̇ + b = 0`.
     pub start_velocities: StartRows,
 }
 
@@ -163,7 +163,8 @@ fn equations(mechanism: &mut Mechanism) -> Option<Equations> {
     within_bounds(graph)?;
     let closure = closure::closure(graph, &mechanism.constraints, n);
     within_bounds(graph)?;
-    let equations = mechanism.start_equations.iter().cloned();
+    let held = mechanism.start_equations.iter();
+    let equations = held.chain(&mechanism.start_guesses).cloned();
     let (positions, speeds): (Vec<_>, Vec<_>) = equations.partition(|row| row.holonomic);
     let positions = closure::closure(graph, &positions, n);
     let speeds = closure::closure(graph, &speeds, n);

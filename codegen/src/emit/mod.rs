@@ -286,8 +286,15 @@ fn imports(subject: &Subject, dynamics: &TokenStream) -> TokenStream {
     if !subject.mechanism.described.is_empty() {
         names.extend(["ConstraintRow", "Declared", "Described"]);
     }
-    if !subject.mechanism.start_equations.is_empty() {
-        names.extend(["ConstraintRow", "StartEquations", "StartFault", "meet"]);
+    let starts = &subject.mechanism;
+    if !starts.start_equations.is_empty() {
+        names.extend(["ConstraintRow", "meet"]);
+    }
+    if !starts.start_guesses.is_empty() {
+        names.push("guess");
+    }
+    if !(starts.start_equations.is_empty() && starts.start_guesses.is_empty()) {
+        names.extend(["StartEquations", "StartFault"]);
     }
     if !subject.mechanism.events.is_empty() {
         names.extend(["Direction", "Event"]);

@@ -13,6 +13,7 @@ use crate::expr::{ExprId, Graph, Symbol};
 use crate::parse::ast::{Item, ItemKind, Part};
 use crate::parse::{self, Model};
 use rustc_hash::FxHashMap;
+use std::path::Path;
 use std::rc::Rc;
 
 /// The work in progress.
@@ -45,7 +46,8 @@ pub struct Lowering<'a> {
 ///
 /// `constants` replaces the values of constants, `frozen` makes parameters
 /// constants at their default. A description that is not `complete`, because some of its
-/// statements can't be read, is not found fault with for what it lacks.
+/// statements can't be read, is not found fault with for what it lacks. Files are looked
+/// for in a folder.
 ///
 /// # Errors
 ///
@@ -55,6 +57,7 @@ pub fn lower(
     constants: &[(String, f64)],
     frozen: &[String],
     complete: bool,
+    folder: Option<&Path>,
 ) -> Result<(Mechanism, Diagnostics), Diagnostics> {
     let library = library(model);
     let mut lowering = Lowering {
@@ -70,6 +73,7 @@ pub fn lower(
         n_inputs: 0,
         named: Named::default(),
     };
+    lowering.evaluator.folder = folder.map(Path::to_path_buf);
     let unreadable = model.unreadable.iter().cloned();
     lowering.evaluator.scope.unreadable = unreadable.collect();
     let placed = lowering.declare(&model.items, &library);
@@ -88,6 +92,7 @@ pub fn lower(
     if evaluator.diagnostics.error_count() > 0 {
         return Err(evaluator.diagnostics.into_errors());
     }
+    mechanism.files = std::mem::take(&mut evaluator.files);
     mechanism.graph = std::mem::replace(&mut evaluator.graph, Graph::new());
     Ok((mechanism, evaluator.diagnostics))
 }

@@ -12,6 +12,7 @@ mod call;
 mod check;
 mod choice;
 mod constant;
+mod data;
 mod declare;
 mod element;
 mod evaluate;
@@ -79,6 +80,8 @@ pub struct Mechanism {
     pub starts: Vec<Start>,
     /// Equations of the `start` block that are no values of coordinates and velocities.
     pub start_equations: Vec<Constraint>,
+    /// The same that are guesses.
+    pub start_guesses: Vec<Constraint>,
     /// Observables, vectors unrolled (`p.x`, `p.y`).
     pub outputs: Vec<Output>,
     /// Event functions.
@@ -88,6 +91,8 @@ pub struct Mechanism {
     /// The coordinates that were declared, where some of them were eliminated; empty
     /// where all are among `coordinates`.
     pub described: Vec<Described>,
+    /// Files that the description reads.
+    pub files: Vec<std::path::PathBuf>,
     /// What decides the forces along a motion by its sign; found when the equations of
     /// motion are derived.
     pub switches: Vec<Switch>,
@@ -290,10 +295,12 @@ impl Mechanism {
             constraints: Vec::new(),
             starts: Vec::new(),
             start_equations: Vec::new(),
+            start_guesses: Vec::new(),
             outputs: Vec::new(),
             events: Vec::new(),
             shapes: Vec::new(),
             described: Vec::new(),
+            files: Vec::new(),
             switches: Vec::new(),
         }
     }

@@ -98,15 +98,13 @@ impl Lowering<'_> {
                 "an equation of the start has to be linear in the velocities",
                 help,
             )
-        } else if !held {
-            let help = "hold it with `=`, and guess the coordinates that it is made of";
-            ("only coordinates and their velocities are guessed", help)
         } else {
             self.constant_start((scalar, target), (given, value))?;
             let residual = self.evaluator.graph.sub(scalar.id, given.id);
             let span = target.span.to(value.span);
             let residual = self.evaluator.sound(residual, span)?;
-            let text = format!("{} = {}", written(target), written(value));
+            let sign = if held { '=' } else { '~' };
+            let text = format!("{} {sign} {}", written(target), written(value));
             let equation = Constraint {
                 residual,
                 holonomic: !facts.velocity(),
@@ -114,7 +112,10 @@ impl Lowering<'_> {
                 multiplier: None,
                 span: self.place_of(span),
             };
-            self.mechanism.start_equations.push(equation);
+            match held {
+                true => self.mechanism.start_equations.push(equation),
+                false => self.mechanism.start_guesses.push(equation),
+            }
             return Some(());
         };
         self.report(Diagnostic::error(target.span, message).help(help))

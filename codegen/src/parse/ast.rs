@@ -278,6 +278,8 @@ pub struct Expr {
 pub enum ExprKind {
     /// A number.
     Number(Number),
+    /// Quoted text: the name of a file or of a column in it.
+    Text(String),
     /// A name.
     Name(String),
     /// `-x`

@@ -333,6 +333,26 @@ impl<'a> Cursor<'a> {
         }
     }
 
+    /// What to write where a word on the same line follows a number, instead of what was
+    /// expected: in a vector, or elsewhere.
+    pub fn number_in_front(&self, in_vector: bool) -> Option<String> {
+        let TokenKind::Word(word) = &self.peek().kind else {
+            return None;
+        };
+        let number = self.behind(1);
+        let here = number.span.end.line == self.span().start.line;
+        if !matches!(number.kind, TokenKind::Number(_)) || !here {
+            return None;
+        }
+        let number = number.span.text(self.source);
+        let unit = match in_vector {
+            true => format!("stands behind the whole vector, `[…] {word}`"),
+            false => format!("stands in a declaration, `const a: {word} = {number};`"),
+        };
+        let product = format!("a product is written `{number}*{word}`");
+        Some(format!("{product}; a unit {unit}"))
+    }
+
     /// Whether a word that begins a statement comes next.
     pub fn at_statement(&self) -> bool {
         STATEMENTS.iter().any(|(word, _)| self.at_word(word)) || self.at_word("for")

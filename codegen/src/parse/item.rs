@@ -142,13 +142,16 @@ impl Cursor<'_> {
         let goes_on = match &next.kind {
             TokenKind::Word(_) | TokenKind::Number(_) => true,
             TokenKind::Symbol(symbol) => *symbol == "(",
-            TokenKind::End => false,
+            TokenKind::Text(_) | TokenKind::End => false,
         };
         if same_line && goes_on && !matches!(word, "coord" | "state") {
             let [left, right] = [self.last_span(), next.span].map(|span| span.text(self.source));
             let left = if left == ")" { "(…)" } else { left };
             let right = if right == "(" { "(…)" } else { right };
-            let help = format!("a product is written with `*`: `{left}*{right}`");
+            let help = match right {
+                "if" => "a choice is written `if a < b then x else y`".to_string(),
+                _ => format!("a product is written with `*`: `{left}*{right}`"),
+            };
             return Err(self.unexpected("an operator or `;`", &help));
         }
         self.no_foreign_operator()?;
@@ -305,7 +308,9 @@ impl Cursor<'_> {
     fn force(&mut self) -> Parsed<ItemKind> {
         let force = self.expression()?;
         if !self.take_word("on") {
-            return Err(self.unexpected("`on` and what the force works on", &example("force")));
+            let help = self.number_in_front(false);
+            let help = help.unwrap_or_else(|| example("force"));
+            return Err(self.unexpected("`on` and what the force works on", &help));
         }
         let on = self.expression()?;
         Ok(ItemKind::Force { force, on })
@@ -319,6 +324,11 @@ impl Cursor<'_> {
         };
         if named {
             self.expect_symbol(":", "")?;
+            if self.at_symbol("=") {
+                let error = Diagnostic::error(self.span(), "`:=` is not used here");
+                let help = "write `constraint a = b;`; in front of `:` stands a name";
+                return Err(self.fail(error.help(help)));
+            }
         }
         let left = self.expression()?;
         if self.at_symbol("==") {
@@ -373,6 +383,13 @@ impl Cursor<'_> {
         let value = self.expression()?;
         let direction = DIRECTIONS.iter().find(|(word, _)| self.at_word(word));
         let Some((_, direction)) = direction.copied() else {
+            if self.at_symbol("=") {
+                let message = "an event is a formula that passes zero, not an equation";
+                let error = Diagnostic::error(self.span(), message);
+                let name = &name.text;
+                let help = format!("write `event {name}: a - b crossing;` for `a = b`");
+                return Err(self.fail(error.help(help)));
+            }
             return Err(self.unexpected("`rising`, `falling` or `crossing`", &example("event")));
         };
         self.advance();

@@ -181,6 +181,7 @@ pub fn formula(e: &Expr) -> String {
     match &e.kind {
         ExprKind::Number(number) => decimal(*number),
         ExprKind::Name(name) => name.clone(),
+        ExprKind::Text(text) => format!("\"{text}\""),
         ExprKind::Negative(x) => format!("-{}", within(x, Binding::Sign)),
         ExprKind::Sum(terms) => chain(terms, [" + ", " - "], Binding::Product),
         ExprKind::Product(factors) => chain(factors, ["*", "/"], Binding::Power),

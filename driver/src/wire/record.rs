@@ -67,7 +67,7 @@ records! {
     Multiplier { quantity, row }
     Event { name, direction }
     Options<f64> { until, scheme, pace, settings, keep_energy, audit, most_steps, origin }
-    Settings<f64> { form, stabilisation, published }
+    Settings<f64> { form, stabilisation, published, across_switches }
     Audit { constraints, energy, passages }
     Origin<f64> { t, energy, supplied }
     Passage<f64> { t, sine, rank, regular }

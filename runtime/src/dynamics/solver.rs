@@ -99,7 +99,10 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.metric.forget();
         self.safe = None;
         self.expect_regular();
-        let conditions = mechanism.switches(&State::default(), &SVector::zeros(), &mut []);
+        let conditions = match self.settings.across_switches {
+            true => &[],
+            false => mechanism.switches(&State::default(), &SVector::zeros(), &mut []),
+        };
         self.conditions.forget(conditions);
         ConstrainedSystem::new(mechanism, self)
     }
