@@ -290,20 +290,21 @@ impl Known {
         if any(|column| matches!(column, Column::Reaction(_))) {
             known.reactions = probe.reaction(state)?.iter().copied().collect();
         }
-        if any(|column| matches!(column, Column::Acceleration(_))) {
-            known.accelerations = probe.acceleration(state)?.iter().copied().collect();
-        }
         if any(|column| matches!(column, Column::Multiplier(_))) {
             known.multipliers = vec![None; structure.constraints.len()];
-            probe.multipliers(state, &mut known.multipliers)?;
+        }
+        if any(|column| matches!(column, Column::Acceleration(_) | Column::Multiplier(_))) {
+            let acceleration = probe.acceleration(state, &mut known.multipliers)?;
+            known.accelerations = acceleration.iter().copied().collect();
         }
         if any(|column| matches!(column, Column::Output(_))) {
             known.outputs = vec![0.0; structure.outputs.len()];
-            probe.outputs(state, &mut known.outputs)?;
         }
         if any(|column| matches!(column, Column::Input(_))) {
             known.inputs = vec![0.0; structure.inputs.len()];
-            probe.inputs(state, &mut known.inputs);
+        }
+        if !(known.outputs.is_empty() && known.inputs.is_empty()) {
+            probe.outputs(state, &mut known.outputs, &mut known.inputs)?;
         }
         Ok(known)
     }

@@ -82,10 +82,8 @@ impl Numbers {
             });
         }
         // The integrals of states have a mass of one.
-        let freedoms = mechanism.coordinates.len() - mechanism.states;
-        for (i, row) in mass.iter_mut().enumerate().skip(freedoms) {
-            row[i] = graph.integer(1);
-        }
+        let states = n - mechanism.states..n;
+        states.for_each(|i| mass[i][i] = graph.integer(1));
         let mut numbers = Self {
             mechanism,
             jacobian,

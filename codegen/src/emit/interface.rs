@@ -15,8 +15,7 @@ pub(super) fn interface(subject: &mut Subject) -> TokenStream {
     let set_input = set_input(subject);
     let start = start(subject);
     let outputs = outputs::outputs(subject);
-    let accelerated = outputs::accelerated(subject);
-    let inputs = outputs::inputs(subject);
+    let signals = outputs::signals(subject);
     let events: Vec<ExprId> = subject.mechanism.events.iter().map(|e| e.value).collect();
     let events = list(subject, "events", &events);
     let draw = draw(subject);
@@ -29,8 +28,7 @@ pub(super) fn interface(subject: &mut Subject) -> TokenStream {
             #set_input
             #start
             #outputs
-            #accelerated
-            #inputs
+            #signals
             #events
             #draw
             #described

@@ -11,7 +11,7 @@ use quote::quote;
 use std::collections::BTreeSet;
 
 /// Names that emitted bodies use for themselves.
-const RESERVED: [&str; 8] = [
+const RESERVED: [&str; 10] = [
     "state",
     "out",
     "values",
@@ -20,6 +20,8 @@ const RESERVED: [&str; 8] = [
     "value",
     "acceleration",
     "multiplier",
+    "outputs",
+    "inputs",
 ];
 
 /// Names of fields and of local variables.

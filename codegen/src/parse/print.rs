@@ -57,8 +57,9 @@ fn statement(kind: &ItemKind, depth: usize) -> String {
             unit: of,
         } => {
             let word = if *state { "state" } else { "coord" };
-            let size = size.as_ref().map(|size| format!("[{}]", formula(size)));
-            let size = size.unwrap_or_default();
+            let size = size
+                .as_ref()
+                .map_or(String::new(), |k| format!("[{}]", formula(k)));
             format!("{word} {}{size}{};", name.text, unit(of.as_ref()))
         }
         ItemKind::Let(l) => {

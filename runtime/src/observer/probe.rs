@@ -43,25 +43,18 @@ pub trait Probe<T: Real, const N: usize> {
     /// A [`DynamicsError`] if the acceleration can't be computed.
     fn reaction(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>>;
 
-    /// Writes the multipliers of the constraints, `r = Aᵀλ`, as many as `values` has room
-    /// for; none where constraints depend on one another, so that nothing tells how they
-    /// share their reactions.
-    ///
-    /// # Errors
-    ///
-    /// A [`DynamicsError`] if the acceleration can't be computed.
-    fn multipliers(
-        &mut self,
-        state: &State<T, N>,
-        values: &mut [Option<T>],
-    ) -> Result<(), DynamicsError<T>>;
-
-    /// The acceleration.
+    /// The acceleration. Writes the multipliers of the constraints, `r = Aᵀλ`, as many as
+    /// there is room for; none where constraints depend on one another, so that nothing
+    /// tells how they share their reactions.
     ///
     /// # Errors
     ///
     /// A [`DynamicsError`] if it can't be computed.
-    fn acceleration(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>>;
+    fn acceleration(
+        &mut self,
+        state: &State<T, N>,
+        multipliers: &mut [Option<T>],
+    ) -> Result<SVector<T, N>, DynamicsError<T>>;
 
     /// Brings a state back onto the constraints.
     ///
@@ -70,15 +63,17 @@ pub trait Probe<T: Real, const N: usize> {
     /// A [`DynamicsError`] if that fails.
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>>;
 
-    /// Writes the outputs, as many as `values` has room for.
+    /// Writes the outputs and the inputs, as many as there is room for.
     ///
     /// # Errors
     ///
     /// A [`DynamicsError`] if some are of accelerations, which can't be computed.
-    fn outputs(&mut self, state: &State<T, N>, values: &mut [T]) -> Result<(), DynamicsError<T>>;
-
-    /// Writes the inputs, as many as `values` has room for.
-    fn inputs(&self, state: &State<T, N>, values: &mut [T]);
+    fn outputs(
+        &mut self,
+        state: &State<T, N>,
+        outputs: &mut [T],
+        inputs: &mut [T],
+    ) -> Result<(), DynamicsError<T>>;
 }
 
 impl<M, T, const N: usize, const R: usize> Probe<T, N> for ConstrainedSystem<'_, M, T, N, R>
@@ -119,19 +114,17 @@ where
         self.reaction_within(state)
     }
 
-    fn multipliers(
+    fn acceleration(
         &mut self,
         state: &State<T, N>,
-        values: &mut [Option<T>],
-    ) -> Result<(), DynamicsError<T>> {
-        let multipliers = self.multipliers_within(state)?;
-        for (place, value) in values.iter_mut().zip(multipliers) {
-            *place = value;
+        multipliers: &mut [Option<T>],
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        if !multipliers.is_empty() {
+            let found = self.multipliers_within(state)?;
+            for (place, value) in multipliers.iter_mut().zip(found) {
+                *place = value;
+            }
         }
-        Ok(())
-    }
-
-    fn acceleration(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>> {
         self.acceleration_within(state)
     }
 
@@ -139,16 +132,19 @@ where
         self.project_within(state)
     }
 
-    fn outputs(&mut self, state: &State<T, N>, values: &mut [T]) -> Result<(), DynamicsError<T>> {
-        self.mechanism().outputs(state, values);
-        if self.mechanism().structure().accelerated {
-            let acceleration = self.acceleration_within(state)?;
-            self.mechanism().accelerated(state, &acceleration, values);
-        }
+    fn outputs(
+        &mut self,
+        state: &State<T, N>,
+        outputs: &mut [T],
+        inputs: &mut [T],
+    ) -> Result<(), DynamicsError<T>> {
+        let mechanism = self.mechanism();
+        mechanism.outputs(state, outputs);
+        let acceleration = match mechanism.structure().accelerated && !outputs.is_empty() {
+            true => self.acceleration_within(state)?,
+            false => SVector::zeros(),
+        };
+        mechanism.signals(state, &acceleration, outputs, inputs);
         Ok(())
-    }
-
-    fn inputs(&self, state: &State<T, N>, values: &mut [T]) {
-        self.mechanism().inputs(state, values);
     }
 }
