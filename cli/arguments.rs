@@ -3,7 +3,7 @@
 //! In:  words.
 //! Out: [`Arguments`], each value read, none checked against a mechanism yet.
 
-use crate::formula::{self, Assignment};
+use crate::formula::{self, Assignment, Setting};
 use bricard_runtime::{Form, Scheme, Stabilisation};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -173,8 +173,8 @@ pub struct WorkPrecision {
     #[arg(long, value_enum, value_delimiter = ',')]
     pub forms: Vec<FormName>,
     /// Change a parameter, or hold an input at a value
-    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::assignment)]
-    pub set: Vec<Assignment>,
+    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::setting)]
+    pub set: Vec<Setting>,
     /// Hold a coordinate, or a velocity der(NAME), at a value at the start (NAME=VALUE), or
     /// guess it (NAME~VALUE)
     #[arg(long, value_name = "NAME=VALUE", value_parser = formula::start)]
@@ -251,13 +251,17 @@ pub struct Simulate {
     /// accurate; for comparison)
     #[arg(long, alias = "no-branch-rows")]
     pub published: bool,
+    /// Integrate across jumps and kinks of forces, instead of ending steps where they are
+    /// (less accurate; for forces that change sides more often than is worth a step)
+    #[arg(long)]
+    pub across_switches: bool,
     /// Distance of the rows in time, in seconds [default: a row after each step;
     /// T/1000 for a plot by an adaptive method]
     #[arg(long, value_name = "dt", allow_hyphen_values = true, value_parser = formula::number)]
     pub every: Option<f64>,
     /// Change a parameter, or hold an input at a value
-    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::assignment)]
-    pub set: Vec<Assignment>,
+    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::setting)]
+    pub set: Vec<Setting>,
     /// Hold a coordinate, or a velocity der(NAME), at a value at the start (NAME=VALUE), or
     /// guess it (NAME~VALUE)
     #[arg(long, value_name = "NAME=VALUE", value_parser = formula::start)]

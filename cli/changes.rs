@@ -4,7 +4,7 @@
 //! Out: [`Changes`] by place, for a mechanism of any scalar.
 
 use crate::error::CommandError;
-use crate::formula::Assignment;
+use crate::formula::{Assignment, Setting};
 use bricard_driver::{AnyMechanism, Changes, Given};
 use bricard_runtime::{Quantity, Structure};
 
@@ -17,14 +17,19 @@ use bricard_runtime::{Quantity, Structure};
 pub fn find(
     structure: &Structure,
     owner: &str,
-    set: &[Assignment],
+    set: &[Setting],
     start: &[Assignment],
 ) -> Result<Changes, CommandError> {
-    once("--set", set)?;
-    once("--start", start)?;
+    let names: Vec<&str> = set.iter().map(Setting::name).collect();
+    once("--set", &names)?;
+    let names: Vec<&str> = start.iter().map(|given| given.name.as_str()).collect();
+    once("--start", &names)?;
     let mut changes = Changes::default();
-    for assignment in set {
-        put(&mut changes, structure, owner, assignment)?;
+    for setting in set {
+        match setting {
+            Setting::Number(assignment) => put(&mut changes, structure, owner, assignment)?,
+            Setting::Law { name, why, .. } => no_law(structure, owner, name, why)?,
+        }
     }
     for assignment in start {
         changes.given.push(given(structure, owner, assignment)?);
@@ -70,18 +75,35 @@ fn put(
         (None, None) => {
             let all = structure.parameters.iter().chain(structure.inputs);
             let known = all.map(|quantity| quantity.name.to_string()).collect();
-            return Err(unknown("parameter or input", owner, assignment, known));
+            let name = &assignment.name;
+            return Err(unknown("parameter or input", owner, name, known));
         }
     }
     Ok(())
 }
 
+/// Refuses a formula for what is a number, or where laws are not taken.
+fn no_law(structure: &Structure, owner: &str, name: &str, why: &str) -> Result<(), CommandError> {
+    if place(structure.parameters, name).is_some() {
+        let (name, reason) = (name.to_string(), format!("{why}; a parameter is a number"));
+        return Err(CommandError::Law { name, reason });
+    }
+    if place(structure.inputs, name).is_some() {
+        let reason = "an input has a formula in `simulate` and `watch` alone; elsewhere give it a \
+                      number";
+        let (name, reason) = (name.to_string(), reason.to_string());
+        return Err(CommandError::Law { name, reason });
+    }
+    let all = structure.parameters.iter().chain(structure.inputs);
+    let known = all.map(|quantity| quantity.name.to_string()).collect();
+    Err(unknown("parameter or input", owner, name, known))
+}
+
 /// Refuses a name that is given two values, of which the last would win silently.
-fn once(option: &'static str, assignments: &[Assignment]) -> Result<(), CommandError> {
-    for (i, assignment) in assignments.iter().enumerate() {
-        let name = &assignment.name;
-        if assignments[..i].iter().any(|before| before.name == *name) {
-            let name = name.clone();
+fn once(option: &'static str, names: &[&str]) -> Result<(), CommandError> {
+    for (i, name) in names.iter().enumerate() {
+        if names[..i].contains(name) {
+            let name = name.to_string();
             return Err(CommandError::Twice { option, name });
         }
     }
@@ -98,20 +120,29 @@ fn given(
         .strip_prefix("der(")
         .and_then(|name| name.strip_suffix(')'));
     let name = inside.unwrap_or(&assignment.name);
-    let Some(coordinate) = place(structure.coordinates, name) else {
-        let names = structure
-            .coordinates
-            .iter()
-            .map(|coordinate| coordinate.name);
+    let freedoms = structure.freedoms();
+    let found = match inside {
+        Some(_) => place(freedoms, name),
+        None => place(structure.coordinates, name),
+    };
+    let Some(coordinate) = found else {
         let known = match inside {
-            Some(_) => names.map(|name| format!("der({name})")).collect(),
-            None => names.map(String::from).collect(),
+            Some(_) => freedoms
+                .iter()
+                .map(|x| format!("der({})", x.name))
+                .collect(),
+            None => structure
+                .coordinates
+                .iter()
+                .map(|x| x.name.to_string())
+                .collect(),
         };
-        return Err(unknown("coordinate", owner, assignment, known));
+        return Err(unknown("coordinate", owner, &assignment.name, known));
     };
     Ok(Given {
         coordinate,
-        velocity: inside.is_some(),
+        // A state is the velocity of its integral.
+        velocity: inside.is_some() || coordinate >= freedoms.len(),
         held: assignment.held,
         value: assignment.value,
     })
@@ -121,16 +152,11 @@ fn place(list: &[Quantity], name: &str) -> Option<usize> {
     list.iter().position(|x| x.name == name)
 }
 
-fn unknown(
-    kind: &'static str,
-    owner: &str,
-    assignment: &Assignment,
-    known: Vec<String>,
-) -> CommandError {
+fn unknown(kind: &'static str, owner: &str, name: &str, known: Vec<String>) -> CommandError {
     CommandError::UnknownName {
         kind,
         owner: owner.to_string(),
-        name: assignment.name.clone(),
+        name: name.to_string(),
         known,
     }
 }

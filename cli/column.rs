@@ -5,11 +5,28 @@
 
 use crate::error::CommandError;
 pub use bricard_driver::Column;
-use bricard_driver::WORDS;
+use bricard_driver::{WORDS, heads};
 use bricard_runtime::Structure;
 
-/// The word for the reactions at all coordinates.
-const REACTIONS: &str = "reactions";
+/// A word for columns of one kind, and the columns.
+type Kind = (&'static str, fn(&Structure) -> Vec<Column>);
+
+/// The words that stand for all columns of a kind.
+const KINDS: [Kind; 3] = [
+    ("reactions", |structure| {
+        every(structure.freedoms().len(), Column::Reaction)
+    }),
+    ("accelerations", |structure| {
+        every(structure.coordinates.len(), Column::Acceleration)
+    }),
+    ("inputs", |structure| {
+        every(structure.inputs.len(), Column::Input)
+    }),
+];
+
+fn every(count: usize, column: fn(usize) -> Column) -> Vec<Column> {
+    (0..count).map(column).collect()
+}
 
 /// The columns that words ask for. An output that is called like a word is
 /// what the word means.
@@ -28,57 +45,77 @@ pub fn columns(
         .map(|word| word.trim())
         .filter(|word| !word.is_empty())
     {
-        let output = structure
-            .outputs
-            .iter()
-            .position(|output| output.name == word);
-        let known = WORDS.iter().find(|(known, _)| *known == word);
-        match (output, known) {
-            (Some(output), _) => columns.push(Column::Output(output)),
-            (None, Some((_, column))) => columns.push(*column),
-            (None, None) if word == REACTIONS => {
-                columns.extend((0..structure.coordinates.len()).map(Column::Reaction));
-            }
-            (None, None) => match components(word, structure) {
-                found if found.is_empty() => return Err(unknown(word, structure, mechanism)),
-                found => columns.extend(found),
-            },
+        let found = named(word, structure);
+        if found.is_empty() {
+            return Err(unknown(word, structure, mechanism));
         }
+        columns.extend(found);
     }
     Ok(columns)
 }
 
+/// The columns that one word stands for: an output, else a word that is known, else the
+/// column of that name, else the components of what is a vector.
+fn named(word: &str, structure: &Structure) -> Vec<Column> {
+    let outputs = every(structure.outputs.len(), Column::Output);
+    let known = WORDS.iter().map(|(_, column)| *column);
+    let spelt: String = word.split_whitespace().collect();
+    let is_it = |column: &Column| column.name(structure) == spelt;
+    if let Some(column) = outputs.into_iter().chain(known).find(is_it) {
+        return vec![column];
+    }
+    if let Some((_, columns)) = KINDS.iter().find(|(kind, _)| *kind == word) {
+        return columns(structure);
+    }
+    let all = singles(structure);
+    match all.iter().find(|column| is_it(column)) {
+        Some(column) => vec![*column],
+        None => components(&spelt, &all, structure),
+    }
+}
+
+/// The columns that have names of their own in a mechanism.
+fn singles(structure: &Structure) -> Vec<Column> {
+    let mut all = every(structure.outputs.len(), Column::Output);
+    all.extend(every(structure.inputs.len(), Column::Input));
+    all.extend(every(structure.multipliers.len(), Column::Multiplier));
+    all.extend(every(structure.coordinates.len(), Column::Acceleration));
+    all.extend(every(structure.freedoms().len(), Column::Reaction));
+    all
+}
+
 /// The components of an output that is a vector, a matrix or an array.
-fn components(word: &str, structure: &Structure) -> Vec<Column> {
-    let outputs = structure.outputs.iter().enumerate();
-    let of_word = |name: &str| {
+fn components(word: &str, all: &[Column], structure: &Structure) -> Vec<Column> {
+    let of_word = |column: &&Column| {
+        let name = column.name(structure);
         let rest = name.strip_prefix(word);
         rest.is_some_and(|rest| rest.starts_with(['.', '[']))
     };
-    let found = outputs.filter(|(_, output)| of_word(output.name));
-    found.map(|(i, _)| Column::Output(i)).collect()
+    all.iter().filter(of_word).copied().collect()
 }
 
 fn unknown(word: &str, structure: &Structure, mechanism: &str) -> CommandError {
-    let words = WORDS.iter().map(|(word, _)| *word).chain([REACTIONS]);
-    let outputs = structure.outputs.iter().map(|output| output.name);
+    let words = WORDS.iter().map(|(word, _)| word.to_string());
+    let kinds = KINDS.iter().map(|(word, _)| word.to_string());
+    let known = words.chain(kinds);
+    // Those of coordinates are clear from the words for all of them.
+    let of_coordinate =
+        |column: &Column| matches!(column, Column::Acceleration(_) | Column::Reaction(_));
+    let named = singles(structure)
+        .into_iter()
+        .filter(|column| !of_coordinate(column))
+        .map(|column| column.name(structure));
     CommandError::UnknownName {
         kind: "column or output",
         owner: mechanism.to_string(),
         name: word.to_string(),
-        known: words.chain(outputs).map(String::from).collect(),
+        known: known.chain(named).collect(),
     }
 }
 
-/// The header: time, coordinates, velocities, added columns.
+/// The header: what every row begins with, and added columns.
 pub fn header(structure: &Structure, columns: &[Column]) -> Vec<String> {
-    let names = structure
-        .coordinates
-        .iter()
-        .map(|coordinate| coordinate.name);
-    let mut header = vec!["t".to_string()];
-    header.extend(names.clone().map(String::from));
-    header.extend(names.map(|name| format!("der({name})")));
+    let mut header = heads(structure);
     header.extend(columns.iter().map(|column| column.name(structure)));
     header
 }

@@ -45,6 +45,13 @@ pub enum CommandError {
         /// The name.
         name: String,
     },
+    /// A formula that can't be the value of a name.
+    Law {
+        /// The name.
+        name: String,
+        /// Why, and what to write instead.
+        reason: String,
+    },
     /// A file that two options want to write.
     SameFile {
         /// The options.
@@ -156,6 +163,7 @@ impl CommandError {
             Self::UnknownName { .. }
             | Self::OutOfRange { .. }
             | Self::Twice { .. }
+            | Self::Law { .. }
             | Self::SameFile { .. }
             | Self::UselessOption { .. }
             | Self::FileKind { .. }
@@ -193,6 +201,7 @@ impl Display for CommandError {
             Self::Twice { option, name } => {
                 write!(f, "{option} gives `{name}` two values; leave one out")
             }
+            Self::Law { name, reason } => write!(f, "`--set {name}=…`: {reason}"),
             Self::SameFile { options, path } => same_file(f, options, path),
             Self::UselessOption {
                 option,

@@ -5,6 +5,7 @@
 
 use crate::column::Column;
 use crate::plot::{Panel, Scale, Series};
+use bricard_driver::heads;
 use bricard_runtime::Structure;
 
 /// Curves in one panel, so that the legend fits beside it.
@@ -28,7 +29,7 @@ pub fn overview(structure: &Structure, columns: &[Column], rows: &[Vec<f64>]) ->
 
 /// The added columns, those of one kind and unit together.
 pub fn added(structure: &Structure, columns: &[Column], rows: &[Vec<f64>]) -> Vec<Panel> {
-    let first = 1 + 2 * structure.coordinates.len();
+    let first = heads(structure).len();
     let all = 0..columns.len();
     grouped(
         all.map(|i| curve(structure, columns, rows, first + i))
@@ -38,7 +39,7 @@ pub fn added(structure: &Structure, columns: &[Column], rows: &[Vec<f64>]) -> Ve
 
 /// The velocities, those of one unit together.
 pub fn velocities(structure: &Structure, rows: &[Vec<f64>]) -> Vec<Panel> {
-    let n = structure.coordinates.len();
+    let n = structure.freedoms().len();
     let places = 1 + n..=2 * n;
     grouped(places.map(|i| curve(structure, &[], rows, i)).collect())
 }
@@ -66,8 +67,8 @@ pub fn named(structure: &Structure, columns: &[Column], rows: &[Vec<f64>], place
 
 /// A column of the rows, by its place behind the time.
 fn curve(structure: &Structure, columns: &[Column], rows: &[Vec<f64>], place: usize) -> Curve {
-    let n = structure.coordinates.len();
-    let coordinate = |i: usize| structure.coordinates.get(i);
+    let n = structure.freedoms().len();
+    let coordinate = |i: usize| structure.freedoms().get(i);
     let with_unit = |what: &str, unit: &str, per: &str| match unit {
         "" => what.to_string(),
         unit => format!("{what} [{unit}{per}]"),
@@ -92,7 +93,12 @@ fn curve(structure: &Structure, columns: &[Column], rows: &[Vec<f64>], place: us
         };
         return linear(axis, format!("der({})", coordinate.name));
     }
-    let column = place.checked_sub(1 + 2 * n).and_then(|i| columns.get(i));
+    let state = |i: usize| structure.coordinates.get(n + i);
+    if let Some(state) = place.checked_sub(1 + 2 * n).and_then(state) {
+        return linear(with_unit("state", state.unit, ""), state.name.to_string());
+    }
+    let first = heads(structure).len();
+    let column = place.checked_sub(first).and_then(|i| columns.get(i));
     let Some(column) = column else {
         return linear("time [s]".to_string(), "t".to_string());
     };
@@ -109,7 +115,9 @@ fn curve(structure: &Structure, columns: &[Column], rows: &[Vec<f64>], place: us
 
 /// The coordinates, those of one unit together.
 pub fn coordinates(structure: &Structure, rows: &[Vec<f64>]) -> Vec<Panel> {
-    let places = 1..=structure.coordinates.len();
+    let n = structure.freedoms().len();
+    // States stand behind the velocities.
+    let places = (1..=n).chain(1 + 2 * n..heads(structure).len());
     let all = places.map(|i| curve(structure, &[], rows, i));
     // Beside an angle that goes on and on one that oscillates would look like a line.
     let (turning, others): (Vec<Curve>, Vec<Curve>) =
@@ -143,9 +151,11 @@ fn axis(column: Column, structure: &Structure) -> String {
         Column::Energy | Column::Kinetic | Column::Potential => "energy".to_string(),
         Column::ConstraintError | Column::VelocityError => "constraint error".to_string(),
         Column::Rank => "rank".to_string(),
-        Column::Reaction(_) => "reaction".to_string(),
+        Column::Reaction(_) | Column::Multiplier(_) => "reaction".to_string(),
+        Column::Acceleration(i) if i < structure.freedoms().len() => "acceleration".to_string(),
+        Column::Acceleration(_) => column.name(structure),
         // The components of one output lie in one panel.
-        Column::Output(_) => whole(&column.name(structure)).to_string(),
+        Column::Output(_) | Column::Input(_) => whole(&column.name(structure)).to_string(),
     };
     if unit.is_empty() {
         what

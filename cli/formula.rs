@@ -1,7 +1,8 @@
 //! Numbers on the command line, written as in a description: `80*deg`.
 //!
 //! In:  text.
-//! Out: a number, or `NAME=VALUE`; on failure a message that says what to write.
+//! Out: a number, or `NAME=VALUE`; on failure a message that says what to write. The value
+//!      of an input may be a formula of what moves, which is left as it is ([`crate::law`]).
 
 use bricard_codegen::expr::{ExprId, Function, Function2, Graph, Number};
 use bricard_codegen::parse::{
@@ -20,11 +21,47 @@ pub struct Assignment {
     pub held: bool,
 }
 
-/// Reads `NAME=VALUE`.
-pub fn assignment(text: &str) -> Result<Assignment, String> {
+/// `NAME=VALUE` or `NAME=FORMULA`.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Setting {
+    /// A number.
+    Number(Assignment),
+    /// A formula of what has no value before a mechanism is known.
+    Law {
+        /// The name, without blanks.
+        name: String,
+        /// The formula.
+        text: String,
+        /// Why it is no number.
+        why: String,
+    },
+}
+
+impl Setting {
+    /// What is set.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Number(Assignment { name, .. }) | Self::Law { name, .. } => name,
+        }
+    }
+}
+
+/// Reads `NAME=VALUE` or, for an input, `NAME=FORMULA`.
+pub fn setting(text: &str) -> Result<Setting, String> {
     let split = text.split_once('=');
     let (name, value) = split.ok_or("write NAME=VALUE, such as `L1=0.5` or `q1=80*deg`")?;
-    assigned(name, value, true)
+    match evaluated(value)? {
+        Ok(value) => Ok(Setting::Number(Assignment {
+            name: named(name, '=')?,
+            value,
+            held: true,
+        })),
+        Err(why) => Ok(Setting::Law {
+            name: named(name, '=')?,
+            text: value.trim().to_string(),
+            why,
+        }),
+    }
 }
 
 /// Reads `NAME=VALUE`, a value that is held, or `NAME~VALUE`, a guess.
@@ -37,22 +74,31 @@ pub fn start(text: &str) -> Result<Assignment, String> {
 }
 
 fn assigned(name: &str, value: &str, held: bool) -> Result<Assignment, String> {
-    let sign = if held { '=' } else { '~' };
-    let name: String = name.split_whitespace().collect();
-    if name.is_empty() {
-        return Err(format!("there is no name before `{sign}`"));
-    }
     Ok(Assignment {
-        name,
+        name: named(name, if held { '=' } else { '~' })?,
         value: number(value)?,
         held,
     })
+}
+
+/// The name before a sign, without blanks.
+fn named(name: &str, sign: char) -> Result<String, String> {
+    let name: String = name.split_whitespace().collect();
+    match name.is_empty() {
+        true => Err(format!("there is no name before `{sign}`")),
+        false => Ok(name),
+    }
 }
 
 /// Reads a formula of numbers, `pi` and `deg`.
 ///
 /// Numbers are exact until the whole is evaluated: `80*deg` is 4/9 times π.
 pub fn number(text: &str) -> Result<f64, String> {
+    evaluated(text)?
+}
+
+/// The value of a formula; inside, why a formula that is written right has none.
+fn evaluated(text: &str) -> Result<Result<f64, String>, String> {
     if let Some(message) = with_unit(text) {
         return Err(message);
     }
@@ -65,10 +111,10 @@ pub fn number(text: &str) -> Result<f64, String> {
         first.unwrap_or_else(|| "this is no formula".to_string())
     })?;
     let mut graph = Graph::new();
-    let value = lower(&mut graph, &formula)?;
-    graph
-        .constant_value(value)
-        .ok_or_else(|| format!("`{}` is not a finite number", text.trim()))
+    Ok(lower(&mut graph, &formula).and_then(|value| {
+        let value = graph.constant_value(value);
+        value.ok_or_else(|| format!("`{}` is not a finite number", text.trim()))
+    }))
 }
 
 /// What to write instead of a number with a unit behind it: `0.5m`, `60deg`, `2 s`.
@@ -186,7 +232,7 @@ fn call(graph: &mut Graph, name: &str, arguments: &[ExprId]) -> Result<ExprId, S
 
 #[cfg(test)]
 mod tests {
-    use super::{assignment, number, start};
+    use super::{Assignment, Setting, number, setting, start};
 
     #[test]
     fn formulas_of_constants_are_numbers() {
@@ -225,14 +271,34 @@ mod tests {
 
     #[test]
     fn an_assignment_may_have_blanks() {
-        let read = assignment(" der(q1) = -2 ").map(|a| (a.name, a.value));
-        assert_eq!(read, Ok(("der(q1)".to_string(), -2.0)));
+        let read = setting(" der(q1) = -2 ");
+        let wanted = Assignment {
+            name: "der(q1)".to_string(),
+            value: -2.0,
+            held: true,
+        };
+        assert_eq!(read, Ok(Setting::Number(wanted)));
         let guess = start("q1 ~ 0.8").map(|a| (a.name, a.value, a.held));
         assert_eq!(guess, Ok(("q1".to_string(), 0.8, false)));
         assert!(start("q1=0.8").is_ok_and(|a| a.held));
         assert!(start("~3").is_err_and(|e| e.contains("before `~`")));
-        assert!(assignment("q1~0.8").is_err());
-        assert!(assignment("q1").is_err());
-        assert!(assignment("=3").is_err());
+        assert!(setting("q1~0.8").is_err());
+        assert!(setting("q1").is_err());
+        assert!(setting("=3").is_err());
+    }
+
+    #[test]
+    fn a_formula_of_what_moves_is_left_as_it_is() {
+        let Ok(Setting::Law { name, text, why }) = setting("u = 3*sin(t)") else {
+            panic!("a law");
+        };
+        assert_eq!((name.as_str(), text.as_str()), ("u", "3*sin(t)"));
+        assert!(why.contains("`t` has no value"), "{why}");
+        assert!(matches!(
+            setting("u=if t < 1 then 2 else 0"),
+            Ok(Setting::Law { .. })
+        ));
+        assert!(setting("u=3*").is_err());
+        assert!(setting("u=2 s").is_err_and(|e| e.contains("write `2`")));
     }
 }

@@ -18,7 +18,7 @@ fn table(names: &[&str]) -> Result<String, CommandError> {
         let structure = find(name)?.structure();
         Ok(vec![
             name.to_string(),
-            structure.coordinates.len().to_string(),
+            structure.freedoms().len().to_string(),
             structure.constraints.len().to_string(),
             first_sentence(structure.docs),
         ])

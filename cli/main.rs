@@ -20,6 +20,7 @@ mod figure;
 mod formula;
 mod interrupt;
 mod landing;
+mod law;
 mod list;
 mod manual;
 mod mechanism;

@@ -45,7 +45,10 @@ pub fn file(name: &str) -> Option<&Path> {
 /// [`CommandError::Read`].
 pub fn identity(name: &str) -> Result<String, CommandError> {
     match file(name) {
-        Some(file) => Ok(format!("{:016x}", compiled::hash([&*read(file)?]))),
+        Some(file) => {
+            let identity = compiled::identity(file, &read(file)?);
+            Ok(format!("{:016x}", compiled::hash([&*identity])))
+        }
         None => Ok(name.to_string()),
     }
 }

@@ -464,3 +464,83 @@ fn a_file_is_compared_with_many_digits_as_the_mechanism_of_the_library_is() {
     assert!(named.len() > 10, "{named:?}");
     assert_eq!(named, given);
 }
+
+#[test]
+fn an_input_follows_a_formula_of_the_command_line_as_it_would_one_of_its_file() {
+    let folder = folder("laws");
+    let description = |law: &str| {
+        pendulum("Pushed", 1.0).replace(
+            "coord q: rad;",
+            &format!("coord q: rad;\n    input u: N*m = {law};\n    force u on q;"),
+        )
+    };
+    let law = "if t < 1.5 then 3*sin(t) - m*der(q)*L else 0";
+    write(&folder, "plain.mech", &description("0"));
+    write(&folder, "pushed.mech", &description(law));
+    let run_of = |name: &str, options: &[&str]| {
+        let end = ["--until", "3", "--every", "0.1", "--columns", "u"];
+        run(&folder, &[&["simulate", name][..], options, &end].concat())
+    };
+    let set = format!("u={law}");
+    let given = run_of("plain.mech", &["--set", &set, "--set", "m=2"]);
+    let written = run_of("pushed.mech", &["--set", "m=2"]);
+    assert_eq!(given.status, Some(0), "{}", given.err);
+    assert!(given.out.lines().count() > 10);
+    assert_eq!(given.out, written.out);
+    let other = run_of("plain.mech", &["--set", "u=1"]);
+    assert_ne!(given.out, other.out);
+
+    let wrong = run_of("plain.mech", &["--set", "u=3*sin(x)"]);
+    assert_eq!(wrong.status, Some(1));
+    assert!(
+        wrong.err.contains("with `--set 'u=3*sin(x)'`"),
+        "{}",
+        wrong.err
+    );
+    assert!(wrong.err.contains("`x` is not declared"), "{}", wrong.err);
+    let unit = run_of("plain.mech", &["--set", "u=L*sin(q)"]);
+    assert!(unit.err.contains("N*m"), "{}", unit.err);
+    let parameter = run_of("plain.mech", &["--set", "m=sin(t)"]);
+    assert_eq!(parameter.status, Some(2));
+    assert!(
+        parameter.err.contains("a parameter is a number"),
+        "{}",
+        parameter.err
+    );
+    let nobody = run_of("plain.mech", &["--set", "w=sin(t)"]);
+    assert!(
+        nobody.err.contains("there is no parameter or input `w`"),
+        "{}",
+        nobody.err
+    );
+}
+
+#[test]
+fn a_file_of_numbers_is_a_part_of_its_description() {
+    let folder = folder("data");
+    let text = pendulum("Told", 1.0).replace(
+        "coord q: rad;",
+        "coord q: rad;\n    state z: rad*s;\n    der(z) = q;\n    \
+         force table(\"told.csv\", \"torque\", t) on q;",
+    );
+    write(&folder, "told.mech", &text);
+    write(&folder, "told.csv", "time,torque\n0,0\n1,2\n2,0\n");
+    let arguments = ["simulate", "told.mech", "--until", "1", "--every", "0.5"];
+    let first = done(&folder, &arguments);
+    assert!(compiles(&first, "told.mech"), "{}", first.err);
+    assert!(first.out.starts_with("t,q,der(q),z\n"), "{}", first.out);
+    let again = done(&folder, &arguments);
+    assert!(!compiles(&again, "told.mech"), "{}", again.err);
+    assert_eq!(again.out, first.out);
+    write(&folder, "told.csv", "time,torque\n0,0\n1,3\n2,0\n");
+    let edited = done(&folder, &arguments);
+    assert!(compiles(&edited, "told.mech"), "{}", edited.err);
+    assert_ne!(edited.out, first.out);
+    write(&folder, "told.csv", "time,torque\n0,0\n1,a\n");
+    let wrong = run(&folder, &["check", "told.mech"]);
+    assert!(
+        wrong.err.contains("line 3, column 2: `a` is not a number"),
+        "{}",
+        wrong.err
+    );
+}

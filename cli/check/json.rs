@@ -14,7 +14,8 @@ pub fn report(file: &str, examined: &Examined) -> String {
         Ok((mechanism, warnings)) => (
             json!({
                 "name": mechanism.name,
-                "coordinates": mechanism.coordinates.len(),
+                "coordinates": mechanism.freedoms(),
+                "states": mechanism.states,
                 "constraint_equations": mechanism.constraints.len(),
             }),
             warnings,

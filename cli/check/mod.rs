@@ -9,6 +9,7 @@ mod json;
 use crate::arguments::Check;
 use crate::error::CommandError;
 use crate::output::{print, say};
+use crate::show::sizes;
 use bricard_codegen::model::Mechanism;
 use bricard_codegen::{Diagnostics, Settings, examine};
 use std::path::Path;
@@ -17,7 +18,7 @@ use std::path::Path;
 pub fn check(arguments: &Check) -> Result<(), CommandError> {
     let source = read(&arguments.file)?;
     let file = arguments.file.display().to_string();
-    let examined = examine(&source, &Settings::default());
+    let examined = examine(&source, &Settings::beside(&arguments.file));
     if arguments.json {
         print(&json::report(&file, &examined))?;
         return examined.map(|_| ()).map_err(|_| CommandError::Said);
@@ -31,12 +32,8 @@ pub fn check(arguments: &Check) -> Result<(), CommandError> {
 }
 
 fn in_order(file: &str, mechanism: &Mechanism) -> String {
-    format!(
-        "{file}: `{}` is in order: {} coordinates, {} constraint equations\n",
-        mechanism.name,
-        mechanism.coordinates.len(),
-        mechanism.constraints.len()
-    )
+    let sizes = sizes(mechanism);
+    format!("{file}: `{}` is in order: {sizes}\n", mechanism.name)
 }
 
 /// What the front end gives: a mechanism with warnings, or errors.

@@ -27,6 +27,7 @@ use bricard_driver::{Link, PreciseLink};
 use cache::{Cache, Version};
 use compiler::Toolchain;
 use program::Program;
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -38,7 +39,16 @@ use std::process::Command;
 /// What is wrong with the description, in the words of `bricard check`; what stands in the
 /// way of compiling it.
 pub fn open(file: &Path) -> Result<Link, CommandError> {
-    start(&program(file, Digits::Double)?, Link::start)
+    open_text(file, &read(file)?)
+}
+
+/// As [`open`], a description that is in no file but called as if it were.
+///
+/// # Errors
+///
+/// As [`open`].
+pub fn open_text(file: &Path, source: &str) -> Result<Link, CommandError> {
+    start(&program(file, source, Digits::Double)?, Link::start)
 }
 
 /// As [`open`], in numbers of 106 bits.
@@ -47,7 +57,10 @@ pub fn open(file: &Path) -> Result<Link, CommandError> {
 ///
 /// As [`open`].
 pub fn open_precise(file: &Path) -> Result<PreciseLink, CommandError> {
-    start(&program(file, Digits::Many)?, PreciseLink::start)
+    start(
+        &program(file, &read(file)?, Digits::Many)?,
+        PreciseLink::start,
+    )
 }
 
 /// The numbers that a program computes with.
@@ -60,23 +73,38 @@ pub enum Digits {
 }
 
 /// The program of a description, from the cache or built.
-fn program(file: &Path, digits: Digits) -> Result<PathBuf, CommandError> {
-    let source = read(file)?;
+fn program(file: &Path, source: &str, digits: Digits) -> Result<PathBuf, CommandError> {
+    let identity = identity(file, source);
     let toolchain = Toolchain::find();
     let cache = Cache::find()?;
     let known = toolchain.as_ref().ok().and_then(|toolchain| {
         let version = Version::new(&cache, toolchain, digits);
-        version.program(file, &source)
+        version.program(file, &identity)
     });
     match known {
         Some(program) => Ok(program),
         None => {
             // A wrong description is the first thing to know, toolchain or not.
-            let program = Program::generate(file, &source)?;
+            let program = Program::generate(file, source, &identity)?;
             let toolchain = toolchain?;
             program.build(&Version::new(&cache, &toolchain, digits), &toolchain)
         }
     }
+}
+
+/// A description with the files that it may read: quoted names of files that are there.
+pub fn identity(file: &Path, source: &str) -> String {
+    let mut identity = source.to_string();
+    let folder = file.parent().unwrap_or(Path::new(""));
+    for name in source
+        .lines()
+        .flat_map(|line| line.split('"').skip(1).step_by(2))
+    {
+        if let Ok(data) = fs::read_to_string(folder.join(name)) {
+            identity.push_str(&format!("\n// {name}\n{data}"));
+        }
+    }
+    identity
 }
 
 /// Starts a program.

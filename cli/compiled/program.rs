@@ -18,7 +18,8 @@ const MODULE: &str = "described";
 /// A description and the code that was generated from it.
 pub struct Program<'a> {
     file: &'a Path,
-    source: &'a str,
+    /// What it is known by: the description, and the files that it reads.
+    identity: &'a str,
     code: String,
     sizes: [usize; 2],
 }
@@ -35,9 +36,9 @@ impl<'a> Program<'a> {
     /// # Errors
     ///
     /// [`CommandError::Description`].
-    pub fn generate(file: &'a Path, source: &'a str) -> Result<Self, CommandError> {
+    pub fn generate(file: &'a Path, source: &str, identity: &'a str) -> Result<Self, CommandError> {
         let shown = file.display().to_string();
-        let compiled = compile_source(source, MODULE, &name(file), &Settings::default())
+        let compiled = compile_source(source, MODULE, &name(file), &Settings::beside(file))
             .map_err(|errors| CommandError::Description(errors.render(&shown, source)))?;
         if !compiled.warnings.is_empty() {
             say(compiled.warnings.render(&shown, source).trim_end());
@@ -49,7 +50,7 @@ impl<'a> Program<'a> {
         );
         Ok(Self {
             file,
-            source,
+            identity,
             code: compiled.code + &main,
             sizes: [compiled.coordinates, compiled.constraints],
         })
@@ -62,7 +63,7 @@ impl<'a> Program<'a> {
     /// [`CommandError::Cache`], [`CommandError::Compile`].
     pub fn build(self, version: &Version, toolchain: &Toolchain) -> Result<PathBuf, CommandError> {
         let _alone = version.lock()?;
-        if let Some(program) = version.program(self.file, self.source) {
+        if let Some(program) = version.program(self.file, self.identity) {
             return Ok(program);
         }
         let sized = sized(version, toolchain, self.sizes)?;
@@ -79,6 +80,6 @@ impl<'a> Program<'a> {
             .arg(built.join(Version::EXECUTABLE));
         let failed = format!("{} could not be compiled", self.file.display());
         output(rustc, scratch.path(), &failed)?;
-        version.add(scratch, &built, self.file, self.source)
+        version.add(scratch, &built, self.file, self.identity)
     }
 }

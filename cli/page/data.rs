@@ -108,7 +108,7 @@ fn start(structure: &Structure, rows: &[Vec<f64>]) -> Vec<Value> {
     let Some(row) = rows.first() else {
         return Vec::new();
     };
-    let coordinates = structure.coordinates;
+    let coordinates = structure.freedoms();
     let positions = coordinates.iter().zip(row.iter().skip(1));
     let velocities = row.iter().skip(1 + coordinates.len());
     positions

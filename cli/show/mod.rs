@@ -22,6 +22,8 @@ use bricard_codegen::expr::{Notation, Symbol};
 use bricard_codegen::model::{Described, Mechanism};
 use bricard_codegen::{Settings, analyse, derive};
 
+use std::path::Path;
+
 /// Prints the equations of motion.
 pub fn show(arguments: &Show) -> Result<(), CommandError> {
     let mut subject = Subject::of(&arguments.subject)?;
@@ -29,7 +31,7 @@ pub fn show(arguments: &Show) -> Result<(), CommandError> {
         CommandError::Description(errors.render(&subject.file, &subject.source))
     };
     let (mut mechanism, _warnings) =
-        analyse(&subject.source, &Settings::default()).map_err(rendered)?;
+        analyse(&subject.source, &Settings::beside(Path::new(&subject.file))).map_err(rendered)?;
     if arguments.eliminate {
         mechanism = derive::eliminate(mechanism).map_err(rendered)?;
     }
@@ -113,12 +115,23 @@ pub fn freedom(n: usize) -> String {
     format!("{n} degree{} of freedom", if n == 1 { "" } else { "s" })
 }
 
+/// How many coordinates, states and constraint equations there are.
+pub fn sizes(mechanism: &Mechanism) -> String {
+    let states = match mechanism.states {
+        0 => String::new(),
+        1 => ", 1 state of the first order".to_string(),
+        n => format!(", {n} states of the first order"),
+    };
+    let (n, r) = (mechanism.freedoms(), mechanism.constraints.len());
+    format!("{n} coordinates{states}, {r} constraint equations")
+}
+
 fn heading(mechanism: &Mechanism, subject: &Subject) -> String {
-    let (n, r) = (mechanism.coordinates.len(), mechanism.constraints.len());
+    let (n, r) = (mechanism.freedoms(), mechanism.constraints.len());
     let mut lines = vec![
         format!("{}: {}", mechanism.name, first_sentence(&mechanism.docs)),
         format!("from {}", subject.file),
-        format!("{n} coordinates, {r} constraint equations"),
+        sizes(mechanism),
     ];
     lines.push(match &subject.start {
         Some(start) => start.clone(),
@@ -136,8 +149,9 @@ fn heading(mechanism: &Mechanism, subject: &Subject) -> String {
             &format!(" ({})", coordinate.unit)
         };
         let docs = first_sentence(&coordinate.docs);
+        let what = if i < n { "" } else { "the integral of " };
         lines.push(
-            format!("q[{}] is {}{unit}  {docs}", i + 1, coordinate.name)
+            format!("q[{}] is {what}{}{unit}  {docs}", i + 1, coordinate.name)
                 .trim_end()
                 .into(),
         );

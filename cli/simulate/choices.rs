@@ -59,6 +59,7 @@ pub fn plan(arguments: &Simulate, columns: Vec<Column>) -> Result<Plan, CommandE
         form: arguments.form.into(),
         stabilisation: arguments.stabilisation,
         published: arguments.published,
+        across_switches: arguments.across_switches,
     };
     options.keep_energy = arguments.keep_energy;
     let adaptive = matches!(options.pace, Pace::Adaptive { .. });

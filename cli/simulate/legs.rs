@@ -3,6 +3,7 @@
 use crate::arguments::Simulate;
 use crate::checkpoint::{Checkpoint, Legs, read};
 use crate::error::CommandError;
+use crate::formula::Setting;
 use crate::mechanism::identity;
 use crate::output::{probe, say};
 use crate::run::Plan;
@@ -60,8 +61,14 @@ fn described(arguments: &Simulate, plan: &Plan, changes: &Changes) -> Result<Str
         ..plan.options
     };
     let (every, columns) = (plan.every, &plan.columns);
+    let is_law = |setting: &&Setting| matches!(setting, Setting::Law { .. });
+    let laws: Vec<&Setting> = arguments.set.iter().filter(is_law).collect();
+    let laws = match laws.is_empty() {
+        true => String::new(),
+        false => format!(" {laws:?}"),
+    };
     Ok(format!(
-        "bricard {version}: {name} {changes:?} {options:?} {every:?} {columns:?}"
+        "bricard {version}: {name} {changes:?}{laws} {options:?} {every:?} {columns:?}"
     ))
 }
 

@@ -17,7 +17,7 @@ use crate::changes;
 use crate::column::columns;
 use crate::error::CommandError;
 use crate::interrupt;
-use crate::mechanism::find;
+use crate::law::find_with;
 use crate::output::{print, say};
 use crate::page::Live;
 use crate::run::{Stopped, run};
@@ -31,9 +31,9 @@ pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
 
 /// Simulates a mechanism for a page that is kept up to date, if there is one.
 pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), CommandError> {
-    let mut mechanism = find(&arguments.name)?;
+    let (mut mechanism, set) = find_with(&arguments.name, &arguments.set)?;
     let structure = mechanism.structure();
-    let changes = changes::find(structure, &arguments.name, &arguments.set, &arguments.start)?;
+    let changes = changes::find(structure, &arguments.name, &set, &arguments.start)?;
     let tell = |text: &str| {
         if !arguments.quiet {
             say(text);

@@ -8,6 +8,7 @@ use crate::check::read;
 use crate::column::{Column, columns, header};
 use crate::error::CommandError;
 use crate::figure::{chosen, named, overview};
+use crate::formula::Setting;
 use crate::mechanism::{file, source};
 use crate::number::exact;
 use crate::page::{self, Live, is_page};
@@ -213,17 +214,19 @@ impl Picture<'_> {
             Some(every) => tell("rows every", format!("{} s", exact(every))),
             None => tell("rows", "after each step".to_string()),
         }
-        for (what, changes) in [
-            ("set", &self.arguments.set),
-            ("start", &self.arguments.start),
-        ] {
-            for change in changes {
-                let sign = if change.held { '=' } else { '~' };
-                tell(
-                    what,
-                    format!("{} {sign} {}", change.name, exact(change.value)),
-                );
-            }
+        for setting in &self.arguments.set {
+            let value = match setting {
+                Setting::Number(number) => exact(number.value),
+                Setting::Law { text, .. } => text.clone(),
+            };
+            tell("set", format!("{} = {value}", setting.name()));
+        }
+        for change in &self.arguments.start {
+            let sign = if change.held { '=' } else { '~' };
+            tell(
+                "start",
+                format!("{} {sign} {}", change.name, exact(change.value)),
+            );
         }
         pairs
     }

@@ -131,7 +131,15 @@ impl Builder {
     pub fn compile(&self, description: impl AsRef<Path>) -> Result<(), BuildError> {
         let description = description.as_ref();
         println!("cargo::rerun-if-changed={}", description.display());
-        tell(self.try_compile(description))
+        let read = |files: Vec<PathBuf>| {
+            for file in files {
+                println!("cargo::rerun-if-changed={}", file.display());
+            }
+        };
+        tell(self.compile_one(description).map(|(warnings, files)| {
+            read(files);
+            warnings
+        }))
     }
 
     /// As [`compile_dir`], with these settings.
@@ -167,7 +175,7 @@ impl Builder {
         stem(Path::new(&file))?;
         let source = model.text().map_err(BuildError::Model)?;
         self.write(&file, &source)?;
-        let (compiled, warnings) = self.text(&source, module, &file)?;
+        let (compiled, warnings) = text(&source, module, &file, &self.settings)?;
         self.write_module(module, &compiled)?;
         Ok(warnings)
     }
@@ -179,10 +187,15 @@ impl Builder {
     ///
     /// See [`BuildError`].
     pub fn try_compile(&self, description: &Path) -> Result<String, BuildError> {
+        self.compile_one(description).map(|(warnings, _)| warnings)
+    }
+
+    /// The warnings of a description, and the files that it reads.
+    fn compile_one(&self, description: &Path) -> Result<(String, Vec<PathBuf>), BuildError> {
         let stem = stem(description)?;
         let (compiled, warnings) = self.one(description, &stem)?;
         self.write_module(&stem, &compiled)?;
-        Ok(warnings)
+        Ok((warnings, compiled.files))
     }
 
     /// Compiles a folder without a word to cargo; returns the rendered warnings.
@@ -220,14 +233,12 @@ impl Builder {
         let shown = description.display().to_string();
         let file_error = |error| BuildError::File(description.to_path_buf(), error);
         let source = read_description(description).map_err(file_error)?;
-        self.text(&source, stem, &shown)
-    }
-
-    fn text(&self, source: &str, stem: &str, file: &str) -> Result<(Compiled, String), BuildError> {
-        let compiled = compile_source(source, stem, file, &self.settings)
-            .map_err(|errors| BuildError::Description(errors.render(file, source)))?;
-        let warnings = compiled.warnings.render(file, source);
-        Ok((compiled, warnings))
+        let folder = description.parent().map(Path::to_path_buf);
+        let settings = Settings {
+            folder,
+            ..self.settings.clone()
+        };
+        text(&source, stem, &shown, &settings)
     }
 
     /// Writes the code of one mechanism, and its header if one is wanted.
@@ -251,6 +262,18 @@ impl Builder {
         let path = folder.ok_or(BuildError::NoOutDir)?.join(name);
         emit::write_if_changed(&path, code).map_err(|error| BuildError::File(path, error))
     }
+}
+
+fn text(
+    source: &str,
+    stem: &str,
+    file: &str,
+    settings: &Settings,
+) -> Result<(Compiled, String), BuildError> {
+    let compiled = compile_source(source, stem, file, settings)
+        .map_err(|errors| BuildError::Description(errors.render(file, source)))?;
+    let warnings = compiled.warnings.render(file, source);
+    Ok((compiled, warnings))
 }
 
 /// Tells cargo of warnings or errors: one line for each line of a rendered message,

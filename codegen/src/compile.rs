@@ -4,6 +4,7 @@ use crate::diagnostic::Diagnostics;
 use crate::emit::{self, Options, Origin};
 use crate::model::Mechanism;
 use crate::{derive, doubt, model, parse};
+use std::path::{Path, PathBuf};
 
 /// What to do differently from the defaults.
 #[derive(Clone, Debug, Default)]
@@ -16,6 +17,18 @@ pub struct Settings {
     pub eliminate: bool,
     /// What to emit besides the necessary.
     pub options: Options,
+    /// The folder of the description, in which files of tables are looked for.
+    pub folder: Option<PathBuf>,
+}
+
+impl Settings {
+    /// The defaults, for a description in a file.
+    pub fn beside(description: &Path) -> Self {
+        Self {
+            folder: description.parent().map(Path::to_path_buf),
+            ..Self::default()
+        }
+    }
 }
 
 /// One description, compiled.
@@ -31,6 +44,8 @@ pub struct Compiled {
     pub code: String,
     /// Its header, for programs in C.
     pub c_header: String,
+    /// Files that the description reads.
+    pub files: Vec<PathBuf>,
     /// What is doubtful in the description.
     pub warnings: Diagnostics,
 }
@@ -71,6 +86,7 @@ pub fn compile_source(
         coordinates: mechanism.coordinates.len(),
         constraints: mechanism.constraints.len(),
         code,
+        files: mechanism.files,
         warnings,
     })
 }
@@ -90,6 +106,7 @@ pub fn analyse(source: &str, settings: &Settings) -> Result<(Mechanism, Diagnost
         &settings.constants,
         &settings.frozen,
         wrong.is_empty(),
+        settings.folder.as_deref(),
     );
     if wrong.is_empty() {
         return lowered;

@@ -67,7 +67,8 @@ pub struct Reached {
 
 /// Watches a part of a run. Each method may break it off.
 pub trait Watch {
-    /// Takes a row: time, coordinates, velocities, added columns.
+    /// Takes a row: time, coordinates, velocities, states of the first order, added
+    /// columns.
     fn row(&mut self, values: &[f64]) -> ControlFlow<()>;
     /// Is told how far the run has come (s), one or more steps after the last time.
     fn at(&mut self, t: f64, steps: u64) -> ControlFlow<()>;

@@ -21,7 +21,7 @@ mod wire;
 mod writer;
 
 pub use any::{AnyMechanism, Given, Race, forget, state_of};
-pub use column::{Column, WORDS};
+pub use column::{Column, WORDS, heads};
 pub use leg::{Leg, Reached, Watch};
 pub use link::Link;
 pub use precise::{Around, Changes, Exact, Path, Precise, PreciseLink, serve_precise};

@@ -5,8 +5,8 @@
 //!
 //! Not here: how it looks.
 
-use crate::any::state_of;
-use bricard_runtime::{Canvas, Whole};
+use bricard_runtime::nalgebra::SVector;
+use bricard_runtime::{Canvas, State, Structure, Whole};
 
 /// What can be seen of a mechanism, and how it is set.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,7 +33,7 @@ pub enum Drawn {
     Trace,
 }
 
-/// Draws a mechanism in each of some rows (time, coordinates, velocities).
+/// Draws a mechanism in each of some rows (see [`heads`](crate::heads)).
 pub(crate) fn scene<const N: usize, const R: usize>(
     mechanism: &dyn Whole<f64, N, R>,
     rows: &[Vec<f64>],
@@ -46,11 +46,24 @@ pub(crate) fn scene<const N: usize, const R: usize>(
     };
     for row in rows {
         let mut sheet = Sheet::default();
-        mechanism.draw(&state_of(row), &mut sheet);
+        mechanism.draw(&shown_in(row, mechanism.structure()), &mut sheet);
         scene.shapes = sheet.shapes;
         scene.frames.push(sheet.numbers);
     }
     scene
+}
+
+/// The state that a row shows; the integrals of states of the first order, on which no
+/// picture depends, are not in it.
+fn shown_in<const N: usize>(row: &[f64], structure: &Structure) -> State<f64, N> {
+    let at = |i: usize| row.get(i).copied().unwrap_or(0.0);
+    let freedoms = structure.freedoms().len();
+    let place = |i: usize| if i < freedoms { at(1 + i) } else { 0.0 };
+    State {
+        t: at(0),
+        q: SVector::from_fn(|i, _| place(i)),
+        v: SVector::from_fn(|i, _| at(1 + freedoms + i)),
+    }
 }
 
 /// Takes the numbers of shapes down.

@@ -243,22 +243,10 @@ fn row<const N: usize>(
     columns: &[Column],
     probe: &mut dyn Probe<f64, N>,
 ) -> Result<Vec<f64>, DynamicsError<f64>> {
-    let mut row = row_of(state);
-    let reactions = columns
-        .iter()
-        .any(|column| matches!(column, Column::Reaction(_)));
-    let reaction = if reactions {
-        Some(probe.reaction(state)?)
-    } else {
-        None
-    };
-    let mut outputs = vec![0.0; probe.structure().outputs.len()];
-    if columns
-        .iter()
-        .any(|column| matches!(column, Column::Output(_)))
-    {
-        probe.outputs(state, &mut outputs);
-    }
+    let freedoms = probe.structure().freedoms().len();
+    let mut row = vec![state.t];
+    row.extend(state.q.iter().take(freedoms).chain(state.v.iter()));
+    let known = Known::of(state, columns, probe)?;
     for column in columns {
         row.push(match column {
             Column::Energy => {
@@ -270,9 +258,66 @@ fn row<const N: usize>(
             Column::ConstraintError => probe.constraint_error(state).position,
             Column::VelocityError => probe.constraint_error(state).velocity,
             Column::Rank => probe.rank(state)?.rank as f64,
-            Column::Reaction(i) => reaction.map_or(f64::NAN, |r| r[*i]),
-            Column::Output(i) => outputs[*i],
+            Column::Reaction(i) => known.reactions[*i],
+            Column::Output(i) => known.outputs[*i],
+            Column::Acceleration(i) => known.accelerations[*i],
+            Column::Multiplier(i) => multiplier(state.t, *i, &known.multipliers, probe)?,
+            Column::Input(i) => known.inputs[*i],
         });
     }
     Ok(row)
+}
+
+/// What is computed for all columns of a kind at once; nothing where no column asks.
+#[derive(Default)]
+struct Known {
+    reactions: Vec<f64>,
+    outputs: Vec<f64>,
+    accelerations: Vec<f64>,
+    multipliers: Vec<Option<f64>>,
+    inputs: Vec<f64>,
+}
+
+impl Known {
+    fn of<const N: usize>(
+        state: &State<f64, N>,
+        columns: &[Column],
+        probe: &mut dyn Probe<f64, N>,
+    ) -> Result<Self, DynamicsError<f64>> {
+        let structure = probe.structure();
+        let mut known = Self::default();
+        let any = |wanted: fn(&Column) -> bool| columns.iter().any(wanted);
+        if any(|column| matches!(column, Column::Reaction(_))) {
+            known.reactions = probe.reaction(state)?.iter().copied().collect();
+        }
+        if any(|column| matches!(column, Column::Multiplier(_))) {
+            known.multipliers = vec![None; structure.constraints.len()];
+        }
+        if any(|column| matches!(column, Column::Acceleration(_) | Column::Multiplier(_))) {
+            let acceleration = probe.acceleration(state, &mut known.multipliers)?;
+            known.accelerations = acceleration.iter().copied().collect();
+        }
+        if any(|column| matches!(column, Column::Output(_))) {
+            known.outputs = vec![0.0; structure.outputs.len()];
+        }
+        if any(|column| matches!(column, Column::Input(_))) {
+            known.inputs = vec![0.0; structure.inputs.len()];
+        }
+        if !(known.outputs.is_empty() && known.inputs.is_empty()) {
+            probe.outputs(state, &mut known.outputs, &mut known.inputs)?;
+        }
+        Ok(known)
+    }
+}
+
+/// A multiplier, if the constraints determine it.
+fn multiplier<const N: usize>(
+    t: f64,
+    place: usize,
+    known: &[Option<f64>],
+    probe: &dyn Probe<f64, N>,
+) -> Result<f64, DynamicsError<f64>> {
+    let structure = probe.structure();
+    let row = structure.multipliers[place].row;
+    known[row].ok_or(DynamicsError::SharedReaction { t, row, structure })
 }

@@ -139,6 +139,16 @@ pub enum DynamicsError<T> {
         /// The mechanism, for the names.
         structure: &'static Structure,
     },
+    /// Constraints depend on one another, so that nothing tells how they share their
+    /// reactions.
+    SharedReaction {
+        /// Time of the state (s).
+        t: T,
+        /// A row (constraint equation) whose multiplier is not determined.
+        row: usize,
+        /// The mechanism, for the names.
+        structure: &'static Structure,
+    },
     /// A condition of the forces changes again and again without time going on.
     Sticks {
         /// Time of the state (s).
@@ -169,6 +179,7 @@ impl<T: Real> DynamicsError<T> {
             | Self::SingularConfiguration { t, .. }
             | Self::NotRegular { t, .. }
             | Self::MassSingular { t, .. }
+            | Self::SharedReaction { t, .. }
             | Self::Sticks { t, .. }
             | Self::ProjectionFailed { t, .. } => t,
         }
@@ -223,6 +234,7 @@ impl<T: Real> Display for DynamicsError<T> {
                 coordinate,
                 structure,
             } => write_massless(f, t, (*coordinate, structure)),
+            Self::SharedReaction { t, row, structure } => write_shared(f, t, (*row, structure)),
             Self::Sticks { t, condition } => write_sticking(f, t, condition),
             Self::ProjectionFailed {
                 t,
@@ -275,6 +287,21 @@ fn write_massless<T: Real>(
     f.write_str(
         " can move without kinetic energy and no constraint restricts it; give it inertia or a \
          constraint",
+    )
+}
+
+/// Which constraint shares its reaction.
+fn write_shared<T: Real>(
+    f: &mut Formatter<'_>,
+    t: &T,
+    (row, structure): (usize, &Structure),
+) -> Result {
+    write!(f, "at t = {t} s the constraint ", t = Number(t))?;
+    structure.write_constraint(f, row)?;
+    f.write_str(
+        " depends on the others, and how they share their reactions is not determined; ask for \
+         the reactions at coordinates, `reactions`, which are, or leave out the constraints that \
+         follow from others",
     )
 }
 

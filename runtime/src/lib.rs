@@ -22,7 +22,7 @@ mod structure;
 mod system;
 mod tolerance;
 
-pub use assembly::{AssemblyError, StartEquations, StartFault, assemble, meet};
+pub use assembly::{AssemblyError, StartEquations, StartFault, assemble, guess, meet};
 pub use catalogue::Visitor;
 pub use dynamics::{
     ConstrainedSystem, ConstraintError, Counters, Form, Rank, Settings, Solver, Stabilisation,
@@ -48,5 +48,5 @@ pub use simulate::{
 };
 pub use singular::Passage;
 pub use state::State;
-pub use structure::{ConstraintRow, Declared, Direction, Event, Quantity, Structure};
+pub use structure::{ConstraintRow, Declared, Direction, Event, Multiplier, Quantity, Structure};
 pub use system::{Slope, Switching, System};

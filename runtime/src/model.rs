@@ -97,8 +97,20 @@ pub trait Interface<T: Real, const N: usize> {
     /// Held values and guesses of the initial state, from the `start` block.
     fn start(&self) -> Start<T, N>;
     /// Writes the outputs in the order of [`Structure::outputs`], as many as
-    /// `values` has room for.
+    /// `values` has room for. Those of accelerations are left as they are.
     fn outputs(&self, state: &State<T, N>, values: &mut [T]);
+    /// Writes the outputs of accelerations into the places that [`outputs`](Self::outputs)
+    /// left, and the inputs, held or by their laws, in the order of
+    /// [`Structure::inputs`]; as many as there is room for. Nothing where there are
+    /// neither.
+    fn signals(
+        &self,
+        _state: &State<T, N>,
+        _acceleration: &SVector<T, N>,
+        _outputs: &mut [T],
+        _inputs: &mut [T],
+    ) {
+    }
     /// Writes the event functions in the order of [`Structure::events`], as many
     /// as `values` has room for.
     fn events(&self, state: &State<T, N>, values: &mut [T]);

@@ -33,6 +33,16 @@ pub struct ConstraintRow {
     pub holonomic: bool,
 }
 
+/// The multiplier `λ` of a row of a constraint that has a name, `r = Aᵀλ`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Multiplier {
+    /// The name of its column, `reaction(pin)` or, for a row of a vector equation,
+    /// `reaction(pin).x`; its unit, empty if it is not known.
+    pub quantity: Quantity,
+    /// The row of `A`.
+    pub row: usize,
+}
+
 /// A coordinate as the description declares it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Declared {
@@ -74,6 +84,10 @@ pub struct Structure {
     pub file: &'static str,
     /// Generalized coordinates, in the order of `q`.
     pub coordinates: &'static [Quantity],
+    /// How many of the coordinates, the last ones, are integrals of states of the first
+    /// order: the velocity of such a coordinate is the state of its name, its acceleration
+    /// the rate of the state. It takes part in no energy.
+    pub states: usize,
     /// All coordinates that the description declares, where constraints gave some of them
     /// and they were eliminated; empty where all are in `coordinates`.
     pub described: &'static [Declared],
@@ -83,10 +97,14 @@ pub struct Structure {
     pub inputs: &'static [Quantity],
     /// Observables.
     pub outputs: &'static [Quantity],
+    /// Some output is one of accelerations.
+    pub accelerated: bool,
     /// Events.
     pub events: &'static [Event],
     /// Constraint equations, in the order of the rows of `A`.
     pub constraints: &'static [ConstraintRow],
+    /// The multipliers of constraints that have a name, in the order of the rows of `A`.
+    pub multipliers: &'static [Multiplier],
     /// `M` depends on neither `t` nor `q`.
     pub constant_mass: bool,
     /// `balance` is conserved: no dissipation, applied force, input, or explicit
@@ -109,12 +127,15 @@ impl Structure {
         docs: "",
         file: "",
         coordinates: &[],
+        states: 0,
         described: &[],
         parameters: &[],
         inputs: &[],
         outputs: &[],
+        accelerated: false,
         events: &[],
         constraints: &[],
+        multipliers: &[],
         constant_mass: false,
         conservative: false,
         drawn: false,
@@ -124,6 +145,12 @@ impl Structure {
 }
 
 impl Structure {
+    /// The coordinates that the description declares as such.
+    pub fn freedoms(&self) -> &'static [Quantity] {
+        let count = self.coordinates.len().saturating_sub(self.states);
+        &self.coordinates[..count]
+    }
+
     /// Writes a coordinate as the description names it.
     pub(crate) fn write_coordinate(
         &self,

@@ -74,6 +74,20 @@ fn a_force_that_ends_at_a_time_leaves_the_exact_parabola_and_line() {
     }
 }
 
+#[test]
+fn whoever_wants_it_goes_across_jumps() {
+    let mut mechanism = Timed::default();
+    mechanism.parameters.until = 1.0 / 3.0;
+    let step = Pace::Fixed { step: 0.13 };
+    let mut options = Options::new(2.0, Scheme::Rk4, step);
+    let exact = run::<_, 1, 0>(&mechanism, &state([0.0], [0.0]), &options);
+    options.settings.across_switches = true;
+    let across = run::<_, 1, 0>(&mechanism, &state([0.0], [0.0]), &options);
+    assert_eq!(across.steps + 1, exact.steps, "no step ends at the jump");
+    let off = (across.end.v[0] - exact.end.v[0]).abs();
+    assert!(off > 1e-3 && off < 0.65, "{off}: a part of one step");
+}
+
 /// Where the mass that is pushed towards the edge from both sides is at a time.
 fn placed(t: f64) -> (f64, f64) {
     let quarter = 0.2_f64.sqrt();

@@ -32,11 +32,15 @@ pub fn eliminate(mut mechanism: Mechanism) -> Result<Mechanism, Diagnostics> {
         return Err(swell::refusal(&mechanism));
     };
     let kept = Kept::of(&mut mechanism, &found);
+    let freedoms = mechanism.freedoms();
     let declared = std::mem::take(&mut mechanism.coordinates);
     for (i, quantity) in declared.into_iter().enumerate() {
         let row = found.iter().find(|e| e.coordinate == i).map(|e| e.row);
         if row.is_none() {
             mechanism.coordinates.push(quantity.clone());
+        }
+        if i >= freedoms {
+            continue;
         }
         mechanism.described.push(Described {
             quantity,
@@ -146,6 +150,7 @@ fn rewrite(mechanism: &mut Mechanism, kept: &Kept, found: &[Explicit]) {
         constraints,
         starts,
         start_equations,
+        start_guesses,
         outputs,
         events,
         shapes,
@@ -163,6 +168,7 @@ fn rewrite(mechanism: &mut Mechanism, kept: &Kept, found: &[Explicit]) {
         .chain(forces.flat_map(|force| force.force.iter_mut().chain(&mut force.on)))
         .chain(constraints.iter_mut().map(|row| &mut row.residual))
         .chain(start_equations.iter_mut().map(|row| &mut row.residual))
+        .chain(start_guesses.iter_mut().map(|row| &mut row.residual))
         .chain(inputs.iter_mut().map(|input| &mut input.law))
         .chain(outputs.iter_mut().map(|output| &mut output.value))
         .chain(events.iter_mut().map(|event| &mut event.value))

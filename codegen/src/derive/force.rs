@@ -30,15 +30,17 @@ pub(super) fn potential_force(graph: &mut Graph, potential: ExprId, n: usize) ->
 
 /// `Q_i = Σ F·∂x/∂q_i − ∂R/∂q̇_i`: virtual work of the applied forces, less
 /// Rayleigh dissipation. A moment works on an angular velocity ω by virtual power,
-/// `Q_i = Σ M·∂ω/∂q̇_i`.
+/// `Q_i = Σ M·∂ω/∂q̇_i`. Of `n` coordinates those behind the first `freedoms` are integrals
+/// of states, which dissipate nothing.
 pub(super) fn applied(
     graph: &mut Graph,
     forces: &[Force],
     dissipation: ExprId,
-    n: usize,
+    (n, freedoms): (usize, usize),
 ) -> Vec<ExprId> {
-    let loss = gradient(graph, dissipation, velocities(n));
+    let loss = gradient(graph, dissipation, velocities(freedoms));
     let mut terms: Vec<Vec<ExprId>> = loss.into_iter().map(|x| vec![graph.neg(x)]).collect();
+    terms.resize(n, Vec::new());
     for force in forces {
         for (&component, &place) in force.force.iter().zip(&force.on) {
             let slope = match force.on_velocity {

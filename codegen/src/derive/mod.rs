@@ -63,9 +63,9 @@ pub struct Equations {
     pub bias: Vec<ExprId>,
     /// The energies.
     pub energies: Energies,
-    /// Equations of the start for positions: `g` and `∂g/∂q`.
+    /// Equations of the start for positions, those that are held first: `g` and `∂g/∂q`.
     pub start_positions: StartRows,
-    /// Equations of the start for velocities: `b` and `A` of `A q̇ + b = 0`.
+    /// Equations of the start for velocities, likewise: `b` and `A` of `A q̇ + b = 0`.
     pub start_velocities: StartRows,
 }
 
@@ -116,7 +116,7 @@ struct Motion {
 
 /// `M` and `p₁` with its parts, or nothing as soon as they are too long.
 fn motion(mechanism: &mut Mechanism) -> Option<Motion> {
-    let n = mechanism.coordinates.len();
+    let (n, freedoms) = (mechanism.coordinates.len(), mechanism.freedoms());
     let graph = &mut mechanism.graph;
     let kinetic = graph.sum(mechanism.kinetic.iter().map(|summand| summand.value));
     let potential = graph.sum(mechanism.potential.iter().map(|summand| summand.value));
@@ -124,11 +124,14 @@ fn motion(mechanism: &mut Mechanism) -> Option<Motion> {
 
     let momenta = mass::momenta(graph, kinetic, n);
     within_bounds(graph)?;
-    let mass = mass::mass_matrix(graph, &momenta);
+    let mut mass = mass::mass_matrix(graph, &momenta);
+    for (i, row) in mass.iter_mut().enumerate().skip(freedoms) {
+        row[i] = graph.integer(1);
+    }
     within_bounds(graph)?;
     let coriolis = force::coriolis_product(graph, kinetic, &momenta);
     let gravity = force::potential_force(graph, potential, n);
-    let applied = force::applied(graph, &mechanism.forces, dissipation, n);
+    let applied = force::applied(graph, &mechanism.forces, dissipation, (n, freedoms));
     let force = force::total(graph, &applied, &coriolis, &gravity);
     Some(Motion {
         kinetic,
@@ -144,7 +147,7 @@ fn motion(mechanism: &mut Mechanism) -> Option<Motion> {
 
 /// The equations, or nothing as soon as they are too long.
 fn equations(mechanism: &mut Mechanism) -> Option<Equations> {
-    let n = mechanism.coordinates.len();
+    let (n, freedoms) = (mechanism.coordinates.len(), mechanism.freedoms());
     let Motion {
         kinetic,
         potential,
@@ -160,12 +163,15 @@ fn equations(mechanism: &mut Mechanism) -> Option<Equations> {
     within_bounds(graph)?;
     let closure = closure::closure(graph, &mechanism.constraints, n);
     within_bounds(graph)?;
-    let equations = mechanism.start_equations.iter().cloned();
+    let held = mechanism.start_equations.iter();
+    let equations = held.chain(&mechanism.start_guesses).cloned();
     let (positions, speeds): (Vec<_>, Vec<_>) = equations.partition(|row| row.holonomic);
     let positions = closure::closure(graph, &positions, n);
     let speeds = closure::closure(graph, &speeds, n);
     within_bounds(graph)?;
-    let energies = energy::energies(graph, kinetic, potential, &applied, &momenta);
+    // What acts on states does no work.
+    let (forces, momenta) = (&applied[..freedoms], &momenta[..freedoms]);
+    let energies = energy::energies(graph, kinetic, potential, forces, momenta);
     within_bounds(graph)?;
     let weighed = weighed::weighed(graph, &mass, &closure.jacobian);
     Some(Equations {

@@ -25,8 +25,7 @@ pub fn statements(numbers: &mut Numbers, found: &mut Diagnostics) {
     };
     let statements = list(&numbers.mechanism);
     let n = numbers.mechanism.coordinates.len();
-    // No two velocities are alike, so that no derivatives cancel each other.
-    let v: Vec<f64> = (0..n).map(|i| 1.0 + 0.3 * i as f64).collect();
+    let v = velocities(numbers, &place);
     let graph = &mut numbers.mechanism.graph;
     let moving = (0..n).filter_map(|i| u32::try_from(i).ok().map(Symbol::Coordinate));
     let mut flow = graph.frozen_flow(moving.chain([Symbol::Time]));
@@ -50,6 +49,20 @@ pub fn statements(numbers: &mut Numbers, found: &mut Diagnostics) {
         };
         found.push(Diagnostic::warning(statement.span, message).help(help));
     }
+}
+
+/// Velocities of which no two are alike, so that no derivatives cancel each other; states
+/// are where they begin.
+fn velocities(numbers: &Numbers, place: &Place) -> Vec<f64> {
+    let m = &numbers.mechanism;
+    let mut v: Vec<f64> = (0..m.freedoms()).map(|i| 1.0 + 0.3 * i as f64).collect();
+    v.resize(m.coordinates.len(), 0.0);
+    for start in &m.starts {
+        if start.coordinate >= m.freedoms() {
+            v[start.coordinate] = numbers.values(&[start.value], place)[0];
+        }
+    }
+    v
 }
 
 fn is_finite(numbers: &Numbers, roots: &[ExprId], place: &Place, v: &[f64]) -> bool {

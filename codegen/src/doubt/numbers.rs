@@ -60,10 +60,8 @@ impl Numbers {
                 .collect()
         };
         let momenta = gradient(kinetic, Symbol::Velocity);
-        let mass = momenta
-            .into_iter()
-            .map(|p| gradient(p, Symbol::Velocity))
-            .collect();
+        let mass = momenta.into_iter().map(|p| gradient(p, Symbol::Velocity));
+        let mut mass: Vec<_> = mass.collect();
         let by = |holonomic| {
             if holonomic {
                 Symbol::Coordinate
@@ -83,6 +81,9 @@ impl Numbers {
                 false => row.residual,
             });
         }
+        // The integrals of states have a mass of one.
+        let states = n - mechanism.states..n;
+        states.for_each(|i| mass[i][i] = graph.integer(1));
         let mut numbers = Self {
             mechanism,
             jacobian,

@@ -1,7 +1,7 @@
 //! `impl Interface`: parameters by place, start, outputs, events, the picture.
 
 use super::described::described;
-use super::{Subject, Written};
+use super::{Subject, Written, outputs};
 use crate::expr::ExprId;
 use crate::model::{Point, Shape};
 use crate::optimise::Slot;
@@ -14,8 +14,8 @@ pub(super) fn interface(subject: &mut Subject) -> TokenStream {
     let (parameter, set_parameter) = parameters(subject);
     let set_input = set_input(subject);
     let start = start(subject);
-    let outputs: Vec<ExprId> = subject.mechanism.outputs.iter().map(|o| o.value).collect();
-    let outputs = list(subject, "outputs", &outputs);
+    let outputs = outputs::outputs(subject);
+    let signals = outputs::signals(subject);
     let events: Vec<ExprId> = subject.mechanism.events.iter().map(|e| e.value).collect();
     let events = list(subject, "events", &events);
     let draw = draw(subject);
@@ -28,6 +28,7 @@ pub(super) fn interface(subject: &mut Subject) -> TokenStream {
             #set_input
             #start
             #outputs
+            #signals
             #events
             #draw
             #described

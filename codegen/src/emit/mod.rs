@@ -15,6 +15,7 @@ mod interface;
 mod linearised;
 mod literal;
 mod name;
+mod outputs;
 mod start;
 mod structure;
 mod switches;
@@ -178,13 +179,15 @@ fn module_docs(subject: &Subject, origin: Origin) -> Vec<String> {
         docs.trim()
     };
     let mut lines = doc_lines(docs);
-    let (n, r) = (
-        subject.equations.mass.len(),
-        subject.equations.jacobian.len(),
-    );
+    let (n, r) = subject.counts();
+    let states = match subject.mechanism.states {
+        0 => String::new(),
+        1 => ", the last of them the integral of a state".to_string(),
+        states => format!(", the last {states} of them integrals of states"),
+    };
     lines.push(String::new());
     lines.push(format!(
-        " Generated from `{}`: {n} coordinates, {r} constraint equations.",
+        " Generated from `{}`: {n} coordinates{states}, {r} constraint equations.",
         origin.file
     ));
     if let Some(eliminated) = described::docs(subject) {
@@ -286,11 +289,21 @@ fn imports(subject: &Subject, dynamics: &TokenStream) -> TokenStream {
     if !subject.mechanism.constraints.is_empty() {
         names.extend(["ConstraintRow", "Correction", "Position"]);
     }
+    if (subject.mechanism.constraints.iter()).any(|row| row.multiplier.is_some()) {
+        names.push("Multiplier");
+    }
     if !subject.mechanism.described.is_empty() {
         names.extend(["ConstraintRow", "Declared", "Described"]);
     }
-    if !subject.mechanism.start_equations.is_empty() {
-        names.extend(["ConstraintRow", "StartEquations", "StartFault", "meet"]);
+    let starts = &subject.mechanism;
+    if !starts.start_equations.is_empty() {
+        names.extend(["ConstraintRow", "meet"]);
+    }
+    if !starts.start_guesses.is_empty() {
+        names.push("guess");
+    }
+    if !(starts.start_equations.is_empty() && starts.start_guesses.is_empty()) {
+        names.extend(["StartEquations", "StartFault"]);
     }
     if !subject.mechanism.events.is_empty() {
         names.extend(["Direction", "Event"]);

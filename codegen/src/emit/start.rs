@@ -3,35 +3,65 @@
 use super::structure::constraint_row;
 use super::{Subject, interface::list};
 use crate::derive::StartRows;
+use crate::model::{Constraint, Mechanism};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+/// All equations of the start, those that are held first.
+fn all(mechanism: &Mechanism) -> impl Iterator<Item = &Constraint> {
+    (mechanism.start_equations.iter()).chain(&mechanism.start_guesses)
+}
+
 /// The method of `impl Mechanism` that meets them; nothing if there are none.
 pub(super) fn begin(subject: &Subject) -> TokenStream {
-    let all = &subject.mechanism.start_equations;
-    if all.is_empty() {
+    let ((n, _), (_, r)) = (subject.sizes(), subject.counts());
+    let (held, guessed) = (
+        &subject.mechanism.start_equations,
+        &subject.mechanism.start_guesses,
+    );
+    let sizes = |first: usize, rows: &mut dyn Iterator<Item = &Constraint>| {
+        let (positions, velocities): (Vec<_>, Vec<_>) = rows.partition(|row| row.holonomic);
+        let sizes = [r, first + positions.len(), first + velocities.len()];
+        let [r, p, v] = sizes.map(Literal::usize_unsuffixed);
+        quote!(<T, Self, #n, #r, #p, #v>)
+    };
+    let guess = (!guessed.is_empty()).then(|| {
+        let sizes = sizes(0, &mut all(subject.mechanism));
+        quote! {
+            // Guesses that can't be met are none.
+            let _met = guess::#sizes(self, &STRUCTURE, start, t);
+        }
+    });
+    let last = match held.is_empty() {
+        true => quote!(Ok(())),
+        false => {
+            let sizes = sizes(r, &mut held.iter());
+            quote! {
+                let structures = [&WITH_START_POSITIONS, &WITH_START_VELOCITIES];
+                meet::#sizes(self, structures, start, t)
+            }
+        }
+    };
+    if held.is_empty() && guessed.is_empty() {
         return TokenStream::new();
     }
-    let ((n, _), (_, r)) = (subject.sizes(), subject.counts());
-    let positions = all.iter().filter(|row| row.holonomic).count();
-    let [r, p, v] = [r, r + positions, r + all.len() - positions].map(Literal::usize_unsuffixed);
     quote! {
         fn begin(&self, start: &mut Start<T, #n>, t: T) -> Result<(), StartFault<T, #n>> {
-            let structures = [&WITH_START_POSITIONS, &WITH_START_VELOCITIES];
-            meet::<T, Self, #n, #r, #p, #v>(self, structures, start, t)
+            #guess
+            #last
         }
     }
 }
 
 /// The implementation of `StartEquations`, and the texts of the rows.
 pub(super) fn equations(subject: &mut Subject) -> TokenStream {
-    let all = subject.mechanism.start_equations.clone();
-    if all.is_empty() {
+    if all(subject.mechanism).next().is_none() {
         return TokenStream::new();
     }
+    let held = subject.mechanism.start_equations.clone();
     let rows = |holonomic: bool| {
         let own = subject.mechanism.constraints.iter();
-        let further = all.iter().filter(move |row| row.holonomic == holonomic);
+        let further = held.iter().filter(move |row| row.holonomic == holonomic);
         let rows: Vec<TokenStream> = own.chain(further).map(constraint_row).collect();
         quote!(Structure { constraints: &[#(#rows),*], ..STRUCTURE })
     };
@@ -49,11 +79,16 @@ pub(super) fn equations(subject: &mut Subject) -> TokenStream {
         ),
     ]
     .map(|(rows, names)| lists(subject, rows, names));
+    let structures = (!held.is_empty()).then(|| {
+        quote! {
+            /// The constraints and the equations of the start for positions.
+            static WITH_START_POSITIONS: Structure = #positions;
+            /// The constraints and the equations of the start for velocities.
+            static WITH_START_VELOCITIES: Structure = #velocities;
+        }
+    });
     quote! {
-        /// The constraints and the equations of the start for positions.
-        static WITH_START_POSITIONS: Structure = #positions;
-        /// The constraints and the equations of the start for velocities.
-        static WITH_START_VELOCITIES: Structure = #velocities;
+        #structures
 
         impl<T: Real> StartEquations<T, #n> for #name<T> {
             #place

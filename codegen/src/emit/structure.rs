@@ -19,6 +19,9 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
     let outputs = quantities(mechanism.outputs.iter().map(|o| &o.quantity));
     let described = described::table(subject);
     let constraints = mechanism.constraints.iter().map(constraint_row);
+    let accelerated = mechanism.outputs.iter().any(|o| o.accelerated);
+    let states = Literal::usize_unsuffixed(mechanism.states);
+    let multipliers = multipliers(&mechanism.constraints);
     let events = mechanism.events.iter().map(|event| {
         let name = &event.name;
         let direction = match event.direction {
@@ -39,12 +42,15 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
             docs: #docs,
             file: #file,
             coordinates: &[#(#coordinates),*],
+            states: #states,
             described: &[#(#described),*],
             parameters: &[#(#parameters),*],
             inputs: &[#(#inputs),*],
             outputs: &[#(#outputs),*],
+            accelerated: #accelerated,
             events: &[#(#events),*],
             constraints: &[#(#constraints),*],
+            multipliers: &[#(#multipliers),*],
             constant_mass: #constant_mass,
             conservative: #conservative,
             drawn: #drawn,
@@ -75,6 +81,16 @@ pub(super) fn constraint_row(row: &Constraint) -> TokenStream {
     quote!(ConstraintRow { text: #text, line: #line, holonomic: #holonomic })
 }
 
+/// The entries of `Structure::multipliers`.
+fn multipliers(constraints: &[Constraint]) -> impl Iterator<Item = TokenStream> {
+    let rows = constraints.iter().enumerate();
+    rows.filter_map(|(row, constraint)| {
+        let quantity = quantity(constraint.multiplier.as_ref()?);
+        let row = Literal::usize_unsuffixed(row);
+        Some(quote!(Multiplier { quantity: #quantity, row: #row }))
+    })
+}
+
 fn constant_mass(subject: &Subject) -> bool {
     let moves = |symbol: &Symbol| matches!(symbol, Symbol::Time | Symbol::Coordinate(_));
     let graph = &subject.mechanism.graph;
@@ -86,7 +102,9 @@ fn constant_mass(subject: &Subject) -> bool {
 fn conservative(subject: &Subject) -> bool {
     let graph = &subject.mechanism.graph;
     let still = |e: &ExprId| graph.is_zero(*e);
-    still(&subject.equations.energies.power) && subject.equations.drift.iter().all(still)
+    subject.mechanism.states == 0
+        && still(&subject.equations.energies.power)
+        && subject.equations.drift.iter().all(still)
 }
 
 /// What is said of parameters whose fields would have the same name.

@@ -4,14 +4,14 @@
 use super::function::Symbols;
 use super::name::Names;
 use crate::expr::Symbol;
-use crate::model::Mechanism;
+use crate::model::{Mechanism, Quantity};
 use crate::optimise::{Operation, Program};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use std::collections::BTreeSet;
 
 /// Names that emitted bodies use for themselves.
-const RESERVED: [&str; 8] = [
+const RESERVED: [&str; 10] = [
     "state",
     "out",
     "values",
@@ -20,6 +20,8 @@ const RESERVED: [&str; 8] = [
     "value",
     "acceleration",
     "multiplier",
+    "outputs",
+    "inputs",
 ];
 
 /// Names of fields and of local variables.
@@ -47,16 +49,18 @@ impl SymbolNames {
         let mut input_names = Names::default();
         let mut taken = Names::reserving(&RESERVED);
         let time = taken.unique("t");
-        let coordinates: Vec<Ident> = mechanism
-            .coordinates
-            .iter()
-            .map(|q| taken.unique(&q.name))
-            .collect();
-        let velocities = mechanism
-            .coordinates
-            .iter()
-            .map(|q| taken.unique(&format!("{}_dot", q.name)))
-            .collect();
+        let freedoms = mechanism.freedoms();
+        let mut locals = |moving: &str, state: &str| -> Vec<Ident> {
+            let all = mechanism.coordinates.iter().enumerate();
+            let name = |(i, q): (usize, &Quantity)| match i < freedoms {
+                true => taken.unique(&format!("{}{moving}", q.name)),
+                false => taken.unique(&format!("{}{state}", q.name)),
+            };
+            all.map(name).collect()
+        };
+        let coordinates = locals("", "_integral");
+        let velocities = locals("_dot", "");
+        let accelerations = locals("_ddot", "_dot");
         let parameters: Vec<&str> = mechanism
             .parameters
             .iter()
@@ -69,11 +73,6 @@ impl SymbolNames {
             .collect();
         let input_fields = input_names.all(&inputs);
         let parameter_names = parameters.iter().map(|name| taken.unique(name)).collect();
-        let accelerations = mechanism
-            .coordinates
-            .iter()
-            .map(|q| taken.unique(&format!("{}_ddot", q.name)))
-            .collect();
         let rows = 0..mechanism.constraints.len();
         let multipliers = rows
             .map(|row| taken.unique(&format!("lambda_{row}")))

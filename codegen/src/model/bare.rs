@@ -83,7 +83,7 @@ impl Evaluator {
             ExprKind::Member(..) => {}
             ExprKind::Repeat(_, term) => self.collect(term, found),
             ExprKind::Vector(parts) => parts.iter().for_each(|x| self.collect(x, found)),
-            ExprKind::Number(_) | ExprKind::If(..) | ExprKind::InUnit(..) => {}
+            ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::If(..) | ExprKind::InUnit(..) => {}
         }
     }
 

@@ -32,7 +32,10 @@ const OTHERS: [(&str, usize, &str); 17] = [
 ];
 
 /// Names that other languages have for the same.
-const ELSEWHERE: [(&str, &str); 21] = [
+const ELSEWHERE: [(&str, &str); 24] = [
+    ("integral", "state z; der(z) = x;"),
+    ("integrate", "state z; der(z) = x;"),
+    ("int", "state z; der(z) = x;"),
     ("sqr", "x^2"),
     ("square", "x^2"),
     ("len", "norm(v)"),
@@ -83,7 +86,10 @@ impl Evaluator {
         if let ("rot", [angle]) = (name.text.as_str(), arguments) {
             return self.plane_rotation(angle);
         }
-        if arguments.len() != arity {
+        let of_file = matches!(name.text.as_str(), "table" | "spline")
+            && (2..=4).contains(&arguments.len())
+            && matches!(arguments[0].kind, ExprKind::Text(_));
+        if arguments.len() != arity && !of_file {
             let message = format!(
                 "`{}` takes {}, here {}",
                 name.text,
@@ -275,10 +281,9 @@ impl Evaluator {
     /// The total derivative of a scalar in time.
     pub fn rate(&mut self, scalar: Scalar, span: Span) -> Option<Scalar> {
         let facts = self.facts(scalar.id);
-        if facts.velocity() {
-            let error = Diagnostic::error(span, "the derivative of a velocity");
-            let help = "accelerations follow from the equations of motion and can't stand in a description";
-            return self.report(error.labelled("this contains `der` already").help(help));
+        if facts.acceleration {
+            let error = Diagnostic::error(span, "the derivative of an acceleration is not known");
+            return self.report(error.labelled("this contains `der(der(…))` already"));
         }
         if facts.input {
             let error = Diagnostic::error(span, "the derivative of an input is not known");

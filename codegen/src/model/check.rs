@@ -16,6 +16,8 @@ use crate::parse::ast::{Energy, Expr, ExprKind};
 const SMOOTH: &str =
     "`abs`, `sign`, `min`, `max` and `if` may stand in forces, inputs, outputs and events";
 
+const STATES_ACT: &str = "a state acts by `force z on x`; what has kinetic energy is a `coord`";
+
 const TURNING: &str = "what turns has a moment of inertia: `1/2*J*der(q)^2` with J in kg*m^2";
 const DER: &str = "is `der` missing? the kinetic energy of a mass is `1/2*m*der(x)^2`";
 
@@ -38,6 +40,11 @@ impl Lowering<'_> {
             let message = format!("{what} can't contain an input");
             return self
                 .report(Diagnostic::error(span, message).help("an input acts by `force u on x`"));
+        }
+        if facts.state && kind != Energy::Dissipation {
+            let span = self.culprit(e, |facts| facts.state);
+            let message = format!("{what} can't contain a state");
+            return self.report(Diagnostic::error(span, message).help(STATES_ACT));
         }
         self.legal_velocities(kind, e, facts)?;
         match value.unit {
@@ -106,6 +113,11 @@ impl Lowering<'_> {
                 "a force can't work on an input",
                 "write the coordinate, angle, length or point",
             )
+        } else if any(|facts| facts.state) {
+            (
+                "a force can't work on a state",
+                "write its rate instead: `der(z) = …;`",
+            )
         } else if any(|facts| facts.kinked) {
             ("what a force works on has to be differentiable", SMOOTH)
         } else if !any(|facts| facts.coordinate || facts.velocity()) {
@@ -156,6 +168,9 @@ impl Lowering<'_> {
                 "a constraint can't contain an input",
                 help,
             )
+        } else if facts.state {
+            let message = "a constraint can't contain a state";
+            (|facts| facts.state, message, STATES_ACT)
         } else if facts.degree > 1 {
             let help = "write it with `der(…)` of first degree, or for positions";
             (
@@ -168,6 +183,18 @@ impl Lowering<'_> {
         };
         let span = self.culprit_of(sides, bad);
         self.report(Diagnostic::error(span, message).help(help))
+    }
+
+    /// Refuses accelerations outside outputs.
+    pub fn without_acceleration(&mut self, e: &Expr, scalars: &[Scalar], what: &str) -> Option<()> {
+        let mut ids = scalars.iter().map(|scalar| scalar.id);
+        if !ids.any(|id| self.evaluator.facts(id).acceleration) {
+            return Some(());
+        }
+        let span = self.culprit(e, |facts| facts.acceleration);
+        let error = Diagnostic::error(span, format!("{what} can't contain an acceleration"));
+        let help = "accelerations follow from the equations of motion; they may stand in outputs";
+        self.report(error.help(help))
     }
 
     /// The term of a sum that has some property, else the whole.

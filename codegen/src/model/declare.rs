@@ -11,10 +11,8 @@ use super::unit::Unit;
 use super::value::{Array, Scalar, Value};
 use super::{Input, Quantity};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::expr::Symbol;
-use crate::parse::ast::{
-    Declaration, Declared, Expr, ExprKind, Item, ItemKind, Let, Name, UnitExpr,
-};
+use crate::expr::{Direction, Symbol};
+use crate::parse::ast::{Declaration, Declared, ExprKind, Item, ItemKind, Let, Name, UnitExpr};
 use std::rc::Rc;
 
 /// The most coordinates of a mechanism.
@@ -36,11 +34,13 @@ impl<'a> Lowering<'a> {
                 self.inside(frame, |this| this.parameter(item, d));
             }
         }
-        for Placed { item, frame, .. } in &fresh {
-            if let ItemKind::Coordinate { name, size, unit } = &item.kind {
-                self.inside(frame, |this| {
-                    this.coordinates(item, name, size.as_ref(), unit.as_ref());
-                });
+        for states in [false, true] {
+            for Placed { item, frame, .. } in &fresh {
+                if let ItemKind::Coordinate { state, .. } = &item.kind
+                    && *state == states
+                {
+                    self.inside(frame, |this| this.coordinates(item));
+                }
             }
         }
         self.set_flow();
@@ -76,7 +76,10 @@ impl<'a> Lowering<'a> {
                 };
                 (&declaration.name, kind)
             }
-            ItemKind::Coordinate { name, .. } => (name, Kind::Coordinate),
+            ItemKind::Coordinate { name, state, .. } => match state {
+                true => (name, Kind::State),
+                false => (name, Kind::Coordinate),
+            },
             ItemKind::Let(quantity) => match &quantity.value.kind {
                 ExprKind::Call(called, _) if self.parts.contains_key(called.text.as_str()) => {
                     self.used_parts.push(called.text.clone());
@@ -109,17 +112,21 @@ impl<'a> Lowering<'a> {
         )
     }
 
-    fn coordinates(
-        &mut self,
-        item: &Item,
-        name: &Name,
-        size: Option<&Expr>,
-        unit: Option<&UnitExpr>,
-    ) {
+    fn coordinates(&mut self, item: &Item) {
+        let ItemKind::Coordinate {
+            state,
+            name,
+            size,
+            unit,
+        } = &item.kind
+        else {
+            return;
+        };
+        let unit = unit.as_ref();
         let checked = self.unit(unit);
         let Some(size_expr) = size else {
             let whole = self.quantity(item, name, unit);
-            let scalar = self.coordinate(whole, checked);
+            let scalar = self.coordinate(whole, checked, *state);
             self.evaluator
                 .scope
                 .set(&name.text, Some(Value::Scalar(scalar)));
@@ -134,7 +141,7 @@ impl<'a> Lowering<'a> {
         let element = |i| {
             let mut part = self.quantity(item, name, unit);
             part.name.push_str(&format!("[{i}]"));
-            Value::Scalar(self.coordinate(part, checked))
+            Value::Scalar(self.coordinate(part, checked, *state))
         };
         let items = (0..size).map(element).collect();
         let array = Value::Array(Rc::new(Array {
@@ -158,24 +165,33 @@ impl<'a> Lowering<'a> {
         Some(size)
     }
 
-    fn coordinate(&mut self, quantity: Quantity, unit: Unit) -> Scalar {
+    /// A coordinate, or the velocity of one, which is a state.
+    fn coordinate(&mut self, quantity: Quantity, unit: Unit, state: bool) -> Scalar {
         let index = self.mechanism.coordinates.len() as u32;
         self.mechanism.coordinates.push(quantity);
-        Scalar {
-            id: self.evaluator.graph.symbol(Symbol::Coordinate(index)),
-            unit,
-        }
+        let symbol = match state {
+            true => Symbol::Velocity(index),
+            false => Symbol::Coordinate(index),
+        };
+        self.mechanism.states += usize::from(state);
+        let id = self.evaluator.graph.symbol(symbol);
+        Scalar { id, unit }
     }
 
     /// From here on `der` knows what moves.
     fn set_flow(&mut self) {
-        let count = self.mechanism.coordinates.len() as u32;
-        let moving = (0..count).map(Symbol::Coordinate);
-        let flow = self
-            .evaluator
-            .graph
-            .frozen_flow(moving.chain([Symbol::Time]));
-        self.evaluator.flow = flow;
+        let freedoms = self.mechanism.freedoms() as u32;
+        let graph = &mut self.evaluator.graph;
+        let mut seeds = vec![(Symbol::Time, graph.integer(1))];
+        for i in 0..self.mechanism.coordinates.len() as u32 {
+            let (velocity, acceleration) = (Symbol::Velocity(i), Symbol::Acceleration(i));
+            if i < freedoms {
+                seeds.push((Symbol::Coordinate(i), graph.symbol(velocity)));
+            }
+            seeds.push((velocity, graph.symbol(acceleration)));
+        }
+        self.evaluator.flow = Direction::new(seeds);
+        self.evaluator.facts.first_state = Some(freedoms);
     }
 
     fn input_symbol(&mut self, declaration: &Declaration) -> Option<Value> {
@@ -200,6 +216,7 @@ impl<'a> Lowering<'a> {
         };
         self.evaluator.gains = false;
         let law = law?;
+        self.without_acceleration(&declaration.value, &law.scalars(), what)?;
         let (place, suffixes) = (declaration.value.span, symbols.suffixes());
         if law.suffixes() != suffixes {
             let message = format!("the elements of this law are {}, not numbers", law.shape());

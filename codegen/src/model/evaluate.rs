@@ -16,6 +16,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest};
 use crate::expr::{Direction, ExprId, Function, Graph, Number, Symbol};
 use crate::parse::NESTING;
 use crate::parse::ast::{Expr, ExprKind, Range};
+use std::path::PathBuf;
 
 /// The most formulas that are evaluated for one description, loops unrolled.
 const WORK: u64 = 10_000_000;
@@ -39,7 +40,11 @@ pub struct Evaluator {
     pub flow: Direction,
     /// The parts and the quantities in them.
     pub parts: Parts,
-    facts: FactTable,
+    pub facts: FactTable,
+    /// The folder of the description, if it has one, in which files are looked for.
+    pub folder: Option<PathBuf>,
+    /// The files that were read.
+    pub files: Vec<PathBuf>,
     work: u64,
     /// The number of formulas inside one another.
     depth: usize,
@@ -96,6 +101,10 @@ impl Evaluator {
                 Some(Value::Scalar(Scalar { id, unit }))
             }
             ExprKind::Name(name) => self.look_up(name, e.span),
+            ExprKind::Text(_) => {
+                let error = Diagnostic::error(e.span, "quoted text has no meaning here");
+                self.report(error.help("a file of numbers is read by `table(\"file.csv\", t)`"))
+            }
             ExprKind::Negative(inside) => self.negative(inside),
             ExprKind::Sum(terms) => self.sum(terms),
             ExprKind::Product(factors) => self.product(factors),

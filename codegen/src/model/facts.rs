@@ -11,6 +11,10 @@ pub struct Facts {
     pub coordinate: bool,
     /// An external signal occurs.
     pub input: bool,
+    /// A state of the first order occurs.
+    pub state: bool,
+    /// An acceleration, or the rate of a state, occurs.
+    pub acceleration: bool,
     /// `abs`, `sign`, `min`, `max` or `if` occurs.
     pub kinked: bool,
     /// The degree in the velocities; [`NOT_POLYNOMIAL`] stands for more than two
@@ -33,6 +37,8 @@ impl Facts {
 /// Facts of the nodes that were asked for, by index.
 #[derive(Debug, Default)]
 pub struct FactTable {
+    /// The velocities from here on are states of the first order.
+    pub first_state: Option<u32>,
     known: Vec<Option<Facts>>,
 }
 
@@ -75,8 +81,12 @@ impl FactTable {
         match node {
             Node::Symbol(Symbol::Time) => facts.time = true,
             Node::Symbol(Symbol::Coordinate(_)) => facts.coordinate = true,
-            Node::Symbol(Symbol::Velocity(_)) => facts.degree = 1,
+            Node::Symbol(Symbol::Velocity(i)) => match self.first_state {
+                Some(first) if *i >= first => facts.state = true,
+                _ => facts.degree = 1,
+            },
             Node::Symbol(Symbol::Input(_)) => facts.input = true,
+            Node::Symbol(Symbol::Acceleration(_)) => facts.acceleration = true,
             Node::Product(factors) => facts.degree = self.product_degree(factors),
             Node::Function(function, _) => {
                 facts.kinked |= !function.is_differentiable();
@@ -103,6 +113,8 @@ impl FactTable {
             all.time |= facts.time;
             all.coordinate |= facts.coordinate;
             all.input |= facts.input;
+            all.state |= facts.state;
+            all.acceleration |= facts.acceleration;
             all.kinked |= facts.kinked;
             all.degree = all.degree.max(facts.degree);
         }

@@ -13,6 +13,7 @@ use crate::expr::{ExprId, Graph, Symbol};
 use crate::parse::ast::{Item, ItemKind, Part};
 use crate::parse::{self, Model};
 use rustc_hash::FxHashMap;
+use std::path::Path;
 use std::rc::Rc;
 
 /// The work in progress.
@@ -45,7 +46,8 @@ pub struct Lowering<'a> {
 ///
 /// `constants` replaces the values of constants, `frozen` makes parameters
 /// constants at their default. A description that is not `complete`, because some of its
-/// statements can't be read, is not found fault with for what it lacks.
+/// statements can't be read, is not found fault with for what it lacks. Files are looked
+/// for in a folder.
 ///
 /// # Errors
 ///
@@ -55,6 +57,7 @@ pub fn lower(
     constants: &[(String, f64)],
     frozen: &[String],
     complete: bool,
+    folder: Option<&Path>,
 ) -> Result<(Mechanism, Diagnostics), Diagnostics> {
     let library = library(model);
     let mut lowering = Lowering {
@@ -70,6 +73,7 @@ pub fn lower(
         n_inputs: 0,
         named: Named::default(),
     };
+    lowering.evaluator.folder = folder.map(Path::to_path_buf);
     let unreadable = model.unreadable.iter().cloned();
     lowering.evaluator.scope.unreadable = unreadable.collect();
     let placed = lowering.declare(&model.items, &library);
@@ -88,6 +92,7 @@ pub fn lower(
     if evaluator.diagnostics.error_count() > 0 {
         return Err(evaluator.diagnostics.into_errors());
     }
+    mechanism.files = std::mem::take(&mut evaluator.files);
     mechanism.graph = std::mem::replace(&mut evaluator.graph, Graph::new());
     Ok((mechanism, evaluator.diagnostics))
 }
@@ -110,11 +115,12 @@ impl Lowering<'_> {
     /// What concerns the mechanism as a whole.
     fn whole(&mut self, model: &Model) {
         let (name, at) = (&model.name, model.name.span);
-        let declared = |item: &Item| matches!(item.kind, ItemKind::Coordinate { .. });
-        if !model.items.iter().any(declared) && self.mechanism.coordinates.is_empty() {
+        let declared = |item: &Item| matches!(item.kind, ItemKind::Coordinate { state: false, .. });
+        if !model.items.iter().any(declared) && self.mechanism.freedoms() == 0 {
             let error = Diagnostic::error(at, format!("`{}` has no coordinates", name.text));
             self.report::<()>(error.help("declare what moves, for example `coord q1: rad;`"));
         }
+        self.states_without_rate();
         if self.evaluator.diagnostics.error_count() > 0 {
             return;
         }
@@ -162,7 +168,8 @@ impl Lowering<'_> {
                 busy[*i as usize] = true;
             }
         }
-        let idle = m.coordinates.iter().zip(&busy).filter(|(_, busy)| !**busy);
+        let declared = m.coordinates[..m.freedoms()].iter();
+        let idle = declared.zip(&busy).filter(|(_, busy)| !**busy);
         let idle: Vec<(String, Span)> = idle.map(|(q, _)| (q.name.clone(), q.span)).collect();
         for (name, span) in idle {
             let message = format!("`{name}` takes part in no energy, force or constraint");

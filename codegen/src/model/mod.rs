@@ -12,6 +12,7 @@ mod call;
 mod check;
 mod choice;
 mod constant;
+mod data;
 mod declare;
 mod element;
 mod evaluate;
@@ -28,6 +29,7 @@ mod shape;
 mod si;
 mod sound;
 mod start;
+mod state;
 mod statement;
 mod table;
 mod unit;
@@ -53,6 +55,11 @@ pub struct Mechanism {
     /// Generalized coordinates, arrays unrolled; their index is the one of
     /// `Symbol::Coordinate` and `Symbol::Velocity`.
     pub coordinates: Vec<Quantity>,
+    /// How many of them, the last ones, are integrals of states of the first order: the
+    /// velocity of such a coordinate is the state, its mass one, and the force at it the
+    /// rate of the state. No formula contains the coordinate itself, and no energy the
+    /// state.
+    pub states: usize,
     /// Run-time parameters, in order of declaration.
     pub parameters: Vec<Parameter>,
     /// Constants that were folded, for the documentation of the emitted code.
@@ -73,6 +80,8 @@ pub struct Mechanism {
     pub starts: Vec<Start>,
     /// Equations of the `start` block that are no values of coordinates and velocities.
     pub start_equations: Vec<Constraint>,
+    /// The same that are guesses.
+    pub start_guesses: Vec<Constraint>,
     /// Observables, vectors unrolled (`p.x`, `p.y`).
     pub outputs: Vec<Output>,
     /// Event functions.
@@ -82,6 +91,8 @@ pub struct Mechanism {
     /// The coordinates that were declared, where some of them were eliminated; empty
     /// where all are among `coordinates`.
     pub described: Vec<Described>,
+    /// Files that the description reads.
+    pub files: Vec<std::path::PathBuf>,
     /// What decides the forces along a motion by its sign; found when the equations of
     /// motion are derived.
     pub switches: Vec<Switch>,
@@ -193,6 +204,8 @@ pub struct Constraint {
     /// The equation as written, with `[x]`, `[y]`, `[z]` behind it for a row of
     /// a vector equation and the values of the loop indices, if any.
     pub text: String,
+    /// Name and unit of its multiplier, if the constraint has a name.
+    pub multiplier: Option<Quantity>,
     /// Where it was written.
     pub span: Span,
 }
@@ -219,6 +232,8 @@ pub struct Output {
     pub quantity: Quantity,
     /// The value.
     pub value: ExprId,
+    /// Whether it is one of accelerations.
+    pub accelerated: bool,
 }
 
 /// An event function.
@@ -269,6 +284,7 @@ impl Mechanism {
             docs: docs.to_string(),
             graph: Graph::new(),
             coordinates: Vec::new(),
+            states: 0,
             parameters: Vec::new(),
             constants: Vec::new(),
             inputs: Vec::new(),
@@ -279,12 +295,19 @@ impl Mechanism {
             constraints: Vec::new(),
             starts: Vec::new(),
             start_equations: Vec::new(),
+            start_guesses: Vec::new(),
             outputs: Vec::new(),
             events: Vec::new(),
             shapes: Vec::new(),
             described: Vec::new(),
+            files: Vec::new(),
             switches: Vec::new(),
         }
+    }
+
+    /// How many coordinates are declared as such.
+    pub fn freedoms(&self) -> usize {
+        self.coordinates.len() - self.states
     }
 
     /// A symbol as the description writes it: `q1`, `der(q1)`, `L1`, `t`.
@@ -293,9 +316,13 @@ impl Mechanism {
         match symbol {
             Symbol::Time => "t".to_string(),
             Symbol::Coordinate(i) => coordinate(i).clone(),
+            Symbol::Velocity(i) if i as usize >= self.freedoms() => coordinate(i).clone(),
             Symbol::Velocity(i) => format!("der({})", coordinate(i)),
             Symbol::Parameter(i) => self.parameters[i as usize].quantity.name.clone(),
             Symbol::Input(i) => self.inputs[i as usize].quantity.name.clone(),
+            Symbol::Acceleration(i) if i as usize >= self.freedoms() => {
+                format!("der({})", coordinate(i))
+            }
             Symbol::Acceleration(i) => format!("der(der({}))", coordinate(i)),
             Symbol::Multiplier(i) => format!("lambda[{i}]"),
             Symbol::Weight(i) => format!("w[{i}]"),

@@ -127,7 +127,7 @@ pub enum Mention<'a> {
 /// Finds what a formula mentions.
 pub fn collect<'a>(formula: &'a Expr, found: &mut dyn FnMut(Mention<'a>)) {
     match &formula.kind {
-        ExprKind::Number(_) => {}
+        ExprKind::Number(_) | ExprKind::Text(_) => {}
         ExprKind::Name(name) => found(Mention::Name(name)),
         ExprKind::Negative(x)
         | ExprKind::Component(x, _)

@@ -18,6 +18,8 @@ pub enum Kind {
     Parameter,
     /// `coord`
     Coordinate,
+    /// `state`
+    State,
     /// `input`
     Input,
     /// `let`
@@ -37,6 +39,7 @@ impl Kind {
             Kind::Constant => "a constant",
             Kind::Parameter => "a parameter",
             Kind::Coordinate => "a coordinate",
+            Kind::State => "a state",
             Kind::Input => "an input",
             Kind::Quantity => "a quantity",
             Kind::Index => "an index",

@@ -34,6 +34,9 @@ impl Lowering<'_> {
     fn start_entry(&mut self, target: &Expr, held: bool, value: &Expr) -> Option<()> {
         let wanted = self.evaluator.evaluate(target)?.operand();
         let given = self.evaluator.evaluate(value)?.operand();
+        for (side, value) in [(target, &wanted), (value, &given)] {
+            self.without_acceleration(side, &value.scalars(), "the start")?;
+        }
         if let Value::Array(_) | Value::Matrix(_) = wanted {
             let error = Diagnostic::error(target.span, "a whole array has no single start value");
             let help = "write `start { for i in 0..K { theta[i] ~ 0; } }`";
@@ -73,13 +76,18 @@ impl Lowering<'_> {
         suffix: &str,
     ) -> Option<()> {
         let facts = self.evaluator.facts(scalar.id);
-        let (message, help) = if !facts.coordinate && !facts.velocity() {
+        let (message, help) = if !facts.coordinate && !facts.velocity() && !facts.state {
             let message = "only coordinates and their velocities have start values";
             (message, "write `q1 = …;` or `der(q1) = …;`")
         } else if facts.input {
             (
                 "an equation of the start can't contain an input",
                 "write out its law",
+            )
+        } else if facts.state {
+            (
+                "an equation of the start can't contain a state",
+                "give the state itself a value: `z = …;`",
             )
         } else if facts.kinked {
             let help = "`abs`, `sign`, `min`, `max` and `if` can't be met from any side";
@@ -90,22 +98,24 @@ impl Lowering<'_> {
                 "an equation of the start has to be linear in the velocities",
                 help,
             )
-        } else if !held {
-            let help = "hold it with `=`, and guess the coordinates that it is made of";
-            ("only coordinates and their velocities are guessed", help)
         } else {
             self.constant_start((scalar, target), (given, value))?;
             let residual = self.evaluator.graph.sub(scalar.id, given.id);
             let span = target.span.to(value.span);
             let residual = self.evaluator.sound(residual, span)?;
-            let text = format!("{} = {}", written(target), written(value));
+            let sign = if held { '=' } else { '~' };
+            let text = format!("{} {sign} {}", written(target), written(value));
             let equation = Constraint {
                 residual,
                 holonomic: !facts.velocity(),
                 text: self.row_text(&text, suffix),
+                multiplier: None,
                 span: self.place_of(span),
             };
-            self.mechanism.start_equations.push(equation);
+            match held {
+                true => self.mechanism.start_equations.push(equation),
+                false => self.mechanism.start_guesses.push(equation),
+            }
             return Some(());
         };
         self.report(Diagnostic::error(target.span, message).help(help))
@@ -118,7 +128,7 @@ impl Lowering<'_> {
         (given, value): (Scalar, &Expr),
     ) -> Option<()> {
         let facts = self.evaluator.facts(given.id);
-        if facts.time || facts.coordinate || facts.velocity() || facts.input {
+        if facts.time || facts.coordinate || facts.velocity() || facts.input || facts.state {
             let error = Diagnostic::error(
                 value.span,
                 "a start value is built of numbers, constants and parameters",
@@ -280,10 +290,10 @@ impl Lowering<'_> {
     fn drawable(&mut self, scalars: &[Scalar], span: Span) -> Option<()> {
         for scalar in scalars {
             let facts = self.evaluator.facts(scalar.id);
-            if facts.velocity() || facts.input {
+            if facts.velocity() || facts.input || facts.state || facts.acceleration {
                 let error = Diagnostic::error(
                     span,
-                    "a picture shows positions, this has a velocity or an input in it",
+                    "a picture shows positions, this has a velocity, an input or a state in it",
                 );
                 return self.report(error);
             }

@@ -4,7 +4,7 @@ use super::lower::Lowering;
 use super::scope::{Kind, twice};
 use super::unit::{Dimension, ENERGY, NONE, POWER, Unit};
 use super::value::{Scalar, Value};
-use super::{Constraint, Direction, Event, Force, Output, Summand};
+use super::{Constraint, Direction, Event, Force, Output, Quantity, Summand};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::parse::ast::{
     Crossing, Declaration, Declared, Energy, Expr, Item, ItemKind, Name, Range,
@@ -17,6 +17,8 @@ pub struct Named {
     outputs: FxHashMap<String, Span>,
     events: FxHashMap<String, Span>,
     constraints: FxHashMap<String, Span>,
+    /// States whose rate is given, by their coordinates.
+    pub rates: FxHashMap<u32, Span>,
     /// Start entries: coordinate, whether the velocity is meant; with the number of parts
     /// around.
     pub starts: FxHashMap<(u32, bool), (Span, usize)>,
@@ -40,6 +42,7 @@ impl Lowering<'_> {
             ItemKind::Part(part) => self.in_no_part(&part.name, "a part"),
             ItemKind::Use(library) => self.in_no_part(library, "`use`"),
             ItemKind::Let(_) => Some(()),
+            ItemKind::Rate { of, value } => self.state_rate(of, value, item.span),
             ItemKind::Energy(kind, value) => self.energy(*kind, value),
             ItemKind::Force { force, on } => self.force(force, on, item.span),
             ItemKind::Constraint {
@@ -48,8 +51,11 @@ impl Lowering<'_> {
                 right,
                 text,
             } => {
-                self.constraint_name(name.as_ref())?;
-                self.constraint(left, right, text, item.span)
+                let named = match name {
+                    Some(name) => Some(self.constraint_name(item, name)?),
+                    None => None,
+                };
+                self.constraint((left, right), text, named, item.span)
             }
             ItemKind::Start(entries) => self.start(entries),
             ItemKind::Event {
@@ -117,6 +123,7 @@ impl Lowering<'_> {
 
     fn energy(&mut self, kind: Energy, e: &Expr) -> Option<()> {
         let value = self.evaluator.scalar(e, "an energy")?;
+        self.without_acceleration(e, &[value], "an energy")?;
         self.legal_energy(kind, e, value)?;
         let summand = Summand {
             value: value.id,
@@ -148,6 +155,8 @@ impl Lowering<'_> {
                 "a number works on a coordinate, an angle or a length, a vector on a point",
             ));
         }
+        self.without_acceleration(force, &strength.scalars(), "a force")?;
+        self.without_acceleration(on, &point.scalars(), "what a force works on")?;
         let on_velocity = self.legal_target(on, &point)?;
         let product = if on_velocity { POWER } else { ENERGY };
         for (f, x) in strength.scalars().into_iter().zip(point.scalars()) {
@@ -198,18 +207,23 @@ impl Lowering<'_> {
     }
 
     /// Refuses two constraints of one name; in a loop the index belongs to it.
-    fn constraint_name(&mut self, name: Option<&Name>) -> Option<()> {
-        let Some(name) = name else {
-            return Some(());
-        };
+    fn constraint_name(&mut self, item: &Item, name: &Name) -> Option<Quantity> {
         let full = self.indexed(&name.text);
+        let mut multiplier = self.quantity(item, name, None);
+        multiplier.name = format!("reaction({full})");
         match self.named.constraints.insert(full, name.span) {
             Some(first) => self.report(twice(name, first)),
-            None => Some(()),
+            None => Some(multiplier),
         }
     }
 
-    fn constraint(&mut self, left: &Expr, right: &Expr, text: &str, span: Span) -> Option<()> {
+    fn constraint(
+        &mut self,
+        (left, right): (&Expr, &Expr),
+        text: &str,
+        named: Option<Quantity>,
+        span: Span,
+    ) -> Option<()> {
         let (a, b) = (
             self.evaluator.evaluate(left),
             self.evaluator.evaluate(right),
@@ -222,11 +236,14 @@ impl Lowering<'_> {
             let error = Diagnostic::error(left.span.to(right.span), message);
             return self.report(error.help("both sides are numbers, or vectors of one size"));
         }
+        for (side, value) in [(left, &a), (right, &b)] {
+            self.without_acceleration(side, &value.scalars(), "a constraint")?;
+        }
         let suffixes = a.suffixes();
         let mut active = false;
         for ((a, b), suffix) in a.scalars().into_iter().zip(b.scalars()).zip(suffixes) {
-            self.evaluator
-                .same_unit([(a, left.span), (b, right.span)], "this equation")?;
+            let sides = [(a, left.span), (b, right.span)];
+            let unit = self.evaluator.same_unit(sides, "this equation")?;
             let residual = self.evaluator.graph.sub(a.id, b.id);
             let residual = self.evaluator.sound(residual, span)?;
             let Some(holonomic) = self.legal_constraint(residual, [left, right])? else {
@@ -234,10 +251,16 @@ impl Lowering<'_> {
             };
             active = true;
             let text = self.row_text(text, &suffix);
+            let multiplier = named.clone().map(|named| Quantity {
+                name: format!("{}{suffix}", named.name),
+                unit: multiplier_unit(unit, holonomic),
+                ..named
+            });
             self.mechanism.constraints.push(Constraint {
                 residual,
                 holonomic,
                 text,
+                multiplier,
                 span: self.place_of(span),
             });
         }
@@ -300,9 +323,11 @@ impl Lowering<'_> {
             let mut quantity = self.quantity(item, &declaration.name, unit);
             quantity.name = format!("{name}{suffix}");
             self.column_is_free(&quantity.name, &declaration.name)?;
+            let accelerated = self.evaluator.facts(scalar.id).acceleration;
             self.mechanism.outputs.push(Output {
                 quantity,
                 value: scalar.id,
+                accelerated,
             });
         }
         Some(())
@@ -327,6 +352,7 @@ impl Lowering<'_> {
 
     fn event(&mut self, name: &Name, value: &Expr, direction: Crossing, span: Span) -> Option<()> {
         let scalar = self.evaluator.scalar(value, "an event function")?;
+        self.without_acceleration(value, &[scalar], "an event function")?;
         let full = self.indexed(&name.text);
         if let Some(first) = self.named.events.insert(full.clone(), name.span) {
             return self.report(twice(name, first));
@@ -343,5 +369,15 @@ impl Lowering<'_> {
             span: self.place_of(span),
         });
         Some(())
+    }
+}
+
+/// The unit of a multiplier: with the equation it makes an energy, with a rate a power;
+/// empty if that of the equation is not known.
+fn multiplier_unit(equation: Unit, holonomic: bool) -> String {
+    let work = if holonomic { ENERGY } else { POWER };
+    match equation.power(-1.0) {
+        Unit::Known(inverse) => work.times(inverse).text(),
+        _ => String::new(),
     }
 }

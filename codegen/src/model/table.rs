@@ -1,6 +1,6 @@
 //! Tables: functions through given points, piecewise linear or smooth.
 //!
-//! In:  a list of pairs and a formula.
+//! In:  a list of pairs, in the description or in a file beside it, and a formula.
 //! Out: choices between pieces, each a polynomial of the formula.
 //!
 //! A piecewise linear function keeps its last values beyond the ends. A spline is the
@@ -9,12 +9,25 @@
 //!
 //! Source: de Boor, A Practical Guide to Splines (1978), chapter IV.
 
+use super::data;
 use super::evaluate::Evaluator;
 use super::unit::Unit;
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::{Comparison, ExprId, Number, Test};
 use crate::parse::ast::{Expr, ExprKind};
+
+/// How a table is read from a file.
+const FROM_FILE: &str = "write `table(\"file.csv\", t)` for the first two columns, or name them: \
+                         `table(\"file.csv\", \"time\", \"force\", t)`";
+
+/// Quoted text.
+fn text(e: &Expr) -> Option<&str> {
+    match &e.kind {
+        ExprKind::Text(text) => Some(text),
+        _ => None,
+    }
+}
 
 /// A point of a table.
 struct Point {
@@ -29,16 +42,18 @@ impl Evaluator {
     /// `table(pairs, x)` or, if it is smooth, `spline(pairs, x)`.
     pub(super) fn table(&mut self, name: &str, arguments: &[Expr]) -> Option<Value> {
         let smooth = name == "spline";
-        let (points, x) = (
-            self.points(name, &arguments[0]),
-            self.scalar(&arguments[1], &format!("what `{name}` is a function of")),
-        );
+        let (list, of) = (&arguments[0], &arguments[arguments.len() - 1]);
+        let points = match list.kind {
+            ExprKind::Text(_) => self.points_of_file(&arguments[..arguments.len() - 1]),
+            _ => self.points(name, list),
+        };
+        let x = self.scalar(of, &format!("what `{name}` is a function of"));
         let (points, x) = (points?, x?);
         let mut unit = points[0].value.unit;
         for pair in points.windows(2) {
             let [first, second] = pair else { continue };
             let what = "the first column of this table";
-            self.same_unit([(x, arguments[1].span), (first.at, first.spans[0])], what)?;
+            self.same_unit([(x, of.span), (first.at, first.spans[0])], what)?;
             self.same_unit(
                 [(first.at, first.spans[0]), (second.at, second.spans[0])],
                 what,
@@ -56,9 +71,43 @@ impl Evaluator {
             true => self.spline(&points, x.id)?,
             false => self.polygon(&points, x.id),
         };
-        let span = arguments[0].span.to(arguments[1].span);
+        let span = list.span.to(of.span);
         let id = self.sound(id, span)?;
         Some(Value::Scalar(Scalar { id, unit }))
+    }
+
+    /// The points of a file.
+    fn points_of_file(&mut self, texts: &[Expr]) -> Option<Vec<Point>> {
+        let span = texts[0].span.to(texts[texts.len() - 1].span);
+        let texts: Option<Vec<&str>> = texts.iter().map(text).collect();
+        let Some((name, columns)) = texts.as_deref().and_then(<[&str]>::split_first) else {
+            let error = Diagnostic::error(span, "columns are named by quoted text");
+            return self.report(error.help(FROM_FILE));
+        };
+        let Some(folder) = &self.folder else {
+            let message = "a description that is in no file has no files beside it";
+            return self.report(Diagnostic::error(span, message).help("write the pairs here"));
+        };
+        let path = folder.join(name);
+        self.files.push(path.clone());
+        let pairs = match data::read(&path).and_then(|text| data::pairs(&text, columns)) {
+            Ok(pairs) => pairs,
+            Err(fault) => {
+                let message = format!("`{name}`{}", fault.message);
+                return self.report(Diagnostic::error(span, message).help(fault.help));
+            }
+        };
+        let mut scalar = |value: f64| Scalar {
+            id: self.graph.number(Number::float(value)),
+            unit: Unit::Number,
+        };
+        let point = |[place, value]: [f64; 2]| Point {
+            at: scalar(place),
+            place,
+            value: scalar(value),
+            spans: [span, span],
+        };
+        Some(pairs.into_iter().map(point).collect())
     }
 
     /// The points of a list of pairs, in rising order.

@@ -29,8 +29,10 @@ pub struct Item {
 pub enum ItemKind {
     /// `const`, `param`, `input` or `output`.
     Declaration(Declaration),
-    /// `coord n[size]: unit;`
+    /// `coord n[size]: unit;` or `state n[size]: unit;`
     Coordinate {
+        /// Whether it is a state of the first order.
+        state: bool,
         /// Its name.
         name: Name,
         /// The number of coordinates, for an array.
@@ -54,6 +56,13 @@ pub enum ItemKind {
         force: Expr,
         /// What it works on.
         on: Expr,
+    },
+    /// `der(n) = value;`, the rate of a state.
+    Rate {
+        /// The state.
+        of: Expr,
+        /// Its rate.
+        value: Expr,
     },
     /// `constraint left = right;`
     Constraint {
@@ -269,6 +278,8 @@ pub struct Expr {
 pub enum ExprKind {
     /// A number.
     Number(Number),
+    /// Quoted text: the name of a file or of a column in it.
+    Text(String),
     /// A name.
     Name(String),
     /// `-x`

@@ -75,7 +75,7 @@ impl Cursor<'_> {
         let operand = match self.peek_at(1).kind {
             TokenKind::Word(_) | TokenKind::Number(_) => true,
             TokenKind::Symbol(sign) => sign == "(",
-            TokenKind::End => false,
+            TokenKind::Text(_) | TokenKind::End => false,
         };
         if self.at_word("not") && operand {
             self.advance();

@@ -13,10 +13,11 @@ pub struct Reported;
 pub type Parsed<T> = Result<T, Reported>;
 
 /// Words that begin a statement, with an example of each.
-pub const STATEMENTS: [(&str, &str); 17] = [
+pub const STATEMENTS: [(&str, &str); 18] = [
     ("const", "const g: m/s^2 = 9.81;"),
     ("param", "param L1: m = 0.5;"),
     ("coord", "coord q1: rad;"),
+    ("state", "state z: m; der(z) = goal - x;"),
     ("input", "input u: N*m = 0;"),
     ("let", "let c = [L1*cos(q1), L1*sin(q1)];"),
     ("fn", "fn spring(d: m): N = -k*d;"),
@@ -330,6 +331,26 @@ impl<'a> Cursor<'a> {
             }
             self.advance();
         }
+    }
+
+    /// What to write where a word on the same line follows a number, instead of what was
+    /// expected: in a vector, or elsewhere.
+    pub fn number_in_front(&self, in_vector: bool) -> Option<String> {
+        let TokenKind::Word(word) = &self.peek().kind else {
+            return None;
+        };
+        let number = self.behind(1);
+        let here = number.span.end.line == self.span().start.line;
+        if !matches!(number.kind, TokenKind::Number(_)) || !here {
+            return None;
+        }
+        let number = number.span.text(self.source);
+        let unit = match in_vector {
+            true => format!("stands behind the whole vector, `[…] {word}`"),
+            false => format!("stands in a declaration, `const a: {word} = {number};`"),
+        };
+        let product = format!("a product is written `{number}*{word}`");
+        Some(format!("{product}; a unit {unit}"))
     }
 
     /// Whether a word that begins a statement comes next.

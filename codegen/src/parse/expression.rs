@@ -186,6 +186,13 @@ impl Cursor<'_> {
         let token = self.peek().clone();
         match token.kind {
             TokenKind::Number(text) => self.number(&text, token.span),
+            TokenKind::Text(text) => {
+                self.advance();
+                Ok(Expr {
+                    span: token.span,
+                    kind: ExprKind::Text(text),
+                })
+            }
             TokenKind::Word(word) if word == "if" => self.deeper(Self::choice),
             TokenKind::Word(word)
                 if ["then", "else", "in", "on", "for"].contains(&word.as_str()) =>
@@ -196,6 +203,9 @@ impl Cursor<'_> {
             TokenKind::Symbol("(") => self.parenthesis(),
             TokenKind::Symbol("[") => self.vector(),
             TokenKind::Symbol(".") => self.dot(token.span),
+            TokenKind::Symbol("{") => {
+                Err(self.unexpected("a formula", "a point or vector is written `[x, y]`"))
+            }
             TokenKind::Symbol("|") => {
                 Err(self.unexpected("a formula", "a size is written `abs(x)` or `norm(v)`"))
             }
@@ -281,10 +291,10 @@ impl Cursor<'_> {
             arguments.push(self.expression()?);
             if !self.at_symbol(close) {
                 self.comparison_stands_after_if()?;
-                self.expect_symbol(
-                    ",",
-                    &format!("between parts stands `,`, at the end `{close}`"),
-                )?;
+                let help = self.number_in_front(close == "]");
+                let help = help
+                    .unwrap_or_else(|| format!("between parts stands `,`, at the end `{close}`"));
+                self.expect_symbol(",", &help)?;
             }
         }
         Ok(arguments)

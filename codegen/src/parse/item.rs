@@ -75,7 +75,7 @@ impl Cursor<'_> {
         let TokenKind::Word(word) = self.peek().kind.clone() else {
             return Err(self.unexpected("a statement", &statement_help("")));
         };
-        if !self.at_statement() {
+        if !self.at_statement() && !self.at_rate() {
             let error = Diagnostic::error(start, format!("`{word}` does not begin a statement"));
             let help = match self.peek_at(1).kind {
                 TokenKind::Symbol("=") => {
@@ -109,7 +109,9 @@ impl Cursor<'_> {
             "param" => self.declaration(Declared::Parameter, word)?,
             "input" => self.declaration(Declared::Input, word)?,
             "output" => self.declaration(Declared::Output, word)?,
-            "coord" => self.coordinate()?,
+            "coord" => self.coordinate(false)?,
+            "state" => self.coordinate(true)?,
+            "der" => self.rate()?,
             "let" => self.let_item()?,
             "fn" => self.function()?,
             "part" => return self.part(),
@@ -140,13 +142,16 @@ impl Cursor<'_> {
         let goes_on = match &next.kind {
             TokenKind::Word(_) | TokenKind::Number(_) => true,
             TokenKind::Symbol(symbol) => *symbol == "(",
-            TokenKind::End => false,
+            TokenKind::Text(_) | TokenKind::End => false,
         };
-        if same_line && goes_on && word != "coord" {
+        if same_line && goes_on && !matches!(word, "coord" | "state") {
             let [left, right] = [self.last_span(), next.span].map(|span| span.text(self.source));
             let left = if left == ")" { "(…)" } else { left };
             let right = if right == "(" { "(…)" } else { right };
-            let help = format!("a product is written with `*`: `{left}*{right}`");
+            let help = match right {
+                "if" => "a choice is written `if a < b then x else y`".to_string(),
+                _ => format!("a product is written with `*`: `{left}*{right}`"),
+            };
             return Err(self.unexpected("an operator or `;`", &help));
         }
         self.no_foreign_operator()?;
@@ -234,27 +239,51 @@ impl Cursor<'_> {
         Err(self.fail(error.help(help)))
     }
 
-    fn coordinate(&mut self) -> Parsed<ItemKind> {
-        let name = self.name("the coordinate", "coord")?;
+    fn coordinate(&mut self, state: bool) -> Parsed<ItemKind> {
+        let (word, what) = match state {
+            true => ("state", "state"),
+            false => ("coord", "coordinate"),
+        };
+        let name = self.name(&format!("the {what}"), word)?;
         let mut size = None;
         if self.take_symbol("[") {
             size = Some(self.expression()?);
-            self.expect_symbol(
-                "]",
-                "an array of coordinates is written `coord theta[3]: rad;`",
-            )?;
+            let help = format!("an array of {what}s is written `{word} theta[3]: rad;`");
+            self.expect_symbol("]", &help)?;
         }
-        self.one_name(&name, "coord", ": …")?;
+        self.one_name(&name, word, ": …")?;
         let unit = self.optional_unit()?;
         if self.at_symbol("=") {
-            let error = Diagnostic::error(self.span(), "a coordinate has no value of its own");
+            let error = Diagnostic::error(self.span(), format!("a {what} has no value of its own"));
             let help = format!(
                 "its value at the start is written `start {{ {} = …; }}`",
                 name.text
             );
             return Err(self.fail(error.help(help)));
         }
-        Ok(ItemKind::Coordinate { name, size, unit })
+        Ok(ItemKind::Coordinate {
+            state,
+            name,
+            size,
+            unit,
+        })
+    }
+
+    /// Whether `der(` comes next, which begins a statement only where one has to begin:
+    /// lines of formulas may begin so, too.
+    fn at_rate(&self) -> bool {
+        self.at_word("der") && self.peek_at(1).kind == TokenKind::Symbol("(")
+    }
+
+    /// `der(state) = formula`
+    fn rate(&mut self) -> Parsed<ItemKind> {
+        let help = "the rate of a state is written `der(z) = goal - x;`";
+        self.expect_symbol("(", help)?;
+        let of = self.expression()?;
+        self.expect_symbol(")", help)?;
+        self.expect_symbol("=", help)?;
+        let value = self.expression()?;
+        Ok(ItemKind::Rate { of, value })
     }
 
     fn let_item(&mut self) -> Parsed<ItemKind> {
@@ -279,7 +308,9 @@ impl Cursor<'_> {
     fn force(&mut self) -> Parsed<ItemKind> {
         let force = self.expression()?;
         if !self.take_word("on") {
-            return Err(self.unexpected("`on` and what the force works on", &example("force")));
+            let help = self.number_in_front(false);
+            let help = help.unwrap_or_else(|| example("force"));
+            return Err(self.unexpected("`on` and what the force works on", &help));
         }
         let on = self.expression()?;
         Ok(ItemKind::Force { force, on })
@@ -293,6 +324,11 @@ impl Cursor<'_> {
         };
         if named {
             self.expect_symbol(":", "")?;
+            if self.at_symbol("=") {
+                let error = Diagnostic::error(self.span(), "`:=` is not used here");
+                let help = "write `constraint a = b;`; in front of `:` stands a name";
+                return Err(self.fail(error.help(help)));
+            }
         }
         let left = self.expression()?;
         if self.at_symbol("==") {
@@ -347,6 +383,13 @@ impl Cursor<'_> {
         let value = self.expression()?;
         let direction = DIRECTIONS.iter().find(|(word, _)| self.at_word(word));
         let Some((_, direction)) = direction.copied() else {
+            if self.at_symbol("=") {
+                let message = "an event is a formula that passes zero, not an equation";
+                let error = Diagnostic::error(self.span(), message);
+                let name = &name.text;
+                let help = format!("write `event {name}: a - b crossing;` for `a = b`");
+                return Err(self.fail(error.help(help)));
+            }
             return Err(self.unexpected("`rising`, `falling` or `crossing`", &example("event")));
         };
         self.advance();

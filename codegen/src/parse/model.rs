@@ -9,8 +9,8 @@
 //! show its lines.
 
 use super::ast::{
-    Crossing, Declaration, Declared, Drawing, Energy, Expr, Item, ItemKind, Let, Name, StartItem,
-    UnitExpr,
+    Crossing, Declaration, Declared, Drawing, Energy, Expr, ExprKind, Item, ItemKind, Let, Name,
+    StartItem, UnitExpr,
 };
 use super::formula::{Formula, ModelError};
 use super::{print, unit};
@@ -52,6 +52,16 @@ impl Model {
         let mut model = Self::named(here(name), String::new());
         model.check_name(name);
         model
+    }
+
+    /// Where the law of an input of the mechanism itself stands.
+    pub fn law_of(&self, input: &str) -> Option<Span> {
+        self.items.iter().find_map(|item| match &item.kind {
+            ItemKind::Declaration(d) if d.kind == Declared::Input && d.name.text == input => {
+                Some(d.value.span)
+            }
+            _ => None,
+        })
     }
 
     /// As the parser begins one.
@@ -105,6 +115,7 @@ impl Model {
         self.check_name(name);
         let unit = self.unit(unit);
         self.statement(ItemKind::Coordinate {
+            state: false,
             name: here(name),
             size: None,
             unit,
@@ -117,10 +128,29 @@ impl Model {
         let size = Some(self.faults.accept(size.into()));
         let unit = self.unit(unit);
         self.statement(ItemKind::Coordinate {
+            state: false,
             name: here(name),
             size,
             unit,
         })
+    }
+
+    /// `state name: unit; der(name) = rate;`
+    pub fn state(mut self, name: &str, unit: &str, rate: impl Into<Formula>) -> Self {
+        self.check_name(name);
+        let unit = self.unit(unit);
+        let value = self.faults.accept(rate.into());
+        let declared = self.statement(ItemKind::Coordinate {
+            state: true,
+            name: here(name),
+            size: None,
+            unit,
+        });
+        let of = Expr {
+            span: value.span,
+            kind: ExprKind::Name(name.to_string()),
+        };
+        declared.statement(ItemKind::Rate { of, value })
     }
 
     /// `let name = value;`

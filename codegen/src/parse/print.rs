@@ -51,13 +51,16 @@ fn statement(kind: &ItemKind, depth: usize) -> String {
     match kind {
         ItemKind::Declaration(d) => declaration(d),
         ItemKind::Coordinate {
+            state,
             name,
             size,
             unit: of,
         } => {
-            let size = size.as_ref().map(|size| format!("[{}]", formula(size)));
-            let size = size.unwrap_or_default();
-            format!("coord {}{size}{};", name.text, unit(of.as_ref()))
+            let word = if *state { "state" } else { "coord" };
+            let size = size
+                .as_ref()
+                .map_or(String::new(), |k| format!("[{}]", formula(k)));
+            format!("{word} {}{size}{};", name.text, unit(of.as_ref()))
         }
         ItemKind::Let(l) => {
             let index = l.range.as_ref().map(|r| format!("[{}]", range(r)));
@@ -82,6 +85,7 @@ fn statement(kind: &ItemKind, depth: usize) -> String {
             format!("dissipation {};", formula(value))
         }
         ItemKind::Force { force, on } => format!("force {} on {};", formula(force), formula(on)),
+        ItemKind::Rate { of, value } => format!("der({}) = {};", formula(of), formula(value)),
         ItemKind::Constraint {
             name, left, right, ..
         } => {
@@ -178,6 +182,7 @@ pub fn formula(e: &Expr) -> String {
     match &e.kind {
         ExprKind::Number(number) => decimal(*number),
         ExprKind::Name(name) => name.clone(),
+        ExprKind::Text(text) => format!("\"{text}\""),
         ExprKind::Negative(x) => format!("-{}", within(x, Binding::Sign)),
         ExprKind::Sum(terms) => chain(terms, [" + ", " - "], Binding::Product),
         ExprKind::Product(factors) => chain(factors, ["*", "/"], Binding::Power),

@@ -327,9 +327,35 @@ impl Scanner<'_> {
             while self.next().is_some_and(|c| c != '"') {}
         }
         let span = self.span_from(start);
+        let closed = span.text(self.text).trim_matches('"').len() + 2 == span.range().len();
+        let plain = !span.text(self.text).contains('\\');
+        if closed && plain && self.names_a_file(start) {
+            return;
+        }
         let error = Diagnostic::error(span, "quoted text has no meaning here");
         self.diagnostics.push(error.help(instead('"')));
         self.blank(span);
+    }
+
+    /// Whether quoted text at a place is that of a table: `table("file.csv", "column", t)`.
+    fn names_a_file(&self, at: Position) -> bool {
+        let before = self.text[..at.offset as usize].trim_end();
+        let texts = |c: char| c.is_ascii_whitespace() || c == ',';
+        let mut before = before;
+        while let Some(rest) = before.strip_suffix(',').map(str::trim_end) {
+            let Some(inside) = rest.strip_suffix('"') else {
+                return false;
+            };
+            before = match inside.rfind('"') {
+                Some(open) => inside[..open].trim_end(),
+                None => return false,
+            };
+        }
+        let call = before.trim_end_matches(texts).strip_suffix('(');
+        call.is_some_and(|call| {
+            let call = call.trim_end();
+            call.ends_with("table") || call.ends_with("spline")
+        })
     }
 
     fn other(&mut self, character: char, start: Position) {

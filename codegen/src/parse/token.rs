@@ -21,6 +21,8 @@ pub struct Token {
 pub enum TokenKind {
     Word(String),
     Number(String),
+    /// Quoted text, without the quotes.
+    Text(String),
     Symbol(&'static str),
     /// The end of the file.
     End,
@@ -111,7 +113,17 @@ impl Flattener<'_> {
         let span = place(tree.span());
         match tree {
             TokenTree::Ident(word) => self.push(TokenKind::Word(word.to_string()), span),
-            TokenTree::Literal(number) => self.push(TokenKind::Number(number.to_string()), span),
+            TokenTree::Literal(literal) => {
+                let text = literal.to_string();
+                let quoted = text
+                    .strip_prefix('"')
+                    .and_then(|text| text.strip_suffix('"'));
+                let kind = match quoted {
+                    Some(quoted) => TokenKind::Text(quoted.to_string()),
+                    None => TokenKind::Number(text),
+                };
+                self.push(kind, span);
+            }
             TokenTree::Punct(punct) => {
                 let first = punct.as_char();
                 let second = match rest.peek() {

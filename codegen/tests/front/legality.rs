@@ -127,15 +127,96 @@ fn a_constraint_restricts_coordinates() {
 }
 
 #[test]
-fn accelerations_are_not_written() {
+fn accelerations_stand_in_outputs_alone() {
+    let m = accept(&with(
+        "let v = der(q); output y = q*der(v) + 1; output z = v;",
+    ));
+    let accelerated: Vec<bool> = m.outputs.iter().map(|o| o.accelerated).collect();
+    assert_eq!(accelerated, [true, false]);
+    for (statement, what) in [
+        ("kinetic q*der(der(q));", "an energy"),
+        ("force der(der(q)) on q;", "a force"),
+        ("force 1 on der(der(q));", "what a force works on"),
+        ("constraint der(der(q)) = 0;", "a constraint"),
+        (
+            "input u = der(der(q)); force u on q;",
+            "the law of an input",
+        ),
+        ("event e: der(der(q)) rising;", "an event function"),
+        ("start { der(der(q)) = 0; }", "the start"),
+    ] {
+        let said = format!("{what} can't contain an acceleration");
+        refuse_saying(&with(statement), &said);
+    }
     refuse_saying(
-        &with("output y = der(der(q));"),
-        "the derivative of a velocity",
+        &with("draw circle([der(der(q)), 0], 1);"),
+        "a picture shows positions",
     );
     refuse_saying(
-        &with("let v = der(q); kinetic der(v)^2;"),
-        "can't stand in a description",
+        &with("output jerk = der(der(der(q)));"),
+        "the derivative of an acceleration is not known",
     );
+}
+
+#[test]
+fn states_act_by_forces_alone() {
+    let m = accept(&with(
+        "state z: m; der(z) = 1 - z - q; input u = z; force u*z on q; start { z = 2; } \
+         output y = z; output rate = der(z); event e: z rising; dissipation z^2*der(q)^2;",
+    ));
+    assert_eq!(m.states, 1);
+    assert_eq!(m.coordinates.last().map(|q| q.name.as_str()), Some("z"));
+    assert!(m.outputs[1].accelerated && !m.outputs[0].accelerated);
+    let start = m.starts.last().map(|start| start.velocity);
+    assert_eq!(start, Some(true));
+    for (statement, said) in [
+        ("kinetic z^2;", "the kinetic energy can't contain a state"),
+        (
+            "potential z*q;",
+            "the potential energy can't contain a state",
+        ),
+        ("constraint q = z;", "a constraint can't contain a state"),
+        ("force 1 on z;", "a force can't work on a state"),
+        (
+            "start { z*q = 1; }",
+            "an equation of the start can't contain a state",
+        ),
+        ("start { q = z; }", "a start value is built of numbers"),
+        ("draw circle([z, 0], 1);", "a picture shows positions"),
+        ("der(q) = 1;", "this is a coordinate, not a state"),
+        ("der(q + z) = 1;", "only a state has a rate that is written"),
+        ("der(z) = 2;", "this state has a rate already"),
+        (
+            "force der(z) on q;",
+            "a force can't contain an acceleration",
+        ),
+    ] {
+        let text = format!("state z; der(z) = 1 - z; force z on q; {statement}");
+        refuse_saying(&with(&text), said);
+    }
+    refuse_saying(&with("state z; force z on q;"), "the state `z` has no rate");
+    refuse_saying(
+        &with("param k: N = 1; state z: m; der(z) = k; force z on q;"),
+        "this rate",
+    );
+    refuse_saying(
+        &with("state z; der(z) = [1, 2]; force z on q;"),
+        "this is a number, its rate a vector",
+    );
+    refuse_saying(&with("state z = 1;"), "a state has no value of its own");
+    refuse_saying(&with("der(z) + 1 = 2;"), "expected `=`");
+}
+
+#[test]
+fn states_stand_in_arrays_loops_and_parts() {
+    let m = accept(&with(
+        "const N = 2; state z[N]; for i in 0..N { der(z[i]) = i - z[i]; force z[i] on q; } \
+         part Lag(goal) { state f; der(f) = goal - f; } let slow = Lag(q); force slow.f on q; \
+         state p[2]; der(p) = [q, 1]; force p[0] on q;",
+    ));
+    let states = m.coordinates.iter().skip(m.freedoms());
+    let names: Vec<&str> = states.map(|q| q.name.as_str()).collect();
+    assert_eq!(names, ["z[0]", "z[1]", "slow.f", "p[0]", "p[1]"]);
 }
 
 #[test]

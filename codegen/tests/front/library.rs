@@ -110,7 +110,16 @@ const PUMA_GRAVITY: [f64; 6] = [0.0, 31.6399, 6.0351, 0.0, 0.0283, 0.0];
 
 #[test]
 fn a_puma_560_of_parts_has_the_inertia_and_the_gravity_load_of_the_robotics_toolbox() {
-    let mut m = accept(include_str!("../accepted/puma_560.mech"));
+    puma_560_is_that_of_the_toolbox(include_str!("../accepted/puma_560.mech"));
+}
+
+#[test]
+fn the_puma_560_of_the_library_has_them_too() {
+    puma_560_is_that_of_the_toolbox(include_str!("../../../mechanisms/puma_560.mech"));
+}
+
+fn puma_560_is_that_of_the_toolbox(description: &str) {
+    let mut m = accept(description);
     let equations = derive(&mut m).expect("equations of a usual length");
     let nominal = [0.0, 0.25 * PI, PI, 0.0, 0.25 * PI, 0.0];
     let defaults: Vec<f64> = m

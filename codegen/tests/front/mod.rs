@@ -5,6 +5,7 @@ mod build;
 mod documentation;
 mod doubts;
 mod eliminated;
+mod files;
 mod forms;
 mod functions;
 mod grammar;

@@ -161,8 +161,8 @@ fn omega_and_rotations_refuse_what_they_are_not_for() {
         "takes a 2 × 2 or a 3 × 3 matrix",
     );
     refuse_saying(
-        &with("let a = omega(rotz(der(q)));"),
-        "the derivative of a velocity",
+        &with("let a = omega(rotz(der(q))); force a.z on q;"),
+        "a force can't contain an acceleration",
     );
     refuse_saying(
         &with("let a = quat(1, 0, 0);"),

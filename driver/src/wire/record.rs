@@ -3,8 +3,8 @@
 use super::Wire;
 use crate::{Around, Changes, Column, Drawn, Exact, Given, Leg, Path, Race, Reached, Scene};
 use bricard_runtime::{
-    Audit, ConstraintRow, Counters, Declared, Direction, Event, Form, Options, Origin, Pace,
-    Passage, Quantity, Scheme, Settings, Stabilisation, Structure,
+    Audit, ConstraintRow, Counters, Declared, Direction, Event, Form, Multiplier, Options, Origin,
+    Pace, Passage, Quantity, Scheme, Settings, Stabilisation, Structure,
 };
 
 /// Structs by their fields. A field that is missing here does not compile.
@@ -58,15 +58,16 @@ pub(super) use choices;
 
 records! {
     Structure {
-        name, docs, file, coordinates, described, parameters, inputs, outputs, events,
-        constraints, weighed, constant_mass, conservative, drawn, regular
+        name, docs, file, coordinates, states, described, parameters, inputs, outputs, accelerated, events,
+        constraints, multipliers, weighed, constant_mass, conservative, drawn, regular
     }
     Quantity { name, unit, docs }
     Declared { quantity, given_by }
     ConstraintRow { text, line, holonomic }
+    Multiplier { quantity, row }
     Event { name, direction }
     Options<f64> { until, scheme, pace, settings, keep_energy, audit, most_steps, origin }
-    Settings<f64> { form, stabilisation, published }
+    Settings<f64> { form, stabilisation, published, across_switches }
     Audit { constraints, energy, passages }
     Origin<f64> { t, energy, supplied }
     Passage<f64> { t, sine, rank, regular }
@@ -97,7 +98,8 @@ choices! {
     Stabilisation<f64> { 0 => Projection, 1 => Baumgarte { alpha, beta }, 2 => None }
     Column {
         0 => Energy, 1 => Kinetic, 2 => Potential, 3 => ConstraintError, 4 => VelocityError,
-        5 => Rank, 6 => Reaction(place), 7 => Output(place)
+        5 => Rank, 6 => Reaction(place), 7 => Output(place), 8 => Acceleration(place),
+        9 => Multiplier(place), 10 => Input(place)
     }
     Drawn { 0 => Line(points), 1 => Circle, 2 => Polygon(points), 3 => Trace }
 }

@@ -60,6 +60,48 @@ where
     T: Real,
     M: Mechanism<T, N, R> + StartEquations<T, N>,
 {
+    moved::<T, M, N, R, P, V>(mechanism, (structures, Some(R)), start, t)
+}
+
+/// Moves the guesses of a start onto equations that are guesses, of which there are `P`
+/// for positions and `V` for velocities, those that are held among them; whether they can
+/// be met. Constraints are none of them: they are met afterwards, from there.
+pub fn guess<T, M, const N: usize, const R: usize, const P: usize, const V: usize>(
+    mechanism: &M,
+    structure: &'static Structure,
+    start: &mut Start<T, N>,
+    t: T,
+) -> bool
+where
+    T: Real,
+    M: Mechanism<T, N, R> + StartEquations<T, N>,
+{
+    let mut moved_to = *start;
+    let plan = ([structure, structure], None);
+    let met = moved::<T, M, N, R, P, V>(mechanism, plan, &mut moved_to, t).is_ok();
+    let turns = T::from_f64(core::f64::consts::TAU);
+    let pairs = moved_to.q.iter().zip(&start.q);
+    // Beyond a turn it has lost its way.
+    let near = pairs.fold(true, |near, (to, from)| {
+        near & ((to.value - from.value).abs() <= turns * (T::one() + from.value.abs()))
+    });
+    if met && near {
+        *start = moved_to;
+    }
+    met && near
+}
+
+/// Moves a start onto the equations and `own` constraints, if there are any.
+fn moved<T, M, const N: usize, const R: usize, const P: usize, const V: usize>(
+    mechanism: &M,
+    (structures, own): ([&'static Structure; 2], Option<usize>),
+    start: &mut Start<T, N>,
+    t: T,
+) -> Result<(), StartFault<T, N>>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + StartEquations<T, N>,
+{
     let q = SVector::from_fn(|i, _| start.q[i].value);
     let v = SVector::from_fn(|i, _| start.v[i].value);
     let mut state = State { t, q, v };
@@ -68,6 +110,7 @@ where
         let rows = Further::<M, R> {
             mechanism,
             structure: positions,
+            own,
             velocities: false,
         };
         let held = start.q.map(|initial| initial.held);
@@ -78,6 +121,7 @@ where
         let rows = Further::<M, R> {
             mechanism,
             structure: velocities,
+            own,
             velocities: true,
         };
         let held = start.v.map(|initial| initial.held);
@@ -90,12 +134,29 @@ where
     Ok(())
 }
 
-/// A mechanism with further rows behind its `R` constraints.
+/// A mechanism with further rows behind its `R` constraints, or in their place.
 struct Further<'a, M, const R: usize> {
     mechanism: &'a M,
     structure: &'static Structure,
+    /// How many constraints there are: all of them, or none, and then no coordinate is
+    /// heavier than another.
+    own: Option<usize>,
     /// Whether the rows are those for velocities.
     velocities: bool,
+}
+
+impl<M, const R: usize> Further<'_, M, R> {
+    /// The constraints in front of the further rows.
+    fn rows(&self) -> usize {
+        self.own.unwrap_or(0)
+    }
+
+    fn mass<T: Real, const N: usize>(&self, terms: &Terms<T, N, R>) -> SMatrix<T, N, N> {
+        match self.own {
+            Some(_) => terms.mass,
+            None => SMatrix::identity(),
+        }
+    }
 }
 
 impl<T, M, const N: usize, const R: usize, const S: usize> Mechanism<T, N, S> for Further<'_, M, R>
@@ -111,8 +172,8 @@ where
     fn terms(&self, state: &State<T, N>, out: &mut Terms<T, N, S>) {
         let mut own = Terms::<T, N, R>::default();
         self.mechanism.terms(state, &mut own);
-        (out.mass, out.force) = (own.mass, own.force);
-        for k in 0..R.min(S) {
+        (out.mass, out.force) = (self.mass(&own), own.force);
+        for k in 0..self.rows().min(S) {
             out.bias[k] = own.bias[k];
             (0..N).for_each(|j| out.jacobian[(k, j)] = own.jacobian[(k, j)]);
         }
@@ -123,10 +184,16 @@ where
         self.mechanism.terms(state, &mut terms);
         let mut own = Position::<T, N, R>::default();
         self.mechanism.position(state, &mut own);
-        out.mass = terms.mass;
+        out.mass = self.mass(&terms);
         let (mut errors, mut slopes) = (SVector::<T, S>::zeros(), SMatrix::<T, N, S>::zeros());
-        let further = errors.as_mut_slice().get_mut(R..).unwrap_or_default();
-        let further_slopes = slopes.as_mut_slice().get_mut(R * N..).unwrap_or_default();
+        let further = errors
+            .as_mut_slice()
+            .get_mut(self.rows()..)
+            .unwrap_or_default();
+        let further_slopes = slopes
+            .as_mut_slice()
+            .get_mut(self.rows() * N..)
+            .unwrap_or_default();
         if self.velocities {
             self.mechanism.velocity_errors(state, further);
             self.mechanism.velocity_slopes(state, further_slopes);
@@ -135,11 +202,11 @@ where
             self.mechanism.position_slopes(state, further_slopes);
         }
         out.jacobian = slopes.transpose();
-        for k in 0..R.min(S) {
+        for k in 0..self.rows().min(S) {
             (0..N).for_each(|j| out.jacobian[(k, j)] = own.jacobian[(k, j)]);
             (out.residual[k], out.drift[k]) = (own.residual[k], own.drift[k]);
         }
-        for k in R..S {
+        for k in self.rows()..S {
             let place = match self.velocities {
                 true => &mut out.drift,
                 false => &mut out.residual,

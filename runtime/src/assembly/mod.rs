@@ -23,7 +23,7 @@ mod position;
 mod scales;
 mod velocity;
 
-pub use equations::{StartEquations, StartFault, meet};
+pub use equations::{StartEquations, StartFault, guess, meet};
 pub use error::AssemblyError;
 
 use crate::{Mechanism, Position, Real, Start, State};

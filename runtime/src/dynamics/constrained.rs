@@ -13,8 +13,8 @@ use nalgebra::SVector;
 /// A mechanism bound to the solver of its equations, by [`Solver::on`].
 #[derive(Debug)]
 pub struct ConstrainedSystem<'a, M: ?Sized, T, const N: usize, const R: usize> {
-    mechanism: &'a M,
-    solver: &'a mut Solver<T, N, R>,
+    pub(super) mechanism: &'a M,
+    pub(super) solver: &'a mut Solver<T, N, R>,
 }
 
 /// Rank of the constraints at a position, and how far it is from falling.
@@ -90,44 +90,6 @@ where
         self.solver.start(self.mechanism, state, &placed)
     }
 
-    /// The acceleration at a state within a step from the last accepted one, or at any
-    /// other.
-    fn acceleration_within(
-        &mut self,
-        state: &State<T, N>,
-    ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        match self.solver.session.chart.is_some() {
-            true => self.solver.acceleration(self.mechanism, state),
-            false => self.acceleration(state),
-        }
-    }
-
-    /// The acceleration `q̈` and the generalized reaction forces `r` of the
-    /// constraints (`N` each; N or N·m), `M q̈ + r = p₁`.
-    ///
-    /// `r` is unique where multipliers are not: redundant constraints share it in a
-    /// way that the equations of motion do not determine.
-    ///
-    /// # Errors
-    ///
-    /// As [`acceleration`](Self::acceleration).
-    pub fn reaction(
-        &mut self,
-        state: &State<T, N>,
-    ) -> Result<(SVector<T, N>, SVector<T, N>), DynamicsError<T>> {
-        let acceleration = self.acceleration(state)?;
-        Ok((acceleration, self.balance(state, &acceleration)))
-    }
-
-    /// The reaction within a step; see [`acceleration_within`](Self::acceleration_within).
-    pub(crate) fn reaction_within(
-        &mut self,
-        state: &State<T, N>,
-    ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        let acceleration = self.acceleration_within(state)?;
-        Ok(self.balance(state, &acceleration))
-    }
-
     /// Brings a state near the constraints onto them, positions, then velocities, whatever
     /// state was asked about before.
     ///
@@ -155,13 +117,6 @@ where
             Ok::<_, DynamicsError<T>>(projected)
         })?;
         Ok(())
-    }
-
-    /// `p₁ − M q̈`.
-    fn balance(&mut self, state: &State<T, N>, acceleration: &SVector<T, N>) -> SVector<T, N> {
-        self.mechanism.terms(state, &mut self.solver.terms);
-        let terms = &self.solver.terms;
-        terms.force - terms.mass * acceleration
     }
 
     /// The rank of the constraints at a position, which should be on them.
@@ -212,6 +167,7 @@ where
     /// accepted state.
     pub(crate) fn follow(&mut self, other: &Self) {
         let (here, there) = (&mut *self.solver, &*other.solver);
+        here.conditions.adopt(&there.conditions);
         let chart = there.session.used.as_ref().or(there.session.chart.as_ref());
         if here.session.chart.is_some() || chart.is_some() {
             here.session.base = there.session.base;

@@ -20,6 +20,7 @@ mod metric;
 mod multipliers;
 mod partitioning;
 mod rank;
+mod reaction;
 mod reduced;
 mod rows;
 mod settings;

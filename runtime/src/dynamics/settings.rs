@@ -74,6 +74,9 @@ pub struct Settings<T> {
     /// Whether singular positions are passed as published, by a decision on the rank
     /// alone: less accurate, for comparison.
     pub published: bool,
+    /// Whether steps go across jumps and kinks of the forces instead of ending there: less
+    /// accurate, for forces that change sides more often than is worth a step.
+    pub across_switches: bool,
 }
 
 impl<T> Default for Settings<T> {
@@ -82,6 +85,7 @@ impl<T> Default for Settings<T> {
             form: Form::Reduced,
             stabilisation: Stabilisation::Projection,
             published: false,
+            across_switches: false,
         }
     }
 }

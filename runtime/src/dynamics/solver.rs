@@ -99,7 +99,10 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.metric.forget();
         self.safe = None;
         self.expect_regular();
-        let conditions = mechanism.switches(&State::default(), &SVector::zeros(), &mut []);
+        let conditions = match self.settings.across_switches {
+            true => &[],
+            false => mechanism.switches(&State::default(), &SVector::zeros(), &mut []),
+        };
         self.conditions.forget(conditions);
         ConstrainedSystem::new(mechanism, self)
     }
@@ -214,7 +217,12 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     #[inline(never)]
     fn extend_reach<M: Mechanism<T, N, R> + ?Sized>(&mut self, mechanism: &M, state: &State<T, N>) {
         let mut sizes = state.q;
-        for (size, coordinate) in sizes.iter_mut().zip(mechanism.structure().coordinates) {
+        let structure = mechanism.structure();
+        for i in structure.freedoms().len()..N {
+            // Integrals of states are no lengths.
+            (sizes[i], self.sizes[i]) = (T::zero(), T::from_f64(f64::INFINITY));
+        }
+        for (size, coordinate) in sizes.iter_mut().zip(structure.freedoms()) {
             *size = size.abs();
             if coordinate.may_be_angle() {
                 *size = size.max(T::one());

@@ -55,6 +55,8 @@ pub(crate) struct Conditions<T, const N: usize> {
     pub(super) sliding: u128,
     /// How much of the force above zero acts on a motion that slides, at the last state.
     pub(super) shares: [T; Sides::ROOM],
+    /// Sides, and those slid along, with which the last step was made.
+    pub(super) made: Option<(Sides, u128)>,
     /// The state that they are known for.
     at: Option<State<T, N>>,
     aim: Option<Aim>,
@@ -74,6 +76,7 @@ impl<T: Real, const N: usize> Conditions<T, N> {
             sides: Sides::FREE,
             sliding: 0,
             shares: [T::zero(); Sides::ROOM],
+            made: None,
             at: None,
             aim: None,
             turned: T::zero(),
@@ -85,7 +88,17 @@ impl<T: Real, const N: usize> Conditions<T, N> {
     /// Forgets on which sides a motion was.
     pub(super) fn forget(&mut self, list: &'static [Condition]) {
         self.list = list;
-        self.at = None;
+        (self.at, self.made) = (None, None);
+    }
+
+    /// Holds the conditions as another motion did in its last step; where it has made
+    /// none, the state decides.
+    pub(super) fn adopt(&mut self, other: &Self) {
+        self.made = other.made;
+        self.shares = other.shares;
+        if let Some((sides, sliding)) = self.made {
+            (self.sides, self.sliding) = (sides, sliding);
+        }
     }
 
     /// The sign of a function on the side where it is held.
@@ -151,6 +164,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         if self.conditions.list.is_empty() {
             return Ok(Switching::Nowhere);
         }
+        self.conditions.made = Some((self.conditions.sides, self.conditions.sliding));
         let (start, end) = (step.start().t, step.end().t);
         let same = T::EPSILON * T::from_f64(SAME_TIME) * start.abs().max(end.abs());
         self.conditions.attempt = self.conditions.attempt.max(end - start);

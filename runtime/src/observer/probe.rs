@@ -43,6 +43,19 @@ pub trait Probe<T: Real, const N: usize> {
     /// A [`DynamicsError`] if the acceleration can't be computed.
     fn reaction(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>>;
 
+    /// The acceleration. Writes the multipliers of the constraints, `r = Aᵀλ`, as many as
+    /// there is room for; none where constraints depend on one another, so that nothing
+    /// tells how they share their reactions.
+    ///
+    /// # Errors
+    ///
+    /// A [`DynamicsError`] if it can't be computed.
+    fn acceleration(
+        &mut self,
+        state: &State<T, N>,
+        multipliers: &mut [Option<T>],
+    ) -> Result<SVector<T, N>, DynamicsError<T>>;
+
     /// Brings a state back onto the constraints.
     ///
     /// # Errors
@@ -50,8 +63,17 @@ pub trait Probe<T: Real, const N: usize> {
     /// A [`DynamicsError`] if that fails.
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>>;
 
-    /// Writes the outputs, as many as `values` has room for.
-    fn outputs(&self, state: &State<T, N>, values: &mut [T]);
+    /// Writes the outputs and the inputs, as many as there is room for.
+    ///
+    /// # Errors
+    ///
+    /// A [`DynamicsError`] if some are of accelerations, which can't be computed.
+    fn outputs(
+        &mut self,
+        state: &State<T, N>,
+        outputs: &mut [T],
+        inputs: &mut [T],
+    ) -> Result<(), DynamicsError<T>>;
 }
 
 impl<M, T, const N: usize, const R: usize> Probe<T, N> for ConstrainedSystem<'_, M, T, N, R>
@@ -92,11 +114,37 @@ where
         self.reaction_within(state)
     }
 
+    fn acceleration(
+        &mut self,
+        state: &State<T, N>,
+        multipliers: &mut [Option<T>],
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        if !multipliers.is_empty() {
+            let found = self.multipliers_within(state)?;
+            for (place, value) in multipliers.iter_mut().zip(found) {
+                *place = value;
+            }
+        }
+        self.acceleration_within(state)
+    }
+
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
         self.project_within(state)
     }
 
-    fn outputs(&self, state: &State<T, N>, values: &mut [T]) {
-        self.mechanism().outputs(state, values);
+    fn outputs(
+        &mut self,
+        state: &State<T, N>,
+        outputs: &mut [T],
+        inputs: &mut [T],
+    ) -> Result<(), DynamicsError<T>> {
+        let mechanism = self.mechanism();
+        mechanism.outputs(state, outputs);
+        let acceleration = match mechanism.structure().accelerated && !outputs.is_empty() {
+            true => self.acceleration_within(state)?,
+            false => SVector::zeros(),
+        };
+        mechanism.signals(state, &acceleration, outputs, inputs);
+        Ok(())
     }
 }

@@ -1,0 +1,112 @@
+//! Inputs by formula: `--set 'torque=3*sin(t)'`.
+//!
+//! In:  a mechanism's name or file, formulas for inputs.
+//! Out: the mechanism with these laws in place of its own: its description is written
+//!      anew and compiled, so that a law may hold whatever one in a file may, is as fast,
+//!      and gets the same messages.
+
+use crate::check::read;
+use crate::compiled;
+use crate::error::CommandError;
+use crate::formula::Setting;
+use crate::mechanism::{file, find, source};
+use bricard_codegen::diagnostic::Span;
+use bricard_codegen::parse::{Model, parse};
+use bricard_driver::AnyMechanism;
+use std::path::PathBuf;
+
+/// An input by its name, and its formula.
+type Law<'a> = (&'a str, &'a str);
+
+/// Finds a mechanism whose inputs follow the formulas among settings, and the settings
+/// that are left.
+///
+/// # Errors
+///
+/// As [`find`]; [`CommandError::Law`], what is wrong with a formula.
+pub fn find_with(
+    name: &str,
+    set: &[Setting],
+) -> Result<(Box<dyn AnyMechanism>, Vec<Setting>), CommandError> {
+    let laws: Vec<Law> = set.iter().filter_map(law).collect();
+    let described = match file(name) {
+        Some(file) if !laws.is_empty() => Some((file.to_path_buf(), read(file)?)),
+        None if !laws.is_empty() => {
+            let text = source(name).map(str::to_string);
+            text.map(|text| (PathBuf::from(format!("{name}.mech")), text))
+        }
+        _ => None,
+    };
+    let Some((file, text)) = described else {
+        return Ok((find(name)?, set.to_vec()));
+    };
+    // What is wrong with a description is told when it is compiled.
+    let (text, left) = match parse(&text) {
+        Ok(model) => match replaced(&text, &model, &laws, set)? {
+            Some(replaced) => replaced,
+            None => return Ok((find(name)?, set.to_vec())),
+        },
+        Err(_) => (text, Vec::new()),
+    };
+    let opened = compiled::open_text(&file, &text).map_err(|error| match error {
+        CommandError::Description(said) => {
+            let given = laws
+                .iter()
+                .map(|(name, law)| format!("`--set '{name}={law}'`"));
+            let given: Vec<String> = given.collect();
+            CommandError::Description(format!("with {}\n{said}", given.join(", ")))
+        }
+        error => error,
+    })?;
+    Ok((Box::new(opened), left))
+}
+
+fn law(setting: &Setting) -> Option<Law<'_>> {
+    match setting {
+        Setting::Law { name, text, .. } => Some((name, text)),
+        Setting::Number(_) => None,
+    }
+}
+
+/// A description with other laws, and the settings that are left: those of what is no
+/// input of the mechanism itself are wrong, which is found when they are looked up. None
+/// if no law is one of the mechanism's.
+fn replaced(
+    text: &str,
+    model: &Model,
+    laws: &[Law],
+    set: &[Setting],
+) -> Result<Option<(String, Vec<Setting>)>, CommandError> {
+    let mut places: Vec<(Span, &str)> = Vec::new();
+    let mut left = set.to_vec();
+    for (name, law) in laws {
+        match model.law_of(name) {
+            Some(span) => {
+                places.push((span, law));
+                left.retain(|setting| setting.name() != *name);
+            }
+            None => whole(model, name)?,
+        }
+    }
+    places.sort_by_key(|(span, _)| std::cmp::Reverse(span.range().start));
+    if places.is_empty() {
+        return Ok(None);
+    }
+    let mut text = text.to_string();
+    for (span, law) in places {
+        text.replace_range(span.range(), law);
+    }
+    Ok(Some((text, left)))
+}
+
+/// Refuses a law for an element or a component of an input, and for one inside a part.
+fn whole(model: &Model, name: &str) -> Result<(), CommandError> {
+    let first = name.split(['.', '[']).next().unwrap_or(name);
+    let reason = match model.law_of(first) {
+        _ if first == name => return Ok(()),
+        Some(_) => format!("the law of `{first}` is given as a whole: write `{first}=…`"),
+        None => "the law of an input inside a part stands in the description".to_string(),
+    };
+    let name = name.to_string();
+    Err(CommandError::Law { name, reason })
+}

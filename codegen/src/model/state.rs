@@ -1,0 +1,89 @@
+//! States of the first order: `state z: m; der(z) = goal - x;`.
+//!
+//! In:  statements that give rates.
+//! Out: forces. A state is the velocity of a coordinate of mass one, which nothing else
+//!      contains; the force at it is the rate of the state.
+
+use super::Force;
+use super::lower::Lowering;
+use super::unit::{PER_SECOND, Unit};
+use super::value::Scalar;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::expr::{ExprId, Node, Symbol};
+use crate::parse::ast::Expr;
+
+impl Lowering<'_> {
+    /// `der(of) = value`
+    pub fn state_rate(&mut self, of: &Expr, value: &Expr, span: Span) -> Option<()> {
+        let states = self.evaluator.evaluate(of)?.operand();
+        for state in states.scalars() {
+            // A state whose rate is wrong has one all the same.
+            self.one_rate(state.id, of, span)?;
+        }
+        let rates = self.evaluator.evaluate(value)?.operand();
+        self.without_acceleration(value, &rates.scalars(), "the rate of a state")?;
+        if !states.same_shape(&rates) {
+            let message = format!("this is {}, its rate {}", states.shape(), rates.shape());
+            return self.report(Diagnostic::error(of.span.to(value.span), message));
+        }
+        for (state, rate) in states.scalars().into_iter().zip(rates.scalars()) {
+            let per_second = Scalar {
+                unit: state.unit.times(Unit::Known(PER_SECOND)),
+                ..state
+            };
+            let sides = [(per_second, of.span), (rate, value.span)];
+            self.evaluator.same_unit(sides, "this rate")?;
+            let force = vec![self.evaluator.sound(rate.id, value.span)?];
+            self.mechanism.forces.push(Force {
+                force,
+                on: vec![state.id],
+                on_velocity: true,
+                span: self.place_of(span),
+            });
+        }
+        Some(())
+    }
+
+    /// Takes note that the rate of a state is given; refuses a second one.
+    fn one_rate(&mut self, state: ExprId, of: &Expr, span: Span) -> Option<()> {
+        let coordinate = self.state_of(state, of)?;
+        match self.named.rates.insert(coordinate, self.place_of(span)) {
+            Some(first) => {
+                let error = Diagnostic::error(span, "this state has a rate already");
+                self.report(error.also(first, "given here").help("remove one of them"))
+            }
+            None => Some(()),
+        }
+    }
+
+    /// The coordinate whose velocity a state is.
+    fn state_of(&mut self, state: ExprId, of: &Expr) -> Option<u32> {
+        let freedoms = self.mechanism.freedoms() as u32;
+        match self.evaluator.graph.node(state) {
+            Node::Symbol(Symbol::Velocity(i)) if *i >= freedoms => Some(*i),
+            Node::Symbol(Symbol::Coordinate(_)) => {
+                let error = Diagnostic::error(of.span, "this is a coordinate, not a state");
+                self.report(error.help(
+                    "how coordinates move follows from energies and forces; what is prescribed \
+                     is a `constraint`; a quantity with a rate of its own is a `state`",
+                ))
+            }
+            _ => {
+                let error = Diagnostic::error(of.span, "only a state has a rate that is written");
+                self.report(error.help("declare it: `state z: m; der(z) = …;`"))
+            }
+        }
+    }
+
+    /// Refuses states whose rates are not given.
+    pub fn states_without_rate(&mut self) {
+        let m = &self.mechanism;
+        let states = m.coordinates.iter().enumerate().skip(m.freedoms());
+        let lacking = states.filter(|(i, _)| !self.named.rates.contains_key(&(*i as u32)));
+        let lacking: Vec<_> = lacking.map(|(_, q)| (q.name.clone(), q.span)).collect();
+        for (name, span) in lacking {
+            let error = Diagnostic::error(span, format!("the state `{name}` has no rate"));
+            self.report::<()>(error.help(format!("write `der({name}) = …;`")));
+        }
+    }
+}

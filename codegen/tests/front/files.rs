@@ -1,0 +1,87 @@
+//! Tables from files beside the description.
+
+use super::with;
+use bricard_codegen::{Settings, analyse};
+use std::fs;
+use std::path::PathBuf;
+
+/// What is said of a table of a file with this text.
+fn said(test: &str, data: &str, table: &str) -> String {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("files_{test}"));
+    fs::create_dir_all(&folder).expect("a folder");
+    fs::write(folder.join("data.csv"), data).expect("a file");
+    let source = with(&format!("force {table} on q;"));
+    let settings = Settings::beside(&folder.join("test.mech"));
+    match analyse(&source, &settings) {
+        Ok((mechanism, _)) => {
+            assert_eq!(mechanism.files, [folder.join("data.csv")]);
+            String::new()
+        }
+        Err(errors) => errors.render("test.mech", &source),
+    }
+}
+
+#[test]
+fn rows_may_be_parted_by_commas_semicolons_and_blanks() {
+    let table = "table(\"data.csv\", t)";
+    for (i, data) in [
+        "0,1\n2,3\n",
+        "t;f\n0;1\r\n2;3",
+        "# a comment\n\n0 1\n 2   3 # here\n",
+        "\u{feff}\"time\",\"force\"\n0,\"1\"\n2e0,3",
+        "0\t1\n2\t3\n",
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        assert_eq!(said(&format!("parted{i}"), data, table), "", "{data}");
+    }
+}
+
+#[test]
+fn columns_are_found_by_their_names() {
+    let data = "time,x,force\n0,5,1\n2,6,3\n";
+    for table in [
+        "table(\"data.csv\", t)",
+        "table(\"data.csv\", \"force\", t)",
+        "spline(\"data.csv\", \"x\", \"force\", q)",
+    ] {
+        assert_eq!(said("named", data, table), "", "{table}");
+    }
+    let wrong = said("named", data, "table(\"data.csv\", \"forse\", t)");
+    assert!(wrong.contains("has no column `forse`"), "{wrong}");
+    assert!(wrong.contains("did you mean `force`?"), "{wrong}");
+    let bare = said("bare", "0,1\n1,2\n", "table(\"data.csv\", \"force\", t)");
+    assert!(bare.contains("has no row of names"), "{bare}");
+}
+
+#[test]
+fn what_is_wrong_with_a_file_is_told_with_its_line_and_column() {
+    let table = "table(\"data.csv\", t)";
+    for (i, (data, words)) in [
+        ("", "`data.csv` is empty"),
+        ("t,f\n0,1\n", "has fewer than two rows of numbers"),
+        ("0,1\n1,abc\n", "line 2, column 2: `abc` is not a number"),
+        ("0,1\n1,NaN\n", "line 2, column 2: `NaN` is not a number"),
+        ("0,1\n\n1\n", "line 3, has no column 2"),
+        ("0,1\n1,2\n1,3\n", "line 3: 1 does not come after 1"),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let message = said(&format!("wrong{i}"), data, table);
+        assert!(message.contains(words), "no `{words}` in\n{message}");
+    }
+    let other = said("other", "0,1\n1,2\n", "table(\"date.csv\", t)");
+    assert!(
+        other.contains("`date.csv` can't be read: there is no such file"),
+        "{other}"
+    );
+    let words = said("words", "0,1\n1,2\n", "table(\"data.csv\", t, q)");
+    assert!(
+        words.contains("columns are named by quoted text"),
+        "{words}"
+    );
+    let text = said("text", "0,1\n1,2\n", "3*\"data.csv\"");
+    assert!(text.contains("quoted text has no meaning here"), "{text}");
+}

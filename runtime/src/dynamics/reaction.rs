@@ -1,0 +1,154 @@
+//! Reactions of constraints, and how constraints share them.
+//!
+//! In:  states.
+//! Out: the generalized reaction forces `r = p₁ − M q̈`, the multipliers `λ` of
+//!      `r = Aᵀλ`, as far as they are determined.
+
+use super::{ConstrainedSystem, Solver, Source, Which};
+use crate::linalg::dot;
+use crate::system::escalating;
+use crate::tolerance::regular;
+use crate::{DynamicsError, Mechanism, Real, State};
+use nalgebra::SVector;
+
+impl<M, T: Real, const N: usize, const R: usize> ConstrainedSystem<'_, M, T, N, R>
+where
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    /// The acceleration `q̈` and the generalized reaction forces `r` of the
+    /// constraints (`N` each; N or N·m), `M q̈ + r = p₁`.
+    ///
+    /// `r` is unique where multipliers are not: redundant constraints share it in a
+    /// way that the equations of motion do not determine.
+    ///
+    /// # Errors
+    ///
+    /// As [`acceleration`](Self::acceleration).
+    pub fn reaction(
+        &mut self,
+        state: &State<T, N>,
+    ) -> Result<(SVector<T, N>, SVector<T, N>), DynamicsError<T>> {
+        let acceleration = self.acceleration(state)?;
+        self.mechanism.terms(state, &mut self.solver.terms);
+        let terms = &self.solver.terms;
+        Ok((acceleration, terms.force - terms.mass * acceleration))
+    }
+
+    /// The multipliers `λ` of the constraints, `r = Aᵀλ`, in their order; none where the
+    /// constraint depends on others, so that nothing tells how they share their
+    /// reactions.
+    ///
+    /// # Errors
+    ///
+    /// As [`acceleration`](Self::acceleration).
+    pub fn multipliers(&mut self, state: &State<T, N>) -> Result<[Option<T>; R], DynamicsError<T>> {
+        let (_, reaction) = self.reaction(state)?;
+        self.solver.shares_of(self.mechanism, state.t, &reaction)
+    }
+
+    /// The acceleration at a state within a step from the last accepted one, with the
+    /// conditions of that step, or at any other.
+    pub(crate) fn acceleration_within(
+        &mut self,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        let charted = self.solver.session.chart.is_some();
+        let Some((sides, _)) = self.solver.conditions.made else {
+            return match charted {
+                true => self.solver.acceleration(self.mechanism, state),
+                false => self.acceleration(state),
+            };
+        };
+        self.solver.decide(sides);
+        if charted {
+            return self.solver.held_acceleration(self.mechanism, state);
+        }
+        self.solver.begin_step(state);
+        escalating(self, |system| {
+            system.solver.held_acceleration(system.mechanism, state)
+        })
+    }
+
+    /// The reaction within a step; see [`acceleration_within`](Self::acceleration_within).
+    pub(crate) fn reaction_within(
+        &mut self,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        let acceleration = self.acceleration_within(state)?;
+        Ok(self
+            .solver
+            .held_reaction(self.mechanism, state, &acceleration))
+    }
+
+    /// The multipliers within a step, likewise.
+    pub(crate) fn multipliers_within(
+        &mut self,
+        state: &State<T, N>,
+    ) -> Result<[Option<T>; R], DynamicsError<T>> {
+        let reaction = self.reaction_within(state)?;
+        self.solver.shares_of(self.mechanism, state.t, &reaction)
+    }
+}
+
+impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+    /// `p₁ − M q̈`, of a motion that slides with the shares of its forces.
+    fn held_reaction<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+        acceleration: &SVector<T, N>,
+    ) -> SVector<T, N> {
+        let sides = self.terms.sides;
+        let mut below = sides;
+        let mut force = SVector::zeros();
+        let sliding = (0..self.conditions.list.len()).filter(|i| self.conditions.slides(*i));
+        for index in sliding.clone() {
+            below.hold(index as u32, false);
+        }
+        for index in sliding {
+            let mut above = below;
+            above.hold(index as u32, true);
+            for (sides, share) in [(above, T::one()), (below, -T::one())] {
+                self.terms.sides = sides;
+                mechanism.terms(state, &mut self.terms);
+                force += self.terms.force * (share * self.conditions.shares[index]);
+            }
+        }
+        self.terms.sides = below;
+        mechanism.terms(state, &mut self.terms);
+        self.terms.sides = sides;
+        force + self.terms.force - self.terms.mass * acceleration
+    }
+
+    /// The `λ` of `Aᵀλ = r` at the state whose terms are in the buffer.
+    fn shares_of<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        t: T,
+        reaction: &SVector<T, N>,
+    ) -> Result<[Option<T>; R], DynamicsError<T>> {
+        self.safe = None;
+        self.factorise_metric(mechanism, Source::Terms, t)?;
+        let combined = self.combine(Source::Terms, Which::All, t)?;
+        let mut lifted = reaction.data.0[0];
+        self.metric.factor.forward(&mut lifted);
+        let mut multipliers = [T::zero(); R];
+        let mut shared = [false; R];
+        for (k, value) in combined.values.iter().enumerate() {
+            let left = &combined.left.data.0[k];
+            if *value > regular() {
+                let share = dot(&combined.directions.data.0[k], &lifted) / *value;
+                for (multiplier, part) in multipliers.iter_mut().zip(left) {
+                    *multiplier += *part * share;
+                }
+            } else {
+                for (shared, part) in shared.iter_mut().zip(left) {
+                    *shared |= part.abs() > regular();
+                }
+            }
+        }
+        Ok(core::array::from_fn(|row| {
+            (!shared[row]).then_some(multipliers[row] * self.rows.scale(row))
+        }))
+    }
+}
