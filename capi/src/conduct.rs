@@ -107,6 +107,7 @@ fn chosen(choices: &Choices) -> Result<Options<f64>, &'static str> {
         form,
         stabilisation,
         published: choices.published != 0,
+        ..Settings::default()
     };
     options.keep_energy = choices.keep_energy != 0;
     options.audit = match choices.audit {

@@ -7,7 +7,7 @@ use crate::Embedded;
 use crate::fed::Fed;
 use bricard_runtime::nalgebra::SMatrix;
 use bricard_runtime::{
-    DynamicsError, Interface, Mechanism, Position, Solver, State, Structure, Terms,
+    DynamicsError, Interface, Mechanism, Position, Probe, Solver, State, Structure, Terms,
 };
 
 /// What can be evaluated at a state.
@@ -110,7 +110,7 @@ where
         }
         Quantity::Acceleration => rows(&solver.on(fed).acceleration(state)?, out),
         Quantity::Reaction => rows(&solver.on(fed).reaction(state)?.1, out),
-        Quantity::Outputs => fed.outputs(state, out),
+        Quantity::Outputs => Probe::outputs(&mut solver.on(fed), state, out, &mut [])?,
         Quantity::Events => fed.events(state, out),
         Quantity::Energy => {
             let energy = fed.energy(state);

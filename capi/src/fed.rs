@@ -187,6 +187,18 @@ where
         self.at(state, |mechanism| mechanism.outputs(state, values));
     }
 
+    fn signals(
+        &self,
+        state: &State<f64, N>,
+        acceleration: &SVector<f64, N>,
+        outputs: &mut [f64],
+        inputs: &mut [f64],
+    ) {
+        self.at(state, |mechanism| {
+            mechanism.signals(state, acceleration, outputs, inputs);
+        });
+    }
+
     fn events(&self, state: &State<f64, N>, values: &mut [f64]) {
         self.at(state, |mechanism| mechanism.events(state, values));
     }

@@ -70,7 +70,8 @@ impl Status {
             SimulateError::Integrate(_)
             | SimulateError::Observe(_)
             | SimulateError::TooManySteps { .. }
-            | SimulateError::TooManyEvents { .. } => Self::Run,
+            | SimulateError::TooManyEvents { .. }
+            | SimulateError::TooMuchWork { .. } => Self::Run,
             SimulateError::StartNotFinite { .. } => Self::NotFinite,
             SimulateError::StepNotPositive { .. }
             | SimulateError::StepLost { .. }

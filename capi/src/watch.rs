@@ -63,7 +63,7 @@ impl Columns {
         let mut rest = &mut row[1 + 2 * N..];
         if self.has(Self::OUTPUTS) {
             let (outputs, left) = rest.split_at_mut(probe.structure().outputs.len());
-            probe.outputs(state, outputs);
+            probe.outputs(state, outputs, &mut [])?;
             rest = left;
         }
         if self.has(Self::REACTIONS) {

@@ -78,7 +78,7 @@ impl Diary {
     ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
         let mut row = row(state);
         let mut outputs = [0.0; 3];
-        probe.outputs(state, &mut outputs);
+        probe.outputs(state, &mut outputs, &mut [])?;
         row.extend(outputs);
         row.extend(&probe.reaction(state)?);
         let energy = probe.energy(state);

@@ -128,8 +128,8 @@ export class Mechanism {
 
   /** The outputs by name. */
   get results() {
-    this.#begun(this.#wasm.state());
-    const values = this.#numbers(this.#wasm.outputs());
+    this.#check(this.#wasm.outputs());
+    const values = this.#numbers(this.outputs.length);
     return Object.fromEntries(this.outputs.map(({ name }, place) => [name, values[place]]));
   }
 

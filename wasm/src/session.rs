@@ -7,7 +7,9 @@
 //! numbers say how many. What doesn't exist fails.
 
 use crate::{Picture, Text, VERSION, describe};
-use bricard_runtime::{Initial, Interface, Mechanism, Pace, Scheme, Settings, State, Stepper};
+use bricard_runtime::{
+    Initial, Interface, Mechanism, Pace, Probe, Scheme, Settings, State, Stepper,
+};
 use core::fmt::{Display, Write};
 
 /// Numbers that can be read at once.
@@ -243,11 +245,16 @@ where
 
     /// The outputs.
     pub fn outputs(&mut self) -> u32 {
-        let Some(motion) = &self.motion else {
-            return 0;
+        let Some(Motion { state, stepper }) = &mut self.motion else {
+            return self.not_begun();
         };
-        self.mechanism.outputs(&motion.state, &mut self.numbers);
-        self.mechanism.structure().outputs.len() as u32
+        let mut solver = stepper.solver().clone();
+        let count = self.mechanism.structure().outputs.len().min(ROOM);
+        let mut system = solver.on(&self.mechanism);
+        match Probe::outputs(&mut system, state, &mut self.numbers[..count], &mut []) {
+            Ok(()) => DONE,
+            Err(error) => self.fail(&error),
+        }
     }
 
     /// Kinetic and potential energy (J), and the power (W) that is supplied.
