@@ -52,7 +52,7 @@ fn coriolis(graph: &Graph, equations: &Equations) -> Option<String> {
     (absent > 0).then(|| match absent == n {
         true => format!("Coriolis terms: there are none; {} operations", n * each),
         false => format!(
-            "Coriolis terms: {absent} of {n} are zero; {} operations",
+            "Coriolis terms that are zero, {absent} of {n}; {} operations",
             absent * each
         ),
     })
@@ -152,7 +152,7 @@ fn folded(mechanism: &Mechanism) -> Option<String> {
     let count = mechanism.constants.len();
     (count > 0).then(|| {
         format!(
-            "{} that are folded into numbers",
+            "{} folded into numbers",
             plural(count, "constant", "constants")
         )
     })

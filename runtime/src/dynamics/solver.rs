@@ -218,7 +218,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     fn extend_reach<M: Mechanism<T, N, R> + ?Sized>(&mut self, mechanism: &M, state: &State<T, N>) {
         let mut sizes = state.q;
         let structure = mechanism.structure();
-        for i in structure.freedoms().len()..N {
+        for i in N.saturating_sub(structure.states)..N {
             // Integrals of states are no lengths.
             (sizes[i], self.sizes[i]) = (T::zero(), T::from_f64(f64::INFINITY));
         }
