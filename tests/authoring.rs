@@ -90,7 +90,8 @@ fn what_is_in_order_is_said_to_be_so_with_its_warnings() {
     let source = "mechanism A { param a = 1; coord q; kinetic der(q)^2; }";
     let (status, report, said) = checked("right", source);
     assert_eq!((status, said.as_str()), (Some(0), ""));
-    let mechanism = json!({ "name": "A", "coordinates": 1, "constraint_equations": 0 });
+    let mechanism =
+        json!({ "name": "A", "coordinates": 1, "states": 0, "constraint_equations": 0 });
     assert_eq!(report["mechanism"], mechanism);
     assert_eq!(report["messages"][0]["severity"], "warning");
     assert_eq!(report["messages"][0]["message"], "`a` is never used");

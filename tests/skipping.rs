@@ -32,7 +32,8 @@ fn code(source: &str) -> String {
 /// The function of a name in generated code, to the next function.
 fn function<'a>(code: &'a str, name: &str) -> &'a str {
     let (_, rest) = code.split_once(&format!("fn {name}")).expect(name);
-    rest.split_once("\n    fn ").map_or(rest, |(body, _)| body)
+    rest.split_once("\n        fn ")
+        .map_or(rest, |(body, _)| body)
 }
 
 /// Checks that a line about something stands below `with` alone.

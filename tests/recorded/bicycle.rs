@@ -1,4 +1,4 @@
-//! The library's bicycle moves as the linearised equations that were published for it say.
+//! The bicycle among the benchmark problems moves as the linearised equations that were published for it say.
 //!
 //! Source: Meijaard, Papadopoulos, Ruina and Schwab, Linearized dynamics equations for the
 //! balance and steer of a bicycle, Proceedings of the Royal Society A 463 (2007) 1955–1982,

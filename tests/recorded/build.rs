@@ -4,5 +4,5 @@ use bricard_codegen::{BuildError, Builder};
 
 fn main() -> Result<(), BuildError> {
     Builder::new().compile_dir(".")?;
-    Builder::new().compile("../../mechanisms/whipple_bicycle.mech")
+    Builder::new().compile("../../mechanisms/benchmarks/whipple_bicycle.mech")
 }

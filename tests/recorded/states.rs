@@ -89,7 +89,7 @@ fn a_controller_that_integrates_has_the_roots_of_its_closed_loop() {
                 (wound - integral).abs() < TOLERANCE,
                 "{scheme} at {t}: {wound}"
             );
-            let force = parts[0] * -1.0 - 4.0 * parts[1] - 9.0 * parts[2];
+            let force = -parts[0] - 4.0 * parts[1] - 9.0 * parts[2];
             assert!((u - force).abs() < 20.0 * TOLERANCE, "{scheme} at {t}: {u}");
         }
     }

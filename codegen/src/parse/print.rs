@@ -79,11 +79,7 @@ fn statement(kind: &ItemKind, depth: usize) -> String {
             format!("part {name}({arguments}) {{\n{items}{}}}", indent(depth))
         }
         ItemKind::Use(library) => format!("use {};", library.text),
-        ItemKind::Energy(Energy::Kinetic, value) => format!("kinetic {};", formula(value)),
-        ItemKind::Energy(Energy::Potential, value) => format!("potential {};", formula(value)),
-        ItemKind::Energy(Energy::Dissipation, value) => {
-            format!("dissipation {};", formula(value))
-        }
+        ItemKind::Energy(kind, value) => format!("{} {};", energy(*kind), formula(value)),
         ItemKind::Force { force, on } => format!("force {} on {};", formula(force), formula(on)),
         ItemKind::Rate { of, value } => format!("der({}) = {};", formula(of), formula(value)),
         ItemKind::Constraint {
@@ -107,6 +103,14 @@ fn statement(kind: &ItemKind, depth: usize) -> String {
             let items = block(items, depth + 1);
             format!("for {} {{\n{items}{}}}", range(over), indent(depth))
         }
+    }
+}
+
+fn energy(kind: Energy) -> &'static str {
+    match kind {
+        Energy::Kinetic => "kinetic",
+        Energy::Potential => "potential",
+        Energy::Dissipation => "dissipation",
     }
 }
 

@@ -114,8 +114,8 @@ fn a_puma_560_of_parts_has_the_inertia_and_the_gravity_load_of_the_robotics_tool
 }
 
 #[test]
-fn the_puma_560_of_the_library_has_them_too() {
-    puma_560_is_that_of_the_toolbox(include_str!("../../../mechanisms/puma_560.mech"));
+fn the_puma_560_among_the_benchmark_problems_has_them_too() {
+    puma_560_is_that_of_the_toolbox(include_str!("../../../mechanisms/benchmarks/puma_560.mech"));
 }
 
 fn puma_560_is_that_of_the_toolbox(description: &str) {

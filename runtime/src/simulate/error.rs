@@ -107,11 +107,8 @@ impl<T: Real> Display for SimulateError<T> {
                 until = Number(until)
             ),
             Self::StartNotFinite { t } => {
-                write!(
-                    f,
-                    "the initial state at t = {t} s is infinite or NaN",
-                    t = Number(t)
-                )
+                let t = Number(t);
+                write!(f, "the initial state at t = {t} s is infinite or NaN")
             }
             Self::NotConservative => f.write_str(
                 "the energy can't be kept: the mechanism has dissipation, applied forces, inputs \
