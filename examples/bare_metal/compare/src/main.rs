@@ -90,8 +90,9 @@ fn compare<T: Real>(report: &Report) -> Result<(), Box<dyn Error>> {
     for (tick, there) in &report.states {
         for (there, here) in there.iter().zip(&here[tick]) {
             let distance = (there - here).abs();
-            // True for NaN, too.
-            if !(distance <= AGREEMENT) {
+            // False for NaN, too.
+            let agrees = distance <= AGREEMENT;
+            if !agrees {
                 return Err(format!("tick {tick}: {there} there and {here} here").into());
             }
             apart = apart.max(distance);
