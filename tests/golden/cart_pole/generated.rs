@@ -29,6 +29,7 @@ pub mod cart_pole {
                 docs: "angle of the pole, from the upward vertical",
             },
         ],
+        states: 0,
         described: &[],
         parameters: &[
             Quantity {
@@ -71,8 +72,10 @@ pub mod cart_pole {
                 docs: "height of the pole's centre of mass above the pivot",
             },
         ],
+        accelerated: false,
         events: &[],
         constraints: &[],
+        multipliers: &[],
         constant_mass: false,
         conservative: false,
         drawn: true,
@@ -387,6 +390,21 @@ pub mod cart_pole {
             let computed = [e * cos_phi];
             for (place, value) in values.iter_mut().zip(computed) {
                 *place = value;
+            }
+        }
+        /// Costs no operations.
+        fn signals(
+            &self,
+            _state: &State<T, 2>,
+            _acceleration: &SVector<T, 2>,
+            _outputs: &mut [T],
+            inputs: &mut [T],
+        ) {
+            let u = self.inputs.u.unwrap_or(T::zero());
+            for (place, value) in [(0, u)] {
+                if let Some(entry) = inputs.get_mut(place) {
+                    *entry = value;
+                }
             }
         }
         fn events(&self, _state: &State<T, 2>, _values: &mut [T]) {}

@@ -48,6 +48,7 @@ pub mod double_four_bar {
                 docs: "angle of the third crank",
             },
         ],
+        states: 0,
         described: &[],
         parameters: &[
             Quantity {
@@ -174,6 +175,7 @@ pub mod double_four_bar {
                 docs: "middle of the first coupler",
             },
         ],
+        accelerated: false,
         events: &[],
         constraints: &[
             ConstraintRow {
@@ -197,6 +199,7 @@ pub mod double_four_bar {
                 holonomic: true,
             },
         ],
+        multipliers: &[],
         constant_mass: false,
         conservative: true,
         drawn: true,
@@ -1316,164 +1319,160 @@ pub mod double_four_bar {
                 ..
             } = self.parameters;
             let l5_cos_q5 = l5 * cos_q5;
-            let sin_q5_l5 = sin_q5 * l5;
-            out.force_by_position.data.0[4][4] = (-lambda_3)
+            out.force_by_position.data.0[4][4] = (-lambda_2)
                 .mul_add(
-                    sin_q5_l5,
-                    (-lambda_2)
-                        .mul_add(
-                            l5_cos_q5,
-                            T::constant(9.81, -4.973799150320702e-16) * e5 * m5 * sin_q5,
-                        ),
+                    l5_cos_q5,
+                    sin_q5
+                        * (-lambda_3)
+                            .mul_add(
+                                l5,
+                                T::constant(9.81, -4.973799150320702e-16) * e5 * m5,
+                            ),
                 );
-            let q5_dot_q5_dot = q5_dot * q5_dot;
-            out.row_by_position.data.0[4][2] = (-l5_cos_q5)
-                .mul_add(q5_ddot, sin_q5_l5 * q5_dot_q5_dot);
-            out.row_by_position.data.0[4][3] = (-sin_q5_l5)
-                .mul_add(q5_ddot, -l5_cos_q5 * q5_dot_q5_dot);
-            let product = T::from_f64(2.0) * q5_dot;
-            out.row_by_velocity.data.0[4][2] = -l5_cos_q5 * product;
-            out.row_by_velocity.data.0[4][3] = -sin_q5_l5 * product;
-            let l1_cos_q1 = l1 * cos_q1;
-            let l1_sin_q1 = l1 * sin_q1;
+            let sin_q5_q5_dot = sin_q5 * q5_dot;
+            out.row_by_position.data.0[4][2] = l5
+                * (-cos_q5).mul_add(q5_ddot, q5_dot * sin_q5_q5_dot);
+            out.row_by_position.data.0[4][3] = -l5
+                * sin_q5.mul_add(q5_ddot, cos_q5 * q5_dot * q5_dot);
+            out.row_by_velocity.data.0[4][2] = -T::from_f64(2.0) * l5_cos_q5 * q5_dot;
+            out.row_by_velocity.data.0[4][3] = -T::from_f64(2.0) * l5 * sin_q5_q5_dot;
             let q1_dot_q1_dot = q1_dot * q1_dot;
-            out.row_by_position.data.0[0][0] = (-l1_sin_q1)
-                .mul_add(q1_dot_q1_dot, l1_cos_q1 * q1_ddot);
-            out.row_by_position.data.0[0][1] = q1_ddot
-                .mul_add(l1_sin_q1, l1_cos_q1 * q1_dot_q1_dot);
-            let product_2 = T::from_f64(2.0) * q1_dot;
-            out.row_by_velocity.data.0[0][0] = l1_cos_q1 * product_2;
-            out.row_by_velocity.data.0[0][1] = l1_sin_q1 * product_2;
-            let l1_m2 = l1 * m2;
-            let product_3 = e2 * l1_m2;
+            out.row_by_position.data.0[0][0] = l1
+                * (-sin_q1).mul_add(q1_dot_q1_dot, cos_q1 * q1_ddot);
+            out.row_by_position.data.0[0][1] = l1
+                * q1_ddot.mul_add(sin_q1, cos_q1 * q1_dot_q1_dot);
+            let product = T::from_f64(2.0) * q1_dot;
+            let product_2 = l1 * product;
+            out.row_by_velocity.data.0[0][0] = cos_q1 * product_2;
+            out.row_by_velocity.data.0[0][1] = sin_q1 * product_2;
+            let e2_m2 = e2 * m2;
+            let product_3 = l1 * e2_m2;
             let product_4 = sin_q1 * product_3;
-            let product_5 = cos_q2 * product_4;
-            let product_6 = q2_ddot * product_5;
-            let product_7 = T::constant(9.81, -4.973799150320702e-16) * sin_q1;
-            let product_8 = cos_q1 * product_3;
-            let cos_q2_q2_dot = cos_q2 * q2_dot;
-            let product_9 = q2_dot * product_8 * cos_q2_q2_dot;
-            let q2_dot_sin_q2 = q2_dot * sin_q2;
-            let product_10 = product_4 * q2_dot * q2_dot_sin_q2;
-            let product_11 = product_8 * sin_q2;
-            let product_12 = q2_ddot * product_11;
-            let sum = l1_m2
+            let q2_ddot_cos_q2 = q2_ddot * cos_q2;
+            let product_5 = product_4 * q2_ddot_cos_q2;
+            let q2_dot_q2_dot = q2_dot * q2_dot;
+            let product_6 = cos_q1 * product_3;
+            let product_7 = cos_q2 * product_6;
+            let product_8 = q2_dot_q2_dot * product_7;
+            let product_9 = product_4 * sin_q2;
+            let product_10 = q2_dot_q2_dot * product_9;
+            let q2_ddot_sin_q2 = q2_ddot * sin_q2;
+            let product_11 = product_6 * q2_ddot_sin_q2;
+            let sum = l1
                 .mul_add(
-                    product_7,
-                    (e1 * m1)
+                    sin_q1
                         .mul_add(
-                            product_7,
-                            l1_sin_q1
-                                .mul_add(lambda_1, l1_cos_q1.mul_add(lambda_0, product_6)),
+                            T::constant(9.81, -4.973799150320702e-16)
+                                .mul_add(m2, lambda_1),
+                            cos_q1 * lambda_0,
                         ),
-                ) - product_9 - product_10 - product_12;
+                    (T::constant(9.81, -4.973799150320702e-16) * sin_q1 * e1)
+                        .mul_add(m1, product_5),
+                ) - product_8 - product_10 - product_11;
             out.force_by_position.data.0[0][0] = sum;
-            let product_13 = q1_dot_q1_dot * cos_q2 * product_8;
-            let product_14 = q1_dot_q1_dot * product_4 * sin_q2;
-            let product_15 = q1_ddot * product_5;
-            let product_16 = q1_ddot * product_11;
-            out.force_by_position.data.0[0][1] = product_13 + product_14 + product_15
-                - product_16;
-            out.force_by_position.data.0[1][0] = product_9 + product_10 + product_12
-                - product_6;
+            let product_12 = q1_dot_q1_dot * product_7;
+            let product_13 = q1_dot_q1_dot * product_9;
+            let product_14 = q1_ddot * product_4 * cos_q2;
+            let product_15 = q1_ddot * product_6 * sin_q2;
+            out.force_by_position.data.0[0][1] = product_12 + product_13 + product_14
+                - product_15;
+            out.force_by_position.data.0[1][0] = product_8 + product_10 + product_11
+                - product_5;
             let cos_q2_l2 = cos_q2 * l2;
-            let sin_q2_l2 = sin_q2 * l2;
-            let sum_2 = (T::constant(9.81, -4.973799150320702e-16) * e2 * m2)
+            let sum_2 = sin_q2
                 .mul_add(
-                    sin_q2,
-                    lambda_1.mul_add(sin_q2_l2, lambda_0.mul_add(cos_q2_l2, product_16)),
-                ) - product_13 - product_14 - product_15;
+                    T::constant(9.81, -4.973799150320702e-16)
+                        .mul_add(e2_m2, lambda_1 * l2),
+                    lambda_0.mul_add(cos_q2_l2, product_15),
+                ) - product_12 - product_13 - product_14;
             out.force_by_position.data.0[1][1] = sum_2;
-            out.force_by_velocity.data.0[0][1] = (-product_2)
-                .mul_add(product_11, product_2 * product_5);
-            out.force_by_velocity.data.0[1][0] = (-(T::from_f64(2.0) * product_4))
-                .mul_add(cos_q2_q2_dot, T::from_f64(2.0) * product_8 * q2_dot_sin_q2);
-            let q2_dot_l2 = q2_dot * l2;
-            out.row_by_position.data.0[1][0] = (-q2_dot_sin_q2)
-                .mul_add(q2_dot_l2, q2_ddot * cos_q2_l2);
-            out.row_by_position.data.0[1][1] = q2_ddot
-                .mul_add(sin_q2_l2, cos_q2_q2_dot * q2_dot_l2);
-            let product_17 = T::from_f64(2.0) * l2;
-            out.row_by_velocity.data.0[1][0] = cos_q2_q2_dot * product_17;
-            out.row_by_velocity.data.0[1][1] = q2_dot_sin_q2 * product_17;
-            let l3_sin_q3 = l3 * sin_q3;
-            let q3_dot_q3_dot = q3_dot * q3_dot;
-            let product_18 = l3_sin_q3 * q3_dot_q3_dot;
-            let l3_cos_q3 = l3 * cos_q3;
-            let product_19 = l3_cos_q3 * q3_ddot;
+            let sin_q1_cos_q2 = sin_q1 * cos_q2;
+            let cos_q1_sin_q2 = cos_q1 * sin_q2;
+            out.force_by_velocity.data.0[0][1] = product * product_3
+                * (sin_q1_cos_q2 - cos_q1_sin_q2);
+            let product_16 = T::from_f64(2.0) * q2_dot;
+            out.force_by_velocity.data.0[1][0] = product_3
+                * (cos_q1_sin_q2 - sin_q1_cos_q2) * product_16;
+            out.row_by_position.data.0[1][0] = l2
+                * (-q2_dot_q2_dot).mul_add(sin_q2, q2_ddot_cos_q2);
+            out.row_by_position.data.0[1][1] = l2
+                * cos_q2.mul_add(q2_dot_q2_dot, q2_ddot_sin_q2);
+            out.row_by_velocity.data.0[1][0] = cos_q2_l2 * product_16;
+            out.row_by_velocity.data.0[1][1] = sin_q2 * l2 * product_16;
+            let q3_dot_l3 = q3_dot * l3;
+            let product_17 = sin_q3 * q3_dot_l3;
+            let product_18 = q3_dot * product_17;
+            let l3_q3_ddot = l3 * q3_ddot;
+            let product_19 = cos_q3 * l3_q3_ddot;
             out.row_by_position.data.0[2][0] = product_18 - product_19;
-            let product_20 = q3_dot_q3_dot * l3_cos_q3;
-            let product_21 = l3_sin_q3 * q3_ddot;
-            out.row_by_position.data.0[2][1] = -product_20 - product_21;
+            let product_20 = q3_dot_l3 * cos_q3;
+            let product_21 = q3_dot * product_20;
+            let product_22 = sin_q3 * l3_q3_ddot;
+            out.row_by_position.data.0[2][1] = -product_21 - product_22;
             out.row_by_position.data.0[2][2] = product_19 - product_18;
-            out.row_by_position.data.0[2][3] = product_20 + product_21;
-            let product_22 = T::from_f64(2.0) * q3_dot;
-            let product_23 = l3_cos_q3 * product_22;
+            out.row_by_position.data.0[2][3] = product_21 + product_22;
+            let product_23 = T::from_f64(2.0) * product_20;
             out.row_by_velocity.data.0[2][2] = product_23;
             out.row_by_velocity.data.0[2][0] = -product_23;
-            let product_24 = l3_sin_q3 * product_22;
+            let product_24 = T::from_f64(2.0) * product_17;
             out.row_by_velocity.data.0[2][3] = product_24;
             out.row_by_velocity.data.0[2][1] = -product_24;
-            let l3_m4 = l3 * m4;
-            let product_25 = e4 * l3_m4;
+            let e4_m4 = e4 * m4;
+            let product_25 = l3 * e4_m4;
             let product_26 = sin_q3 * product_25;
-            let product_27 = cos_q4 * product_26;
-            let product_28 = q4_ddot * product_27;
-            let product_29 = T::constant(9.81, -4.973799150320702e-16) * sin_q3;
-            let product_30 = cos_q3 * product_25;
-            let cos_q4_q4_dot = cos_q4 * q4_dot;
-            let product_31 = q4_dot * product_30 * cos_q4_q4_dot;
-            let q4_dot_sin_q4 = q4_dot * sin_q4;
-            let product_32 = product_26 * q4_dot * q4_dot_sin_q4;
-            let product_33 = product_30 * sin_q4;
-            let product_34 = q4_ddot * product_33;
-            let sum_3 = (-lambda_1)
+            let q4_ddot_cos_q4 = q4_ddot * cos_q4;
+            let product_27 = product_26 * q4_ddot_cos_q4;
+            let q4_dot_q4_dot = q4_dot * q4_dot;
+            let product_28 = cos_q3 * product_25;
+            let product_29 = cos_q4 * product_28;
+            let product_30 = q4_dot_q4_dot * product_29;
+            let product_31 = product_26 * sin_q4;
+            let product_32 = q4_dot_q4_dot * product_31;
+            let q4_ddot_sin_q4 = q4_ddot * sin_q4;
+            let product_33 = product_28 * q4_ddot_sin_q4;
+            let sum_3 = l3
                 .mul_add(
-                    l3_sin_q3,
-                    (-lambda_0)
+                    cos_q3
                         .mul_add(
-                            l3_cos_q3,
-                            l3_m4
-                                .mul_add(
-                                    product_29,
-                                    (e3 * m3)
-                                        .mul_add(
-                                            product_29,
-                                            lambda_3
-                                                .mul_add(l3_sin_q3, lambda_2.mul_add(l3_cos_q3, product_28)),
-                                        ),
-                                ),
+                            lambda_2 - lambda_0,
+                            sin_q3
+                                * (T::constant(9.81, -4.973799150320702e-16)
+                                    .mul_add(m4, lambda_3) - lambda_1),
                         ),
-                ) - product_31 - product_32 - product_34;
+                    (T::constant(9.81, -4.973799150320702e-16) * sin_q3 * e3)
+                        .mul_add(m3, product_27),
+                ) - product_30 - product_32 - product_33;
             out.force_by_position.data.0[2][2] = sum_3;
-            let product_35 = q3_dot_q3_dot * cos_q4 * product_30;
-            let product_36 = q3_dot_q3_dot * product_26 * sin_q4;
-            let product_37 = q3_ddot * product_27;
-            let product_38 = q3_ddot * product_33;
-            out.force_by_position.data.0[2][3] = product_35 + product_36 + product_37
-                - product_38;
-            out.force_by_position.data.0[3][2] = product_31 + product_32 + product_34
-                - product_28;
+            let q3_dot_q3_dot = q3_dot * q3_dot;
+            let product_34 = product_29 * q3_dot_q3_dot;
+            let product_35 = product_31 * q3_dot_q3_dot;
+            let product_36 = q3_ddot * product_26 * cos_q4;
+            let product_37 = q3_ddot * product_28 * sin_q4;
+            out.force_by_position.data.0[2][3] = product_34 + product_35 + product_36
+                - product_37;
+            out.force_by_position.data.0[3][2] = product_30 + product_32 + product_33
+                - product_27;
             let cos_q4_l4 = cos_q4 * l4;
-            let sin_q4_l4 = sin_q4 * l4;
-            let sum_4 = (T::constant(9.81, -4.973799150320702e-16) * e4 * m4)
+            let sum_4 = sin_q4
                 .mul_add(
-                    sin_q4,
-                    lambda_3.mul_add(sin_q4_l4, lambda_2.mul_add(cos_q4_l4, product_38)),
-                ) - product_35 - product_36 - product_37;
+                    T::constant(9.81, -4.973799150320702e-16)
+                        .mul_add(e4_m4, lambda_3 * l4),
+                    lambda_2.mul_add(cos_q4_l4, product_37),
+                ) - product_34 - product_35 - product_36;
             out.force_by_position.data.0[3][3] = sum_4;
-            out.force_by_velocity.data.0[2][3] = (-product_22)
-                .mul_add(product_33, product_22 * product_27);
-            out.force_by_velocity.data.0[3][2] = (-(T::from_f64(2.0) * product_26))
-                .mul_add(cos_q4_q4_dot, T::from_f64(2.0) * product_30 * q4_dot_sin_q4);
-            let q4_dot_l4 = q4_dot * l4;
-            out.row_by_position.data.0[3][2] = (-q4_dot_sin_q4)
-                .mul_add(q4_dot_l4, q4_ddot * cos_q4_l4);
-            out.row_by_position.data.0[3][3] = q4_ddot
-                .mul_add(sin_q4_l4, cos_q4_q4_dot * q4_dot_l4);
-            let product_39 = T::from_f64(2.0) * l4;
-            out.row_by_velocity.data.0[3][2] = cos_q4_q4_dot * product_39;
-            out.row_by_velocity.data.0[3][3] = q4_dot_sin_q4 * product_39;
+            let sin_q3_cos_q4 = sin_q3 * cos_q4;
+            let cos_q3_sin_q4 = cos_q3 * sin_q4;
+            out.force_by_velocity.data.0[2][3] = T::from_f64(2.0) * q3_dot * product_25
+                * (sin_q3_cos_q4 - cos_q3_sin_q4);
+            let product_38 = T::from_f64(2.0) * q4_dot;
+            out.force_by_velocity.data.0[3][2] = product_25
+                * (cos_q3_sin_q4 - sin_q3_cos_q4) * product_38;
+            out.row_by_position.data.0[3][2] = l4
+                * (-q4_dot_q4_dot).mul_add(sin_q4, q4_ddot_cos_q4);
+            out.row_by_position.data.0[3][3] = l4
+                * cos_q4.mul_add(q4_dot_q4_dot, q4_ddot_sin_q4);
+            out.row_by_velocity.data.0[3][2] = cos_q4_l4 * product_38;
+            out.row_by_velocity.data.0[3][3] = sin_q4 * l4 * product_38;
             true
         }
     }

@@ -29,6 +29,7 @@ pub mod double_pendulum {
                 docs: "angle of the lower rod, from the vertical",
             },
         ],
+        states: 0,
         described: &[],
         parameters: &[
             Quantity {
@@ -75,8 +76,10 @@ pub mod double_pendulum {
                 docs: "end of the lower rod",
             },
         ],
+        accelerated: false,
         events: &[],
         constraints: &[],
+        multipliers: &[],
         constant_mass: false,
         conservative: true,
         drawn: true,

@@ -32,6 +32,7 @@ pub mod driven_pivot {
                 docs: "angle of the rod, from the upward vertical",
             },
         ],
+        states: 0,
         described: &[],
         parameters: &[
             Quantity {
@@ -78,6 +79,7 @@ pub mod driven_pivot {
                 docs: "end of the rod",
             },
         ],
+        accelerated: false,
         events: &[],
         constraints: &[
             ConstraintRow {
@@ -86,6 +88,7 @@ pub mod driven_pivot {
                 holonomic: true,
             },
         ],
+        multipliers: &[],
         constant_mass: false,
         conservative: false,
         drawn: true,
@@ -332,7 +335,7 @@ pub mod driven_pivot {
             let (sin_phi, cos_phi) = phi.sin_cos();
             let m_e = m * e;
             out.force_by_position.data.0[1][0] = (-(phi_dot * phi_dot))
-                .mul_add(sin_phi, cos_phi * phi_ddot) * m_e;
+                .mul_add(sin_phi, phi_ddot * cos_phi) * m_e;
             let product = cos_phi * m_e;
             out.force_by_position.data.0[1][1] = (y_ddot
                 + T::constant(9.81, -4.973799150320702e-16)) * product;

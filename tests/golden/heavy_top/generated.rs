@@ -41,6 +41,7 @@ pub mod heavy_top {
                 docs: "Euler parameters",
             },
         ],
+        states: 0,
         described: &[],
         parameters: &[
             Quantity {
@@ -102,6 +103,7 @@ pub mod heavy_top {
                 docs: "angular momentum about the vertical, which is constant",
             },
         ],
+        accelerated: false,
         events: &[],
         constraints: &[
             ConstraintRow {
@@ -110,6 +112,7 @@ pub mod heavy_top {
                 holonomic: true,
             },
         ],
+        multipliers: &[],
         constant_mass: false,
         conservative: true,
         drawn: true,

@@ -47,6 +47,7 @@ pub mod rolling_disc {
                 docs: "angle of rolling",
             },
         ],
+        states: 0,
         described: &[],
         parameters: &[
             Quantity {
@@ -78,6 +79,7 @@ pub mod rolling_disc {
                 docs: "the centre",
             },
         ],
+        accelerated: false,
         events: &[],
         constraints: &[
             ConstraintRow {
@@ -91,6 +93,7 @@ pub mod rolling_disc {
                 holonomic: false,
             },
         ],
+        multipliers: &[],
         constant_mass: false,
         conservative: true,
         drawn: true,

@@ -37,6 +37,7 @@ pub mod slider_crank {
                 docs: "position of the slider",
             },
         ],
+        states: 0,
         described: &[],
         parameters: &[
             Quantity {
@@ -88,6 +89,7 @@ pub mod slider_crank {
                 docs: "",
             },
         ],
+        accelerated: false,
         events: &[],
         constraints: &[
             ConstraintRow {
@@ -101,6 +103,7 @@ pub mod slider_crank {
                 holonomic: true,
             },
         ],
+        multipliers: &[],
         constant_mass: false,
         conservative: true,
         drawn: true,
