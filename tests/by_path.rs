@@ -523,6 +523,8 @@ fn a_file_of_numbers_is_a_part_of_its_description() {
         "coord q: rad;\n    state z: rad*s;\n    der(z) = q;\n    \
          force table(\"told.csv\", \"torque\", t) on q;",
     );
+    // What earlier runs of this test left compiled is of other descriptions.
+    let text = format!("{text}// {:?}\n", SystemTime::now());
     write(&folder, "told.mech", &text);
     write(&folder, "told.csv", "time,torque\n0,0\n1,2\n2,0\n");
     let arguments = ["simulate", "told.mech", "--until", "1", "--every", "0.5"];
