@@ -21,7 +21,7 @@ use crate::output::print;
 use bricard_codegen::expr::{Notation, Symbol};
 use bricard_codegen::model::{Described, Mechanism};
 use bricard_codegen::{Settings, analyse, derive};
-
+use cost::Programs;
 use std::path::Path;
 
 /// Prints the equations of motion.
@@ -37,8 +37,9 @@ pub fn show(arguments: &Show) -> Result<(), CommandError> {
     }
     let equations = derive::derive(&mut mechanism).map_err(rendered)?;
     let sections = sections::sections(&mut mechanism, &equations);
-    let costs = cost::costs(&mut mechanism, &equations);
-    let skipped = skipped::skipped(&mut mechanism, &equations);
+    let programs = Programs::of(&mut mechanism, &equations);
+    let costs = programs.costs();
+    let skipped = skipped::skipped(&mechanism, &equations, &programs);
     if !mechanism.described.is_empty() {
         // The rank at the start is that of all constraints.
         subject.start = None;

@@ -1,28 +1,28 @@
 //! What the generated programs leave out, and what that saves.
 //!
-//! In:  the equations of motion.
+//! In:  the equations of motion, their programs.
 //! Out: a line for each thing that this mechanism doesn't need, with the operations that
 //!      a program for any mechanism of its size would spend on it.
 
-use super::cost::{matrix, vector};
+use super::cost::Programs;
 use bricard_codegen::derive::Equations;
 use bricard_codegen::expr::{ExprId, Graph, Symbol};
 use bricard_codegen::model::Mechanism;
-use bricard_codegen::optimise::{Cost, cost, optimise, regular_acceleration};
+use bricard_codegen::optimise::{Program, cost, regular_acceleration};
 use std::collections::BTreeSet;
 
 /// The section, empty where everything is needed.
-pub fn skipped(mechanism: &mut Mechanism, equations: &Equations) -> String {
+pub fn skipped(mechanism: &Mechanism, equations: &Equations, programs: &Programs) -> String {
     let lines = [
         coriolis(&mechanism.graph, equations),
         constant_mass(&mechanism.graph, equations),
-        solve(mechanism, equations),
+        solve(&mechanism.graph, equations, &programs.acceleration),
         repeated(&mechanism.graph, equations),
         time(&mechanism.graph, equations),
         ignorable(mechanism, equations),
         folded(mechanism),
         no_constraints(equations),
-        on_request(mechanism, equations),
+        on_request(programs),
     ];
     let lines: Vec<String> = lines.into_iter().flatten().collect();
     match lines.is_empty() {
@@ -31,7 +31,9 @@ pub fn skipped(mechanism: &mut Mechanism, equations: &Equations) -> String {
     }
 }
 
-fn total(cost: Cost) -> usize {
+/// The operations of a program.
+fn operations(program: &Program) -> usize {
+    let cost = cost(program);
     cost.sums + cost.products + cost.quotients + cost.angles + cost.functions
 }
 
@@ -70,21 +72,12 @@ fn constant_mass(graph: &Graph, equations: &Equations) -> Option<String> {
 }
 
 /// What zeros of M and G save in the solve.
-fn solve(mechanism: &mut Mechanism, equations: &Equations) -> Option<String> {
+fn solve(graph: &Graph, equations: &Equations, terms: &Program) -> Option<String> {
     let (n, r) = (equations.mass.len(), equations.jacobian.len());
-    let graph = &mechanism.graph;
     let absent = zeros(graph, equations.mass.iter().flatten())
         + 2 * zeros(graph, equations.jacobian.iter().flatten());
-    let wanted = [
-        matrix("mass", &equations.mass),
-        vector("force", &equations.force),
-        matrix("jacobian", &equations.jacobian),
-        vector("bias", &equations.bias),
-    ];
-    let laws: Vec<ExprId> = mechanism.inputs.iter().map(|input| input.law).collect();
-    let terms = optimise(&mut mechanism.graph, &laws, &wanted.concat());
-    let solved = regular_acceleration(&terms, (n, r), &equations.weighed)?;
-    let spent = total(cost(&solved.program)).saturating_sub(total(cost(&terms)));
+    let solved = regular_acceleration(terms, (n, r), &equations.weighed)?;
+    let spent = operations(&solved.program).saturating_sub(operations(terms));
     // Cholesky factors of M and of G M⁻¹ Gᵀ, products for that, and four substitutions.
     let cube = |k: usize| (k * k * k + 2 * k) / 3;
     let dense = cube(n) + n * n * r + n * r * r + cube(r) + 2 * n * n + 2 * r * r + 4 * n * r;
@@ -165,27 +158,16 @@ fn no_constraints(equations: &Equations) -> Option<String> {
 }
 
 /// What is computed only when it is asked for.
-fn on_request(mechanism: &mut Mechanism, equations: &Equations) -> Option<String> {
-    let laws: Vec<ExprId> = mechanism.inputs.iter().map(|input| input.law).collect();
-    let energies = equations.energies;
-    let energies = [
-        energies.kinetic,
-        energies.potential,
-        energies.balance,
-        energies.power,
+fn on_request(programs: &Programs) -> Option<String> {
+    let named = [
+        ("the energies", &programs.energies),
+        ("outputs", &programs.outputs),
     ];
-    let outputs: Vec<ExprId> = mechanism
-        .outputs
-        .iter()
-        .map(|output| output.value)
+    let counted = named.map(|(name, program)| (name, operations(program)));
+    let said: Vec<String> = counted
+        .into_iter()
+        .filter(|(_, spent)| *spent > 0)
+        .map(|(name, spent)| format!("{name} ({spent} operations)"))
         .collect();
-    let mut said = Vec::new();
-    for (name, values) in [("the energies", energies.as_slice()), ("outputs", &outputs)] {
-        let program = optimise(&mut mechanism.graph, &laws, &vector("asked", values));
-        let spent = total(cost(&program));
-        if spent > 0 {
-            said.push(format!("{name} ({spent} operations)"));
-        }
-    }
     (!said.is_empty()).then(|| format!("{}, until they are asked for", said.join(" and ")))
 }
