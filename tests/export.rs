@@ -221,3 +221,21 @@ fn what_can_not_be_exported_is_refused_and_nothing_is_touched() {
     assert!(ran.err.contains("install it (rustup)"), "{}", ran.err);
     assert!(!folder.join("cart_pole").exists());
 }
+
+#[test]
+fn a_library_belongs_to_the_numbers_in_the_files_that_its_description_reads() {
+    let folder = folder("export_data");
+    let text = "mechanism Told { const m: kg = 2; coord x: m; kinetic 1/2*m*der(x)^2;
+        force table(\"told.csv\", \"force\", t) on x; }";
+    fs::write(folder.join("told.mech"), text).expect("the folder is ours");
+    let exported = |force: u8| {
+        let data = format!("time,force\n0,0\n1,{force}\n");
+        fs::write(folder.join("told.csv"), data).expect("the folder is ours");
+        let ran = bricard(&folder, &["export", "told.mech", "--to", "library"]);
+        assert_eq!(ran.status, Some(0), "{}", ran.err);
+        ran.out
+    };
+    let first = exported(2);
+    assert_eq!(exported(2), first);
+    assert_ne!(exported(3), first);
+}

@@ -3,11 +3,11 @@
 //! In:  a description.
 //! Out: a shared and a static library in the cache.
 
-use super::Digits;
 use super::cache::{Cache, Scratch, Version};
 use super::compiler::{Toolchain, output};
 use super::program::name;
 use super::shared::{libraries, rustc};
+use super::{Digits, identity};
 use crate::error::CommandError;
 use crate::output::say;
 use bricard_codegen::emit::module_name;
@@ -77,7 +77,7 @@ pub fn module_of(file: &Path) -> String {
 ///
 /// [`CommandError::Description`].
 pub fn generate(file: &Path, source: &str, for_c: bool) -> Result<Compiled, CommandError> {
-    let mut settings = Settings::default();
+    let mut settings = Settings::beside(file);
     settings.options.c_interface = for_c;
     let shown = file.display().to_string();
     let compiled = compile_source(source, &module_of(file), &name(file), &settings)
@@ -95,13 +95,14 @@ pub fn generate(file: &Path, source: &str, for_c: bool) -> Result<Compiled, Comm
 /// What is wrong with the description, in the words of `bricard check`; what stands in the
 /// way of compiling it.
 pub fn library(file: &Path, source: &str) -> Result<Library, CommandError> {
+    let identity = identity(file, source);
     let toolchain = Toolchain::find();
     let cache = Cache::find()?;
     let module = module_of(file);
     if let Ok(toolchain) = &toolchain {
         let version = Version::new(&cache, toolchain, Digits::Double);
-        let folder = version.exported(file, source);
-        if Version::holds(&folder, source) {
+        let folder = version.exported(file, &identity);
+        if Version::holds(&folder, &identity) {
             return Ok(Library { folder, module });
         }
     }
@@ -109,20 +110,20 @@ pub fn library(file: &Path, source: &str) -> Result<Library, CommandError> {
     let compiled = generate(file, source, true)?;
     let toolchain = toolchain?;
     let version = Version::new(&cache, &toolchain, Digits::Double);
-    let folder = build((file, source), &compiled.code, &version, &toolchain)?;
+    let folder = build((file, &identity), &compiled.code, &version, &toolchain)?;
     Ok(Library { folder, module })
 }
 
 /// Builds the libraries, unless another process has done so meanwhile.
 fn build(
-    (file, source): (&Path, &str),
+    (file, identity): (&Path, &str),
     code: &str,
     version: &Version,
     toolchain: &Toolchain,
 ) -> Result<PathBuf, CommandError> {
     let _alone = version.lock()?;
-    let entry = version.exported(file, source);
-    if Version::holds(&entry, source) {
+    let entry = version.exported(file, identity);
+    if Version::holds(&entry, identity) {
         return Ok(entry);
     }
     let shared = libraries(version, toolchain)?;
@@ -146,6 +147,6 @@ fn build(
     let native = native.map_or("", |(_, native)| native.trim());
     let place = built.join(NATIVE);
     fs::write(&place, native).map_err(|error| CommandError::Cache(place, error))?;
-    version.shelve(scratch, &built, &entry, source)?;
+    version.shelve(scratch, &built, &entry, identity)?;
     Ok(entry)
 }

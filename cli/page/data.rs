@@ -16,6 +16,7 @@ use bricard_driver::{Drawn, Scene};
 use bricard_runtime::{Quantity, Structure};
 use serde_json::{Value, json};
 use std::env;
+use std::path::Path;
 
 /// Numbers of all curves that a page has room for.
 const NUMBERS: usize = 60_000;
@@ -55,7 +56,7 @@ pub fn data(run: &Run) -> Result<Value, String> {
         "command": command(),
         "source": run.source.as_ref().map(|(file, text)| json!({ "file": file, "text": text })),
         "words": words_of_the_language(),
-        "equations": mathml(run.source.as_ref().map(|(_, text)| text.as_str())),
+        "equations": mathml(run.source.as_ref().map(|(file, text)| (Path::new(file), text.as_str()))),
         "parameters": parameters(structure, &first),
         "start": start(structure, run.rows),
         "settings": run.settings,

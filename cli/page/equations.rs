@@ -7,15 +7,17 @@ use crate::show::equations;
 use pulldown_latex::config::{DisplayMode, RenderConfig};
 use pulldown_latex::{Parser, Storage, push_mathml};
 use serde_json::{Value, json};
+use std::path::Path;
 
 /// Letters of LaTeX that a page has room for.
 const MOST: usize = 15_000;
 
-/// The equations of motion of a description; none if it is not known.
+/// The equations of motion of the description in a file; none if it is not known.
 ///
 /// `M q̈ + C q̇ + h = Q + Gᵀ λ`, `G q̈ = p₂`.
-pub fn mathml(source: Option<&str>) -> Vec<Value> {
-    let arrays = source.and_then(equations).unwrap_or_default();
+pub fn mathml(description: Option<(&Path, &str)>) -> Vec<Value> {
+    let arrays = description.and_then(|(file, source)| equations(file, source));
+    let arrays = arrays.unwrap_or_default();
     let mut room = MOST;
     let mut all = Vec::new();
     for (title, entries) in arrays {
@@ -56,17 +58,19 @@ fn formula([entry, value]: &[String; 2]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::{formula, mathml};
+    use std::path::Path;
 
     #[test]
     fn formulas_of_the_library_are_mathml() {
         for name in ["slider_crank", "rssr", "driven_pivot"] {
-            let source = bricard::source(name);
-            let all = source.and_then(crate::show::equations).unwrap_or_default();
+            let description = bricard::source(name).map(|source| (Path::new(name), source));
+            let all = description.and_then(|(file, source)| crate::show::equations(file, source));
+            let all = all.unwrap_or_default();
             let nonzero = all
                 .iter()
                 .flat_map(|(_, lines)| lines)
                 .filter(|[_, e]| e != "0");
-            let arrays = mathml(source);
+            let arrays = mathml(description);
             let lines = arrays.iter().flat_map(|array| array["lines"].as_array());
             let lines: Vec<_> = lines.flatten().filter_map(|line| line.as_str()).collect();
             assert_eq!(lines.len(), nonzero.count(), "{name}: {arrays:?}");

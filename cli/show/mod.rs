@@ -67,9 +67,9 @@ pub fn show(arguments: &Show) -> Result<(), CommandError> {
 /// LaTeX.
 pub type Array = (&'static str, Vec<[String; 2]>);
 
-/// The equations of motion of a description; `None` if it is wrong.
-pub fn equations(source: &str) -> Option<Vec<Array>> {
-    let (mut mechanism, _warnings) = analyse(source, &Settings::default()).ok()?;
+/// The equations of motion of the description in a file; `None` if it is wrong.
+pub fn equations(file: &Path, source: &str) -> Option<Vec<Array>> {
+    let (mut mechanism, _warnings) = analyse(source, &Settings::beside(file)).ok()?;
     let equations = derive::derive(&mut mechanism).ok()?;
     let sections = sections::sections(&mut mechanism, &equations);
     let mut graph = std::mem::take(&mut mechanism.graph);

@@ -8,7 +8,7 @@ mod description;
 
 use super::Subject;
 use crate::compiled::compiler::{command, output};
-use crate::compiled::{Library, generate, hash, library, module_of};
+use crate::compiled::{Library, generate, hash, identity, library, module_of};
 use crate::error::CommandError;
 use crate::output::print;
 use bricard_codegen::{Settings, analyse};
@@ -43,10 +43,11 @@ pub fn export(subject: &Subject, out: Option<&Path>) -> Result<(), CommandError>
     }
     let compiled = generate(&subject.file, &subject.source, true)?;
     let shown = subject.file.display().to_string();
-    let (mechanism, _) = analyse(&subject.source, &Settings::default())
+    let (mechanism, _) = analyse(&subject.source, &Settings::beside(&subject.file))
         .map_err(|errors| CommandError::Description(errors.render(&shown, &subject.source)))?;
     let version = env!("CARGO_PKG_VERSION");
-    let key = hash([&*subject.source, FUNCTIONS, HEADER, version]);
+    let identity = identity(&subject.file, &subject.source);
+    let key = hash([&*identity, FUNCTIONS, HEADER, version]);
     let guid = format!("{{bricard-{key:016x}}}");
     let built = library(&subject.file, &subject.source)?;
     let instance = format!(
