@@ -145,19 +145,24 @@ where
     ) -> Result<Option<Best<T, N>>, Obstacle> {
         let known = self.chart.spacing;
         let mut width = (spacing::<T>() * self.chart.reach * direction.rate).min(spacing());
+        let mut tried = None;
         if known > T::zero() {
             // Mostly the last spacing serves again.
-            if let Ok(Some(last)) = self.between_nodes(state, like, direction, (known, angle))
-                && last.score <= resolved()
-            {
-                return Ok(Some(last));
+            let last = self.between_nodes(state, like, direction, (known, angle));
+            if matches!(&last, Ok(Some(last)) if last.score <= resolved()) {
+                return last;
             }
+            tried = Some(last);
             width = width.min(known * T::from_f64(4.0));
         }
         let mut best: Option<Best<T, N>> = None;
         let mut why = None;
         for _ in 0..LEVELS {
-            match self.between_nodes(state, like, direction, (width, angle)) {
+            let found = match tried.take_if(|_| width == known) {
+                Some(found) => found,
+                None => self.between_nodes(state, like, direction, (width, angle)),
+            };
+            match found {
                 Ok(None) => break,
                 Ok(Some(found)) => {
                     let least = best.as_ref().map(|best| best.score);
