@@ -25,6 +25,7 @@ mod program;
 mod schedule;
 mod share;
 mod solve;
+mod squares;
 mod trig;
 mod verify;
 

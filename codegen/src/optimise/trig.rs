@@ -2,8 +2,8 @@
 //!
 //! In:  an expression.
 //! Out: the same function, multiplied out as a polynomial in its atoms (symbols,
-//!      functions, inverses), with `sin² = 1 − cos²` applied and like terms
-//!      collected. Never a new angle: the sine of a sum of angles is expanded
+//!      functions, inverses), with `sin² = 1 − cos²` applied, like terms collected
+//!      and `sin²` written again for what is left of `1 − cos²`. Never a new angle: the sine of a sum of angles is expanded
 //!      only where it was written as one.
 //!
 //! A polynomial that grows past [`TERMS_MAX`] terms leaves the expression as it
@@ -11,6 +11,7 @@
 //! one with a coefficient that overflows, and the inverse of one that is zero.
 
 use super::monomial::{MonomialId, Monomials};
+use super::squares;
 use crate::expr::{ExprId, Function, Graph, Node, Number};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::hash_map::Entry;
@@ -233,7 +234,7 @@ impl<'a> Ring<'a> {
 
     /// The expression of the polynomial of one that is known.
     fn known_expression(&mut self, e: ExprId) -> ExprId {
-        let polynomial = self.memory.known[&e].clone();
+        let polynomial = self.with_sines_squared(self.memory.known[&e].clone());
         let mut number = Number::ZERO;
         let mut terms = Vec::with_capacity(polynomial.len());
         for &(monomial, coefficient) in polynomial.iter() {
@@ -245,6 +246,22 @@ impl<'a> Ring<'a> {
             }
         }
         self.graph.weighted_sum(number, &terms)
+    }
+
+    /// The polynomial as it is written: with `sin²` for `1 − cos²`.
+    fn with_sines_squared(&mut self, polynomial: Polynomial) -> Polynomial {
+        let monomials = &mut self.memory.monomials;
+        let mut terms = Vec::with_capacity(polynomial.len());
+        for &(monomial, coefficient) in polynomial.iter() {
+            terms.push((monomials.powers(monomial), coefficient));
+        }
+        let written = squares::with_sines_squared(terms, self.graph);
+        let mut polynomial = Vec::with_capacity(written.len());
+        for (powers, coefficient) in written {
+            polynomial.push((monomials.of(&powers), coefficient));
+        }
+        polynomial.sort_unstable_by(|(a, _), (b, _)| monomials.compare(*a, *b));
+        polynomial.into()
     }
 
     fn constant(&self, value: Number) -> Polynomial {

@@ -168,7 +168,16 @@ impl Jet {
                 self.unsound()
             }
             Function2::Atan2 => self.through2(other, |x, y| x.atan2(y)),
-            Function2::Pow => self.through2(other, |x, y| (y * x.ln()).exp()),
+            Function2::Pow => {
+                let power = self.through2(other, |x, y| (y * x.ln()).exp());
+                // The exponential makes the round-off of its argument a relative one.
+                let steepness = 2.0 * ROUND_OFF * power.value.abs().ln().abs();
+                Jet {
+                    value_error: power.value_error + steepness * power.value.abs(),
+                    slope_error: power.slope_error + steepness * power.slope.abs(),
+                    ..power
+                }
+            }
         }
     }
 

@@ -100,6 +100,32 @@ fn the_squared_length_of_a_turned_vector_is_that_of_the_vector() {
     assert_eq!(in_trig_ring(&mut graph, turned), still);
 }
 
+/// `sin³ x` as `sin x − sin x cos² x` would lose all of its digits near zero.
+#[test]
+fn powers_of_a_sine_are_not_written_as_differences() {
+    let mut graph = Graph::new();
+    let [x, y, a] = [
+        Symbol::Coordinate(0),
+        Symbol::Coordinate(1),
+        Symbol::Parameter(0),
+    ]
+    .map(|symbol| graph.symbol(symbol));
+    let [sin, other] = [x, y].map(|angle| graph.function(Function::Sin, angle));
+    for powers in [
+        vec![(sin, 2)],
+        vec![(sin, 3)],
+        vec![(sin, 4)],
+        vec![(a, 1), (sin, 5)],
+        vec![(sin, 2), (other, 2)],
+        vec![(a, -1), (sin, 3), (other, 4)],
+    ] {
+        let product = graph.power_product(&powers);
+        let minus = graph.neg(product);
+        assert_eq!(in_trig_ring(&mut graph, product), product, "{powers:?}");
+        assert_eq!(in_trig_ring(&mut graph, minus), minus, "{powers:?}");
+    }
+}
+
 /// What would be infinite is left for the run to find, with the time and the state.
 #[test]
 fn the_inverse_of_what_turns_out_to_be_zero_stays_as_it_was_written() {
