@@ -5,15 +5,13 @@
 //!      anew and compiled, so that a law may hold whatever one in a file may, is as fast,
 //!      and gets the same messages.
 
-use crate::check::read;
 use crate::compiled;
 use crate::error::CommandError;
 use crate::formula::Setting;
-use crate::mechanism::{file, find, source};
+use crate::mechanism::{Description, description, find};
 use bricard_codegen::diagnostic::Span;
 use bricard_codegen::parse::{Model, parse};
 use bricard_driver::AnyMechanism;
-use std::path::PathBuf;
 
 /// An input by its name, and its formula.
 type Law<'a> = (&'a str, &'a str);
@@ -29,17 +27,10 @@ pub fn find_with(
     set: &[Setting],
 ) -> Result<(Box<dyn AnyMechanism>, Vec<Setting>), CommandError> {
     let laws: Vec<Law> = set.iter().filter_map(law).collect();
-    let described = match file(name) {
-        Some(file) if !laws.is_empty() => Some((file.to_path_buf(), read(file)?)),
-        None if !laws.is_empty() => {
-            let text = source(name).map(str::to_string);
-            text.map(|text| (PathBuf::from(format!("{name}.mech")), text))
-        }
-        _ => None,
-    };
-    let Some((file, text)) = described else {
+    if laws.is_empty() {
         return Ok((find(name)?, set.to_vec()));
-    };
+    }
+    let Description { file, source: text } = description(name)?;
     // What is wrong with a description is told when it is compiled.
     let (text, left) = match parse(&text) {
         Ok(model) => match replaced(&text, &model, &laws, set)? {

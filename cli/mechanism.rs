@@ -8,9 +8,8 @@ use crate::compiled;
 use crate::error::CommandError;
 use crate::show::freedom;
 use bricard_driver::{AnyMechanism, Precise, forget};
-use bricard_reference::DoubleDouble;
 use bricard_runtime::{Interface, Mechanism, Settings, Solver, Visitor, Whole, assemble};
-use std::path::{self, Path};
+use std::path::{self, Path, PathBuf};
 
 /// Finds a mechanism of the library or of the benchmark problems, or compiles a file.
 ///
@@ -22,12 +21,16 @@ pub fn find(name: &str) -> Result<Box<dyn AnyMechanism>, CommandError> {
         return Ok(Box::new(compiled::open(file)?));
     }
     let found = bricard::visit(name, Forget).or_else(|| bricard_benchmarks::visit(name, Forget));
-    found.ok_or_else(|| CommandError::UnknownName {
+    found.ok_or_else(|| unknown(name))
+}
+
+fn unknown(name: &str) -> CommandError {
+    CommandError::UnknownName {
         kind: "mechanism",
         owner: String::new(),
         name: name.to_string(),
         known: names().map(str::to_string).collect(),
-    })
+    }
 }
 
 /// The file that is meant, if it is not a name: it ends in `.mech`, or lies in a folder.
@@ -59,9 +62,33 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     library.chain(bricard_benchmarks::NAMES).copied()
 }
 
-/// The description of a mechanism by its name.
-pub fn source(name: &str) -> Option<&'static str> {
-    bricard::source(name).or_else(|| bricard_benchmarks::source(name))
+/// A description, and the file that it is in.
+#[derive(Clone, Debug)]
+pub struct Description {
+    /// The file; of a mechanism that the command has in it, the one it was compiled from.
+    pub file: PathBuf,
+    /// The text.
+    pub source: String,
+}
+
+/// The description of a mechanism by its name or path.
+///
+/// # Errors
+///
+/// As [`find`]; [`CommandError::Read`].
+pub fn description(name: &str) -> Result<Description, CommandError> {
+    if let Some(file) = file(name) {
+        return Ok(Description {
+            file: file.to_path_buf(),
+            source: read(file)?,
+        });
+    }
+    let source = bricard::source(name).or_else(|| bricard_benchmarks::source(name));
+    let source = source.ok_or_else(|| unknown(name))?;
+    Ok(Description {
+        file: PathBuf::from(find(name)?.structure().file),
+        source: source.to_string(),
+    })
 }
 
 struct Forget;
@@ -77,34 +104,15 @@ impl Visitor<f64> for Forget {
     }
 }
 
-/// The same mechanism in numbers of 106 bits.
+/// The same mechanism in numbers of 106 bits, in a program of its own: few commands ask
+/// for them, and everyone who builds the command would pay for their code.
 ///
 /// # Errors
 ///
-/// As [`find`]; the benchmark problems are not there in these numbers.
+/// As [`find`]; what stands in the way of compiling it.
 pub fn precise(name: &str) -> Result<Box<dyn Precise>, CommandError> {
-    if let Some(file) = file(name) {
-        return Ok(Box::new(compiled::open_precise(file)?));
-    }
-    bricard::visit(name, Widen).ok_or_else(|| CommandError::UnknownName {
-        kind: "mechanism",
-        owner: String::new(),
-        name: name.to_string(),
-        known: bricard::NAMES.iter().map(|name| name.to_string()).collect(),
-    })
-}
-
-struct Widen;
-
-impl Visitor<DoubleDouble> for Widen {
-    type Output = Box<dyn Precise>;
-
-    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
-    where
-        M: Mechanism<DoubleDouble, N, R> + Interface<DoubleDouble, N> + Clone + 'static,
-    {
-        bricard_reference::precise::<N, R>(Box::new(mechanism))
-    }
+    let Description { file, source } = description(name)?;
+    Ok(Box::new(compiled::open_precise(&file, &source)?))
 }
 
 /// In words: rank of the constraints of a mechanism of the library at its start, and what

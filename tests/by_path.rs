@@ -4,7 +4,7 @@
 //! All tests but those about the cache itself share one, in the target folder: what is
 //! common to all programs is compiled once for each version of the sources.
 
-use crate::command::{Ran, folder, read};
+use crate::command::{Ran, cache, folder, read};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -31,10 +31,6 @@ fn pendulum(name: &str, length: f64) -> String {
 }}
 "
     )
-}
-
-fn cache() -> PathBuf {
-    PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("cache")
 }
 
 /// The command in a folder, with the shared cache.

@@ -2,7 +2,7 @@
 //! is left alone.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 /// What a run of the command gave.
@@ -12,8 +12,14 @@ pub struct Ran {
     pub err: String,
 }
 
+/// The folder in which tests keep compiled descriptions.
+pub fn cache() -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache")
+}
+
 pub fn bricard(arguments: &[&str]) -> Ran {
     let output = Command::new(env!("CARGO_BIN_EXE_bricard"))
+        .env("XDG_CACHE_HOME", cache())
         .args(arguments)
         .output();
     read(output.expect("the command starts"))

@@ -1,17 +1,16 @@
 //! Mechanisms exported to other programs: the folders are whole, and their examples say what
 //! the command itself says.
 
-use crate::command::{Ran, folder, read};
+use crate::command::{Ran, cache, folder, read};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// The command in a folder, with the cache that the tests share.
 fn bricard(folder: &Path, arguments: &[&str]) -> Ran {
-    let cache = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("cache");
     let output = Command::new(env!("CARGO_BIN_EXE_bricard"))
         .current_dir(folder)
-        .env("XDG_CACHE_HOME", cache)
+        .env("XDG_CACHE_HOME", cache())
         .args(arguments)
         .output();
     read(output.expect("the command starts"))

@@ -51,16 +51,13 @@ pub fn open_text(file: &Path, source: &str) -> Result<Link, CommandError> {
     start(&program(file, source, Digits::Double)?, Link::start)
 }
 
-/// As [`open`], in numbers of 106 bits.
+/// As [`open_text`], in numbers of 106 bits.
 ///
 /// # Errors
 ///
 /// As [`open`].
-pub fn open_precise(file: &Path) -> Result<PreciseLink, CommandError> {
-    start(
-        &program(file, &read(file)?, Digits::Many)?,
-        PreciseLink::start,
-    )
+pub fn open_precise(file: &Path, source: &str) -> Result<PreciseLink, CommandError> {
+    start(&program(file, source, Digits::Many)?, PreciseLink::start)
 }
 
 /// The numbers that a program computes with.

@@ -4,11 +4,11 @@
 //! Out: libraries, headers, files for pkg-config and CMake, an example, and the sources to
 //!      build all that elsewhere.
 
-use super::Subject;
 use super::folder::{Folder, vacant};
 use super::sources;
 use crate::compiled::{Library, generate, library, module_of};
 use crate::error::CommandError;
+use crate::mechanism::Description;
 use crate::output::print;
 use std::path::{Path, PathBuf};
 
@@ -23,7 +23,7 @@ const CMAKE: &str = include_str!("config.cmake");
 ///
 /// [`CommandError::Description`], [`CommandError::Exists`], [`CommandError::Write`], and what
 /// stands in the way of compiling.
-pub fn export(subject: &Subject, out: Option<&Path>) -> Result<(), CommandError> {
+pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandError> {
     let module = module_of(&subject.file);
     let path = out.map_or_else(|| PathBuf::from(&module), Path::to_path_buf);
     let compiled = generate(&subject.file, &subject.source, true)?;

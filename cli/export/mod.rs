@@ -14,40 +14,11 @@ mod sources;
 mod wasm;
 
 use crate::arguments::{Export, Target};
-use crate::check::read;
 use crate::compiled::{Library, library};
 use crate::error::CommandError;
-use crate::mechanism::{file, names, source};
+use crate::mechanism::description;
 use crate::output::print;
 use std::path::{Path, PathBuf};
-
-/// A description, and the file that it is in or would be.
-struct Subject {
-    file: PathBuf,
-    source: String,
-}
-
-impl Subject {
-    /// The mechanism of a name, or of a file.
-    fn find(name: &str) -> Result<Self, CommandError> {
-        if let Some(file) = file(name) {
-            return Ok(Self {
-                file: file.to_path_buf(),
-                source: read(file)?,
-            });
-        }
-        let source = source(name).ok_or_else(|| CommandError::UnknownName {
-            kind: "mechanism",
-            owner: String::new(),
-            name: name.to_string(),
-            known: names().map(str::to_string).collect(),
-        })?;
-        Ok(Self {
-            file: Path::new(name).with_extension("mech"),
-            source: source.to_string(),
-        })
-    }
-}
 
 /// Writes a mechanism for other programs.
 ///
@@ -55,7 +26,7 @@ impl Subject {
 ///
 /// What is wrong with the description, or stands in the way of the folder or the compiler.
 pub fn export(arguments: &Export) -> Result<(), CommandError> {
-    let subject = Subject::find(&arguments.subject)?;
+    let subject = description(&arguments.subject)?;
     let out = arguments.out.as_deref();
     match arguments.to {
         Target::Rust => rust::export(&subject, out),

@@ -3,11 +3,11 @@
 //! In:  a description.
 //! Out: a crate without a build script, for people who keep generated code with their own.
 
-use super::Subject;
 use super::folder::Folder;
 use super::sources;
 use crate::compiled::{generate, module_of};
 use crate::error::CommandError;
+use crate::mechanism::Description;
 use crate::new::RESERVED;
 use crate::output::print;
 use bricard_codegen::emit::type_name;
@@ -21,7 +21,7 @@ const NEIGHBOURS: [&str; 2] = ["nalgebra", "num_traits"];
 /// # Errors
 ///
 /// [`CommandError::Description`], [`CommandError::Exists`], [`CommandError::Write`].
-pub fn export(subject: &Subject, out: Option<&Path>) -> Result<(), CommandError> {
+pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandError> {
     let module = module_of(&subject.file);
     let compiled = generate(&subject.file, &subject.source, false)?;
     let name = match RESERVED.contains(&&*module) || NEIGHBOURS.contains(&&*module) {

@@ -13,10 +13,9 @@ mod sections;
 mod skipped;
 
 use crate::arguments::Show;
-use crate::check::read;
 use crate::error::CommandError;
 use crate::list::first_sentence;
-use crate::mechanism::{file, find, freedom_at_start, source};
+use crate::mechanism::{Description, description, freedom_at_start};
 use crate::output::print;
 use bricard_codegen::expr::{Notation, Symbol};
 use bricard_codegen::model::{Described, Mechanism};
@@ -93,18 +92,9 @@ struct Subject {
 impl Subject {
     /// The subject of a name of the library or of a path.
     fn of(name: &str) -> Result<Self, CommandError> {
-        if let Some(path) = file(name) {
-            return Ok(Self {
-                file: name.to_string(),
-                source: read(path)?,
-                start: None,
-            });
-        }
-        let mechanism = find(name)?;
-        let structure = mechanism.structure();
-        let source = source(name).unwrap_or("").to_string();
+        let Description { file, source } = description(name)?;
         Ok(Self {
-            file: structure.file.to_string(),
+            file: file.display().to_string(),
             source,
             start: freedom_at_start(name),
         })

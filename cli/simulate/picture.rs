@@ -4,12 +4,11 @@
 //! Out: an SVG or an HTML file.
 
 use crate::arguments::Simulate;
-use crate::check::read;
 use crate::column::{Column, columns, header};
 use crate::error::CommandError;
 use crate::figure::{chosen, named, overview};
 use crate::formula::Setting;
-use crate::mechanism::{file, source};
+use crate::mechanism::description;
 use crate::number::exact;
 use crate::page::{self, Live, is_page};
 use crate::plot::{Marks, Times, panels_as_svg, phase_as_svg};
@@ -162,11 +161,9 @@ impl Picture<'_> {
     fn page(&self, path: &Path, rows: &[Vec<f64>], marks: &[Marks]) -> Result<(), CommandError> {
         let structure = self.mechanism.structure();
         let name = &self.arguments.name;
-        let source = match file(name) {
-            // It may have been removed since.
-            Some(file) => read(file).ok().map(|text| (name.clone(), text)),
-            None => source(name).map(|text| (structure.file.to_string(), text.to_string())),
-        };
+        // The file may have been removed since.
+        let description = description(name).ok();
+        let source = description.map(|d| (d.file.display().to_string(), d.source));
         let summary = self.report.map(|report| quantities(report, structure));
         let run = page::Run {
             mechanism: self.mechanism,

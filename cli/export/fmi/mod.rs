@@ -6,10 +6,10 @@
 
 mod description;
 
-use super::Subject;
 use crate::compiled::compiler::{command, output};
 use crate::compiled::{Library, generate, hash, identity, library, module_of};
 use crate::error::CommandError;
+use crate::mechanism::Description;
 use crate::output::print;
 use bricard_codegen::{Settings, analyse};
 use std::fs::{self, File};
@@ -32,7 +32,7 @@ const PLATFORM: &str = match (cfg!(windows), cfg!(target_os = "macos")) {
 ///
 /// [`CommandError::Description`], [`CommandError::FileKind`], [`CommandError::Write`], and
 /// what stands in the way of compiling.
-pub fn export(subject: &Subject, out: Option<&Path>) -> Result<(), CommandError> {
+pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandError> {
     let module = module_of(&subject.file);
     let path = out.map_or_else(|| PathBuf::from(format!("{module}.fmu")), Path::to_path_buf);
     if path.extension().is_none_or(|kind| kind != "fmu") {

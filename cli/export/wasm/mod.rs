@@ -4,11 +4,11 @@
 //! Out: the module, its wrapper in JavaScript with types, an example, and the sources to
 //!      build all that elsewhere.
 
-use super::Subject;
 use super::folder::Folder;
 use super::sources;
 use crate::compiled::{command, generate, module_of, output};
 use crate::error::CommandError;
+use crate::mechanism::Description;
 use crate::output::print;
 use bricard_codegen::Compiled;
 use bricard_codegen::emit::type_name;
@@ -39,7 +39,7 @@ panic = \"abort\"
 ///
 /// [`CommandError::Description`], [`CommandError::Exists`], [`CommandError::Write`], and
 /// [`CommandError::Compile`] if the module can't be compiled: all but that is there then.
-pub fn export(subject: &Subject, out: Option<&Path>) -> Result<(), CommandError> {
+pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandError> {
     let module = module_of(&subject.file);
     let compiled = generate(&subject.file, &subject.source, false)?;
     let folder = Folder::new(&out.map_or_else(|| PathBuf::from(&module), Path::to_path_buf))?;
