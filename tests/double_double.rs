@@ -1,9 +1,11 @@
 //! Reference motions in numbers of 106 bits, against exact ones.
 
+use bricard::double_four_bar::DoubleFourBar;
+use bricard::n_four_bar::NFourBar;
+use bricard::slider_crank::SliderCrank;
+use bricard::slider_crank_driven::SliderCrankDriven;
 use bricard_reference::{DoubleDouble, Reference, ReferenceError, reference};
-use bricard_runtime::{
-    Interface, Mechanism, Options, Pace, Real, Scheme, Visitor, Whole, assemble, simulate,
-};
+use bricard_runtime::{Interface, Options, Pace, Real, Scheme, Whole, assemble, simulate};
 
 /// What a reference motion may be off by (m, rad, m/s, rad/s).
 const ERROR: f64 = 1e-18;
@@ -35,32 +37,18 @@ const ENDS: [(&str, f64, &str, &str); 3] = [
     ),
 ];
 
-/// Runs a reference motion.
-struct Motion {
-    until: f64,
-}
-
-/// Its end: coordinates, velocities, estimated error.
+/// The end of a reference motion: coordinates, velocities, estimated error.
 type End = (Vec<DoubleDouble>, Vec<DoubleDouble>, f64);
 
-impl Visitor<DoubleDouble> for Motion {
-    type Output = End;
-
-    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> End
-    where
-        M: Mechanism<DoubleDouble, N, R> + Interface<DoubleDouble, N>,
-    {
-        let mechanism: &dyn Whole<DoubleDouble, N, R> = &mechanism;
-        let result: Result<Reference<N>, ReferenceError<N, R>> =
-            reference(mechanism, DoubleDouble::from(self.until));
-        let motion = result.unwrap_or_else(|error| panic!("{error}"));
-        let (q, v) = (motion.end.q, motion.end.v);
-        (q.as_slice().to_vec(), v.as_slice().to_vec(), motion.error)
-    }
-}
-
-fn motion(name: &str, until: f64) -> End {
-    bricard::visit(name, Motion { until }).expect("a name of the catalogue")
+fn motion<const N: usize, const R: usize>(
+    mechanism: &dyn Whole<DoubleDouble, N, R>,
+    until: f64,
+) -> End {
+    let result: Result<Reference<N>, ReferenceError<N, R>> =
+        reference(mechanism, DoubleDouble::from(until));
+    let motion = result.unwrap_or_else(|error| panic!("{error}"));
+    let (q, v) = (motion.end.q, motion.end.v);
+    (q.as_slice().to_vec(), v.as_slice().to_vec(), motion.error)
 }
 
 fn number(text: &str) -> DoubleDouble {
@@ -72,10 +60,20 @@ fn check(name: &str, what: &str, found: DoubleDouble, exact: &str) {
     assert!(error <= ERROR, "{name}: {what} = {found}, off by {error:e}");
 }
 
+/// The end of one of the paper's examples.
+fn example(name: &str, until: f64) -> End {
+    match name {
+        "slider_crank" => motion(&SliderCrank::default(), until),
+        "slider_crank_driven" => motion(&SliderCrankDriven::default(), until),
+        "double_four_bar" => motion(&DoubleFourBar::default(), until),
+        other => panic!("{other} is no example of the paper"),
+    }
+}
+
 #[test]
 fn reference_motions_have_18_decimals_through_singular_positions() {
     for (name, until, angle, rate) in ENDS {
-        let (q, v, error) = motion(name, until);
+        let (q, v, error) = example(name, until);
         check(name, "q1", q[0], angle);
         check(name, "q1'", v[0], rate);
         assert!(error <= ERROR, "{name}: estimated error {error:e}");
@@ -84,7 +82,7 @@ fn reference_motions_have_18_decimals_through_singular_positions() {
 
 #[test]
 fn the_row_of_parallelograms_follows_the_elliptic_functions() {
-    let (q, v, _) = motion("n_four_bar", 10.0);
+    let (q, v, _) = motion(&NFourBar::default(), 10.0);
     for crank in 0..3 {
         let (sine, cosine) = q[crank].sin_cos();
         check("n_four_bar", "x", sine, "0.328458111540815378652164");
@@ -93,45 +91,22 @@ fn the_row_of_parallelograms_follows_the_elliptic_functions() {
     }
 }
 
-/// Runs an implicit method and the reference; the largest difference of a coordinate.
-struct Implicit {
-    until: f64,
-    tolerance: f64,
-}
-
-impl Visitor<DoubleDouble> for Implicit {
-    type Output = f64;
-
-    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> f64
-    where
-        M: Mechanism<DoubleDouble, N, R> + Interface<DoubleDouble, N>,
-    {
-        let mechanism: &dyn Whole<DoubleDouble, N, R> = &mechanism;
-        let until = DoubleDouble::from(self.until);
-        let exact: Result<Reference<N>, ReferenceError<N, R>> = reference(mechanism, until);
-        let exact = exact.unwrap_or_else(|error| panic!("{error}")).end;
-        let start = assemble(mechanism, &mechanism.start(), DoubleDouble::default());
-        let start = start.unwrap_or_else(|error| panic!("{error}"));
-        let tolerance = DoubleDouble::from(self.tolerance);
-        let pace = Pace::Adaptive {
-            relative: tolerance,
-            absolute: tolerance,
-        };
-        let options = Options::new(until, Scheme::Radau9, pace);
-        let run = simulate(mechanism, &start, &options, &mut []);
-        let end = run.unwrap_or_else(|failure| panic!("{failure}")).end;
-        (end.q - exact.q)
-            .iter()
-            .fold(0.0, |most: f64, x| most.max(x.to_f64().abs()))
-    }
-}
-
 #[test]
 fn coefficients_of_the_implicit_method_have_more_digits_than_an_f64() {
-    let run = Implicit {
-        until: 0.25,
-        tolerance: 1e-19,
+    let mechanism: &dyn Whole<DoubleDouble, 3, 2> = &SliderCrank::default();
+    let until = DoubleDouble::from(0.25);
+    let exact: Result<Reference<3>, ReferenceError<3, 2>> = reference(mechanism, until);
+    let exact = exact.unwrap_or_else(|error| panic!("{error}"));
+    let start = assemble(mechanism, &mechanism.start(), DoubleDouble::default());
+    let start = start.unwrap_or_else(|error| panic!("{error}"));
+    let tolerance = DoubleDouble::from(1e-19);
+    let pace = Pace::Adaptive {
+        relative: tolerance,
+        absolute: tolerance,
     };
-    let error = bricard::visit("slider_crank", run).expect("a name of the catalogue");
-    assert!(error <= 1e-20, "{error:e}");
+    let options = Options::new(until, Scheme::Radau9, pace);
+    let run = simulate(mechanism, &start, &options, &mut []);
+    let end = run.unwrap_or_else(|failure| panic!("{failure}")).end;
+    let off = (end.q - exact.end.q).map(|x| x.abs().to_f64()).max();
+    assert!(off <= 1e-20, "{off:e}");
 }

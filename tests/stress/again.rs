@@ -1,7 +1,7 @@
 //! Parameters set to degenerate values between runs, and back.
 
 use crate::judge::start;
-use bricard_runtime::{Interface, Mechanism, Options, Visitor, simulate};
+use bricard_runtime::{Interface, Mechanism, Options, Visitor, Whole, simulate};
 
 struct ThereAndBack;
 
@@ -13,8 +13,8 @@ impl Visitor<f64> for ThereAndBack {
         M: Mechanism<f64, N, R> + Interface<f64, N> + Clone + 'static,
     {
         let options = Options::dop853(0.5, 1e-9);
-        let run = |mechanism: &M| {
-            let state = start::<M, N, R>(mechanism, &[])?;
+        let run = |mechanism: &dyn Whole<f64, N, R>| {
+            let state = start(mechanism, &[])?;
             let ran = simulate(mechanism, &state, &options, &mut []);
             ran.map(|summary| summary.end)
                 .map_err(|failure| failure.error.to_string())

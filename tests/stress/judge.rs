@@ -2,7 +2,8 @@
 
 use crate::case::{Case, Wanted};
 use bricard_runtime::{
-    Initial, Interface, Mechanism, Options, Scheme, State, Summary, Visitor, assemble, simulate,
+    Initial, Interface, Mechanism, Options, Scheme, State, Summary, Visitor, Whole, assemble,
+    simulate,
 };
 
 /// What a run came to: its summary, or the message of its error.
@@ -38,9 +39,11 @@ impl Visitor<f64> for Attempt<'_> {
         for (place, value) in self.case.inputs {
             mechanism.set_input(*place, Some(*value));
         }
-        let state = start::<M, N, R>(&mechanism, self.case.hold)?;
+        // By a pointer, so that a run is compiled once for each pair of sizes.
+        let mechanism: &dyn Whole<f64, N, R> = &mechanism;
+        let state = start(mechanism, self.case.hold)?;
         let before = mechanism.energy(&state);
-        let ran = simulate(&mechanism, &state, &self.options, &mut []);
+        let ran = simulate(mechanism, &state, &self.options, &mut []);
         let Summary {
             end, energy_error, ..
         } = ran.map_err(|failure| failure.error.to_string())?;
@@ -55,13 +58,10 @@ impl Visitor<f64> for Attempt<'_> {
 }
 
 /// The start of a mechanism with other values held.
-pub fn start<M, const N: usize, const R: usize>(
-    mechanism: &M,
+pub fn start<const N: usize, const R: usize>(
+    mechanism: &dyn Whole<f64, N, R>,
     hold: &[(&str, f64)],
-) -> Result<State<f64, N>, String>
-where
-    M: Mechanism<f64, N, R> + Interface<f64, N>,
-{
+) -> Result<State<f64, N>, String> {
     let coordinates = mechanism.structure().coordinates;
     let mut start = mechanism.start();
     for (name, value) in hold {

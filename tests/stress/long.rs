@@ -1,7 +1,9 @@
 //! Runs of a million steps every day, of a thousand million with `BRICARD_LONG=1`.
 
 use crate::judge::start;
-use bricard_runtime::{Audit, Interface, Mechanism, Options, Pace, Scheme, Visitor, simulate};
+use bricard_runtime::{
+    Audit, Interface, Mechanism, Options, Pace, Scheme, Visitor, Whole, simulate,
+};
 
 /// Runs with the energy kept, and returns what the energy is off by, relative to its
 /// size, with the number of steps.
@@ -16,9 +18,10 @@ impl Visitor<f64> for Long {
     where
         M: Mechanism<f64, N, R> + Interface<f64, N> + Clone + 'static,
     {
-        let state = start::<M, N, R>(&mechanism, &[])?;
+        let mechanism: &dyn Whole<f64, N, R> = &mechanism;
+        let state = start(mechanism, &[])?;
         let size = 9.81;
-        let ran = simulate(&mechanism, &state, &self.options, &mut []);
+        let ran = simulate(mechanism, &state, &self.options, &mut []);
         let summary = ran.map_err(|failure| failure.error.to_string())?;
         let off = mechanism.energy(&summary.end).balance - mechanism.energy(&state).balance;
         Ok((off.abs() / size, summary.steps))
