@@ -1,12 +1,12 @@
 //! What the compiled code of a mechanism says at a state, as plain numbers.
 
 use crate::library::{Derived, Point, visit};
-use crate::random::Random;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Canvas, Correction, Interface, Linearised, Mechanism, Pivots, Position, Real, Regular, State,
     Terms, Visitor,
 };
+use bricard_testkit::Random;
 use std::collections::BTreeMap;
 
 /// An entry of an array: its name, row and column.

@@ -8,9 +8,9 @@
 use crate::dense::{dot, size};
 use crate::dual::evaluate;
 use crate::library::{Derived, Point, everything};
-use crate::random::Random;
 use bricard_codegen::derive::coriolis_matrix;
 use bricard_codegen::expr::{ExprId, Symbol};
+use bricard_testkit::Random;
 use num_dual::{Dual2_64, Dual64, HyperDual64};
 
 /// What values may differ by, relative to the largest of what was added up.

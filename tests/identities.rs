@@ -3,12 +3,12 @@
 
 use crate::dense::{dot, null_space, size};
 use crate::library::{has_regular_states, is_of_unit_size, names, visit};
-use crate::random::Random;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     ConstraintError, Form, Initial, Interface, Mechanism, Position, Settings, Solver, Start, State,
     Terms, Visitor, Whole, assemble,
 };
+use bricard_testkit::Random;
 
 /// What a residual may leave over, relative to what cancels in it.
 const ROUND_OFF: f64 = 1e-12;

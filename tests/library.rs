@@ -1,12 +1,12 @@
 //! The descriptions that are tested: those of the library, and odd ones that hold
 //! what no mechanism of the library has.
 
-use crate::random::Random;
 use bricard_codegen::derive::{Equations, Linearised, derive, linearise};
 use bricard_codegen::expr::{ExprId, Symbol};
 use bricard_codegen::model::Mechanism;
 use bricard_codegen::{Settings, analyse};
 use bricard_runtime::{Real, Visitor};
+use bricard_testkit::Random;
 
 /// A description, checked and derived.
 pub struct Derived {

@@ -2,13 +2,13 @@
 
 use crate::dual::{Dual, evaluate};
 use crate::library::{Derived, Point, everything, has_regular_states, names, step_scale, visit};
-use crate::random::Random;
 use bricard_codegen::expr::{ExprId, Symbol};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Interface, Mechanism, Options, Settings, Slope, Solver, State, System, Visitor, Whole,
     assemble, simulate,
 };
+use bricard_testkit::Random;
 use num_dual::Dual64;
 
 /// What derivatives may differ by, relative to the largest of their row.

@@ -25,7 +25,6 @@ mod linearised;
 mod motion;
 mod order;
 mod pages;
-mod random;
 mod readme;
 mod reduction;
 mod reference;

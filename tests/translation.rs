@@ -3,12 +3,12 @@
 use crate::compiled::{Answers, Place, answers, asked};
 use crate::dense::{dot, null_space, size, times};
 use crate::library::{Derived, Point, everything, is_of_unit_size};
-use crate::random::Random;
 use bricard_codegen::expr::{ExprId, Symbol};
 use bricard_codegen::model::Shape;
 use bricard_codegen::optimise::{Slot, interpret, optimise, plain};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{Mechanism, Position, State, Terms};
+use bricard_testkit::Random;
 use std::collections::BTreeMap;
 
 /// What equal values may differ by: some units in the last place of the largest

@@ -7,9 +7,9 @@
 use crate::agree::put;
 use crate::exact::{Exact, follow};
 use crate::planted::{Planted, Reduced, Scene, trial_structure};
-use crate::random::Random;
 use crate::track::{Track, play};
 use bricard_runtime::Options;
+use bricard_testkit::Random;
 use std::sync::Arc;
 
 /// A planted mechanism and where it begins.

@@ -3,6 +3,7 @@
 
 use super::accept;
 use bricard_codegen::expr::Symbol;
+use bricard_testkit::Random;
 use num_dual::{Dual64, DualNum};
 
 /// Random points per form.
@@ -23,18 +24,9 @@ struct Point {
 impl Point {
     /// A point between 0.1 and 0.9, with rates between −1 and 1.
     fn random(seed: u64) -> Self {
-        let mut state = seed;
-        let mut next = || {
-            // splitmix64 of Steele, Lea and Flood (2014).
-            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            let mut z = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-        };
-        let mut value = || 0.1 + 0.8 * next();
-        let values = [value(), value(), value(), value()];
-        let mut rate = || 2.0 * next() - 1.0;
-        let rates = [rate(), rate(), 1.0, 0.0];
+        let mut random = Random::seeded(seed);
+        let values: [f64; 4] = std::array::from_fn(|_| random.between(0.1, 0.9));
+        let rates = [random.within(1.0), random.within(1.0), 1.0, 0.0];
         let [q, w, t, a] = std::array::from_fn(|i| Dual64::new(values[i], rates[i]));
         Point { q, w, t, a }
     }

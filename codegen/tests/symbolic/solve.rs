@@ -7,6 +7,7 @@ use bricard_codegen::expr::Symbol;
 use bricard_codegen::optimise::{
     Operation, Program, Slot, Solved, Way, interpret, regular_acceleration, regular_correction,
 };
+use bricard_testkit::Random;
 
 const N: usize = 14;
 const R: usize = 9;
@@ -18,18 +19,6 @@ type Matrix = Vec<Vec<f64>>;
 /// What appends a solve to a program.
 type Solving = fn(&Program, (usize, usize), &[usize]) -> Option<Solved>;
 
-/// Numbers between −1 and 1 (Knuth's linear congruential generator).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        let multiplied = self.0.wrapping_mul(6_364_136_223_846_793_005);
-        self.0 = multiplied.wrapping_add(1_442_695_040_888_963_407);
-        let high = u32::try_from(self.0 >> 33).unwrap_or(0);
-        f64::from(high) / f64::from(1_u32 << 30) - 1.0
-    }
-}
-
 /// `M`, `A`, `p₁`, `p₂`.
 struct Equations {
     mass: Matrix,
@@ -40,20 +29,20 @@ struct Equations {
 
 impl Equations {
     fn random(seed: u64) -> Self {
-        let mut random = Random(seed);
+        let mut random = Random::seeded(seed);
         let mut mass = vec![vec![0.0; N]; N];
         for i in 0..N {
             mass[i][i] = 4.0;
             if i + 1 < N {
-                mass[i][i + 1] = random.next();
+                mass[i][i + 1] = random.within(1.0);
                 mass[i + 1][i] = mass[i][i + 1];
             }
         }
         let mut jacobian = vec![vec![0.0; N]; R];
         for (i, row) in jacobian.iter_mut().enumerate() {
-            (i..i + 3).for_each(|j| row[j] = random.next());
+            (i..i + 3).for_each(|j| row[j] = random.within(1.0));
         }
-        let mut column = |size| (0..size).map(|_| vec![random.next()]).collect();
+        let mut column = |size| (0..size).map(|_| vec![random.within(1.0)]).collect();
         let (force, bias) = (column(N), column(R));
         Self {
             mass,

@@ -2,21 +2,22 @@
 
 use super::*;
 use crate::tolerance::{passes, window};
+use bricard_testkit::Random;
 use nalgebra::{SMatrix, SVector};
 
 /// Seed of the random matrices; a failing test names its own.
 const SEED: u64 = 0x5DEE_CE66_D1CE_5EED;
 
-/// A small generator (xorshift64*), enough for matrices.
-struct Random(u64);
+/// Random matrices.
+struct Matrices(Random);
 
-impl Random {
+impl Matrices {
+    fn seeded(seed: u64) -> Self {
+        Self(Random::seeded(seed))
+    }
+
     fn number(&mut self) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        let bits = self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11;
-        bits as f64 / (1_u64 << 52) as f64 - 1.0
+        self.0.within(1.0)
     }
 
     fn matrix<const A: usize, const B: usize>(&mut self) -> SMatrix<f64, A, B> {
@@ -32,7 +33,7 @@ impl Random {
 #[test]
 fn cholesky_gives_the_matrix_back() {
     for round in 0..50 {
-        let mut random = Random(SEED + round);
+        let mut random = Matrices::seeded(SEED + round);
         let matrix: SMatrix<f64, 6, 6> = random.definite();
         let mut cholesky = Cholesky::default();
         cholesky.factorise(&matrix).unwrap();
@@ -120,7 +121,7 @@ fn check_rotations<const K: usize, const N: usize>(matrix: SMatrix<f64, K, N>) -
 #[test]
 fn rotations_find_an_orthogonal_basis_of_any_shape() {
     for round in 0..20 {
-        let mut random = Random(SEED + round);
+        let mut random = Matrices::seeded(SEED + round);
         check_rotations::<3, 5>(random.matrix());
         check_rotations::<5, 3>(random.matrix());
         check_rotations::<4, 4>(random.matrix());
@@ -133,7 +134,7 @@ fn rotations_find_an_orthogonal_basis_of_any_shape() {
 #[test]
 fn small_singular_values_keep_their_digits() {
     for round in 0..20 {
-        let mut random = Random(SEED + round);
+        let mut random = Matrices::seeded(SEED + round);
         let left = orthonormal::<5>(&mut random);
         let right = orthonormal::<5>(&mut random);
         let wanted = [1.0, 0.5, 1e-3, 1e-6, 1e-9];
@@ -145,7 +146,7 @@ fn small_singular_values_keep_their_digits() {
     }
 }
 
-fn orthonormal<const N: usize>(random: &mut Random) -> SMatrix<f64, N, N> {
+fn orthonormal<const N: usize>(random: &mut Matrices) -> SMatrix<f64, N, N> {
     let mut images: SMatrix<f64, N, N> = random.matrix();
     let mut basis = SMatrix::identity();
     orthogonalise(&mut images.data.0, &mut basis.data.0).unwrap();
@@ -154,7 +155,7 @@ fn orthonormal<const N: usize>(random: &mut Random) -> SMatrix<f64, N, N> {
 
 #[test]
 fn the_null_space_is_annihilated() {
-    let mut random = Random(SEED);
+    let mut random = Matrices::seeded(SEED);
     let factor: SMatrix<f64, 4, 2> = random.matrix();
     let other: SMatrix<f64, 2, 6> = random.matrix();
     let values = check_rotations::<4, 6>(factor * other);
@@ -176,7 +177,7 @@ fn columns_that_are_not_finite_break_off_at_once() {
 
 #[test]
 fn independent_rows_span_what_all_span() {
-    let mut random = Random(SEED);
+    let mut random = Matrices::seeded(SEED);
     let half: SMatrix<f64, 5, 3> = random.matrix();
     let mix: SMatrix<f64, 3, 6> = random.matrix();
     let mut chosen = [0; 6];
@@ -191,7 +192,7 @@ fn independent_rows_span_what_all_span() {
 
 #[test]
 fn row_by_row_least_squares_solves_the_normal_equations() {
-    let mut random = Random(SEED);
+    let mut random = Matrices::seeded(SEED);
     let left: SMatrix<f64, 9, 3> = random.matrix();
     let right: SMatrix<f64, 9, 3> = random.matrix();
     let values: SVector<f64, 9> = random.matrix();
@@ -208,7 +209,7 @@ fn row_by_row_least_squares_solves_the_normal_equations() {
 
 #[test]
 fn elimination_gives_coordinates_that_satisfy_the_rows() {
-    let mut random = Random(SEED);
+    let mut random = Matrices::seeded(SEED);
     let matrix: SMatrix<f64, 3, 5> = random.matrix();
     let right: SVector<f64, 3> = random.matrix();
     let found = Elimination::new(&matrix, &right, &SVector::repeat(1.0));
@@ -225,7 +226,7 @@ fn elimination_gives_coordinates_that_satisfy_the_rows() {
 #[test]
 fn the_smallest_pivot_of_a_block_is_that_of_complete_pivoting() {
     const K: usize = 7;
-    let mut random = Random(SEED);
+    let mut random = Matrices::seeded(SEED);
     for round in 0..20 {
         // Loops in a row: each row has entries with its neighbours only.
         let chain = SMatrix::<f64, K, K>::from_fn(|i, j| match i.abs_diff(j) {

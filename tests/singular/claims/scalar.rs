@@ -3,7 +3,8 @@
 use crate::{SEED, is_long};
 use bricard_runtime::{Interface, Mechanism, Options, Whole, assemble, simulate};
 use bricard_singular::descriptions::{curves, equal_slider_crank, parallelogram_pendulum};
-use bricard_singular::{Random, Set, exact};
+use bricard_singular::{Set, exact};
+use bricard_testkit::Random;
 
 /// Relative and absolute tolerance.
 const TOLERANCE: f32 = 1e-4;

@@ -16,7 +16,7 @@ mod wave;
 
 pub use mechanism::{Planted, Reduced, trial_structure};
 
-use crate::random::Random;
+use bricard_testkit::Random;
 use product::Product;
 use smooth::{MOST, Smooth};
 use tree::Tree;

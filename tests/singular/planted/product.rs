@@ -8,7 +8,7 @@
 
 use super::smooth::{MOST, Smooth};
 use super::wave::{Warp, Wave};
-use crate::random::Random;
+use bricard_testkit::Random;
 use core::array::from_fn;
 
 /// Rows that a product scene may have.

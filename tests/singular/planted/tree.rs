@@ -4,7 +4,7 @@
 //! Out: [`Tree`], a scene whose motion keeps its cranks parallel.
 
 use super::smooth::{MOST, Smooth};
-use crate::random::Random;
+use bricard_testkit::Random;
 
 /// A body: where it hangs, what it weighs.
 #[derive(Clone, Copy, Debug)]

@@ -4,7 +4,7 @@
 //! Out: [`Wave`], [`Warp`].
 
 use super::smooth::{MOST, Smooth};
-use crate::random::Random;
+use bricard_testkit::Random;
 use core::array::from_fn;
 
 /// A polynomial of degree two and two sines of random directions.

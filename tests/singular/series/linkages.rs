@@ -1,7 +1,7 @@
 //! Linkages with one degree of freedom, linkages that are driven, and knife edges.
 
-use crate::random::Random;
 use crate::trial::{Compare, Set, Trial};
+use bricard_testkit::Random;
 use core::f64::consts::{FRAC_PI_2, PI};
 
 /// Gaps of the almost parallelogram: every decade, coupler too long or too short, at

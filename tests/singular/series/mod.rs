@@ -9,8 +9,8 @@ mod parallelograms;
 mod particles;
 mod random_loops;
 
-use crate::random::Random;
 use crate::trial::{Trial, Wanted};
+use bricard_testkit::Random;
 use std::ops::Range;
 
 /// A series of like trials.

@@ -1,8 +1,8 @@
 //! Parallelograms with several degrees of freedom.
 
 use super::backwards::before;
-use crate::random::Random;
 use crate::trial::{Compare, Set, Trial};
+use bricard_testkit::Random;
 use core::f64::consts::PI;
 
 const PENDULUM: &str = "parallelogram_pendulum";

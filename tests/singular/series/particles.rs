@@ -1,8 +1,8 @@
 //! Particles on curves and surfaces that cross, touch or end.
 
 use super::backwards::before;
-use crate::random::Random;
 use crate::trial::{Compare, Set, Trial};
+use bricard_testkit::Random;
 
 /// Tolerances that cases with a name are run at.
 const TOLERANCES: [f64; 3] = [1e-6, 1e-9, 1e-12];

@@ -1,8 +1,8 @@
 //! Random mechanisms with planted singular positions.
 
 use crate::planting::Planting;
-use crate::random::Random;
 use crate::trial::{Set, Trial};
+use bricard_testkit::Random;
 use std::sync::Arc;
 
 fn planted(random: &mut Random, tree: bool) -> Trial {

@@ -20,6 +20,11 @@ impl Random {
         random
     }
 
+    /// The sequence of a seed.
+    pub fn seeded(seed: u64) -> Self {
+        Self(seed)
+    }
+
     /// 64 random bits.
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
@@ -33,6 +38,11 @@ impl Random {
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         let part = (self.bits() >> 11) as f64 / (1u64 << 53) as f64;
         low + (high - low) * part
+    }
+
+    /// Numbers between two.
+    pub fn vector(&mut self, n: usize, low: f64, high: f64) -> Vec<f64> {
+        (0..n).map(|_| self.between(low, high)).collect()
     }
 
     /// A number of at most this size, of either sign.
