@@ -1,9 +1,9 @@
 // Runs through singular positions, made the same way by whoever runs them.
 
 export const CASES = [
-  { method: "rk4", step: 0.001, until: 8, every: 0.25, torque: 5, repeat: 40 },
-  { method: "dop853", rtol: 1e-10, until: 8, every: 0.25, torque: 5, repeat: 40 },
-  { method: "radau5", rtol: 1e-7, until: 8, every: 0.25, torque: 5, repeat: 40 },
+  { method: "rk4", step: 0.001, until: 8, every: 0.25, torque: 5 },
+  { method: "dop853", rtol: 1e-10, until: 8, every: 0.25, torque: 5 },
+  { method: "radau5", rtol: 1e-7, until: 8, every: 0.25, torque: 5 },
 ];
 
 /** The states of a run at equal intervals, as bits. */
