@@ -483,7 +483,8 @@ static Status directional(Instance *x, const unsigned int unknown[], size_t unkn
         return ERROR;
     memset(x->along, 0, (x->f + x->n + x->inputs) * sizeof(double));
     for (i = 0; i < knowns; i++) {
-        if (!place_in_direction(x, place_of(x, known[i], &at), at, &own))
+        int kind = place_of(x, known[i], &at);
+        if (!place_in_direction(x, kind, at, &own))
             return complain(x, ERROR, "derivatives are by states and inputs");
         x->along[own] += seed[i];
     }
