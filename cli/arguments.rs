@@ -139,6 +139,10 @@ pub enum Target {
     C,
     /// An FMU of FMI 2.0, for model exchange and co-simulation: the file NAME.fmu
     Fmi2,
+    /// An FMU of FMI 3.0, likewise
+    Fmi3,
+    /// A wheel for Python, NAME-0.1.0-….whl, which needs no compiler where it is installed
+    Python,
     /// A WebAssembly module in a package for npm, for browsers and Node, with an example
     Wasm,
     /// The shared library alone, which stays among what was compiled; its path is printed

@@ -199,9 +199,19 @@ fn what_can_not_be_exported_is_refused_and_nothing_is_touched() {
             "write `--out NAME.fmu`",
         ),
         (
+            &["slider_crank", "--to", "fmi3", "--out", "x"],
+            2,
+            "write `--out NAME.fmu`",
+        ),
+        (
+            &["wrong.mech", "--to", "python"],
+            1,
+            "`q` is declared twice",
+        ),
+        (
             &["slider_crank", "--to", "cobol"],
             2,
-            "rust, c, fmi2, wasm, library",
+            "rust, c, fmi2, fmi3, python, wasm, library",
         ),
     ] {
         let ran = bricard(&folder, &[&["export"], arguments].concat());

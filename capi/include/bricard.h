@@ -37,7 +37,7 @@ extern "C" {
 #endif
 
 /* The version of this interface. A library of another version hands nothing out. */
-#define BRICARD_ABI 1u
+#define BRICARD_ABI 2u
 
 /* How a call ended. */
 typedef int32_t bricard_status;
@@ -68,12 +68,17 @@ enum {
     BRICARD_INPUTS = 3,
     BRICARD_OUTPUTS = 4,
     BRICARD_EVENTS = 5,
-    BRICARD_CONSTRAINTS = 6         /* one for each row; the equation as written */
+    BRICARD_CONSTRAINTS = 6,        /* one for each row; the equation as written */
+    BRICARD_STATES = 7              /* of the first order; they stand behind the velocities */
 };
 
 /*
- * What can be evaluated, with N coordinates and R constraint equations. The equations of
- * motion are M a + r = p1, A a = p2, with the accelerations a and the generalized reaction
+ * What can be evaluated. F is the number of coordinates, N that of coordinates and states of
+ * the first order, the same if the description has none: arrays `v` hold the velocities and, behind them, the states, N
+ * numbers; arrays `q` hold the F coordinates. Accelerations have the
+ * rates of the states behind them, in M each state is a mass of one.
+ *
+ * With R constraint equations, and U inputs, the equations of motion are M a + r = p1, A a = p2, with the accelerations a and the generalized reaction
  * forces r of the constraints g = 0 (Phong & Hoang 2012, eqs. 2.1-2.10).
  */
 enum {
@@ -90,6 +95,12 @@ enum {
     BRICARD_ENERGY = 10,            /* 4: kinetic, potential, their balance (J), power (W) */
     BRICARD_RANK = 11,              /* 3: rank of A, rank at regular positions, and the sine
                                        of the weakest row: zero in a singular position */
+    BRICARD_SLOPE = 12,             /* da/d(q, v, u), N rows; exact, by the derived equations */
+    BRICARD_OUTPUT_SLOPE = 13,      /* of the outputs, a row for each: outputs of accelerations
+                                       change with those */
+    BRICARD_EVENT_SLOPE = 14,       /* of the functions of the events. Of a mechanism whose
+                                       derivatives would be too long bricard_size says 0 for
+                                       the three, and near singular positions they fail */
     BRICARD_SAVED = -1              /* only for bricard_size: what bricard_save writes */
 };
 
@@ -116,7 +127,7 @@ enum { BRICARD_PROJECTION = 0, BRICARD_NONE = 1, BRICARD_BAUMGARTE = 2 };
 /* Shapes of a picture. */
 enum { BRICARD_LINE = 0, BRICARD_CIRCLE = 1, BRICARD_POLYGON = 2, BRICARD_TRACE = 3 };
 
-/* What rows hold besides t, q, v, in this order: bricard_watch.columns, or-ed. */
+/* What rows hold besides t, coordinates, velocities and states, in this order: bricard_watch.columns, or-ed. */
 enum {
     BRICARD_WITH_OUTPUTS = 1,
     BRICARD_WITH_REACTIONS = 2,
@@ -132,7 +143,7 @@ typedef struct bricard_point {
     double t;
     const double *q;
     const double *v;
-    size_t n;                       /* of q, and of v */
+    size_t n;                       /* N: numbers in v */
 } bricard_point;
 
 /* How a motion is integrated. Get them, change them, set them. */
@@ -360,7 +371,8 @@ static inline bricard_status bricard_drive_input_named(bricard *m, const char *n
 
 /* ---- where it is ---------------------------------------------------------------------- */
 
-/* What is given for the start of a coordinate, or of its velocity: held, or a guess. */
+/* What is given for the start of a coordinate, or of its velocity: held, or a guess. States
+   stand behind the velocities: the first one is at the index after the last coordinate's. */
 static inline bricard_status bricard_start(bricard *m, size_t index, int velocity,
                                            double *value, int *held)
 {
@@ -377,7 +389,15 @@ static inline bricard_status bricard_set_start_named(bricard *m, const char *nam
                                                      double value, int held)
 {
     size_t index = 0;
-    bricard_status status = bricard_find(m, BRICARD_COORDINATES, name, &index);
+    size_t states = 0, count = 0;
+    bricard_status status = bricard_count(m, BRICARD_STATES, &states);
+    if (!status && states && !bricard_find(m, BRICARD_STATES, name, &index)) {
+        velocity = 1;
+        status = bricard_count(m, BRICARD_COORDINATES, &count);
+        index += count;
+    } else if (!status) {
+        status = bricard_find(m, BRICARD_COORDINATES, name, &index);
+    }
     return status ? status : bricard_set_start(m, index, velocity, value, held);
 }
 
@@ -387,7 +407,7 @@ static inline bricard_status bricard_assemble(bricard *m, double t)
     return m ? m->interface_->assemble(m, t) : BRICARD_ERROR_NULL;
 }
 
-/* Where it is: t may be NULL, q and v have n numbers each. */
+/* Where it is: t may be NULL, n is N. */
 static inline bricard_status bricard_state(bricard *m, double *t, double *q, double *v, size_t n)
 {
     return m ? m->interface_->state(m, t, q, v, n) : BRICARD_ERROR_NULL;

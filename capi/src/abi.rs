@@ -11,7 +11,7 @@ use crate::status::Status;
 use core::ffi::{c_char, c_int, c_void};
 
 /// The version of the interface: programs and libraries of different ones don't fit.
-pub const ABI: u32 = 1;
+pub const ABI: u32 = 2;
 
 /// The header.
 pub const HEADER: &str = include_str!("../include/bricard.h");

@@ -10,6 +10,7 @@
 use crate::Embedded;
 use crate::fed::{Fed, Law};
 use crate::names::{Known, List, Names};
+use crate::slopes::room;
 use crate::status::Status;
 use crate::text::Text;
 use bricard_runtime::nalgebra::SVector;
@@ -38,6 +39,8 @@ pub struct Engine<M, const N: usize, const R: usize> {
     pub(crate) stepper: Stepper<f64, N, R>,
     /// Answers questions about states, apart from the motion.
     pub(crate) inquiry: Solver<f64, N, R>,
+    /// Derivatives by the description's own symbols, before they are put together.
+    pub(crate) partials: Box<[f64]>,
     pub(crate) text: Text,
     /// When the last motion failed (s).
     pub(crate) failed_at: Option<f64>,
@@ -64,6 +67,7 @@ where
             options,
             stepper: Stepper::new(options.scheme, options.pace, options.settings)?,
             inquiry: Solver::new(options.settings),
+            partials: vec![0.0; room::<N>(structure)].into(),
             text: Text::new(),
             failed_at: None,
             fed: Fed::new(mechanism, structure.inputs.len()),
@@ -81,6 +85,7 @@ where
             options: self.options,
             stepper: self.stepper.clone(),
             inquiry: self.inquiry.clone(),
+            partials: self.partials.clone(),
             text: Text::new(),
             failed_at: None,
         }
@@ -95,6 +100,12 @@ where
         self.options = other.options;
         self.stepper.clone_from(&other.stepper);
         self.inquiry.clone_from(&other.inquiry);
+    }
+
+    /// How many coordinates the description declares; velocities follow as many, and then
+    /// the states of the first order.
+    pub(crate) fn freedoms(&self) -> usize {
+        self.structure().freedoms().len()
     }
 
     /// What was known when the code was generated.
@@ -248,17 +259,29 @@ where
         self.start
     }
 
-    /// What is given for the start of a coordinate or of its velocity.
+    /// What is given for the start of a coordinate or of its velocity; states of the first
+    /// order stand behind the velocities.
     ///
     /// # Errors
     ///
     /// [`Status::Index`].
     pub fn start_of(&mut self, index: usize, velocity: bool) -> Outcome<Initial<f64>> {
-        self.expect_index(List::Coordinates, index)?;
+        self.expect_start(index, velocity)?;
         Ok(match velocity {
             true => self.start.v[index],
             false => self.start.q[index],
         })
+    }
+
+    /// Refuses a place of the start at which there is nothing; what is there otherwise.
+    fn expect_start(&mut self, index: usize, velocity: bool) -> Outcome<(List, usize)> {
+        let freedoms = self.freedoms();
+        let (list, place) = match index.checked_sub(freedoms) {
+            Some(place) if velocity && place < N - freedoms => (List::States, place),
+            _ => (List::Coordinates, index),
+        };
+        self.expect_index(list, place)?;
+        Ok((list, place))
     }
 
     /// Gives a value, or a guess, for the start of a coordinate or of its velocity.
@@ -267,8 +290,8 @@ where
     ///
     /// [`Status::Index`], [`Status::NotFinite`].
     pub fn set_start(&mut self, index: usize, velocity: bool, initial: Initial<f64>) -> Outcome {
-        self.expect_index(List::Coordinates, index)?;
-        self.expect_finite(initial.value, List::Coordinates, index)?;
+        let (list, place) = self.expect_start(index, velocity)?;
+        self.expect_finite(initial.value, list, place)?;
         match velocity {
             true => self.start.v[index] = initial,
             false => self.start.q[index] = initial,
@@ -372,11 +395,12 @@ where
     }
 }
 
-/// A state of some numbers.
+/// A state of some numbers: as many coordinates as are given, the integrals of states being
+/// none, and all velocities and states.
 pub(crate) fn state_of<const N: usize>(t: f64, q: &[f64], v: &[f64]) -> State<f64, N> {
     State {
         t,
-        q: SVector::from_fn(|i, _| q[i]),
+        q: SVector::from_fn(|i, _| q.get(i).copied().unwrap_or(0.0)),
         v: SVector::from_fn(|i, _| v[i]),
     }
 }

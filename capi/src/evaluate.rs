@@ -37,11 +37,17 @@ pub enum Quantity {
     Energy,
     /// Rank, rank at regular positions, sine of the weakest row.
     Rank,
+    /// `∂q̈/∂(q, q̇, u)`, a row of [`Quantity::varied`] for each acceleration.
+    Slope,
+    /// The same of the outputs.
+    OutputSlope,
+    /// The same of the functions of the events.
+    EventSlope,
 }
 
 impl Quantity {
     /// All, in the order of their numbers.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 15] = [
         Self::Mass,
         Self::Force,
         Self::Jacobian,
@@ -54,6 +60,9 @@ impl Quantity {
         Self::Events,
         Self::Energy,
         Self::Rank,
+        Self::Slope,
+        Self::OutputSlope,
+        Self::EventSlope,
     ];
 
     /// The quantity of a number.
@@ -61,6 +70,18 @@ impl Quantity {
         usize::try_from(number)
             .ok()
             .and_then(|number| Self::ALL.get(number).copied())
+    }
+
+    /// By how many numbers is differentiated: coordinates, velocities and states of the
+    /// first order, inputs.
+    pub fn varied(structure: &Structure) -> usize {
+        let velocities = structure.coordinates.len();
+        structure.freedoms().len() + velocities + structure.inputs.len()
+    }
+
+    /// Whether it is one of derivatives, which a mechanism may lack.
+    pub fn is_slope(self) -> bool {
+        matches!(self, Self::Slope | Self::OutputSlope | Self::EventSlope)
     }
 
     /// How many numbers it is.
@@ -74,11 +95,14 @@ impl Quantity {
             Self::Events => structure.events.len(),
             Self::Energy => 4,
             Self::Rank => 3,
+            Self::Slope => n * Self::varied(structure),
+            Self::OutputSlope => structure.outputs.len() * Self::varied(structure),
+            Self::EventSlope => structure.events.len() * Self::varied(structure),
         }
     }
 }
 
-/// Writes a quantity at a state; there is room for all of it.
+/// Writes a quantity at a state, one that is no derivative; there is room for all of it.
 pub(crate) fn evaluate<M, const N: usize, const R: usize>(
     fed: &Fed<M>,
     solver: &mut Solver<f64, N, R>,
@@ -126,6 +150,7 @@ where
             let rank = solver.on(fed).rank(state)?;
             out.copy_from_slice(&[rank.rank as f64, rank.regular as f64, rank.sine]);
         }
+        Quantity::Slope | Quantity::OutputSlope | Quantity::EventSlope => {}
     }
     Ok(())
 }

@@ -6,8 +6,8 @@
 use crate::callback::{Callback, LawFunction};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Canvas, Condition, Correction, Described, Energy, Interface, Linearised, Mechanism, Position,
-    Regular, Start, StartFault, State, Structure, Switch, Terms,
+    Canvas, Condition, Correction, Described, Energy, Interface, Linearised, Mechanism, Partials,
+    Position, Regular, Start, StartFault, State, Structure, Switch, Terms,
 };
 use core::cell::Cell;
 
@@ -201,6 +201,17 @@ where
 
     fn events(&self, state: &State<f64, N>, values: &mut [f64]) {
         self.at(state, |mechanism| mechanism.events(state, values));
+    }
+
+    fn partials(
+        &self,
+        state: &State<f64, N>,
+        acceleration: &SVector<f64, N>,
+        out: &mut Partials<'_, f64>,
+    ) -> bool {
+        self.at(state, |mechanism| {
+            mechanism.partials(state, acceleration, out)
+        })
     }
 
     fn draw(&self, state: &State<f64, N>, canvas: &mut dyn Canvas<f64>) {

@@ -28,6 +28,7 @@ mod motion;
 mod names;
 mod pointer;
 mod saved;
+mod slopes;
 mod states;
 mod status;
 mod table;

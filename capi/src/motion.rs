@@ -76,7 +76,7 @@ where
     }
 
     /// What a failed motion is called, with its message.
-    fn fault(&mut self, error: &SimulateError<f64>) -> Status {
+    pub(crate) fn fault(&mut self, error: &SimulateError<f64>) -> Status {
         let last = self.state.map(|state| state.t);
         self.failed_at = time(error).or(last);
         match self.fed.take_failed() {
@@ -128,16 +128,24 @@ where
     ///
     /// # Errors
     ///
-    /// [`Status::Length`], [`Status::NotFinite`], [`Status::Order`], [`Status::Run`].
+    /// [`Status::Length`], [`Status::NotFinite`], [`Status::Order`], [`Status::Run`];
+    /// [`Status::Argument`] for derivatives that the mechanism lacks.
     pub fn evaluate(
         &mut self,
         quantity: Quantity,
         at: Option<State<f64, N>>,
         out: &mut [f64],
     ) -> Outcome {
+        if quantity.is_slope() {
+            self.expect_differentiated()?;
+        }
         let wanted = quantity.size(self.structure(), N, R);
         self.expect_length(out.len(), wanted, "this")?;
         let state = self.point(at)?;
+        if quantity.is_slope() {
+            out.fill(0.0);
+            self.slopes(quantity, &state, out)?;
+        }
         match evaluate(&self.fed, &mut self.inquiry, quantity, &state, out) {
             Ok(()) if self.fed.take_failed().is_some() => self.refuse(
                 Status::Callback,

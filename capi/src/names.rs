@@ -24,11 +24,13 @@ pub enum List {
     Events,
     /// Constraint equations.
     Constraints,
+    /// States of the first order.
+    States,
 }
 
 impl List {
     /// All, in the order of their numbers.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Mechanism,
         Self::Coordinates,
         Self::Parameters,
@@ -36,6 +38,7 @@ impl List {
         Self::Outputs,
         Self::Events,
         Self::Constraints,
+        Self::States,
     ];
 
     /// The list of a number.
@@ -55,6 +58,7 @@ impl List {
             Self::Outputs => "output",
             Self::Events => "event",
             Self::Constraints => "constraint equation",
+            Self::States => "state",
         }
     }
 }
@@ -69,19 +73,21 @@ pub(crate) struct Entry {
 
 /// All lists of a mechanism.
 #[derive(Clone, Debug)]
-pub(crate) struct Names([Box<[Entry]>; 7]);
+pub(crate) struct Names([Box<[Entry]>; 8]);
 
 impl Names {
     pub(crate) fn of(structure: &Structure) -> Self {
         let quantities = |list: &[Quantity]| list.iter().map(quantity).collect();
+        let freedoms = structure.freedoms();
         Self([
             Box::new([entry(structure.name, structure.file, structure.docs)]),
-            quantities(structure.coordinates),
+            quantities(freedoms),
             quantities(structure.parameters),
             quantities(structure.inputs),
             quantities(structure.outputs),
             structure.events.iter().map(event).collect(),
             structure.constraints.iter().map(constraint).collect(),
+            quantities(&structure.coordinates[freedoms.len()..]),
         ])
     }
 

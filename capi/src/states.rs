@@ -21,16 +21,15 @@ use core::ptr;
 /// As [`write`].
 unsafe fn give_state<const N: usize>(
     state: &State<f64, N>,
-    t: *mut f64,
-    q: *mut f64,
-    v: *mut f64,
+    freedoms: usize,
+    (t, q, v): (*mut f64, *mut f64, *mut f64),
 ) -> Outcome {
     if !t.is_null() {
         // SAFETY: as promised.
         unsafe { give(t, state.t)? };
     }
     // SAFETY: as promised; one array is let go before the other is taken.
-    unsafe { write(q, N)? }.copy_from_slice(state.q.as_slice());
+    unsafe { write(q, freedoms)? }.copy_from_slice(&state.q.as_slice()[..freedoms]);
     // SAFETY: as promised.
     unsafe { write(v, N)? }.copy_from_slice(state.v.as_slice());
     Ok(())
@@ -47,7 +46,7 @@ unsafe fn take_state<M: Embedded<N, R>, const N: usize, const R: usize>(
 ) -> Outcome<State<f64, N>> {
     engine.expect_length(point.n, N, "a state of this mechanism")?;
     // SAFETY: as promised.
-    let (q, v) = unsafe { (read(point.q, N)?, read(point.v, N)?) };
+    let (q, v) = unsafe { (read(point.q, engine.freedoms())?, read(point.v, N)?) };
     Ok(state_of(point.t, q, v))
 }
 
@@ -62,7 +61,7 @@ pub(crate) unsafe extern "C" fn state<M: Embedded<N, R>, const N: usize, const R
         engine.expect_length(n, N, "a state of this mechanism")?;
         let state = engine.state()?;
         // SAFETY: the header's promise for the arrays.
-        unsafe { give_state(&state, t, q, v) }
+        unsafe { give_state(&state, engine.freedoms(), (t, q, v)) }
     };
     // SAFETY: the header's promise.
     unsafe { enter(handle, act) }
@@ -107,7 +106,10 @@ pub(crate) unsafe extern "C" fn size<M: Embedded<N, R>, const N: usize, const R:
         // The size of what `save` writes is asked for by -1.
         let size = match number {
             -1 => engine.saved_size(),
-            _ => quantity(engine, number)?.size(engine.structure(), N, R),
+            _ => {
+                let quantity = quantity(engine, number)?;
+                engine.size(quantity)
+            }
         };
         // SAFETY: the header's promise for `out`.
         unsafe { give(out, size) }
@@ -183,7 +185,7 @@ pub(crate) unsafe extern "C" fn project<M: Embedded<N, R>, const N: usize, const
         let state = unsafe { take_state(engine, Point { t, q, v, n })? };
         let placed = engine.project(state)?;
         // SAFETY: the header's promise for the arrays.
-        unsafe { give_state(&placed, ptr::null_mut(), q, v) }
+        unsafe { give_state(&placed, engine.freedoms(), (ptr::null_mut(), q, v)) }
     };
     // SAFETY: the header's promise.
     unsafe { enter(handle, act) }

@@ -42,12 +42,12 @@ impl Columns {
         let outputs = structure.outputs.len();
         let added = [
             (Self::OUTPUTS, outputs),
-            (Self::REACTIONS, n),
+            (Self::REACTIONS, structure.freedoms().len()),
             (Self::ENERGIES, 2),
             (Self::ERRORS, 2),
         ];
         let added = added.iter().filter(|(bit, _)| self.has(*bit));
-        1 + 2 * n + added.map(|(_, count)| count).sum::<usize>()
+        1 + structure.freedoms().len() + n + added.map(|(_, count)| count).sum::<usize>()
     }
 
     /// Writes a row, which is as long as [`width`](Self::width) says.
@@ -57,18 +57,19 @@ impl Columns {
         probe: &mut dyn Probe<f64, N>,
         row: &mut [f64],
     ) -> Result<(), DynamicsError<f64>> {
+        let freedoms = probe.structure().freedoms().len();
         row[0] = state.t;
-        row[1..=N].copy_from_slice(state.q.as_slice());
-        row[1 + N..1 + 2 * N].copy_from_slice(state.v.as_slice());
-        let mut rest = &mut row[1 + 2 * N..];
+        row[1..=freedoms].copy_from_slice(&state.q.as_slice()[..freedoms]);
+        let (velocities, mut rest) = row[1 + freedoms..].split_at_mut(N);
+        velocities.copy_from_slice(state.v.as_slice());
         if self.has(Self::OUTPUTS) {
             let (outputs, left) = rest.split_at_mut(probe.structure().outputs.len());
             probe.outputs(state, outputs, &mut [])?;
             rest = left;
         }
         if self.has(Self::REACTIONS) {
-            let (reactions, left) = rest.split_at_mut(N);
-            reactions.copy_from_slice(probe.reaction(state)?.as_slice());
+            let (reactions, left) = rest.split_at_mut(freedoms);
+            reactions.copy_from_slice(&probe.reaction(state)?.as_slice()[..freedoms]);
             rest = left;
         }
         if self.has(Self::ENERGIES) {

@@ -10,6 +10,7 @@ use crate::compiled::{Library, generate, library, module_of};
 use crate::error::CommandError;
 use crate::mechanism::Description;
 use crate::output::print;
+use bricard_codegen::Compiled;
 use std::path::{Path, PathBuf};
 
 /// The header that is the same for all mechanisms.
@@ -31,16 +32,11 @@ pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandEr
     let built = library(&subject.file, &subject.source)?;
     let folder = Folder::new(&path)?;
     let called = Library::called(&module);
-    let about = format!("The mechanism {}, for programs in C", compiled.name);
-    let kinds = "crate-type = [\"cdylib\", \"staticlib\"]\ndoctest = false\n";
-    let packages = ["capi", "runtime"];
-    let manifest = sources::manifest(&called, &about, kinds, &packages);
-    folder.write("Cargo.toml", &manifest)?;
-    let front = format!("//! {about}: `include/{module}.h` tells how.\n\n");
-    folder.write("src/lib.rs", &(front + &compiled.code))?;
+    for (name, text) in library_sources(&module, &compiled) {
+        folder.write(&name, &text)?;
+    }
     folder.write(&format!("{module}.mech"), &subject.source)?;
     folder.write(".gitignore", "/target\n")?;
-    sources::write(&folder, &packages)?;
     folder.write("include/bricard.h", HEADER)?;
     folder.write(&format!("include/{module}.h"), &compiled.c_header)?;
     let fill = |text: &str| {
@@ -54,7 +50,7 @@ pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandEr
     let native = built.native();
     folder.write(
         &format!("lib/pkgconfig/{called}.pc"),
-        &package_config(&called, &about, &native),
+        &package_config(&called, &about(&compiled), &native),
     )?;
     let cmake = fill(CMAKE)
         .replace("CALLED", &called)
@@ -63,6 +59,24 @@ pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandEr
         .replace("NATIVE", &native);
     folder.write(&format!("lib/cmake/{called}/{called}-config.cmake"), &cmake)?;
     print(&said(&path, &called))
+}
+
+/// The crate of the libraries, which makes them anew anywhere: paths with texts.
+pub fn library_sources(module: &str, compiled: &Compiled) -> Vec<(String, String)> {
+    let about = about(compiled);
+    let kinds = "crate-type = [\"cdylib\", \"staticlib\"]\ndoctest = false\n";
+    let packages = ["capi", "runtime"];
+    let manifest = sources::manifest(&Library::called(module), &about, kinds, &packages);
+    let front = format!("//! {about}: `{module}.h` tells how.\n\n");
+    let own = [
+        ("Cargo.toml".to_string(), manifest),
+        ("src/lib.rs".to_string(), front + &compiled.code),
+    ];
+    own.into_iter().chain(sources::files(&packages)).collect()
+}
+
+fn about(compiled: &Compiled) -> String {
+    format!("The mechanism {}, for programs in C", compiled.name)
 }
 
 /// The file of pkg-config; it may lie anywhere, with its folder.

@@ -3,16 +3,16 @@
 
 #include <stdio.h>
 
-enum { WIDTH = 1 + 2 * UPPER_N };
+enum { WIDTH = 1 + UPPER_F + UPPER_N };
 
-/* Is handed rows: time, coordinates, velocities. */
+/* Is handed rows: time, coordinates, velocities, states of the first order. */
 static int print_rows(void *user, const double *rows, size_t count)
 {
     size_t i, j;
     (void)user;
     for (i = 0; i < count; i++) {
         printf("%6.2f", rows[i * WIDTH]);
-        for (j = 1; j <= UPPER_N; j++)
+        for (j = 1; j <= UPPER_F; j++)
             printf(" %12.6f", rows[i * WIDTH + j]);
         printf("\n");
     }
@@ -33,7 +33,7 @@ int main(void)
         return 1;
     }
     printf("%6s", "t");
-    for (j = 0; j < UPPER_N; j++)
+    for (j = 0; j < UPPER_F; j++)
         printf(" %12s", bricard_name(m, BRICARD_COORDINATES, j));
     printf("\n");
 

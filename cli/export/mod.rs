@@ -2,13 +2,16 @@
 //!
 //! In:  a description.
 //! Out: a folder: a crate of generated Rust, or libraries for C or a package for npm with
-//!      all that belongs to them; each with an example that runs.
+//!      all that belongs to them; or a file, an FMU or a wheel. Each has an example that
+//!      runs, but FMUs.
 //!
 //! Not here: a folder that something else has made is never touched.
 
+mod archive;
 mod c;
 mod fmi;
 mod folder;
+mod python;
 mod rust;
 mod sources;
 mod wasm;
@@ -31,7 +34,9 @@ pub fn export(arguments: &Export) -> Result<(), CommandError> {
     match arguments.to {
         Target::Rust => rust::export(&subject, out),
         Target::C => c::export(&subject, out),
-        Target::Fmi2 => fmi::export(&subject, out),
+        Target::Fmi2 => fmi::export(&subject, fmi::Version::Two, out),
+        Target::Fmi3 => fmi::export(&subject, fmi::Version::Three, out),
+        Target::Python => python::export(&subject, out),
         Target::Wasm => wasm::export(&subject, out),
         Target::Library => {
             if out.is_some() {

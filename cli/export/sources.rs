@@ -18,18 +18,24 @@ pub const PLACE: &str = "bricard";
 ///
 /// [`CommandError::Write`].
 pub fn write(folder: &Folder, packages: &[&str]) -> Result<(), CommandError> {
-    for (name, text) in SOURCES.1 {
+    let mut files = files(packages);
+    files.try_for_each(|(name, text)| folder.write(&name, &text))
+}
+
+/// Packages by the names of their folders, as paths with texts.
+pub fn files(packages: &[&str]) -> impl Iterator<Item = (String, String)> {
+    let wanted = |name: &str| {
         let package = name.split('/').next().unwrap_or_default();
-        if !packages.contains(&package) {
-            continue;
-        }
+        packages.contains(&package)
+    };
+    let files = SOURCES.1.iter().filter(move |(name, _)| wanted(name));
+    files.map(|(name, text)| {
         let text = match name.ends_with("Cargo.toml") {
             true => standalone(text, workspace()),
-            false => text.to_string(),
+            false => (*text).to_string(),
         };
-        folder.write(&format!("{PLACE}/{name}"), &text)?;
-    }
-    Ok(())
+        (format!("{PLACE}/{name}"), text)
+    })
 }
 
 /// The manifest of the workspace.

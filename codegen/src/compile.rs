@@ -44,6 +44,8 @@ pub struct Compiled {
     pub code: String,
     /// Its header, for programs in C.
     pub c_header: String,
+    /// Whether programs in other languages can ask for derivatives.
+    pub differentiated: bool,
     /// Files that the description reads.
     pub files: Vec<PathBuf>,
     /// What is doubtful in the description.
@@ -86,6 +88,7 @@ pub fn compile_source(
         coordinates: mechanism.coordinates.len(),
         constraints: mechanism.constraints.len(),
         code,
+        differentiated: emit::is_differentiated(&tokens),
         files: mechanism.files,
         warnings,
     })

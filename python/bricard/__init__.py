@@ -19,7 +19,7 @@ from .errors import (
     SimulationError,
     UnknownName,
 )
-from .mechanism import Guess, Mechanism, Quantity, State, guess
+from .mechanism import Guess, Mechanism, Quantity, Slopes, State, guess
 from .result import Event, Passage, Result, Summary
 
 __version__ = "0.1.0"
@@ -37,6 +37,7 @@ __all__ = [
     "Quantity",
     "Result",
     "SimulationError",
+    "Slopes",
     "State",
     "Summary",
     "UnknownName",

@@ -6,16 +6,17 @@ import ctypes
 from ctypes import CFUNCTYPE, POINTER, Structure, c_char_p, c_double, c_int, c_int32
 from ctypes import c_size_t, c_uint32, c_uint64, c_void_p
 
-ABI = 1
+ABI = 2
 
 OK, STOPPED, FULL = 0, 1, 2
 NULL, LENGTH, INDEX, NAME, NOT_FINITE, ARGUMENT = -1, -2, -3, -4, -5, -6
 ORDER, BUSY, ASSEMBLY, RUN, CALLBACK, PANIC = -7, -8, -9, -10, -11, -12
 
-MECHANISM, COORDINATES, PARAMETERS, INPUTS, OUTPUTS, EVENTS, CONSTRAINTS = range(7)
+MECHANISM, COORDINATES, PARAMETERS, INPUTS, OUTPUTS, EVENTS, CONSTRAINTS, STATES = range(8)
 
 MASS, FORCE, JACOBIAN, BIAS, RESIDUAL, RATE = range(6)
 ACCELERATION, REACTION, OUTPUT, EVENT, ENERGY, RANK = range(6, 12)
+SLOPE, OUTPUT_SLOPE, EVENT_SLOPE = range(12, 15)
 SAVED = -1
 
 METHODS = ("rk4", "dp5", "dop853", "radau5", "radau9")

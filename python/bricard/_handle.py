@@ -99,12 +99,17 @@ class Handle:
             raise UnknownName(f"a name is a text, not {name!r}")
         return self.number(self.table.find, which, name.encode())
 
+    def sizes(self) -> Tuple[int, int]:
+        """How many coordinates there are, and how many states of the first order."""
+        count = self.table.count
+        return self.number(count, _abi.COORDINATES), self.number(count, _abi.STATES)
+
     def state_if_any(self):
         """Time, coordinates and velocities; `None` three times if there is no state."""
-        n = self.number(self.table.count, _abi.COORDINATES)
-        t, q, v = ctypes.c_double(), np.zeros(n), np.zeros(n)
+        n, behind = self.sizes()
+        t, q, v = ctypes.c_double(), np.zeros(n), np.zeros(n + behind)
         pointers = ctypes.byref(t), _abi.doubles(q), _abi.doubles(v)
-        if self.table.state(self._pointer, *pointers, n) != _abi.OK:
+        if self.table.state(self._pointer, *pointers, len(v)) != _abi.OK:
             return None, None, None
         return t.value, q, v
 
@@ -131,6 +136,6 @@ class Handle:
 
 def point_of(t: float, q: np.ndarray, v: np.ndarray) -> "_abi.Point":
     """A state for the library; the arrays have to outlive it."""
-    point = _abi.Point(t, _abi.doubles(q), _abi.doubles(v), len(q))
+    point = _abi.Point(t, _abi.doubles(q), _abi.doubles(v), len(v))
     point.arrays = q, v
     return point

@@ -68,7 +68,7 @@ class _Recorder:
     """Collects rows, events and passages."""
 
     def __init__(self, mechanism: "Mechanism", plan: Plan, width: int, room: int):
-        self.n = mechanism.n
+        self.n, self.m = mechanism.n, mechanism.m
         self.mechanism, self.plan = mechanism, plan
         self.buffer = np.zeros((room, width))
         self.chunks: List[np.ndarray] = []
@@ -81,7 +81,7 @@ class _Recorder:
 
     def event(self, _user, index, rising, t, q, v) -> int:
         name = self.mechanism.events[index].name
-        q, v = np.array(q[: self.n]), np.array(v[: self.n])
+        q, v = np.array(q[: self.n]), np.array(v[: self.m])
         self.events.append(Event(name, t, bool(rising), q, v))
         if self.plan.on_event is None:
             return 0

@@ -24,11 +24,21 @@ Law = Union[float, Callable[..., float]]
 
 
 class State(NamedTuple):
-    """Time (s), coordinates and velocities (SI); of many times, a row for each."""
+    """Time (s), coordinates and velocities (SI); of many times, a row for each. States of
+    the first order stand behind the velocities."""
 
     t: Any
     q: np.ndarray
     v: np.ndarray
+
+
+class Slopes(NamedTuple):
+    """Derivatives of the accelerations, a row for each: by coordinates, by velocities (and
+    states of the first order), by inputs."""
+
+    q: np.ndarray
+    v: np.ndarray
+    u: np.ndarray
 
 
 class Guess(float):
@@ -71,6 +81,7 @@ class Mechanism:
             _abi.OUTPUTS,
             _abi.EVENTS,
             _abi.CONSTRAINTS,
+            _abi.STATES,
         )
         found = [self._handle.quantities(which) for which in lists]
         #: The name after `mechanism`, and its documentation.
@@ -83,8 +94,11 @@ class Mechanism:
         self.outputs: Tuple[Quantity, ...] = found[4]
         self.events: Tuple[Quantity, ...] = found[5]
         self.constraints: Tuple[Quantity, ...] = found[6]
-        #: How many coordinates and constraint equations there are.
+        #: States of the first order, which stand behind the velocities.
+        self.states: Tuple[Quantity, ...] = found[7]
+        #: How many coordinates, velocities and states, and constraint equations there are.
         self.n: int = len(self.coordinates)
+        self.m: int = self.n + len(self.states)
         self.r: int = len(self.constraints)
 
     @classmethod
@@ -148,7 +162,8 @@ class Mechanism:
     ) -> State:
         """A state on the constraints, with what `start` and the description hold.
 
-        Names are coordinates, or velocities ``"der(q1)"``; a `guess` gives way.
+        Names are coordinates, velocities ``"der(q1)"``, or states of the first order; a
+        `guess` gives way.
         """
         handle = self._clone()
         _begin(handle, start, t)
@@ -159,14 +174,16 @@ class Mechanism:
         q, v = self._state(q, v)
         with self._lock:
             arrays = _abi.doubles(q), _abi.doubles(v)
-            self._handle.call(self._handle.table.project, float(t), *arrays, self.n)
+            self._handle.call(self._handle.table.project, float(t), *arrays, self.m)
         return State(float(t), q, v)
 
     # ---- the equations of motion: M a + r = p1, A a = p2 ---------------------------------
+    # With states of the first order, n is m: accelerations have the rates of the states
+    # behind them.
 
     def mass_matrix(self, q: Numbers, v: Optional[Numbers] = None, t: float = 0.0) -> np.ndarray:
         """`M`, n × n."""
-        return self._evaluate(_abi.MASS, q, v, t).reshape(self.n, self.n)
+        return self._evaluate(_abi.MASS, q, v, t).reshape(self.m, self.m)
 
     def force(self, q: Numbers, v: Optional[Numbers] = None, t: float = 0.0) -> np.ndarray:
         """`p1`: applied forces, and what velocities make of the masses."""
@@ -174,7 +191,7 @@ class Mechanism:
 
     def jacobian(self, q: Numbers, t: float = 0.0) -> np.ndarray:
         """`A`, r × n: the constraints' derivatives by the coordinates."""
-        return self._evaluate(_abi.JACOBIAN, q, None, t).reshape(self.r, self.n)
+        return self._evaluate(_abi.JACOBIAN, q, None, t).reshape(self.r, self.m)
 
     def bias(self, q: Numbers, v: Numbers, t: float = 0.0) -> np.ndarray:
         """`p2`: what the constraints demand of ``A a``."""
@@ -211,21 +228,30 @@ class Mechanism:
         ``scipy.integrate.solve_ivp``. It knows no projection: errors of such a solver
         lead off the constraints."""
         y = np.asarray(y, dtype=float)
-        if y.shape != (2 * self.n,):
-            raise InvalidValue(f"y holds q and v, {2 * self.n} numbers, not {y.shape}")
+        if y.shape != (self.n + self.m,):
+            raise InvalidValue(f"y holds q and v, {self.n + self.m} numbers, not {y.shape}")
         v = y[self.n :]
-        return np.concatenate([v, self.acceleration(y[: self.n], v, t)])
+        return np.concatenate([v[: self.n], self.acceleration(y[: self.n], v, t)])
+
+    def slopes(self, q: Numbers, v: Numbers, t: float = 0.0) -> Slopes:
+        """How accelerations change with coordinates, velocities and inputs: exact, by the
+        derived equations. Refused where a mechanism has none, since the code would be too
+        long, and near singular positions."""
+        width = self.n + self.m + len(self.inputs)
+        matrix = self._evaluate(_abi.SLOPE, q, v, t).reshape(-1, width)
+        return Slopes(*np.split(matrix, [self.n, self.n + self.m], axis=1))
 
     def _state(self, q: Numbers, v: Optional[Numbers]) -> Tuple[np.ndarray, np.ndarray]:
         """Arrays of a state, which belong to nobody else."""
         arrays = []
-        for name, values in (("q", q), ("v", np.zeros(self.n) if v is None else v)):
+        v = np.zeros(self.m) if v is None else v
+        for name, values, size in (("q", q, self.n), ("v", v, self.m)):
             try:
                 array = np.array(values, dtype=float)
             except (TypeError, ValueError) as error:
                 raise InvalidValue(f"{name} has to be numbers: {error}") from None
-            if array.shape != (self.n,):
-                raise InvalidValue(f"{name} has {self.n} numbers, not the shape {array.shape}")
+            if array.shape != (size,):
+                raise InvalidValue(f"{name} has {size} numbers, not the shape {array.shape}")
             arrays.append(array)
         return arrays[0], arrays[1]
 
@@ -293,7 +319,7 @@ class Mechanism:
         if isinstance(start, State):
             q, v = self._state(start.q, start.v)
             arrays = _abi.doubles(q), _abi.doubles(v)
-            handle.call(handle.table.set_state, float(start.t), *arrays, self.n)
+            handle.call(handle.table.set_state, float(start.t), *arrays, self.m)
         else:
             _begin(handle, start, t0)
         if every is not None and not (np.isfinite(every) and every > 0):
@@ -322,8 +348,7 @@ def _drive(handle: Handle, inputs: Mapping[str, Optional[Law]], raised: list) ->
             handle.call(handle.table.release_input, index)
             handle.laws.pop(index, None)
         elif callable(law):
-            n = handle.number(handle.table.count, _abi.COORDINATES)
-            callback = _law(name, law, n, raised)
+            callback = _law(name, law, handle.sizes(), raised)
             handle.call(handle.table.drive_input, index, callback, None)
             handle.laws[index] = callback
         else:
@@ -331,7 +356,7 @@ def _drive(handle: Handle, inputs: Mapping[str, Optional[Law]], raised: list) ->
             handle.laws.pop(index, None)
 
 
-def _law(name: str, law: Callable[..., float], n: int, raised: list) -> Any:
+def _law(name: str, law: Callable[..., float], sizes: Tuple[int, int], raised: list) -> Any:
     """A function that the library calls at the stages of steps."""
     try:
         parameters = inspect.signature(law).parameters.values()
@@ -344,12 +369,14 @@ def _law(name: str, law: Callable[..., float], n: int, raised: list) -> Any:
             f"the function of the input `{name}` takes (t) or (t, q, v), not {count} arguments"
         )
 
+    n, m = sizes[0], sum(sizes)
+
     def value(_user, t, q, v, out) -> int:
         try:
             if count == 1:
                 out[0] = law(t)
             else:
-                out[0] = law(t, np.array(q[:n]), np.array(v[:n]))
+                out[0] = law(t, np.array(q[:n]), np.array(v[:m]))
             return 0
         except BaseException as error:  # It must not cross the border; `run` raises it.
             raised.append(error)
@@ -365,7 +392,12 @@ def _begin(handle: Handle, start: Optional[Mapping[str, float]], t: float) -> No
     """Assembles a start."""
     for name, value in (start or {}).items():
         velocity = _VELOCITY.fullmatch(name) if isinstance(name, str) else None
-        index = handle.find(_abi.COORDINATES, velocity.group(1) if velocity else name)
+        n, behind = handle.sizes()
+        states = [state.name for state in handle.quantities(_abi.STATES)] if behind else []
+        if name in states:
+            velocity, index = True, n + states.index(name)
+        else:
+            index = handle.find(_abi.COORDINATES, velocity.group(1) if velocity else name)
         held = not isinstance(value, Guess)
         number = _number(value, name)
         handle.call(handle.table.set_start, index, bool(velocity), number, held)

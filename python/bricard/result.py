@@ -69,9 +69,9 @@ class Summary(NamedTuple):
 class Result:
     """Rows of a run: ``run["q1"]``, ``run.t``, ``run.q``, ``run.events``, …
 
-    Columns by name: coordinates, velocities ``der(q1)``, outputs, reaction forces
-    ``r(q1)``, ``kinetic``, ``potential``, ``energy``, ``constraint_error`` and
-    ``velocity_error``.
+    Columns by name: coordinates, velocities ``der(q1)``, states of the first order,
+    outputs, reaction forces ``r(q1)``, ``kinetic``, ``potential``, ``energy``,
+    ``constraint_error`` and ``velocity_error``.
     """
 
     def __init__(self, mechanism, recorder, summary, beginning, plan, columns):
@@ -100,8 +100,9 @@ class Result:
 
     @property
     def v(self) -> np.ndarray:
-        """Velocities, a row for each time."""
-        return self._rows[:, 1 + self.mechanism.n : 1 + 2 * self.mechanism.n]
+        """Velocities, and states of the first order behind them, a row for each time."""
+        first = 1 + self.mechanism.n
+        return self._rows[:, first : first + self.mechanism.m]
 
     @property
     def reactions(self) -> np.ndarray:
@@ -255,6 +256,7 @@ def _named(mechanism: "Mechanism", bits: int) -> Tuple[Dict[str, int], Dict[str,
     listed = [("t", "s")]
     listed += [(x.name, x.unit) for x in coordinates]
     listed += [(f"der({x.name})", f"{x.unit}/s" if x.unit else "") for x in coordinates]
+    listed += [(x.name, x.unit) for x in mechanism.states]
     if bits & _abi.WITH_OUTPUTS:
         listed += [(x.name, x.unit) for x in mechanism.outputs]
     if bits & _abi.WITH_REACTIONS:

@@ -15,8 +15,8 @@ def test_the_programs_of_the_chapter_run(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     names: dict = {}
     programs = blocks("python")
-    assert len(programs) == 6
-    command("export", "crank.mech", "--to", "fmi2")
+    assert len(programs) == 7
+    command("export", "crank.mech", "--to", "fmi3")
     for program in programs:
         exec(compile(program, "docs/embedding.md", "exec"), names)
     said = capsys.readouterr().out

@@ -1,27 +1,58 @@
-"""FMUs in FMPy: valid, and the motion of the command's own run."""
+"""FMUs in FMPy: valid, and the motion of the command's own run, in both versions of FMI."""
+
+import os
+import re
+import shutil
+import subprocess
+import zipfile
+from ctypes import c_double
+from pathlib import Path
 
 import numpy as np
 import pytest
 from conftest import ROOT, command
 
+import bricard
+
 fmpy = pytest.importorskip("fmpy")
 
-from fmpy import fmi2  # noqa: E402
+from fmpy import fmi2, fmi3  # noqa: E402
 from fmpy.fmi1 import FMICallException  # noqa: E402
 from fmpy.validation import validate_fmu  # noqa: E402
 
 #: What co-simulation may differ by from the run in one piece: both keep a tolerance of
 #: 1e-12, and the motion doubles small differences a few times in eight seconds.
 SAME = 1e-9
+VERSIONS = {"fmi2": "2.0", "fmi3": "3.0"}
+
+
+def exported(folder, version, name):
+    """An FMU of a description beside the tests of C."""
+    path = folder / f"{name}.fmu"
+    description = str(ROOT / f"tests/embedding/{name}.mech")
+    said = command("export", description, "--to", version, "--out", str(path))
+    assert f"is an FMU of FMI {VERSIONS[version]}" in said
+    return str(path)
+
+
+@pytest.fixture(scope="module", params=VERSIONS)
+def version(request):
+    return request.param
 
 
 @pytest.fixture(scope="module")
-def fmu(tmp_path_factory):
-    path = tmp_path_factory.mktemp("fmu") / "engine.fmu"
-    description = str(ROOT / "tests/embedding/engine.mech")
-    said = command("export", description, "--to", "fmi2", "--out", str(path))
-    assert "is an FMU of FMI 2.0" in said
-    return str(path)
+def fmu(version, tmp_path_factory):
+    return exported(tmp_path_factory.mktemp(version), version, "engine")
+
+
+@pytest.fixture(scope="module")
+def motor_fmu(version, tmp_path_factory):
+    return exported(tmp_path_factory.mktemp(version), version, "motor")
+
+
+@pytest.fixture(scope="module")
+def motor():
+    return bricard.Mechanism(ROOT / "tests/embedding/motor.mech")
 
 
 def simulate(fmu, kind, **more):
@@ -29,20 +60,41 @@ def simulate(fmu, kind, **more):
     return fmpy.simulate_fmu(fmu, fmi_type=kind, validate=True, relative_tolerance=1e-12, **more)
 
 
-def test_fmpy_finds_nothing_wrong(fmu):
-    assert validate_fmu(fmu) == []
-
-
-def test_variables_have_units_defaults_and_documentation(fmu):
+def described(fmu):
+    """The description of an FMU, and its variables by name."""
     description = fmpy.read_model_description(fmu)
-    variables = {variable.name: variable for variable in description.modelVariables}
+    return description, {variable.name: variable for variable in description.modelVariables}
+
+
+def test_fmpy_finds_nothing_wrong(fmu, motor_fmu):
+    assert validate_fmu(fmu) == []
+    assert validate_fmu(motor_fmu) == []
+
+
+def test_variables_have_units_defaults_and_documentation(fmu, version):
+    description, variables = described(fmu)
+    assert description.fmiVersion == VERSIONS[version]
     assert variables["L"].causality == "parameter" and float(variables["L"].start) == 0.5
     assert variables["L"].unit == "m" and "length" in variables["L"].description
     assert variables["torque"].causality == "input"
     assert float(variables["start(crank)"].start) == pytest.approx(np.pi / 4)
     assert variables["der(crank)"].derivative.name == "crank"
     assert variables["der(der(crank))"].derivative.name == "der(crank)"
-    assert description.numberOfEventIndicators == 1
+    assert variables["time"].causality == "independent"
+    if version == "fmi2":
+        assert description.numberOfEventIndicators == 1
+    else:
+        assert [unknown.variable.name for unknown in description.eventIndicators] == ["event(top)"]
+
+
+def test_states_of_the_first_order_are_states_and_their_integrals_are_nowhere(motor_fmu):
+    description, variables = described(motor_fmu)
+    states = [unknown.variable.derivative.name for unknown in description.derivatives]
+    assert states == ["angle", "der(angle)", "current"]
+    assert variables["current"].unit == "A"
+    assert variables["der(current)"].derivative.name == "current"
+    assert float(variables["start(current)"].start) == 0.5
+    assert "start(der(current))" not in variables and "r(current)" not in variables
 
 
 def test_co_simulation_is_the_native_run_through_singular_positions(fmu, engine):
@@ -56,6 +108,19 @@ def test_co_simulation_is_the_native_run_through_singular_positions(fmu, engine)
     assert np.allclose(rows["kinetic"], run["kinetic"], rtol=0, atol=1e-7)
 
 
+@pytest.mark.parametrize("kind, near", [("CoSimulation", SAME), ("ModelExchange", 1e-6)])
+def test_a_motor_with_a_current_runs_as_the_command_does(motor_fmu, motor, kind, near):
+    names = ["angle", "der(angle)", "current", "swing", "power"]
+    begin = {"start(current)": -0.5}
+    rows = simulate(
+        motor_fmu, kind, stop_time=2, output_interval=0.1, output=names, start_values=begin
+    )
+    run = motor.simulate(until=2, rtol=1e-12, every=0.1, start={"current": -0.5})
+    assert np.allclose(rows["time"], run.t)
+    for name in names:
+        assert np.allclose(rows[name], run[name], rtol=0, atol=10 * near), name
+
+
 def test_parameters_starts_and_inputs_are_set(fmu, engine):
     values = {"ms": 0.8, "start(crank)": 1.0, "start(der(crank))": 2.0}
     signals = np.array([(0.0, 1.5), (2.0, 1.5)], dtype=[("time", float), ("torque", float)])
@@ -67,17 +132,11 @@ def test_parameters_starts_and_inputs_are_set(fmu, engine):
         rtol=1e-12,
         every=0.1,
         parameters={"ms": 0.8},
-        start={"crank": 1.0, "der(crank)": bricard_guess(2.0)},
+        # Velocities are guesses where the description holds none.
+        start={"crank": 1.0, "der(crank)": bricard.guess(2.0)},
         inputs={"torque": 1.5},
     )
     assert np.allclose(rows["crank"], run["crank"], rtol=0, atol=SAME)
-
-
-def bricard_guess(value):
-    """Velocities are guesses where the description holds none."""
-    import bricard
-
-    return bricard.guess(value)
 
 
 def test_model_exchange_stays_on_the_constraints_between_singular_positions(fmu, engine):
@@ -92,84 +151,227 @@ def test_model_exchange_stays_on_the_constraints_between_singular_positions(fmu,
     assert abs(gap).max() < 1e-8
 
 
-def instance(fmu, folder):
-    """An instance for calls one by one."""
-    description = fmpy.read_model_description(fmu)
-    slave = fmi2.FMU2Slave(
-        guid=description.guid,
-        unzipDirectory=folder,
-        modelIdentifier=description.coSimulation.modelIdentifier,
-        instanceName="one",
-    )
-    slave.instantiate()
-    return slave, {variable.name: variable.valueReference for variable in description.modelVariables}
+class Instance:
+    """An instance for calls one by one, by the same names for both versions."""
 
+    def __init__(self, fmu, folder, kind="coSimulation"):
+        description, variables = described(fmu)
+        self.names = {name: variable.valueReference for name, variable in variables.items()}
+        self.is_new = description.fmiVersion == "3.0"
+        classes = {
+            ("coSimulation", False): fmi2.FMU2Slave,
+            ("coSimulation", True): fmi3.FMU3Slave,
+            ("modelExchange", False): fmi2.FMU2Model,
+            ("modelExchange", True): fmi3.FMU3Model,
+        }
+        self.of = classes[kind, self.is_new](
+            guid=description.guid,
+            unzipDirectory=folder,
+            modelIdentifier=getattr(description, kind).modelIdentifier,
+            instanceName="one",
+        )
+        self.of.instantiate()
 
-def begin(slave):
-    slave.setupExperiment(startTime=0.0, tolerance=1e-10)
-    slave.enterInitializationMode()
-    slave.exitInitializationMode()
+    def begin(self):
+        if self.is_new:
+            self.of.enterInitializationMode(tolerance=1e-10, startTime=0.0)
+        else:
+            self.of.setupExperiment(startTime=0.0, tolerance=1e-10)
+            self.of.enterInitializationMode()
+        self.of.exitInitializationMode()
+
+    def initialise(self):
+        """Enters the initialisation without what may come before."""
+        self.of.enterInitializationMode()
+
+    def step(self, t, span):
+        self.of.doStep(t, span)
+
+    def get(self, *names):
+        places = [self.names[name] for name in names]
+        return list((self.of.getFloat64 if self.is_new else self.of.getReal)(places))
+
+    def set(self, name, value):
+        setter = self.of.setFloat64 if self.is_new else self.of.setReal
+        setter([self.names[name]], [value])
+
+    def set_states(self, states):
+        array = (c_double * len(states))(*states)
+        self.of.setContinuousStates(array, len(states))
+
+    def slope(self, unknowns, known):
+        """Derivatives by one variable."""
+        places = [self.names[name] for name in unknowns]
+        return np.array(self.of.getDirectionalDerivative(places, [self.names[known]], [1.0]))
+
+    def keep(self):
+        return self.of.getFMUState()
+
+    def write(self, state):
+        return (self.of.serializeFMUState if self.is_new else self.of.serializeFMUstate)(state)
+
+    def read(self, kept):
+        load = self.of.deserializeFMUState if self.is_new else self.of.deSerializeFMUstate
+        return load(kept)
 
 
 def test_two_of_them_in_one_process_and_states_that_come_back(fmu):
     folder = fmpy.extract(fmu)
-    one, names = instance(fmu, folder)
-    two, _ = instance(fmu, folder)
-    crank = [names["crank"]]
-    for slave in (one, two):
-        begin(slave)
+    one, two = Instance(fmu, folder), Instance(fmu, folder)
+    for instance in (one, two):
+        instance.begin()
     for step in range(10):
-        one.doStep(step * 0.1, 0.1)
-    state = one.getFMUState()
-    kept = one.serializeFMUstate(state)
+        one.step(step * 0.1, 0.1)
+    state = one.keep()
+    kept = one.write(state)
     for step in range(10):
-        two.doStep(step * 0.1, 0.1)
-    assert one.getReal(crank) == two.getReal(crank)
-    one.doStep(1.0, 0.5)
-    ahead = one.getReal(crank)
-    one.setFMUState(state)
-    assert one.getReal(crank) == two.getReal(crank)
-    one.doStep(1.0, 0.5)
-    assert one.getReal(crank) == ahead
-    other = two.deSerializeFMUstate(kept)
-    two.setFMUState(other)
-    two.doStep(1.0, 0.5)
-    assert two.getReal(crank) == pytest.approx(ahead, abs=1e-7)
-    for slave, held in ((one, state), (two, other)):
-        slave.freeFMUState(held)
-        slave.terminate()
-        slave.freeInstance()
+        two.step(step * 0.1, 0.1)
+    assert one.get("crank") == two.get("crank")
+    one.step(1.0, 0.5)
+    ahead = one.get("crank")
+    one.of.setFMUState(state)
+    assert one.get("crank") == two.get("crank")
+    one.step(1.0, 0.5)
+    assert one.get("crank") == ahead
+    other = two.read(kept)
+    two.of.setFMUState(other)
+    two.step(1.0, 0.5)
+    assert two.get("crank") == pytest.approx(ahead, abs=1e-7)
+    for instance, held in ((one, state), (two, other)):
+        instance.of.freeFMUState(held)
+        instance.of.terminate()
+        instance.of.freeInstance()
 
 
 def test_calls_out_of_order_and_nonsense_are_refused_until_a_reset(fmu):
-    slave, names = instance(fmu, fmpy.extract(fmu))
+    one = Instance(fmu, fmpy.extract(fmu))
     with pytest.raises(FMICallException):
-        slave.doStep(0.0, 0.1)
+        one.step(0.0, 0.1)
     with pytest.raises(FMICallException):
-        slave.enterInitializationMode()
-    slave.reset()
+        one.initialise()
+    one.of.reset()
     with pytest.raises(FMICallException):
-        slave.setReal([names["L"]], [float("nan")])
-    slave.reset()
+        one.set("L", float("nan"))
+    one.of.reset()
+    one.names["nothing"] = 10_000
     with pytest.raises(FMICallException):
-        slave.getReal([10_000])
-    slave.reset()
-    begin(slave)
+        one.get("nothing")
+    one.of.reset()
+    one.begin()
     with pytest.raises(FMICallException):
-        slave.setReal([names["L"]], [0.6])
-    slave.reset()
-    begin(slave)
+        one.set("L", 0.6)
+    one.of.reset()
+    one.begin()
     with pytest.raises(FMICallException):
-        slave.doStep(3.0, 0.1)
-    slave.reset()
-    begin(slave)
-    slave.doStep(0.0, 0.1)
-    slave.freeInstance()
+        one.step(3.0, 0.1)
+    one.of.reset()
+    one.begin()
+    with pytest.raises(FMICallException):
+        one.slope(["kinetic"], "crank")
+    one.of.reset()
+    one.begin()
+    with pytest.raises(FMICallException):
+        one.slope(["der(der(crank))"], "L")
+    one.of.reset()
+    one.begin()
+    one.step(0.0, 0.1)
+    one.of.freeInstance()
 
 
-def test_it_is_one_file(tmp_path):
-    import subprocess
+def test_directional_derivatives_are_those_of_central_differences(fmu, motor_fmu):
+    for path in (fmu, motor_fmu):
+        compare_slopes(path)
 
+
+def claims(path):
+    """How often an FMU says that it has directional derivatives; FMPy reads that for FMI 2.0."""
+    with zipfile.ZipFile(path) as archive:
+        text = archive.read("modelDescription.xml").decode()
+    return len(re.findall(r'providesDirectionalDerivatives?="true"', text))
+
+
+def compare_slopes(path, size=1e-5):
+    """Holds directional derivatives by all states and inputs against differences."""
+    description, variables = described(path)
+    assert claims(path) == 2
+    one = Instance(path, fmpy.extract(path), "modelExchange")
+    one.begin()
+    (given,) = [name for name, variable in variables.items() if variable.causality == "input"]
+    derivatives = [unknown.variable for unknown in description.derivatives]
+    states = [variable.derivative.name for variable in derivatives]
+    unknowns = [variable.name for variable in derivatives]
+    unknowns += [unknown.variable.name for unknown in description.outputs]
+    unknowns += [name for name in variables if name.startswith("event(")]
+    rest = np.array(one.get(*states)) + np.linspace(0.1, 0.3, len(states))
+
+    def at(known, side):
+        one.set(given, 0.7 + side * (known == given))
+        one.set_states(rest + side * np.array([known == state for state in states]))
+        return np.array(one.get(*unknowns))
+
+    for known in [*states, given]:
+        differences = (at(known, size) - at(known, -size)) / (2 * size)
+        at(known, 0.0)
+        slopes = one.slope(unknowns, known)
+        assert np.allclose(slopes, differences, rtol=1e-7, atol=1e-7), known
+        assert np.any(slopes != 0), known
+    one.of.freeInstance()
+
+
+def chain(links):
+    """Bodies that turn about two axes each, with all positions in the world."""
+    lines = ["mechanism Chain {", *[f"coord a{i}; coord b{i};" for i in range(links)]]
+    point = "[0, 0, 0]"
+    for i in range(links):
+        turned = "[0, 0, -1]"
+        for k in reversed(range(i + 1)):
+            turned = f"rotx(a{k})*(roty(b{k})*({turned}))"
+        lines += [f"let p{i} = {point} + {turned};", f"kinetic norm2(der(p{i}));"]
+        point = f"p{i}"
+    return "\n".join([*lines, "start { a0 = 1; b1 = 0.5; } }"])
+
+
+def test_what_would_be_too_long_is_neither_claimed_nor_provided(version, tmp_path):
+    source = tmp_path / "chain.mech"
+    source.write_text(chain(4), encoding="utf-8")
+    path = tmp_path / "chain.fmu"
+    command("export", str(source), "--to", version, "--out", str(path))
+    assert validate_fmu(str(path)) == []
+    assert claims(path) == 0
+    one = Instance(str(path), fmpy.extract(str(path)))
+    one.begin()
+    with pytest.raises(FMICallException):
+        one.slope(["der(der(a0))"], "a0")
+    one.of.freeInstance()
+
+
+@pytest.mark.skipif(shutil.which("cargo") is None, reason="there is no cargo")
+def test_the_sources_rebuild_it(fmu, tmp_path):
+    folder = Path(fmpy.extract(fmu, unzipdir=tmp_path / "unpacked"))
+    description, _ = described(fmu)
+    identifier = description.coSimulation.modelIdentifier
+    (library,) = folder.glob(f"binaries/*/{identifier}.*")
+    before = Instance(fmu, folder)
+    # The versions of the workspace, which are on the machine already.
+    shutil.copy(ROOT / "Cargo.lock", folder / "sources/Cargo.lock")
+    target = os.environ.get("CARGO_TARGET_DIR", str(ROOT / "target"))
+    again = tmp_path / "again"
+    shutil.copytree(folder, again)
+    (copy,) = again.glob(f"binaries/*/{identifier}.*")
+    copy.unlink()
+    environment = {**os.environ, "CARGO_TARGET_DIR": f"{target}/rebuilt", "CARGO_NET_OFFLINE": "true"}
+    subprocess.run(["sh", again / "sources/build.sh", copy], check=True, env=environment)
+    after = Instance(fmu, again)
+    for instance in (before, after):
+        instance.begin()
+        instance.step(0.0, 1.0)
+    assert before.get("crank") == after.get("crank")
+    assert library.is_file()
+    for instance in (before, after):
+        instance.of.freeInstance()
+
+
+def test_it_is_one_file(version, tmp_path):
     with pytest.raises(subprocess.CalledProcessError) as refused:
-        command("export", "slider_crank", "--to", "fmi2", "--out", str(tmp_path))
+        command("export", "slider_crank", "--to", version, "--out", str(tmp_path))
     assert "write `--out NAME.fmu`" in refused.value.stderr

@@ -114,6 +114,17 @@ pub trait Interface<T: Real, const N: usize> {
     /// Writes the event functions in the order of [`Structure::events`], as many
     /// as `values` has room for.
     fn events(&self, state: &State<T, N>, values: &mut [T]);
+    /// Writes how forces, outputs and events change, at a state with this acceleration;
+    /// `false` if that is not provided: it is emitted for programs that ask for it, those in
+    /// other languages, where [`Mechanism::linearised`] is.
+    fn partials(
+        &self,
+        _state: &State<T, N>,
+        _acceleration: &SVector<T, N>,
+        _out: &mut Partials<'_, T>,
+    ) -> bool {
+        false
+    }
     /// Draws the mechanism at a state.
     fn draw(&self, state: &State<T, N>, canvas: &mut dyn Canvas<T>);
     /// Writes the coordinates that the description declares, in the order of
@@ -229,6 +240,18 @@ pub struct Linearised<T, const N: usize, const R: usize> {
     pub row_by_velocity: SMatrix<T, R, N>,
     /// What holds the conditions; read, not written.
     pub sides: Sides,
+}
+
+/// Partial derivatives, row by row, with `U` inputs; places that begin as zeros. An input
+/// that follows its law changes with the state where it is not varied itself.
+#[derive(Debug)]
+pub struct Partials<'a, T> {
+    /// `∂p₁/∂u`, `N × U`.
+    pub force_by_input: &'a mut [T],
+    /// `∂y/∂(q, q̇, q̈, u)`, a row of `3 N + U` for each output.
+    pub outputs: &'a mut [T],
+    /// The same for the function of each event.
+    pub events: &'a mut [T],
 }
 
 macro_rules! zeroed {

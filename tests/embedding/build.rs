@@ -11,5 +11,6 @@ fn main() -> Result<(), BuildError> {
     );
     let builder = Builder::new().c_interface(true);
     builder.compile("engine.mech")?;
+    builder.compile("motor.mech")?;
     builder.compile("../../mechanisms/double_pendulum.mech")
 }

@@ -1,8 +1,10 @@
-//! Mechanisms used from C and C++, held against the same in Rust, to the last bit.
+//! Mechanisms used from C and C++, held against the same in Rust, to the last bit; and what
+//! the interface evaluates besides.
 
 mod allocation;
 mod header;
 mod motion;
 mod program;
+mod slopes;
 mod speed;
 mod use_in_c;

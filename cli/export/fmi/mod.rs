@@ -1,30 +1,69 @@
-//! A mechanism as an FMU, a functional mock-up unit of FMI 2.0: model exchange and
+//! A mechanism as an FMU, a functional mock-up unit of FMI 2.0 or 3.0: model exchange and
 //! co-simulation in one file.
 //!
 //! In:  a description.
 //! Out: `NAME.fmu`, with the library for this machine and the sources to build others.
+//!
+//! What the versions share is in `variables` and `instance.c`, what they say differently in
+//! `description`, `fmi2.c` and `fmi3.c`.
 
 mod description;
+mod variables;
 
+use super::archive::{self, Files};
+use super::c::library_sources;
 use crate::compiled::compiler::{command, output};
 use crate::compiled::{Library, generate, hash, identity, library, module_of};
 use crate::error::CommandError;
 use crate::mechanism::Description;
 use crate::output::print;
-use bricard_codegen::{Settings, analyse};
-use std::fs::{self, File};
-use std::io::{self, Write};
+use bricard_codegen::{Compiled, Settings, analyse};
+use description::{About, description};
+use std::fs;
 use std::path::{Path, PathBuf};
-use zip::write::{SimpleFileOptions, ZipWriter};
 
 const HEADER: &str = include_str!("../../../capi/include/bricard.h");
-const FUNCTIONS: &str = include_str!("fmi2.c");
-/// The folder of libraries for this machine, as the standard names it.
-const PLATFORM: &str = match (cfg!(windows), cfg!(target_os = "macos")) {
-    (true, _) => "win64",
-    (_, true) => "darwin64",
-    _ => "linux64",
-};
+const INSTANCE: &str = include_str!("instance.c");
+
+/// A version of the standard.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Version {
+    /// FMI 2.0.
+    Two,
+    /// FMI 3.0.
+    Three,
+}
+
+impl Version {
+    /// As the standard writes it.
+    fn number(self) -> &'static str {
+        match self {
+            Self::Two => "2.0",
+            Self::Three => "3.0",
+        }
+    }
+
+    /// The file of the functions, and what is in it.
+    fn functions(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Two => ("fmi2.c", include_str!("fmi2.c")),
+            Self::Three => ("fmi3.c", include_str!("fmi3.c")),
+        }
+    }
+
+    /// The folder of libraries for this machine.
+    fn platform(self) -> String {
+        let system = match (cfg!(windows), cfg!(target_os = "macos")) {
+            (true, _) => ["win64", "windows"],
+            (_, true) => ["darwin64", "darwin"],
+            _ => ["linux64", "linux"],
+        };
+        match self {
+            Self::Two => system[0].to_string(),
+            Self::Three => format!("{}-{}", std::env::consts::ARCH, system[1]),
+        }
+    }
+}
 
 /// Writes the FMU.
 ///
@@ -32,7 +71,11 @@ const PLATFORM: &str = match (cfg!(windows), cfg!(target_os = "macos")) {
 ///
 /// [`CommandError::Description`], [`CommandError::FileKind`], [`CommandError::Write`], and
 /// what stands in the way of compiling.
-pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandError> {
+pub fn export(
+    subject: &Description,
+    version: Version,
+    out: Option<&Path>,
+) -> Result<(), CommandError> {
     let module = module_of(&subject.file);
     let path = out.map_or_else(|| PathBuf::from(format!("{module}.fmu")), Path::to_path_buf);
     if path.extension().is_none_or(|kind| kind != "fmu") {
@@ -41,52 +84,144 @@ pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandEr
             instead: "an FMU is one file; write `--out NAME.fmu`",
         });
     }
-    let compiled = generate(&subject.file, &subject.source, true)?;
-    let shown = subject.file.display().to_string();
-    let (mechanism, _) = analyse(&subject.source, &Settings::beside(&subject.file))
-        .map_err(|errors| CommandError::Description(errors.render(&shown, &subject.source)))?;
-    let version = env!("CARGO_PKG_VERSION");
-    let identity = identity(&subject.file, &subject.source);
-    let key = hash([&*identity, FUNCTIONS, HEADER, version]);
-    let guid = format!("{{bricard-{key:016x}}}");
-    let built = library(&subject.file, &subject.source)?;
-    let instance = format!(
-        "/* What makes an FMU of `{module}`. */\n#include \"{module}.h\"\n#define \
-         MECHANISM_CREATE {module}_create\n#define MECHANISM_GUID \"{guid}\"\n#define \
-         MECHANISM_INPUTS {inputs}\n#include \"fmi2.c\"\n",
-        inputs = description::inputs(&mechanism),
-    );
-    let sources = [
-        ("fmu.c", &*instance),
-        ("fmi2.c", FUNCTIONS),
-        ("bricard.h", HEADER),
-        (&*format!("{module}.h"), &*compiled.c_header),
-        (&*format!("{module}.mech"), &*subject.source),
-        ("lib.rs", &*compiled.code),
-    ];
-    let linked = link(&built, &module, &sources)?;
-    let model = description::description(&mechanism, &module, &guid);
-    let mut files = vec![
-        ("modelDescription.xml".to_string(), model.into_bytes()),
-        (
-            format!(
-                "binaries/{PLATFORM}/{module}{}",
-                std::env::consts::DLL_SUFFIX
-            ),
-            linked,
-        ),
-    ];
-    let sources = sources.map(|(name, text)| (format!("sources/{name}"), text.into()));
-    files.extend(sources);
-    pack(&path, &files).map_err(|error| CommandError::write(&path, error))?;
+    let files = files(subject, version, &module)?;
+    archive::write(&path, &files)?;
     print(&format!(
-        "{} is an FMU of FMI 2.0, for model exchange and co-simulation on {PLATFORM}\n",
-        path.display()
+        "{} is an FMU of FMI {}, for model exchange and co-simulation on {}\n",
+        path.display(),
+        version.number(),
+        version.platform()
     ))
 }
 
+/// What is in the FMU.
+fn files(subject: &Description, version: Version, module: &str) -> Result<Files, CommandError> {
+    let Description { file, source } = subject;
+    let compiled = generate(file, source, true)?;
+    let shown = file.display().to_string();
+    let (mechanism, _) = analyse(source, &Settings::beside(file))
+        .map_err(|errors| CommandError::Description(errors.render(&shown, source)))?;
+    let identity = identity(file, source);
+    let functions = [INSTANCE, version.functions().1, HEADER];
+    let parts = [&*identity, env!("CARGO_PKG_VERSION")];
+    let token = format!(
+        "{{bricard-{:016x}}}",
+        hash(parts.into_iter().chain(functions))
+    );
+    let built = library(file, source)?;
+    let instance = instance(module, &token, &variables::inputs(&mechanism));
+    let sources = sources(version, module, &compiled, &instance);
+    let linked = link(&built, module, &sources)?;
+    let about = About {
+        version,
+        identifier: module,
+        token: &token,
+        differentiated: compiled.differentiated,
+    };
+    let (platform, suffix) = (version.platform(), std::env::consts::DLL_SUFFIX);
+    let text = |name: String, text: String| (name, text.into_bytes());
+    let mut files = vec![
+        text(
+            "modelDescription.xml".to_string(),
+            description(&mechanism, &about),
+        ),
+        (format!("binaries/{platform}/{module}{suffix}"), linked),
+        text(format!("sources/{module}.mech"), source.clone()),
+        text(
+            "sources/build.sh".to_string(),
+            build_script(version, &built, &platform),
+        ),
+    ];
+    let sources = sources
+        .into_iter()
+        .chain(library_sources(module, &compiled));
+    files.extend(sources.map(|(name, content)| text(format!("sources/{name}"), content)));
+    Ok(files)
+}
+
+/// What makes an FMU of a mechanism.
+fn instance(module: &str, token: &str, inputs: &str) -> String {
+    format!(
+        "/* What makes an FMU of `{module}`. */\n#include \"{module}.h\"\n#define \
+         MECHANISM_CREATE {module}_create\n#define MECHANISM_TOKEN \"{token}\"\n#define \
+         MECHANISM_INPUTS {inputs}\n"
+    )
+}
+
+/// The sources in C, and what tells a tool of them.
+fn sources(
+    version: Version,
+    module: &str,
+    compiled: &Compiled,
+    instance: &str,
+) -> Vec<(String, String)> {
+    let (name, functions) = version.functions();
+    let mut sources = vec![
+        (
+            "fmu.c".to_string(),
+            format!("{instance}#include \"{name}\"\n"),
+        ),
+        (name.to_string(), functions.to_string()),
+        ("instance.c".to_string(), INSTANCE.to_string()),
+        ("bricard.h".to_string(), HEADER.to_string()),
+        (format!("{module}.h"), compiled.c_header.clone()),
+    ];
+    if version == Version::Three {
+        let text = format!(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiBuildDescription \
+             fmiVersion=\"3.0\">\n  <BuildConfiguration modelIdentifier=\"{module}\">\n    \
+             <SourceFileSet language=\"C99\">\n      <SourceFile name=\"fmu.c\"/>\n    \
+             </SourceFileSet>\n    <Library name=\"{}\" description=\"what `cargo build \
+             --release` makes of Cargo.toml; build.sh does all of it\"/>\n  \
+             </BuildConfiguration>\n</fmiBuildDescription>\n",
+            Library::called(module)
+        );
+        sources.push(("buildDescription.xml".to_string(), text));
+    }
+    sources
+}
+
+/// What the functions are compiled and linked with.
+const FLAGS: [&str; 5] = ["-std=c99", "-O2", "-fPIC", "-shared", "-fvisibility=hidden"];
+/// On Linux besides: two FMUs in one process keep their own functions.
+const ALONE: [&str; 3] = ["-s", "-Wl,--exclude-libs,ALL", "-Wl,-Bsymbolic"];
+
+/// Builds the FMU's library anew, on a machine with cargo and a C compiler.
+fn build_script(version: Version, built: &Library, platform: &str) -> String {
+    let (module, fixed) = (&built.module, Library::fixed(&built.module));
+    let suffix = std::env::consts::DLL_SUFFIX;
+    format!(
+        "#!/bin/sh
+# Builds the library of this FMU of FMI {number} anew, by cargo and a C compiler: as it was
+# on {platform}; on other systems give the name of the library, and flags as CFLAGS.
+set -e
+cd \"$(dirname \"$0\")\"
+cargo build --release
+${{CC:-cc}} {flags} ${{CFLAGS:-{alone}}} fmu.c -I. \\
+    \"${{CARGO_TARGET_DIR:-target}}/release/{fixed}\" {native} -o \"${{1:-{module}{suffix}}}\"
+",
+        number = version.number(),
+        flags = FLAGS.join(" "),
+        alone = alone().join(" "),
+        native = built.native(),
+    )
+}
+
+/// The flags of this system.
+fn alone() -> &'static [&'static str] {
+    if cfg!(target_os = "linux") {
+        &ALONE
+    } else {
+        &[]
+    }
+}
+
 /// Compiles the functions of FMI, and links them with the mechanism.
-fn link(built: &Library, module: &str, sources: &[(&str, &str)]) -> Result<Vec<u8>, CommandError> {
+fn link(
+    built: &Library,
+    module: &str,
+    sources: &[(String, String)],
+) -> Result<Vec<u8>, CommandError> {
     let name = format!("bricard-fmu-{}-{module}", std::process::id());
     let folder = std::env::temp_dir().join(name);
     let written = fs::create_dir_all(&folder).and_then(|()| {
@@ -102,29 +237,12 @@ fn link(built: &Library, module: &str, sources: &[(&str, &str)]) -> Result<Vec<u
 
 fn linked(built: &Library, module: &str, folder: &Path) -> Result<Vec<u8>, CommandError> {
     let mut cc = command("cc");
-    cc.args(["-std=c99", "-O2", "-fPIC", "-shared", "-fvisibility=hidden"])
+    cc.args(FLAGS)
         .args(["fmu.c", "-I.", "-o", "fmu"])
         .arg(built.folder.join(Library::fixed(module)))
-        .args(built.native().split_whitespace());
-    if cfg!(target_os = "linux") {
-        // Two FMUs in one process keep their own functions.
-        cc.args(["-s", "-Wl,--exclude-libs,ALL", "-Wl,-Bsymbolic"]);
-    }
+        .args(built.native().split_whitespace())
+        .args(alone());
     output(cc, folder, "the FMU could not be linked by the C compiler")?;
     let linked = folder.join("fmu");
     fs::read(&linked).map_err(|error| CommandError::Read(linked, error))
-}
-
-/// Writes files into a ZIP archive.
-fn pack(path: &Path, files: &[(String, Vec<u8>)]) -> io::Result<()> {
-    let mut archive = ZipWriter::new(File::create(path)?);
-    let options = SimpleFileOptions::default()
-        .compression_method(zip::CompressionMethod::Stored)
-        .unix_permissions(0o755);
-    for (name, bytes) in files {
-        archive.start_file(name.as_str(), options)?;
-        archive.write_all(bytes)?;
-    }
-    archive.finish()?;
-    Ok(())
 }

@@ -47,6 +47,38 @@ pub fn linearise(mechanism: &mut Mechanism, equations: &Equations) -> Option<Lin
     })
 }
 
+/// Derivatives of forces, outputs and events.
+#[derive(Clone, Debug)]
+pub struct Partials {
+    /// `∂p₁/∂u`, `N × U` with `U` inputs.
+    pub force_by_input: Matrix,
+    /// `∂y/∂(q, q̇, q̈, u)`, a row of `3 N + U` for each output.
+    pub outputs: Matrix,
+    /// The same for the function of each event.
+    pub events: Matrix,
+}
+
+/// Derives what other programs ask for besides [`linearise`]; none if that takes more
+/// expressions than a function should have.
+pub fn differentiate(mechanism: &mut Mechanism, equations: &Equations) -> Option<Partials> {
+    let n = equations.mass.len();
+    let outputs: Vec<_> = mechanism.outputs.iter().map(|y| y.value).collect();
+    let events: Vec<_> = mechanism.events.iter().map(|e| e.value).collect();
+    let Mechanism { graph, inputs, .. } = mechanism;
+    let most = graph.len() + EXPRESSIONS_MAX;
+    let by_input = || (0..).zip(inputs.iter()).map(|(i, _)| Symbol::Input(i));
+    let accelerations = || (0..).map(Symbol::Acceleration).take(n);
+    let of_state = || coordinates(n).chain(velocities(n)).chain(accelerations());
+    let force_by_input = partials(graph, inputs, &equations.force, by_input(), most)?;
+    let mut all = |of: &[ExprId]| partials(graph, inputs, of, of_state().chain(by_input()), most);
+    let (outputs, events) = (all(&outputs)?, all(&events)?);
+    Some(Partials {
+        force_by_input,
+        outputs,
+        events,
+    })
+}
+
 /// `p₁ − M q̈ − Aᵀλ`, `N`.
 fn forces_left(graph: &mut Graph, equations: &Equations) -> Vec<ExprId> {
     let mut left = Vec::new();

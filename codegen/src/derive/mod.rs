@@ -22,7 +22,7 @@ mod weighed;
 
 pub use christoffel::coriolis_matrix;
 pub use eliminate::eliminate;
-pub use linearised::{Linearised, linearise};
+pub use linearised::{Linearised, Partials, differentiate, linearise};
 pub use swell::{EXPRESSIONS_MAX, SWELL, swell};
 
 use crate::diagnostic::Diagnostics;

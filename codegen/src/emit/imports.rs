@@ -17,6 +17,7 @@ pub(super) fn imports(subject: &Subject, dynamics: &TokenStream) -> TokenStream 
         "Interface",
         "Linearised",
         "Mechanism",
+        "Partials",
         "Quantity",
         "Real",
         "Regular",
@@ -50,7 +51,7 @@ pub(super) fn imports(subject: &Subject, dynamics: &TokenStream) -> TokenStream 
     if !subject.mechanism.switches.is_empty() {
         names.extend(["Condition", "Switch"]);
     }
-    let optional = ["Correction", "Linearised", "Regular"];
+    let optional = ["Correction", "Linearised", "Partials", "Regular"];
     names.retain(|name| !optional.contains(name) || mentions(dynamics, name));
     names.sort_unstable();
     names.dedup();

@@ -8,8 +8,8 @@ use crate::optimise::Slot;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-/// `impl Interface`.
-pub(super) fn interface(subject: &mut Subject) -> TokenStream {
+/// `impl Interface`, with the method of its derivatives, if there is one.
+pub(super) fn interface(subject: &mut Subject, partials: &TokenStream) -> TokenStream {
     let n = subject.sizes().0;
     let (parameter, set_parameter) = parameters(subject);
     let set_input = set_input(subject);
@@ -30,6 +30,7 @@ pub(super) fn interface(subject: &mut Subject) -> TokenStream {
             #outputs
             #signals
             #events
+            #partials
             #draw
             #described
         }

@@ -21,7 +21,7 @@ pub(super) fn argument(name: &str, statements: &TokenStream) -> Ident {
 
 /// The most operations of a linearisation: what rustc takes a few seconds for. Beyond
 /// that implicit integrators take differences.
-const OPERATIONS_MAX: usize = 10_000;
+pub(super) const OPERATIONS_MAX: usize = 10_000;
 
 /// `fn linearised`; nothing where it would be too long.
 pub(super) fn linearised(subject: &mut Subject) -> TokenStream {

@@ -17,6 +17,7 @@ mod linearised;
 mod literal;
 mod name;
 mod outputs;
+mod partials;
 mod start;
 mod structure;
 mod switches;
@@ -123,11 +124,16 @@ pub fn module(
     let dynamics = dynamics::mechanism(&mut subject);
     let functions = dynamics::functions(&mut subject);
     let start_equations = start::equations(&mut subject);
-    let interface = interface::interface(&mut subject);
+    let has_slopes = mentions(&dynamics, "linearised");
+    let partials = match options.c_interface && has_slopes {
+        true => partials::partials(&mut subject),
+        false => TokenStream::new(),
+    };
+    let interface = interface::interface(&mut subject, &partials);
     let conditions = switches::table(&subject);
-    let imports = imports(&subject, &dynamics);
+    let imports = imports(&subject, &quote!(#dynamics #partials));
     let mut docs = module_docs(&subject, origin);
-    if !mentions(&dynamics, "linearised") {
+    if !has_slopes {
         docs.extend([String::new(), LEFT_OUT.to_string()]);
     }
     let module = Ident::new(&module_name(origin.module), Span::call_site());
@@ -156,6 +162,11 @@ pub fn module(
 
         #export
     }
+}
+
+/// Whether a module provides the derivatives that programs in other languages ask for.
+pub fn is_differentiated(module: &TokenStream) -> bool {
+    mentions(module, partials::KIND)
 }
 
 /// The name of the module of a description whose file has this stem.

@@ -74,7 +74,7 @@ pub(super) fn snake_case(name: &str) -> String {
 }
 
 /// Types that stand beside a mechanism's in its module.
-const NEIGHBOURS: [&str; 31] = [
+const NEIGHBOURS: [&str; 32] = [
     "Canvas",
     "ConstraintRow",
     "Correction",
@@ -90,6 +90,7 @@ const NEIGHBOURS: [&str; 31] = [
     "None",
     "Option",
     "Parameters",
+    "Partials",
     "Position",
     "Quantity",
     "Real",

@@ -107,7 +107,11 @@ fn chosen(subject: &Subject, accelerated: bool) -> Vec<(Slot, ExprId)> {
 }
 
 /// Statements that put values into their places, as far as there is room.
-fn assigned(array: &TokenStream, wanted: &[(Slot, ExprId)], written: &Written) -> TokenStream {
+pub(super) fn assigned(
+    array: &TokenStream,
+    wanted: &[(Slot, ExprId)],
+    written: &Written,
+) -> TokenStream {
     let places = wanted
         .iter()
         .map(|(slot, _)| Literal::usize_unsuffixed(slot.row));

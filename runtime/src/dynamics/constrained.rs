@@ -8,7 +8,7 @@ use crate::singular::Found;
 use crate::system::escalating;
 use crate::tolerance::{passes, regular, window};
 use crate::{Counters, DynamicsError, Mechanism, Real, Slope, State, Step, Switching, System};
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 /// A mechanism bound to the solver of its equations, by [`Solver::on`].
 #[derive(Debug)]
@@ -176,6 +176,14 @@ where
             here.reach = there.reach;
             here.adopt(there);
         }
+    }
+
+    /// How the acceleration changes with coordinates and velocities, and with applied forces,
+    /// `∂q̈/∂p₁`, by the emitted linearisation; `None` where there is none, near singular
+    /// positions and with Baumgarte's stabilisation.
+    pub fn slopes(&mut self, state: &State<T, N>) -> Option<(Slope<T, N>, SMatrix<T, N, N>)> {
+        let slope = self.solver.slope(self.mechanism, state)?;
+        Some((slope, self.solver.compliance()))
     }
 
     /// How far a state is off the constraints.

@@ -46,6 +46,12 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             })
     }
 
+    /// How the acceleration changes with applied forces, `∂q̈/∂p₁`, at the state at which
+    /// [`slope`](Self::slope) was found last.
+    pub(crate) fn compliance(&self) -> SMatrix<T, N, N> {
+        self.changes(&SMatrix::identity(), &SMatrix::zeros())
+    }
+
     /// The `δq̈` of `M δq̈ + Aᵀδλ = force`, `A δq̈ = row`, column by column.
     fn changes(&self, force: &SMatrix<T, N, N>, row: &SMatrix<T, R, N>) -> SMatrix<T, N, N> {
         let mut changes = SMatrix::zeros();
