@@ -21,7 +21,6 @@ use crate::compiled::{Library, library};
 use crate::error::CommandError;
 use crate::mechanism::description;
 use crate::output::print;
-use std::path::{Path, PathBuf};
 
 /// Writes a mechanism for other programs.
 ///
