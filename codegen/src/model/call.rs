@@ -51,6 +51,7 @@ const ELSEWHERE: [(&str, &str); 24] = [
     ("pow", "x^n"),
     ("sgn", "sign(x)"),
     ("diff", "der(x)"),
+    ("ddot", "der(der(x))"),
     ("ddt", "der(x)"),
     ("d", "der(x)"),
     ("length", "norm(v)"),
