@@ -431,6 +431,35 @@ fn a_watched_file_runs_again_when_it_is_saved() {
     );
 }
 
+#[cfg(unix)]
+#[test]
+fn a_watched_file_runs_again_when_what_it_reads_is_saved() {
+    let folder = folder("watched_data");
+    let source = "mechanism Pulled { param m: kg = 1; coord x: m; kinetic 1/2*m*der(x)^2; \
+                  input pull: N = table(\"pull.csv\", t); force pull on x; }";
+    write(&folder, "pulled.mech", source);
+    write(&folder, "pull.csv", "0, 1\n1, 1\n");
+    let arguments = ["watch", "pulled.mech", "--until", "1", "--out", "rows.csv"];
+    let mut child = bricard(&folder, &arguments);
+    let child = child.stderr(Stdio::piped()).spawn();
+    let child = child.expect("the command starts");
+    // A constant force F moves the unit mass by F/2 in the first second.
+    let end = || {
+        let rows = fs::read_to_string(folder.join("rows.csv")).unwrap_or_default();
+        let last = rows.lines().last().map(|row| row.to_string());
+        let last = last.filter(|row| row.starts_with("1,")).unwrap_or_default();
+        last.split(',').nth(1).and_then(|x| x.parse::<f64>().ok())
+    };
+    let moved = |by: f64| end().is_some_and(|x| (x - by).abs() < 1e-9);
+    wait_until("the first run", || moved(0.5));
+    thread::sleep(Duration::from_millis(300));
+    write(&folder, "pull.csv", "0, 4\n1, 4\n");
+    wait_until("the second run", || moved(2.0));
+    press_ctrl_c(&child);
+    let ran = read(child.wait_with_output().expect("it ends"));
+    assert_eq!(ran.status, Some(130), "{}", ran.err);
+}
+
 #[test]
 fn a_file_is_compared_with_many_digits_as_the_mechanism_of_the_library_is() {
     let folder = folder("precise");
