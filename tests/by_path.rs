@@ -13,8 +13,8 @@ use std::time::{Duration, Instant, SystemTime};
 
 /// Long enough for any machine to compile what there is to compile.
 const PATIENCE: Duration = Duration::from_secs(240);
-/// Bytes of rows after which a run has come to the end of a leg.
-const LEGS: u64 = 300_000;
+/// Bytes of rows after which a run has come to the end of a segment.
+const SEGMENTS: u64 = 300_000;
 
 /// A pendulum, of which each test has its own by a name and a number.
 fn pendulum(name: &str, length: f64) -> String {
@@ -322,8 +322,8 @@ fn a_run_by_path_goes_on_from_its_checkpoint_unless_the_file_is_edited() {
     .spawn()
     .expect("the command starts");
     let [whole, parts] = ["whole.csv", "parts.csv"].map(|name| folder.join(name));
-    wait_until("a leg", || {
-        fs::metadata(&parts).is_ok_and(|file| file.len() > LEGS)
+    wait_until("a segment", || {
+        fs::metadata(&parts).is_ok_and(|file| file.len() > SEGMENTS)
     });
     press_ctrl_c(&child);
     let ran = read(child.wait_with_output().expect("it ends"));

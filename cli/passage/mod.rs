@@ -113,7 +113,10 @@ impl Placements {
             };
             let mut options = Options::new(end[0], method.into(), Pace::Fixed { step });
             options.audit = Audit::NONE;
-            let found = mechanism.race(Some(row), &options).map_err(failed)?.end;
+            let found = mechanism
+                .timed_run(Some(row), &options)
+                .map_err(failed)?
+                .end;
             let differences = found.iter().zip(&end[1..]).map(|(a, b)| a - b);
             errors.push(largest(differences));
         }
