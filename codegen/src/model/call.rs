@@ -32,7 +32,7 @@ const OTHERS: [(&str, usize, &str); 17] = [
 ];
 
 /// Names that other languages have for the same.
-const ELSEWHERE: [(&str, &str); 24] = [
+const ELSEWHERE: [(&str, &str); 25] = [
     ("integral", "state z; der(z) = x;"),
     ("integrate", "state z; der(z) = x;"),
     ("int", "state z; der(z) = x;"),
