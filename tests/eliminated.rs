@@ -5,7 +5,7 @@
 
 use crate::passage::{Placements, judged};
 use crate::reduction::Reduction;
-use bricard_odd::eliminated as less;
+use bricard_fixtures::eliminated as less;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Described, Interface, Mechanism, Options, Pace, Recorder, Scheme, Settings, Solver, State,
@@ -144,9 +144,9 @@ macro_rules! all {
             scotch_yoke::ScotchYoke from bricard,
             quick_return::QuickReturn from bricard,
             driven_pivot::DrivenPivot from bricard,
-            moving_rail::MovingRail from bricard_odd,
-            hanging::Hanging from bricard_odd,
-            towed::Towed from bricard_odd,
+            moving_rail::MovingRail from bricard_fixtures,
+            hanging::Hanging from bricard_fixtures,
+            towed::Towed from bricard_fixtures,
         )
     };
 }

@@ -1,6 +1,6 @@
 //! A run in parts, each of which knows where the whole began.
 
-use crate::toys::{BEAD, Bead, Framed, Oscillator, PLAIN};
+use crate::fixtures::{BEAD, Bead, Framed, Oscillator, PLAIN};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     DynamicsError, Interface, Mechanism, Observer, Options, Origin, Probe, Sampler, State, Step,

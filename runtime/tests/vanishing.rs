@@ -1,7 +1,7 @@
 //! Constraints whose gradient vanishes wherever they hold restrict no motion, and are
 //! refused; those whose gradient vanishes at one place are passed.
 
-use crate::toys::{Framed, PLAIN};
+use crate::fixtures::{Framed, PLAIN};
 use bricard_runtime::nalgebra::{SMatrix, SVector};
 use bricard_runtime::{
     ConstraintRow, DynamicsError, Energy, IntegrateError, Mechanism, Options, Position, Quantity,
