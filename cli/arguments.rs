@@ -34,9 +34,10 @@ pub enum Command {
     WorkPrecision(WorkPrecision),
     /// Solve the benchmark problems of the field and compare with their references
     Validate(Validate),
-    /// Measure what passing a singular position costs in accuracy, wherever the steps
-    /// land
-    Landing(Landing),
+    /// Measure what the passage through a singular configuration costs in accuracy,
+    /// wherever the stages of a step are placed
+    #[command(alias = "landing")]
+    Passage(Passage),
     /// Check a description without compiling it
     Check(Check),
     /// Simulate a description, and again each time its file is saved
@@ -149,9 +150,9 @@ pub enum Target {
     Library,
 }
 
-/// Arguments of `landing`.
+/// Arguments of `passage`.
 #[derive(Args, Debug)]
-pub struct Landing {
+pub struct Passage {
     /// Mechanisms that pass a singular position: names of `bricard list`, or files of
     /// descriptions
     #[arg(value_name = "NAME|FILE.mech", default_values = ["slider_crank", "slider_crank_driven", "double_four_bar"])]

@@ -6,7 +6,7 @@
 use crate::error::CommandError;
 pub use bricard_driver::Column;
 use bricard_driver::{WORDS, heads};
-use bricard_runtime::Structure;
+use bricard_runtime::{Quantity, Structure};
 
 /// A word for columns of one kind, and the columns.
 type Kind = (&'static str, fn(&Structure) -> Vec<Column>);
@@ -33,7 +33,7 @@ fn every(count: usize, column: fn(usize) -> Column) -> Vec<Column> {
 ///
 /// # Errors
 ///
-/// [`CommandError::UnknownName`].
+/// [`CommandError::UnknownName`], [`CommandError::NoColumn`].
 pub fn columns(
     words: &[String],
     structure: &Structure,
@@ -94,7 +94,27 @@ fn components(word: &str, all: &[Column], structure: &Structure) -> Vec<Column> 
     all.iter().filter(of_word).copied().collect()
 }
 
+/// What a word names that is no column, in words that say what to do instead.
+fn no_column(word: &str, structure: &Structure) -> Option<String> {
+    let has = |list: &[Quantity]| list.iter().any(|x| x.name == word);
+    if heads(structure).iter().any(|head| head == word) {
+        return Some("is in every row; `--columns` adds others".to_string());
+    }
+    if has(structure.parameters) {
+        return Some("is a parameter, which stays as it is".to_string());
+    }
+    let event = structure.events.iter().any(|event| event.name == word);
+    event.then(|| "is an event: the summary says when it happens".to_string())
+}
+
 fn unknown(word: &str, structure: &Structure, mechanism: &str) -> CommandError {
+    let spelt: String = word.split_whitespace().collect();
+    if let Some(reason) = no_column(&spelt, structure) {
+        return CommandError::NoColumn {
+            name: spelt,
+            reason,
+        };
+    }
     let words = WORDS.iter().map(|(word, _)| word.to_string());
     let kinds = KINDS.iter().map(|(word, _)| word.to_string());
     let known = words.chain(kinds);

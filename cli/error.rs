@@ -29,6 +29,13 @@ pub enum CommandError {
         /// What there is.
         known: Vec<String>,
     },
+    /// A name of something that is no column to add.
+    NoColumn {
+        /// The name.
+        name: String,
+        /// What it is instead.
+        reason: String,
+    },
     /// A number that makes no sense.
     OutOfRange {
         /// The option.
@@ -161,6 +168,7 @@ impl CommandError {
     pub fn status(&self) -> u8 {
         match self {
             Self::UnknownName { .. }
+            | Self::NoColumn { .. }
             | Self::OutOfRange { .. }
             | Self::Twice { .. }
             | Self::Law { .. }
@@ -191,6 +199,7 @@ impl Display for CommandError {
                 name,
                 known,
             } => unknown_name(f, kind, owner, name, known),
+            Self::NoColumn { name, reason } => write!(f, "`{name}` {reason}"),
             Self::OutOfRange {
                 option,
                 value,

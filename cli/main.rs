@@ -19,7 +19,6 @@ mod export;
 mod figure;
 mod formula;
 mod interrupt;
-mod landing;
 mod law;
 mod list;
 mod manual;
@@ -29,6 +28,7 @@ mod number;
 mod output;
 mod page;
 mod parquet;
+mod passage;
 mod plot;
 mod progress;
 mod raster;
@@ -80,7 +80,7 @@ fn perform(command: &Command) -> Result<(), CommandError> {
         Command::Simulate(arguments) => simulate::simulate(arguments),
         Command::Reproduce(arguments) => reproduce::reproduce(arguments),
         Command::WorkPrecision(arguments) => workprecision::workprecision(arguments),
-        Command::Landing(arguments) => landing::landing(arguments),
+        Command::Passage(arguments) => passage::passage(arguments),
         Command::Watch(arguments) => watch::watch(arguments),
         Command::Cache(arguments) => cache::cache(arguments),
         Command::Check(arguments) => check::check(arguments),

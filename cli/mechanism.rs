@@ -7,7 +7,7 @@ use crate::check::read;
 use crate::compiled;
 use crate::error::CommandError;
 use crate::show::freedom;
-use bricard_driver::{AnyMechanism, Precise, forget};
+use bricard_driver::{AnyMechanism, Precise, erase_type};
 use bricard_runtime::{Interface, Mechanism, Settings, Solver, Visitor, Whole, assemble};
 use std::path::{self, Path, PathBuf};
 
@@ -20,7 +20,8 @@ pub fn find(name: &str) -> Result<Box<dyn AnyMechanism>, CommandError> {
     if let Some(file) = file(name) {
         return Ok(Box::new(compiled::open(file)?));
     }
-    let found = bricard::visit(name, Forget).or_else(|| bricard_benchmarks::visit(name, Forget));
+    let found =
+        bricard::visit(name, EraseType).or_else(|| bricard_benchmarks::visit(name, EraseType));
     found.ok_or_else(|| unknown(name))
 }
 
@@ -91,16 +92,16 @@ pub fn description(name: &str) -> Result<Description, CommandError> {
     })
 }
 
-struct Forget;
+struct EraseType;
 
-impl Visitor<f64> for Forget {
+impl Visitor<f64> for EraseType {
     type Output = Box<dyn AnyMechanism>;
 
     fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
     where
         M: Mechanism<f64, N, R> + Interface<f64, N> + Clone + 'static,
     {
-        forget::<N, R>(Box::new(mechanism))
+        erase_type::<N, R>(Box::new(mechanism))
     }
 }
 

@@ -1,5 +1,5 @@
 //! Every mechanism of the library runs from its own start with its energy, or power,
-//! and its constraints in order; so do odd ones that are hard to run.
+//! and its constraints in order; so do fixtures that are hard to run.
 
 use crate::library::time_scale;
 use crate::motion::run;

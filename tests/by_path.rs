@@ -13,8 +13,8 @@ use std::time::{Duration, Instant, SystemTime};
 
 /// Long enough for any machine to compile what there is to compile.
 const PATIENCE: Duration = Duration::from_secs(240);
-/// Bytes of rows after which a run has come to the end of a leg.
-const LEGS: u64 = 300_000;
+/// Bytes of rows after which a run has come to the end of a segment.
+const SEGMENTS: u64 = 300_000;
 
 /// A pendulum, of which each test has its own by a name and a number.
 fn pendulum(name: &str, length: f64) -> String {
@@ -322,8 +322,8 @@ fn a_run_by_path_goes_on_from_its_checkpoint_unless_the_file_is_edited() {
     .spawn()
     .expect("the command starts");
     let [whole, parts] = ["whole.csv", "parts.csv"].map(|name| folder.join(name));
-    wait_until("a leg", || {
-        fs::metadata(&parts).is_ok_and(|file| file.len() > LEGS)
+    wait_until("a segment", || {
+        fs::metadata(&parts).is_ok_and(|file| file.len() > SEGMENTS)
     });
     press_ctrl_c(&child);
     let ran = read(child.wait_with_output().expect("it ends"));
@@ -429,6 +429,35 @@ fn a_watched_file_runs_again_when_it_is_saved() {
         "{}",
         name.err
     );
+}
+
+#[cfg(unix)]
+#[test]
+fn a_watched_file_runs_again_when_what_it_reads_is_saved() {
+    let folder = folder("watched_data");
+    let source = "mechanism Pulled { param m: kg = 1; coord x: m; kinetic 1/2*m*der(x)^2; \
+                  input pull: N = table(\"pull.csv\", t); force pull on x; }";
+    write(&folder, "pulled.mech", source);
+    write(&folder, "pull.csv", "0, 1\n1, 1\n");
+    let arguments = ["watch", "pulled.mech", "--until", "1", "--out", "rows.csv"];
+    let mut child = bricard(&folder, &arguments);
+    let child = child.stderr(Stdio::piped()).spawn();
+    let child = child.expect("the command starts");
+    // A constant force F moves the unit mass by F/2 in the first second.
+    let end = || {
+        let rows = fs::read_to_string(folder.join("rows.csv")).unwrap_or_default();
+        let last = rows.lines().last().map(|row| row.to_string());
+        let last = last.filter(|row| row.starts_with("1,")).unwrap_or_default();
+        last.split(',').nth(1).and_then(|x| x.parse::<f64>().ok())
+    };
+    let moved = |by: f64| end().is_some_and(|x| (x - by).abs() < 1e-9);
+    wait_until("the first run", || moved(0.5));
+    thread::sleep(Duration::from_millis(300));
+    write(&folder, "pull.csv", "0, 4\n1, 4\n");
+    wait_until("the second run", || moved(2.0));
+    press_ctrl_c(&child);
+    let ran = read(child.wait_with_output().expect("it ends"));
+    assert_eq!(ran.status, Some(130), "{}", ran.err);
 }
 
 #[test]

@@ -94,7 +94,7 @@ fn every_mechanism_is_listed_with_its_sizes() {
 
 #[test]
 fn a_wrong_name_is_answered_with_the_nearest_and_all_there_are() {
-    let wrong: [(&[&str], &str, &str); 7] = [
+    let wrong: [(&[&str], &str, &str); 9] = [
         (
             &["simulate", "slider_cranc"],
             "did you mean `slider_crank`?",
@@ -124,6 +124,16 @@ fn a_wrong_name_is_answered_with_the_nearest_and_all_there_are() {
             &["simulate", "slider_crank", "--columns", "enrgy"],
             "did you mean `energy`?",
             "constraint_error",
+        ),
+        (
+            &["simulate", "slider_crank", "--columns", "energy,der(q1)"],
+            "`der(q1)` is in every row",
+            "`--columns` adds others",
+        ),
+        (
+            &["simulate", "slider_crank", "--columns", "L1"],
+            "`L1` is a parameter",
+            "stays as it is",
         ),
         (
             &["simulate", "slider_crank", "--columns", "x3"],
@@ -580,16 +590,16 @@ fn an_interrupted_run_keeps_its_rows_and_says_so() {
 }
 
 #[test]
-fn landings_beside_a_singular_position_are_alike() {
-    let ran = bricard(&["landing", "slider_crank", "--methods", "rk4"]);
+fn stages_beside_a_singular_position_are_as_good_as_others_wherever_they_are_placed() {
+    let ran = bricard(&["passage", "slider_crank", "--methods", "rk4"]);
     assert_eq!(ran.status, Some(0), "{}{}", ran.out, ran.err);
     let rows = ran.out.lines().filter(|line| line.ends_with("  ok"));
     assert_eq!(rows.count(), 4, "{}", ran.out);
-    check_refused(
-        &["landing", "cart_pole"],
-        1,
-        &["passes no singular position"],
-    );
+    let never = ["passes no singular position"];
+    check_refused(&["passage", "cart_pole"], 1, &never);
+    // The name that the command had before.
+    check_refused(&["landing", "cart_pole"], 1, &never);
+    assert!(!bricard(&["help"]).out.contains("landing"));
 }
 
 #[test]
@@ -616,6 +626,10 @@ fn a_guess_can_be_given_on_the_command_line() {
 fn a_negative_mass_is_refused_by_its_coordinate() {
     let arguments = ["simulate", "slider_crank", "--set", "m3=-3"];
     let said = ["kinetic energy is negative where `q3` moves", "parameters"];
+    check_refused(&arguments, 1, &said);
+    // Without constraints it is refused, too.
+    let arguments = ["simulate", "cart_pole", "--set", "m1=-3"];
+    let said = ["kinetic energy is negative where `", "parameters"];
     check_refused(&arguments, 1, &said);
     // The second link moves with the first one, so that the energy stays positive.
     let ran = bricard(&[

@@ -5,7 +5,7 @@ use bricard::n_four_bar::NFourBar;
 use bricard::slider_crank::SliderCrank;
 use bricard::slider_crank_driven::SliderCrankDriven;
 use bricard_reference::{DoubleDouble, Reference, ReferenceError, reference};
-use bricard_runtime::{Interface, Options, Pace, Real, Scheme, Whole, assemble, simulate};
+use bricard_runtime::{Options, Pace, Real, Scheme, Whole, assemble, simulate};
 
 /// What a reference motion may be off by (m, rad, m/s, rad/s).
 const ERROR: f64 = 1e-18;

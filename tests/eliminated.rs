@@ -3,9 +3,9 @@
 //! Each mechanism is compiled twice, with all coordinates and without those that are
 //! given; the second one's `described` must say what the first one's state says.
 
-use crate::landing::{Landings, judged};
+use crate::passage::{Placements, judged};
 use crate::reduction::Reduction;
-use bricard_odd::eliminated as less;
+use bricard_fixtures::eliminated as less;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Described, Interface, Mechanism, Options, Pace, Recorder, Scheme, Settings, Solver, State,
@@ -144,9 +144,9 @@ macro_rules! all {
             scotch_yoke::ScotchYoke from bricard,
             quick_return::QuickReturn from bricard,
             driven_pivot::DrivenPivot from bricard,
-            moving_rail::MovingRail from bricard_odd,
-            hanging::Hanging from bricard_odd,
-            towed::Towed from bricard_odd,
+            moving_rail::MovingRail from bricard_fixtures,
+            hanging::Hanging from bricard_fixtures,
+            towed::Towed from bricard_fixtures,
         )
     };
 }
@@ -215,15 +215,15 @@ fn what_was_eliminated_comes_back_with_accelerations_and_reactions_to_round_off(
 }
 
 #[test]
-fn no_landing_is_worse_where_a_coordinate_is_left_out() {
-    let mut failures = judged(Reduction::SliderCrank, -3.0, &|landings: Landings| {
-        landings.visit(less::slider_crank::SliderCrank::default())
+fn no_placement_is_worse_where_a_coordinate_is_left_out() {
+    let mut failures = judged(Reduction::SliderCrank, -3.0, &|placements: Placements| {
+        placements.visit(less::slider_crank::SliderCrank::default())
     });
     failures.extend(judged(
         Reduction::SliderCrankDriven,
         5.0,
-        &|landings: Landings| {
-            landings.visit(less::slider_crank_driven::SliderCrankDriven::default())
+        &|placements: Placements| {
+            placements.visit(less::slider_crank_driven::SliderCrankDriven::default())
         },
     ));
     assert!(failures.is_empty(), "\n{}", failures.join("\n"));

@@ -1,4 +1,4 @@
-//! The descriptions that are tested: those of the library, and odd ones that hold
+//! The descriptions that are tested: those of the library, and fixtures that hold
 //! what no mechanism of the library has.
 
 use bricard_codegen::derive::{Equations, Linearised, derive, linearise};
@@ -45,9 +45,12 @@ pub fn derived(name: &str, source: &str) -> Derived {
     }
 }
 
-/// The names of the mechanisms of the library and of the odd ones.
+/// The names of the mechanisms of the library and of the fixtures.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    bricard::NAMES.iter().chain(bricard_odd::NAMES).copied()
+    bricard::NAMES
+        .iter()
+        .chain(bricard_fixtures::NAMES)
+        .copied()
 }
 
 /// The mechanism of the library whose motion is a thousand times faster than that of
@@ -83,21 +86,21 @@ pub fn step_scale(name: &str) -> f64 {
 
 /// The description of a mechanism.
 pub fn source(name: &str) -> &'static str {
-    let found = bricard::source(name).or_else(|| bricard_odd::source(name));
+    let found = bricard::source(name).or_else(|| bricard_fixtures::source(name));
     found.unwrap_or_else(|| panic!("{name} is in no catalogue"))
 }
 
-/// The mechanisms of the library and the odd ones.
+/// The mechanisms of the library and the fixtures.
 pub fn everything() -> impl Iterator<Item = Derived> {
     names().map(|name| derived(name, source(name)))
 }
 
-/// Shows a visitor the compiled mechanism of a name, odd ones included.
+/// Shows a visitor the compiled mechanism of a name, fixtures included.
 pub fn visit<T: Real, V: Visitor<T>>(name: &str, visitor: V) -> V::Output {
     let visited = if bricard::NAMES.contains(&name) {
         bricard::visit(name, visitor)
     } else {
-        bricard_odd::visit(name, visitor)
+        bricard_fixtures::visit(name, visitor)
     };
     visited.unwrap_or_else(|| panic!("{name} is in no catalogue"))
 }

@@ -10,7 +10,7 @@ use std::process::Command;
 const RUN: [&str; 4] = ["choosing", "modelling", "theory", "tutorial"];
 
 /// Commands that take long; of these only the flags are held against their help.
-const LONG: [&str; 4] = ["reproduce", "validate", "workprecision", "landing"];
+const LONG: [&str; 4] = ["reproduce", "validate", "workprecision", "passage"];
 
 /// Commands on the pages, at least.
 const COMMANDS: usize = 25;

@@ -1,7 +1,11 @@
-//! The paper's runs against their exact ends, with its step and its method.
+//! The paper's runs against their exact ends, with its step and its method; the Stewart
+//! platform of the library against independent equations.
 
 use crate::motion::{Outcome, end, run, run_comparing};
 use bricard_runtime::{DynamicsError, Form, IntegrateError, Options, SimulateError};
+
+/// The Stewart platform, by `reference/stewart_platform.py`.
+const STEWART: &str = include_str!("reference/stewart_platform.csv");
 
 /// The paper's step (s).
 const STEP: f64 = 0.01;
@@ -173,4 +177,27 @@ fn multipliers_and_partitioning_end_at_the_first_singular_position() {
             );
         }
     }
+}
+
+/// Positions, angles and velocities of the Stewart platform by Newton's and Euler's
+/// equations, computed by a program of its own.
+#[test]
+fn the_stewart_platform_moves_as_newton_and_euler_say() {
+    let rows = STEWART.lines().filter(|line| !line.starts_with('#'));
+    let mut compared = 0;
+    for row in rows.skip(1) {
+        let row: Vec<f64> = row.split(',').filter_map(|x| x.parse().ok()).collect();
+        let &[t, .., error] = &row[..] else {
+            panic!("{row:?}");
+        };
+        let outcome = run("stewart_platform", &Options::dop853(t, 1e-12));
+        assert_eq!(outcome.error, None);
+        let ours = outcome.q.iter().chain(&outcome.v);
+        for (ours, exact) in ours.zip(&row[1..10]) {
+            let off = (ours - exact).abs();
+            assert!(off <= 1e-11 + error, "{t} s: {ours} and {exact}");
+        }
+        compared += 1;
+    }
+    assert_eq!(compared, 4);
 }

@@ -32,7 +32,7 @@ const RUNS: [&[&str]; 3] = [
 
 /// Long enough for any machine to get so far.
 const PATIENCE: Duration = Duration::from_secs(120);
-/// Bytes of rows after which a run is interrupted: several legs.
+/// Bytes of rows after which a run is interrupted: several segments.
 const ENOUGH: u64 = 600_000;
 
 fn run(arguments: &[&str], csv: &Path, more: &[&str]) -> Vec<String> {

@@ -1,7 +1,7 @@
 //! Starts that are given by formulas: they hold to round-off, together with the
 //! constraints, or the start is refused.
 
-use bricard_odd::placed::Placed;
+use bricard_fixtures::placed::Placed;
 use bricard_runtime::{AssemblyError, Interface, Mechanism, Position, State, assemble};
 
 /// A few hundred roundings of numbers of size one.

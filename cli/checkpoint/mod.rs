@@ -1,13 +1,13 @@
 //! Checkpoints: where a run can be taken up again, to the same bits.
 //!
-//! In:  a state at the end of a leg and what was done until then.
+//! In:  a state at the end of a segment and what was done until then.
 //! Out: a file, written whole or not at all, and what is read back from it.
 //!
 //! Not here: what stands in the file ([`text`]).
 //!
-//! A run with checkpoints is divided into legs of about a thousand steps. Each begins
+//! A run with checkpoints is divided into segments of about a thousand steps. Each begins
 //! with nothing but a state and the beginning of the run, so that the bits of the next
-//! leg do not depend on whether the program was ended in between.
+//! segment do not depend on whether the program was ended in between.
 
 #[cfg(test)]
 mod tests;
@@ -27,7 +27,7 @@ const PERIOD: Duration = Duration::from_secs(5);
 
 /// Which checkpoints a run writes, and which it begins with.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Legs {
+pub struct Checkpoints {
     /// What the run is, in words: a checkpoint of another one is refused.
     pub run: String,
     /// Where checkpoints go.
@@ -38,17 +38,17 @@ pub struct Legs {
 
 /// Writes checkpoints, not too often.
 #[derive(Debug)]
-pub struct Keeper<'a> {
-    legs: &'a Legs,
+pub struct CheckpointWriter<'a> {
+    checkpoints: &'a Checkpoints,
     written: Instant,
     last: Option<Checkpoint>,
 }
 
-impl<'a> Keeper<'a> {
+impl<'a> CheckpointWriter<'a> {
     /// Nothing written yet.
-    pub fn new(legs: &'a Legs) -> Self {
+    pub fn new(checkpoints: &'a Checkpoints) -> Self {
         Self {
-            legs,
+            checkpoints,
             written: Instant::now(),
             last: None,
         }
@@ -73,8 +73,8 @@ impl<'a> Keeper<'a> {
     ///
     /// [`CommandError::Write`].
     pub fn write(&mut self) -> Result<(), CommandError> {
-        if let (Some(file), Some(checkpoint)) = (&self.legs.file, &self.last) {
-            let text = checkpoint.text(&self.legs.run);
+        if let (Some(file), Some(checkpoint)) = (&self.checkpoints.file, &self.last) {
+            let text = checkpoint.text(&self.checkpoints.run);
             replace(file, &text).map_err(|error| CommandError::write(file, error))?;
         }
         self.written = Instant::now();

@@ -93,15 +93,18 @@ fn program(file: &Path, source: &str, digits: Digits) -> Result<PathBuf, Command
 pub fn identity(file: &Path, source: &str) -> String {
     let mut identity = source.to_string();
     let folder = file.parent().unwrap_or(Path::new(""));
-    for name in source
-        .lines()
-        .flat_map(|line| line.split('"').skip(1).step_by(2))
-    {
+    for name in quoted(source) {
         if let Ok(data) = fs::read_to_string(folder.join(name)) {
             identity.push_str(&format!("\n// {name}\n{data}"));
         }
     }
     identity
+}
+
+/// What a description quotes: names of files beside it and of their columns.
+pub fn quoted(source: &str) -> impl Iterator<Item = &str> {
+    let lines = source.lines();
+    lines.flat_map(|line| line.split('"').skip(1).step_by(2))
 }
 
 /// Starts a program.

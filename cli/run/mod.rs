@@ -8,9 +8,9 @@ mod watcher;
 
 pub use report::Report;
 
-use crate::checkpoint::{Checkpoint, Keeper, Legs, Rows};
+use crate::checkpoint::{Checkpoint, CheckpointWriter, Checkpoints, Rows};
 use crate::error::CommandError;
-use bricard_driver::{AnyMechanism, Column, Leg, Reached};
+use bricard_driver::{AnyMechanism, Column, Reached, Segment};
 use bricard_runtime::Options;
 use watcher::Watcher;
 
@@ -24,7 +24,7 @@ pub struct Plan {
     /// Columns besides time, coordinates and velocities.
     pub columns: Vec<Column>,
     /// The checkpoints of a run that has some.
-    pub legs: Option<Legs>,
+    pub checkpoints: Option<Checkpoints>,
     /// Whether somebody waits for the run.
     pub watched: bool,
 }
@@ -36,14 +36,14 @@ impl Plan {
             options,
             every,
             columns,
-            legs: None,
+            checkpoints: None,
             watched: false,
         }
     }
 
     /// The first part of the run, or the next one after a checkpoint.
-    fn leg(&self, from: Option<&Checkpoint>) -> Leg {
-        Leg {
+    fn segment(&self, from: Option<&Checkpoint>) -> Segment {
+        Segment {
             options: Options {
                 origin: from.map(|checkpoint| checkpoint.origin),
                 ..self.options
@@ -52,7 +52,7 @@ impl Plan {
             every: self.every,
             columns: self.columns.clone(),
             rows: from.map_or(0, |checkpoint| checkpoint.rows.count),
-            short: self.legs.is_some(),
+            short: self.checkpoints.is_some(),
         }
     }
 }
@@ -111,38 +111,43 @@ pub fn run(
     sink: &mut dyn RowSink,
 ) -> Result<Report, Stopped> {
     let structure = mechanism.structure();
-    let from = plan.legs.as_ref().and_then(|legs| legs.from.as_ref());
+    let from = plan
+        .checkpoints
+        .as_ref()
+        .and_then(|checkpoints| checkpoints.from.as_ref());
     let mut report = from.map_or_else(Report::default, |from| from.report.clone());
     let begun = from.and_then(|from| from.state.first().copied());
     let mut watcher = Watcher::new(plan, begun.unwrap_or(0.0), sink);
-    let mut keeper = plan.legs.as_ref().map(Keeper::new);
-    let mut leg = plan.leg(from);
+    let mut writer = plan.checkpoints.as_ref().map(CheckpointWriter::new);
+    let mut segment = plan.segment(from);
     loop {
-        let reached = mechanism.leg(&leg, &mut watcher).map_err(|text| Stopped {
-            error: failed(with_guess(text)),
-            time: None,
-            report: None,
-        })?;
+        let reached = mechanism
+            .segment(&segment, &mut watcher)
+            .map_err(|text| Stopped {
+                error: failed(with_guess(text)),
+                time: None,
+                report: None,
+            })?;
         report.add(&reached, structure);
         let time = reached.state.first().copied();
         let stopped = reached.error.clone().map(failed);
         let mut error = stopped.or_else(|| watcher.refused.take());
         if error.is_none() {
-            let more = leg.short && time < Some(plan.options.until);
-            let Some(keeper) = keeper.as_mut().filter(|_| more) else {
+            let more = segment.short && time < Some(plan.options.until);
+            let Some(writer) = writer.as_mut().filter(|_| more) else {
                 return Ok(report);
             };
             let checkpoint = checkpoint(reached, &report, watcher.sink);
             match checkpoint {
                 Ok(checkpoint) => {
-                    leg = plan.leg(Some(&checkpoint));
-                    error = keeper.take(checkpoint).err();
+                    segment = plan.segment(Some(&checkpoint));
+                    error = writer.take(checkpoint).err();
                 }
                 Err(refused) => error = Some(refused),
             }
-        } else if let Some(keeper) = &mut keeper {
+        } else if let Some(writer) = &mut writer {
             // What stopped the run is the news, even if this fails, too.
-            let _written = keeper.write();
+            let _written = writer.write();
         }
         if let Some(error) = error {
             let report = Some(Box::new(report));
@@ -155,7 +160,7 @@ pub fn run(
     }
 }
 
-/// The checkpoint at the end of a leg.
+/// The checkpoint at the end of a segment.
 ///
 /// # Errors
 ///

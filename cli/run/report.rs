@@ -1,6 +1,6 @@
 //! What was done in a run, and how well.
 //!
-//! In:  what was reached by its legs.
+//! In:  what was reached by its segments.
 //! Out: a [`Report`].
 
 use crate::number::largest;
@@ -30,7 +30,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// Adds what was done in a leg of a mechanism with this structure.
+    /// Adds what was done in a segment of a mechanism with this structure.
     pub fn add(&mut self, reached: &Reached, structure: &Structure) {
         self.steps += reached.steps;
         self.rejected += reached.rejected;

@@ -3,9 +3,9 @@
 //! In:  a mechanism's name and what to change, how to integrate, what to record.
 //! Out: CSV or Parquet, a summary on standard error, SVG or HTML.
 
+mod checkpoints;
 mod choices;
 mod film;
-mod legs;
 mod picture;
 mod record;
 pub mod summary;
@@ -46,11 +46,15 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
     let columns = columns(&arguments.columns, structure, &arguments.name)?;
     let mut plan = choices::plan(arguments, columns.clone())?;
     choices::check_files(arguments)?;
-    plan.legs = legs::legs(arguments, &plan, &changes, structure)?;
+    plan.checkpoints = checkpoints::checkpoints(arguments, &plan, &changes, structure)?;
     let mut record = Record::open(arguments, structure, &columns)?;
     let shown = picture::shown(arguments, &columns, structure)?;
     plan.columns = shown.columns.clone();
-    if let Some(checkpoint) = plan.legs.as_ref().and_then(|legs| legs.from.as_ref()) {
+    if let Some(checkpoint) = plan
+        .checkpoints
+        .as_ref()
+        .and_then(|checkpoints| checkpoints.from.as_ref())
+    {
         record.go_on(checkpoint);
     }
     interrupt::listen();
@@ -79,7 +83,7 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
     match result {
         Ok(_) => Ok(()),
         Err(Stopped { error, .. }) => {
-            legs::say_how_to_go_on(arguments);
+            checkpoints::say_how_to_go_on(arguments);
             match error {
                 CommandError::Run { reason, .. } => Err(CommandError::Run { reason, kept }),
                 CommandError::Interrupted { .. } => Err(CommandError::Interrupted { kept }),

@@ -5,7 +5,7 @@
 
 use crate::arguments::{FormName, MethodName};
 use crate::number::largest;
-use bricard_driver::{AnyMechanism, Exact, Race};
+use bricard_driver::{AnyMechanism, Exact, TimedRun};
 use bricard_runtime::{Audit, Options, Pace};
 use std::time::Duration;
 
@@ -71,9 +71,9 @@ pub fn series(
         options.audit = Audit::NONE;
         options.most_steps = Some(MOST_STEPS);
         match repeated(mechanism, &options) {
-            Ok(race) => {
-                series.points.push(point(setting, &race, exact));
-                if race.wall > LONG {
+            Ok(run) => {
+                series.points.push(point(setting, &run, exact));
+                if run.wall > LONG {
                     break;
                 }
             }
@@ -108,25 +108,25 @@ fn settings(method: MethodName) -> Vec<(String, Pace<f64>)> {
 }
 
 /// A run with the median time of several.
-fn repeated(mechanism: &dyn AnyMechanism, options: &Options<f64>) -> Result<Race, String> {
-    let mut races = vec![mechanism.race(None, options)?];
-    let mut together = races[0].wall;
-    while together < TOGETHER && races.len() < REPEATED {
-        let race = mechanism.race(None, options)?;
-        together += race.wall;
-        races.push(race);
+fn repeated(mechanism: &dyn AnyMechanism, options: &Options<f64>) -> Result<TimedRun, String> {
+    let mut runs = vec![mechanism.timed_run(None, options)?];
+    let mut together = runs[0].wall;
+    while together < TOGETHER && runs.len() < REPEATED {
+        let run = mechanism.timed_run(None, options)?;
+        together += run.wall;
+        runs.push(run);
     }
-    races.sort_by_key(|race| race.wall);
-    Ok(races.swap_remove(races.len() / 2))
+    runs.sort_by_key(|run| run.wall);
+    Ok(runs.swap_remove(runs.len() / 2))
 }
 
-fn point(setting: String, race: &Race, exact: &Exact) -> Point {
-    let differences = race.end.iter().zip(&exact.end).map(|(a, b)| a - b);
+fn point(setting: String, run: &TimedRun, exact: &Exact) -> Point {
+    let differences = run.end.iter().zip(&exact.end).map(|(a, b)| a - b);
     Point {
         setting,
         error: largest(differences),
-        steps: race.steps,
-        evaluations: race.evaluations,
-        wall: race.wall,
+        steps: run.steps,
+        evaluations: run.evaluations,
+        wall: run.wall,
     }
 }

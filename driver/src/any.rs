@@ -6,9 +6,9 @@
 //! The type of a mechanism is forgotten before anything is done with it, so that
 //! the simulation is compiled once for each pair of sizes, not for each mechanism.
 
-use crate::leg::{Leg, Reached, Watch};
 use crate::scene::{Scene, scene};
-use crate::writer::leg;
+use crate::segment::{Reached, Segment, Watch};
+use crate::writer::segment;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{Initial, Options, Start, State, Structure, Whole, assemble, simulate};
 use std::time::{Duration, Instant};
@@ -24,17 +24,17 @@ pub trait AnyMechanism {
     /// Gives a coordinate or a velocity at the start.
     fn begin(&mut self, given: Given);
     /// Simulates a part of a run.
-    fn leg(&self, leg: &Leg, watch: &mut dyn Watch) -> Result<Reached, String>;
+    fn segment(&self, segment: &Segment, watch: &mut dyn Watch) -> Result<Reached, String>;
     /// Simulates with nothing recorded or audited, against the clock: from a state
     /// (time, coordinates, velocities) as it is, or from the assembled start.
-    fn race(&self, from: Option<&[f64]>, options: &Options<f64>) -> Result<Race, String>;
+    fn timed_run(&self, from: Option<&[f64]>, options: &Options<f64>) -> Result<TimedRun, String>;
     /// What can be seen in some rows (time, coordinates, velocities).
     fn scene(&self, rows: &[Vec<f64>]) -> Result<Scene, String>;
 }
 
 /// A run against the clock.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Race {
+pub struct TimedRun {
     /// The coordinates at its end.
     pub end: Vec<f64>,
     /// Accepted steps.
@@ -59,10 +59,10 @@ pub struct Given {
 }
 
 /// Forgets the sizes of a mechanism.
-pub fn forget<const N: usize, const R: usize>(
+pub fn erase_type<const N: usize, const R: usize>(
     mechanism: Box<dyn Whole<f64, N, R>>,
 ) -> Box<dyn AnyMechanism> {
-    Box::new(Sized {
+    Box::new(SizedMechanism {
         mechanism,
         given: Vec::new(),
     })
@@ -70,12 +70,12 @@ pub fn forget<const N: usize, const R: usize>(
 
 /// A mechanism of `N` coordinates and `R` constraint equations, and what is given
 /// for its start.
-struct Sized<const N: usize, const R: usize> {
+struct SizedMechanism<const N: usize, const R: usize> {
     mechanism: Box<dyn Whole<f64, N, R>>,
     given: Vec<Given>,
 }
 
-impl<const N: usize, const R: usize> Sized<N, R> {
+impl<const N: usize, const R: usize> SizedMechanism<N, R> {
     /// The `start` block of the description, with what is given instead.
     fn start(&self) -> Start<f64, N> {
         let mut start = self.mechanism.start();
@@ -104,7 +104,7 @@ impl<const N: usize, const R: usize> Sized<N, R> {
     }
 }
 
-impl<const N: usize, const R: usize> AnyMechanism for Sized<N, R> {
+impl<const N: usize, const R: usize> AnyMechanism for SizedMechanism<N, R> {
     fn structure(&self) -> &'static Structure {
         self.mechanism.structure()
     }
@@ -121,18 +121,18 @@ impl<const N: usize, const R: usize> AnyMechanism for Sized<N, R> {
         self.given.push(given);
     }
 
-    fn leg(&self, plan: &Leg, watch: &mut dyn Watch) -> Result<Reached, String> {
+    fn segment(&self, plan: &Segment, watch: &mut dyn Watch) -> Result<Reached, String> {
         let state = self.state(plan.from.as_deref())?;
-        leg(&*self.mechanism, state, plan, watch)
+        segment(&*self.mechanism, state, plan, watch)
     }
 
-    fn race(&self, from: Option<&[f64]>, options: &Options<f64>) -> Result<Race, String> {
+    fn timed_run(&self, from: Option<&[f64]>, options: &Options<f64>) -> Result<TimedRun, String> {
         let start = self.state(from)?;
         let begun = Instant::now();
         let result = simulate(&*self.mechanism, &start, options, &mut []);
         let wall = begun.elapsed();
         let summary = result.map_err(|failure| failure.error.to_string())?;
-        Ok(Race {
+        Ok(TimedRun {
             end: summary.end.q.iter().copied().collect(),
             steps: summary.steps,
             evaluations: summary.evaluations,

@@ -1,7 +1,7 @@
 //! Runs a mechanism whose type and sizes are forgotten, in the same program or in one of
 //! its own.
 //!
-//! [`forget`] makes an [`AnyMechanism`] of a generated mechanism; everything behind it is
+//! [`erase_type`] makes an [`AnyMechanism`] of a generated mechanism; everything behind it is
 //! compiled once for each pair of sizes. [`serve`] puts one behind standard input and
 //! output, for a program that does nothing else; [`Link`] is the other end, and an
 //! [`AnyMechanism`] too. [`Precise`], with [`serve_precise`] and [`PreciseLink`], is the
@@ -12,18 +12,18 @@
 
 mod any;
 mod column;
-mod leg;
 mod link;
 mod precise;
 mod scene;
+mod segment;
 mod serve;
 mod wire;
 mod writer;
 
-pub use any::{AnyMechanism, Given, Race, forget, state_of};
+pub use any::{AnyMechanism, Given, TimedRun, erase_type, state_of};
 pub use column::{Column, WORDS, heads};
-pub use leg::{Leg, Reached, Watch};
 pub use link::Link;
 pub use precise::{Around, Changes, Exact, Path, Precise, PreciseLink, serve_precise};
 pub use scene::{Drawn, Scene};
+pub use segment::{Reached, Segment, Watch};
 pub use serve::{serve, with_room};

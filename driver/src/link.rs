@@ -5,9 +5,9 @@
 //!
 //! The program ends with its [`Link`].
 
-use crate::any::{AnyMechanism, Given, Race};
-use crate::leg::{Leg, Reached, Watch};
+use crate::any::{AnyMechanism, Given, TimedRun};
 use crate::scene::Scene;
+use crate::segment::{Reached, Segment, Watch};
 use crate::wire::{Reply, Request, Wire, receive, send};
 use bricard_runtime::{Options, Structure};
 use std::cell::RefCell;
@@ -134,10 +134,10 @@ impl AnyMechanism for Link {
         self.tell(&Request::Begin(given));
     }
 
-    fn leg(&self, leg: &Leg, watch: &mut dyn Watch) -> Result<Reached, String> {
+    fn segment(&self, segment: &Segment, watch: &mut dyn Watch) -> Result<Reached, String> {
         let mut ends = self.ends.borrow_mut();
         let mut stopped = false;
-        let told = ends.tell(&Request::Leg(leg.clone()));
+        let told = ends.tell(&Request::Segment(segment.clone()));
         told.map_err(|error| ends.gone(&error))?;
         loop {
             let flow = match receive(&mut ends.from).map_err(|error| ends.gone(&error))? {
@@ -145,7 +145,7 @@ impl AnyMechanism for Link {
                 Reply::Row(_) | Reply::At(..) if stopped => continue,
                 Reply::Row(values) => watch.row(&values),
                 Reply::At(t, steps) => watch.at(t, steps),
-                Reply::Leg(reached) => return reached,
+                Reply::Segment(reached) => return reached,
                 _ => return Err(Ends::NONSENSE.to_string()),
             };
             if flow.is_break() {
@@ -156,13 +156,13 @@ impl AnyMechanism for Link {
         }
     }
 
-    fn race(&self, from: Option<&[f64]>, options: &Options<f64>) -> Result<Race, String> {
+    fn timed_run(&self, from: Option<&[f64]>, options: &Options<f64>) -> Result<TimedRun, String> {
         match self
             .ends
             .borrow_mut()
-            .ask(&Request::Race(from.map(<[f64]>::to_vec), *options))?
+            .ask(&Request::TimedRun(from.map(<[f64]>::to_vec), *options))?
         {
-            Reply::Race(race) => race,
+            Reply::TimedRun(timed) => timed,
             _ => Err(Ends::NONSENSE.to_string()),
         }
     }

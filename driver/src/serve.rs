@@ -3,8 +3,8 @@
 //! In:  requests on standard input.
 //! Out: replies on standard output.
 
-use crate::any::{AnyMechanism, forget};
-use crate::leg::Watch;
+use crate::any::{AnyMechanism, erase_type};
+use crate::segment::Watch;
 use crate::wire::{Reply, Request, Wire, receive, send};
 use bricard_runtime::{Real, Solver, Whole};
 use std::io::{self, BufWriter, Stdout, Write};
@@ -32,7 +32,7 @@ static WANTED: AtomicBool = AtomicBool::new(false);
 /// Answers what is asked about a mechanism until nobody asks any more: the whole of a
 /// program's `main`.
 pub fn serve<const N: usize, const R: usize>(make: fn() -> Box<dyn Whole<f64, N, R>>) -> ExitCode {
-    with_room::<f64, N, R>(move || match answer(forget(make())) {
+    with_room::<f64, N, R>(move || match answer(erase_type(make())) {
         Ok(()) => ExitCode::SUCCESS,
         // Nobody is there to be told.
         Err(_) => ExitCode::FAILURE,
@@ -85,8 +85,10 @@ fn answer(mut mechanism: Box<dyn AnyMechanism>) -> io::Result<()> {
                 continue;
             }
             Request::Stop => continue,
-            Request::Leg(leg) => Reply::Leg(mechanism.leg(&leg, &mut out)),
-            Request::Race(from, options) => Reply::Race(mechanism.race(from.as_deref(), &options)),
+            Request::Segment(segment) => Reply::Segment(mechanism.segment(&segment, &mut out)),
+            Request::TimedRun(from, options) => {
+                Reply::TimedRun(mechanism.timed_run(from.as_deref(), &options))
+            }
             Request::Scene(rows) => Reply::Scene(mechanism.scene(&rows)),
         };
         out.send(&reply)?;

@@ -1,13 +1,13 @@
 //! Simulates a part of a run and turns its states into rows.
 //!
-//! In:  a mechanism, a state, a [`Leg`].
+//! In:  a mechanism, a state, a [`Segment`].
 //! Out: rows to a [`Watch`], [`Reached`].
 //!
 //! Compiled once for each pair of sizes.
 
 use crate::any::row_of;
 use crate::column::Column;
-use crate::leg::{CALM_SINE, EXTRA_STEPS, Leg, Reached, STEPS, Watch};
+use crate::segment::{CALM_SINE, EXTRA_STEPS, Reached, STEPS, Segment, Watch};
 use bricard_runtime::{
     BadInterval, DynamicsError, Observer, Occurrence, Origin, Passage, Probe, Sampler, State, Step,
     Summary, Whole, simulate,
@@ -23,15 +23,15 @@ use std::time::{Duration, Instant};
 ///
 /// In words, why it could not begin. That it could not go on is no error here: what was
 /// done until then is kept.
-pub(crate) fn leg<const N: usize, const R: usize>(
+pub(crate) fn segment<const N: usize, const R: usize>(
     mechanism: &dyn Whole<f64, N, R>,
     state: State<f64, N>,
-    leg: &Leg,
+    segment: &Segment,
     watch: &mut dyn Watch,
 ) -> Result<Reached, String> {
-    let mut writer = Writer::new(leg, state, watch).map_err(|error| error.to_string())?;
+    let mut writer = Writer::new(segment, state, watch).map_err(|error| error.to_string())?;
     let begun = Instant::now();
-    let result = simulate(mechanism, &state, &leg.options, &mut [&mut writer]);
+    let result = simulate(mechanism, &state, &segment.options, &mut [&mut writer]);
     let wall = begun.elapsed();
     let (summary, error) = match result {
         Ok(summary) => (summary, None),
@@ -52,7 +52,7 @@ const SHORT: f64 = 1e-9;
 
 /// Turns states into rows, and takes note of what happened on the way.
 struct Writer<'a, const N: usize> {
-    leg: &'a Leg,
+    segment: &'a Segment,
     watch: &'a mut dyn Watch,
     sampler: Option<Sampler<f64, Collect<N>>>,
     sampled: States<N>,
@@ -70,12 +70,12 @@ struct Writer<'a, const N: usize> {
 
 impl<'a, const N: usize> Writer<'a, N> {
     fn new(
-        leg: &'a Leg,
+        segment: &'a Segment,
         first: State<f64, N>,
         watch: &'a mut dyn Watch,
     ) -> Result<Self, BadInterval<f64>> {
         let sampled = States::default();
-        let mut sampler = match leg.every {
+        let mut sampler = match segment.every {
             Some(every) => {
                 let states = Rc::clone(&sampled);
                 let collect: Collect<N> = Box::new(move |state| {
@@ -86,16 +86,16 @@ impl<'a, const N: usize> Writer<'a, N> {
             }
             None => None,
         };
-        let origin = leg.options.origin;
+        let origin = segment.options.origin;
         if let (Some(sampler), Some(origin)) = (&mut sampler, origin) {
-            sampler.go_on(origin.t, leg.rows);
+            sampler.go_on(origin.t, segment.rows);
         }
         Ok(Self {
-            leg,
+            segment,
             watch,
             sampler,
             sampled,
-            rows: leg.rows,
+            rows: segment.rows,
             steps: 0,
             first,
             last: first.t,
@@ -138,15 +138,15 @@ impl<'a, const N: usize> Writer<'a, N> {
         probe: &mut dyn Probe<f64, N>,
     ) -> Result<bool, DynamicsError<f64>> {
         self.steps += 1;
-        Ok(self.leg.short
+        Ok(self.segment.short
             && self.steps >= STEPS
             && (self.steps >= STEPS + EXTRA_STEPS || probe.rank(state)?.sine >= CALM_SINE))
     }
 
     /// Adds a row at the end of the run, where the last interval is a short one.
     fn end(&mut self, state: &State<f64, N>) {
-        let until = self.leg.options.until;
-        let Some(every) = self.leg.every.filter(|_| state.t >= until) else {
+        let until = self.segment.options.until;
+        let Some(every) = self.segment.every.filter(|_| state.t >= until) else {
             return;
         };
         let mut sampled = self.sampled.borrow_mut();
@@ -163,7 +163,7 @@ impl<'a, const N: usize> Writer<'a, N> {
     ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
         let states: Vec<_> = self.sampled.borrow_mut().drain(..).collect();
         for state in &states {
-            let row = row(state, &self.leg.columns, probe)?;
+            let row = row(state, &self.segment.columns, probe)?;
             if self.watch.row(&row).is_break() {
                 return Ok(ControlFlow::Break(()));
             }

@@ -15,7 +15,7 @@ mod run {
     pub use crate::report::Report;
 }
 
-use bricard_driver::{Leg, Watch, forget};
+use bricard_driver::{Segment, Watch, erase_type};
 use bricard_runtime::{Interface, Mechanism, Options, Visitor};
 use libfuzzer_sys::fuzz_target;
 use serde_json::Value;
@@ -53,7 +53,7 @@ impl Visitor<f64> for GoesOn<'_> {
         let mut options = Options::dop853(t + FURTHER, 1e-6);
         options.most_steps = Some(MOST_STEPS);
         options.origin = Some(checkpoint.origin);
-        let leg = Leg {
+        let segment = Segment {
             options,
             from: Some(checkpoint.state.clone()),
             every: None,
@@ -63,7 +63,7 @@ impl Visitor<f64> for GoesOn<'_> {
         };
         let structure = mechanism.structure();
         let mut report = checkpoint.report;
-        match forget::<N, R>(Box::new(mechanism)).leg(&leg, &mut Nobody) {
+        match erase_type::<N, R>(Box::new(mechanism)).segment(&segment, &mut Nobody) {
             Ok(reached) => {
                 let silent = reached.error.as_ref().is_some_and(String::is_empty);
                 assert!(!silent, "failed without a word");

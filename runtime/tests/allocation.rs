@@ -1,7 +1,7 @@
 //! Nothing allocates: a counting allocator proves it.
 
+use crate::fixtures::{Framed, PLAIN};
 use crate::mechanisms::{FourBars, Passing, SliderCrank};
-use crate::toys::{Framed, PLAIN};
 use allocation_counter::measure;
 use bricard_runtime::{
     Form, Options, Pace, Scheme, Settings, Stabilisation, Start, State, Stepper, Structure,

@@ -1,7 +1,7 @@
 //! Initial states: held values, guesses, singular positions, contradictions.
 
+use crate::fixtures::{BEAD, Bead, Framed};
 use crate::mechanisms::{FourBars, SliderCrank};
-use crate::toys::{BEAD, Bead, Framed};
 use bricard_runtime::{
     AssemblyError, Initial, Mechanism, Position, Start, State, Structure, assemble,
 };

@@ -2,8 +2,8 @@
 //!
 //! `BRICARD_LONG=1` makes a million passages instead of two hundred.
 
+use crate::fixtures::{Framed, Oscillator, PLAIN};
 use crate::mechanisms::{FourBars, Passing, SliderCrank};
-use crate::toys::{Framed, Oscillator, PLAIN};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{Options, Pace, Scheme, SimulateError, State, Structure, simulate};
 

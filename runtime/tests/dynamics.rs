@@ -1,10 +1,10 @@
 //! Accelerations, reactions and projections: the forms against each other, against
 //! exact motions, at singular positions and beside them.
 
+use crate::fixtures::{Framed, PLAIN};
 use crate::mechanisms::{
     COUNT, FourBars, Hung, Massless, Parallelogram, Passing, Side, Sled, SliderCrank, Spring, Twice,
 };
-use crate::toys::{Framed, PLAIN};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     ConstrainedSystem, DynamicsError, Form, Integrator, Mechanism, Options, Rk4, Settings, Solver,

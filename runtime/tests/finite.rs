@@ -1,7 +1,7 @@
 //! What is not a number is not swallowed: a run whose energy, power or event functions stop
 //! being numbers says which.
 
-use crate::toys::{Framed, Oscillator, PLAIN};
+use crate::fixtures::{Framed, Oscillator, PLAIN};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Audit, Direction, DynamicsError, Energy, Event, IntegrateError, Mechanism, Options, Pace,

@@ -1,6 +1,6 @@
 //! Steps: order, interpolants, step-size control, typed errors.
 
-use crate::toys::{Free, distance, kepler, kepler_exact, kepler_start};
+use crate::fixtures::{Free, distance, kepler, kepler_exact, kepler_start};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Dop853, Dp5, DynamicsError, IntegrateError, Integrator, Rk4, State, System, Tolerance,

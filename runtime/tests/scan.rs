@@ -3,8 +3,8 @@
 //!
 //! `BRICARD_LONG=1` takes 200 starts instead of 12.
 
+use crate::fixtures::{Framed, PLAIN};
 use crate::mechanisms::{FourBars, Passing, Reduced, SliderCrank};
-use crate::toys::{Framed, PLAIN};
 use bricard_runtime::{Audit, Mechanism, Options, State, Structure, simulate};
 use core::fmt::{Display, Formatter, Result};
 

@@ -1,7 +1,7 @@
 //! Runs: the paper's figures, options, audits, rows, events, forms, the stepper.
 
+use crate::fixtures::{BEAD, Bead, Framed, MOVING_BEAD, Oscillator, PLAIN, distance};
 use crate::mechanisms::{FourBars, Passing, SliderCrank};
-use crate::toys::{BEAD, Bead, Framed, MOVING_BEAD, Oscillator, PLAIN, distance};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Audit, Direction, DynamicsError, Event, Form, IntegrateError, Observer, Occurrence, Options,

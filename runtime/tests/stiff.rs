@@ -1,8 +1,8 @@
 //! The implicit method: order, stiffness, singular positions.
 
+use crate::fixtures::{Framed, Free, PLAIN, distance, kepler, kepler_exact, kepler_start};
 use crate::integrator::inside_order;
 use crate::mechanisms::{FourBars, Passing};
-use crate::toys::{Framed, Free, PLAIN, distance, kepler, kepler_exact, kepler_start};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Dp5, Integrator, Options, Pace, Radau5, Radau9, Scheme, State, Structure, Tolerance, simulate,

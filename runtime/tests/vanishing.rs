@@ -1,7 +1,7 @@
 //! Constraints whose gradient vanishes wherever they hold restrict no motion, and are
 //! refused; those whose gradient vanishes at one place are passed.
 
-use crate::toys::{Framed, PLAIN};
+use crate::fixtures::{Framed, PLAIN};
 use bricard_runtime::nalgebra::{SMatrix, SVector};
 use bricard_runtime::{
     ConstraintRow, DynamicsError, Energy, IntegrateError, Mechanism, Options, Position, Quantity,
@@ -95,6 +95,12 @@ fn cross(q: &SVector<f64, 2>) -> Jet {
     (x * y, [y, x].into(), [[0.0, 1.0], [1.0, 0.0]].into())
 }
 
+/// Zero at one place alone.
+fn distance(q: &SVector<f64, 2>) -> Jet {
+    let away = q - SVector::from([1.0, 1.0]);
+    (away.norm_squared(), away * 2.0, SMatrix::identity() * 2.0)
+}
+
 /// Two parabolas that touch.
 fn touching(q: &SVector<f64, 2>) -> Jet {
     let (x, y) = (q[0] - 1.0, q[1] - 1.0);
@@ -117,9 +123,16 @@ fn a_gradient_that_vanishes_wherever_the_constraint_holds_is_refused_at_the_star
         n: 2,
         excess: 0.0,
     };
+    let point = Power {
+        u: distance,
+        n: 1,
+        excess: 0.0,
+    };
     for (mechanism, start) in [
         (twice, state([0.6, 0.8], [0.0, 0.0])),
         (twice, state([0.6, 0.8], [0.8, -0.6])),
+        (point, state([1.0, 1.0], [0.0, 0.0])),
+        (point, state([1.0 - 1e-16, 1.0 + 2e-16], [0.0, 0.0])),
     ] {
         for options in [Options::rk4(2.0, 0.01), Options::dp5(2.0, 1e-8)] {
             let mechanism = Framed::new(mechanism, &LOOSE);

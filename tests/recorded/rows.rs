@@ -1,6 +1,6 @@
 //! Rows of a run.
 
-use bricard_driver::{Column, Leg, Reached, Watch, forget, heads};
+use bricard_driver::{Column, Reached, Segment, Watch, erase_type, heads};
 use bricard_runtime::{Options, Pace, Scheme, Structure, Whole};
 use std::ops::ControlFlow;
 
@@ -47,7 +47,7 @@ where
     M: Whole<f64, N, R> + 'static,
 {
     let structure: &'static Structure = mechanism.structure();
-    let leg = Leg {
+    let segment = Segment {
         options,
         from: None,
         every: Some(0.05),
@@ -58,8 +58,8 @@ where
     let mut names = heads(structure);
     names.extend(columns.iter().map(|column| column.name(structure)));
     let mut keep = Keep(Vec::new());
-    let reached = forget::<N, R>(Box::new(mechanism))
-        .leg(&leg, &mut keep)
+    let reached = erase_type::<N, R>(Box::new(mechanism))
+        .segment(&segment, &mut keep)
         .unwrap_or_else(|error| panic!("{error}"));
     Rows {
         names,

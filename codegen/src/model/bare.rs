@@ -116,7 +116,10 @@ impl Evaluator {
             return error;
         };
         let unit = unit.text();
-        let name = if unit == "m/s^2" { "g" } else { "a" };
+        let usual = if unit == "m/s^2" { "g" } else { "a" };
+        let free = |name: &&str| self.scope.get(name).is_none();
+        let names = [usual, "c0", "c1", "c2"];
+        let name = names.into_iter().find(free).unwrap_or("c3");
         let number = figure(bare.number.to_f64());
         error.also(bare.span, "this has no unit").help(format!(
             "a bare number has no unit: declare `const {name}: {unit} = {number};` and write `{name}`"

@@ -32,7 +32,7 @@ const OTHERS: [(&str, usize, &str); 17] = [
 ];
 
 /// Names that other languages have for the same.
-const ELSEWHERE: [(&str, &str); 24] = [
+const ELSEWHERE: [(&str, &str); 25] = [
     ("integral", "state z; der(z) = x;"),
     ("integrate", "state z; der(z) = x;"),
     ("int", "state z; der(z) = x;"),
@@ -51,6 +51,7 @@ const ELSEWHERE: [(&str, &str); 24] = [
     ("pow", "x^n"),
     ("sgn", "sign(x)"),
     ("diff", "der(x)"),
+    ("ddot", "der(der(x))"),
     ("ddt", "der(x)"),
     ("d", "der(x)"),
     ("length", "norm(v)"),

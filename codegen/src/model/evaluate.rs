@@ -258,6 +258,14 @@ impl Evaluator {
             let entry = self.scope.get(name);
             entry.is_some_and(|entry| entry.kind == Kind::Coordinate)
         };
+        let twice = ["_ddot", "ddot", "_dd", "dd"].map(|end| name.strip_suffix(end));
+        let twice = twice.into_iter().chain([name.strip_prefix("dd")]);
+        if let Some(coordinate) = twice.flatten().find(moves) {
+            return Some(format!(
+                "the acceleration of `{coordinate}` is written `der(der({coordinate}))`, in \
+                 outputs alone"
+            ));
+        }
         let coordinate = behind.into_iter().chain(before).flatten().find(moves)?;
         Some(format!(
             "the velocity of `{coordinate}` is written `der({coordinate})`"

@@ -5,6 +5,7 @@ use super::cursor::{Cursor, DIRECTIONS, Parsed, SHAPES, STATEMENTS};
 use super::model::Model;
 use super::token::TokenKind;
 use crate::diagnostic::{Diagnostic, nearest};
+use crate::expr::Function;
 
 const FILE: &str = "a description is written `mechanism Name { … }`";
 const FOR: &str = "repetition is written `for i in 0..K { … }`";
@@ -150,6 +151,9 @@ impl Cursor<'_> {
             let right = if right == "(" { "(…)" } else { right };
             let help = match right {
                 "if" => "a choice is written `if a < b then x else y`".to_string(),
+                _ if Function::ALL.iter().any(|(_, name)| *name == left) => {
+                    format!("write `{left}({right})`")
+                }
                 _ => format!("a product is written with `*`: `{left}*{right}`"),
             };
             return Err(self.unexpected("an operator or `;`", &help));

@@ -1,7 +1,9 @@
 //! The `start` block: values that are held, guesses, and `for` over them.
 
-use super::ast::StartItem;
+use super::ast::{Expr, ExprKind, StartItem};
 use super::cursor::{Cursor, Parsed};
+use super::token::TokenKind;
+use crate::diagnostic::Diagnostic;
 
 const HELP: &str = "an entry is written `q1 = 45*deg;` (held) or `q2 ~ 0.7;` (a guess)";
 
@@ -33,6 +35,7 @@ impl Cursor<'_> {
         self.advance();
         let value = self.expression()?;
         if !self.at_symbol("}") {
+            self.no_unit_behind_value(&value)?;
             self.expect_symbol(";", HELP)?;
         }
         Ok(StartItem::Entry {
@@ -40,5 +43,24 @@ impl Cursor<'_> {
             held,
             value,
         })
+    }
+
+    /// Refuses a unit behind the number that a start value is.
+    fn no_unit_behind_value(&mut self, value: &Expr) -> Parsed<()> {
+        let next = self.peek();
+        let same_line = next.span.start.line == value.span.end.line;
+        let (TokenKind::Word(unit), ExprKind::Number(_), true) =
+            (next.kind.clone(), &value.kind, same_line)
+        else {
+            return Ok(());
+        };
+        let number = value.span.text(self.source);
+        let help = match unit.as_str() {
+            "deg" => format!("write `{number}*deg`"),
+            _ => format!("values are in SI units and have none behind them: write `{number}`"),
+        };
+        let message = "a unit does not stand behind a number";
+        let error = Diagnostic::error(self.span(), message);
+        Err(self.fail(error.help(help)))
     }
 }

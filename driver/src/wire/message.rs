@@ -1,7 +1,7 @@
 //! What is said between a mechanism in a program of its own and whoever started it.
 
 use super::{Wire, record::choices};
-use crate::{Around, Changes, Exact, Given, Leg, Path, Race, Reached, Scene};
+use crate::{Around, Changes, Exact, Given, Path, Reached, Scene, Segment, TimedRun};
 use bricard_runtime::{Options, Structure};
 
 /// What the mechanism is asked for.
@@ -13,12 +13,12 @@ pub(crate) enum Request {
     Input(usize, f64),
     /// Gives a value at the start. Not answered.
     Begin(Given),
-    /// Wants any number of [`Reply::Row`] and [`Reply::At`], and [`Reply::Leg`].
-    Leg(Leg),
+    /// Wants any number of [`Reply::Row`] and [`Reply::At`], and [`Reply::Segment`].
+    Segment(Segment),
     /// Breaks a part of a run off, which is then answered as it stands.
     Stop,
-    /// Wants [`Reply::Race`].
-    Race(Option<Vec<f64>>, Options<f64>),
+    /// Wants [`Reply::TimedRun`].
+    TimedRun(Option<Vec<f64>>, Options<f64>),
     /// Wants [`Reply::Scene`].
     Scene(Vec<Vec<f64>>),
 }
@@ -33,9 +33,9 @@ pub(crate) enum Reply {
     /// How far a run has come, and in how many steps since the last time.
     At(f64, u64),
     /// The end of a part of a run.
-    Leg(Result<Reached, String>),
+    Segment(Result<Reached, String>),
     /// The end of a run against the clock.
-    Race(Result<Race, String>),
+    TimedRun(Result<TimedRun, String>),
     /// What can be seen in some rows.
     Scene(Result<Scene, String>),
 }
@@ -62,11 +62,11 @@ choices! {
     Question { 0 => Exact(changes, until), 1 => Path(around) }
     Answer { 0 => Exact(exact), 1 => Path(path) }
     Request {
-        0 => Parameter(place, value), 1 => Input(place, value), 2 => Begin(given), 3 => Leg(leg),
-        4 => Stop, 5 => Race(from, options), 6 => Scene(rows)
+        0 => Parameter(place, value), 1 => Input(place, value), 2 => Begin(given),
+        3 => Segment(segment), 4 => Stop, 5 => TimedRun(from, options), 6 => Scene(rows)
     }
     Reply {
-        0 => Structure(structure), 1 => Row(values), 2 => At(time, steps), 3 => Leg(reached),
-        4 => Race(race), 5 => Scene(scene)
+        0 => Structure(structure), 1 => Row(values), 2 => At(time, steps), 3 => Segment(reached),
+        4 => TimedRun(timed), 5 => Scene(scene)
     }
 }

@@ -1,7 +1,9 @@
 //! Structs and enums of the runtime as bytes: field by field, variant by variant.
 
 use super::Wire;
-use crate::{Around, Changes, Column, Drawn, Exact, Given, Leg, Path, Race, Reached, Scene};
+use crate::{
+    Around, Changes, Column, Drawn, Exact, Given, Path, Reached, Scene, Segment, TimedRun,
+};
 use bricard_runtime::{
     Audit, ConstraintRow, Counters, Declared, Direction, Event, Form, Multiplier, Options, Origin,
     Pace, Passage, Quantity, Scheme, Settings, Stabilisation, Structure,
@@ -77,13 +79,13 @@ records! {
         projections, projection_iterations, robust_projections
     }
     Given { coordinate, velocity, held, value }
-    Race { end, steps, evaluations, wall }
+    TimedRun { end, steps, evaluations, wall }
     Changes { parameters, inputs, given }
     Exact { end, error }
     Around { about, places, span }
     Path { passage, rows }
     Scene { parameters, shapes, frames }
-    Leg { options, from, every, columns, rows, short }
+    Segment { options, from, every, columns, rows, short }
     Reached {
         state, origin, rows, error, steps, rejected, wall, constraint_error, energy_error,
         passages, events, counters

@@ -1,7 +1,7 @@
 //! What is sent arrives to the same bits, or not at all.
 
 use super::{Reply, Request, receive, send};
-use crate::{Column, Drawn, Given, Leg, Reached, Scene};
+use crate::{Column, Drawn, Given, Reached, Scene, Segment};
 use bricard_runtime::{
     ConstraintRow, Counters, Direction, Event, Options, Origin, Pace, Passage, Quantity, Scheme,
     Stabilisation, Structure,
@@ -37,7 +37,7 @@ fn structure() -> Structure {
     }
 }
 
-fn leg() -> Leg {
+fn segment() -> Segment {
     let mut options = Options::new(1.0, Scheme::Radau9, Pace::Fixed { step: 0.1 + 0.2 });
     options.settings.stabilisation = Stabilisation::Baumgarte {
         alpha: 1e-300,
@@ -49,7 +49,7 @@ fn leg() -> Leg {
         energy: -1.5,
         supplied: f64::INFINITY,
     });
-    Leg {
+    Segment {
         options,
         from: Some(vec![0.3, f64::MIN_POSITIVE]),
         every: None,
@@ -99,9 +99,9 @@ fn messages_arrive_as_they_were_sent() {
     for request in [
         Request::Parameter(3, 0.1),
         Request::Begin(given),
-        Request::Leg(leg()),
+        Request::Segment(segment()),
         Request::Stop,
-        Request::Race(None, leg().options),
+        Request::TimedRun(None, segment().options),
         Request::Scene(vec![vec![0.0, 1.5], Vec::new()]),
     ] {
         let arrived: Request = receive(&mut &bytes(&request)[..]).expect("it is whole");
@@ -111,8 +111,8 @@ fn messages_arrive_as_they_were_sent() {
         Reply::Structure(structure()),
         Reply::Row(vec![0.1, -0.0]),
         Reply::At(1.5, 32),
-        Reply::Leg(Ok(reached())),
-        Reply::Leg(Err("no start".to_string())),
+        Reply::Segment(Ok(reached())),
+        Reply::Segment(Err("no start".to_string())),
         Reply::Scene(Ok(Scene {
             parameters: vec![0.5],
             shapes: vec![
@@ -142,7 +142,7 @@ fn numbers_arrive_to_the_same_bits() {
 
 #[test]
 fn what_is_cut_short_or_goes_on_is_no_message() {
-    let whole = bytes(&Reply::Leg(Ok(reached())));
+    let whole = bytes(&Reply::Segment(Ok(reached())));
     for length in 0..whole.len() {
         assert!(receive::<Reply>(&mut &whole[..length]).is_err(), "{length}");
     }

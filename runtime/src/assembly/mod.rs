@@ -26,7 +26,7 @@ mod velocity;
 pub use equations::{StartEquations, StartFault, guess, meet};
 pub use error::AssemblyError;
 
-use crate::{Mechanism, Position, Real, Start, State};
+use crate::{Mechanism, Position, Real, Start, State, Terms};
 use nalgebra::SVector;
 
 /// Finds the state at time `t` (s) that keeps the held values of `start` and is
@@ -82,12 +82,20 @@ where
     T: Real,
     M: Mechanism<T, N, R> + ?Sized,
 {
-    let mut at = Position::default();
-    mechanism.position(state, &mut at);
-    if at.mass.iter().any(|x| !x.is_finite()) {
+    // Without constraints there are no projections, and nothing to tell of positions.
+    let mass = if R > 0 {
+        let mut at = Position::default();
+        mechanism.position(state, &mut at);
+        at.mass
+    } else {
+        let mut at = Terms::default();
+        mechanism.terms(state, &mut at);
+        at.mass
+    };
+    if mass.iter().any(|x| !x.is_finite()) {
         return Err(AssemblyError::NotFinite { t: state.t });
     }
-    match inertia::negative(&at.mass) {
+    match inertia::negative(&mass) {
         Some(coordinate) => Err(AssemblyError::NegativeInertia {
             t: state.t,
             structure: mechanism.structure(),

@@ -152,8 +152,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// Whether the combination of rows that loses its gradient at a state is like a square
-    /// that vanishes along a line: its second derivatives have one sign but for directions
-    /// along which it is flat, and there it does not become negative.
+    /// that vanishes along a line, or a sum of squares that vanishes at a point: its second
+    /// derivatives have one sign but for directions along which it is flat, and there it
+    /// does not become negative.
     fn is_square<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -180,9 +181,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             let right = solver.scaled(&solver.position.residual);
             dot(&combined.left.data.0[rank], &right) * sign
         };
-        let mut lines = 0;
         for k in (0..count).filter(flat) {
-            lines += 1;
             let mut along = [T::zero(); N];
             for (share, axis) in vectors[k].iter().zip(&kernel.data.0[..count]) {
                 add_scaled(&mut along, *share, axis);
@@ -194,7 +193,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 }
             }
         }
-        lines > 0
+        true
     }
 
     /// Whether a rank next to a state is still there where the constraints hold.

@@ -1,8 +1,9 @@
-//! Passing a singular position costs no accuracy, wherever the steps land.
+//! The passage through a singular configuration costs no accuracy, wherever the stages
+//! of a step are placed.
 //!
-//! A run begins on the exact motion so that a stage of its first step lands at a
+//! A run begins on the exact motion so that a stage of its first step lies at a
 //! distance `d` from the singular position, `d = ±{1, 3.3}·10⁻ᵏ`, `k = 1…16`, and is
-//! followed for 0.4 s. No landing may be much worse than the median of all.
+//! followed for 0.4 s. No placement may be much worse than the median of all.
 
 use crate::reduction::{Motion, Reduction};
 use bricard_runtime::nalgebra::SVector;
@@ -13,7 +14,7 @@ use bricard_runtime::{
 /// How long a motion is followed (s).
 const SPAN: f64 = 0.4;
 
-/// How much worse than the median the worst landing may be.
+/// How much worse than the median the worst placement may be.
 const SPREAD: f64 = 2.0;
 
 /// The least order that the median shows.
@@ -35,17 +36,17 @@ pub enum Stage {
     Last,
 }
 
-/// All landings with one step size.
-pub struct Landings {
+/// All placements with one step size.
+pub struct Placements {
     reduction: Reduction,
     rate: f64,
     steps: usize,
 }
 
-/// The errors of all landings, with the stage and the distance.
+/// The errors of all placements, with the stage and the distance.
 pub type Errors = Vec<(f64, Stage, f64)>;
 
-impl Visitor<f64> for Landings {
+impl Visitor<f64> for Placements {
     type Output = Errors;
 
     fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
@@ -67,7 +68,7 @@ impl Visitor<f64> for Landings {
     }
 }
 
-impl Landings {
+impl Placements {
     fn step(&self) -> f64 {
         SPAN / self.steps as f64
     }
@@ -88,7 +89,7 @@ impl Landings {
     }
 
     /// The first coordinate at a stage of the step that begins at a time.
-    fn landed<M, const N: usize, const R: usize>(&self, mechanism: &M, stage: Stage, t: f64) -> f64
+    fn placed<M, const N: usize, const R: usize>(&self, mechanism: &M, stage: Stage, t: f64) -> f64
     where
         M: Mechanism<f64, N, R> + ?Sized,
     {
@@ -114,7 +115,7 @@ impl Landings {
         }
     }
 
-    /// The time at which a step begins whose stage lands at a distance from the
+    /// The time at which a step begins whose stage lies at a distance from the
     /// singular position, by the secant method.
     fn aimed<M, const N: usize, const R: usize>(
         &self,
@@ -131,7 +132,7 @@ impl Landings {
             Stage::Last => 1.0,
         };
         let target = self.reduction.singular() + distance;
-        let miss = |t: f64| self.landed(mechanism, stage, t) - target;
+        let miss = |t: f64| self.placed(mechanism, stage, t) - target;
         let mut at = distance / self.rate - abscissa * self.step();
         for _ in 0..8 {
             let gap = miss(at);
@@ -164,16 +165,16 @@ impl Landings {
     }
 }
 
-/// What is wrong with the landings of a mechanism; `visited` shows it to them.
+/// What is wrong with the placements of a mechanism; `visited` shows it to them.
 pub fn judged(
     reduction: Reduction,
     rate: f64,
-    visited: &dyn Fn(Landings) -> Errors,
+    visited: &dyn Fn(Placements) -> Errors,
 ) -> Vec<String> {
     let mut failures = Vec::new();
     let mut medians = Vec::new();
     for steps in [20, 40, 80, 160] {
-        let mut errors = visited(Landings {
+        let mut errors = visited(Placements {
             reduction,
             rate,
             steps,
@@ -184,7 +185,7 @@ pub fn judged(
         if worst > SPREAD * median {
             failures.push(format!(
                 "{}, {steps} steps: median {median:.1e}, worst {worst:.1e} where stage \
-                 {stage:?} lands at {distance:e}",
+                 {stage:?} lies at {distance:e}",
                 reduction.name()
             ));
         }
@@ -201,11 +202,11 @@ pub fn judged(
 }
 
 #[test]
-fn no_landing_is_much_worse_than_the_median_and_the_median_is_of_order_four() {
+fn no_placement_is_much_worse_than_the_median_and_the_median_is_of_order_four() {
     let mut failures = Vec::new();
     for (reduction, rate) in RATES {
-        failures.extend(judged(reduction, rate, &|landings| {
-            let errors = bricard::visit::<f64, _>(reduction.name(), landings);
+        failures.extend(judged(reduction, rate, &|placements| {
+            let errors = bricard::visit::<f64, _>(reduction.name(), placements);
             errors.expect("a name of the catalogue")
         }));
     }

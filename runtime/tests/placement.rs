@@ -1,8 +1,9 @@
-//! Passing a singular position costs no accuracy, wherever the steps land.
+//! The passage through a singular configuration costs no accuracy, wherever the stages
+//! of a step are placed.
 //!
-//! A step begins on the exact motion so that one of its stages lands at a distance
+//! A step begins on the exact motion so that one of its stages lies at a distance
 //! `d` from the singular position, `d = ±{1, 3.3}·10⁻ᵏ`, `k = 1…16`; the motion is
-//! followed for 0.4 s and compared with the exact one. No landing may be much worse
+//! followed for 0.4 s and compared with the exact one. No placement may be much worse
 //! than the median of all.
 //!
 //! Every day some of the distances are tried; with `BRICARD_LONG` set, all of them.
@@ -15,12 +16,12 @@ use bricard_runtime::{Dop853, Dp5, Integrator, Mechanism, Rk4, Settings, Solver,
 /// How long a motion is followed (s).
 const SPAN: f64 = 0.4;
 
-/// How much worse than the median the worst landing may be.
+/// How much worse than the median the worst placement may be.
 const SPREAD: f64 = 2.0;
 
-/// A median that is round-off, and the worst landing beside it.
+/// A median that is round-off, and the worst placement beside it.
 const FLOOR: f64 = 1e-12;
-const LANDED: f64 = 1e-11;
+const PLACED: f64 = 1e-11;
 
 /// Abscissae of the stages of RK4.
 const RK4: [f64; 3] = [0.0, 0.5, 1.0];
@@ -44,9 +45,9 @@ const DOP853: [f64; 12] = [
     1.0,
 ];
 
-/// Errors of all landings.
+/// Errors of all placements.
 #[derive(Clone, Copy, Debug)]
-struct Landings {
+struct Placements {
     median: f64,
     /// The worst of those near the singular position.
     worst: f64,
@@ -81,7 +82,7 @@ where
     (state.q - exact.q).amax()
 }
 
-/// The distances from the singular position to land at.
+/// The distances from the singular position of the stages.
 fn distances() -> Vec<f64> {
     let long = std::env::var_os("BRICARD_LONG").is_some();
     let exponents: &[i32] = match long {
@@ -102,13 +103,13 @@ fn distances() -> Vec<f64> {
     exponents.iter().flat_map(scaled).collect()
 }
 
-/// All landings of a mechanism with one method and step size.
-fn landings<P, I, const N: usize, const R: usize>(
+/// All placements of a mechanism with one method and step size.
+fn placements<P, I, const N: usize, const R: usize>(
     method: impl Fn() -> I,
     stages: &[f64],
     mechanism: &P,
     steps: u32,
-) -> Landings
+) -> Placements
 where
     P: Passing<N, R>,
     I: Integrator<f64, N>,
@@ -129,16 +130,16 @@ where
             ));
         }
     }
-    Landings::of(errors)
+    Placements::of(errors)
 }
 
-/// The same landings of the exact reduction of a mechanism.
-fn reduced_landings<I: Integrator<f64, 1>>(
+/// The same placements of the exact reduction of a mechanism.
+fn reduced_placements<I: Integrator<f64, 1>>(
     method: impl Fn() -> I,
     stages: &[f64],
     (reduced, (angle, rate)): (&Reduced, (f64, f64)),
     steps: u32,
-) -> Landings {
+) -> Placements {
     let mut errors = Vec::new();
     for stage in stages {
         for distance in distances() {
@@ -154,10 +155,10 @@ fn reduced_landings<I: Integrator<f64, 1>>(
             ));
         }
     }
-    Landings::of(errors)
+    Placements::of(errors)
 }
 
-impl Landings {
+impl Placements {
     /// Of distances and errors.
     fn of(mut errors: Vec<(f64, f64)>) -> Self {
         errors.sort_by(|a, b| f64::total_cmp(&a.1, &b.1));
@@ -174,11 +175,11 @@ impl Landings {
     }
 }
 
-/// RK4 keeps its order and no landing is much worse than the median.
-fn judge_rk4(landings: impl Fn(u32) -> Landings) {
+/// RK4 keeps its order and no placement is much worse than the median.
+fn judge_rk4(placements: impl Fn(u32) -> Placements) {
     let mut before: Option<f64> = None;
     for steps in [20, 40, 80, 160] {
-        let found = landings(steps);
+        let found = placements(steps);
         println!("RK4, {steps} steps: {found:?}");
         assert!(
             found.worst.max(found.regular) <= SPREAD * found.median,
@@ -192,18 +193,18 @@ fn judge_rk4(landings: impl Fn(u32) -> Landings) {
     }
 }
 
-/// No landing of a method of high order is much worse than the median, at the steps
+/// No placement of a method of high order is much worse than the median, at the steps
 /// that RK4 takes; where the median is round-off, none is above 1e-11.
 ///
 /// Starts at different distances are different motions, and the error of a method of
 /// high order may differ from one to the next. So the worst may also be as bad as that
 /// of a start far away, or as the same method makes it on the exact reduction, which
 /// has no singular position.
-fn judge_high(name: &str, landings: impl Fn(u32) -> [Landings; 2]) {
+fn judge_high(name: &str, placements: impl Fn(u32) -> [Placements; 2]) {
     for steps in [20, 40, 80, 160] {
-        let [found, reduced] = landings(steps);
+        let [found, reduced] = placements(steps);
         println!("{name}, {steps} steps: {found:?}, reduced {reduced:?}");
-        let floor = if found.median <= FLOOR { LANDED } else { 0.0 };
+        let floor = if found.median <= FLOOR { PLACED } else { 0.0 };
         let usual = found.median.max(found.regular).max(reduced.worst);
         let bound = floor.max(SPREAD * usual);
         assert!(found.worst <= bound, "{name}, {steps} steps: {found:?}");
@@ -215,7 +216,7 @@ fn check<P, const N: usize, const R: usize>(mechanism: &P)
 where
     P: Passing<N, R>,
 {
-    judge_rk4(|steps| landings(Rk4::new, &RK4, mechanism, steps));
+    judge_rk4(|steps| placements(Rk4::new, &RK4, mechanism, steps));
 }
 
 /// A mechanism with the methods of higher order.
@@ -226,37 +227,37 @@ where
     let reduced = Reduced(mechanism.reduction());
     let reduced = (&reduced, mechanism.singular());
     judge_high("DP5", |steps| {
-        let alone = reduced_landings(Dp5::fixed, &DP5, reduced, steps);
-        [landings(Dp5::fixed, &DP5, mechanism, steps), alone]
+        let alone = reduced_placements(Dp5::fixed, &DP5, reduced, steps);
+        [placements(Dp5::fixed, &DP5, mechanism, steps), alone]
     });
     judge_high("DOP853", |steps| {
-        let alone = reduced_landings(Dop853::fixed, &DOP853, reduced, steps);
-        [landings(Dop853::fixed, &DOP853, mechanism, steps), alone]
+        let alone = reduced_placements(Dop853::fixed, &DOP853, reduced, steps);
+        [placements(Dop853::fixed, &DOP853, mechanism, steps), alone]
     });
 }
 
 #[test]
-fn every_landing_of_the_slider_crank_is_as_good_as_any_other() {
+fn every_placement_of_the_slider_crank_is_as_good_as_any_other() {
     check::<_, 3, 2>(&SliderCrank::default());
 }
 
 #[test]
-fn every_landing_of_the_double_four_bar_is_as_good_as_any_other() {
+fn every_placement_of_the_double_four_bar_is_as_good_as_any_other() {
     check::<_, 5, 4>(&FourBars);
 }
 
 #[test]
-fn every_landing_of_five_loops_in_a_row_is_as_good_as_any_other() {
+fn every_placement_of_five_loops_in_a_row_is_as_good_as_any_other() {
     check::<_, 11, 10>(&FourBars);
 }
 
 #[test]
-fn every_landing_of_a_redundant_parallelogram_is_as_good_as_any_other() {
+fn every_placement_of_a_redundant_parallelogram_is_as_good_as_any_other() {
     check::<_, 6, 6>(&Parallelogram);
 }
 
 #[test]
-fn constraints_written_twice_change_no_landing() {
+fn constraints_written_twice_change_no_placement() {
     check::<_, 3, 4>(&Twice::<_, 2>(SliderCrank::default()));
     check::<_, 5, 8>(&Twice::<_, 4>(FourBars));
     check::<_, 6, 12>(&Twice::<_, 6>(Parallelogram));
@@ -264,7 +265,7 @@ fn constraints_written_twice_change_no_landing() {
 }
 
 #[test]
-fn no_landing_of_a_method_of_high_order_is_worse_than_another() {
+fn no_placement_of_a_method_of_high_order_is_worse_than_another() {
     check_high::<_, 3, 2>(&SliderCrank::default());
     check_high::<_, 5, 4>(&FourBars);
     check_high::<_, 6, 6>(&Parallelogram);
@@ -288,14 +289,14 @@ fn after(span: f64, start: &State<f64, 2>) -> State<f64, 2> {
     State::new(start.t + span, state.q, state.v * sign)
 }
 
-/// All landings of the linkage of two degrees of freedom, or of its reduction: `full`
+/// All placements of the linkage of two degrees of freedom, or of its reduction: `full`
 /// makes a state of it from one of the reduction.
-fn hung_landings<M, I, const N: usize, const R: usize>(
+fn hung_placements<M, I, const N: usize, const R: usize>(
     method: impl Fn() -> I,
     stages: &[f64],
     (mechanism, full): (&M, impl Fn(&State<f64, 2>) -> State<f64, N>),
     steps: u32,
-) -> Landings
+) -> Placements
 where
     M: Mechanism<f64, N, R>,
     I: Integrator<f64, N>,
@@ -312,27 +313,27 @@ where
             errors.push((distance, error));
         }
     }
-    Landings::of(errors)
+    Placements::of(errors)
 }
 
 #[test]
-fn a_second_degree_of_freedom_changes_no_landing() {
+fn a_second_degree_of_freedom_changes_no_placement() {
     let once = (&Hung, Hung::state);
-    judge_rk4(|steps| hung_landings::<_, _, 6, 4>(Rk4::new, &RK4, once, steps));
+    judge_rk4(|steps| hung_placements::<_, _, 6, 4>(Rk4::new, &RK4, once, steps));
     let twice = (&Twice::<_, 4>(Hung), Hung::state);
-    judge_rk4(|steps| hung_landings::<_, _, 6, 8>(Rk4::new, &RK4, twice, steps));
+    judge_rk4(|steps| hung_placements::<_, _, 6, 8>(Rk4::new, &RK4, twice, steps));
     let reduced = (&HungReduced, |state: &State<f64, 2>| *state);
     judge_high("DP5", |steps| {
-        let alone = hung_landings::<_, _, 2, 0>(Dp5::fixed, &DP5, reduced, steps);
+        let alone = hung_placements::<_, _, 2, 0>(Dp5::fixed, &DP5, reduced, steps);
         [
-            hung_landings::<_, _, 6, 4>(Dp5::fixed, &DP5, once, steps),
+            hung_placements::<_, _, 6, 4>(Dp5::fixed, &DP5, once, steps),
             alone,
         ]
     });
     judge_high("DOP853", |steps| {
-        let alone = hung_landings::<_, _, 2, 0>(Dop853::fixed, &DOP853, reduced, steps);
+        let alone = hung_placements::<_, _, 2, 0>(Dop853::fixed, &DOP853, reduced, steps);
         [
-            hung_landings::<_, _, 6, 4>(Dop853::fixed, &DOP853, once, steps),
+            hung_placements::<_, _, 6, 4>(Dop853::fixed, &DOP853, once, steps),
             alone,
         ]
     });

@@ -1,7 +1,7 @@
 //! Which checkpoints a run writes and goes on from, from the options of the command line.
 
 use crate::arguments::Simulate;
-use crate::checkpoint::{Checkpoint, Legs, read};
+use crate::checkpoint::{Checkpoint, Checkpoints, read};
 use crate::error::CommandError;
 use crate::formula::Setting;
 use crate::mechanism::identity;
@@ -16,12 +16,12 @@ use std::path::Path;
 /// # Errors
 ///
 /// [`CommandError::Read`], [`CommandError::Write`], [`CommandError::Checkpoint`].
-pub fn legs(
+pub fn checkpoints(
     arguments: &Simulate,
     plan: &Plan,
     changes: &Changes,
     structure: &'static Structure,
-) -> Result<Option<Legs>, CommandError> {
+) -> Result<Option<Checkpoints>, CommandError> {
     if arguments.checkpoint.is_none() && arguments.resume.is_none() {
         return Ok(None);
     }
@@ -34,7 +34,7 @@ pub fn legs(
     if let (Some(file), Some(checkpoint)) = (&arguments.resume, &from) {
         goes_further(arguments.until, file, checkpoint)?;
     }
-    Ok(Some(Legs {
+    Ok(Some(Checkpoints {
         run,
         file: arguments.checkpoint.clone(),
         from,

@@ -1,6 +1,6 @@
 //! A run in parts, each of which knows where the whole began.
 
-use crate::toys::{BEAD, Bead, Framed, Oscillator, PLAIN};
+use crate::fixtures::{BEAD, Bead, Framed, Oscillator, PLAIN};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     DynamicsError, Interface, Mechanism, Observer, Options, Origin, Probe, Sampler, State, Step,
@@ -9,9 +9,9 @@ use bricard_runtime::{
 use core::ops::ControlFlow;
 
 /// Breaks a run off after some steps.
-struct Leg(u64);
+struct Segment(u64);
 
-impl<const N: usize> Observer<f64, N> for Leg {
+impl<const N: usize> Observer<f64, N> for Segment {
     fn step(
         &mut self,
         _step: &Step<f64, N>,
@@ -43,7 +43,7 @@ where
     let energy = mechanism.energy(start).balance;
     loop {
         let options = Options { origin, ..*options };
-        let part = simulate::<_, _, N, R>(mechanism, &state, &options, &mut [&mut Leg(steps)])
+        let part = simulate::<_, _, N, R>(mechanism, &state, &options, &mut [&mut Segment(steps)])
             .unwrap_or_else(|failure| panic!("{failure}"));
         parts.push(part);
         if !part.stopped || part.end.t >= options.until {

@@ -1,6 +1,6 @@
 //! A part of a run.
 //!
-//! In:  [`Leg`]: where it begins, how to integrate, what to record.
+//! In:  [`Segment`]: where it begins, how to integrate, what to record.
 //! Out: [`Reached`]: where it ended, and what was done.
 
 use bricard_runtime::{Counters, Options, Origin, Passage};
@@ -9,17 +9,17 @@ use std::time::Duration;
 
 use crate::column::Column;
 
-/// Steps of a leg that ends before the run.
+/// Steps of a segment that ends before the run.
 pub(crate) const STEPS: u64 = 1000;
 /// Steps by which it is longer where it would end next to a singular position.
 pub(crate) const EXTRA_STEPS: u64 = 100;
 /// It doesn't end where constraints are independent by less than this sine: a
-/// passage through a singular position belongs to one leg.
+/// passage through a singular position belongs to one segment.
 pub(crate) const CALM_SINE: f64 = 0.3;
 
 /// A part of a run, or the whole of it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Leg {
+pub struct Segment {
     /// Method, end, form of the equations; the beginning of the run if this is a later
     /// part of it.
     pub options: Options<f64>,

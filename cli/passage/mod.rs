@@ -1,15 +1,15 @@
-//! `bricard landing`: what it costs in accuracy to pass a singular position, wherever
-//! the steps happen to land.
+//! `bricard passage`: what the passage through a singular configuration costs in
+//! accuracy, by stage placement.
 //!
 //! In:  names of mechanisms that pass one.
-//! Out: median and worst error over many landings, for several steps.
+//! Out: median and worst error over many placements, for several steps.
 //!
-//! A run begins on the exact motion so that a stage of its first step lands at a
+//! A run begins on the exact motion so that a stage of its first step lies at a
 //! distance `d` from the singular position, `d = ±{1, 3.3}·10⁻ᵏ`, `k = 1…16`, for each
 //! stage of the method, and goes on for 0.4 s. The distance is that of the fastest
 //! coordinate.
 
-use crate::arguments::{Landing, MethodName};
+use crate::arguments::{MethodName, Passage};
 use crate::error::CommandError;
 use crate::mechanism::{find, precise};
 use crate::number::largest;
@@ -23,23 +23,23 @@ use bricard_runtime::{Audit, Options, Pace, Scheme};
 const SPAN: f64 = 0.4;
 /// Steps in that time.
 const STEPS: [u32; 4] = [20, 40, 80, 160];
-/// How much worse than the median the worst landing may be.
+/// How much worse than the median the worst placement may be.
 const SPREAD: f64 = 2.0;
-/// A median that is round-off, and what no landing may exceed then.
+/// A median that is round-off, and what no placement may exceed then.
 const FLOOR: f64 = 1e-12;
-const LANDED: f64 = 1e-11;
+const PLACED: f64 = 1e-11;
 /// Tolerance of the run that finds the singular position.
 const SEARCH: f64 = 1e-11;
 /// How long that run looks for one (s).
 const LOOK: f64 = 20.0;
 
-/// Lands each mechanism with each method.
+/// Places stages of each method beside the singular configuration of each mechanism.
 ///
 /// # Errors
 ///
 /// [`CommandError`]: a mechanism that passes no singular position, a run that failed,
-/// a landing that is worse than it may be.
-pub fn landing(arguments: &Landing) -> Result<(), CommandError> {
+/// a placement that is worse than it may be.
+pub fn passage(arguments: &Passage) -> Result<(), CommandError> {
     let mut rows = Vec::new();
     let mut broken = Vec::new();
     for name in &arguments.names {
@@ -47,10 +47,13 @@ pub fn landing(arguments: &Landing) -> Result<(), CommandError> {
         let about = first_passage(name, mechanism.as_ref())?;
         let mut precise = precise(name)?;
         for &method in &arguments.methods {
-            say(&format!("{name}: landing with {}", Scheme::from(method)));
+            say(&format!(
+                "{name}: placing stages of {}",
+                Scheme::from(method)
+            ));
             for steps in STEPS {
                 let found =
-                    Landings::of(precise.as_mut(), mechanism.as_ref(), (method, steps), about)?;
+                    Placements::of(precise.as_mut(), mechanism.as_ref(), (method, steps), about)?;
                 if !found.is_even() {
                     broken.push(format!("{name}, {}, {steps} steps", Scheme::from(method)));
                 }
@@ -62,7 +65,7 @@ pub fn landing(arguments: &Landing) -> Result<(), CommandError> {
         "mechanism",
         "method",
         "h (s)",
-        "landings",
+        "placements",
         "median",
         "worst",
         "ratio",
@@ -83,13 +86,13 @@ pub fn landing(arguments: &Landing) -> Result<(), CommandError> {
     }
 }
 
-/// Errors of all landings of one method and step.
-struct Landings {
+/// Errors of all placements of one method and step.
+struct Placements {
     /// Sorted.
     errors: Vec<f64>,
 }
 
-impl Landings {
+impl Placements {
     fn of(
         precise: &mut dyn Precise,
         mechanism: &dyn AnyMechanism,
@@ -110,7 +113,10 @@ impl Landings {
             };
             let mut options = Options::new(end[0], method.into(), Pace::Fixed { step });
             options.audit = Audit::NONE;
-            let found = mechanism.race(Some(row), &options).map_err(failed)?.end;
+            let found = mechanism
+                .timed_run(Some(row), &options)
+                .map_err(failed)?
+                .end;
             let differences = found.iter().zip(&end[1..]).map(|(a, b)| a - b);
             errors.push(largest(differences));
         }
@@ -132,7 +138,7 @@ impl Landings {
     }
 
     fn is_even(&self) -> bool {
-        let floor = if self.median() <= FLOOR { LANDED } else { 0.0 };
+        let floor = if self.median() <= FLOOR { PLACED } else { 0.0 };
         self.worst() <= floor.max(SPREAD * self.median())
     }
 
@@ -157,7 +163,7 @@ fn row_at(path: &Path, time: f64) -> Option<&Vec<f64>> {
     path.rows.get(after).filter(near)
 }
 
-/// Where stages land, and how long before that runs begin (s).
+/// Where stages lie, and how long before that runs begin (s).
 fn places(stages: &[f64], step: f64) -> Vec<(f64, f64)> {
     let mut places = Vec::new();
     for stage in stages {
