@@ -11,7 +11,7 @@ const STAGES: [(&str, &[&str]); 8] = [
     ("model", &["diagnostic", "expr", "parse"]),
     ("derive", &["diagnostic", "expr", "model"]),
     ("doubt", &["diagnostic", "expr", "model"]),
-    ("optimise", &["diagnostic", "expr", "derive"]),
+    ("optimise", &["diagnostic", "expr", "model", "derive"]),
     (
         "emit",
         &["diagnostic", "expr", "model", "derive", "optimise"],

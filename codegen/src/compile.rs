@@ -3,7 +3,7 @@
 use crate::diagnostic::Diagnostics;
 use crate::emit::{self, Options, Origin};
 use crate::model::Mechanism;
-use crate::{derive, doubt, model, parse};
+use crate::{derive, doubt, model, optimise, parse};
 use std::path::{Path, PathBuf};
 
 /// What to do differently from the defaults.
@@ -78,7 +78,12 @@ pub fn compile_source(
         source,
         frozen: &settings.frozen,
     };
-    let tokens = emit::module(&mut mechanism, &equations, origin, settings.options);
+    let programs = optimise::programs(
+        &mut mechanism,
+        &equations,
+        settings.options.coriolis_matrix,
+    );
+    let tokens = emit::module(&mechanism, &equations, &programs, origin, settings.options);
     let code = emit::render(&tokens);
     Ok(Compiled {
         c_header: emit::c_header(&mechanism, module),

@@ -16,6 +16,7 @@ mod explicit;
 mod force;
 mod linearised;
 mod mass;
+mod properties;
 mod swell;
 mod switch;
 mod weighed;

@@ -2,22 +2,20 @@
 
 use super::described::described;
 use super::{Subject, Written, outputs};
-use crate::expr::ExprId;
 use crate::model::{Point, Shape};
-use crate::optimise::Slot;
-use proc_macro2::{Literal, TokenStream};
+use crate::optimise::{List, Optimised, Slot};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
 /// `impl Interface`.
-pub(super) fn interface(subject: &mut Subject) -> TokenStream {
+pub(super) fn interface(subject: &Subject) -> TokenStream {
     let n = subject.sizes().0;
     let (parameter, set_parameter) = parameters(subject);
     let set_input = set_input(subject);
     let start = start(subject);
     let outputs = outputs::outputs(subject);
     let signals = outputs::signals(subject);
-    let events: Vec<ExprId> = subject.mechanism.events.iter().map(|e| e.value).collect();
-    let events = list(subject, "events", &events);
+    let events = list(subject, "events", &subject.programs.events);
     let draw = draw(subject);
     let described = described(subject);
     let name = subject.type_name();
@@ -95,26 +93,9 @@ fn set_input(subject: &Subject) -> TokenStream {
 }
 
 /// The entries of the `start` block; what it does not mention is a guess of zero.
-fn start(subject: &mut Subject) -> TokenStream {
+fn start(subject: &Subject) -> TokenStream {
     let n = subject.sizes().0;
-    let entry = |(row, start): (usize, &crate::model::Start)| {
-        (
-            Slot {
-                array: "start",
-                row,
-                column: 0,
-            },
-            start.value,
-        )
-    };
-    let wanted: Vec<_> = subject
-        .mechanism
-        .starts
-        .iter()
-        .enumerate()
-        .map(entry)
-        .collect();
-    let Written { body, .. } = subject.body(&wanted, &|_| None);
+    let Written { body, .. } = subject.body(&subject.programs.start);
     let statements = &body.statements;
     let initial = |coordinate: usize, velocity: bool| {
         let given = subject.mechanism.starts.iter().enumerate();
@@ -122,14 +103,7 @@ fn start(subject: &mut Subject) -> TokenStream {
             .rev()
             .find(|(_, s)| s.coordinate == coordinate && s.velocity == velocity);
         let (value, held) = match found {
-            Some((row, start)) => (
-                body.output(Slot {
-                    array: "start",
-                    row,
-                    column: 0,
-                }),
-                start.held,
-            ),
+            Some((row, start)) => (body.output(Slot::of_vector("start", row)), start.held),
             None => (quote!(T::zero()), false),
         };
         quote!(Initial { value: #value, held: #held })
@@ -146,30 +120,28 @@ fn start(subject: &mut Subject) -> TokenStream {
 }
 
 /// A method that writes a list of values into a slice, as many as there is room for.
-pub(super) fn list(subject: &mut Subject, name: &'static str, entries: &[ExprId]) -> TokenStream {
+pub(super) fn list(subject: &Subject, name: &'static str, list: &List) -> TokenStream {
+    all_values(subject, name, list.count, &list.computed)
+}
+
+/// The same for the first entries of an array of the method's name.
+pub(super) fn all_values(
+    subject: &Subject,
+    name: &'static str,
+    count: usize,
+    computed: &Optimised,
+) -> TokenStream {
     let n = subject.sizes().0;
-    let name_token = proc_macro2::Ident::new(name, proc_macro2::Span::call_site());
-    if entries.is_empty() {
-        return quote!(fn #name_token(&self, _state: &State<T, #n>, _values: &mut [T]) {});
+    let method = Ident::new(name, Span::call_site());
+    if count == 0 {
+        return quote!(fn #method(&self, _state: &State<T, #n>, _values: &mut [T]) {});
     }
-    let slot = |row| Slot {
-        array: name,
-        row,
-        column: 0,
-    };
-    let wanted: Vec<_> = entries
-        .iter()
-        .enumerate()
-        .map(|(row, &e)| (slot(row), e))
-        .collect();
-    let Written {
-        body, state, cost, ..
-    } = subject.body(&wanted, &|_| None);
+    let Written { body, state, cost } = subject.body(computed);
     let statements = &body.statements;
-    let computed = (0..entries.len()).map(|row| body.output(slot(row)));
+    let computed = (0..count).map(|row| body.output(Slot::of_vector(name, row)));
     quote! {
         #[doc = #cost]
-        fn #name_token(&self, #state: &State<T, #n>, values: &mut [T]) {
+        fn #method(&self, #state: &State<T, #n>, values: &mut [T]) {
             #statements
             let computed = [#(#computed),*];
             for (place, value) in values.iter_mut().zip(computed) {
@@ -179,27 +151,16 @@ pub(super) fn list(subject: &mut Subject, name: &'static str, entries: &[ExprId]
     }
 }
 
-fn draw(subject: &mut Subject) -> TokenStream {
+fn draw(subject: &Subject) -> TokenStream {
     let n = subject.sizes().0;
-    if subject.mechanism.shapes.is_empty() {
+    let shapes = &subject.mechanism.shapes;
+    if shapes.is_empty() {
         return quote!(fn draw(&self, _state: &State<T, #n>, _canvas: &mut dyn Canvas<T>) {});
     }
-    let shapes = subject.mechanism.shapes.clone();
-    let numbers: Vec<ExprId> = shapes.iter().flat_map(coordinates).collect();
-    let slot = |row| Slot {
-        array: "draw",
-        row,
-        column: 0,
-    };
-    let wanted: Vec<_> = numbers
-        .iter()
-        .enumerate()
-        .map(|(row, &e)| (slot(row), e))
-        .collect();
-    let Written { body, state, .. } = subject.body(&wanted, &|_| None);
+    let Written { body, state, .. } = subject.body(&subject.programs.draw);
     let statements = &body.statements;
-    let mut next = 0..;
-    let mut take = || body.output(slot(next.next().unwrap_or(usize::MAX)));
+    let mut numbers = (0..).map(|row| body.output(Slot::of_vector("draw", row)));
+    let mut take = || numbers.next().unwrap_or_default();
     let calls: TokenStream = shapes.iter().map(|shape| call(shape, &mut take)).collect();
     quote! {
         fn draw(&self, #state: &State<T, #n>, canvas: &mut dyn Canvas<T>) {
@@ -209,15 +170,7 @@ fn draw(subject: &mut Subject) -> TokenStream {
     }
 }
 
-/// The numbers of a shape, in the order in which `call` takes them.
-fn coordinates(shape: &Shape) -> Vec<ExprId> {
-    match shape {
-        Shape::Line(points) | Shape::Polygon(points) => points.concat(),
-        Shape::Circle(centre, radius) => centre.iter().chain([radius]).copied().collect(),
-        Shape::Trace(point) => point.to_vec(),
-    }
-}
-
+/// The call that draws a shape; takes its numbers in the order of [`Shape::numbers`].
 fn call(shape: &Shape, take: &mut dyn FnMut() -> TokenStream) -> TokenStream {
     let mut point = |_: &Point| {
         let [x, y, z] = [take(), take(), take()];

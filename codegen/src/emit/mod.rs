@@ -1,12 +1,14 @@
 //! Programs to Rust: one module for each mechanism.
 //!
-//! In:  a mechanism and its equations.
+//! In:  a mechanism, its equations, and the programs that `optimise` made of them.
 //! Out: a module that holds the mechanism's struct, its parameters and inputs, the
 //!      implementations of the runtime's traits, and a function for each array.
 //!
-//! Not here: mathematics. What is computed was decided by `optimise`.
+//! Not here: mathematics. What is computed was decided by `optimise`, and nothing is
+//! concluded from tokens that were written: signatures and imports follow from the programs.
 
 mod angles;
+mod arrays;
 mod c;
 mod described;
 mod dynamics;
@@ -27,11 +29,11 @@ pub use c::c_header;
 pub use write::{catalogue, render, write_if_changed};
 
 use crate::derive::Equations;
-use crate::expr::{ExprId, Symbol};
+use crate::expr::Symbol;
 use crate::model::Mechanism;
-use crate::optimise::{Cost, Polynomials, Program, Slot, cost, derived_cost, optimise_among};
+use crate::optimise::{Optimised, Program, Programs, Slot, Solved, cost};
 use function::{Body, Decided, Place};
-use imports::{imports, mentions};
+use imports::imports;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 use symbol::SymbolNames;
@@ -63,78 +65,81 @@ pub struct Origin<'a> {
 
 /// Everything the emitter looks at.
 struct Subject<'a> {
-    mechanism: &'a mut Mechanism,
+    mechanism: &'a Mechanism,
     equations: &'a Equations,
-    polynomials: Polynomials,
-    /// What was wanted last, and its program: two functions follow one another that
-    /// compute the same.
-    last: (Vec<(Slot, ExprId)>, Program),
+    programs: &'a Programs,
     names: SymbolNames,
     file: &'a str,
     options: Options,
 }
 
-/// A method of an emitted struct that computes arrays.
-struct Method {
-    docs: &'static str,
-    name: &'static str,
-    /// The type of the buffer, or of the result.
-    buffer: TokenStream,
-    wanted: Vec<(Slot, ExprId)>,
-}
-
 /// A function body and what its signature needs to know.
 struct Written {
     body: Body,
-    /// No output differs from zero.
-    is_zero: bool,
     /// `state`, or `_state` where the body does not read it.
     state: Ident,
-    counts: Cost,
     /// What it costs, in words.
     cost: String,
 }
 
-/// Said of a mechanism whose linearisation is too long.
-const LEFT_OUT: &str = " The linearised equations of motion would be too long and are left out: \
-                        implicit integrators take differences.";
+/// Which arguments beside the state a program reads or writes.
+struct Reads {
+    acceleration: bool,
+    multiplier: bool,
+    /// The buffer of its results.
+    out: bool,
+}
 
-/// The module of a mechanism.
+impl Reads {
+    fn of(program: &Program) -> Self {
+        Self {
+            acceleration: program.reads(|symbol| matches!(symbol, Symbol::Acceleration(_))),
+            multiplier: program.reads(|symbol| matches!(symbol, Symbol::Multiplier(_))),
+            out: !program.outputs.is_empty(),
+        }
+    }
+}
+
+/// The name of an argument, or that it is not read.
+fn argument(name: &str, read: bool) -> Ident {
+    match read {
+        true => Ident::new(name, Span::call_site()),
+        false => Ident::new(&format!("_{name}"), Span::call_site()),
+    }
+}
+
+/// The module of a mechanism, from the programs that it runs.
 pub fn module(
-    mechanism: &mut Mechanism,
+    mechanism: &Mechanism,
     equations: &Equations,
+    programs: &Programs,
     origin: Origin,
     options: Options,
 ) -> TokenStream {
-    let names = SymbolNames::of(mechanism);
-    let mut subject = Subject {
+    let subject = Subject {
         mechanism,
         equations,
-        polynomials: Polynomials::default(),
-        last: (Vec::new(), Program::default()),
-        names,
+        programs,
+        names: SymbolNames::of(mechanism),
         file: origin.file,
         options,
     };
+    let docs = module_docs(&subject, origin);
+    let module = Ident::new(&module_name(origin.module), Span::call_site());
+    let imports = imports(&subject);
+    let source = origin.source;
+    let structure = structure::structure(&subject);
+    let conditions = switches::table(&subject);
     let parameters = structure::parameters(&subject);
     let inputs = structure::inputs(&subject);
-    let structure = structure::structure(&subject);
     let holder = holder(&subject);
-    let dynamics = dynamics::mechanism(&mut subject);
-    let functions = dynamics::functions(&mut subject);
-    let start_equations = start::equations(&mut subject);
-    let interface = interface::interface(&mut subject);
-    let conditions = switches::table(&subject);
-    let imports = imports(&subject, &dynamics);
-    let mut docs = module_docs(&subject, origin);
-    if !mentions(&dynamics, "linearised") {
-        docs.extend([String::new(), LEFT_OUT.to_string()]);
-    }
-    let module = Ident::new(&module_name(origin.module), Span::call_site());
-    let source = origin.source;
+    let dynamics = dynamics::mechanism(&subject);
+    let arrays = arrays::arrays(&subject);
+    let start_equations = start::equations(&subject);
+    let interface = interface::interface(&subject);
     let export = options
         .c_interface
-        .then(|| c::export(subject.mechanism, origin.module));
+        .then(|| c::export(mechanism, origin.module));
     quote! {
         #(#[doc = #docs])*
         pub mod #module {
@@ -149,7 +154,7 @@ pub fn module(
             #inputs
             #holder
             #dynamics
-            #functions
+            #arrays
             #start_equations
             #interface
         }
@@ -174,7 +179,7 @@ fn module_docs(subject: &Subject, origin: Origin) -> Vec<String> {
         docs,
         constants,
         ..
-    } = &*subject.mechanism;
+    } = subject.mechanism;
     let docs = if docs.trim().is_empty() {
         name.as_str()
     } else {
@@ -219,6 +224,9 @@ fn module_docs(subject: &Subject, origin: Origin) -> Vec<String> {
                 origin.frozen.join("`, `")
             ),
         ]);
+    }
+    if let Some(left_out) = linearised::docs(subject) {
+        lines.extend([String::new(), left_out.to_string()]);
     }
     lines
 }
@@ -291,139 +299,37 @@ impl Subject<'_> {
         self.mechanism.symbol_text(symbol)
     }
 
-    /// Expressions of numbers alone, as values of `T`.
-    fn constants(&self, expressions: Vec<ExprId>) -> Vec<TokenStream> {
-        let slot = |row| Slot {
-            array: "constant",
-            row,
-            column: 0,
+    /// The body of a function whose outputs are assigned by whoever asks for it.
+    fn body(&self, computed: &Optimised) -> Written {
+        self.optimised(computed, &|_| None, Decided::ByState)
+    }
+
+    /// The body that runs a program; says what it costs, and what it would as derived.
+    fn optimised(&self, computed: &Optimised, place: Place, decided: Decided) -> Written {
+        let Optimised {
+            program,
+            cost,
+            derived,
+        } = computed;
+        let cost = match derived == cost {
+            true => format!(" Costs {cost}."),
+            false => format!(" Costs {cost}. As derived: {derived}."),
         };
-        let write = |(row, e): (usize, ExprId)| {
-            let program = crate::optimise::plain(&self.mechanism.graph, &[(slot(row), e)]);
-            let taken = self.names.taken.clone();
-            let body = Body::of(&program, &self.names, taken, &|_| None, Decided::ByState);
-            let (statements, value) = (&body.statements, body.output(slot(row)));
-            if statements.is_empty() {
-                value
-            } else {
-                quote!({ #statements #value })
-            }
-        };
-        expressions.into_iter().enumerate().map(write).collect()
+        self.written(program, place, decided, cost)
     }
 
-    /// The default laws of the inputs.
-    fn laws(&self) -> Vec<ExprId> {
-        let inputs = self.mechanism.inputs.iter();
-        inputs.map(|input| input.law).collect()
+    /// The body that solves; what it costs includes what it solves.
+    fn solved(&self, solved: &Solved, place: Place) -> Written {
+        let cost = format!(" Costs {}.", cost(&solved.program));
+        self.written(&solved.program, place, Decided::BySides, cost)
     }
 
-    fn program(&mut self, wanted: &[(Slot, ExprId)]) -> Program {
-        if self.last.0 != wanted {
-            let laws = self.laws();
-            let graph = &mut self.mechanism.graph;
-            let program = optimise_among(graph, &mut self.polynomials, &laws, wanted);
-            self.last = (wanted.to_vec(), program);
-        }
-        self.last.1.clone()
-    }
-
-    fn body(&mut self, wanted: &[(Slot, ExprId)], place: Place) -> Written {
-        let program = self.program(wanted);
-        self.beside_derived(wanted, self.written(&program, place, Decided::ByState))
-    }
-
-    /// Says besides what the program would cost as it was derived.
-    fn beside_derived(&self, wanted: &[(Slot, ExprId)], mut written: Written) -> Written {
-        let derived = derived_cost(&self.mechanism.graph, &self.laws(), wanted);
-        if derived != written.counts {
-            written.cost = format!("{} As derived: {derived}.", written.cost);
-        }
-        written
-    }
-
-    fn written(&self, program: &Program, place: Place, decided: Decided) -> Written {
+    fn written(&self, program: &Program, place: Place, decided: Decided, cost: String) -> Written {
         let taken = self.names.taken.clone();
-        let body = Body::of(program, &self.names, taken, place, decided);
-        let state = if SymbolNames::reads_state(program) {
-            "state"
-        } else {
-            "_state"
-        };
         Written {
-            is_zero: program.outputs.is_empty(),
-            state: Ident::new(state, Span::call_site()),
-            counts: cost(program),
-            cost: format!(" Costs {}.", cost(program)),
-            body,
-        }
-    }
-
-    /// A method that fills a buffer whose fields are the arrays wanted.
-    fn method(&mut self, method: Method) -> TokenStream {
-        let Method {
-            docs,
-            name,
-            buffer,
-            wanted,
-        } = method;
-        let program = self.program(&wanted);
-        let written = self.written(&program, &entry_of_field, Decided::BySides);
-        let Written {
-            body: Body { statements, .. },
-            is_zero,
-            state,
+            body: Body::of(program, &self.names, taken, place, decided),
+            state: argument("state", SymbolNames::reads_state(program)),
             cost,
-            ..
-        } = self.beside_derived(&wanted, written);
-        let out = if is_zero { "_out" } else { "out" };
-        let out = Ident::new(out, Span::call_site());
-        let (docs, name) = (doc_lines(docs), Ident::new(name, Span::call_site()));
-        let n = self.sizes().0;
-        quote! {
-            #(#[doc = #docs])*
-            ///
-            #[doc = #cost]
-            fn #name(&self, #state: &State<T, #n>, #out: &mut #buffer) {
-                #statements
-            }
-        }
-    }
-
-    /// A public function that returns an array.
-    fn returning(&mut self, method: Method) -> TokenStream {
-        let Method {
-            docs,
-            name,
-            buffer,
-            wanted,
-        } = method;
-        let Written {
-            body: Body { statements, .. },
-            is_zero,
-            state,
-            cost,
-            ..
-        } = self.body(&wanted, &|slot| Some(entry(quote!(out), slot)));
-        let (docs, name) = (doc_lines(docs), Ident::new(name, Span::call_site()));
-        let n = self.sizes().0;
-        let kind = if buffer.to_string().starts_with("SVector") {
-            quote!(SVector)
-        } else {
-            quote!(SMatrix)
-        };
-        let result = if is_zero {
-            quote!(#kind::zeros())
-        } else {
-            quote!(let mut out = #kind::zeros(); #statements out)
-        };
-        quote! {
-            #(#[doc = #docs])*
-            ///
-            #[doc = #cost]
-            pub fn #name(&self, #state: &State<T, #n>) -> #buffer {
-                #result
-            }
         }
     }
 }

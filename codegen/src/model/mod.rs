@@ -276,6 +276,17 @@ pub enum Shape {
     Trace(Point),
 }
 
+impl Shape {
+    /// Its numbers: points one after the other, the radius last.
+    pub fn numbers(&self) -> Vec<ExprId> {
+        match self {
+            Shape::Line(points) | Shape::Polygon(points) => points.concat(),
+            Shape::Circle(centre, radius) => centre.iter().chain([radius]).copied().collect(),
+            Shape::Trace(point) => point.to_vec(),
+        }
+    }
+}
+
 impl Mechanism {
     /// A mechanism with nothing in it but its name.
     fn named(name: &str, docs: &str) -> Self {
