@@ -10,7 +10,7 @@ const STAGES: [(&str, &[&str]); 8] = [
     ("parse", &["diagnostic", "expr"]),
     ("model", &["diagnostic", "expr", "parse"]),
     ("derive", &["diagnostic", "expr", "model"]),
-    ("doubt", &["diagnostic", "expr", "model"]),
+    ("doubt", &["diagnostic", "expr", "model", "derive"]),
     ("optimise", &["diagnostic", "expr", "model", "derive"]),
     (
         "emit",

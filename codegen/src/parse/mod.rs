@@ -39,6 +39,9 @@ use crate::diagnostic::{Diagnostics, LIBRARY, without_mark};
 /// need about ten; the recursive reader has room for these.
 pub const NESTING: usize = 100;
 
+/// As much of a description as could be read, and everything that breaks the grammar.
+pub(crate) type Read = (Option<Model>, Diagnostics);
+
 /// Reads a description.
 ///
 /// # Errors
@@ -53,7 +56,7 @@ pub fn parse(source: &str) -> Result<Model, Diagnostics> {
 
 /// Reads as much of a description as can be read, and everything that breaks the
 /// grammar.
-pub(crate) fn read(source: &str) -> (Option<Model>, Diagnostics) {
+pub(crate) fn read(source: &str) -> Read {
     let source = without_mark(source);
     let scanned = scan::scan(source);
     let mut wrong = scanned.diagnostics;
