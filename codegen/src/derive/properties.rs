@@ -1,6 +1,6 @@
 //! What the equations tell of a motion before there is one.
 
-use super::Equations;
+use super::equations::Equations;
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::model::Mechanism;
 

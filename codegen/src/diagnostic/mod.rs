@@ -226,12 +226,6 @@ impl Diagnostics {
         self.list.retain(|d| d.severity == Severity::Error);
         self
     }
-
-    /// The findings with their source lines; empty if there are none. The first
-    /// line of each begins with `file:line:column`.
-    pub fn render(&self, file: &str, source: &str) -> String {
-        render::render(&self.sorted(), file, without_mark(source))
-    }
 }
 
 /// The text behind a byte order mark. Offsets count from there.

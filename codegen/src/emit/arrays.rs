@@ -4,7 +4,7 @@
 //! Out: functions that return them.
 
 use super::function::Decided;
-use super::{Reads, Subject, Written, doc_lines, entry};
+use super::subject::{Reads, Subject, Written, doc_lines, entry};
 use crate::optimise::{Array, Optimised};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;

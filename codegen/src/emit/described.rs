@@ -4,8 +4,8 @@
 //! Out: their table for the structure, the method of the interface that computes them,
 //!      and a line for the documentation.
 
-use super::structure::{constraint_row, quantity};
-use super::{Reads, Subject, Written, argument};
+use super::quantity::{constraint_row, quantity};
+use super::subject::{Reads, Subject, Written, argument};
 use crate::optimise::Slot;
 use proc_macro2::TokenStream;
 use quote::quote;

@@ -2,8 +2,8 @@
 
 use super::function::Decided;
 use super::linearised::linearised;
+use super::subject::{Reads, Subject, Written, argument, doc_lines, entry, entry_of_field};
 use super::switches::switches;
-use super::{Reads, Subject, Written, argument, doc_lines, entry, entry_of_field};
 use crate::optimise::{Optimised, Slot, Solved, Way};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;

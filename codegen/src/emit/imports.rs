@@ -3,7 +3,7 @@
 //! In:  a mechanism, its programs.
 //! Out: its `use` items.
 
-use super::Subject;
+use super::subject::Subject;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 

@@ -1,7 +1,7 @@
 //! The linearised equations of motion: a method of the trait implementation.
 
 use super::function::Decided;
-use super::{Reads, Subject, Written, argument, entry_of_field};
+use super::subject::{Reads, Subject, Written, argument, entry_of_field};
 use crate::optimise::LeftOut;
 use proc_macro2::TokenStream;
 use quote::quote;

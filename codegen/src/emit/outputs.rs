@@ -4,8 +4,8 @@
 //! Out: the methods of the interface that compute them: outputs of positions and
 //!      velocities, and those of accelerations with the inputs.
 
-use super::interface::all_values;
-use super::{Reads, Subject, Written, argument};
+use super::list::all_values;
+use super::subject::{Reads, Subject, Written, argument};
 use crate::optimise::Slot;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;

@@ -1,7 +1,8 @@
 //! Equations of the `start` block that are no values of coordinates.
 
-use super::structure::constraint_row;
-use super::{Subject, interface::list};
+use super::list::list;
+use super::quantity::constraint_row;
+use super::subject::Subject;
 use crate::model::{Constraint, Mechanism};
 use crate::optimise::StartPrograms;
 use proc_macro2::{Literal, TokenStream};

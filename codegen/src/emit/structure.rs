@@ -2,7 +2,9 @@
 //! inputs.
 
 use super::function::{Body, Decided};
-use super::{Subject, described, doc_lines, name};
+use super::quantity::{constraint_row, quantity};
+use super::subject::{Subject, doc_lines};
+use super::{described, name};
 use crate::model::{Constraint, Direction, Input, Quantity};
 use crate::optimise::{Program, Slot};
 use proc_macro2::{Literal, TokenStream};
@@ -66,21 +68,6 @@ fn quantities<'a>(
     quantities: impl IntoIterator<Item = &'a Quantity>,
 ) -> impl Iterator<Item = TokenStream> {
     quantities.into_iter().map(quantity)
-}
-
-/// A `Quantity`.
-pub(super) fn quantity(quantity: &Quantity) -> TokenStream {
-    let Quantity {
-        name, unit, docs, ..
-    } = quantity;
-    quote!(Quantity { name: #name, unit: #unit, docs: #docs })
-}
-
-/// A `ConstraintRow`.
-pub(super) fn constraint_row(row: &Constraint) -> TokenStream {
-    let (text, holonomic) = (&row.text, row.holonomic);
-    let line = Literal::u32_unsuffixed(row.span.start.line);
-    quote!(ConstraintRow { text: #text, line: #line, holonomic: #holonomic })
 }
 
 /// The entries of `Structure::multipliers`.

@@ -4,7 +4,7 @@
 //! Out: the table of the conditions, and the method that computes their switching
 //!      functions; nothing where there are none.
 
-use super::{Reads, Subject, Written, argument};
+use super::subject::{Reads, Subject, Written, argument};
 use crate::optimise::Slot;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;

@@ -6,7 +6,7 @@
 //! act through forces alone.
 
 use super::facts::{Facts, NOT_POLYNOMIAL};
-use super::lower::Lowering;
+use super::lowering::Lowering;
 use super::unit::{AREA, ENERGY, FREQUENCY2, POWER, Unit};
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span, figure};

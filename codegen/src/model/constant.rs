@@ -1,6 +1,6 @@
 //! Constants and parameters, and what a build script changes about them.
 
-use super::lower::Lowering;
+use super::lowering::Lowering;
 use super::order::{Definition, QUANTITIES, order};
 use super::value::{Scalar, Value};
 use super::{Constant, Parameter};

@@ -1,8 +1,8 @@
 //! Declarations: names, then constants, parameters and coordinates, then
 //! quantities and the laws of inputs.
 
-use super::lower::Lowering;
-use super::member::Waiting;
+use super::declared::Waiting;
+use super::lowering::Lowering;
 use super::order::{Definition, QUANTITIES, order};
 use super::part::Placed;
 use super::scope::Kind;

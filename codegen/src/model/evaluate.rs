@@ -6,9 +6,9 @@
 //!
 //! Not here: what a formula may contain where it stands; that is `check`'s.
 
+use super::declared::{Functions, Parts};
 use super::facts::{FactTable, Facts};
-use super::function::Functions;
-use super::member::Parts;
+use super::language;
 use super::scope::{BUILT_IN, Kind, Scope};
 use super::unit::Unit;
 use super::value::{Scalar, Value};
@@ -234,7 +234,7 @@ impl Evaluator {
         let help = if let Some(near) = near {
             format!("did you mean `{near}`?")
         } else if Function::ALL.iter().any(|(_, known)| *known == name)
-            || super::call::known(name)
+            || language::known(name)
             || self.functions.contains(name)
         {
             format!("`{name}` is a function: write `{name}(…)`")

@@ -3,8 +3,7 @@
 //! All symbols share one namespace, without shadowing: a name that is in use
 //! can't be declared again. Functions and units have namespaces of their own.
 
-use super::bare::Bare;
-use super::value::Value;
+use super::value::{Bare, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::parse::ast::Name;
 use rustc_hash::{FxHashMap, FxHashSet};

@@ -5,7 +5,7 @@
 //!      with a suffix behind the name: `c.x`, `m[2]`, `I[0][1]`.
 
 use super::evaluate::Evaluator;
-use super::lower::Lowering;
+use super::lowering::Lowering;
 use super::si;
 use super::unit::Unit;
 use super::value::{Array, Scalar, Value};

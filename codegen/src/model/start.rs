@@ -1,6 +1,6 @@
 //! The `start` block and the picture.
 
-use super::lower::Lowering;
+use super::lowering::Lowering;
 use super::value::{Scalar, Value};
 use super::{Constraint, Point, Shape, Start};
 use crate::diagnostic::{Diagnostic, Span, figure};

@@ -5,7 +5,7 @@
 //!      contains; the force at it is the rate of the state.
 
 use super::Force;
-use super::lower::Lowering;
+use super::lowering::Lowering;
 use super::unit::{PER_SECOND, Unit};
 use super::value::Scalar;
 use crate::diagnostic::{Diagnostic, Span};

@@ -1,6 +1,6 @@
 //! Statements: energies, forces, constraints, outputs, events, loops.
 
-use super::lower::Lowering;
+use super::lowering::Lowering;
 use super::scope::{Kind, twice};
 use super::unit::{Dimension, ENERGY, NONE, POWER, Unit};
 use super::value::{Scalar, Value};
@@ -9,20 +9,6 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::parse::ast::{
     Crossing, Declaration, Declared, Energy, Expr, Item, ItemKind, Name, Range,
 };
-use rustc_hash::FxHashMap;
-
-/// Names and targets that are taken, each with its place.
-#[derive(Debug, Default)]
-pub struct Named {
-    outputs: FxHashMap<String, Span>,
-    events: FxHashMap<String, Span>,
-    constraints: FxHashMap<String, Span>,
-    /// States whose rate is given, by their coordinates.
-    pub rates: FxHashMap<u32, Span>,
-    /// Start entries: coordinate, whether the velocity is meant; with the number of parts
-    /// around.
-    pub starts: FxHashMap<(u32, bool), (Span, usize)>,
-}
 
 impl Lowering<'_> {
     /// Reads statements that aren't declarations.
