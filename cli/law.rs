@@ -10,8 +10,8 @@ use crate::compiled;
 use crate::error::CommandError;
 use crate::formula::Setting;
 use crate::mechanism::{file, find, source};
-use bricard_codegen::diagnostic::Span;
-use bricard_codegen::parse::{Model, parse};
+use bricard_codegen::internals::diagnostic::Span;
+use bricard_codegen::internals::syntax::{Model, parse};
 use bricard_driver::AnyMechanism;
 use std::path::PathBuf;
 

@@ -8,10 +8,10 @@ use crate::source::{self, File};
 const STAGES: [(&str, &[&str]); 8] = [
     ("expr", &[]),
     ("diagnostic", &[]),
-    ("parse", &["diagnostic", "expr"]),
-    ("model", &["diagnostic", "expr", "parse"]),
+    ("syntax", &["diagnostic", "expr"]),
+    ("model", &["diagnostic", "expr", "syntax"]),
     ("derive", &["diagnostic", "expr", "model"]),
-    ("doubt", &["diagnostic", "expr", "model", "derive"]),
+    ("lint", &["diagnostic", "expr", "model", "derive"]),
     ("optimise", &["diagnostic", "expr", "model", "derive"]),
     (
         "emit",

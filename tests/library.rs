@@ -2,10 +2,11 @@
 //! what no mechanism of the library has.
 
 use crate::random::Random;
-use bricard_codegen::derive::{Equations, Linearised, derive, linearise};
-use bricard_codegen::expr::{ExprId, Symbol};
-use bricard_codegen::model::Mechanism;
-use bricard_codegen::{Settings, analyse};
+use bricard_codegen::Settings;
+use bricard_codegen::internals::analyse;
+use bricard_codegen::internals::derive::{Equations, Linearised, derive, linearise};
+use bricard_codegen::internals::expr::{ExprId, Symbol};
+use bricard_codegen::internals::model::Mechanism;
 use bricard_runtime::{Real, Visitor};
 
 /// A description, checked and derived.

@@ -2,16 +2,17 @@
 
 use crate::derive::{self, Equations};
 use crate::diagnostic::Diagnostics;
-use crate::doubt;
 use crate::emit::{self, Options, Origin};
+use crate::lint;
 use crate::model::{self, Mechanism};
 use crate::optimise::{self, Programs};
-use crate::parse::{self, Read};
+use crate::syntax::{self, Read};
 use proc_macro2::TokenStream;
 use std::path::{Path, PathBuf};
 
 /// What to do differently from the defaults.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct Settings {
     /// Constants with another value than the description gives them.
     pub constants: Vec<(String, f64)>,
@@ -37,6 +38,7 @@ impl Settings {
 
 /// One description, compiled.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Compiled {
     /// The name after `mechanism`.
     pub name: String,
@@ -75,7 +77,7 @@ pub fn compile_source(
         frozen: &settings.frozen,
     };
 
-    let tree: Read = parse::read(source);
+    let tree: Read = syntax::read(source);
     let (mechanism, mut warnings): (Mechanism, Diagnostics) = lower(tree, settings)?;
     let (mut mechanism, equations): (Mechanism, Equations) =
         derive(mechanism, settings.eliminate, &mut warnings)?;
@@ -100,7 +102,7 @@ pub fn compile_source(
 ///
 /// As [`compile_source`].
 pub fn analyse(source: &str, settings: &Settings) -> Result<(Mechanism, Diagnostics), Diagnostics> {
-    lower(parse::read(source), settings)
+    lower(syntax::read(source), settings)
 }
 
 /// [`analyse`] and everything else that can be said without generating code: also
@@ -113,8 +115,8 @@ pub fn examine(source: &str, settings: &Settings) -> Result<(Mechanism, Diagnost
     let (mechanism, mut warnings) = analyse(source, settings)?;
     let mut derived = mechanism.clone();
     let equations = derive::derive(&mut derived)?;
-    warnings.append_elsewhere(doubt::doubts(&derived, &equations));
-    warnings.append_elsewhere(doubt::redundancies(&derived, &equations));
+    warnings.append_elsewhere(lint::lints(&derived, &equations));
+    warnings.append_elsewhere(lint::redundancies(&derived, &equations));
     if let Some(warning) = derive::swell(&derived, &equations) {
         warnings.push(warning);
     }
@@ -155,7 +157,7 @@ fn derive(
     let mut equations = derive::derive(&mut mechanism);
     // What is too long as it was declared may be short enough without some coordinates.
     if let Ok(equations) = &equations {
-        warnings.append_elsewhere(doubt::doubts(&mechanism, equations));
+        warnings.append_elsewhere(lint::lints(&mechanism, equations));
     }
     if let Some(declared) = declared {
         mechanism = derive::eliminate(declared)?;

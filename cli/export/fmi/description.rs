@@ -4,8 +4,8 @@
 //! Out: text. The order of the variables is that of their value references, which
 //!      `fmi2.c` counts in the same order.
 
-use bricard_codegen::expr::{ExprId, Symbol};
-use bricard_codegen::model::{Mechanism, Quantity};
+use bricard_codegen::internals::expr::{ExprId, Symbol};
+use bricard_codegen::internals::model::{Mechanism, Quantity};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 

@@ -12,6 +12,7 @@ use quote::quote;
 
 /// What to emit besides the necessary.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Options {
     /// Emit the Coriolis matrix `C` as a function of its own.
     pub coriolis_matrix: bool,

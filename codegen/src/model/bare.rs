@@ -9,7 +9,7 @@ use super::unit::Dimension;
 use super::value::Bare;
 use crate::diagnostic::{Diagnostic, figure};
 use crate::expr::Number;
-use crate::parse::ast::{Expr, ExprKind};
+use crate::syntax::ast::{Expr, ExprKind};
 
 /// Numbers that stand in front of anything: 0, 1, 0.5.
 fn is_coefficient(number: &Number) -> bool {

@@ -8,7 +8,7 @@ use super::unit::{PER_SECOND, Unit};
 use super::value::{Matrix, Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::expr::{Function, Function2};
-use crate::parse::ast::{Expr, ExprKind, Name};
+use crate::syntax::ast::{Expr, ExprKind, Name};
 
 impl Evaluator {
     /// `function(arguments)`
@@ -129,7 +129,7 @@ impl Evaluator {
             }
         };
         let id = self.graph.function(function, x.id);
-        let (at, value) = (self.facts(x.id).value, self.facts(id).value);
+        let (at, value) = (self.analysis(x.id).value, self.analysis(id).value);
         if let (Some(at), Some(value)) = (at, value)
             && !value.is_finite()
         {
@@ -154,7 +154,7 @@ impl Evaluator {
         };
         let id = self.graph.function2(function, x.id, y.id);
         Some(Value::Scalar(Scalar {
-            id: self.sound(id, span)?,
+            id: self.valid(id, span)?,
             unit,
         }))
     }
@@ -221,12 +221,12 @@ impl Evaluator {
 
     /// The total derivative of a scalar in time.
     pub fn rate(&mut self, scalar: Scalar, span: Span) -> Option<Scalar> {
-        let facts = self.facts(scalar.id);
-        if facts.acceleration {
+        let analysis = self.analysis(scalar.id);
+        if analysis.acceleration {
             let error = Diagnostic::error(span, "the derivative of an acceleration is not known");
             return self.report(error.labelled("this contains `der(der(…))` already"));
         }
-        if facts.input {
+        if analysis.input {
             let error = Diagnostic::error(span, "the derivative of an input is not known");
             return self.report(error.help("declare another input for it"));
         }
@@ -239,7 +239,7 @@ impl Evaluator {
             unit => unit.times(Unit::Known(PER_SECOND)),
         };
         Some(Scalar {
-            id: self.sound(id, span)?,
+            id: self.valid(id, span)?,
             unit,
         })
     }

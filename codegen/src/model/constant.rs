@@ -6,8 +6,8 @@ use super::value::{Scalar, Value};
 use super::{Constant, Parameter};
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::expr::{ExprId, Number, Symbol};
-use crate::parse::Model;
-use crate::parse::ast::{Declaration, Declared, ExprKind, Item, ItemKind};
+use crate::syntax::Model;
+use crate::syntax::ast::{Declaration, Declared, ExprKind, Item, ItemKind};
 
 impl Lowering<'_> {
     /// Checks that the build script changes what there is: whole constants and parameters,

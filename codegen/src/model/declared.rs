@@ -2,7 +2,7 @@
 
 use super::order::{Mention, collect};
 use crate::diagnostic::{Label, Span};
-use crate::parse::ast::{Expr, Function, Let, Name};
+use crate::syntax::ast::{Expr, Function, Let, Name};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 use std::rc::Rc;

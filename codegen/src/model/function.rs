@@ -13,12 +13,12 @@ use super::language::known;
 use super::lowering::Lowering;
 use super::order::{Definition, Mention, collect, order};
 use super::scope::{Kind, twice};
-use super::si;
 use super::unit::{NONE, Unit};
+use super::unit_names;
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr;
-use crate::parse::ast::{Argument, Expr, Function, Item, ItemKind, Name, UnitExpr};
+use crate::syntax::ast::{Argument, Expr, Function, Item, ItemKind, Name, UnitExpr};
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
 
@@ -267,7 +267,7 @@ impl Evaluator {
 
 /// A declared unit whose mistakes have been reported.
 fn declared(unit: Option<&UnitExpr>) -> Unit {
-    match unit.map(si::resolve) {
+    match unit.map(unit_names::resolve) {
         Some(Ok(dimension)) => Unit::Known(dimension),
         _ => Unit::Unchecked,
     }

@@ -10,8 +10,8 @@ use super::part::{LIBRARY, Placed};
 use super::scope::{Entry, Kind};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::expr::{ExprId, Graph, Symbol};
-use crate::parse::ast::{Item, ItemKind};
-use crate::parse::{self, Model};
+use crate::syntax::ast::{Item, ItemKind};
+use crate::syntax::{self, Model};
 use rustc_hash::FxHashMap;
 use std::path::Path;
 use std::rc::Rc;
@@ -75,7 +75,7 @@ pub fn lower(
 fn library(model: &Model) -> Vec<Item> {
     let uses = |item: &Item| matches!(&item.kind, ItemKind::Use(name) if name.text == LIBRARY);
     match model.items.iter().any(uses) {
-        true => parse::library(),
+        true => syntax::library(),
         false => Vec::new(),
     }
 }

@@ -4,7 +4,7 @@ use super::Mechanism;
 use super::declared::Frame;
 use super::evaluate::Evaluator;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::parse::ast::Part;
+use crate::syntax::ast::Part;
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
 

@@ -10,7 +10,7 @@ use super::order::QUANTITIES;
 use super::scope::Kind;
 use super::value::{Bare, Value};
 use crate::diagnostic::{Diagnostic, Span, nearest};
-use crate::parse::ast::{Argument, Expr, ExprKind, Let, Name};
+use crate::syntax::ast::{Argument, Expr, ExprKind, Let, Name};
 
 impl Evaluator {
     /// Whether a formula names a part or an array of them.

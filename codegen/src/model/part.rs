@@ -11,7 +11,7 @@ use super::order::{Mention, collect};
 use super::scope::{Kind, built_in, twice};
 use super::value::Value;
 use crate::diagnostic::{Diagnostic, Label, Span};
-use crate::parse::ast::{Argument, Declared, Expr, ExprKind, Item, ItemKind, Let, Name, Part};
+use crate::syntax::ast::{Argument, Declared, Expr, ExprKind, Item, ItemKind, Let, Name, Part};
 use std::rc::Rc;
 
 /// A statement and where its names are looked up.

@@ -5,7 +5,7 @@
 
 use super::value::{Bare, Value};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::parse::ast::Name;
+use crate::syntax::ast::Name;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What a name stands for.

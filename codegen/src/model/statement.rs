@@ -6,7 +6,7 @@ use super::unit::{Dimension, ENERGY, NONE, POWER, Unit};
 use super::value::{Scalar, Value};
 use super::{Constraint, Direction, Event, Force, Output, Quantity, Summand};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::parse::ast::{
+use crate::syntax::ast::{
     Crossing, Declaration, Declared, Energy, Expr, Item, ItemKind, Name, Range,
 };
 
@@ -231,7 +231,7 @@ impl Lowering<'_> {
             let sides = [(a, left.span), (b, right.span)];
             let unit = self.evaluator.same_unit(sides, "this equation")?;
             let residual = self.evaluator.graph.sub(a.id, b.id);
-            let residual = self.evaluator.sound(residual, span)?;
+            let residual = self.evaluator.valid(residual, span)?;
             let Some(holonomic) = self.legal_constraint(residual, [left, right])? else {
                 continue;
             };
@@ -309,7 +309,7 @@ impl Lowering<'_> {
             let mut quantity = self.quantity(item, &declaration.name, unit);
             quantity.name = format!("{name}{suffix}");
             self.column_is_free(&quantity.name, &declaration.name)?;
-            let accelerated = self.evaluator.facts(scalar.id).acceleration;
+            let accelerated = self.evaluator.analysis(scalar.id).acceleration;
             self.mechanism.outputs.push(Output {
                 quantity,
                 value: scalar.id,

@@ -1,6 +1,6 @@
 //! Units: dimensions as exponents of SI base units.
 //!
-//! In:  dimensions of symbols, from [`super::si`].
+//! In:  dimensions of symbols, from [`super::unit_names`].
 //! Out: [`Unit`]s that formulas are checked with.
 //!
 //! A number has no unit of its own: it takes that of what it stands beside (`x -

@@ -115,7 +115,7 @@ pub fn regular_acceleration(
     sizes: (usize, usize),
     weighed: &[usize],
 ) -> Option<Solved> {
-    solve::with_acceleration(terms, sizes, weighed).map(sound)
+    solve::with_acceleration(terms, sizes, weighed).map(checked_solution)
 }
 
 /// The program for the least corrections of position and velocity, from the
@@ -130,10 +130,10 @@ pub fn regular_correction(
     sizes: (usize, usize),
     weighed: &[usize],
 ) -> Option<Solved> {
-    solve::with_correction(terms, sizes, weighed).map(sound)
+    solve::with_correction(terms, sizes, weighed).map(checked_solution)
 }
 
-fn sound(solved: Solved) -> Solved {
+fn checked_solution(solved: Solved) -> Solved {
     let program = checked(solved.program);
     Solved { program, ..solved }
 }

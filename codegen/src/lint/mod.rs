@@ -3,7 +3,7 @@
 //! In:  a checked [`Mechanism`] and its equations of motion.
 //! Out: warnings: kinetic energy that is negative, statements that are not finite where the motion
 //!      begins, coordinates without inertia, equations whose derivatives vanish
-//!      where they hold, a start that can't be assembled ([`doubts`]); equations
+//!      where they hold, a start that can't be assembled ([`lints`]); equations
 //!      that follow from others ([`redundancies`]).
 //!
 //! Everything is evaluated at a few random positions that satisfy the constraints,
@@ -30,7 +30,7 @@ use numbers::Numbers;
 /// Warns of what will hinder a simulation: a negative kinetic energy, a coordinate that
 /// moves without kinetic energy and that no constraint restricts, an equation whose
 /// derivatives vanish where it holds, a start that can't be assembled.
-pub fn doubts(mechanism: &Mechanism, equations: &Equations) -> Diagnostics {
+pub fn lints(mechanism: &Mechanism, equations: &Equations) -> Diagnostics {
     let mut found = Diagnostics::new();
     if let Some(numbers) = Numbers::of_start(mechanism, equations) {
         start::unassembled(&numbers, &mut found);

@@ -8,7 +8,7 @@
 
 use super::unit::{Dimension, ENERGY, NONE, PARTS};
 use crate::diagnostic::{Diagnostic, nearest};
-use crate::parse::ast::UnitExpr;
+use crate::syntax::ast::UnitExpr;
 
 /// The base units, in the order of the exponents of a [`Dimension`].
 const BASE: [&str; 5] = ["kg", "m", "s", "A", "K"];
