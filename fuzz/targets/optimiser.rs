@@ -10,7 +10,9 @@ mod jet;
 mod recipe;
 
 use bricard_codegen::internals::expr::{Comparison, ExprId, Function, Function2, Graph, Node};
-use bricard_codegen::internals::optimise::{Slot, cost, in_trig_ring, interpret, optimise, plain, verify};
+use bricard_codegen::internals::optimise::{
+    Slot, cost, in_trig_ring, interpret, optimise, plain, verify,
+};
 use libfuzzer_sys::fuzz_target;
 use recipe::{Recipe, SYMBOLS, evaluated, is_finite, value_of};
 

@@ -37,10 +37,13 @@ use crate::derive::Equations;
 use crate::model::Mechanism;
 use crate::optimise::Programs;
 use imports::imports;
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 use subject::{Subject, doc_lines};
 use symbol::SymbolNames;
+
+/// The version of the interface that modules are written for: the runtime's `FORMAT`.
+const FORMAT: u32 = 1;
 
 /// The module of a mechanism, from the programs that it runs.
 pub fn module(
@@ -61,6 +64,7 @@ pub fn module(
     let docs = module_docs(&subject, origin);
     let module = Ident::new(&module_name(origin.module), Span::call_site());
     let imports = imports(&subject);
+    let format = Literal::u32_unsuffixed(FORMAT);
     let source = origin.source;
     let structure = structure::structure(&subject);
     let conditions = switches::table(&subject);
@@ -78,6 +82,8 @@ pub fn module(
         #(#[doc = #docs])*
         pub mod #module {
             #imports
+
+            const _: () = bricard_runtime::written_for(#format);
 
             /// The description that this module was generated from.
             pub const SOURCE: &str = #source;
