@@ -5,7 +5,7 @@
 
 use crate::interrupt::INTERRUPTED;
 use crate::number::exact;
-use bricard_codegen::diagnostic::nearest;
+use bricard_codegen::internals::diagnostic::nearest;
 use std::fmt::{self, Display, Formatter};
 use std::io;
 use std::path::{Path, PathBuf};

@@ -4,8 +4,8 @@
 //! Out: a number, or `NAME=VALUE`; on failure a message that says what to write. The value
 //!      of an input may be a formula of what moves, which is left as it is ([`crate::law`]).
 
-use bricard_codegen::expr::{ExprId, Function, Function2, Graph, Number};
-use bricard_codegen::parse::{
+use bricard_codegen::internals::expr::{ExprId, Function, Function2, Graph, Number};
+use bricard_codegen::internals::syntax::{
     self,
     ast::{Expr, ExprKind},
 };
@@ -145,9 +145,9 @@ fn with_unit(text: &str) -> Option<String> {
 
 /// The factor that turns a unit into the SI unit.
 fn si(unit: &str) -> Option<&'static str> {
-    match bricard_codegen::words::units().any(|known| known == unit) {
+    match bricard_codegen::internals::keywords::units().any(|known| known == unit) {
         true => Some("1"),
-        false => bricard_codegen::words::scaled_units()
+        false => bricard_codegen::internals::keywords::scaled_units()
             .find(|(known, _)| *known == unit)
             .map(|(_, factor)| factor),
     }

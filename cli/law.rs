@@ -9,8 +9,8 @@ use crate::compiled;
 use crate::error::CommandError;
 use crate::formula::Setting;
 use crate::mechanism::{Description, description, find};
-use bricard_codegen::diagnostic::Span;
-use bricard_codegen::parse::{Model, parse};
+use bricard_codegen::internals::diagnostic::Span;
+use bricard_codegen::internals::syntax::{Model, parse};
 use bricard_driver::AnyMechanism;
 
 /// An input by its name, and its formula.

@@ -8,8 +8,8 @@
 use crate::dense::{dot, size};
 use crate::dual::evaluate;
 use crate::library::{Derived, Point, everything};
-use bricard_codegen::derive::coriolis_matrix;
-use bricard_codegen::expr::{ExprId, Symbol};
+use bricard_codegen::internals::derive::coriolis_matrix;
+use bricard_codegen::internals::expr::{ExprId, Symbol};
 use bricard_testkit::Random;
 use num_dual::{Dual2_64, Dual64, HyperDual64};
 
@@ -144,7 +144,7 @@ impl Case<'_> {
     /// `Q_i` by virtual work.
     fn applied(&self, i: usize) -> f64 {
         let loss = self.total(&self.dissipation(), &|e| self.partial(e, i, true));
-        let work = |force: &bricard_codegen::model::Force| -> f64 {
+        let work = |force: &bricard_codegen::internals::model::Force| -> f64 {
             let parts = force.force.iter().zip(&force.on);
             parts
                 .map(|(&f, &x)| self.of.value(f, &self.point) * self.partial(x, i, false))

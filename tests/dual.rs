@@ -1,7 +1,9 @@
 //! Expressions evaluated on dual numbers: derivatives that share nothing with the
 //! symbolic rules.
 
-use bricard_codegen::expr::{Comparison, ExprId, Function, Function2, Graph, Node, Number, Symbol};
+use bricard_codegen::internals::expr::{
+    Comparison, ExprId, Function, Function2, Graph, Node, Number, Symbol,
+};
 use num_dual::DualNum;
 use std::collections::BTreeMap;
 

@@ -1,7 +1,7 @@
 //! The grammar for editors knows exactly the words of the language.
 
 use crate::source::read;
-use bricard_codegen::words;
+use bricard_codegen::internals::keywords;
 use serde_json::Value;
 use std::collections::BTreeSet;
 
@@ -37,13 +37,13 @@ fn the_grammar_for_editors_has_the_words_of_the_language_and_no_others() {
     let mut found = Vec::new();
     patterns(&grammar, &mut found);
     let coloured: BTreeSet<String> = found.iter().flat_map(|text| words_of(text)).collect();
-    let all = words::statements()
-        .chain(words::connectives())
-        .chain(words::shapes())
-        .chain(words::directions())
-        .chain(words::functions())
-        .chain(words::constants())
-        .chain(words::units());
+    let all = keywords::statements()
+        .chain(keywords::connectives())
+        .chain(keywords::shapes())
+        .chain(keywords::directions())
+        .chain(keywords::functions())
+        .chain(keywords::constants())
+        .chain(keywords::units());
     let language: BTreeSet<String> = all.map(str::to_string).collect();
     assert!(language.len() > 70, "{} words", language.len());
     assert_eq!(coloured, language);
@@ -60,12 +60,12 @@ fn every_word_of_the_grammar_is_coloured_as_what_it_is() {
     let set = |words: &mut dyn Iterator<Item = &'static str>| -> BTreeSet<String> {
         words.map(str::to_string).collect()
     };
-    assert_eq!(part("functions"), set(&mut words::functions()));
-    assert_eq!(part("shapes"), set(&mut words::shapes()));
-    assert_eq!(part("directions"), set(&mut words::directions()));
-    assert_eq!(part("constants"), set(&mut words::constants()));
+    assert_eq!(part("functions"), set(&mut keywords::functions()));
+    assert_eq!(part("shapes"), set(&mut keywords::shapes()));
+    assert_eq!(part("directions"), set(&mut keywords::directions()));
+    assert_eq!(part("constants"), set(&mut keywords::constants()));
     let statements = &part("declaration") | &part("statements");
-    assert_eq!(statements, set(&mut words::statements()));
+    assert_eq!(statements, set(&mut keywords::statements()));
     let connectives = &part("mechanism") | &part("connectives");
-    assert_eq!(connectives, set(&mut words::connectives()));
+    assert_eq!(connectives, set(&mut keywords::connectives()));
 }

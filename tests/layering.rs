@@ -1,17 +1,18 @@
-//! Stages import leftward only, the runtime knows no generator, and files,
-//! functions and traits stay small.
+//! Stages import leftward only, modules of the compiler in no circle, the runtime knows no
+//! generator, and files, functions and traits stay small.
 
+use crate::imports::{self, Imports};
 use crate::source::{self, File};
 
 /// The stages, each with those it may import; `expr` and `diagnostic` serve all.
 const STAGES: [(&str, &[&str]); 8] = [
     ("expr", &[]),
     ("diagnostic", &[]),
-    ("parse", &["diagnostic", "expr"]),
-    ("model", &["diagnostic", "expr", "parse"]),
+    ("syntax", &["diagnostic", "expr"]),
+    ("model", &["diagnostic", "expr", "syntax"]),
     ("derive", &["diagnostic", "expr", "model"]),
-    ("doubt", &["diagnostic", "expr", "model"]),
-    ("optimise", &["diagnostic", "expr", "derive"]),
+    ("lint", &["diagnostic", "expr", "model", "derive"]),
+    ("optimise", &["diagnostic", "expr", "model", "derive"]),
     (
         "emit",
         &["diagnostic", "expr", "model", "derive", "optimise"],
@@ -38,48 +39,40 @@ fn stage(file: &File) -> Option<&str> {
         .find(|stage| *stage == name)
 }
 
-/// The modules that a file names behind `crate::`, grouped imports included.
-fn imported(file: &File) -> Vec<String> {
-    let mut found = Vec::new();
-    let roots = file.code.replace("super::super::", "crate::");
-    for behind in roots.split("crate::").skip(1) {
-        let names = match behind.strip_prefix('{') {
-            Some(group) => group.split('}').next().unwrap_or_default().to_string(),
-            None => behind
-                .chars()
-                .take_while(|c| c.is_alphanumeric() || *c == '_')
-                .collect(),
-        };
-        let first = |path: &str| {
-            path.split("::")
-                .next()
-                .unwrap_or_default()
-                .trim()
-                .to_string()
-        };
-        found.extend(names.split(',').map(first));
-    }
-    found
+/// What the modules of the compiler import from one another.
+fn compiler() -> Imports {
+    let module = |file: File| {
+        let inside = file.path.strip_prefix("codegen/src/").unwrap_or(&file.path);
+        (imports::module_of(inside), file.text)
+    };
+    imports::imports(source::files(&["codegen/src"]).into_iter().map(module))
 }
 
 #[test]
 fn stages_import_only_stages_to_their_left() {
-    let mut complaints = Vec::new();
-    for file in source::files(&["codegen/src"]) {
-        let Some(here) = stage(&file) else { continue };
-        let allowed = STAGES
+    let stage = |module: &[String]| {
+        let found = STAGES
             .iter()
-            .find(|(stage, _)| *stage == here)
-            .map(|(_, allowed)| *allowed);
-        for name in imported(&file) {
-            let is_stage = STAGES.iter().any(|(stage, _)| *stage == name);
-            let fits = name == here || allowed.is_some_and(|allowed| allowed.contains(&&*name));
-            if is_stage && !fits {
-                complaints.push(format!("{}: `{here}` imports `{name}`", file.path));
+            .find(|(stage, _)| module.first().is_some_and(|m| m == stage));
+        found.copied()
+    };
+    let mut complaints = Vec::new();
+    for (module, targets) in compiler() {
+        let Some((here, allowed)) = stage(&module) else {
+            continue;
+        };
+        for (there, _) in targets.iter().filter_map(|target| stage(target)) {
+            if there != here && !allowed.contains(&there) {
+                complaints.push(format!("{}: `{here}` imports `{there}`", module.join("::")));
             }
         }
     }
     none(complaints);
+}
+
+#[test]
+fn modules_of_the_compiler_import_one_another_in_no_circle() {
+    none(imports::circles(&compiler()).concat());
 }
 
 #[test]

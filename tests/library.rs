@@ -1,10 +1,11 @@
 //! The descriptions that are tested: those of the library, and fixtures that hold
 //! what no mechanism of the library has.
 
-use bricard_codegen::derive::{Equations, Linearised, derive, linearise};
-use bricard_codegen::expr::{ExprId, Symbol};
-use bricard_codegen::model::Mechanism;
-use bricard_codegen::{Settings, analyse};
+use bricard_codegen::Settings;
+use bricard_codegen::internals::analyse;
+use bricard_codegen::internals::derive::{Equations, Linearised, derive, linearise};
+use bricard_codegen::internals::expr::{ExprId, Symbol};
+use bricard_codegen::internals::model::Mechanism;
 use bricard_runtime::{Real, Visitor};
 use bricard_testkit::Random;
 

@@ -2,7 +2,7 @@
 
 use crate::dual::{Dual, evaluate};
 use crate::library::{Derived, Point, everything, has_regular_states, names, step_scale, visit};
-use bricard_codegen::expr::{ExprId, Symbol};
+use bricard_codegen::internals::expr::{ExprId, Symbol};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Interface, Mechanism, Options, Settings, Slope, Solver, State, System, Visitor, Whole,

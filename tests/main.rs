@@ -17,6 +17,7 @@ mod export;
 mod files;
 mod golden;
 mod identities;
+mod imports;
 mod layering;
 mod library;
 mod licences;

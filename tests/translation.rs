@@ -3,9 +3,9 @@
 use crate::compiled::{Answers, Place, answers, asked};
 use crate::dense::{dot, null_space, size, times};
 use crate::library::{Derived, Point, everything, is_of_unit_size};
-use bricard_codegen::expr::{ExprId, Symbol};
-use bricard_codegen::model::Shape;
-use bricard_codegen::optimise::{Slot, interpret, optimise, plain};
+use bricard_codegen::internals::expr::{ExprId, Symbol};
+use bricard_codegen::internals::model::Shape;
+use bricard_codegen::internals::optimise::{Slot, interpret, optimise, plain};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{Mechanism, Position, State, Terms};
 use bricard_testkit::Random;
@@ -90,7 +90,7 @@ fn drawn(shape: &Shape) -> Vec<ExprId> {
 
 /// The point with inputs at their laws.
 fn at_law(derived: &Derived, point: &Point) -> Point {
-    let law = |input: &bricard_codegen::model::Input| derived.value(input.law, point);
+    let law = |input: &bricard_codegen::internals::model::Input| derived.value(input.law, point);
     Point {
         inputs: derived.mechanism.inputs.iter().map(law).collect(),
         follows: true,

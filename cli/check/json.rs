@@ -5,7 +5,7 @@
 //!      `end` is behind the last character.
 
 use super::Examined;
-use bricard_codegen::diagnostic::{Diagnostic, Label, Position, Severity};
+use bricard_codegen::internals::diagnostic::{Diagnostic, Label, Position, Severity};
 use serde_json::{Value, json};
 
 /// The findings about a file as JSON, with a line feed at the end.

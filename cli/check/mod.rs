@@ -10,8 +10,9 @@ use crate::arguments::Check;
 use crate::error::CommandError;
 use crate::output::{print, say};
 use crate::show::sizes;
-use bricard_codegen::model::Mechanism;
-use bricard_codegen::{Diagnostics, Settings, examine};
+use bricard_codegen::internals::examine;
+use bricard_codegen::internals::model::Mechanism;
+use bricard_codegen::{Diagnostics, Settings};
 use std::path::Path;
 
 /// Checks a description.
@@ -41,6 +42,6 @@ type Examined = Result<(Mechanism, Diagnostics), Diagnostics>;
 
 /// The text of a description.
 pub fn read(path: &Path) -> Result<String, CommandError> {
-    bricard_codegen::read_description(path)
+    bricard_codegen::internals::read_description(path)
         .map_err(|error| CommandError::Read(path.to_path_buf(), error))
 }

@@ -10,7 +10,7 @@ use super::shared::{libraries, rustc};
 use super::{Digits, identity};
 use crate::error::CommandError;
 use crate::output::say;
-use bricard_codegen::emit::module_name;
+use bricard_codegen::internals::emit::module_name;
 use bricard_codegen::{Compiled, Settings, compile_source};
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::fs;

@@ -8,7 +8,7 @@ use super::compiler::{Toolchain, output};
 use super::shared::{rustc, sized};
 use crate::error::CommandError;
 use crate::output::say;
-use bricard_codegen::emit::type_name;
+use bricard_codegen::internals::emit::type_name;
 use bricard_codegen::{Settings, compile_source};
 use std::path::{Path, PathBuf};
 

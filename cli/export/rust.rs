@@ -10,7 +10,7 @@ use crate::error::CommandError;
 use crate::mechanism::Description;
 use crate::new::RESERVED;
 use crate::output::print;
-use bricard_codegen::emit::type_name;
+use bricard_codegen::internals::emit::type_name;
 use std::path::{Path, PathBuf};
 
 /// Packages that the crate can't have the name of.

@@ -11,7 +11,7 @@ mod text;
 use crate::arguments::New;
 use crate::error::CommandError;
 use crate::output::print;
-use bricard_codegen::emit::{module_name, type_name};
+use bricard_codegen::internals::emit::{module_name, type_name};
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 

@@ -11,7 +11,7 @@ use crate::number::exact;
 use crate::plot::{Marks, Panel, Scale};
 use crate::scene::is_spatial;
 use base64::{Engine, engine::general_purpose::STANDARD};
-use bricard_codegen::words;
+use bricard_codegen::internals::keywords;
 use bricard_driver::{Drawn, Scene};
 use bricard_runtime::{Quantity, Structure};
 use serde_json::{Value, json};
@@ -88,13 +88,13 @@ fn command() -> String {
 /// The words that are coloured in a description, by what they are.
 fn words_of_the_language() -> Value {
     json!({
-        "keyword": words::statements()
-            .chain(words::connectives())
-            .chain(words::directions())
+        "keyword": keywords::statements()
+            .chain(keywords::connectives())
+            .chain(keywords::directions())
             .chain(["mechanism"])
             .collect::<Vec<_>>(),
-        "function": words::functions().chain(words::shapes()).collect::<Vec<_>>(),
-        "constant": words::constants().collect::<Vec<_>>(),
+        "function": keywords::functions().chain(keywords::shapes()).collect::<Vec<_>>(),
+        "constant": keywords::constants().collect::<Vec<_>>(),
     })
 }
 

@@ -1,9 +1,9 @@
 //! The programs of the functions that a simulation calls, and what they cost.
 
-use bricard_codegen::derive::{Equations, Matrix};
-use bricard_codegen::expr::ExprId;
-use bricard_codegen::model::Mechanism;
-use bricard_codegen::optimise::{Program, Slot, cost, optimise};
+use bricard_codegen::internals::derive::{Equations, Matrix};
+use bricard_codegen::internals::expr::ExprId;
+use bricard_codegen::internals::model::Mechanism;
+use bricard_codegen::internals::optimise::{Program, Slot, cost, optimise};
 
 type Wanted = Vec<(Slot, ExprId)>;
 

@@ -17,9 +17,10 @@ use crate::error::CommandError;
 use crate::list::first_sentence;
 use crate::mechanism::{Description, description, freedom_at_start};
 use crate::output::print;
-use bricard_codegen::expr::{Notation, Symbol};
-use bricard_codegen::model::{Described, Mechanism};
-use bricard_codegen::{Settings, analyse, derive};
+use bricard_codegen::Settings;
+use bricard_codegen::internals::expr::{Notation, Symbol};
+use bricard_codegen::internals::model::{Described, Mechanism};
+use bricard_codegen::internals::{analyse, derive};
 use cost::Programs;
 use std::path::Path;
 
@@ -170,13 +171,13 @@ fn given(coordinate: &Described) -> Option<String> {
 /// The entry as it is, or as a reduced polynomial in sines and cosines:
 /// whichever is shorter.
 fn shortest(
-    graph: &mut bricard_codegen::expr::Graph,
-    e: bricard_codegen::expr::ExprId,
+    graph: &mut bricard_codegen::internals::expr::Graph,
+    e: bricard_codegen::internals::expr::ExprId,
     notation: Notation,
     names: &dyn Fn(Symbol) -> String,
 ) -> String {
     let plain = graph.print(e, notation, names);
-    let reduced = bricard_codegen::optimise::in_trig_ring(graph, e);
+    let reduced = bricard_codegen::internals::optimise::in_trig_ring(graph, e);
     let reduced = graph.print(reduced, notation, names);
     if reduced.chars().count() < plain.chars().count() {
         reduced

@@ -1,9 +1,9 @@
 //! The arrays of the equations of motion, entry by entry.
 
 use super::shortest;
-use bricard_codegen::derive::{Equations, Matrix, coriolis_matrix};
-use bricard_codegen::expr::{ExprId, Graph, Notation, Symbol};
-use bricard_codegen::model::Mechanism;
+use bricard_codegen::internals::derive::{Equations, Matrix, coriolis_matrix};
+use bricard_codegen::internals::expr::{ExprId, Graph, Notation, Symbol};
+use bricard_codegen::internals::model::Mechanism;
 
 /// One array.
 pub struct Section {

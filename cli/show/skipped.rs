@@ -5,10 +5,10 @@
 //!      a program for any mechanism of its size would spend on it.
 
 use super::cost::Programs;
-use bricard_codegen::derive::Equations;
-use bricard_codegen::expr::{ExprId, Graph, Symbol};
-use bricard_codegen::model::Mechanism;
-use bricard_codegen::optimise::{Program, cost, regular_acceleration};
+use bricard_codegen::internals::derive::Equations;
+use bricard_codegen::internals::expr::{ExprId, Graph, Symbol};
+use bricard_codegen::internals::model::Mechanism;
+use bricard_codegen::internals::optimise::{Program, cost, regular_acceleration};
 use std::collections::BTreeSet;
 
 /// The section, empty where everything is needed.

@@ -6,7 +6,7 @@ use crate::column::Column;
 use crate::error::CommandError;
 use crate::page::is_page;
 use crate::run::Plan;
-use bricard_codegen::diagnostic::figure;
+use bricard_codegen::internals::diagnostic::figure;
 use bricard_runtime::{Options, Pace, Settings};
 use std::path::{Path, PathBuf};
 

@@ -11,7 +11,7 @@
 
 use crate::compile::{Compiled, Settings, compile_source};
 use crate::emit;
-use crate::parse::{Model, ModelError};
+use crate::syntax::{Model, ModelError};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::{env, fmt, fs, io};
@@ -46,6 +46,7 @@ pub struct Builder {
 /// Why nothing was generated.
 ///
 /// Its `Debug` is its message too: that is what a `main` that returns it prints.
+#[non_exhaustive]
 pub enum BuildError {
     /// A file could not be read or written.
     File(PathBuf, io::Error),

@@ -1,13 +1,18 @@
 //! The whole pipeline on one screen.
 
+use crate::derive::{self, Equations};
 use crate::diagnostic::Diagnostics;
 use crate::emit::{self, Options, Origin};
-use crate::model::Mechanism;
-use crate::{derive, doubt, model, parse};
+use crate::lint;
+use crate::model::{self, Mechanism};
+use crate::optimise::{self, Besides, Programs};
+use crate::syntax::{self, Read};
+use proc_macro2::TokenStream;
 use std::path::{Path, PathBuf};
 
 /// What to do differently from the defaults.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct Settings {
     /// Constants with another value than the description gives them.
     pub constants: Vec<(String, f64)>,
@@ -33,6 +38,7 @@ impl Settings {
 
 /// One description, compiled.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Compiled {
     /// The name after `mechanism`.
     pub name: String,
@@ -65,30 +71,32 @@ pub fn compile_source(
     file: &str,
     settings: &Settings,
 ) -> Result<Compiled, Diagnostics> {
-    let (mut mechanism, mut warnings) = analyse(source, settings)?;
-    warnings.append_elsewhere(doubt::doubts(mechanism.clone()));
-    if settings.eliminate {
-        mechanism = derive::eliminate(mechanism)?;
-    }
-    let equations = derive::derive(&mut mechanism)?;
-    if let Some(warning) = derive::swell(&mechanism, &equations) {
-        warnings.push(warning);
-    }
+    let options = settings.options;
     let origin = Origin {
         module,
         file,
         source,
         frozen: &settings.frozen,
     };
-    let tokens = emit::module(&mut mechanism, &equations, origin, settings.options);
-    let code = emit::render(&tokens);
+
+    let tree: Read = syntax::read(source);
+    let (mechanism, mut warnings): (Mechanism, Diagnostics) = lower(tree, settings)?;
+    let (mut mechanism, equations): (Mechanism, Equations) =
+        derive(mechanism, settings.eliminate, &mut warnings)?;
+    let besides = Besides {
+        coriolis_matrix: options.coriolis_matrix,
+        partials: options.c_interface,
+    };
+    let programs: Programs = optimise::programs(&mut mechanism, &equations, besides);
+    let code: TokenStream = emit::module(&mechanism, &equations, &programs, origin, options);
+
     Ok(Compiled {
         c_header: emit::c_header(&mechanism, module),
         name: mechanism.name,
         coordinates: mechanism.coordinates.len(),
         constraints: mechanism.constraints.len(),
-        code,
-        differentiated: emit::is_differentiated(&tokens),
+        code: emit::render(&code),
+        differentiated: programs.partials.is_some(),
         files: mechanism.files,
         warnings,
     })
@@ -100,7 +108,31 @@ pub fn compile_source(
 ///
 /// As [`compile_source`].
 pub fn analyse(source: &str, settings: &Settings) -> Result<(Mechanism, Diagnostics), Diagnostics> {
-    let (tree, mut wrong) = parse::read(source);
+    lower(syntax::read(source), settings)
+}
+
+/// [`analyse`] and everything else that can be said without generating code: also
+/// what is legal but doubtful, found by evaluating the equations.
+///
+/// # Errors
+///
+/// As [`compile_source`].
+pub fn examine(source: &str, settings: &Settings) -> Result<(Mechanism, Diagnostics), Diagnostics> {
+    let (mechanism, mut warnings) = analyse(source, settings)?;
+    let mut derived = mechanism.clone();
+    let equations = derive::derive(&mut derived)?;
+    warnings.append_elsewhere(lint::lints(&derived, &equations));
+    warnings.append_elsewhere(lint::redundancies(&derived, &equations));
+    if let Some(warning) = derive::swell(&derived, &equations) {
+        warnings.push(warning);
+    }
+    Ok((mechanism, warnings))
+}
+
+/// The mechanism of a tree, and what is doubtful in it. Where statements can't be read,
+/// those that can have mistakes of their own, which are told with theirs.
+fn lower(read: Read, settings: &Settings) -> Result<(Mechanism, Diagnostics), Diagnostics> {
+    let (tree, mut wrong) = read;
     let Some(tree) = tree else {
         return Err(wrong);
     };
@@ -114,27 +146,32 @@ pub fn analyse(source: &str, settings: &Settings) -> Result<(Mechanism, Diagnost
     if wrong.is_empty() {
         return lowered;
     }
-    // The statements that could be read have mistakes of their own.
     if let Err(others) = lowered {
         wrong.append(others);
     }
     Err(wrong)
 }
 
-/// [`analyse`] and everything else that can be said without generating code: also
-/// what is legal but doubtful, found by evaluating the equations.
-///
-/// # Errors
-///
-/// As [`compile_source`].
-pub fn examine(source: &str, settings: &Settings) -> Result<(Mechanism, Diagnostics), Diagnostics> {
-    let (mechanism, mut warnings) = analyse(source, settings)?;
-    warnings.append_elsewhere(doubt::doubts(mechanism.clone()));
-    warnings.append_elsewhere(doubt::redundancies(mechanism.clone()));
-    let mut derived = mechanism.clone();
-    let equations = derive::derive(&mut derived)?;
-    if let Some(warning) = derive::swell(&derived, &equations) {
+/// The equations of motion, of the mechanism that is left where coordinates are eliminated.
+/// Warnings are about what the description declares.
+fn derive(
+    mut mechanism: Mechanism,
+    eliminate: bool,
+    warnings: &mut Diagnostics,
+) -> Result<(Mechanism, Equations), Diagnostics> {
+    let declared = eliminate.then(|| mechanism.clone());
+    let mut equations = derive::derive(&mut mechanism);
+    // What is too long as it was declared may be short enough without some coordinates.
+    if let Ok(equations) = &equations {
+        warnings.append_elsewhere(lint::lints(&mechanism, equations));
+    }
+    if let Some(declared) = declared {
+        mechanism = derive::eliminate(declared)?;
+        equations = derive::derive(&mut mechanism);
+    }
+    let equations = equations?;
+    if let Some(warning) = derive::swell(&mechanism, &equations) {
         warnings.push(warning);
     }
-    Ok((mechanism, warnings))
+    Ok((mechanism, equations))
 }

@@ -13,23 +13,62 @@
 //!
 //! and in the crate, `bricard_runtime::include_mechanism!("four_bar");`.
 //!
-//! The stages, each a module: [`parse`] → [`model`] → [`mod@derive`] → [`optimise`] →
-//! [`emit`], on expressions of [`expr`], with messages of [`diagnostic`].
+//! What stands here is for users; [`Builder`] has the settings. A program that compiles
+//! descriptions itself calls [`compile_source`]; one that makes them has [`Model`].
 
 mod build;
 mod compile;
-pub mod derive;
-pub mod diagnostic;
-pub mod doubt;
-pub mod emit;
-pub mod expr;
-pub mod model;
-pub mod optimise;
-pub mod parse;
-pub mod words;
+mod derive;
+mod diagnostic;
+mod emit;
+mod expr;
+mod keywords;
+mod lint;
+mod model;
+mod optimise;
+mod syntax;
 
-pub use build::{BuildError, Builder, compile, compile_dir, read_description};
-pub use compile::{Compiled, Settings, analyse, compile_source, examine};
+pub use build::{BuildError, Builder, compile, compile_dir};
+pub use compile::{Compiled, Settings, compile_source};
 pub use diagnostic::Diagnostics;
-pub use parse::ast::{Crossing, Drawing};
-pub use parse::{Formula, Model, ModelError};
+pub use emit::Options;
+pub use syntax::ast::{Crossing, Drawing};
+pub use syntax::{Formula, Model, ModelError};
+
+/// The stages of the compiler, for the other packages of its workspace and for tests. There
+/// is no promise about anything in here: it may change with any version.
+///
+/// `syntax` → `model` → `derive` → `optimise` → `emit`, on expressions of `expr`, with
+/// messages of `diagnostic` and the warnings of `lint`.
+#[doc(hidden)]
+pub mod internals {
+    pub use crate::build::read_description;
+    pub use crate::compile::{analyse, examine};
+    pub mod derive {
+        pub use crate::derive::*;
+    }
+    pub mod diagnostic {
+        pub use crate::diagnostic::*;
+    }
+    pub mod emit {
+        pub use crate::emit::*;
+    }
+    pub mod expr {
+        pub use crate::expr::*;
+    }
+    pub mod keywords {
+        pub use crate::keywords::*;
+    }
+    pub mod lint {
+        pub use crate::lint::*;
+    }
+    pub mod model {
+        pub use crate::model::*;
+    }
+    pub mod optimise {
+        pub use crate::optimise::*;
+    }
+    pub mod syntax {
+        pub use crate::syntax::*;
+    }
+}

@@ -3,7 +3,8 @@
 
 #![no_main]
 
-use bricard_codegen::{Settings, analyse, compile_source};
+use bricard_codegen::internals::analyse;
+use bricard_codegen::{Settings, compile_source};
 use libfuzzer_sys::fuzz_target;
 
 /// Texts beyond this are slow, not new.

@@ -9,8 +9,10 @@ mod jet;
 #[path = "../../codegen/tests/symbolic/recipe.rs"]
 mod recipe;
 
-use bricard_codegen::expr::{Comparison, ExprId, Function, Function2, Graph, Node};
-use bricard_codegen::optimise::{Slot, cost, in_trig_ring, interpret, optimise, plain, verify};
+use bricard_codegen::internals::expr::{Comparison, ExprId, Function, Function2, Graph, Node};
+use bricard_codegen::internals::optimise::{
+    Slot, cost, in_trig_ring, interpret, optimise, plain, verify,
+};
 use libfuzzer_sys::fuzz_target;
 use recipe::{Recipe, SYMBOLS, evaluated, is_finite, value_of};
 

@@ -48,5 +48,7 @@ pub use simulate::{
 };
 pub use singular::Passage;
 pub use state::State;
+#[doc(hidden)]
+pub use structure::written_for;
 pub use structure::{ConstraintRow, Declared, Direction, Event, Multiplier, Quantity, Structure};
 pub use system::{Slope, Switching, System};

@@ -5,7 +5,7 @@
 
 use super::Version;
 use super::variables::{Kind, Variable, variables};
-use bricard_codegen::model::Mechanism;
+use bricard_codegen::internals::model::Mechanism;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 

@@ -11,7 +11,7 @@ use crate::error::CommandError;
 use crate::mechanism::Description;
 use crate::output::print;
 use bricard_codegen::Compiled;
-use bricard_codegen::emit::type_name;
+use bricard_codegen::internals::emit::type_name;
 use std::path::{Path, PathBuf};
 
 /// What the module is compiled for.

@@ -4,7 +4,8 @@
 //! With it `Ṁ − 2C` is skew-symmetric. The simulation does not need it: it uses
 //! the product `C q̇`, which `force` derives from `T` at a fraction of the cost.
 
-use super::{Matrix, coordinates, gradient};
+use super::equations::Matrix;
+use super::gradient::{coordinates, gradient, velocities};
 use crate::expr::{ExprId, Graph, Number, Symbol};
 
 /// `C(q, q̇)`, `N × N`, from the mass matrix.
@@ -18,7 +19,7 @@ pub fn coriolis_matrix(graph: &mut Graph, mass: &Matrix) -> Matrix {
                 .collect()
         })
         .collect();
-    let velocity: Vec<ExprId> = super::velocities(n)
+    let velocity: Vec<ExprId> = velocities(n)
         .map(|symbol: Symbol| graph.symbol(symbol))
         .collect();
     let mut entry = |i: usize, j: usize| {

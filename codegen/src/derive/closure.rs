@@ -3,7 +3,8 @@
 //! Holonomic rows: `g(q, t) = 0`, `φ = ġ = A q̇ + b`. Velocity rows: `φ = A q̇ + b`
 //! as written. From there both are alike: `φ̇ = A q̈ + γ`, `p₂ = −γ`.
 
-use super::{Matrix, coordinates, gradient, rates, velocities};
+use super::equations::Matrix;
+use super::gradient::{coordinates, gradient, rates, velocities};
 use crate::expr::{ExprId, Graph};
 use crate::model::Constraint;
 

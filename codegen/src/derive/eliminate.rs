@@ -12,7 +12,9 @@
 //! singular where the whole was.
 
 use super::explicit::{Explicit, explicit};
-use super::{Motion, coordinates, motion, swell, velocities};
+use super::gradient::{coordinates, velocities};
+use super::motion::{Motion, motion};
+use super::swell;
 use crate::diagnostic::Diagnostics;
 use crate::expr::{ExprId, Graph, Number, Symbol};
 use crate::model::{Described, Mechanism, Shape};

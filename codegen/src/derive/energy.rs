@@ -4,7 +4,8 @@
 //! `d/dt (T₂ − T₀ + Π) = (Q + r)·q̇ − ∂T/∂t + ∂Π/∂t`,
 //! since `q̇·∂T/∂q̇ = 2T₂ + T₁`. So `balance = q̇·∂T/∂q̇ − T + Π`.
 
-use super::{Energies, velocities};
+use super::equations::Energies;
+use super::gradient::velocities;
 use crate::expr::{ExprId, Graph, Number, Symbol};
 
 pub(super) fn energies(

@@ -1,7 +1,7 @@
 //! Forces: `C q̇` from `T`, `h` from `Π`, `Q` from applied forces and dissipation,
 //! and their sum `p₁` [PH 2.2, 2.4].
 
-use super::{coordinates, gradient, rates, velocities};
+use super::gradient::{coordinates, gradient, rates, velocities};
 use crate::expr::{ExprId, Graph, Number};
 use crate::model::Force;
 

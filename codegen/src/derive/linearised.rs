@@ -7,7 +7,8 @@
 //! An input that follows its law changes with the state; one that is held does not.
 //! The symbol `Follows` tells them apart.
 
-use super::{Equations, Matrix, coordinates, velocities};
+use super::equations::{Equations, Matrix};
+use super::gradient::{coordinates, velocities};
 use crate::expr::{Direction, ExprId, Graph, Number, Symbol};
 use crate::model::{Input, Mechanism};
 

@@ -1,6 +1,7 @@
 //! Generalized momenta `∂T/∂q̇` and the mass matrix `M = ∂²T/∂q̇²` [PH 2.1].
 
-use super::{Matrix, gradient, velocities};
+use super::equations::Matrix;
+use super::gradient::{gradient, velocities};
 use crate::expr::{ExprId, Graph};
 
 /// `∂T/∂q̇_i`, `N`.

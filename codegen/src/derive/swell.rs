@@ -5,7 +5,7 @@
 //!      error with the same where there are so many that generating code and compiling
 //!      it would not end in a time that anybody waits.
 
-use super::Equations;
+use super::equations::Equations;
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::model::Mechanism;

@@ -9,7 +9,7 @@
 //! needed, the runtime lets all rows take part. Those come first that join what `M` joins
 //! already, so that elimination stays as sparse.
 
-use super::Matrix;
+use super::equations::Matrix;
 use crate::expr::{Graph, Symbol};
 use std::collections::BTreeMap;
 

@@ -161,17 +161,17 @@ impl Diagnostics {
     }
 
     /// From here on findings are about something that is used at a place, in words.
-    pub fn enter(&mut self, span: Span, text: String) {
+    pub(crate) fn enter(&mut self, span: Span, text: String) {
         self.uses.push(Label { span, text });
     }
 
     /// Replaces the uses that findings are about, and returns those before.
-    pub fn look_from(&mut self, uses: Vec<Label>) -> Vec<Label> {
+    pub(crate) fn look_from(&mut self, uses: Vec<Label>) -> Vec<Label> {
         std::mem::replace(&mut self.uses, uses)
     }
 
     /// Ends what [`Diagnostics::enter`] began.
-    pub fn leave(&mut self) {
+    pub(crate) fn leave(&mut self) {
         self.uses.pop();
     }
 
@@ -181,12 +181,12 @@ impl Diagnostics {
     }
 
     /// Forgets the findings behind the first ones.
-    pub fn truncate(&mut self, count: usize) {
+    pub(crate) fn truncate(&mut self, count: usize) {
         self.list.truncate(count);
     }
 
     /// Adds the findings of another collection.
-    pub fn append(&mut self, other: Diagnostics) {
+    pub(crate) fn append(&mut self, other: Diagnostics) {
         other
             .list
             .into_iter()
@@ -195,7 +195,7 @@ impl Diagnostics {
 
     /// Adds the findings of another collection about places that nothing is said
     /// about yet.
-    pub fn append_elsewhere(&mut self, mut other: Diagnostics) {
+    pub(crate) fn append_elsewhere(&mut self, mut other: Diagnostics) {
         let known = |d: &Diagnostic| self.list.iter().any(|k| k.primary.span == d.primary.span);
         other.list.retain(|diagnostic| !known(diagnostic));
         self.append(other);
@@ -222,15 +222,9 @@ impl Diagnostics {
     }
 
     /// The findings without the warnings among them.
-    pub fn into_errors(mut self) -> Self {
+    pub(crate) fn into_errors(mut self) -> Self {
         self.list.retain(|d| d.severity == Severity::Error);
         self
-    }
-
-    /// The findings with their source lines; empty if there are none. The first
-    /// line of each begins with `file:line:column`.
-    pub fn render(&self, file: &str, source: &str) -> String {
-        render::render(&self.sorted(), file, without_mark(source))
     }
 }
 

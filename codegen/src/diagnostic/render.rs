@@ -6,15 +6,23 @@
 //!
 //! Not here: the drawing of snippets, which is annotate-snippets'.
 
-use super::{Diagnostic, LIBRARY, Label, Severity};
+use super::{Diagnostic, Diagnostics, LIBRARY, Label, Severity, without_mark};
 use annotate_snippets::{Annotation, AnnotationKind, Level, Renderer, Snippet};
 
 /// More findings than this are counted, not shown: the first ones usually cause
 /// the rest.
 const SHOWN: usize = 40;
 
+impl Diagnostics {
+    /// The findings with their source lines; empty if there are none. The first
+    /// line of each begins with `file:line:column`.
+    pub fn render(&self, file: &str, source: &str) -> String {
+        render(&self.sorted(), file, without_mark(source))
+    }
+}
+
 /// Renders findings in the order given.
-pub fn render(diagnostics: &[&Diagnostic], file: &str, source: &str) -> String {
+fn render(diagnostics: &[&Diagnostic], file: &str, source: &str) -> String {
     let shown = diagnostics.iter().take(SHOWN);
     let blocks: Vec<String> = shown
         .map(|diagnostic| block(diagnostic, file, source))

@@ -6,7 +6,7 @@
 //! Not here: the functions of C themselves, which are the same for all mechanisms and live
 //! in `bricard-capi`.
 
-use super::{module_name, type_name};
+use super::name::{module_name, type_name};
 use crate::model::{Mechanism, Quantity};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;

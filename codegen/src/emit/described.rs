@@ -4,10 +4,8 @@
 //! Out: their table for the structure, the method of the interface that computes them,
 //!      and a line for the documentation.
 
-use super::linearised::argument;
-use super::structure::{constraint_row, quantity};
-use super::{Subject, Written};
-use crate::expr::ExprId;
+use super::quantity::{constraint_row, quantity};
+use super::subject::{Reads, Subject, Written, argument};
 use crate::optimise::Slot;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -30,38 +28,27 @@ pub(super) fn table(subject: &Subject) -> Vec<TokenStream> {
 }
 
 /// `fn described`; nothing where all coordinates are in the state.
-pub(super) fn described(subject: &mut Subject) -> TokenStream {
-    let coordinates = &subject.mechanism.described;
-    if coordinates.is_empty() {
+pub(super) fn described(subject: &Subject) -> TokenStream {
+    let count = subject.mechanism.described.len();
+    if count == 0 {
         return TokenStream::new();
     }
-    let parts = |c: &crate::model::Described| {
-        [c.position, c.velocity, c.acceleration, c.reaction].into_iter()
-    };
-    let parts: Vec<ExprId> = coordinates.iter().flat_map(parts).collect();
-    let slot = |row| Slot {
-        array: "described",
-        row,
-        column: 0,
-    };
-    let wanted: Vec<_> = (0..).map(slot).zip(parts).collect();
+    let computed = &subject.programs.described;
+    let acceleration = argument("acceleration", Reads::of(&computed.program).acceleration);
     let Written {
         body, state, cost, ..
-    } = subject.body(&wanted, &|_| None);
+    } = subject.body(computed);
     let statements = &body.statements;
-    let computed: Vec<TokenStream> = (0..subject.mechanism.described.len())
-        .map(|i| {
-            let [position, velocity, acceleration, reaction] =
-                [0, 1, 2, 3].map(|part| body.output(slot(4 * i + part)));
-            quote!(Described {
-                position: #position,
-                velocity: #velocity,
-                acceleration: #acceleration,
-                reaction: #reaction,
-            })
+    let computed = (0..count).map(|i| {
+        let parts = [0, 1, 2, 3].map(|part| Slot::of_vector("described", 4 * i + part));
+        let [position, velocity, acceleration, reaction] = parts.map(|part| body.output(part));
+        quote!(Described {
+            position: #position,
+            velocity: #velocity,
+            acceleration: #acceleration,
+            reaction: #reaction,
         })
-        .collect();
-    let acceleration = argument("acceleration", statements);
+    });
     let n = subject.sizes().0;
     quote! {
         #[doc = #cost]
@@ -82,7 +69,7 @@ pub(super) fn described(subject: &mut Subject) -> TokenStream {
 
 /// What was eliminated, and what it is; nothing if nothing was.
 pub(super) fn docs(subject: &Subject) -> Option<String> {
-    let mechanism = &*subject.mechanism;
+    let mechanism = subject.mechanism;
     let gone = mechanism.described.iter().filter(|c| c.given_by.is_some());
     let equations: Vec<String> = gone
         .map(|c| {

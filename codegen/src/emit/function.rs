@@ -202,9 +202,9 @@ impl Writer<'_> {
     /// The name that a value would like: its factors if they are few and plain.
     fn wish(&self, operation: &Operation) -> String {
         let plain = |value: &Value| match self.program.operation(*value) {
-            Operation::Symbol(_) | Operation::Function(Function::Sin | Function::Cos, _) => {
-                Some(self.piece(*value).tokens.to_string())
-            }
+            Operation::Symbol(symbol) => Some(self.symbols.local(*symbol).to_string()),
+            Operation::Function(Function::Sin, x) => Some(self.angles.get(x)?.0.to_string()),
+            Operation::Function(Function::Cos, x) => Some(self.angles.get(x)?.1.to_string()),
             _ => None,
         };
         match operation {

@@ -1,58 +1,54 @@
 //! What a module uses of the runtime.
 //!
-//! In:  a mechanism, the methods that were written for it.
+//! In:  a mechanism, its programs.
 //! Out: its `use` items.
 
-use super::Subject;
-use proc_macro2::{Ident, Span, TokenStream, TokenTree};
+use super::subject::Subject;
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
-/// What the module uses of the runtime: a method that is not emitted leaves its
-/// buffer out.
-pub(super) fn imports(subject: &Subject, dynamics: &TokenStream) -> TokenStream {
-    let mut names = vec![
-        "Canvas",
-        "Energy",
-        "Initial",
-        "Interface",
-        "Linearised",
-        "Mechanism",
-        "Partials",
-        "Quantity",
-        "Real",
-        "Regular",
-        "Start",
-        "State",
-        "Structure",
-        "Terms",
+/// What every module uses.
+const ALWAYS: [&str; 11] = [
+    "Canvas",
+    "Energy",
+    "Initial",
+    "Interface",
+    "Mechanism",
+    "Quantity",
+    "Real",
+    "Start",
+    "State",
+    "Structure",
+    "Terms",
+];
+
+/// What the module uses of the runtime: a function that is not emitted leaves its
+/// types out.
+pub(super) fn imports(subject: &Subject) -> TokenStream {
+    let (mechanism, programs) = (subject.mechanism, subject.programs);
+    let held = !mechanism.start_equations.is_empty();
+    let guessed = !mechanism.start_guesses.is_empty();
+    let named = mechanism.constraints.iter().any(|c| c.multiplier.is_some());
+    let parts: [(bool, &[&str]); 13] = [
+        (true, &ALWAYS),
+        (programs.regular.is_some(), &["Regular"]),
+        (programs.position.is_some(), &["ConstraintRow", "Position"]),
+        (programs.correction.is_some(), &["Correction"]),
+        (programs.linearised.is_ok(), &["Linearised"]),
+        (programs.partials.is_some(), &["Partials"]),
+        (named, &["Multiplier"]),
+        (
+            !mechanism.described.is_empty(),
+            &["ConstraintRow", "Declared", "Described"],
+        ),
+        (held, &["ConstraintRow", "meet"]),
+        (guessed, &["guess"]),
+        (held || guessed, &["StartEquations", "StartFault"]),
+        (!mechanism.events.is_empty(), &["Direction", "Event"]),
+        (!mechanism.switches.is_empty(), &["Condition", "Switch"]),
     ];
-    if !subject.mechanism.constraints.is_empty() {
-        names.extend(["ConstraintRow", "Correction", "Position"]);
-    }
-    if (subject.mechanism.constraints.iter()).any(|row| row.multiplier.is_some()) {
-        names.push("Multiplier");
-    }
-    if !subject.mechanism.described.is_empty() {
-        names.extend(["ConstraintRow", "Declared", "Described"]);
-    }
-    let starts = &subject.mechanism;
-    if !starts.start_equations.is_empty() {
-        names.extend(["ConstraintRow", "meet"]);
-    }
-    if !starts.start_guesses.is_empty() {
-        names.push("guess");
-    }
-    if !(starts.start_equations.is_empty() && starts.start_guesses.is_empty()) {
-        names.extend(["StartEquations", "StartFault"]);
-    }
-    if !subject.mechanism.events.is_empty() {
-        names.extend(["Direction", "Event"]);
-    }
-    if !subject.mechanism.switches.is_empty() {
-        names.extend(["Condition", "Switch"]);
-    }
-    let optional = ["Correction", "Linearised", "Partials", "Regular"];
-    names.retain(|name| !optional.contains(name) || mentions(dynamics, name));
+    let used = parts.into_iter().filter(|(used, _)| *used);
+    let mut names: Vec<&str> = used.flat_map(|(_, names)| names).copied().collect();
     names.sort_unstable();
     names.dedup();
     let names = names
@@ -62,13 +58,4 @@ pub(super) fn imports(subject: &Subject, dynamics: &TokenStream) -> TokenStream 
         use bricard_runtime::nalgebra::{SMatrix, SVector};
         use bricard_runtime::{#(#names),*};
     }
-}
-
-/// Whether a name occurs in tokens, at any depth.
-pub(super) fn mentions(tokens: &TokenStream, name: &str) -> bool {
-    tokens.clone().into_iter().any(|token| match token {
-        TokenTree::Ident(ident) => ident == name,
-        TokenTree::Group(group) => mentions(&group.stream(), name),
-        _ => false,
-    })
 }

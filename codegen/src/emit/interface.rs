@@ -1,23 +1,25 @@
 //! `impl Interface`: parameters by place, start, outputs, events, the picture.
 
 use super::described::described;
-use super::{Subject, Written, outputs};
-use crate::expr::ExprId;
+use super::list::list;
+use super::outputs;
+use super::partials::partials;
+use super::subject::{Subject, Written};
 use crate::model::{Point, Shape};
 use crate::optimise::Slot;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-/// `impl Interface`, with the method of its derivatives, if there is one.
-pub(super) fn interface(subject: &mut Subject, partials: &TokenStream) -> TokenStream {
+/// `impl Interface`.
+pub(super) fn interface(subject: &Subject) -> TokenStream {
     let n = subject.sizes().0;
     let (parameter, set_parameter) = parameters(subject);
     let set_input = set_input(subject);
     let start = start(subject);
     let outputs = outputs::outputs(subject);
     let signals = outputs::signals(subject);
-    let events: Vec<ExprId> = subject.mechanism.events.iter().map(|e| e.value).collect();
-    let events = list(subject, "events", &events);
+    let events = list(subject, "events", &subject.programs.events);
+    let partials = partials(subject);
     let draw = draw(subject);
     let described = described(subject);
     let name = subject.type_name();
@@ -96,26 +98,9 @@ fn set_input(subject: &Subject) -> TokenStream {
 }
 
 /// The entries of the `start` block; what it does not mention is a guess of zero.
-fn start(subject: &mut Subject) -> TokenStream {
+fn start(subject: &Subject) -> TokenStream {
     let n = subject.sizes().0;
-    let entry = |(row, start): (usize, &crate::model::Start)| {
-        (
-            Slot {
-                array: "start",
-                row,
-                column: 0,
-            },
-            start.value,
-        )
-    };
-    let wanted: Vec<_> = subject
-        .mechanism
-        .starts
-        .iter()
-        .enumerate()
-        .map(entry)
-        .collect();
-    let Written { body, .. } = subject.body(&wanted, &|_| None);
+    let Written { body, .. } = subject.body(&subject.programs.start);
     let statements = &body.statements;
     let initial = |coordinate: usize, velocity: bool| {
         let given = subject.mechanism.starts.iter().enumerate();
@@ -123,14 +108,7 @@ fn start(subject: &mut Subject) -> TokenStream {
             .rev()
             .find(|(_, s)| s.coordinate == coordinate && s.velocity == velocity);
         let (value, held) = match found {
-            Some((row, start)) => (
-                body.output(Slot {
-                    array: "start",
-                    row,
-                    column: 0,
-                }),
-                start.held,
-            ),
+            Some((row, start)) => (body.output(Slot::of_vector("start", row)), start.held),
             None => (quote!(T::zero()), false),
         };
         quote!(Initial { value: #value, held: #held })
@@ -146,61 +124,16 @@ fn start(subject: &mut Subject) -> TokenStream {
     }
 }
 
-/// A method that writes a list of values into a slice, as many as there is room for.
-pub(super) fn list(subject: &mut Subject, name: &'static str, entries: &[ExprId]) -> TokenStream {
+fn draw(subject: &Subject) -> TokenStream {
     let n = subject.sizes().0;
-    let name_token = proc_macro2::Ident::new(name, proc_macro2::Span::call_site());
-    if entries.is_empty() {
-        return quote!(fn #name_token(&self, _state: &State<T, #n>, _values: &mut [T]) {});
-    }
-    let slot = |row| Slot {
-        array: name,
-        row,
-        column: 0,
-    };
-    let wanted: Vec<_> = entries
-        .iter()
-        .enumerate()
-        .map(|(row, &e)| (slot(row), e))
-        .collect();
-    let Written {
-        body, state, cost, ..
-    } = subject.body(&wanted, &|_| None);
-    let statements = &body.statements;
-    let computed = (0..entries.len()).map(|row| body.output(slot(row)));
-    quote! {
-        #[doc = #cost]
-        fn #name_token(&self, #state: &State<T, #n>, values: &mut [T]) {
-            #statements
-            let computed = [#(#computed),*];
-            for (place, value) in values.iter_mut().zip(computed) {
-                *place = value;
-            }
-        }
-    }
-}
-
-fn draw(subject: &mut Subject) -> TokenStream {
-    let n = subject.sizes().0;
-    if subject.mechanism.shapes.is_empty() {
+    let shapes = &subject.mechanism.shapes;
+    if shapes.is_empty() {
         return quote!(fn draw(&self, _state: &State<T, #n>, _canvas: &mut dyn Canvas<T>) {});
     }
-    let shapes = subject.mechanism.shapes.clone();
-    let numbers: Vec<ExprId> = shapes.iter().flat_map(coordinates).collect();
-    let slot = |row| Slot {
-        array: "draw",
-        row,
-        column: 0,
-    };
-    let wanted: Vec<_> = numbers
-        .iter()
-        .enumerate()
-        .map(|(row, &e)| (slot(row), e))
-        .collect();
-    let Written { body, state, .. } = subject.body(&wanted, &|_| None);
+    let Written { body, state, .. } = subject.body(&subject.programs.draw);
     let statements = &body.statements;
-    let mut next = 0..;
-    let mut take = || body.output(slot(next.next().unwrap_or(usize::MAX)));
+    let mut numbers = (0..).map(|row| body.output(Slot::of_vector("draw", row)));
+    let mut take = || numbers.next().unwrap_or_default();
     let calls: TokenStream = shapes.iter().map(|shape| call(shape, &mut take)).collect();
     quote! {
         fn draw(&self, #state: &State<T, #n>, canvas: &mut dyn Canvas<T>) {
@@ -210,15 +143,7 @@ fn draw(subject: &mut Subject) -> TokenStream {
     }
 }
 
-/// The numbers of a shape, in the order in which `call` takes them.
-fn coordinates(shape: &Shape) -> Vec<ExprId> {
-    match shape {
-        Shape::Line(points) | Shape::Polygon(points) => points.concat(),
-        Shape::Circle(centre, radius) => centre.iter().chain([radius]).copied().collect(),
-        Shape::Trace(point) => point.to_vec(),
-    }
-}
-
+/// The call that draws a shape; takes its numbers in the order of [`Shape::numbers`].
 fn call(shape: &Shape, take: &mut dyn FnMut() -> TokenStream) -> TokenStream {
     let mut point = |_: &Point| {
         let [x, y, z] = [take(), take(), take()];

@@ -1,56 +1,36 @@
 //! The linearised equations of motion: a method of the trait implementation.
 
-use super::dynamics::matrix;
-use super::function::{Body, Decided};
-use super::{Subject, Written, entry_of_field};
-use crate::derive::linearise;
-use proc_macro2::{Ident, Span, TokenStream, TokenTree};
+use super::function::Decided;
+use super::subject::{Reads, Subject, Written, argument, entry_of_field};
+use crate::optimise::LeftOut;
+use proc_macro2::TokenStream;
 use quote::quote;
 
-/// The name of an argument, or that it is not read.
-pub(super) fn argument(name: &str, statements: &TokenStream) -> Ident {
-    let is_name = |token| matches!(token, TokenTree::Ident(ident) if ident == name);
-    let read = statements.clone().into_iter().any(is_name);
-    let name = if read {
-        name.into()
-    } else {
-        format!("_{name}")
-    };
-    Ident::new(&name, Span::call_site())
+/// Said of a mechanism whose linearisation is too long.
+const LEFT_OUT: &str = " The linearised equations of motion would be too long and are left out: \
+                        implicit integrators take differences.";
+
+/// What the documentation of the module says of a linearisation that there is not.
+pub(super) fn docs(subject: &Subject) -> Option<&'static str> {
+    match subject.programs.linearised {
+        Err(LeftOut::Expressions | LeftOut::Operations(_)) => Some(LEFT_OUT),
+        Ok(_) => None,
+    }
 }
 
-/// The most operations of a linearisation: what rustc takes a few seconds for. Beyond
-/// that implicit integrators take differences.
-pub(super) const OPERATIONS_MAX: usize = 10_000;
-
 /// `fn linearised`; nothing where it would be too long.
-pub(super) fn linearised(subject: &mut Subject) -> TokenStream {
-    let equations = subject.equations;
-    let Some(derivatives) = linearise(subject.mechanism, equations) else {
+pub(super) fn linearised(subject: &Subject) -> TokenStream {
+    let Ok(computed) = &subject.programs.linearised else {
         return TokenStream::new();
     };
-    let mut wanted = matrix("force_by_position", &derivatives.force_by_position);
-    wanted.extend(matrix("force_by_velocity", &derivatives.force_by_velocity));
-    wanted.extend(matrix("row_by_position", &derivatives.row_by_position));
-    wanted.extend(matrix("row_by_velocity", &derivatives.row_by_velocity));
-    let program = subject.program(&wanted);
-    if program.len() > OPERATIONS_MAX {
-        return TokenStream::new();
-    }
     let Written {
-        body: Body { statements, .. },
-        is_zero,
-        state,
-        cost,
-        ..
-    } = subject.beside_derived(
-        &wanted,
-        subject.written(&program, &entry_of_field, Decided::BySides),
-    );
-    let out = if is_zero { "_out" } else { "out" };
-    let out = Ident::new(out, Span::call_site());
-    let acceleration = argument("acceleration", &statements);
-    let multiplier = argument("multiplier", &statements);
+        body, state, cost, ..
+    } = subject.optimised(computed, &entry_of_field, Decided::BySides);
+    let reads = Reads::of(&computed.program);
+    let out = argument("out", reads.out);
+    let acceleration = argument("acceleration", reads.acceleration);
+    let multiplier = argument("multiplier", reads.multiplier);
+    let statements = body.statements;
     let (n, r) = subject.sizes();
     quote! {
         /// The equations of motion linearised about a motion.

@@ -50,6 +50,16 @@ impl Names {
     }
 }
 
+/// The name of the module of a description whose file has this stem.
+pub fn module_name(stem: &str) -> String {
+    snake_case(stem)
+}
+
+/// The name of the struct of a mechanism with this name.
+pub fn type_name(name: &str) -> String {
+    camel_case(name)
+}
+
 /// `theta[0]` → `theta_0`, `rodLength` → `rod_length`, `L1` → `l1`; a keyword gets
 /// a trailing underscore.
 pub(super) fn snake_case(name: &str) -> String {

@@ -4,30 +4,27 @@
 //! Out: the methods of the interface that compute them: outputs of positions and
 //!      velocities, and those of accelerations with the inputs.
 
-use super::interface::list;
-use super::{Subject, Written};
-use crate::expr::{ExprId, Symbol};
+use super::list::all_values;
+use super::subject::{Reads, Subject, Written, argument};
 use crate::optimise::Slot;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 /// `fn outputs`.
-pub(super) fn outputs(subject: &mut Subject) -> TokenStream {
+pub(super) fn outputs(subject: &Subject) -> TokenStream {
     let outputs = &subject.mechanism.outputs;
+    let computed = &subject.programs.outputs;
     if outputs.iter().all(|output| !output.accelerated) {
-        let values: Vec<ExprId> = outputs.iter().map(|output| output.value).collect();
-        return list(subject, "outputs", &values);
+        return all_values(subject, "outputs", outputs.len(), computed);
     }
     let n = subject.sizes().0;
-    let wanted = chosen(subject, false);
-    if wanted.is_empty() {
+    let places = places(subject, false);
+    if places.is_empty() {
         return quote!(fn outputs(&self, _state: &State<T, #n>, _values: &mut [T]) {});
     }
-    let written = subject.body(&wanted, &|_| None);
-    let assigned = assigned(&quote!(values), &wanted, &written);
-    let Written {
-        body, state, cost, ..
-    } = written;
+    let written = subject.body(computed);
+    let assigned = assigned(&quote!(values), "outputs", &places, &written);
+    let Written { body, state, cost } = written;
     let statements = &body.statements;
     quote! {
         #[doc = #cost]
@@ -39,29 +36,25 @@ pub(super) fn outputs(subject: &mut Subject) -> TokenStream {
 }
 
 /// `fn signals`; nothing where there are neither outputs of accelerations nor inputs.
-pub(super) fn signals(subject: &mut Subject) -> TokenStream {
-    let outputs = chosen(subject, true);
-    let count = u32::try_from(subject.mechanism.inputs.len()).unwrap_or(u32::MAX);
-    let symbol = |i| subject.mechanism.graph.symbol(Symbol::Input(i));
-    let inputs: Vec<ExprId> = (0..count).map(symbol).collect();
-    let inputs: Vec<_> = (0..).map(|row| slot("inputs", row)).zip(inputs).collect();
+pub(super) fn signals(subject: &Subject) -> TokenStream {
+    let outputs = places(subject, true);
+    let inputs: Vec<usize> = (0..subject.mechanism.inputs.len()).collect();
     if outputs.is_empty() && inputs.is_empty() {
         return TokenStream::new();
     }
-    let wanted = [outputs.as_slice(), inputs.as_slice()].concat();
-    let written = subject.body(&wanted, &|_| None);
+    let computed = &subject.programs.signals;
+    let acceleration = argument("acceleration", Reads::of(&computed.program).acceleration);
+    let written = subject.body(computed);
     let statements = &written.body.statements;
-    let both = [("outputs", &outputs), ("inputs", &inputs)].map(|(name, wanted)| {
-        let name = super::linearised::argument(name, &any(wanted));
-        let assigned = match wanted.is_empty() {
-            true => TokenStream::new(),
-            false => assigned(&quote!(#name), wanted, &written),
-        };
-        (name, assigned)
-    });
-    let [(outputs, to_outputs), (inputs, to_inputs)] = both;
-    let body = quote!(#statements #to_outputs #to_inputs);
-    let acceleration = super::linearised::argument("acceleration", &body);
+    let [(outputs, to_outputs), (inputs, to_inputs)] = [("outputs", &outputs), ("inputs", &inputs)]
+        .map(|(array, places)| {
+            let name = argument(array, !places.is_empty());
+            let assigned = match places.is_empty() {
+                true => TokenStream::new(),
+                false => assigned(&quote!(#name), array, places, &written),
+            };
+            (name, assigned)
+        });
     let Written { state, cost, .. } = &written;
     let n = subject.sizes().0;
     quote! {
@@ -73,52 +66,35 @@ pub(super) fn signals(subject: &mut Subject) -> TokenStream {
             #outputs: &mut [T],
             #inputs: &mut [T],
         ) {
-            #body
+            #statements
+            #to_outputs
+            #to_inputs
         }
     }
 }
 
-/// The words for an array that is asked for, so that its name is used.
-fn any(wanted: &[(Slot, ExprId)]) -> TokenStream {
-    match wanted.first() {
-        Some((slot, _)) => {
-            let name = proc_macro2::Ident::new(slot.array, proc_macro2::Span::call_site());
-            quote!(#name)
-        }
-        None => TokenStream::new(),
-    }
-}
-
-fn slot(array: &'static str, row: usize) -> Slot {
-    Slot {
-        array,
-        row,
-        column: 0,
-    }
-}
-
-/// The outputs that are of accelerations, or those that are not.
-fn chosen(subject: &Subject, accelerated: bool) -> Vec<(Slot, ExprId)> {
+/// The places of the outputs that are of accelerations, or of those that are not.
+fn places(subject: &Subject, accelerated: bool) -> Vec<usize> {
     let outputs = subject.mechanism.outputs.iter().enumerate();
     outputs
         .filter(|(_, output)| output.accelerated == accelerated)
-        .map(|(row, output)| (slot("outputs", row), output.value))
+        .map(|(place, _)| place)
         .collect()
 }
 
-/// Statements that put values into their places, as far as there is room.
+/// Statements that put values of an array into their places, as far as there is room.
 pub(super) fn assigned(
-    array: &TokenStream,
-    wanted: &[(Slot, ExprId)],
+    slice: &TokenStream,
+    array: &'static str,
+    places: &[usize],
     written: &Written,
 ) -> TokenStream {
-    let places = wanted
-        .iter()
-        .map(|(slot, _)| Literal::usize_unsuffixed(slot.row));
-    let computed = wanted.iter().map(|(slot, _)| written.body.output(*slot));
+    let value = |&place: &usize| written.body.output(Slot::of_vector(array, place));
+    let computed = places.iter().map(value);
+    let places = places.iter().copied().map(Literal::usize_unsuffixed);
     quote! {
         for (place, value) in [#((#places, #computed)),*] {
-            if let Some(entry) = #array.get_mut(place) {
+            if let Some(entry) = #slice.get_mut(place) {
                 *entry = value;
             }
         }

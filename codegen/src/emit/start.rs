@@ -1,9 +1,10 @@
 //! Equations of the `start` block that are no values of coordinates.
 
-use super::structure::constraint_row;
-use super::{Subject, interface::list};
-use crate::derive::StartRows;
+use super::list::list;
+use super::quantity::constraint_row;
+use super::subject::Subject;
 use crate::model::{Constraint, Mechanism};
+use crate::optimise::StartPrograms;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -54,11 +55,11 @@ pub(super) fn begin(subject: &Subject) -> TokenStream {
 }
 
 /// The implementation of `StartEquations`, and the texts of the rows.
-pub(super) fn equations(subject: &mut Subject) -> TokenStream {
+pub(super) fn equations(subject: &Subject) -> TokenStream {
     if all(subject.mechanism).next().is_none() {
         return TokenStream::new();
     }
-    let held = subject.mechanism.start_equations.clone();
+    let held = &subject.mechanism.start_equations;
     let rows = |holonomic: bool| {
         let own = subject.mechanism.constraints.iter();
         let further = held.iter().filter(move |row| row.holonomic == holonomic);
@@ -67,18 +68,16 @@ pub(super) fn equations(subject: &mut Subject) -> TokenStream {
     };
     let (positions, velocities) = (rows(true), rows(false));
     let (n, name) = (subject.sizes().0, subject.type_name());
-    let equations = subject.equations;
-    let [place, speed] = [
-        (
-            &equations.start_positions,
-            ["position_errors", "position_slopes"],
-        ),
-        (
-            &equations.start_velocities,
-            ["velocity_errors", "velocity_slopes"],
-        ),
-    ]
-    .map(|(rows, names)| lists(subject, rows, names));
+    let place = lists(
+        subject,
+        &subject.programs.start_positions,
+        ["position_errors", "position_slopes"],
+    );
+    let speed = lists(
+        subject,
+        &subject.programs.start_velocities,
+        ["velocity_errors", "velocity_slopes"],
+    );
     let structures = (!held.is_empty()).then(|| {
         quote! {
             /// The constraints and the equations of the start for positions.
@@ -97,8 +96,8 @@ pub(super) fn equations(subject: &mut Subject) -> TokenStream {
     }
 }
 
-fn lists(subject: &mut Subject, rows: &StartRows, names: [&'static str; 2]) -> TokenStream {
+fn lists(subject: &Subject, rows: &StartPrograms, names: [&'static str; 2]) -> TokenStream {
     let errors = list(subject, names[0], &rows.errors);
-    let slopes = list(subject, names[1], &rows.slopes.concat());
+    let slopes = list(subject, names[1], &rows.slopes);
     quote!(#errors #slopes)
 }

@@ -1,9 +1,12 @@
 //! The static description of a mechanism, and the structs of its parameters and
 //! inputs.
 
-use super::{Subject, described, doc_lines, name};
-use crate::expr::{ExprId, Symbol};
+use super::function::{Body, Decided};
+use super::quantity::{constraint_row, quantity};
+use super::subject::{Subject, doc_lines};
+use super::{described, name};
 use crate::model::{Constraint, Direction, Input, Quantity};
+use crate::optimise::{Program, Slot};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -31,7 +34,8 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
         };
         quote!(Event { name: #name, direction: Direction::#direction })
     });
-    let (constant_mass, conservative) = (constant_mass(subject), conservative(subject));
+    let constant_mass = subject.equations.has_constant_mass(&mechanism.graph);
+    let conservative = subject.equations.are_conservative(mechanism);
     let drawn = !mechanism.shapes.is_empty();
     let regular = subject.options.regular;
     let weighed = subject.equations.weighed.iter().copied();
@@ -66,21 +70,6 @@ fn quantities<'a>(
     quantities.into_iter().map(quantity)
 }
 
-/// A `Quantity`.
-pub(super) fn quantity(quantity: &Quantity) -> TokenStream {
-    let Quantity {
-        name, unit, docs, ..
-    } = quantity;
-    quote!(Quantity { name: #name, unit: #unit, docs: #docs })
-}
-
-/// A `ConstraintRow`.
-pub(super) fn constraint_row(row: &Constraint) -> TokenStream {
-    let (text, holonomic) = (&row.text, row.holonomic);
-    let line = Literal::u32_unsuffixed(row.span.start.line);
-    quote!(ConstraintRow { text: #text, line: #line, holonomic: #holonomic })
-}
-
 /// The entries of `Structure::multipliers`.
 fn multipliers(constraints: &[Constraint]) -> impl Iterator<Item = TokenStream> {
     let rows = constraints.iter().enumerate();
@@ -89,22 +78,6 @@ fn multipliers(constraints: &[Constraint]) -> impl Iterator<Item = TokenStream> 
         let row = Literal::usize_unsuffixed(row);
         Some(quote!(Multiplier { quantity: #quantity, row: #row }))
     })
-}
-
-fn constant_mass(subject: &Subject) -> bool {
-    let moves = |symbol: &Symbol| matches!(symbol, Symbol::Time | Symbol::Coordinate(_));
-    let graph = &subject.mechanism.graph;
-    let constant = |entry: &ExprId| !graph.symbols(*entry).iter().any(moves);
-    subject.equations.mass.iter().flatten().all(constant)
-}
-
-/// Nothing is supplied from outside: no power, and no moving constraint.
-fn conservative(subject: &Subject) -> bool {
-    let graph = &subject.mechanism.graph;
-    let still = |e: &ExprId| graph.is_zero(*e);
-    subject.mechanism.states == 0
-        && still(&subject.equations.energies.power)
-        && subject.equations.drift.iter().all(still)
 }
 
 /// What is said of parameters whose fields would have the same name.
@@ -122,8 +95,8 @@ pub(super) fn parameters(subject: &Subject) -> TokenStream {
         .iter()
         .map(|p| doc_lines(&quantity_docs(&p.quantity)))
         .collect();
-    let defaults: Vec<TokenStream> =
-        subject.constants(parameters.iter().map(|p| p.default).collect());
+    let defaults = subject.programs.defaults.iter();
+    let defaults = defaults.map(|program| default(subject, program));
     let alike = parameters
         .iter()
         .zip(fields)
@@ -143,6 +116,17 @@ pub(super) fn parameters(subject: &Subject) -> TokenStream {
                 Parameters { #(#fields: #defaults),* }
             }
         }
+    }
+}
+
+/// A default value: an expression, or a block where it takes statements.
+fn default(subject: &Subject, program: &Program) -> TokenStream {
+    let taken = subject.names.taken.clone();
+    let body = Body::of(program, &subject.names, taken, &|_| None, Decided::ByState);
+    let value = body.output(Slot::of_vector("default", 0));
+    match &body.statements {
+        none if none.is_empty() => value,
+        statements => quote!({ #statements #value }),
     }
 }
 

@@ -4,9 +4,7 @@
 //! Out: the table of the conditions, and the method that computes their switching
 //!      functions; nothing where there are none.
 
-use super::linearised::argument;
-use super::{Subject, Written};
-use crate::expr::ExprId;
+use super::subject::{Reads, Subject, Written, argument};
 use crate::optimise::Slot;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -26,31 +24,22 @@ pub(super) fn table(subject: &Subject) -> TokenStream {
 }
 
 /// `fn switches`.
-pub(super) fn switches(subject: &mut Subject) -> TokenStream {
-    let switches = &subject.mechanism.switches;
-    if switches.is_empty() {
+pub(super) fn switches(subject: &Subject) -> TokenStream {
+    let count = subject.mechanism.switches.len();
+    if count == 0 {
         return TokenStream::new();
     }
-    let count = switches.len();
-    let parts = switches.iter().flat_map(|s| [s.value, s.rate]);
-    let parts: Vec<ExprId> = parts.collect();
-    let slot = |row| Slot {
-        array: "switches",
-        row,
-        column: 0,
-    };
-    let wanted: Vec<_> = (0..).map(slot).zip(parts).collect();
+    let computed = &subject.programs.switches;
+    let acceleration = argument("acceleration", Reads::of(&computed.program).acceleration);
     let Written {
         body, state, cost, ..
-    } = subject.body(&wanted, &|_| None);
+    } = subject.body(computed);
     let statements = &body.statements;
-    let computed: Vec<TokenStream> = (0..count)
-        .map(|i| {
-            let [value, rate] = [0, 1].map(|part| body.output(slot(2 * i + part)));
-            quote!(Switch { value: #value, rate: #rate })
-        })
-        .collect();
-    let acceleration = argument("acceleration", &quote!(#statements #(#computed)*));
+    let computed = (0..count).map(|i| {
+        let part = |part| body.output(Slot::of_vector("switches", 2 * i + part));
+        let (value, rate) = (part(0), part(1));
+        quote!(Switch { value: #value, rate: #rate })
+    });
     let n = subject.sizes().0;
     quote! {
         /// What decides the conditions of the forces by its sign, and its rate.

@@ -5,7 +5,7 @@ use super::function::Symbols;
 use super::name::Names;
 use crate::expr::Symbol;
 use crate::model::{Mechanism, Quantity};
-use crate::optimise::{Operation, Program};
+use crate::optimise::Program;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use std::collections::BTreeSet;
@@ -175,10 +175,10 @@ impl SymbolNames {
 
     /// Whether a program reads the state.
     pub fn reads_state(program: &Program) -> bool {
-        program.operations().any(|(_, operation)| {
+        program.reads(|symbol| {
             matches!(
-                operation,
-                Operation::Symbol(Symbol::Time | Symbol::Coordinate(_) | Symbol::Velocity(_))
+                symbol,
+                Symbol::Time | Symbol::Coordinate(_) | Symbol::Velocity(_)
             )
         })
     }

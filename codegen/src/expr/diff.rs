@@ -4,10 +4,8 @@
 //! chain rule at each node), memoised node by node, so what the expression
 //! shares its derivative shares too.
 
+use super::graph::Memo;
 use super::{ExprId, Function, Function2, Graph, Node, Number, Symbol};
-use rustc_hash::FxHashMap;
-
-pub(super) type Memo = FxHashMap<ExprId, ExprId>;
 
 /// A derivative along given seeds `dsymbol`; reuse it to reuse its memory.
 #[derive(Debug, Default)]

@@ -77,12 +77,15 @@ pub enum Node {
     Select(Test, [ExprId; 4]),
 }
 
+/// Derivatives that are known, by what they are derivatives of.
+pub(super) type Memo = FxHashMap<ExprId, ExprId>;
+
 /// All expressions of one mechanism.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     nodes: Vec<Node>,
     index: FxHashMap<Node, ExprId>,
-    pub(super) partials: FxHashMap<Symbol, super::diff::Memo>,
+    pub(super) partials: FxHashMap<Symbol, Memo>,
 }
 
 impl Graph {

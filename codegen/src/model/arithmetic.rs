@@ -6,7 +6,7 @@ use super::unit::Unit;
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::Number;
-use crate::parse::ast::{Expr, Name, Range};
+use crate::syntax::ast::{Expr, Name, Range};
 
 /// The largest exponent that can be written.
 const EXPONENT: f64 = 1000.0;
@@ -111,7 +111,7 @@ impl Evaluator {
             .map(|(_, _, span)| span.to(last))
             .unwrap_or_default();
         Some(Scalar {
-            id: self.sound(id, span)?,
+            id: self.valid(id, span)?,
             unit,
         })
     }
@@ -163,7 +163,7 @@ impl Evaluator {
             .map(|(_, _, span)| span.to(last))
             .unwrap_or_default();
         Some(Scalar {
-            id: self.sound(id, span)?,
+            id: self.valid(id, span)?,
             unit,
         })
     }
@@ -182,7 +182,7 @@ impl Evaluator {
             .any(|(_, factor, _)| factor.unit == Unit::Number);
         numbers
             && factors.iter().all(|(_, factor, _)| {
-                factor.unit == Unit::Number || self.facts(factor.id).value.is_none()
+                factor.unit == Unit::Number || self.analysis(factor.id).value.is_none()
             })
     }
 
@@ -226,7 +226,7 @@ impl Evaluator {
             return self.vanished(span);
         }
         Some(Value::Scalar(Scalar {
-            id: self.sound(id, span)?,
+            id: self.valid(id, span)?,
             unit,
         }))
     }

@@ -6,34 +6,10 @@
 
 use super::evaluate::Evaluator;
 use super::unit::Dimension;
-use crate::diagnostic::{Diagnostic, Span, figure};
+use super::value::Bare;
+use crate::diagnostic::{Diagnostic, figure};
 use crate::expr::Number;
-use crate::parse::ast::{Expr, ExprKind};
-
-/// A number without unit.
-#[derive(Clone, Copy, Debug)]
-pub struct Bare {
-    /// The number.
-    number: Number,
-    /// Where it stands.
-    span: Span,
-    /// The power of it that the formula contains.
-    power: f64,
-}
-
-impl Bare {
-    /// Numbers such as 9.81 are measured, 2 is rather counted.
-    fn is_measured(&self) -> bool {
-        self.number.as_integer().is_none()
-    }
-
-    fn raised(self, power: f64) -> Self {
-        Self {
-            power: self.power * power,
-            ..self
-        }
-    }
-}
+use crate::syntax::ast::{Expr, ExprKind};
 
 /// Numbers that stand in front of anything: 0, 1, 0.5.
 fn is_coefficient(number: &Number) -> bool {

@@ -1,74 +1,14 @@
 //! Functions by name.
 
 use super::evaluate::Evaluator;
+use super::language::{ELSEWHERE, OTHERS, other_functions};
 use super::linear::transposed;
 use super::scope::Kind;
 use super::unit::{PER_SECOND, Unit};
 use super::value::{Matrix, Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::expr::{Function, Function2};
-use crate::parse::ast::{Expr, ExprKind, Name};
-
-/// Functions of more than one number or of something else than a number: name,
-/// number of arguments, how they are written.
-const OTHERS: [(&str, usize, &str); 17] = [
-    ("atan2", 2, "atan2(y, x)"),
-    ("min", 2, "min(a, b)"),
-    ("max", 2, "max(a, b)"),
-    ("der", 1, "der(x)"),
-    ("dot", 2, "dot(a, b)"),
-    ("cross", 2, "cross(a, b)"),
-    ("norm", 1, "norm(v)"),
-    ("norm2", 1, "norm2(v)"),
-    ("transpose", 1, "transpose(R)"),
-    ("rot", 2, "rot(angle)` in the plane, `rot(axis, angle)"),
-    ("rotx", 1, "rotx(angle)"),
-    ("roty", 1, "roty(angle)"),
-    ("rotz", 1, "rotz(angle)"),
-    ("quat", 4, "quat(e0, e1, e2, e3)"),
-    ("omega", 1, "omega(R)"),
-    ("table", 2, "table([[0, 1], [2, 3]], x)"),
-    ("spline", 2, "spline([[0, 1], [2, 3]], x)"),
-];
-
-/// Names that other languages have for the same.
-const ELSEWHERE: [(&str, &str); 25] = [
-    ("integral", "state z; der(z) = x;"),
-    ("integrate", "state z; der(z) = x;"),
-    ("int", "state z; der(z) = x;"),
-    ("sqr", "x^2"),
-    ("square", "x^2"),
-    ("len", "norm(v)"),
-    ("mag", "norm(v)"),
-    ("magnitude", "norm(v)"),
-    ("dist", "norm(a - b)"),
-    ("fabs", "abs(x)"),
-    ("arcsin", "asin(x)"),
-    ("arccos", "acos(x)"),
-    ("arctan", "atan(x)"),
-    ("arctan2", "atan2(y, x)"),
-    ("log", "ln(x)"),
-    ("pow", "x^n"),
-    ("sgn", "sign(x)"),
-    ("diff", "der(x)"),
-    ("ddot", "der(der(x))"),
-    ("ddt", "der(x)"),
-    ("d", "der(x)"),
-    ("length", "norm(v)"),
-    ("hypot", "norm([x, y])"),
-    ("cot", "1/tan(x)"),
-    ("cbrt", "x^(1/3)"),
-];
-
-/// Whether a name is that of a function (those of one number aside).
-pub fn known(name: &str) -> bool {
-    other_functions().any(|known| known == name)
-}
-
-/// The names of all functions but those of one number.
-pub fn other_functions() -> impl Iterator<Item = &'static str> + Clone {
-    OTHERS.iter().map(|(name, ..)| *name).chain(["sum"])
-}
+use crate::syntax::ast::{Expr, ExprKind, Name};
 
 impl Evaluator {
     /// `function(arguments)`
@@ -189,7 +129,7 @@ impl Evaluator {
             }
         };
         let id = self.graph.function(function, x.id);
-        let (at, value) = (self.facts(x.id).value, self.facts(id).value);
+        let (at, value) = (self.analysis(x.id).value, self.analysis(id).value);
         if let (Some(at), Some(value)) = (at, value)
             && !value.is_finite()
         {
@@ -214,7 +154,7 @@ impl Evaluator {
         };
         let id = self.graph.function2(function, x.id, y.id);
         Some(Value::Scalar(Scalar {
-            id: self.sound(id, span)?,
+            id: self.valid(id, span)?,
             unit,
         }))
     }
@@ -281,12 +221,12 @@ impl Evaluator {
 
     /// The total derivative of a scalar in time.
     pub fn rate(&mut self, scalar: Scalar, span: Span) -> Option<Scalar> {
-        let facts = self.facts(scalar.id);
-        if facts.acceleration {
+        let analysis = self.analysis(scalar.id);
+        if analysis.acceleration {
             let error = Diagnostic::error(span, "the derivative of an acceleration is not known");
             return self.report(error.labelled("this contains `der(der(…))` already"));
         }
-        if facts.input {
+        if analysis.input {
             let error = Diagnostic::error(span, "the derivative of an input is not known");
             return self.report(error.help("declare another input for it"));
         }
@@ -299,7 +239,7 @@ impl Evaluator {
             unit => unit.times(Unit::Known(PER_SECOND)),
         };
         Some(Scalar {
-            id: self.sound(id, span)?,
+            id: self.valid(id, span)?,
             unit,
         })
     }

@@ -5,13 +5,13 @@
 //! velocity constraint one of degree one; potentials know no velocities; signals
 //! act through forces alone.
 
-use super::facts::{Facts, NOT_POLYNOMIAL};
-use super::lower::Lowering;
+use super::analysis::{Analysis, NOT_POLYNOMIAL};
+use super::lowering::Lowering;
 use super::unit::{AREA, ENERGY, FREQUENCY2, POWER, Unit};
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span, figure};
 use crate::expr::ExprId;
-use crate::parse::ast::{Energy, Expr, ExprKind};
+use crate::syntax::ast::{Energy, Expr, ExprKind};
 
 const SMOOTH: &str =
     "`abs`, `sign`, `min`, `max` and `if` may stand in forces, inputs, outputs and events";
@@ -29,31 +29,31 @@ impl Lowering<'_> {
             Energy::Potential => ("the potential energy", ENERGY, "J"),
             Energy::Dissipation => ("the dissipation function", POWER, "W"),
         };
-        let facts = self.evaluator.facts(value.id);
-        if facts.kinked {
-            let span = self.culprit(e, |facts| facts.kinked);
+        let analysis = self.evaluator.analysis(value.id);
+        if analysis.kinked {
+            let span = self.culprit(e, |analysis| analysis.kinked);
             let message = format!("{what} has to be smooth, this is non-smooth");
             return self.report(Diagnostic::error(span, message).help(SMOOTH));
         }
-        if facts.input && kind != Energy::Dissipation {
-            let span = self.culprit(e, |facts| facts.input);
+        if analysis.input && kind != Energy::Dissipation {
+            let span = self.culprit(e, |analysis| analysis.input);
             let message = format!("{what} can't contain an input");
             return self
                 .report(Diagnostic::error(span, message).help("an input acts by `force u on x`"));
         }
-        if facts.state && kind != Energy::Dissipation {
-            let span = self.culprit(e, |facts| facts.state);
+        if analysis.state && kind != Energy::Dissipation {
+            let span = self.culprit(e, |analysis| analysis.state);
             let message = format!("{what} can't contain a state");
             return self.report(Diagnostic::error(span, message).help(STATES_ACT));
         }
-        self.legal_velocities(kind, e, facts)?;
+        self.legal_velocities(kind, e, analysis)?;
         match value.unit {
             Unit::Known(found) if found != unit => {
                 let message = format!("{what} is in {unit_name}, this is in {}", found.text());
                 let error = Diagnostic::error(e.span, message);
                 let lacking = found.power(-1.0).map(|found| unit.times(found));
                 let error = match lacking {
-                    Some(FREQUENCY2) if kind == Energy::Kinetic && !facts.velocity() => {
+                    Some(FREQUENCY2) if kind == Energy::Kinetic && !analysis.velocity() => {
                         error.help(DER)
                     }
                     Some(AREA) if kind == Energy::Kinetic => error.help(TURNING),
@@ -66,22 +66,22 @@ impl Lowering<'_> {
         }
     }
 
-    fn legal_velocities(&mut self, kind: Energy, e: &Expr, facts: Facts) -> Option<()> {
+    fn legal_velocities(&mut self, kind: Energy, e: &Expr, analysis: Analysis) -> Option<()> {
         match kind {
-            Energy::Kinetic if facts.degree >= NOT_POLYNOMIAL => {
-                let span = self.culprit(e, |facts| facts.degree >= NOT_POLYNOMIAL);
+            Energy::Kinetic if analysis.degree >= NOT_POLYNOMIAL => {
+                let span = self.culprit(e, |analysis| analysis.degree >= NOT_POLYNOMIAL);
                 let error = Diagnostic::error(span, "this is not quadratic in the velocities");
                 let help = "the kinetic energy is a polynomial of degree two or less in `der(…)`";
                 self.report(error.help(help))
             }
-            Energy::Potential if facts.velocity() => {
-                let span = self.culprit(e, Facts::velocity);
+            Energy::Potential if analysis.velocity() => {
+                let span = self.culprit(e, Analysis::velocity);
                 let error =
                     Diagnostic::error(span, "the potential energy can't contain a velocity");
                 let help = "terms with `der(…)` belong in `kinetic`, losses in `dissipation`";
                 self.report(error.help(help))
             }
-            Energy::Dissipation if !facts.velocity() => {
+            Energy::Dissipation if !analysis.velocity() => {
                 let error = Diagnostic::error(e.span, "the dissipation function needs a velocity");
                 self.report(error.help("write for example `dissipation 1/2*d*der(q1)^2;`"))
             }
@@ -91,42 +91,42 @@ impl Lowering<'_> {
 
     /// Checks what a force works on: whether it is a velocity, such as `omega(R)`.
     pub fn legal_target(&mut self, on: &Expr, point: &Value) -> Option<bool> {
-        let facts: Vec<Facts> = point
+        let analysis: Vec<Analysis> = point
             .scalars()
             .iter()
-            .map(|s| self.evaluator.facts(s.id))
+            .map(|s| self.evaluator.analysis(s.id))
             .collect();
-        let any = |has: fn(&Facts) -> bool| facts.iter().any(has);
+        let any = |has: fn(&Analysis) -> bool| analysis.iter().any(has);
         let derivative = matches!(&on.kind, ExprKind::Call(name, _) if name.text == "der");
-        let (message, help) = if any(Facts::velocity) && derivative {
+        let (message, help) = if any(Analysis::velocity) && derivative {
             (
                 "a force can't work on a velocity",
                 "write the coordinate, angle, length or point",
             )
-        } else if any(|facts| facts.degree > 1) {
+        } else if any(|analysis| analysis.degree > 1) {
             (
                 "what a moment works on has to be linear in the velocities",
                 "write the angular velocity of a body: `force M on omega(R);`",
             )
-        } else if any(|facts| facts.input) {
+        } else if any(|analysis| analysis.input) {
             (
                 "a force can't work on an input",
                 "write the coordinate, angle, length or point",
             )
-        } else if any(|facts| facts.state) {
+        } else if any(|analysis| analysis.state) {
             (
                 "a force can't work on a state",
                 "write its rate instead: `der(z) = …;`",
             )
-        } else if any(|facts| facts.kinked) {
+        } else if any(|analysis| analysis.kinked) {
             ("what a force works on has to be differentiable", SMOOTH)
-        } else if !any(|facts| facts.coordinate || facts.velocity()) {
+        } else if !any(|analysis| analysis.coordinate || analysis.velocity()) {
             (
                 "this force does no work: there is no coordinate in what it works on",
                 "write what it moves",
             )
         } else {
-            return Some(any(Facts::velocity));
+            return Some(any(Analysis::velocity));
         };
         self.report(Diagnostic::error(on.span, message).help(help))
     }
@@ -138,13 +138,13 @@ impl Lowering<'_> {
         residual: ExprId,
         sides: [&Expr; 2],
     ) -> Option<Option<bool>> {
-        let facts = self.evaluator.facts(residual);
-        self.legal_row(facts, sides)?;
-        if facts.coordinate || facts.velocity() {
-            return Some(Some(!facts.velocity()));
+        let analysis = self.evaluator.analysis(residual);
+        self.legal_row(analysis, sides)?;
+        if analysis.coordinate || analysis.velocity() {
+            return Some(Some(!analysis.velocity()));
         }
         let whole = sides[0].span.to(sides[1].span);
-        match facts.value {
+        match analysis.value {
             Some(0.0) => Some(None),
             Some(value) => {
                 let error = Diagnostic::error(whole, "this equation never holds");
@@ -157,24 +157,24 @@ impl Lowering<'_> {
         }
     }
 
-    fn legal_row(&mut self, facts: Facts, sides: [&Expr; 2]) -> Option<()> {
-        let (bad, message, help): (fn(&Facts) -> bool, _, _) = if facts.kinked {
+    fn legal_row(&mut self, analysis: Analysis, sides: [&Expr; 2]) -> Option<()> {
+        let (bad, message, help): (fn(&Analysis) -> bool, _, _) = if analysis.kinked {
             let message = "a constraint has to be smooth, this is non-smooth";
-            (|facts| facts.kinked, message, SMOOTH)
-        } else if facts.input {
+            (|analysis| analysis.kinked, message, SMOOTH)
+        } else if analysis.input {
             let help = "what is prescribed is written with `t`; an input acts by `force`";
             (
-                |facts| facts.input,
+                |analysis| analysis.input,
                 "a constraint can't contain an input",
                 help,
             )
-        } else if facts.state {
+        } else if analysis.state {
             let message = "a constraint can't contain a state";
-            (|facts| facts.state, message, STATES_ACT)
-        } else if facts.degree > 1 {
+            (|analysis| analysis.state, message, STATES_ACT)
+        } else if analysis.degree > 1 {
             let help = "write it with `der(…)` of first degree, or for positions";
             (
-                |facts| facts.degree > 1,
+                |analysis| analysis.degree > 1,
                 "a constraint has to be linear in the velocities",
                 help,
             )
@@ -188,28 +188,28 @@ impl Lowering<'_> {
     /// Refuses accelerations outside outputs.
     pub fn without_acceleration(&mut self, e: &Expr, scalars: &[Scalar], what: &str) -> Option<()> {
         let mut ids = scalars.iter().map(|scalar| scalar.id);
-        if !ids.any(|id| self.evaluator.facts(id).acceleration) {
+        if !ids.any(|id| self.evaluator.analysis(id).acceleration) {
             return Some(());
         }
-        let span = self.culprit(e, |facts| facts.acceleration);
+        let span = self.culprit(e, |analysis| analysis.acceleration);
         let error = Diagnostic::error(span, format!("{what} can't contain an acceleration"));
         let help = "accelerations follow from the equations of motion; they may stand in outputs";
         self.report(error.help(help))
     }
 
     /// The term of a sum that has some property, else the whole.
-    fn culprit(&mut self, e: &Expr, bad: impl Fn(&Facts) -> bool) -> Span {
+    fn culprit(&mut self, e: &Expr, bad: impl Fn(&Analysis) -> bool) -> Span {
         self.culprit_in(e, &bad).unwrap_or(e.span)
     }
 
-    fn culprit_of(&mut self, sides: [&Expr; 2], bad: impl Fn(&Facts) -> bool) -> Span {
+    fn culprit_of(&mut self, sides: [&Expr; 2], bad: impl Fn(&Analysis) -> bool) -> Span {
         let found = sides
             .into_iter()
             .find_map(|side| self.culprit_in(side, &bad));
         found.unwrap_or(sides[0].span.to(sides[1].span))
     }
 
-    fn culprit_in(&mut self, e: &Expr, bad: &impl Fn(&Facts) -> bool) -> Option<Span> {
+    fn culprit_in(&mut self, e: &Expr, bad: &impl Fn(&Analysis) -> bool) -> Option<Span> {
         let only = [(false, e.clone())];
         let terms: &[(bool, Expr)] = match &e.kind {
             ExprKind::Sum(terms) => terms,
@@ -221,13 +221,13 @@ impl Lowering<'_> {
             .map(|(_, term)| term.span)
     }
 
-    fn has(&mut self, e: &Expr, bad: &impl Fn(&Facts) -> bool) -> bool {
+    fn has(&mut self, e: &Expr, bad: &impl Fn(&Analysis) -> bool) -> bool {
         let value = self.evaluator.evaluate(e);
         value.is_some_and(|value| {
             value
                 .scalars()
                 .iter()
-                .any(|scalar| bad(&self.evaluator.facts(scalar.id)))
+                .any(|scalar| bad(&self.evaluator.analysis(scalar.id)))
         })
     }
 }

@@ -7,7 +7,7 @@ use super::evaluate::Evaluator;
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::{Comparison, ExprId};
-use crate::parse::ast::{Condition, Expr};
+use crate::syntax::ast::{Condition, Expr};
 
 /// What is known of a condition.
 enum Truth {

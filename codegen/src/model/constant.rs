@@ -1,13 +1,13 @@
 //! Constants and parameters, and what a build script changes about them.
 
-use super::lower::Lowering;
+use super::lowering::Lowering;
 use super::order::{Definition, QUANTITIES, order};
 use super::value::{Scalar, Value};
 use super::{Constant, Parameter};
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::expr::{ExprId, Number, Symbol};
-use crate::parse::Model;
-use crate::parse::ast::{Declaration, Declared, ExprKind, Item, ItemKind};
+use crate::syntax::Model;
+use crate::syntax::ast::{Declaration, Declared, ExprKind, Item, ItemKind};
 
 impl Lowering<'_> {
     /// Checks that the build script changes what there is: whole constants and parameters,

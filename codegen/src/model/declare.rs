@@ -1,18 +1,18 @@
 //! Declarations: names, then constants, parameters and coordinates, then
 //! quantities and the laws of inputs.
 
-use super::lower::Lowering;
-use super::member::Waiting;
+use super::declared::Waiting;
+use super::lowering::Lowering;
 use super::order::{Definition, QUANTITIES, order};
 use super::part::Placed;
 use super::scope::Kind;
-use super::si;
 use super::unit::Unit;
+use super::unit_names;
 use super::value::{Array, Scalar, Value};
 use super::{Input, Quantity};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::{Direction, Symbol};
-use crate::parse::ast::{Declaration, Declared, ExprKind, Item, ItemKind, Let, Name, UnitExpr};
+use crate::syntax::ast::{Declaration, Declared, ExprKind, Item, ItemKind, Let, Name, UnitExpr};
 use std::rc::Rc;
 
 /// The most coordinates of a mechanism.
@@ -191,7 +191,7 @@ impl<'a> Lowering<'a> {
             seeds.push((velocity, graph.symbol(acceleration)));
         }
         self.evaluator.flow = Direction::new(seeds);
-        self.evaluator.facts.first_state = Some(freedoms);
+        self.evaluator.analyses.first_state = Some(freedoms);
     }
 
     fn input_symbol(&mut self, declaration: &Declaration) -> Option<Value> {
@@ -224,7 +224,7 @@ impl<'a> Lowering<'a> {
         }
         for (law, suffix) in law.scalars().into_iter().zip(suffixes) {
             self.fits(declaration, unit, law)?;
-            if self.evaluator.facts(law.id).input {
+            if self.evaluator.analysis(law.id).input {
                 let error = Diagnostic::error(place, "the law of an input contains an input");
                 return self.report(error.help("write the other law here, or make it a `let`"));
             }
@@ -348,7 +348,7 @@ impl<'a> Lowering<'a> {
 
     /// The declared unit; [`Unit::Unchecked`] if there is none.
     pub fn unit(&mut self, unit: Option<&UnitExpr>) -> Unit {
-        match unit.map(si::resolve) {
+        match unit.map(unit_names::resolve) {
             None => Unit::Unchecked,
             Some(Ok(dimension)) => Unit::Known(dimension),
             Some(Err(diagnostic)) => {

@@ -3,7 +3,7 @@
 use super::evaluate::Evaluator;
 use super::value::{AXES, Array, Matrix, Value};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::parse::ast::{Expr, Name, Range};
+use crate::syntax::ast::{Expr, Name, Range};
 use std::rc::Rc;
 
 impl Evaluator {

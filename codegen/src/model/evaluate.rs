@@ -1,21 +1,21 @@
 //! Formulas to values.
 //!
 //! In:  formulas of the syntax tree, names with their values.
-//! Out: [`Value`]s whose expressions are sound: finite, no division by zero, no
+//! Out: [`Value`]s whose expressions are valid: finite, no division by zero, no
 //!      exponent beyond reason. `None` stands for a mistake that was reported.
 //!
 //! Not here: what a formula may contain where it stands; that is `check`'s.
 
-use super::facts::{FactTable, Facts};
-use super::function::Functions;
-use super::member::Parts;
+use super::analysis::{Analyses, Analysis};
+use super::declared::{Functions, Parts};
+use super::language;
 use super::scope::{BUILT_IN, Kind, Scope};
 use super::unit::Unit;
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest};
 use crate::expr::{Direction, ExprId, Function, Graph, Number, Symbol};
-use crate::parse::NESTING;
-use crate::parse::ast::{Expr, ExprKind, Range};
+use crate::syntax::NESTING;
+use crate::syntax::ast::{Expr, ExprKind, Range};
 use std::path::PathBuf;
 
 /// The most formulas that are evaluated for one description, loops unrolled.
@@ -40,7 +40,7 @@ pub struct Evaluator {
     pub flow: Direction,
     /// The parts and the quantities in them.
     pub parts: Parts,
-    pub facts: FactTable,
+    pub analyses: Analyses,
     /// The folder of the description, if it has one, in which files are looked for.
     pub folder: Option<PathBuf>,
     /// The files that were read.
@@ -58,8 +58,8 @@ impl Evaluator {
     }
 
     /// What an expression is made of.
-    pub fn facts(&mut self, e: ExprId) -> Facts {
-        self.facts.of(&self.graph, e)
+    pub fn analysis(&mut self, e: ExprId) -> Analysis {
+        self.analyses.of(&self.graph, e)
     }
 
     /// Counts one piece of work; `None` if there was too much.
@@ -143,7 +143,7 @@ impl Evaluator {
         if let Some(value) = self.graph.as_number(scalar.id).and_then(Number::as_integer) {
             return Some(value);
         }
-        let found = match self.facts(scalar.id).value {
+        let found = match self.analysis(scalar.id).value {
             Some(value) => format!("this is {value}"),
             None => "this is not".into(),
         };
@@ -234,7 +234,7 @@ impl Evaluator {
         let help = if let Some(near) = near {
             format!("did you mean `{near}`?")
         } else if Function::ALL.iter().any(|(_, known)| *known == name)
-            || super::call::known(name)
+            || language::known(name)
             || self.functions.contains(name)
         {
             format!("`{name}` is a function: write `{name}(…)`")

@@ -1,72 +1,30 @@
 //! Functions that the description declares.
 //!
 //! In:  `fn f(x, y: unit): unit = formula;`.
-//! Out: [`Functions`], and the value of a call: that of the formula with the values of
+//! Out: [`Functions`](super::declared::Functions), and the value of a call: that of the formula with the values of
 //!      the arguments, looked up where the function stands, not where it is called.
 //!
 //! A finding inside a function points to its use as well.
 
-use super::call::{are, count, known};
+use super::call::{are, count};
+use super::declared::Known;
 use super::evaluate::Evaluator;
-use super::lower::Lowering;
+use super::language::known;
+use super::lowering::Lowering;
 use super::order::{Definition, Mention, collect, order};
 use super::scope::{Kind, twice};
-use super::si;
 use super::unit::{NONE, Unit};
+use super::unit_names;
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr;
-use crate::parse::ast::{Argument, Expr, Function, Item, ItemKind, Name, UnitExpr};
+use crate::syntax::ast::{Argument, Expr, Function, Item, ItemKind, Name, UnitExpr};
 use rustc_hash::FxHashMap;
-use std::collections::BTreeMap;
 use std::rc::Rc;
 
 /// What to write where functions call one another.
 const RECURSION: &str = "a function can't call itself; what repeats is a `sum`, or an array \
                          `let n[i in 0..K] = …` whose elements use those before them";
-
-/// The functions of a description, by name.
-#[derive(Debug, Default)]
-pub struct Functions {
-    known: BTreeMap<String, Known>,
-}
-
-#[derive(Debug)]
-struct Known {
-    /// What is written; `None` if it takes part in a circle, or calls what does, which has
-    /// been reported.
-    item: Option<Rc<Function>>,
-    /// The names around it that its formula mentions, also through other functions.
-    mentions: Vec<String>,
-    used: bool,
-}
-
-impl Functions {
-    /// Whether there is a function of a name.
-    pub fn contains(&self, name: &str) -> bool {
-        self.known.contains_key(name)
-    }
-
-    /// The names of the functions.
-    pub fn names(&self) -> impl Iterator<Item = &str> + Clone {
-        self.known.keys().map(String::as_str)
-    }
-
-    /// The names that formulas mention, also through functions.
-    pub fn mentions<'a>(&self, formulas: impl IntoIterator<Item = &'a Expr>) -> Vec<String> {
-        let mut names: Vec<String> = Vec::new();
-        for formula in formulas {
-            collect(formula, &mut |mention| match mention {
-                Mention::Name(name) => names.push(name.to_string()),
-                Mention::Call(name) => {
-                    let inside = self.known.get(name).into_iter();
-                    names.extend(inside.flat_map(|function| function.mentions.iter().cloned()));
-                }
-            });
-        }
-        names
-    }
-}
 
 impl Lowering<'_> {
     /// Reads the functions, each behind those that it calls.
@@ -309,7 +267,7 @@ impl Evaluator {
 
 /// A declared unit whose mistakes have been reported.
 fn declared(unit: Option<&UnitExpr>) -> Unit {
-    match unit.map(si::resolve) {
+    match unit.map(unit_names::resolve) {
         Some(Ok(dimension)) => Unit::Known(dimension),
         _ => Unit::Unchecked,
     }

@@ -3,44 +3,18 @@
 //! In:  the tree, and what a build script changes.
 //! Out: a [`Mechanism`] and warnings, or everything that is wrong.
 
+use super::Mechanism;
 use super::evaluate::Evaluator;
-use super::member::Frame;
+use super::lowering::{Lowering, Named};
 use super::part::{LIBRARY, Placed};
 use super::scope::{Entry, Kind};
-use super::{Mechanism, statement::Named};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::expr::{ExprId, Graph, Symbol};
-use crate::parse::ast::{Item, ItemKind, Part};
-use crate::parse::{self, Model};
+use crate::syntax::ast::{Item, ItemKind};
+use crate::syntax::{self, Model};
 use rustc_hash::FxHashMap;
 use std::path::Path;
 use std::rc::Rc;
-
-/// The work in progress.
-pub struct Lowering<'a> {
-    /// Formulas and names.
-    pub evaluator: Evaluator,
-    /// What is done. Its graph is with the evaluator until the end.
-    pub mechanism: Mechanism,
-    /// Constants with another value.
-    pub constants: &'a [(String, f64)],
-    /// Parameters that become constants.
-    pub frozen: &'a [String],
-    /// The loops around, with the value of each index.
-    pub indices: Vec<(String, i64)>,
-    /// The parts that statements can use.
-    pub parts: FxHashMap<&'a str, &'a Part>,
-    /// The parts that statements use.
-    pub used_parts: Vec<String>,
-    /// Where names are looked up.
-    pub frame: Rc<Frame>,
-    /// Quantities that wait for their values, in order of declaration.
-    pub waiting: Vec<String>,
-    /// The number of inputs so far.
-    pub n_inputs: u32,
-    /// The names of outputs and events and the places of start entries so far.
-    pub named: Named,
-}
 
 /// Checks a description and puts it into expressions.
 ///
@@ -101,17 +75,12 @@ pub fn lower(
 fn library(model: &Model) -> Vec<Item> {
     let uses = |item: &Item| matches!(&item.kind, ItemKind::Use(name) if name.text == LIBRARY);
     match model.items.iter().any(uses) {
-        true => parse::library(),
+        true => syntax::library(),
         false => Vec::new(),
     }
 }
 
 impl Lowering<'_> {
-    /// Records a finding.
-    pub fn report<T>(&mut self, diagnostic: Diagnostic) -> Option<T> {
-        self.evaluator.report(diagnostic)
-    }
-
     /// What concerns the mechanism as a whole.
     fn whole(&mut self, model: &Model) {
         let (name, at) = (&model.name, model.name.span);

@@ -4,60 +4,13 @@
 //! Out: values. A quantity of a part is evaluated when it is first asked for, because one
 //!      part is given what belongs to another.
 
-use super::bare::Bare;
+use super::declared::{Frame, Waiting};
 use super::evaluate::Evaluator;
 use super::order::QUANTITIES;
 use super::scope::Kind;
-use super::value::Value;
-use crate::diagnostic::{Diagnostic, Label, Span, nearest};
-use crate::parse::ast::{Argument, Expr, ExprKind, Let, Name};
-use rustc_hash::FxHashMap;
-use std::collections::BTreeMap;
-use std::rc::Rc;
-
-/// Where names are looked up: in the mechanism itself, or in a part of it.
-#[derive(Debug, Default)]
-pub struct Frame {
-    /// What stands in front of its names: `left.`, `leg[2].`
-    pub prefix: String,
-    /// Where it is used, from outside inwards.
-    pub uses: Vec<Label>,
-    /// The names of the parts around, from outside inwards.
-    pub parts: Vec<String>,
-}
-
-/// A quantity that waits for its value.
-#[derive(Debug)]
-pub struct Waiting {
-    /// What is written.
-    pub quantity: Rc<Let>,
-    /// Where its formula is looked up.
-    pub frame: Rc<Frame>,
-    /// The index of the array of parts that it is an argument of.
-    pub index: Option<(Name, i64)>,
-    /// The part that it is an argument of.
-    pub argument_of: Option<String>,
-}
-
-/// The parts of a description and the quantities in them.
-#[derive(Debug, Default)]
-pub struct Parts {
-    /// The names behind `part`, and where they stand.
-    pub declared: BTreeMap<String, Span>,
-    /// What the parts that are used declare, by their names in full: `leg[2]`.
-    pub used: BTreeMap<String, Vec<String>>,
-    /// Quantities without a value yet, by their names in full.
-    pub waiting: FxHashMap<String, Rc<Waiting>>,
-    /// The quantities that are being evaluated.
-    open: Vec<String>,
-}
-
-impl Parts {
-    /// Whether there is a part of a name.
-    pub fn known(&self, name: &str) -> bool {
-        self.declared.contains_key(name)
-    }
-}
+use super::value::{Bare, Value};
+use crate::diagnostic::{Diagnostic, Span, nearest};
+use crate::syntax::ast::{Argument, Expr, ExprKind, Let, Name};
 
 impl Evaluator {
     /// Whether a formula names a part or an array of them.

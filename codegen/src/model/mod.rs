@@ -1,11 +1,12 @@
 //! A checked mechanism: what the description says, in expressions.
 //!
-//! In:  the syntax tree, from [`crate::parse`].
+//! In:  the syntax tree, from [`crate::syntax`].
 //! Out: [`Mechanism`]: names resolved, arrays and loops unrolled, `der` carried
 //!      out, vectors split into scalar rows, everything legal.
 //!
 //! Not here: mechanics. Mass matrix and constraint Jacobian are `derive`'s.
 
+mod analysis;
 mod arithmetic;
 mod bare;
 mod call;
@@ -14,31 +15,33 @@ mod choice;
 mod constant;
 mod data;
 mod declare;
+mod declared;
 mod element;
 mod evaluate;
-mod facts;
 mod function;
+mod language;
 mod linear;
 mod lower;
+mod lowering;
 mod member;
 mod order;
 mod part;
 mod rotation;
 mod scope;
 mod shape;
-mod si;
-mod sound;
 mod start;
 mod state;
 mod statement;
 mod table;
 mod unit;
+mod unit_names;
+mod validity;
 mod value;
 
-pub(crate) use call::other_functions;
+pub(crate) use language::other_functions;
 pub use lower::lower;
 pub(crate) use scope::built_in;
-pub(crate) use si::{scaled_units, units};
+pub(crate) use unit_names::{scaled_units, units};
 
 use crate::diagnostic::Span;
 use crate::expr::{ExprId, Graph, Symbol};
@@ -274,6 +277,17 @@ pub enum Shape {
     Polygon(Vec<Point>),
     /// A point whose path is wanted.
     Trace(Point),
+}
+
+impl Shape {
+    /// Its numbers: points one after the other, the radius last.
+    pub fn numbers(&self) -> Vec<ExprId> {
+        match self {
+            Shape::Line(points) | Shape::Polygon(points) => points.concat(),
+            Shape::Circle(centre, radius) => centre.iter().chain([radius]).copied().collect(),
+            Shape::Trace(point) => point.to_vec(),
+        }
+    }
 }
 
 impl Mechanism {

@@ -5,7 +5,7 @@
 //!      are reported.
 
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::parse::ast::{Expr, ExprKind, Name};
+use crate::syntax::ast::{Expr, ExprKind, Name};
 use rustc_hash::FxHashMap;
 
 /// A definition: a name, the names that it mentions, and whether it may mention

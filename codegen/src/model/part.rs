@@ -5,13 +5,13 @@
 //!      a part once for each use. Arguments are quantities of the part; those that are
 //!      constants are so inside it, and can give arrays their sizes.
 
-use super::lower::Lowering;
-use super::member::{Frame, Waiting};
+use super::declared::{Frame, Waiting};
+use super::lowering::Lowering;
 use super::order::{Mention, collect};
 use super::scope::{Kind, built_in, twice};
 use super::value::Value;
 use crate::diagnostic::{Diagnostic, Label, Span};
-use crate::parse::ast::{Argument, Declared, Expr, ExprKind, Item, ItemKind, Let, Name, Part};
+use crate::syntax::ast::{Argument, Declared, Expr, ExprKind, Item, ItemKind, Let, Name, Part};
 use std::rc::Rc;
 
 /// A statement and where its names are looked up.

@@ -11,7 +11,7 @@ use super::unit::{PER_SECOND, Unit};
 use super::value::{Matrix, Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::{Function, Number};
-use crate::parse::ast::Expr;
+use crate::syntax::ast::Expr;
 
 impl Evaluator {
     /// `rotx(angle)`, `roty(angle)`, `rotz(angle)`: the rotation about an axis.
@@ -43,8 +43,8 @@ impl Evaluator {
     }
 
     fn axis_spin(&mut self, axis: usize, angle: Scalar, span: Span) -> Option<[Scalar; 3]> {
-        let facts = self.facts(angle.id);
-        if facts.velocity() || facts.input {
+        let analysis = self.analysis(angle.id);
+        if analysis.velocity() || analysis.input {
             return None;
         }
         let rate = self.rate(angle, span)?;
@@ -104,8 +104,8 @@ impl Evaluator {
             }
         }
         let rests = n.iter().all(|part| {
-            let facts = self.facts(part.id);
-            !facts.coordinate && !facts.time && !facts.velocity() && !facts.input
+            let analysis = self.analysis(part.id);
+            !analysis.coordinate && !analysis.time && !analysis.velocity() && !analysis.input
         });
         let spin = match about_z.spin.filter(|_| rests) {
             Some([.., rate]) => {
@@ -215,8 +215,8 @@ impl Evaluator {
         span: Span,
     ) -> Option<[Scalar; 3]> {
         for part in [real, vector[0], vector[1], vector[2]] {
-            let facts = self.facts(part.id);
-            if facts.velocity() || facts.input {
+            let analysis = self.analysis(part.id);
+            if analysis.velocity() || analysis.input {
                 return None;
             }
         }

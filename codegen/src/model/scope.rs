@@ -3,10 +3,9 @@
 //! All symbols share one namespace, without shadowing: a name that is in use
 //! can't be declared again. Functions and units have namespaces of their own.
 
-use super::bare::Bare;
-use super::value::Value;
+use super::value::{Bare, Value};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::parse::ast::Name;
+use crate::syntax::ast::Name;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What a name stands for.

@@ -5,12 +5,12 @@
 //!      with a suffix behind the name: `c.x`, `m[2]`, `I[0][1]`.
 
 use super::evaluate::Evaluator;
-use super::lower::Lowering;
-use super::si;
+use super::lowering::Lowering;
 use super::unit::Unit;
+use super::unit_names;
 use super::value::{Array, Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::parse::ast::{Declaration, Expr, ExprKind, Range, Size, UnitExpr};
+use crate::syntax::ast::{Declaration, Expr, ExprKind, Range, Size, UnitExpr};
 use std::rc::Rc;
 
 /// The most elements of an array that is declared.
@@ -138,7 +138,7 @@ impl Evaluator {
     }
 
     fn united(&mut self, value: Value, place: &UnitExpr, span: Span) -> Option<Value> {
-        let unit = match si::resolve(place) {
+        let unit = match unit_names::resolve(place) {
             Ok(dimension) => Unit::Known(dimension),
             Err(diagnostic) => {
                 let name = place.factors.first().map(|(name, _)| name.text.as_str());

@@ -1,12 +1,12 @@
 //! The `start` block and the picture.
 
-use super::lower::Lowering;
+use super::lowering::Lowering;
 use super::value::{Scalar, Value};
 use super::{Constraint, Point, Shape, Start};
 use crate::diagnostic::{Diagnostic, Span, figure};
 use crate::expr::{Node, Number, Symbol};
-use crate::parse::ast::{Drawing, Expr, StartItem};
-use crate::parse::written;
+use crate::syntax::ast::{Drawing, Expr, StartItem};
+use crate::syntax::written;
 
 impl Lowering<'_> {
     /// Reads the entries of a `start` block.
@@ -75,24 +75,24 @@ impl Lowering<'_> {
         (given, value): (Scalar, &Expr),
         suffix: &str,
     ) -> Option<()> {
-        let facts = self.evaluator.facts(scalar.id);
-        let (message, help) = if !facts.coordinate && !facts.velocity() && !facts.state {
+        let analysis = self.evaluator.analysis(scalar.id);
+        let (message, help) = if !analysis.coordinate && !analysis.velocity() && !analysis.state {
             let message = "only coordinates and their velocities have start values";
             (message, "write `q1 = …;` or `der(q1) = …;`")
-        } else if facts.input {
+        } else if analysis.input {
             (
                 "an equation of the start can't contain an input",
                 "write out its law",
             )
-        } else if facts.state {
+        } else if analysis.state {
             (
                 "an equation of the start can't contain a state",
                 "give the state itself a value: `z = …;`",
             )
-        } else if facts.kinked {
+        } else if analysis.kinked {
             let help = "`abs`, `sign`, `min`, `max` and `if` can't be met from any side";
             ("an equation of the start has to be smooth", help)
-        } else if facts.degree > 1 {
+        } else if analysis.degree > 1 {
             let help = "write it with `der(…)` of first degree";
             (
                 "an equation of the start has to be linear in the velocities",
@@ -102,12 +102,12 @@ impl Lowering<'_> {
             self.constant_start((scalar, target), (given, value))?;
             let residual = self.evaluator.graph.sub(scalar.id, given.id);
             let span = target.span.to(value.span);
-            let residual = self.evaluator.sound(residual, span)?;
+            let residual = self.evaluator.valid(residual, span)?;
             let sign = if held { '=' } else { '~' };
             let text = format!("{} {sign} {}", written(target), written(value));
             let equation = Constraint {
                 residual,
-                holonomic: !facts.velocity(),
+                holonomic: !analysis.velocity(),
                 text: self.row_text(&text, suffix),
                 multiplier: None,
                 span: self.place_of(span),
@@ -127,8 +127,13 @@ impl Lowering<'_> {
         (scalar, target): (Scalar, &Expr),
         (given, value): (Scalar, &Expr),
     ) -> Option<()> {
-        let facts = self.evaluator.facts(given.id);
-        if facts.time || facts.coordinate || facts.velocity() || facts.input || facts.state {
+        let analysis = self.evaluator.analysis(given.id);
+        if analysis.time
+            || analysis.coordinate
+            || analysis.velocity()
+            || analysis.input
+            || analysis.state
+        {
             let error = Diagnostic::error(
                 value.span,
                 "a start value is built of numbers, constants and parameters",
@@ -289,8 +294,8 @@ impl Lowering<'_> {
     /// A picture shows positions.
     fn drawable(&mut self, scalars: &[Scalar], span: Span) -> Option<()> {
         for scalar in scalars {
-            let facts = self.evaluator.facts(scalar.id);
-            if facts.velocity() || facts.input || facts.state || facts.acceleration {
+            let analysis = self.evaluator.analysis(scalar.id);
+            if analysis.velocity() || analysis.input || analysis.state || analysis.acceleration {
                 let error = Diagnostic::error(
                     span,
                     "a picture shows positions, this has a velocity, an input or a state in it",

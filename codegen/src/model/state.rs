@@ -5,12 +5,12 @@
 //!      contains; the force at it is the rate of the state.
 
 use super::Force;
-use super::lower::Lowering;
+use super::lowering::Lowering;
 use super::unit::{PER_SECOND, Unit};
 use super::value::Scalar;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::{ExprId, Node, Symbol};
-use crate::parse::ast::Expr;
+use crate::syntax::ast::Expr;
 
 impl Lowering<'_> {
     /// `der(of) = value`
@@ -33,7 +33,7 @@ impl Lowering<'_> {
             };
             let sides = [(per_second, of.span), (rate, value.span)];
             self.evaluator.same_unit(sides, "this rate")?;
-            let force = vec![self.evaluator.sound(rate.id, value.span)?];
+            let force = vec![self.evaluator.valid(rate.id, value.span)?];
             self.mechanism.forces.push(Force {
                 force,
                 on: vec![state.id],

@@ -1,28 +1,14 @@
 //! Statements: energies, forces, constraints, outputs, events, loops.
 
-use super::lower::Lowering;
+use super::lowering::Lowering;
 use super::scope::{Kind, twice};
 use super::unit::{Dimension, ENERGY, NONE, POWER, Unit};
 use super::value::{Scalar, Value};
 use super::{Constraint, Direction, Event, Force, Output, Quantity, Summand};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::parse::ast::{
+use crate::syntax::ast::{
     Crossing, Declaration, Declared, Energy, Expr, Item, ItemKind, Name, Range,
 };
-use rustc_hash::FxHashMap;
-
-/// Names and targets that are taken, each with its place.
-#[derive(Debug, Default)]
-pub struct Named {
-    outputs: FxHashMap<String, Span>,
-    events: FxHashMap<String, Span>,
-    constraints: FxHashMap<String, Span>,
-    /// States whose rate is given, by their coordinates.
-    pub rates: FxHashMap<u32, Span>,
-    /// Start entries: coordinate, whether the velocity is meant; with the number of parts
-    /// around.
-    pub starts: FxHashMap<(u32, bool), (Span, usize)>,
-}
 
 impl Lowering<'_> {
     /// Reads statements that aren't declarations.
@@ -245,7 +231,7 @@ impl Lowering<'_> {
             let sides = [(a, left.span), (b, right.span)];
             let unit = self.evaluator.same_unit(sides, "this equation")?;
             let residual = self.evaluator.graph.sub(a.id, b.id);
-            let residual = self.evaluator.sound(residual, span)?;
+            let residual = self.evaluator.valid(residual, span)?;
             let Some(holonomic) = self.legal_constraint(residual, [left, right])? else {
                 continue;
             };
@@ -323,7 +309,7 @@ impl Lowering<'_> {
             let mut quantity = self.quantity(item, &declaration.name, unit);
             quantity.name = format!("{name}{suffix}");
             self.column_is_free(&quantity.name, &declaration.name)?;
-            let accelerated = self.evaluator.facts(scalar.id).acceleration;
+            let accelerated = self.evaluator.analysis(scalar.id).acceleration;
             self.mechanism.outputs.push(Output {
                 quantity,
                 value: scalar.id,

@@ -15,7 +15,7 @@ use super::unit::Unit;
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::{Comparison, ExprId, Number, Test};
-use crate::parse::ast::{Expr, ExprKind};
+use crate::syntax::ast::{Expr, ExprKind};
 
 /// How a table is read from a file.
 const FROM_FILE: &str = "write `table(\"file.csv\", t)` for the first two columns, or name them: \
@@ -72,7 +72,7 @@ impl Evaluator {
             false => self.polygon(&points, x.id),
         };
         let span = list.span.to(of.span);
-        let id = self.sound(id, span)?;
+        let id = self.valid(id, span)?;
         Some(Value::Scalar(Scalar { id, unit }))
     }
 
@@ -134,7 +134,7 @@ impl Evaluator {
                 self.scalar(at, "the first number of a pair")?,
                 self.scalar(value, "the second number of a pair")?,
             );
-            let Some(place) = self.facts(at.id).value.filter(|x| x.is_finite()) else {
+            let Some(place) = self.analysis(at.id).value.filter(|x| x.is_finite()) else {
                 let error = Diagnostic::error(spans[0], "where a table changes has to be constant");
                 return self.report(error.help("make it a number or a `const`"));
             };
@@ -177,7 +177,7 @@ impl Evaluator {
     fn spline(&mut self, points: &[Point], x: ExprId) -> Option<ExprId> {
         let mut values = Vec::new();
         for point in points {
-            let Some(value) = self.facts(point.value.id).value else {
+            let Some(value) = self.analysis(point.value.id).value else {
                 let error =
                     Diagnostic::error(point.spans[1], "the points of a spline are constant");
                 let help = "make it a number or a `const`, and multiply the spline by a parameter";

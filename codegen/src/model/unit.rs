@@ -1,7 +1,7 @@
 //! Units: dimensions as exponents of SI base units.
 //!
-//! In:  dimensions of symbols, from [`super::si`].
-//! Out: [`Unit`]s that formulas are checked with, and their names in messages.
+//! In:  dimensions of symbols, from [`super::unit_names`].
+//! Out: [`Unit`]s that formulas are checked with.
 //!
 //! A number has no unit of its own: it takes that of what it stands beside (`x -
 //! 0.1`, `x + 0.5*cos(phi)`, `param L: m = 0.5`), and as a factor of what has a unit
@@ -10,13 +10,8 @@
 //! declared without unit, and `t` (so that `sin(2*t)` can be written), switch the
 //! check off for every formula they take part in.
 
-use super::si;
-
 /// Exponents are counted in twelfths, so that roots have a unit.
 pub const PARTS: i32 = 12;
-
-/// The base units, in the order of the exponents of a [`Dimension`].
-const BASE: [&str; 5] = ["kg", "m", "s", "A", "K"];
 
 /// Exponents of the base units, in twelfths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -33,7 +28,7 @@ pub enum Unit {
     Unchecked,
 }
 
-const fn whole(kg: i32, m: i32, s: i32) -> Dimension {
+pub(super) const fn whole(kg: i32, m: i32, s: i32) -> Dimension {
     Dimension([kg * PARTS, m * PARTS, s * PARTS, 0, 0])
 }
 
@@ -79,81 +74,6 @@ impl Dimension {
     pub fn is_rate(self) -> bool {
         matches!(self.0, [0, 0, _, 0, 0])
     }
-
-    /// What has this dimension, in words.
-    pub fn said(self) -> String {
-        if self == NONE {
-            "this has no unit".into()
-        } else {
-            format!("this is in {}", self.text())
-        }
-    }
-
-    /// Its name in a message.
-    pub fn text(self) -> String {
-        if self == NONE {
-            return "no unit".into();
-        }
-        if self == ENERGY {
-            return "N*m".into();
-        }
-        let exact = |powers: &[i32; 5]| powers.map(|power| power * PARTS) == self.0;
-        let spoken = ["N", "W", "Pa", "V"];
-        if let Some((name, _)) = si::NAMED
-            .iter()
-            .find(|(n, p)| spoken.contains(n) && exact(p))
-        {
-            return (*name).into();
-        }
-        let [kg, m, s, ..] = self.0;
-        let with_newton =
-            (kg == PARTS).then_some([(NEWTON, kg), ("m", m - PARTS), ("s", s + 2 * PARTS)]);
-        let plain: Vec<_> = BASE.into_iter().zip(self.0).collect();
-        let size = |powers: &[(&str, i32)]| powers.iter().map(|(_, p)| p.abs()).sum::<i32>();
-        match with_newton {
-            Some(powers) if self.0[3..] == [0, 0] && size(&powers) < size(&plain) => {
-                quotient(&powers)
-            }
-            _ => quotient(&plain),
-        }
-    }
-}
-
-const NEWTON: &str = "N";
-
-/// A product of powers as a quotient of products.
-fn quotient(powers: &[(&str, i32)]) -> String {
-    let side = |below: bool| -> Vec<String> {
-        let powers = powers.iter().filter(|(_, p)| (*p < 0) == below && *p != 0);
-        powers
-            .map(|(name, p)| format!("{name}{}", exponent_text(p.abs())))
-            .collect()
-    };
-    let (above, below) = (side(false), side(true));
-    let numerator = if above.is_empty() {
-        "1".to_string()
-    } else {
-        above.join("*")
-    };
-    match below.len() {
-        0 => numerator,
-        1 => format!("{numerator}/{}", below[0]),
-        _ => format!("{numerator}/({})", below.join("*")),
-    }
-}
-
-fn exponent_text(twelfths: i32) -> String {
-    if twelfths == PARTS {
-        String::new()
-    } else if twelfths % PARTS == 0 {
-        format!("^{}", twelfths / PARTS)
-    } else {
-        let divisor = (1..=PARTS)
-            .rev()
-            .find(|d| twelfths % d == 0 && PARTS % d == 0)
-            .unwrap_or(1);
-        format!("^({}/{})", twelfths / divisor, PARTS / divisor)
-    }
 }
 
 impl Unit {
@@ -197,21 +117,6 @@ impl Unit {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn dimensions_are_named_as_people_write_them() {
-        assert_eq!(whole(1, 1, -2).text(), "N");
-        assert_eq!(whole(0, 1, -2).text(), "m/s^2");
-        assert_eq!(whole(0, 0, -1).text(), "1/s");
-        assert_eq!(whole(1, -1, -1).text(), "kg/(m*s)");
-        assert_eq!(whole(1, 0, -2).text(), "N/m");
-        assert_eq!(whole(1, 1, -1).text(), "N*s");
-        assert_eq!(
-            whole(0, 1, 0).power(0.5).map(Dimension::text),
-            Some("m^(1/2)".into())
-        );
-        assert_eq!(NONE.text(), "no unit");
-    }
 
     #[test]
     fn a_number_takes_the_unit_it_stands_beside() {

@@ -1,7 +1,8 @@
 //! What a formula can be: a scalar, a vector, a matrix, an array of these.
 
 use super::unit::Unit;
-use crate::expr::ExprId;
+use crate::diagnostic::Span;
+use crate::expr::{ExprId, Number};
 use std::rc::Rc;
 
 /// A scalar expression and its unit.
@@ -198,3 +199,28 @@ impl Value {
 
 /// The names of the components of a vector.
 pub const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// A number without unit.
+#[derive(Clone, Copy, Debug)]
+pub struct Bare {
+    /// The number.
+    pub number: Number,
+    /// Where it stands.
+    pub span: Span,
+    /// The power of it that the formula contains.
+    pub power: f64,
+}
+
+impl Bare {
+    /// Numbers such as 9.81 are measured, 2 is rather counted.
+    pub fn is_measured(&self) -> bool {
+        self.number.as_integer().is_none()
+    }
+
+    pub fn raised(self, power: f64) -> Self {
+        Self {
+            power: self.power * power,
+            ..self
+        }
+    }
+}

@@ -1,7 +1,9 @@
 //! Equations to straight-line programs.
 //!
-//! In:  expressions of the mechanism's graph and the slots they are wanted in.
-//! Out: a [`Program`] that computes them, checked by [`verify`].
+//! In:  a mechanism and its equations.
+//! Out: [`Programs`], all that its module computes; each is made of expressions of the
+//!      mechanism's graph and the slots they are wanted in by [`optimise`], and checked by
+//!      [`verify`].
 //!
 //! The passes, in order; `RULES.md` has the identity and the domain of each rule:
 //! 1. `trig`: each expression in the ring of the sines and cosines it has, where
@@ -22,17 +24,20 @@ mod monomial;
 mod order;
 mod pass;
 mod program;
+mod programs;
 mod schedule;
 mod share;
 mod solve;
 mod squares;
 mod trig;
 mod verify;
+mod wanted;
 
 pub use count::{Cost, cost};
 pub use interpret::interpret;
 pub use pass::{Pass, alone};
 pub use program::{Operation, Program, Slot, Value};
+pub use programs::{Array, LeftOut, List, Optimised, Programs, StartPrograms, programs};
 pub use solve::{Solved, Way};
 pub use trig::{Polynomials, in_trig_ring};
 pub use verify::verify;
@@ -110,7 +115,7 @@ pub fn regular_acceleration(
     sizes: (usize, usize),
     weighed: &[usize],
 ) -> Option<Solved> {
-    solve::with_acceleration(terms, sizes, weighed).map(sound)
+    solve::with_acceleration(terms, sizes, weighed).map(checked_solution)
 }
 
 /// The program for the least corrections of position and velocity, from the
@@ -125,10 +130,10 @@ pub fn regular_correction(
     sizes: (usize, usize),
     weighed: &[usize],
 ) -> Option<Solved> {
-    solve::with_correction(terms, sizes, weighed).map(sound)
+    solve::with_correction(terms, sizes, weighed).map(checked_solution)
 }
 
-fn sound(solved: Solved) -> Solved {
+fn checked_solution(solved: Solved) -> Solved {
     let program = checked(solved.program);
     Solved { program, ..solved }
 }

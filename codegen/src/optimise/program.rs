@@ -97,6 +97,14 @@ pub struct Slot {
     pub column: usize,
 }
 
+impl Slot {
+    /// An entry of a vector.
+    pub fn of_vector(array: &'static str, row: usize) -> Self {
+        let column = 0;
+        Self { array, row, column }
+    }
+}
+
 /// A straight-line program.
 #[derive(Clone, Debug, Default)]
 pub struct Program {
@@ -151,6 +159,15 @@ impl Program {
     /// Whether it computes nothing.
     pub fn is_empty(&self) -> bool {
         self.operations.is_empty()
+    }
+
+    /// Whether it reads a symbol of some kind.
+    pub fn reads(&self, kind: impl Fn(&Symbol) -> bool) -> bool {
+        let is_kind = |operation: &Operation| match operation {
+            Operation::Symbol(symbol) => kind(symbol),
+            _ => false,
+        };
+        self.operations.iter().any(is_kind)
     }
 
     /// How often each value is read, outputs included.

@@ -5,9 +5,9 @@
 //! motion of `NAME_by_hand.mech`.
 
 use super::accept;
-use bricard_codegen::derive::derive;
-use bricard_codegen::expr::Symbol;
-use bricard_codegen::model::Mechanism;
+use bricard_codegen::internals::derive::derive;
+use bricard_codegen::internals::expr::Symbol;
+use bricard_codegen::internals::model::Mechanism;
 use bricard_codegen::{Settings, compile_source};
 use std::collections::BTreeMap;
 use std::fs;

@@ -2,8 +2,8 @@
 
 use super::accept;
 use bricard_codegen::Builder;
-use bricard_codegen::derive::eliminate;
-use bricard_codegen::model::Mechanism;
+use bricard_codegen::internals::derive::eliminate;
+use bricard_codegen::internals::model::Mechanism;
 use std::fs;
 use std::path::Path;
 

@@ -1,7 +1,8 @@
 //! Tables from files beside the description.
 
 use super::with;
-use bricard_codegen::{Settings, analyse};
+use bricard_codegen::Settings;
+use bricard_codegen::internals::analyse;
 use std::fs;
 use std::path::PathBuf;
 

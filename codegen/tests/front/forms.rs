@@ -2,7 +2,7 @@
 //! points: the same mathematics, written again in Rust.
 
 use super::accept;
-use bricard_codegen::expr::Symbol;
+use bricard_codegen::internals::expr::Symbol;
 use bricard_testkit::Random;
 use num_dual::{Dual64, DualNum};
 

@@ -2,8 +2,8 @@
 //! `tests/accepted/library_*`.
 
 use super::{accept, refuse, warnings};
-use bricard_codegen::derive::derive;
-use bricard_codegen::expr::Symbol;
+use bricard_codegen::internals::derive::derive;
+use bricard_codegen::internals::expr::Symbol;
 use std::f64::consts::PI;
 
 const LIBRARY: &str = include_str!("../../src/parts.mech");

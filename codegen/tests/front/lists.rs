@@ -1,7 +1,8 @@
 //! Constants, parameters and inputs of more than one number.
 
 use super::{accept, assert_close, output, refuse_saying, with};
-use bricard_codegen::{Settings, analyse, compile_source};
+use bricard_codegen::internals::analyse;
+use bricard_codegen::{Settings, compile_source};
 
 const LISTS: &str = "const c = [1, 2]; param m[6]: kg = [0, 17.4, 4.8, 0.82, 0.34, 0.09];
     param r = [q0, 5]; const q0 = 3; param I = [[1, 2], [3, 4]]; input u[2] = [t, 7];
@@ -11,11 +12,10 @@ fn settings(constants: &[(&str, f64)], frozen: &[&str]) -> Settings {
     let constants = constants
         .iter()
         .map(|(name, value)| (name.to_string(), *value));
-    Settings {
-        constants: constants.collect(),
-        frozen: frozen.iter().map(ToString::to_string).collect(),
-        ..Settings::default()
-    }
+    let mut settings = Settings::default();
+    settings.constants = constants.collect();
+    settings.frozen = frozen.iter().map(ToString::to_string).collect();
+    settings
 }
 
 #[test]

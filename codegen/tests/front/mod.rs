@@ -3,7 +3,6 @@
 mod accepted;
 mod build;
 mod documentation;
-mod doubts;
 mod eliminated;
 mod files;
 mod forms;
@@ -11,6 +10,7 @@ mod functions;
 mod grammar;
 mod legality;
 mod library;
+mod lints;
 mod lists;
 mod mechanisms;
 mod model;
@@ -23,12 +23,14 @@ mod scale;
 mod shapes;
 mod starts;
 mod statements;
+mod surface;
 mod units;
 mod wrong;
 
-use bricard_codegen::expr::Symbol;
-use bricard_codegen::model::Mechanism;
-use bricard_codegen::{Diagnostics, Settings, analyse};
+use bricard_codegen::internals::analyse;
+use bricard_codegen::internals::expr::Symbol;
+use bricard_codegen::internals::model::Mechanism;
+use bricard_codegen::{Diagnostics, Settings};
 
 /// A mechanism of two coordinates `q` and `w` without units, and more statements.
 fn with(statements: &str) -> String {

@@ -1,9 +1,10 @@
 //! Models built by calls.
 
 use super::mechanisms::library;
-use bricard_codegen::model::Mechanism;
+use bricard_codegen::compile_source;
+use bricard_codegen::internals::model::Mechanism;
+use bricard_codegen::internals::{analyse, syntax};
 use bricard_codegen::{Crossing, Drawing, Formula, Model, Settings};
-use bricard_codegen::{analyse, compile_source, parse};
 
 /// A chain of pendulums, as a person writes it.
 const CHAIN: &str = "\
@@ -93,7 +94,9 @@ fn a_mechanism_built_by_calls_is_the_one_that_a_person_wrote() {
 /// What a mechanism is made of, without its places in the file.
 fn parts(m: &Mechanism) -> Vec<String> {
     let text = |e| m.graph.text(e, &|symbol| m.symbol_text(symbol));
-    let named = |q: &bricard_codegen::model::Quantity| format!("{} {} {}", q.name, q.unit, q.docs);
+    let named = |q: &bricard_codegen::internals::model::Quantity| {
+        format!("{} {} {}", q.name, q.unit, q.docs)
+    };
     let mut parts = vec![m.name.clone(), m.docs.clone()];
     parts.extend(m.coordinates.iter().map(named));
     let parameters = m.parameters.iter();
@@ -129,7 +132,7 @@ fn parts(m: &Mechanism) -> Vec<String> {
 #[test]
 fn every_description_of_the_library_written_down_again_says_the_same() {
     for (path, source) in library() {
-        let again = parse::parse(&source)
+        let again = syntax::parse(&source)
             .expect("the library is right")
             .text()
             .expect("what was read can be written");
@@ -139,7 +142,7 @@ fn every_description_of_the_library_written_down_again_says_the_same() {
             parts(&mechanism)
         });
         assert_eq!(first, second, "{}", path.display());
-        let third = parse::parse(&again).expect("it is right").text();
+        let third = syntax::parse(&again).expect("it is right").text();
         assert_eq!(third.ok(), Some(again), "{}", path.display());
     }
 }

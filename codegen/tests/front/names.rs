@@ -1,7 +1,8 @@
 //! Names: what they mean, in which order, and what was probably meant.
 
 use super::{accept, assert_close, output, refuse, refuse_saying, value, warnings, with};
-use bricard_codegen::{Settings, analyse};
+use bricard_codegen::Settings;
+use bricard_codegen::internals::analyse;
 
 #[test]
 fn declarations_may_come_in_any_order() {
@@ -145,14 +146,11 @@ fn what_is_never_used_is_a_warning() {
 fn settings(constants: &[(&str, f64)], frozen: &[&str]) -> Settings {
     let constants = constants
         .iter()
-        .map(|(name, value)| (name.to_string(), *value))
-        .collect();
-    let frozen = frozen.iter().map(ToString::to_string).collect();
-    Settings {
-        constants,
-        frozen,
-        ..Settings::default()
-    }
+        .map(|(name, value)| (name.to_string(), *value));
+    let mut settings = Settings::default();
+    settings.constants = constants.collect();
+    settings.frozen = frozen.iter().map(ToString::to_string).collect();
+    settings
 }
 
 #[test]

@@ -1,7 +1,8 @@
 //! What the pages of the documentation show is right: descriptions with the messages
 //! beside them, the program of the tutorial, links from page to page.
 
-use bricard_codegen::{Settings, examine};
+use bricard_codegen::Settings;
+use bricard_codegen::internals::examine;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};

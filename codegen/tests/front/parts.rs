@@ -1,7 +1,8 @@
 //! Parts that a description declares.
 
 use super::{accept, refuse, refuse_saying, warnings, with};
-use bricard_codegen::{Settings, analyse, compile_source};
+use bricard_codegen::internals::analyse;
+use bricard_codegen::{Settings, compile_source};
 
 const PENDULUM: &str = "part Rod(foot, n) { const twice = 2*n; param L: m = twice; coord q; coord p[n];
     kinetic der(q)^2 + sum(i in 0..n, der(p[i])^2)/L*L; constraint pin: q = foot; event low: q rising;
@@ -88,20 +89,16 @@ fn emitted_code_has_fields_with_the_names_of_parts() {
 #[test]
 fn a_build_script_changes_constants_of_parts() {
     let source = with(&format!("{PENDULUM} let a = Rod(w, 1);"));
-    let settings = Settings {
-        constants: vec![("a.twice".to_string(), 7.0)],
-        frozen: vec!["a.L".to_string()],
-        ..Settings::default()
-    };
+    let mut settings = Settings::default();
+    settings.constants = vec![("a.twice".to_string(), 7.0)];
+    settings.frozen = vec!["a.L".to_string()];
     let (m, _) = analyse(&source, &settings).expect("right");
     assert!(m.parameters.is_empty());
     let of = |name: &str| m.constants.iter().find(|c| c.quantity.name == name);
     let value = of("a.L").and_then(|c| m.graph.constant_value(c.value));
     assert_eq!(value, Some(7.0));
-    let settings = Settings {
-        constants: vec![("a.thrice".to_string(), 7.0)],
-        ..Settings::default()
-    };
+    let mut settings = Settings::default();
+    settings.constants = vec![("a.thrice".to_string(), 7.0)];
     assert!(analyse(&source, &settings).is_err());
 }
 

@@ -2,7 +2,8 @@
 //! never a panic, never a hang.
 
 use super::mechanisms::library;
-use bricard_codegen::{Settings, analyse, compile_source};
+use bricard_codegen::internals::analyse;
+use bricard_codegen::{Settings, compile_source};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 use std::fmt::Write;

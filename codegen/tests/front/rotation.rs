@@ -1,8 +1,8 @@
 //! Rotations and their angular velocity, against numbers.
 
 use super::{accept, assert_close, output, refuse_saying, with};
-use bricard_codegen::expr::Symbol;
-use bricard_codegen::model::Mechanism;
+use bricard_codegen::internals::expr::Symbol;
+use bricard_codegen::internals::model::Mechanism;
 
 /// An angle, a body-fixed chain of rotations, Euler parameters.
 const SETTING: &str = "coord e[4];

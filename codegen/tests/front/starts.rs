@@ -1,8 +1,9 @@
 //! Starts that are given by formulas.
 
 use super::{accept, assert_close, refuse_saying, state, with};
-use bricard_codegen::derive::derive;
-use bricard_codegen::{Settings, compile_source, examine};
+use bricard_codegen::internals::derive::derive;
+use bricard_codegen::internals::examine;
+use bricard_codegen::{Settings, compile_source};
 
 #[test]
 fn a_formula_with_a_start_value_is_an_equation_for_positions_or_for_velocities() {

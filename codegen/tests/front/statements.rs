@@ -1,7 +1,7 @@
 //! What statements become in the mechanism.
 
 use super::{accept, assert_close, output, refuse_saying, state, warnings, with};
-use bricard_codegen::model::{Direction, Shape};
+use bricard_codegen::internals::model::{Direction, Shape};
 
 #[test]
 fn a_vector_constraint_has_one_row_for_each_component() {

@@ -2,7 +2,8 @@
 //!
 //! `BRICARD_BLESS=1` rewrites the messages; read them in the diff as a user would.
 
-use bricard_codegen::{Settings, examine};
+use bricard_codegen::Settings;
+use bricard_codegen::internals::examine;
 use std::fs;
 use std::path::{Path, PathBuf};
 

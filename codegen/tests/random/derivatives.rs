@@ -3,7 +3,7 @@
 use super::description::{Manner, any, state};
 use super::dual::evaluate;
 use super::{Case, agree, config};
-use bricard_codegen::expr::{ExprId, Symbol};
+use bricard_codegen::internals::expr::{ExprId, Symbol};
 use num_dual::Dual64;
 use proptest::prelude::*;
 

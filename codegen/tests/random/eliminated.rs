@@ -7,10 +7,11 @@
 
 use super::description::{Manner, Random, any, state};
 use super::{agree, config, dot, size};
-use bricard_codegen::derive::{Equations, derive, eliminate};
-use bricard_codegen::expr::{ExprId, Symbol};
-use bricard_codegen::model::Mechanism;
-use bricard_codegen::{Settings, analyse};
+use bricard_codegen::Settings;
+use bricard_codegen::internals::analyse;
+use bricard_codegen::internals::derive::{Equations, derive, eliminate};
+use bricard_codegen::internals::expr::{ExprId, Symbol};
+use bricard_codegen::internals::model::Mechanism;
 use proptest::prelude::*;
 use proptest::test_runner::TestCaseError;
 

@@ -2,8 +2,8 @@
 
 use super::description::{BODIES_MAX, Body, Joint, Manner, Random, any, state};
 use super::{Case, config};
-use bricard_codegen::derive::{Energies, Equations};
-use bricard_codegen::expr::ExprId;
+use bricard_codegen::internals::derive::{Energies, Equations};
+use bricard_codegen::internals::expr::ExprId;
 use bricard_runtime::nalgebra::{SMatrix, SVector};
 use bricard_runtime::{
     DynamicsError, Energy, Form, Initial, Mechanism, Position, Quantity, Settings, Singularity,

@@ -2,9 +2,9 @@
 
 use super::description::{Manner, any, state};
 use super::{Case, agree, config, dot, size};
-use bricard_codegen::derive::coriolis_matrix;
-use bricard_codegen::expr::{ExprId, Symbol};
-use bricard_codegen::optimise::{Slot, interpret, optimise};
+use bricard_codegen::internals::derive::coriolis_matrix;
+use bricard_codegen::internals::expr::{ExprId, Symbol};
+use bricard_codegen::internals::optimise::{Slot, interpret, optimise};
 use proptest::prelude::*;
 
 /// The half width of central differences.

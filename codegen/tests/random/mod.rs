@@ -13,10 +13,11 @@ mod forms;
 mod identities;
 mod invariances;
 
-use bricard_codegen::derive::{Equations, derive};
-use bricard_codegen::expr::{ExprId, Symbol};
-use bricard_codegen::model::Mechanism;
-use bricard_codegen::{Settings, analyse};
+use bricard_codegen::Settings;
+use bricard_codegen::internals::analyse;
+use bricard_codegen::internals::derive::{Equations, derive};
+use bricard_codegen::internals::expr::{ExprId, Symbol};
+use bricard_codegen::internals::model::Mechanism;
 use proptest::test_runner::{Config, RngSeed, TestCaseError};
 
 /// How many mechanisms each test tries; `BRICARD_LONG=1` tries a hundred thousand.

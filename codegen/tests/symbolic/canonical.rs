@@ -1,7 +1,7 @@
 //! Canonical forms: what is equal is one expression.
 
 use super::{config, recipe};
-use bricard_codegen::expr::{ExprId, Function, Graph, Number, Symbol};
+use bricard_codegen::internals::expr::{ExprId, Function, Graph, Number, Symbol};
 use proptest::prelude::*;
 
 fn three(graph: &mut Graph) -> [ExprId; 3] {

@@ -2,7 +2,7 @@
 
 use super::recipe::{self, SYMBOLS, evaluated, value_of};
 use super::{agree, config};
-use bricard_codegen::expr::{Function, Function2, Graph, Symbol};
+use bricard_codegen::internals::expr::{Function, Function2, Graph, Symbol};
 use num_dual::{Dual64, DualNum};
 use proptest::prelude::*;
 

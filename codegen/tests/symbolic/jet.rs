@@ -5,7 +5,7 @@
 //!      operations may stray from it. The derivatives of functions are taken
 //!      from dual numbers, so they share nothing with the symbolic rules.
 
-use bricard_codegen::expr::{Comparison, Function, Function2};
+use bricard_codegen::internals::expr::{Comparison, Function, Function2};
 use num_dual::{Dual2_64, DualNum, HyperDual64};
 
 /// The round-off of one operation, relative to its result.

@@ -1,6 +1,7 @@
 //! Mechanisms that the usual path is not for: too long, or without inertia.
 
-use bricard_codegen::{Compiled, Settings, compile_source, examine};
+use bricard_codegen::internals::examine;
+use bricard_codegen::{Compiled, Settings, compile_source};
 use std::fmt::Write;
 use std::time::Instant;
 

@@ -2,7 +2,7 @@
 //! reading of decimals.
 
 use super::config;
-use bricard_codegen::expr::Number;
+use bricard_codegen::internals::expr::Number;
 use proptest::prelude::*;
 
 fn ratio() -> impl Strategy<Value = Number> {

@@ -1,11 +1,14 @@
 //! Each pass by itself, on every mechanism of the library; and what `RULES.md` says
 //! of the passes.
 
-use bricard_codegen::derive::{Equations, Matrix, derive};
-use bricard_codegen::expr::{ExprId, Graph, Symbol};
-use bricard_codegen::model::Mechanism;
-use bricard_codegen::optimise::{Pass, Program, Slot, alone, interpret, optimise, verify};
-use bricard_codegen::{Settings, analyse};
+use bricard_codegen::Settings;
+use bricard_codegen::internals::analyse;
+use bricard_codegen::internals::derive::{Equations, Matrix, derive};
+use bricard_codegen::internals::expr::{ExprId, Graph, Symbol};
+use bricard_codegen::internals::model::Mechanism;
+use bricard_codegen::internals::optimise::{
+    Pass, Program, Slot, alone, interpret, optimise, verify,
+};
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -2,8 +2,9 @@
 
 use super::recipe::{self, SYMBOLS, evaluated};
 use super::{agree, config};
-use bricard_codegen::expr::{Graph, Symbol};
-use bricard_codegen::{Settings, analyse};
+use bricard_codegen::Settings;
+use bricard_codegen::internals::analyse;
+use bricard_codegen::internals::expr::{Graph, Symbol};
 use proptest::prelude::*;
 
 /// The names of the symbols in the description around a printed expression.

@@ -2,8 +2,10 @@
 
 use super::recipe::{self, Recipe, SYMBOLS, evaluated, value_of};
 use super::{agree, config};
-use bricard_codegen::expr::{ExprId, Graph, Symbol};
-use bricard_codegen::optimise::{Program, Slot, cost, interpret, optimise, plain, verify};
+use bricard_codegen::internals::expr::{ExprId, Graph, Symbol};
+use bricard_codegen::internals::optimise::{
+    Program, Slot, cost, interpret, optimise, plain, verify,
+};
 use proptest::prelude::*;
 
 fn slots(expressions: &[ExprId]) -> Vec<(Slot, ExprId)> {

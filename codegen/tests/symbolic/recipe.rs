@@ -2,7 +2,9 @@
 //! and as plain arithmetic that knows nothing of the graph.
 
 use super::jet::Jet;
-use bricard_codegen::expr::{Comparison, ExprId, Function, Function2, Graph, Node, Number, Symbol};
+use bricard_codegen::internals::expr::{
+    Comparison, ExprId, Function, Function2, Graph, Node, Number, Symbol,
+};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 

@@ -2,8 +2,8 @@
 
 use super::recipe::{self, evaluated};
 use super::{agree, config};
-use bricard_codegen::expr::{ExprId, Function, Graph, Node, Number, Symbol};
-use bricard_codegen::optimise::{Slot, in_trig_ring, optimise, verify};
+use bricard_codegen::internals::expr::{ExprId, Function, Graph, Node, Number, Symbol};
+use bricard_codegen::internals::optimise::{Slot, in_trig_ring, optimise, verify};
 use proptest::prelude::*;
 
 /// The arguments of all sines and cosines.

@@ -3,8 +3,8 @@
 //! The systems have a mass matrix of a long chain and rows that join neighbours, so that
 //! one elimination of coordinates and multipliers is the shorter way.
 
-use bricard_codegen::expr::Symbol;
-use bricard_codegen::optimise::{
+use bricard_codegen::internals::expr::Symbol;
+use bricard_codegen::internals::optimise::{
     Operation, Program, Slot, Solved, Way, interpret, regular_acceleration, regular_correction,
 };
 use bricard_testkit::Random;

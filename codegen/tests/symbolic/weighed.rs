@@ -2,11 +2,12 @@
 //! the equations as they are.
 
 use super::solve::dense;
-use bricard_codegen::derive::{Equations, derive};
-use bricard_codegen::expr::{ExprId, Symbol};
-use bricard_codegen::model::Mechanism;
-use bricard_codegen::optimise::{Slot, interpret, optimise, regular_acceleration};
-use bricard_codegen::{Settings, analyse};
+use bricard_codegen::Settings;
+use bricard_codegen::internals::analyse;
+use bricard_codegen::internals::derive::{Equations, derive};
+use bricard_codegen::internals::expr::{ExprId, Symbol};
+use bricard_codegen::internals::model::Mechanism;
+use bricard_codegen::internals::optimise::{Slot, interpret, optimise, regular_acceleration};
 
 /// A chain of bodies in Euler parameters that hangs from a point.
 const BODIES: &str = "mechanism Bodies {

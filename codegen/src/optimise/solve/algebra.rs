@@ -13,6 +13,9 @@ pub(super) type Signed = (bool, Value);
 /// A signed value; absent where it is zero by structure.
 pub(super) type Entry = Option<Signed>;
 
+/// What was divided by, and what it is to be compared with.
+pub(super) type Pivot = (Signed, Signed);
+
 /// A sparse matrix by row and column.
 pub(super) type Sparse = BTreeMap<(usize, usize), Signed>;
 

@@ -37,9 +37,6 @@ const OPERATIONS_MAX: usize = 100_000;
 /// The sizes of rows.
 const ROW_SQUARES: &str = "row_squares";
 
-/// What was divided by, and what it is to be compared with.
-type Pivot = (Signed, Signed);
-
 /// What equations there are.
 struct Given<'a> {
     /// Computes the entries.

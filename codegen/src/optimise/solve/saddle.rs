@@ -13,7 +13,7 @@
 //! is zero only where they are dependent. The sizes `a M⁻¹ aᵀ` that pivots are compared
 //! with, and the pivots of `M`, are those of the whole `M`.
 
-use super::algebra::{Algebra, Entry, Signed, Sparse};
+use super::algebra::{Algebra, Entry, Pivot, Signed, Sparse};
 use super::factors::Factors;
 use super::order::{minimum_degree, saddle_order};
 use std::cmp::Reverse;
@@ -22,8 +22,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A factorised saddle point matrix.
 pub(super) struct Saddle {
     factors: Factors,
-    mass_pivots: Vec<super::Pivot>,
-    row_pivots: Vec<super::Pivot>,
+    mass_pivots: Vec<Pivot>,
+    row_pivots: Vec<Pivot>,
 }
 
 impl Saddle {
@@ -81,12 +81,12 @@ impl Saddle {
     }
 
     /// Pivots of `M`, and the diagonal entries that they are made of.
-    pub fn mass_pivots(&self) -> &[super::Pivot] {
+    pub fn mass_pivots(&self) -> &[Pivot] {
         &self.mass_pivots
     }
 
     /// Bounds of the pivots of `A M⁻¹ Aᵀ` from below, and its diagonal entries.
-    pub fn row_pivots(&self) -> &[super::Pivot] {
+    pub fn row_pivots(&self) -> &[Pivot] {
         &self.row_pivots
     }
 }

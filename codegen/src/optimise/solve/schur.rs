@@ -4,7 +4,7 @@
 //! Out: `M = L D Lᵀ`, `W = L⁻¹Aᵀ`, `S = Wᵀ D⁻¹ W = A M⁻¹ Aᵀ = Λ E Λᵀ`, and solves with
 //!      them. The shorter way where coordinates that meet in `M` are few.
 
-use super::algebra::{Algebra, Entry, Sparse};
+use super::algebra::{Algebra, Entry, Pivot, Sparse};
 use super::factors::Factors;
 use super::order::minimum_degree;
 
@@ -83,12 +83,12 @@ impl Schur {
     }
 
     /// Pivots of `M`, and the diagonal entries that they are made of.
-    pub fn mass_pivots(&self) -> &[super::Pivot] {
+    pub fn mass_pivots(&self) -> &[Pivot] {
         &self.mass.pivots
     }
 
     /// Pivots of `S`, likewise.
-    pub fn row_pivots(&self) -> &[super::Pivot] {
+    pub fn row_pivots(&self) -> &[Pivot] {
         &self.schur.pivots
     }
 }

@@ -1,8 +1,7 @@
-//! A description under construction: statement by statement, by calls.
+//! A description by calls, statement by statement.
 //!
-//! In:  statements: from the parser as syntax, from a program as [`Formula`]s.
-//! Out: [`Model`], which the next stage checks; as text it is a description like one
-//!      that a person writes.
+//! In:  statements of a program, as [`Formula`]s.
+//! Out: [`Model`]; as text it is a description like one that a person writes.
 //!
 //! The statements that a program adds have no place in a file. So a model built by
 //! calls is written down first ([`Model::text`]) and read again, and messages about it
@@ -12,39 +11,11 @@ use super::ast::{
     Crossing, Declaration, Declared, Drawing, Energy, Expr, ExprKind, Item, ItemKind, Let, Name,
     StartItem, UnitExpr,
 };
-use super::formula::{Formula, ModelError};
+use super::error::ModelError;
+use super::formula::Formula;
+use super::model::Model;
 use super::{print, unit};
 use crate::diagnostic::Span;
-
-/// A description: a name and statements.
-///
-/// ```
-/// use bricard_codegen::{Formula, Model};
-/// let speed = Formula::from("x").der();
-/// let model = Model::new("Oscillator")
-///     .docs("A mass on a spring.")
-///     .parameter("m", "kg", 1)
-///     .parameter("k", "N/m", 20)
-///     .coordinate("x", "m")
-///     .kinetic(Formula::from("1/2*m") * speed.powi(2))
-///     .potential("1/2*k*x^2")
-///     .held("x", 0.1);
-/// assert!(model.text()?.contains("kinetic 1/2*m*der(x)^2;"));
-/// # Ok::<(), bricard_codegen::ModelError>(())
-/// ```
-#[derive(Clone, Debug)]
-pub struct Model {
-    /// The name after `mechanism`.
-    pub(crate) name: Name,
-    /// Its doc comment.
-    pub(crate) docs: String,
-    /// What stands between its braces.
-    pub(crate) items: Vec<Item>,
-    /// Names that unreadable statements may have declared.
-    pub(crate) unreadable: Vec<String>,
-    /// What was no formula, no unit or no name.
-    faults: ModelError,
-}
 
 impl Model {
     /// A description with nothing in it but its name.
@@ -54,30 +25,17 @@ impl Model {
         model
     }
 
-    /// Where the law of an input of the mechanism itself stands.
-    pub fn law_of(&self, input: &str) -> Option<Span> {
-        self.items.iter().find_map(|item| match &item.kind {
-            ItemKind::Declaration(d) if d.kind == Declared::Input && d.name.text == input => {
-                Some(d.value.span)
-            }
-            _ => None,
-        })
-    }
-
-    /// As the parser begins one.
-    pub(crate) fn named(name: Name, docs: String) -> Self {
-        Self {
-            name,
-            docs,
-            items: Vec::new(),
-            unreadable: Vec::new(),
-            faults: ModelError::default(),
+    /// The description as text, in the notation of `.mech` files.
+    ///
+    /// # Errors
+    ///
+    /// The texts that were given as formulas, units or names and are none.
+    pub fn text(&self) -> Result<String, ModelError> {
+        if self.faults.is_empty() {
+            Ok(print::description(&self.name.text, &self.docs, &self.items))
+        } else {
+            Err(self.faults.clone())
         }
-    }
-
-    /// Adds a statement as the parser has read it.
-    pub(crate) fn add(&mut self, item: Item) {
-        self.items.push(item);
     }
 
     /// Documents what was added last; at first the mechanism itself.
@@ -231,19 +189,6 @@ impl Model {
         let arguments = arguments.map(|part| self.faults.accept(part.into()));
         let arguments = arguments.collect();
         self.statement(ItemKind::Draw { shape, arguments })
-    }
-
-    /// The description as text, in the notation of `.mech` files.
-    ///
-    /// # Errors
-    ///
-    /// The texts that were given as formulas, units or names and are none.
-    pub fn text(&self) -> Result<String, ModelError> {
-        if self.faults.is_empty() {
-            Ok(print::model(self))
-        } else {
-            Err(self.faults.clone())
-        }
     }
 
     fn statement(mut self, kind: ItemKind) -> Self {

@@ -1,7 +1,7 @@
 //! A reader of tokens that says what it expected, and goes on after a mistake.
 
-use super::NESTING;
 use super::ast::{Crossing, Drawing, Name};
+use super::scan::NESTING;
 use super::token::{Token, TokenKind, Tokens};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 

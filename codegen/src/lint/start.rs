@@ -30,8 +30,8 @@ fn not_finite(numbers: &Numbers, found: &mut Diagnostics) -> bool {
 }
 
 /// Warns of a start that can't be assembled, with what each equation lacks: of the
-/// constraints, `own` of them, and of the equations of the start behind them.
-pub fn unassembled(numbers: &Numbers, own: usize, found: &mut Diagnostics) {
+/// constraints, and of the equations of the start behind them.
+pub fn unassembled(numbers: &Numbers, found: &mut Diagnostics) {
     if not_finite(numbers, found) {
         return;
     }
@@ -51,7 +51,7 @@ pub fn unassembled(numbers: &Numbers, own: usize, found: &mut Diagnostics) {
         };
         let (errors, holds) = numbers.errors(&rows, &end);
         if holds {
-            return unassembled_velocities(numbers, own, &end, found);
+            return unassembled_velocities(numbers, &end, found);
         }
         let size = errors.iter().map(|e| e * e).sum();
         if best.as_ref().is_none_or(|(least, _)| size < *least) {
@@ -71,7 +71,7 @@ pub fn unassembled(numbers: &Numbers, own: usize, found: &mut Diagnostics) {
     }
 }
 
-fn unassembled_velocities(numbers: &Numbers, own: usize, place: &Place, found: &mut Diagnostics) {
+fn unassembled_velocities(numbers: &Numbers, place: &Place, found: &mut Diagnostics) {
     let n = place.q.len();
     let (mut v, mut held) = (vec![0.0; n], vec![false; n]);
     for start in numbers
@@ -83,13 +83,7 @@ fn unassembled_velocities(numbers: &Numbers, own: usize, place: &Place, found: &
         v[start.coordinate] = numbers.values(&[start.value], place)[0];
         held[start.coordinate] = start.held;
     }
-    // A position that is given at the start says nothing about velocities.
-    let constraints = &numbers.mechanism.constraints;
-    let counts = |row: &usize| *row < own || !constraints[*row].holonomic;
-    let rows: Vec<usize> = (0..constraints.len()).filter(counts).collect();
-    let (jacobian, drift) = (numbers.jacobian(place), numbers.drift(place));
-    let jacobian: Vec<Vec<f64>> = rows.iter().map(|&row| jacobian[row].clone()).collect();
-    let drift: Vec<f64> = rows.iter().map(|&row| drift[row]).collect();
+    let (rows, jacobian, drift) = numbers.velocity_level(place);
     let free: Vec<usize> = (0..n).filter(|&i| !held[i]).collect();
     let at = |x: &[f64]| {
         let mut v = v.clone();
@@ -132,9 +126,11 @@ fn warn(
     errors: impl Iterator<Item = (usize, f64)>,
     found: &mut Diagnostics,
 ) {
-    let constraints = &numbers.mechanism.constraints;
-    let starts = numbers.mechanism.starts.iter().map(|start| start.span);
-    let Some(span) = starts.chain(constraints.iter().map(|row| row.span)).next() else {
+    let mechanism = numbers.mechanism;
+    let starts = mechanism.starts.iter().map(|start| start.span);
+    let constraints = mechanism.constraints.iter();
+    let constraints = constraints.chain(&mechanism.start_equations);
+    let Some(span) = starts.chain(constraints.map(|row| row.span)).next() else {
         return;
     };
     let errors: Vec<(usize, f64)> = errors.collect();
@@ -147,7 +143,7 @@ fn warn(
     let mut beside: BTreeMap<Span, Vec<String>> = BTreeMap::new();
     for (row, error) in lacking {
         beside
-            .entry(constraints[row].span)
+            .entry(numbers.constraint(row).span)
             .or_default()
             .push(figure(error));
     }

@@ -9,7 +9,6 @@ use super::ast::{
     Range, Size, StartItem, UnitExpr,
 };
 use super::cursor::{DIRECTIONS, SHAPES};
-use super::model::Model;
 use crate::expr::{Comparison, Number};
 
 /// How tightly a formula holds together.
@@ -24,10 +23,9 @@ enum Binding {
 }
 
 /// A whole description.
-pub fn model(model: &Model) -> String {
-    let docs = doc_lines(&model.docs, 0);
-    let items = block(&model.items, 1);
-    format!("{docs}mechanism {} {{\n{items}}}\n", model.name.text)
+pub fn description(name: &str, docs: &str, items: &[Item]) -> String {
+    let (docs, items) = (doc_lines(docs, 0), block(items, 1));
+    format!("{docs}mechanism {name} {{\n{items}}}\n")
 }
 
 fn block(items: &[Item], depth: usize) -> String {

@@ -1,9 +1,9 @@
 //! What is legal in a description but probably not meant, found with numbers.
 //!
-//! In:  a checked [`Mechanism`].
+//! In:  a checked [`Mechanism`] and its equations of motion.
 //! Out: warnings: kinetic energy that is negative, statements that are not finite where the motion
 //!      begins, coordinates without inertia, equations whose derivatives vanish
-//!      where they hold, a start that can't be assembled ([`doubts`]); equations
+//!      where they hold, a start that can't be assembled ([`lints`]); equations
 //!      that follow from others ([`redundancies`]).
 //!
 //! Everything is evaluated at a few random positions that satisfy the constraints,
@@ -22,21 +22,21 @@ mod numbers;
 mod rows;
 mod start;
 
+use crate::derive::Equations;
 use crate::diagnostic::Diagnostics;
 use crate::model::Mechanism;
 use numbers::Numbers;
 
-/// Warns of what will hinder a simulation: a negative kinetic energy, a coordinate that moves without kinetic
-/// energy and that no constraint restricts, an equation whose derivatives vanish
-/// where it holds, a start that can't be assembled.
-pub fn doubts(mechanism: Mechanism) -> Diagnostics {
+/// Warns of what will hinder a simulation: a negative kinetic energy, a coordinate that
+/// moves without kinetic energy and that no constraint restricts, an equation whose
+/// derivatives vanish where it holds, a start that can't be assembled.
+pub fn lints(mechanism: &Mechanism, equations: &Equations) -> Diagnostics {
     let mut found = Diagnostics::new();
-    let own = mechanism.constraints.len();
-    if let Some(mut numbers) = Numbers::new(at_start(mechanism.clone())) {
-        start::unassembled(&numbers, own, &mut found);
-        finite::statements(&mut numbers, &mut found);
+    if let Some(numbers) = Numbers::of_start(mechanism, equations) {
+        start::unassembled(&numbers, &mut found);
+        finite::statements(&numbers, &mut found);
     }
-    if let Some(numbers) = Numbers::new(mechanism) {
+    if let Some(numbers) = Numbers::of_motion(mechanism, equations) {
         let flat = rows::flat(&numbers);
         rows::warn_of_flat(&numbers, &flat, &mut found);
         if !negative::energy(&numbers, &mut found) {
@@ -46,18 +46,11 @@ pub fn doubts(mechanism: Mechanism) -> Diagnostics {
     found
 }
 
-/// A mechanism with the equations of its start behind its constraints.
-fn at_start(mut mechanism: Mechanism) -> Mechanism {
-    let equations = std::mem::take(&mut mechanism.start_equations);
-    mechanism.constraints.extend(equations);
-    mechanism
-}
-
 /// Warns of equations that follow from the others at random positions. A run takes
 /// them as they are; only their reactions are not unique.
-pub fn redundancies(mechanism: Mechanism) -> Diagnostics {
+pub fn redundancies(mechanism: &Mechanism, equations: &Equations) -> Diagnostics {
     let mut found = Diagnostics::new();
-    if let Some(numbers) = Numbers::new(mechanism) {
+    if let Some(numbers) = Numbers::of_motion(mechanism, equations) {
         let flat = rows::flat(&numbers);
         rows::warn_of_redundant(&numbers, &flat, &mut found);
     }

@@ -4,7 +4,7 @@ use crate::expr::{ExprId, Function2, Graph, Node, Number, Symbol};
 
 /// What an expression is made of.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Facts {
+pub struct Analysis {
     /// Time occurs.
     pub time: bool,
     /// A coordinate occurs.
@@ -27,25 +27,25 @@ pub struct Facts {
 /// The degree of what is no polynomial of degree two or less.
 pub const NOT_POLYNOMIAL: u8 = 3;
 
-impl Facts {
+impl Analysis {
     /// Whether a velocity occurs.
     pub fn velocity(&self) -> bool {
         self.degree > 0
     }
 }
 
-/// Facts of the nodes that were asked for, by index.
+/// Analysis of the nodes that were asked for, by index.
 #[derive(Debug, Default)]
-pub struct FactTable {
+pub struct Analyses {
     /// The velocities from here on are states of the first order.
     pub first_state: Option<u32>,
-    known: Vec<Option<Facts>>,
+    known: Vec<Option<Analysis>>,
 }
 
-impl FactTable {
-    /// The facts of an expression. What it shares with earlier ones is not
+impl Analyses {
+    /// The analysis of an expression. What it shares with earlier ones is not
     /// visited again.
-    pub fn of(&mut self, graph: &Graph, e: ExprId) -> Facts {
+    pub fn of(&mut self, graph: &Graph, e: ExprId) -> Analysis {
         self.known.resize(self.known.len().max(graph.len()), None);
         let mut pending = vec![e];
         while let Some(&node) = pending.last() {
@@ -68,7 +68,7 @@ impl FactTable {
         self.get(e)
     }
 
-    fn get(&self, e: ExprId) -> Facts {
+    fn get(&self, e: ExprId) -> Analysis {
         self.known
             .get(e.index())
             .copied()
@@ -76,47 +76,47 @@ impl FactTable {
             .unwrap_or_default()
     }
 
-    fn derive(&self, node: &Node) -> Facts {
-        let mut facts = self.merge(node);
+    fn derive(&self, node: &Node) -> Analysis {
+        let mut analysis = self.merge(node);
         match node {
-            Node::Symbol(Symbol::Time) => facts.time = true,
-            Node::Symbol(Symbol::Coordinate(_)) => facts.coordinate = true,
+            Node::Symbol(Symbol::Time) => analysis.time = true,
+            Node::Symbol(Symbol::Coordinate(_)) => analysis.coordinate = true,
             Node::Symbol(Symbol::Velocity(i)) => match self.first_state {
-                Some(first) if *i >= first => facts.state = true,
-                _ => facts.degree = 1,
+                Some(first) if *i >= first => analysis.state = true,
+                _ => analysis.degree = 1,
             },
-            Node::Symbol(Symbol::Input(_)) => facts.input = true,
-            Node::Symbol(Symbol::Acceleration(_)) => facts.acceleration = true,
-            Node::Product(factors) => facts.degree = self.product_degree(factors),
+            Node::Symbol(Symbol::Input(_)) => analysis.input = true,
+            Node::Symbol(Symbol::Acceleration(_)) => analysis.acceleration = true,
+            Node::Product(factors) => analysis.degree = self.product_degree(factors),
             Node::Function(function, _) => {
-                facts.kinked |= !function.is_differentiable();
-                facts.degree = opaque(facts.degree);
+                analysis.kinked |= !function.is_differentiable();
+                analysis.degree = opaque(analysis.degree);
             }
             Node::Function2(function, ..) => {
-                facts.kinked |= matches!(function, Function2::Min | Function2::Max);
-                facts.degree = opaque(facts.degree);
+                analysis.kinked |= matches!(function, Function2::Min | Function2::Max);
+                analysis.degree = opaque(analysis.degree);
             }
             Node::Select(test, _) => {
-                facts.kinked |= !test.smooth;
-                facts.degree = opaque(facts.degree);
+                analysis.kinked |= !test.smooth;
+                analysis.degree = opaque(analysis.degree);
             }
             Node::Number(_) | Node::Pi | Node::Symbol(_) | Node::Sum(..) => {}
         }
-        facts.value = self.value(node);
-        facts
+        analysis.value = self.value(node);
+        analysis
     }
 
-    fn merge(&self, node: &Node) -> Facts {
-        let mut all = Facts::default();
+    fn merge(&self, node: &Node) -> Analysis {
+        let mut all = Analysis::default();
         for child in node.children() {
-            let facts = self.get(child);
-            all.time |= facts.time;
-            all.coordinate |= facts.coordinate;
-            all.input |= facts.input;
-            all.state |= facts.state;
-            all.acceleration |= facts.acceleration;
-            all.kinked |= facts.kinked;
-            all.degree = all.degree.max(facts.degree);
+            let analysis = self.get(child);
+            all.time |= analysis.time;
+            all.coordinate |= analysis.coordinate;
+            all.input |= analysis.input;
+            all.state |= analysis.state;
+            all.acceleration |= analysis.acceleration;
+            all.kinked |= analysis.kinked;
+            all.degree = all.degree.max(analysis.degree);
         }
         all
     }

@@ -2,10 +2,11 @@
 //! meant.
 
 use super::mechanisms::library;
-use bricard_codegen::{Settings, examine};
+use bricard_codegen::Settings;
+use bricard_codegen::internals::examine;
 
 /// The warnings about a description, rendered.
-fn doubts(source: &str) -> String {
+fn lints(source: &str) -> String {
     match examine(source, &Settings::default()) {
         Ok((_, warnings)) => warnings.render("test.mech", source),
         Err(errors) => panic!("{}", errors.render("test.mech", source)),
@@ -20,14 +21,14 @@ fn with(statements: &str) -> String {
 }
 
 fn says(statements: &str, words: &[&str]) {
-    let found = doubts(&with(statements));
+    let found = lints(&with(statements));
     for word in words {
         assert!(found.contains(word), "no `{word}` in\n{found}");
     }
 }
 
 fn is_silent(statements: &str) {
-    assert_eq!(doubts(&with(statements)), "");
+    assert_eq!(lints(&with(statements)), "");
 }
 
 #[test]
@@ -44,7 +45,7 @@ fn a_negative_kinetic_energy_is_told_once_with_what_makes_it_negative() {
     let massive = |value: &str| {
         format!("param m = {value}; coord z; kinetic m*der(z)^2; potential z^2; constraint z = x;")
     };
-    let found = doubts(&format!(
+    let found = lints(&format!(
         "mechanism Test {{ coord x; kinetic der(x)^2; {} }}",
         massive("-3")
     ));
@@ -102,7 +103,7 @@ fn a_start_that_cannot_be_assembled_is_told_with_what_each_equation_lacks() {
 #[test]
 fn no_mechanism_of_the_library_will_hinder_its_simulation() {
     for (path, source) in library() {
-        let found = doubts(&source);
+        let found = lints(&source);
         let grave = found.lines().filter(|line| line.contains("warning:"));
         let grave: Vec<_> = grave
             .filter(|line| !line.contains(" follows from "))

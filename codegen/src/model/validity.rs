@@ -55,7 +55,7 @@ impl Evaluator {
     }
 
     /// Refuses an expression that is no number of this world.
-    pub fn sound(&mut self, id: ExprId, span: Span) -> Option<ExprId> {
+    pub fn valid(&mut self, id: ExprId, span: Span) -> Option<ExprId> {
         let (finite, tame) = match self.graph.node(id) {
             Node::Number(value) => (value.is_finite(), true),
             Node::Sum(constant, terms) => {
@@ -68,7 +68,7 @@ impl Evaluator {
                     .iter()
                     .all(|(_, exponent)| exponent.abs() <= LARGEST_EXPONENT),
             ),
-            _ => (self.facts(id).value.is_none_or(f64::is_finite), true),
+            _ => (self.analysis(id).value.is_none_or(f64::is_finite), true),
         };
         if !finite {
             let message = "this is not a finite number";

@@ -1,9 +1,13 @@
 //! A mechanism in numbers: constraints, their derivatives and the mass matrix at
 //! positions.
+//!
+//! In:  a mechanism and its equations.
+//! Out: values at places that hold the constraints, or do not.
 
 use super::least_squares::{Linearised, minimise};
-use crate::expr::{ExprId, Symbol};
-use crate::model::Mechanism;
+use crate::derive::{Equations, Matrix};
+use crate::expr::{ExprId, Graph, Symbol};
+use crate::model::{Constraint, Mechanism};
 
 /// Mechanisms with more coordinates or equations are not looked at.
 const MOST_ROWS: usize = 64;
@@ -15,18 +19,29 @@ const POSITIONS: u64 = 3;
 /// change by when every coordinate changes by its size, or by one.
 const HOLDS: f64 = 1e-8;
 
-/// A mechanism with the derivatives that the doubts are about.
-#[derive(Debug)]
-pub struct Numbers {
+/// A mechanism and those of its equations that the lints are about.
+#[derive(Clone, Debug)]
+pub struct Numbers<'a> {
     /// The mechanism.
-    pub mechanism: Mechanism,
-    /// `A`, row by row.
-    jacobian: Vec<Vec<ExprId>>,
-    /// `b` of the velocity level `A q̇ + b = 0`.
-    drift: Vec<ExprId>,
+    pub mechanism: &'a Mechanism,
+    /// Its graph.
+    graph: &'a Graph,
+    /// The constraints, and behind them the equations of the start where they are looked at.
+    rows: Vec<Row<'a>>,
     /// `M`, row by row.
-    mass: Vec<Vec<ExprId>>,
+    mass: &'a Matrix,
     parameters: Vec<f64>,
+}
+
+/// A constraint or an equation of the start.
+#[derive(Clone, Copy, Debug)]
+struct Row<'a> {
+    constraint: &'a Constraint,
+    /// The row of `A`.
+    slopes: &'a [ExprId],
+    /// `b` of the velocity level `A q̇ + b = 0`; a position that is given at the start says
+    /// nothing about velocities.
+    drift: Option<ExprId>,
 }
 
 /// A time and a position.
@@ -38,60 +53,65 @@ pub struct Place {
     pub q: Vec<f64>,
 }
 
-impl Numbers {
+fn constraints<'a>(mechanism: &'a Mechanism, equations: &'a Equations) -> Vec<Row<'a>> {
+    let rows = mechanism.constraints.iter().zip(&equations.jacobian);
+    let row = |((constraint, slopes), drift): ((_, &'a Vec<ExprId>), &ExprId)| Row {
+        constraint,
+        slopes,
+        drift: Some(*drift),
+    };
+    rows.zip(&equations.drift).map(row).collect()
+}
+
+/// The equations of the start that are held, in the order in which they were written.
+fn of_the_start<'a>(mechanism: &'a Mechanism, equations: &'a Equations) -> Vec<Row<'a>> {
+    let mut positions = equations.start_positions.slopes.iter();
+    let velocities = &equations.start_velocities;
+    let mut velocities = velocities.slopes.iter().zip(&velocities.errors);
+    let row = |constraint: &'a Constraint| {
+        let (slopes, drift) = match constraint.holonomic {
+            true => (positions.next()?, None),
+            false => velocities.next().map(|(a, b)| (a, Some(*b)))?,
+        };
+        Some(Row {
+            constraint,
+            slopes,
+            drift,
+        })
+    };
+    mechanism.start_equations.iter().filter_map(row).collect()
+}
+
+impl<'a> Numbers<'a> {
     /// Prepares a mechanism; `None` if it is too large.
-    pub fn new(mut mechanism: Mechanism) -> Option<Self> {
+    pub fn of_motion(mechanism: &'a Mechanism, equations: &'a Equations) -> Option<Self> {
+        Self::of(mechanism, equations, constraints(mechanism, equations))
+    }
+
+    /// Prepares a mechanism with the equations of its start; `None` if it is too large.
+    pub fn of_start(mechanism: &'a Mechanism, equations: &'a Equations) -> Option<Self> {
+        let mut rows = constraints(mechanism, equations);
+        rows.extend(of_the_start(mechanism, equations));
+        Self::of(mechanism, equations, rows)
+    }
+
+    fn of(mechanism: &'a Mechanism, equations: &'a Equations, rows: Vec<Row<'a>>) -> Option<Self> {
         let n = mechanism.coordinates.len();
-        let kinetic = mechanism.kinetic.iter().map(|summand| summand.value);
-        let mut roots: Vec<ExprId> = kinetic.clone().collect();
-        roots.extend(mechanism.constraints.iter().map(|row| row.residual));
+        let energies = mechanism.kinetic.iter().map(|summand| summand.value);
+        let residuals = rows.iter().map(|row| row.constraint.residual);
+        let roots: Vec<ExprId> = energies.chain(residuals).collect();
         let terms = mechanism.graph.reachable(&roots).len();
-        if n.max(mechanism.constraints.len()) > MOST_ROWS || terms > MOST_TERMS {
+        if n.max(rows.len()) > MOST_ROWS || terms > MOST_TERMS {
             return None;
         }
-        let kinetic: Vec<ExprId> = kinetic.collect();
-        let graph = &mut mechanism.graph;
-        let kinetic = graph.sum(kinetic);
-        let symbols =
-            |of: fn(u32) -> Symbol| (0..n).filter_map(move |i| u32::try_from(i).ok().map(of));
-        let mut gradient = |e: ExprId, of: fn(u32) -> Symbol| -> Vec<ExprId> {
-            symbols(of)
-                .map(|symbol| graph.differentiate(e, symbol))
-                .collect()
-        };
-        let momenta = gradient(kinetic, Symbol::Velocity);
-        let mass = momenta.into_iter().map(|p| gradient(p, Symbol::Velocity));
-        let mut mass: Vec<_> = mass.collect();
-        let by = |holonomic| {
-            if holonomic {
-                Symbol::Coordinate
-            } else {
-                Symbol::Velocity
-            }
-        };
-        let rows = &mechanism.constraints;
-        let jacobian = rows
-            .iter()
-            .map(|row| gradient(row.residual, by(row.holonomic)))
-            .collect();
-        let mut drift = Vec::with_capacity(rows.len());
-        for row in rows {
-            drift.push(match row.holonomic {
-                true => graph.differentiate(row.residual, Symbol::Time),
-                false => row.residual,
-            });
-        }
-        // The integrals of states have a mass of one.
-        let states = n - mechanism.states..n;
-        states.for_each(|i| mass[i][i] = graph.integer(1));
         let mut numbers = Self {
             mechanism,
-            jacobian,
-            drift,
-            mass,
+            graph: &mechanism.graph,
+            rows,
+            mass: &equations.mass,
             parameters: Vec::new(),
         };
-        let defaults = numbers.mechanism.parameters.iter().map(|p| p.default);
+        let defaults = mechanism.parameters.iter().map(|p| p.default);
         let defaults: Vec<ExprId> = defaults.collect();
         let nowhere = Place {
             t: 0.0,
@@ -99,6 +119,19 @@ impl Numbers {
         };
         numbers.parameters = numbers.with_inputs(&defaults, &nowhere, &[], &[]);
         Some(numbers)
+    }
+
+    /// The same with a graph that has more expressions.
+    pub fn grown<'b>(&'b self, graph: &'b Graph) -> Numbers<'b> {
+        Numbers {
+            graph,
+            ..self.clone()
+        }
+    }
+
+    /// A constraint, or an equation of the start behind them.
+    pub fn constraint(&self, row: usize) -> &'a Constraint {
+        self.rows[row].constraint
     }
 
     /// Values of expressions at a place, at rest.
@@ -131,40 +164,50 @@ impl Numbers {
             Symbol::Parameter(i) => self.parameters[i as usize],
             _ => 0.0,
         };
-        self.mechanism.graph.evaluate_all(roots, &value)
+        self.graph.evaluate_all(roots, &value)
     }
 
-    fn matrix(&self, rows: &[Vec<ExprId>], place: &Place) -> Vec<Vec<f64>> {
-        let all: Vec<ExprId> = rows.iter().flatten().copied().collect();
-        let values = self.values(&all, place);
+    fn matrix(&self, rows: &[&[ExprId]], place: &Place) -> Vec<Vec<f64>> {
+        let values = self.values(&rows.concat(), place);
         let width = self.mechanism.coordinates.len().max(1);
         values.chunks(width).map(<[f64]>::to_vec).collect()
     }
 
     /// `M` at a place.
     pub fn mass(&self, place: &Place) -> Vec<Vec<f64>> {
-        self.matrix(&self.mass, place)
+        let rows: Vec<&[ExprId]> = self.mass.iter().map(Vec::as_slice).collect();
+        self.matrix(&rows, place)
     }
 
     /// `A` at a place.
     pub fn jacobian(&self, place: &Place) -> Vec<Vec<f64>> {
-        self.matrix(&self.jacobian, place)
+        let rows: Vec<&[ExprId]> = self.rows.iter().map(|row| row.slopes).collect();
+        self.matrix(&rows, place)
     }
 
-    /// `b` at a place.
-    pub fn drift(&self, place: &Place) -> Vec<f64> {
-        self.values(&self.drift, place)
+    /// The rows that say something about velocities, and at a place what they say: those
+    /// of `A`, and `b` of `A q̇ + b = 0`.
+    pub fn velocity_level(&self, place: &Place) -> (Vec<usize>, Vec<Vec<f64>>, Vec<f64>) {
+        let rows = self.rows.iter().enumerate();
+        let chosen = rows.filter_map(|(i, row)| Some((i, row.slopes, row.drift?)));
+        let (places, slopes_and_drift): (Vec<usize>, Vec<(&[ExprId], ExprId)>) = chosen
+            .map(|(i, slopes, drift)| (i, (slopes, drift)))
+            .unzip();
+        let (slopes, drift): (Vec<&[ExprId]>, Vec<ExprId>) = slopes_and_drift.into_iter().unzip();
+        (
+            places,
+            self.matrix(&slopes, place),
+            self.values(&drift, place),
+        )
     }
 
     /// The equations for positions among `rows`, linearised in the coordinates
     /// `free`.
     pub fn linearised(&self, rows: &[usize], free: &[usize], place: &Place) -> Linearised {
-        let residuals: Vec<ExprId> = rows
-            .iter()
-            .map(|&r| self.mechanism.constraints[r].residual)
-            .collect();
-        let chosen: Vec<Vec<ExprId>> = rows.iter().map(|&r| self.jacobian[r].clone()).collect();
-        let full = self.matrix(&chosen, place);
+        let chosen = || rows.iter().map(|&row| &self.rows[row]);
+        let residuals: Vec<ExprId> = chosen().map(|row| row.constraint.residual).collect();
+        let slopes: Vec<&[ExprId]> = chosen().map(|row| row.slopes).collect();
+        let full = self.matrix(&slopes, place);
         let slopes = full
             .iter()
             .map(|row| free.iter().map(|&j| row[j]).collect())
@@ -174,9 +217,8 @@ impl Numbers {
 
     /// The equations for positions.
     pub fn positions(&self) -> Vec<usize> {
-        let rows = 0..self.mechanism.constraints.len();
-        rows.filter(|&r| self.mechanism.constraints[r].holonomic)
-            .collect()
+        let rows = 0..self.rows.len();
+        rows.filter(|&row| self.constraint(row).holonomic).collect()
     }
 
     /// Moves free coordinates until equations hold, as far as that is possible.

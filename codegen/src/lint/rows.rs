@@ -42,7 +42,7 @@ fn flattens(numbers: &Numbers, row: usize, start: &Place) -> Option<bool> {
 /// Warns of equations whose derivatives vanish where they hold.
 pub fn warn_of_flat(numbers: &Numbers, flat: &BTreeSet<usize>, found: &mut Diagnostics) {
     for &row in flat {
-        let constraint = &numbers.mechanism.constraints[row];
+        let constraint = numbers.constraint(row);
         let message = format!(
             "the derivatives of `{}` vanish where it holds",
             constraint.text
@@ -75,15 +75,15 @@ pub fn warn_of_redundant(numbers: &Numbers, flat: &BTreeSet<usize>, found: &mut 
 }
 
 fn redundant(numbers: &Numbers, row: usize, partners: &[usize]) -> Diagnostic {
-    let constraints = &numbers.mechanism.constraints;
-    let span = constraints[row].span;
+    let span = numbers.constraint(row).span;
     let message = format!(
         "`{}` follows from the other constraints",
-        constraints[row].text
+        numbers.constraint(row).text
     );
     let help = "it may stay: the motion is the same without it, but the reactions are not unique";
     let mut warning = Diagnostic::warning(span, message).help(help);
-    let places: BTreeSet<Span> = partners.iter().map(|&r| constraints[r].span).collect();
+    let places = partners.iter().map(|&r| numbers.constraint(r).span);
+    let places: BTreeSet<Span> = places.collect();
     for place in places.into_iter().filter(|place| *place != span) {
         warning = warning.also(place, "from this");
     }

@@ -5,12 +5,15 @@
 //! Out: [`Scanned`]: everything that is wrong with its characters, and the text with
 //!      blanks in their place, so that one of them does not hide all other mistakes.
 
-use super::NESTING;
 use super::stray::{instead, shown};
 use crate::diagnostic::{Diagnostic, Diagnostics, Position, Span};
 use std::iter::Peekable;
 use std::ops::Range;
 use std::str::CharIndices;
+
+/// Levels of brackets, of `if`, of powers and of signs inside one another. People
+/// need about ten; the recursive reader has room for these.
+pub const NESTING: usize = 100;
 
 /// The largest description in bytes. Places are 32-bit numbers.
 const LARGEST: usize = 1 << 24;

@@ -1,14 +1,17 @@
 //! The names of units.
 //!
-//! In:  units as written behind `:`.
-//! Out: their dimensions.
+//! In:  units as written behind `:`; dimensions.
+//! Out: their dimensions; names of these in messages.
 //!
 //! Not here: units other than SI. A factor hidden in a unit would be a wrong
 //! program, so `mm`, `deg` and the like are refused with the SI unit to write.
 
-use super::unit::{Dimension, NONE, PARTS};
+use super::unit::{Dimension, ENERGY, NONE, PARTS};
 use crate::diagnostic::{Diagnostic, nearest};
-use crate::parse::ast::UnitExpr;
+use crate::syntax::ast::UnitExpr;
+
+/// The base units, in the order of the exponents of a [`Dimension`].
+const BASE: [&str; 5] = ["kg", "m", "s", "A", "K"];
 
 /// SI units with their exponents of kg, m, s, A, K.
 pub const NAMED: [(&str, [i32; 5]); 21] = [
@@ -125,5 +128,100 @@ fn instead(name: &str) -> String {
         None => {
             "units are products of m, kg, s, rad, N, J, W, Pa, Hz, A, V, K and their powers".into()
         }
+    }
+}
+
+impl Dimension {
+    /// What has this dimension, in words.
+    pub fn said(self) -> String {
+        if self == NONE {
+            "this has no unit".into()
+        } else {
+            format!("this is in {}", self.text())
+        }
+    }
+
+    /// Its name in a message.
+    pub fn text(self) -> String {
+        if self == NONE {
+            return "no unit".into();
+        }
+        if self == ENERGY {
+            return "N*m".into();
+        }
+        let exact = |powers: &[i32; 5]| powers.map(|power| power * PARTS) == self.0;
+        let spoken = ["N", "W", "Pa", "V"];
+        if let Some((name, _)) = NAMED.iter().find(|(n, p)| spoken.contains(n) && exact(p)) {
+            return (*name).into();
+        }
+        let [kg, m, s, ..] = self.0;
+        let with_newton =
+            (kg == PARTS).then_some([(NEWTON, kg), ("m", m - PARTS), ("s", s + 2 * PARTS)]);
+        let plain: Vec<_> = BASE.into_iter().zip(self.0).collect();
+        let size = |powers: &[(&str, i32)]| powers.iter().map(|(_, p)| p.abs()).sum::<i32>();
+        match with_newton {
+            Some(powers) if self.0[3..] == [0, 0] && size(&powers) < size(&plain) => {
+                quotient(&powers)
+            }
+            _ => quotient(&plain),
+        }
+    }
+}
+
+const NEWTON: &str = "N";
+
+/// A product of powers as a quotient of products.
+fn quotient(powers: &[(&str, i32)]) -> String {
+    let side = |below: bool| -> Vec<String> {
+        let powers = powers.iter().filter(|(_, p)| (*p < 0) == below && *p != 0);
+        powers
+            .map(|(name, p)| format!("{name}{}", exponent_text(p.abs())))
+            .collect()
+    };
+    let (above, below) = (side(false), side(true));
+    let numerator = if above.is_empty() {
+        "1".to_string()
+    } else {
+        above.join("*")
+    };
+    match below.len() {
+        0 => numerator,
+        1 => format!("{numerator}/{}", below[0]),
+        _ => format!("{numerator}/({})", below.join("*")),
+    }
+}
+
+fn exponent_text(twelfths: i32) -> String {
+    if twelfths == PARTS {
+        String::new()
+    } else if twelfths % PARTS == 0 {
+        format!("^{}", twelfths / PARTS)
+    } else {
+        let divisor = (1..=PARTS)
+            .rev()
+            .find(|d| twelfths % d == 0 && PARTS % d == 0)
+            .unwrap_or(1);
+        format!("^({}/{})", twelfths / divisor, PARTS / divisor)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::unit::whole;
+    use super::*;
+
+    #[test]
+    fn dimensions_are_named_as_people_write_them() {
+        assert_eq!(whole(1, 1, -2).text(), "N");
+        assert_eq!(whole(0, 1, -2).text(), "m/s^2");
+        assert_eq!(whole(0, 0, -1).text(), "1/s");
+        assert_eq!(whole(1, -1, -1).text(), "kg/(m*s)");
+        assert_eq!(whole(1, 0, -2).text(), "N/m");
+        assert_eq!(whole(1, 1, -1).text(), "N*s");
+        assert_eq!(
+            whole(0, 1, 0).power(0.5).map(Dimension::text),
+            Some("m^(1/2)".into())
+        );
+        assert_eq!(NONE.text(), "no unit");
     }
 }

@@ -7,6 +7,7 @@
 use super::ast::{Expr, ExprKind, Name, Range};
 use super::cursor::{CONNECTIVES, Cursor, DIRECTIONS, Parsed};
 use super::literal::read_number;
+use super::scan::NESTING;
 use super::token::TokenKind;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::Function;
@@ -102,7 +103,7 @@ impl Cursor<'_> {
     /// Reads a formula without operators: a name, a component, a call.
     pub fn postfix(&mut self) -> Parsed<Expr> {
         let mut value = self.atom()?;
-        for _ in 0..super::NESTING {
+        for _ in 0..NESTING {
             if self.at_symbol(".") && self.at_member(&value) {
                 self.advance();
                 let name = self.expect_name("a name", "")?;

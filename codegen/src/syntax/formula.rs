@@ -5,8 +5,9 @@
 //!      used, as [`ModelError`].
 
 use super::ast::{Expr, ExprKind, Name};
-use super::{formula as read, print};
-use crate::diagnostic::{Diagnostic, Diagnostics, Position, Span};
+use super::error::ModelError;
+use super::{print, read};
+use crate::diagnostic::Span;
 use std::fmt::{self, Display, Formatter};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -16,14 +17,6 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// text, so that it can be part of a `format!` too.
 #[derive(Clone, Debug)]
 pub struct Formula(Result<Expr, ModelError>);
-
-/// Texts that were given for formulas, units or names and are none.
-///
-/// Displayed, and shown by `Debug`, as messages with the text underlined.
-#[derive(Clone, Default)]
-pub struct ModelError {
-    parts: Vec<(String, Diagnostics)>,
-}
 
 impl Formula {
     /// `function(arguments)`
@@ -93,7 +86,7 @@ impl Formula {
 
 impl From<&str> for Formula {
     fn from(text: &str) -> Self {
-        Self(read(text).map_err(|diagnostics| {
+        Self(read::formula(text).map_err(|diagnostics| {
             let mut faults = ModelError::default();
             faults.push(text, diagnostics);
             faults
@@ -181,14 +174,6 @@ impl Display for Formula {
 }
 
 impl ModelError {
-    pub(super) fn is_empty(&self) -> bool {
-        self.parts.is_empty()
-    }
-
-    pub(super) fn push(&mut self, text: &str, diagnostics: Diagnostics) {
-        self.parts.push((text.to_string(), diagnostics));
-    }
-
     /// The formula, or a nought in its place while what is wrong is kept.
     pub(super) fn accept(&mut self, formula: Formula) -> Expr {
         formula.0.unwrap_or_else(|mut faults| {
@@ -205,30 +190,6 @@ impl ModelError {
         parts.map(|part| self.accept(part.into())).collect()
     }
 
-    /// Keeps a complaint unless the text can be a name.
-    pub(super) fn check_name(&mut self, name: &str) {
-        let letters = |c: char| c.is_ascii_alphanumeric() || c == '_';
-        let first = name.chars().next();
-        if first.is_some_and(|c| !c.is_ascii_digit()) && name.chars().all(letters) {
-            return;
-        }
-        let size = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-        let at = |column: usize, offset: usize| Position {
-            line: 1,
-            column: size(column + 1),
-            offset: size(offset),
-        };
-        let span = Span {
-            library: false,
-            start: at(0, 0),
-            end: at(name.chars().count(), name.len()),
-        };
-        let error = Diagnostic::error(span, format!("`{name}` is no name"));
-        let mut diagnostics = Diagnostics::new();
-        diagnostics.push(error.help("names are made of the letters a–z and A–Z, digits and `_`"));
-        self.push(name, diagnostics);
-    }
-
     /// The formula, if nothing is wrong with its parts.
     fn or(self, kind: ExprKind) -> Formula {
         let span = Span::default();
@@ -239,19 +200,3 @@ impl ModelError {
         })
     }
 }
-
-impl Display for ModelError {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let parts = self.parts.iter();
-        let rendered = parts.map(|(text, diagnostics)| diagnostics.render("model", text));
-        f.write_str(rendered.collect::<Vec<_>>().join("\n").trim_end())
-    }
-}
-
-impl fmt::Debug for ModelError {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        Display::fmt(self, f)
-    }
-}
-
-impl std::error::Error for ModelError {}

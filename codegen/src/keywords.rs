@@ -4,26 +4,26 @@
 //! Out: every word that means something, by what it is.
 
 use crate::expr::Function;
-use crate::{model, parse};
+use crate::{model, syntax};
 
 /// Words that begin a statement, `for` aside.
 pub fn statements() -> impl Iterator<Item = &'static str> {
-    parse::STATEMENTS.iter().map(|(word, _)| *word)
+    syntax::STATEMENTS.iter().map(|(word, _)| *word)
 }
 
 /// Words that hold statements and formulas together.
 pub fn connectives() -> impl Iterator<Item = &'static str> {
-    parse::CONNECTIVES.into_iter()
+    syntax::CONNECTIVES.into_iter()
 }
 
 /// What can be drawn.
 pub fn shapes() -> impl Iterator<Item = &'static str> {
-    parse::SHAPES.iter().map(|(word, _)| *word)
+    syntax::SHAPES.iter().map(|(word, _)| *word)
 }
 
 /// The directions of events.
 pub fn directions() -> impl Iterator<Item = &'static str> {
-    parse::DIRECTIONS.iter().map(|(word, _)| *word)
+    syntax::DIRECTIONS.iter().map(|(word, _)| *word)
 }
 
 /// Functions.

@@ -19,14 +19,14 @@ struct Statement {
 }
 
 /// Warns of statements that have no finite value or derivative at the assembled start.
-pub fn statements(numbers: &mut Numbers, found: &mut Diagnostics) {
+pub fn statements(numbers: &Numbers, found: &mut Diagnostics) {
     let Some(place) = numbers.assembled() else {
         return;
     };
-    let statements = list(&numbers.mechanism);
+    let statements = list(numbers.mechanism);
     let n = numbers.mechanism.coordinates.len();
     let v = velocities(numbers, &place);
-    let graph = &mut numbers.mechanism.graph;
+    let mut graph = numbers.mechanism.graph.clone();
     let moving = (0..n).filter_map(|i| u32::try_from(i).ok().map(Symbol::Coordinate));
     let mut flow = graph.frozen_flow(moving.chain([Symbol::Time]));
     let rates: Vec<Vec<ExprId>> = statements
@@ -38,8 +38,9 @@ pub fn statements(numbers: &mut Numbers, found: &mut Diagnostics) {
                 .collect()
         })
         .collect();
+    let numbers = numbers.grown(&graph);
     for (statement, rates) in statements.iter().zip(rates) {
-        let finite = |roots: &[ExprId]| is_finite(numbers, roots, &place, &v);
+        let finite = |roots: &[ExprId]| is_finite(&numbers, roots, &place, &v);
         let (message, help) = if !finite(&statement.values) || !finite(&statement.smooth) {
             (VALUE, VALUE_HELP)
         } else if !finite(&rates) {
@@ -79,7 +80,9 @@ fn list(mechanism: &Mechanism) -> Vec<Statement> {
             values: Vec::new(),
             smooth: vec![summand.value],
         });
-    let rows = mechanism.constraints.iter().map(|row| Statement {
+    let start = &mechanism.start_equations;
+    let rows = mechanism.constraints.iter().chain(start);
+    let rows = rows.map(|row| Statement {
         span: row.span,
         values: Vec::new(),
         smooth: vec![row.residual],

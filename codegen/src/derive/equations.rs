@@ -1,0 +1,64 @@
+//! The equations of motion, as data.
+
+use crate::expr::ExprId;
+
+/// A matrix of expressions, row by row.
+pub type Matrix = Vec<Vec<ExprId>>;
+
+/// The equations of motion of a mechanism with `N` coordinates and `R`
+/// constraint equations: `M q̈ + r = p₁`, `A q̈ = p₂`, `g = 0`.
+#[derive(Clone, Debug)]
+pub struct Equations {
+    /// `M`, `N × N`.
+    pub mass: Matrix,
+    /// `C q̇` and the terms of moving frames: `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`.
+    pub coriolis: Vec<ExprId>,
+    /// `h = ∂Π/∂q`, `N`.
+    pub gravity: Vec<ExprId>,
+    /// `Q`: applied forces and dissipation, `N`.
+    pub applied: Vec<ExprId>,
+    /// `p₁ = Q − C q̇ − h`, `N`.
+    pub force: Vec<ExprId>,
+    /// The constraints `g`, `R`; zero for velocity constraints.
+    pub residual: Vec<ExprId>,
+    /// `A q̇ + b`, `R`.
+    pub speed: Vec<ExprId>,
+    /// `∂(A q̇ + b)/∂q`, `R × N`.
+    pub turn: Matrix,
+    /// `A`, `R × N`.
+    pub jacobian: Matrix,
+    /// Rows of `A` that take part in the metric `M + AᵀWA`, because `M` alone is singular.
+    pub weighed: Vec<usize>,
+    /// `b`, `R`, of the velocity level `A q̇ + b = 0`.
+    pub drift: Vec<ExprId>,
+    /// `p₂ = −(Ȧ q̇ + ḃ)`, `R`.
+    pub bias: Vec<ExprId>,
+    /// The energies.
+    pub energies: Energies,
+    /// Equations of the start for positions, those that are held first: `g` and `∂g/∂q`.
+    pub start_positions: StartRows,
+    /// Equations of the start for velocities, likewise: `b` and `A` of `A q̇ + b = 0`.
+    pub start_velocities: StartRows,
+}
+
+/// Equations of the start.
+#[derive(Clone, Debug)]
+pub struct StartRows {
+    /// What they are off by; for velocities, at rest.
+    pub errors: Vec<ExprId>,
+    /// Their derivatives by coordinates or velocities.
+    pub slopes: Matrix,
+}
+
+/// Scalar quantities of a mechanism.
+#[derive(Clone, Copy, Debug)]
+pub struct Energies {
+    /// `T`.
+    pub kinetic: ExprId,
+    /// `Π`.
+    pub potential: ExprId,
+    /// `T₂ − T₀ + Π`.
+    pub balance: ExprId,
+    /// `Q·q̇ + ∂Π/∂t − ∂T/∂t`.
+    pub power: ExprId,
+}

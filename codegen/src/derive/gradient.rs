@@ -1,0 +1,37 @@
+//! Partial derivatives by coordinates and velocities, and derivatives in time.
+
+use crate::expr::{ExprId, Graph, Symbol};
+
+/// The symbols of `n` velocities.
+pub(super) fn velocities(n: usize) -> impl Iterator<Item = Symbol> + Clone {
+    (0..u32::try_from(n).unwrap_or(u32::MAX)).map(Symbol::Velocity)
+}
+
+/// The symbols of `n` coordinates.
+pub(super) fn coordinates(n: usize) -> impl Iterator<Item = Symbol> + Clone {
+    (0..u32::try_from(n).unwrap_or(u32::MAX)).map(Symbol::Coordinate)
+}
+
+/// `∂e/∂symbol` for each symbol, in order.
+pub(super) fn gradient(
+    graph: &mut Graph,
+    e: ExprId,
+    symbols: impl Iterator<Item = Symbol>,
+) -> Vec<ExprId> {
+    let present = graph.symbols(e);
+    let mut by = |symbol| match present.contains(&symbol) {
+        true => graph.differentiate(e, symbol),
+        false => graph.integer(0),
+    };
+    symbols.map(&mut by).collect()
+}
+
+/// The derivatives in time, at frozen velocities, of several expressions.
+pub(super) fn rates(graph: &mut Graph, expressions: &[ExprId], n: usize) -> Vec<ExprId> {
+    let symbols = coordinates(n).chain([Symbol::Time]);
+    let mut flow = graph.frozen_flow(symbols);
+    expressions
+        .iter()
+        .map(|&e| graph.derivative_along(e, &mut flow))
+        .collect()
+}

@@ -1,0 +1,50 @@
+//! What comes of energies and forces: `M` and `p₁` with its parts.
+
+use super::equations::Matrix;
+use super::swell::within_bounds;
+use super::{force, mass};
+use crate::expr::ExprId;
+use crate::model::Mechanism;
+
+/// What comes of the energies and forces alone.
+pub(super) struct Motion {
+    pub kinetic: ExprId,
+    pub potential: ExprId,
+    pub momenta: Vec<ExprId>,
+    pub mass: Matrix,
+    pub coriolis: Vec<ExprId>,
+    pub gravity: Vec<ExprId>,
+    pub applied: Vec<ExprId>,
+    pub force: Vec<ExprId>,
+}
+
+/// `M` and `p₁` with its parts, or nothing as soon as they are too long.
+pub(super) fn motion(mechanism: &mut Mechanism) -> Option<Motion> {
+    let (n, freedoms) = (mechanism.coordinates.len(), mechanism.freedoms());
+    let graph = &mut mechanism.graph;
+    let kinetic = graph.sum(mechanism.kinetic.iter().map(|summand| summand.value));
+    let potential = graph.sum(mechanism.potential.iter().map(|summand| summand.value));
+    let dissipation = graph.sum(mechanism.dissipation.iter().map(|summand| summand.value));
+
+    let momenta = mass::momenta(graph, kinetic, n);
+    within_bounds(graph)?;
+    let mut mass = mass::mass_matrix(graph, &momenta);
+    for (i, row) in mass.iter_mut().enumerate().skip(freedoms) {
+        row[i] = graph.integer(1);
+    }
+    within_bounds(graph)?;
+    let coriolis = force::coriolis_product(graph, kinetic, &momenta);
+    let gravity = force::potential_force(graph, potential, n);
+    let applied = force::applied(graph, &mechanism.forces, dissipation, (n, freedoms));
+    let force = force::total(graph, &applied, &coriolis, &gravity);
+    Some(Motion {
+        kinetic,
+        potential,
+        momenta,
+        mass,
+        coriolis,
+        gravity,
+        applied,
+        force,
+    })
+}

@@ -1,0 +1,20 @@
+//! What the equations tell of a motion before there is one.
+
+use super::equations::Equations;
+use crate::expr::{ExprId, Graph, Symbol};
+use crate::model::Mechanism;
+
+impl Equations {
+    /// Whether `M` is the same at all times and positions.
+    pub fn has_constant_mass(&self, graph: &Graph) -> bool {
+        let moves = |symbol: &Symbol| matches!(symbol, Symbol::Time | Symbol::Coordinate(_));
+        let constant = |entry: &ExprId| !graph.symbols(*entry).iter().any(moves);
+        self.mass.iter().flatten().all(constant)
+    }
+
+    /// Whether nothing is supplied from outside: no power, and no moving constraint.
+    pub fn are_conservative(&self, mechanism: &Mechanism) -> bool {
+        let still = |e: &ExprId| mechanism.graph.is_zero(*e);
+        mechanism.states == 0 && still(&self.energies.power) && self.drift.iter().all(still)
+    }
+}

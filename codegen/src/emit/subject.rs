@@ -1,0 +1,164 @@
+//! What the emitter looks at, and what all parts of a module are written with.
+
+use super::function::{Body, Decided, Place};
+use super::name::type_name;
+use super::symbol::SymbolNames;
+use crate::derive::Equations;
+use crate::expr::Symbol;
+use crate::model::Mechanism;
+use crate::optimise::{Optimised, Program, Programs, Slot, Solved, cost};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::quote;
+
+/// What to emit besides the necessary.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Options {
+    /// Emit the Coriolis matrix `C` as a function of its own.
+    pub coriolis_matrix: bool,
+    /// The constraints are declared to be regular: runs end with an error where they are
+    /// not.
+    pub regular: bool,
+    /// Emit the function by which a library hands the mechanism to programs in C.
+    pub c_interface: bool,
+}
+
+/// A description in its own words, for the emitted documentation.
+#[derive(Clone, Copy, Debug)]
+pub struct Origin<'a> {
+    /// The module's name: the stem of the description's file.
+    pub module: &'a str,
+    /// The description's file, as given to the generator.
+    pub file: &'a str,
+    /// The description.
+    pub source: &'a str,
+    /// Parameters that were frozen, with their values.
+    pub frozen: &'a [String],
+}
+
+/// Everything the emitter looks at.
+pub(super) struct Subject<'a> {
+    pub mechanism: &'a Mechanism,
+    pub equations: &'a Equations,
+    pub programs: &'a Programs,
+    pub names: SymbolNames,
+    pub file: &'a str,
+    pub options: Options,
+}
+
+/// A function body and what its signature needs to know.
+pub(super) struct Written {
+    pub body: Body,
+    /// `state`, or `_state` where the body does not read it.
+    pub state: Ident,
+    /// What it costs, in words.
+    pub cost: String,
+}
+
+/// Which arguments beside the state a program reads or writes.
+pub(super) struct Reads {
+    pub acceleration: bool,
+    pub multiplier: bool,
+    /// The buffer of its results.
+    pub out: bool,
+}
+
+impl Reads {
+    pub fn of(program: &Program) -> Self {
+        Self {
+            acceleration: program.reads(|symbol| matches!(symbol, Symbol::Acceleration(_))),
+            multiplier: program.reads(|symbol| matches!(symbol, Symbol::Multiplier(_))),
+            out: !program.outputs.is_empty(),
+        }
+    }
+}
+
+/// The name of an argument, or that it is not read.
+pub(super) fn argument(name: &str, read: bool) -> Ident {
+    match read {
+        true => Ident::new(name, Span::call_site()),
+        false => Ident::new(&format!("_{name}"), Span::call_site()),
+    }
+}
+
+/// The lines of a text as the lines of a doc comment.
+pub(super) fn doc_lines(text: &str) -> Vec<String> {
+    let line = |line: &str| {
+        if line.is_empty() {
+            String::new()
+        } else {
+            format!(" {line}")
+        }
+    };
+    text.lines().map(|text| line(text.trim())).collect()
+}
+
+impl Subject<'_> {
+    /// `N` and `R`.
+    pub fn counts(&self) -> (usize, usize) {
+        (self.equations.mass.len(), self.equations.jacobian.len())
+    }
+
+    /// `N` and `R` as literals.
+    pub fn sizes(&self) -> (Literal, Literal) {
+        let (n, r) = self.counts();
+        (Literal::usize_unsuffixed(n), Literal::usize_unsuffixed(r))
+    }
+
+    pub fn type_name(&self) -> Ident {
+        Ident::new(&type_name(&self.mechanism.name), Span::call_site())
+    }
+
+    /// A symbol as the description names it.
+    pub fn text(&self, symbol: Symbol) -> String {
+        self.mechanism.symbol_text(symbol)
+    }
+
+    /// The body of a function whose outputs are assigned by whoever asks for it.
+    pub fn body(&self, computed: &Optimised) -> Written {
+        self.optimised(computed, &|_| None, Decided::ByState)
+    }
+
+    /// The body that runs a program; says what it costs, and what it would as derived.
+    pub fn optimised(&self, computed: &Optimised, place: Place, decided: Decided) -> Written {
+        let Optimised {
+            program,
+            cost,
+            derived,
+        } = computed;
+        let cost = match derived == cost {
+            true => format!(" Costs {cost}."),
+            false => format!(" Costs {cost}. As derived: {derived}."),
+        };
+        self.written(program, place, decided, cost)
+    }
+
+    /// The body that solves; what it costs includes what it solves.
+    pub fn solved(&self, solved: &Solved, place: Place) -> Written {
+        let cost = format!(" Costs {}.", cost(&solved.program));
+        self.written(&solved.program, place, Decided::BySides, cost)
+    }
+
+    fn written(&self, program: &Program, place: Place, decided: Decided, cost: String) -> Written {
+        let taken = self.names.taken.clone();
+        Written {
+            body: Body::of(program, &self.names, taken, place, decided),
+            state: argument("state", SymbolNames::reads_state(program)),
+            cost,
+        }
+    }
+}
+
+/// An entry of an array. Arrays are indexed by literals below nalgebra's own indexing, so
+/// the compiler checks the bounds.
+pub(super) fn entry(array: TokenStream, slot: &Slot) -> TokenStream {
+    let row = Literal::usize_unsuffixed(slot.row);
+    let column = Literal::usize_unsuffixed(slot.column);
+    quote!(#array.data.0[#column][#row])
+}
+
+/// An entry of the buffer's field of the array's name.
+pub(super) fn entry_of_field(slot: &Slot) -> Option<TokenStream> {
+    let field = Ident::new(slot.array, Span::call_site());
+    Some(entry(quote!(out.#field), slot))
+}

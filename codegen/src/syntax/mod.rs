@@ -1,0 +1,41 @@
+//! Text to syntax tree, every node with its place.
+//!
+//! In:  the text of a description.
+//! Out: [`Model`]: what is written, nothing resolved.
+//!
+//! Four steps: `scan` looks at the characters (so that the lexer cannot fail and
+//! no nesting is too deep for a recursive reader), `token` has proc-macro2 lex
+//! them, `item`, `start` and `unit` read statements, `expression` reads formulas.
+//! A mistake inside a statement is reported and reading goes on behind it; the names
+//! that such a statement may have declared are remembered, so that nobody complains of
+//! them.
+//!
+//! Not here: the meaning of names, shapes and units.
+
+pub mod ast;
+mod build;
+mod choice;
+mod cursor;
+mod error;
+mod expression;
+mod formula;
+mod function;
+mod item;
+mod literal;
+mod model;
+mod print;
+mod read;
+mod scan;
+mod start;
+mod stray;
+mod token;
+mod unit;
+
+pub(crate) use cursor::{CONNECTIVES, DIRECTIONS, SHAPES, STATEMENTS};
+pub use error::ModelError;
+pub use formula::Formula;
+pub use model::Model;
+pub(crate) use print::formula as written;
+pub(crate) use read::{Read, library, read};
+pub use read::{formula, parse};
+pub use scan::NESTING;
