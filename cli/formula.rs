@@ -102,7 +102,7 @@ fn evaluated(text: &str) -> Result<Result<f64, String>, String> {
     if let Some(message) = with_unit(text) {
         return Err(message);
     }
-    let formula = parse::formula(text).map_err(|diagnostics| {
+    let formula = syntax::formula(text).map_err(|diagnostics| {
         let sorted = diagnostics.sorted();
         let first = sorted.first().map(|first| match &first.help {
             Some(help) => format!("{}; {help}", first.message),

@@ -36,6 +36,7 @@ pub struct Model {
 
 impl Model {
     /// Where the law of an input of the mechanism itself stands.
+    #[doc(hidden)]
     pub fn law_of(&self, input: &str) -> Option<Span> {
         self.items.iter().find_map(|item| match &item.kind {
             ItemKind::Declaration(d) if d.kind == Declared::Input && d.name.text == input => {
