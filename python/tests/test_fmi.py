@@ -116,9 +116,10 @@ def test_a_motor_with_a_current_runs_as_the_command_does(motor_fmu, motor, kind,
         motor_fmu, kind, stop_time=2, output_interval=0.1, output=names, start_values=begin
     )
     run = motor.simulate(until=2, rtol=1e-12, every=0.1, start={"current": -0.5})
-    assert np.allclose(rows["time"], run.t)
+    # In model exchange there are rows at events besides.
+    same = [np.flatnonzero(np.isclose(rows["time"], t))[-1] for t in run.t]
     for name in names:
-        assert np.allclose(rows[name], run[name], rtol=0, atol=10 * near), name
+        assert np.allclose(rows[name][same], run[name], rtol=0, atol=10 * near), name
 
 
 def test_parameters_starts_and_inputs_are_set(fmu, engine):

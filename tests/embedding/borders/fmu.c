@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <string.h>
 
-enum { STEPS = 2000 };
+enum { STEPS = 200 };
 
 typedef void *Instance;
 static Instance x;

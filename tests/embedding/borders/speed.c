@@ -3,7 +3,7 @@
 #include "median.h"
 #include "slider_crank.h"
 
-enum { STEPS = 2000, ROWS = 802 };
+enum { STEPS = 200, ROWS = 802 };
 
 static bricard *m;
 static double *rows;
