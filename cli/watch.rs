@@ -7,9 +7,9 @@ use crate::arguments::Simulate;
 use crate::error::CommandError;
 use crate::interrupt;
 use crate::mechanism::file;
-use crate::output::say;
+use crate::output::{complain, say};
 use crate::page::{Live, is_page};
-use crate::simulate::simulate_for;
+use crate::simulate::{only_one, simulate_for};
 use notify::{RecursiveMode, Watcher, recommended_watcher};
 use std::ffi::OsStr;
 use std::fs;
@@ -27,13 +27,14 @@ const REST: Duration = Duration::from_millis(30);
 ///
 /// # Errors
 ///
-/// [`CommandError::NoFile`], [`CommandError::Watch`], and at its end
+/// [`CommandError::NoFile`], [`CommandError::Runs`], [`CommandError::Watch`], and at its end
 /// [`CommandError::Interrupted`].
 pub fn watch(arguments: &Simulate) -> Result<(), CommandError> {
     let failed = |reason: String| CommandError::Watch(arguments.name.clone(), reason);
     let Some(file) = file(&arguments.name) else {
         return Err(CommandError::NoFile(arguments.name.clone()));
     };
+    only_one(arguments, "`watch` shows one run")?;
     // The folder is watched: a new file under the old name is another file.
     let folder = match file.parent() {
         Some(folder) if folder != Path::new("") => folder,
@@ -72,7 +73,7 @@ pub fn watch(arguments: &Simulate) -> Result<(), CommandError> {
                 if let Some(live) = live {
                     live.complain(&error.to_string())?;
                 }
-                say(&format!("error: {error}"));
+                complain(&error);
             }
         }
         say(&format!("waiting until {} is saved", file.display()));
