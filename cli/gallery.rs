@@ -20,7 +20,7 @@ use std::fs;
 
 /// What a picture shows (s), in so many poses.
 const SECONDS: f64 = 6.0;
-const POSES: usize = 72;
+const POSES: usize = 180;
 /// Relative and absolute tolerance.
 const TOLERANCE: f64 = 1e-9;
 /// Pictures side by side.

@@ -40,13 +40,16 @@ enum Part {
 pub fn moving_svg(title: &str, frames: &[Vec<Shape>], seconds: f64) -> String {
     let (low, high) = bounds_of(frames.iter().flatten());
     let scale = (SIZE[0] / (high[0] - low[0])).min(SIZE[1] / (high[1] - low[1]));
-    let size = [0, 1].map(|axis| scale * (high[axis] - low[axis]));
-    let pixel = |[x, y]: [f64; 2]| [(x - low[0]) * scale, size[1] - (y - low[1]) * scale];
+    let middle = [0, 1].map(|axis| (low[axis] + high[axis]) / 2.0);
+    let pixel = |[x, y]: [f64; 2]| {
+        let (right, up) = ((x - middle[0]) * scale, (y - middle[1]) * scale);
+        [SIZE[0] / 2.0 + right, SIZE[1] / 2.0 - up]
+    };
     let parts = parts(frames, pixel, scale);
     let mut text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0}\" height=\"{1:.0}\" \
          viewBox=\"0 0 {0:.0} {1:.0}\" role=\"img\" aria-label=\"{title}\">{STYLE}\n",
-        size[0], size[1]
+        SIZE[0], SIZE[1]
     );
     let moves = Moves(seconds);
     let paths = parts.iter().filter(|part| matches!(part, Part::Path(_)));
