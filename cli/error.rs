@@ -59,16 +59,7 @@ pub enum CommandError {
         options: [String; 2],
     },
     /// More runs than something has room for.
-    Runs {
-        /// What it has room for.
-        what: &'static str,
-        /// The option that asks for them.
-        varied: String,
-        /// How many.
-        count: usize,
-        /// What to write instead.
-        instead: &'static str,
-    },
+    Runs(TooMany),
     /// A file that two options want to write.
     SameFile {
         /// The options.
@@ -153,6 +144,19 @@ pub enum CommandError {
     NobodyReads,
 }
 
+/// More runs than something has room for.
+#[derive(Debug)]
+pub struct TooMany {
+    /// What it has room for.
+    pub what: &'static str,
+    /// The option that asks for them.
+    pub varied: String,
+    /// How many.
+    pub count: usize,
+    /// What to write instead.
+    pub instead: &'static str,
+}
+
 impl CommandError {
     /// A failure to write a file; a reader that has gone is a case of its own.
     pub fn write(path: &Path, error: io::Error) -> Self {
@@ -200,7 +204,7 @@ impl CommandError {
             | Self::Twice { .. }
             | Self::Law { .. }
             | Self::TwoLists { .. }
-            | Self::Runs { .. }
+            | Self::Runs(_)
             | Self::SameFile { .. }
             | Self::UselessOption { .. }
             | Self::FileKind { .. }
@@ -239,19 +243,8 @@ impl Display for CommandError {
                 write!(f, "{option} gives `{name}` two values; leave one out")
             }
             Self::Law { name, reason } => write!(f, "`--set {name}=…`: {reason}"),
-            Self::TwoLists {
-                options: [one, other],
-            } => write!(
-                f,
-                "`{one}` and `{other}` have several values each, and runs are compared by one of \
-                 them; give the other a single value"
-            ),
-            Self::Runs {
-                what,
-                varied,
-                count,
-                instead,
-            } => write!(f, "{what}, and `{varied}` asks for {count}; {instead}"),
+            Self::TwoLists { options } => two_lists(f, options),
+            Self::Runs(runs) => write!(f, "{runs}"),
             Self::SameFile { options, path } => same_file(f, options, path),
             Self::UselessOption {
                 option,
@@ -290,6 +283,26 @@ impl Display for CommandError {
             }
             Self::NobodyReads => f.write_str("nobody reads standard output any more"),
         }
+    }
+}
+
+fn two_lists(f: &mut Formatter<'_>, [one, other]: &[String; 2]) -> fmt::Result {
+    write!(
+        f,
+        "`{one}` and `{other}` have several values each, and runs are compared by one of them; \
+         give the other a single value"
+    )
+}
+
+impl Display for TooMany {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self {
+            what,
+            varied,
+            count,
+            instead,
+        } = self;
+        write!(f, "{what}, and `{varied}` asks for {count}; {instead}")
     }
 }
 

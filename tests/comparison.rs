@@ -53,22 +53,13 @@ fn a_picture_of_several_runs_has_a_curve_for_each_with_its_value() {
     let path = |name: &str| folder.join(name).display().to_string();
     let run = ["simulate", "slider_crank", "--until", "1", "--quiet"];
     let starts = ["--start", "q1=30*deg,60*deg", "--plot"];
-    let panels = [
-        &run[..],
-        &starts,
-        &[&path("a.svg"), "--curves", "q1,energy"],
-    ]
-    .concat();
-    let phase = [
-        &run[..],
-        &starts,
-        &[&path("b.svg"), "--phase", "q1,der(q1)"],
-    ]
-    .concat();
-    let page = [&run[..], &starts, &[&path("c.html"), "--curves", "q1"]].concat();
-    for words in [panels, phase, page] {
-        let ran = bricard(&words);
-        assert_eq!((ran.status, ran.err.as_str()), (Some(0), ""), "{words:?}");
+    for (file, more) in [
+        ("a.svg", ["--curves", "q1,energy"]),
+        ("b.svg", ["--phase", "q1,der(q1)"]),
+        ("c.html", ["--curves", "q1"]),
+    ] {
+        let ran = bricard(&[&run[..], &starts, &[&path(file)], &more].concat());
+        assert_eq!((ran.status, ran.err.as_str()), (Some(0), ""), "{file}");
     }
     let names = ["q1 = 0.5236", "q1 = 1.047"];
     let read = |name: &str| fs::read_to_string(path(name)).expect("the picture is written");

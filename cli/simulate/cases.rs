@@ -4,7 +4,7 @@
 //! Out: [`Case`]s, and what differs from one to the next.
 
 use crate::arguments::Simulate;
-use crate::error::CommandError;
+use crate::error::{CommandError, TooMany};
 use crate::formula::{Assignment, Setting};
 use crate::number::exact;
 use bricard_codegen::diagnostic::figure;
@@ -159,11 +159,11 @@ impl Varied {
     }
 
     fn refused(&self, what: &'static str, instead: &'static str) -> CommandError {
-        CommandError::Runs {
+        CommandError::Runs(TooMany {
             what,
             varied: self.called(),
             count: self.runs.len(),
             instead,
-        }
+        })
     }
 }
