@@ -3,10 +3,18 @@
 //! In:  words.
 //! Out: [`Arguments`], each value read, none checked against a mechanism yet.
 
-use crate::formula::{self, Assignment, Setting};
+use crate::formula::{self, Assignment, Choice, Setting};
+use bricard_codegen::internals::diagnostic::nearest;
 use bricard_runtime::{Form, Scheme, Stabilisation};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
+
+/// Widths of the columns of journals (mm).
+const SINGLE: f64 = 88.0;
+const DOUBLE: f64 = 180.0;
+/// Widths that a picture may have in print (mm).
+const WIDTHS: RangeInclusive<f64> = 60.0..=420.0;
 
 /// Simulates closed-loop mechanisms straight through their singular positions.
 #[derive(Debug, Parser)]
@@ -53,6 +61,17 @@ pub enum Command {
     /// Begin a crate: a commented mechanism, its build script, a program that
     /// simulates it
     New(New),
+    /// Write the gallery of the documentation
+    #[command(hide = true)]
+    Gallery(Gallery),
+}
+
+/// Arguments of `gallery`.
+#[derive(Args, Debug)]
+pub struct Gallery {
+    /// The folder of the pictures; the page of all is written beside it
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
 }
 
 /// Arguments of `show`.
@@ -264,13 +283,14 @@ pub struct Simulate {
     /// T/1000 for a plot by an adaptive method]
     #[arg(long, value_name = "dt", allow_hyphen_values = true, value_parser = formula::number)]
     pub every: Option<f64>,
-    /// Change a parameter, or hold an input at a value
-    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::setting)]
-    pub set: Vec<Setting>,
+    /// Change a parameter, or hold an input at a value; several values with commas between
+    /// them give a run each, compared in one picture
+    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::settings)]
+    pub set: Vec<Choice<Setting>>,
     /// Hold a coordinate, or a velocity der(NAME), at a value at the start (NAME=VALUE), or
-    /// guess it (NAME~VALUE)
-    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::start)]
-    pub start: Vec<Assignment>,
+    /// guess it (NAME~VALUE); several values as for --set
+    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::starts)]
+    pub start: Vec<Choice<Assignment>>,
     /// Columns to add, with commas between them: energy, kinetic, potential,
     /// constraint_error, velocity_error, rank, reactions, or outputs by name
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
@@ -309,6 +329,10 @@ pub struct Simulate {
         conflicts_with = "resume"
     )]
     pub film: Option<PathBuf>,
+    /// Draw --plot or the strip of --film for print, so wide: single (88 mm), double
+    /// (180 mm), or a length such as 120mm, 12cm, 5in
+    #[arg(long, value_name = "WIDTH", value_parser = width)]
+    pub width: Option<f64>,
     /// Say nothing but errors
     #[arg(long)]
     pub quiet: bool,
@@ -399,6 +423,41 @@ fn pair(text: &str) -> Result<[String; 2], String> {
     }
 }
 
+/// What was probably meant by a word.
+fn meant(word: &str, known: &[&str]) -> String {
+    let nearest = nearest(word, known.iter().copied());
+    nearest.map_or(String::new(), |word| format!("; did you mean `{word}`?"))
+}
+
+/// Reads the width of a picture in print (mm).
+fn width(text: &str) -> Result<f64, String> {
+    let units = [("mm", 1.0), ("cm", 10.0), ("in", 25.4), ("pt", 25.4 / 72.0)];
+    let length = |(unit, size): &(&str, f64)| {
+        let number: f64 = text.strip_suffix(unit)?.trim().parse().ok()?;
+        Some(number * size)
+    };
+    let width = match text {
+        "single" => Some(SINGLE),
+        "double" => Some(DOUBLE),
+        _ => units.iter().find_map(length),
+    };
+    let width = width.ok_or_else(|| {
+        format!(
+            "write `single` (88 mm), `double` (180 mm), or a length in mm, cm, in or pt, such as \
+             `120mm`{}",
+            meant(text, &["single", "double"])
+        )
+    })?;
+    match WIDTHS.contains(&width) {
+        true => Ok(width),
+        false => Err(format!(
+            "a picture is from {} to {} mm wide",
+            WIDTHS.start(),
+            WIDTHS.end()
+        )),
+    }
+}
+
 /// Reads `projection`, `none` or `baumgarte:ALPHA:BETA`.
 fn stabilisation(text: &str) -> Result<Stabilisation<f64>, String> {
     let gain = |text: &str| match formula::number(text)? {
@@ -412,10 +471,9 @@ fn stabilisation(text: &str) -> Result<Stabilisation<f64>, String> {
             alpha: gain(alpha)?,
             beta: gain(beta)?,
         }),
-        _ => Err(
-            "write `projection`, `none` or `baumgarte:ALPHA:BETA`, such as \
-                  `baumgarte:10:10`"
-                .to_string(),
-        ),
+        _ => Err(format!(
+            "write `projection`, `none` or `baumgarte:ALPHA:BETA`, such as `baumgarte:10:10`{}",
+            meant(text, &["projection", "none"])
+        )),
     }
 }

@@ -7,6 +7,7 @@ use crate::interrupt::INTERRUPTED;
 use crate::number::exact;
 use bricard_codegen::internals::diagnostic::nearest;
 use std::fmt::{self, Display, Formatter};
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -59,6 +60,13 @@ pub enum CommandError {
         /// Why, and what to write instead.
         reason: String,
     },
+    /// Two options with several values each.
+    TwoLists {
+        /// The options with their names.
+        options: [String; 2],
+    },
+    /// More runs than something has room for.
+    Runs(TooMany),
     /// A file that two options want to write.
     SameFile {
         /// The options.
@@ -143,6 +151,19 @@ pub enum CommandError {
     NobodyReads,
 }
 
+/// More runs than something has room for.
+#[derive(Debug)]
+pub struct TooMany {
+    /// What it has room for.
+    pub what: &'static str,
+    /// The option that asks for them.
+    pub varied: String,
+    /// How many.
+    pub count: usize,
+    /// What to write instead.
+    pub instead: &'static str,
+}
+
 impl CommandError {
     /// A failure to write a file; a reader that has gone is a case of its own.
     pub fn write(path: &Path, error: io::Error) -> Self {
@@ -164,6 +185,24 @@ impl CommandError {
         }
     }
 
+    /// The same, with what became of the rows of the run.
+    pub fn with(self, kept: String) -> Self {
+        match self {
+            Self::Run { reason, .. } => Self::Run { reason, kept },
+            Self::Interrupted { .. } => Self::Interrupted { kept },
+            error => error,
+        }
+    }
+
+    /// Whether nothing more is wanted, of other runs either.
+    pub fn ends_all(&self) -> bool {
+        match self {
+            Self::Interrupted { .. } | Self::NobodyReads => true,
+            Self::Write(..) | Self::WriteRows { .. } => true,
+            _ => false,
+        }
+    }
+
     /// The exit status.
     pub fn status(&self) -> u8 {
         match self {
@@ -172,6 +211,8 @@ impl CommandError {
             | Self::OutOfRange { .. }
             | Self::Twice { .. }
             | Self::Law { .. }
+            | Self::TwoLists { .. }
+            | Self::Runs(_)
             | Self::SameFile { .. }
             | Self::UselessOption { .. }
             | Self::FileKind { .. }
@@ -211,6 +252,8 @@ impl Display for CommandError {
                 write!(f, "{option} gives `{name}` two values; leave one out")
             }
             Self::Law { name, reason } => write!(f, "`--set {name}=…`: {reason}"),
+            Self::TwoLists { options } => two_lists(f, options),
+            Self::Runs(runs) => write!(f, "{runs}"),
             Self::SameFile { options, path } => same_file(f, options, path),
             Self::UselessOption {
                 option,
@@ -222,7 +265,7 @@ impl Display for CommandError {
             Self::FileKind { path, instead } => {
                 write!(f, "{} can't be written: {instead}", path.display())
             }
-            Self::Read(path, error) => write!(f, "could not read {}: {error}", path.display()),
+            Self::Read(path, error) => unread(f, path, error),
             Self::Write(path, error) => write!(f, "could not write {}: {error}", path.display()),
             Self::WriteRows { path, rows, error } => write!(
                 f,
@@ -250,6 +293,56 @@ impl Display for CommandError {
             Self::NobodyReads => f.write_str("nobody reads standard output any more"),
         }
     }
+}
+
+fn two_lists(f: &mut Formatter<'_>, [one, other]: &[String; 2]) -> fmt::Result {
+    write!(
+        f,
+        "`{one}` and `{other}` have several values each, and runs are compared by one of them; \
+         give the other a single value"
+    )
+}
+
+impl Display for TooMany {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self {
+            what,
+            varied,
+            count,
+            instead,
+        } = self;
+        write!(f, "{what}, and `{varied}` asks for {count}; {instead}")
+    }
+}
+
+fn unread(f: &mut Formatter<'_>, path: &Path, error: &io::Error) -> fmt::Result {
+    write!(f, "could not read {}: {error}", path.display())?;
+    if let Some(meant) = similar(path).filter(|_| error.kind() == io::ErrorKind::NotFound) {
+        write!(f, "; did you mean `{}`?", meant.display())?;
+    }
+    Ok(())
+}
+
+/// The file of the same kind in a folder whose name is most like that of one that is not
+/// there.
+fn similar(path: &Path) -> Option<PathBuf> {
+    let folder = path.parent()?;
+    let here = if folder == Path::new("") {
+        Path::new(".")
+    } else {
+        folder
+    };
+    let names = fs::read_dir(here)
+        .ok()?
+        .flatten()
+        .map(|entry| entry.file_name());
+    let names: Vec<String> = names
+        .filter(|name| Path::new(name).extension() == path.extension())
+        .filter_map(|name| name.into_string().ok())
+        .collect();
+    let name = path.file_name()?.to_str()?;
+    let meant = nearest(name, names.iter().map(String::as_str))?;
+    Some(folder.join(meant))
 }
 
 fn no_file(f: &mut Formatter<'_>, name: &str) -> fmt::Result {

@@ -5,7 +5,6 @@
 
 use crate::column::Column;
 use crate::plot::{Panel, Scale, Series};
-use bricard_driver::heads;
 use bricard_runtime::Structure;
 
 /// Curves in one panel, so that the legend fits beside it.
@@ -27,9 +26,15 @@ pub fn overview(structure: &Structure, columns: &[Column], rows: &[Vec<f64>]) ->
     panels
 }
 
+/// Numbers of a row before the added columns: time, coordinates and velocities, and states of
+/// the first order.
+fn begin(structure: &Structure) -> usize {
+    1 + structure.freedoms().len() + structure.coordinates.len()
+}
+
 /// The added columns, those of one kind and unit together.
 pub fn added(structure: &Structure, columns: &[Column], rows: &[Vec<f64>]) -> Vec<Panel> {
-    let first = heads(structure).len();
+    let first = begin(structure);
     let all = 0..columns.len();
     grouped(
         all.map(|i| curve(structure, columns, rows, first + i))
@@ -53,6 +58,18 @@ pub fn chosen(
 ) -> Vec<Panel> {
     let curves = places.iter().map(|i| curve(structure, columns, rows, *i));
     grouped(curves.collect())
+}
+
+/// The places in the rows of the coordinates and the added columns.
+pub fn places(structure: &Structure, columns: &[Column]) -> Vec<usize> {
+    let n = structure.freedoms().len();
+    let behind = 1 + 2 * n..begin(structure) + columns.len();
+    (1..=n).chain(behind).collect()
+}
+
+/// The scale of a column of the rows, by its place.
+pub fn scale(structure: &Structure, columns: &[Column], place: usize) -> Scale {
+    curve(structure, columns, &[], place).scale
 }
 
 /// A column of the rows, by its place, named with its unit.
@@ -97,7 +114,7 @@ fn curve(structure: &Structure, columns: &[Column], rows: &[Vec<f64>], place: us
     if let Some(state) = place.checked_sub(1 + 2 * n).and_then(state) {
         return linear(with_unit("state", state.unit, ""), state.name.to_string());
     }
-    let first = heads(structure).len();
+    let first = begin(structure);
     let column = place.checked_sub(first).and_then(|i| columns.get(i));
     let Some(column) = column else {
         return linear("time [s]".to_string(), "t".to_string());
@@ -117,7 +134,7 @@ fn curve(structure: &Structure, columns: &[Column], rows: &[Vec<f64>], place: us
 pub fn coordinates(structure: &Structure, rows: &[Vec<f64>]) -> Vec<Panel> {
     let n = structure.freedoms().len();
     // States stand behind the velocities.
-    let places = (1..=n).chain(1 + 2 * n..heads(structure).len());
+    let places = (1..=n).chain(1 + 2 * n..begin(structure));
     let all = places.map(|i| curve(structure, &[], rows, i));
     // Beside an angle that goes on and on one that oscillates would look like a line.
     let (turning, others): (Vec<Curve>, Vec<Curve>) =

@@ -46,6 +46,85 @@ impl Setting {
     }
 }
 
+/// One value of a name, or several of which each gives a run of its own.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice<T> {
+    /// The first value.
+    pub first: T,
+    /// The others, in the order in which they were given.
+    pub others: Vec<T>,
+}
+
+impl<T> Choice<T> {
+    /// All values.
+    pub fn all(&self) -> impl Iterator<Item = &T> {
+        std::iter::once(&self.first).chain(&self.others)
+    }
+
+    /// Reads a list of values with commas between them, each with the name before it.
+    fn read(
+        name: &str,
+        values: &str,
+        one: impl Fn(&str, &str) -> Result<T, String>,
+    ) -> Result<Self, String> {
+        let parts = listed(values);
+        if parts.len() > 1 {
+            for (i, part) in parts.iter().enumerate() {
+                if part.trim().is_empty() {
+                    return Err("a value is missing beside a comma".to_string());
+                }
+                let value = number(part).map_err(|why| format!("{why}; a list holds numbers"))?;
+                if parts[..i].iter().any(|other| number(other) == Ok(value)) {
+                    return Err(format!("the list has {} twice", part.trim()));
+                }
+            }
+        }
+        let mut all = parts.into_iter().map(|part| one(name, part));
+        let first = all.next().unwrap_or_else(|| one(name, ""))?;
+        let others = all.collect::<Result<_, _>>()?;
+        Ok(Self { first, others })
+    }
+}
+
+/// The parts of a text between commas that stand in no brackets.
+fn listed(text: &str) -> Vec<&str> {
+    let mut depth = 0_i32;
+    let is_between = |sign: char| {
+        match sign {
+            '(' | '[' | '{' => depth += 1,
+            ')' | ']' | '}' => depth -= 1,
+            _ => {}
+        }
+        sign == ',' && depth == 0
+    };
+    text.split(is_between).collect()
+}
+
+/// Reads `NAME=VALUE`, `NAME=VALUE,VALUE,…` or, for an input, `NAME=FORMULA`.
+pub fn settings(text: &str) -> Result<Choice<Setting>, String> {
+    match text.split_once('=') {
+        Some((name, values)) => Choice::read(name, values, |name, value| {
+            setting(&format!("{name}={value}"))
+        }),
+        None => setting(text).map(alone),
+    }
+}
+
+/// Reads `NAME=VALUE`, `NAME~VALUE` or several values with commas between them.
+pub fn starts(text: &str) -> Result<Choice<Assignment>, String> {
+    match text.find(['=', '~']) {
+        Some(place) => Choice::read(&text[..=place], &text[place + 1..], |name, value| {
+            start(&format!("{name}{value}"))
+        }),
+        None => start(text).map(alone),
+    }
+}
+
+fn alone<T>(first: T) -> Choice<T> {
+    let others = Vec::new();
+    Choice { first, others }
+}
+
 /// Reads `NAME=VALUE` or, for an input, `NAME=FORMULA`.
 pub fn setting(text: &str) -> Result<Setting, String> {
     let split = text.split_once('=');
@@ -232,7 +311,7 @@ fn call(graph: &mut Graph, name: &str, arguments: &[ExprId]) -> Result<ExprId, S
 
 #[cfg(test)]
 mod tests {
-    use super::{Assignment, Setting, number, setting, start};
+    use super::{Assignment, Setting, number, setting, settings, start, starts};
 
     #[test]
     fn formulas_of_constants_are_numbers() {
@@ -285,6 +364,31 @@ mod tests {
         assert!(setting("q1~0.8").is_err());
         assert!(setting("q1").is_err());
         assert!(setting("=3").is_err());
+    }
+
+    #[test]
+    fn a_list_of_values_is_split_where_no_brackets_are_open() {
+        let values = |text| {
+            let choice = starts(text)?;
+            Ok::<_, String>(choice.all().map(|a| a.value).collect::<Vec<_>>())
+        };
+        assert_eq!(values("q1=1,2, 3/2"), Ok(vec![1.0, 2.0, 1.5]));
+        assert_eq!(values("q1 ~ max(1, 2),4"), Ok(vec![2.0, 4.0]));
+        assert_eq!(values("q1=5"), Ok(vec![5.0]));
+        let held = starts("q1~1,2").map(|choice| choice.all().any(|a| a.held));
+        assert_eq!(held, Ok(false));
+        for (wrong, said) in [
+            ("q1=1,,2", "missing beside a comma"),
+            ("q1=1,", "missing beside a comma"),
+            ("q1=1,2/2", "2/2 twice"),
+            ("q1=1,x", "a list holds numbers"),
+        ] {
+            assert!(values(wrong).is_err_and(|e| e.contains(said)), "{wrong}");
+        }
+        let law = settings("u=table([[0, 1], [2, 3]], t)");
+        assert!(law.is_ok_and(|law| law.others.is_empty()));
+        assert!(settings("u=sin(t),cos(t)").is_err_and(|e| e.contains("a list holds numbers")));
+        assert!(settings("u=").is_err() && settings("u").is_err());
     }
 
     #[test]

@@ -13,11 +13,13 @@ mod changes;
 mod check;
 mod checkpoint;
 mod column;
+mod comparison;
 mod compiled;
 mod error;
 mod export;
 mod figure;
 mod formula;
+mod gallery;
 mod interrupt;
 mod law;
 mod list;
@@ -54,7 +56,7 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             if !error.is_silent() {
-                output::say(&format!("error: {error}"));
+                output::complain(&error);
             }
             ExitCode::from(error.status())
         }
@@ -85,6 +87,7 @@ fn perform(command: &Command) -> Result<(), CommandError> {
         Command::Cache(arguments) => cache::cache(arguments),
         Command::Check(arguments) => check::check(arguments),
         Command::Export(arguments) => export::export(arguments),
+        Command::Gallery(arguments) => gallery::gallery(arguments),
         Command::New(arguments) => new::new(arguments),
         Command::Completions(arguments) => manual::completions(arguments),
         Command::Man(arguments) => manual::man(arguments),

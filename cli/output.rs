@@ -6,8 +6,10 @@
 use crate::checkpoint::Rows;
 use crate::error::CommandError;
 use crate::number::exact;
+use anstyle::AnsiColor;
 use csv::{ErrorKind, Writer};
 use std::ffi::OsStr;
+use std::fmt::Display;
 use std::fs::{self, File};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -32,6 +34,12 @@ pub fn print(text: &str) -> Result<(), CommandError> {
 /// reason to stop.
 pub fn say(line: &str) {
     let _unread = writeln!(io::stderr().lock(), "{line}");
+}
+
+/// Prints an error to standard error, in colour on a terminal unless `NO_COLOR` is set.
+pub fn complain(error: &dyn Display) {
+    let red = AnsiColor::Red.on_default().bold();
+    let _unread = writeln!(anstream::stderr().lock(), "{red}error:{red:#} {error}");
 }
 
 /// Writes a whole file.

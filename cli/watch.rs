@@ -8,9 +8,9 @@ use crate::compiled::{identity, quoted};
 use crate::error::CommandError;
 use crate::interrupt;
 use crate::mechanism::file;
-use crate::output::say;
+use crate::output::{complain, say};
 use crate::page::{Live, is_page};
-use crate::simulate::simulate_for;
+use crate::simulate::{only_one, simulate_for};
 use notify::{Event, RecommendedWatcher, RecursiveMode, Watcher, recommended_watcher};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -30,13 +30,14 @@ type Heard = notify::Result<Event>;
 ///
 /// # Errors
 ///
-/// [`CommandError::NoFile`], [`CommandError::Watch`], and at its end
+/// [`CommandError::NoFile`], [`CommandError::Runs`], [`CommandError::Watch`], and at its end
 /// [`CommandError::Interrupted`].
 pub fn watch(arguments: &Simulate) -> Result<(), CommandError> {
     let failed = |reason: String| CommandError::Watch(arguments.name.clone(), reason);
     let Some(file) = file(&arguments.name) else {
         return Err(CommandError::NoFile(arguments.name.clone()));
     };
+    only_one(arguments, "`watch` shows one run")?;
     let (sender, changes) = channel();
     let mut watcher = recommended_watcher(move |heard: Heard| {
         // What is only read has not changed.
@@ -62,7 +63,7 @@ pub fn watch(arguments: &Simulate) -> Result<(), CommandError> {
                 if let Some(live) = live {
                     live.complain(&error.to_string())?;
                 }
-                say(&format!("error: {error}"));
+                complain(&error);
             }
         }
         say(&format!("waiting until {} is saved", file.display()));

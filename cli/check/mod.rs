@@ -8,6 +8,7 @@ mod json;
 
 use crate::arguments::Check;
 use crate::error::CommandError;
+use crate::mechanism::names;
 use crate::output::{print, say};
 use crate::show::sizes;
 use bricard_codegen::internals::examine;
@@ -17,8 +18,11 @@ use std::path::Path;
 
 /// Checks a description.
 pub fn check(arguments: &Check) -> Result<(), CommandError> {
-    let source = read(&arguments.file)?;
     let file = arguments.file.display().to_string();
+    if names().any(|name| name == file) && !arguments.file.exists() {
+        return Err(CommandError::NoFile(file));
+    }
+    let source = read(&arguments.file)?;
     let examined = examine(&source, &Settings::beside(&arguments.file));
     if arguments.json {
         print(&json::report(&file, &examined))?;

@@ -15,6 +15,7 @@
 pub mod cache;
 pub mod compiler;
 mod library;
+mod parameters;
 mod program;
 pub mod shared;
 
@@ -23,6 +24,9 @@ pub use library::{Library, generate, library, module_of};
 
 use crate::check::read;
 use crate::error::CommandError;
+use crate::output::say;
+use bricard_codegen::Settings;
+use bricard_codegen::internals::examine;
 use bricard_driver::{Link, PreciseLink};
 use cache::{Cache, Version};
 use compiler::Toolchain;
@@ -48,7 +52,9 @@ pub fn open(file: &Path) -> Result<Link, CommandError> {
 ///
 /// As [`open`].
 pub fn open_text(file: &Path, source: &str) -> Result<Link, CommandError> {
-    start(&program(file, source, Digits::Double)?, Link::start)
+    let mut link = start(&program(file, source, Digits::Double)?, Link::start)?;
+    parameters::tell(&mut link, source);
+    Ok(link)
 }
 
 /// As [`open_text`], in numbers of 106 bits.
@@ -71,7 +77,11 @@ pub enum Digits {
 
 /// The program of a description, from the cache or built.
 fn program(file: &Path, source: &str, digits: Digits) -> Result<PathBuf, CommandError> {
-    let identity = identity(file, source);
+    // A program serves all values of the parameters.
+    let identity = match digits {
+        Digits::Double => identity(file, &parameters::without_values(source)),
+        Digits::Many => identity(file, source),
+    };
     let toolchain = Toolchain::find();
     let cache = Cache::find()?;
     let known = toolchain.as_ref().ok().and_then(|toolchain| {
@@ -79,7 +89,10 @@ fn program(file: &Path, source: &str, digits: Digits) -> Result<PathBuf, Command
         version.program(file, &identity)
     });
     match known {
-        Some(program) => Ok(program),
+        Some(program) => {
+            warn(file, source)?;
+            Ok(program)
+        }
         None => {
             // A wrong description is the first thing to know, toolchain or not.
             let program = Program::generate(file, source, &identity)?;
@@ -87,6 +100,23 @@ fn program(file: &Path, source: &str, digits: Digits) -> Result<PathBuf, Command
             program.build(&Version::new(&cache, &toolchain, digits), &toolchain)
         }
     }
+}
+
+/// Says what is doubtful about a description that has a program already: with other values
+/// of the parameters it may be.
+///
+/// # Errors
+///
+/// [`CommandError::Description`].
+fn warn(file: &Path, source: &str) -> Result<(), CommandError> {
+    let shown = file.display().to_string();
+    let examined = examine(source, &Settings::beside(file));
+    let (_, warnings) =
+        examined.map_err(|errors| CommandError::Description(errors.render(&shown, source)))?;
+    if !warnings.is_empty() {
+        say(warnings.render(&shown, source).trim_end());
+    }
+    Ok(())
 }
 
 /// A description with the files that it may read: quoted names of files that are there.

@@ -6,6 +6,7 @@
 use super::Run;
 use super::equations::mathml;
 use super::thin::{evenly, kept};
+use crate::comparison::Comparison;
 use crate::figure::{added, chosen, coordinates, velocities};
 use crate::number::exact;
 use crate::plot::{Marks, Panel, Scale};
@@ -34,19 +35,7 @@ const MARKS: usize = 500;
 /// Why the mechanism does not answer.
 pub fn data(run: &Run) -> Result<Value, String> {
     let structure = run.mechanism.structure();
-    let width = run.rows.first().map_or(1, Vec::len);
-    let places = kept(run.rows, (NUMBERS / width).min(ROWS));
-    let rows: Vec<Vec<f64>> = places.iter().map(|i| run.rows[*i].clone()).collect();
-    let panels = match run.curves {
-        [] => {
-            let mut all = coordinates(structure, &rows);
-            all.extend(velocities(structure, &rows));
-            all.extend(added(structure, run.columns, &rows));
-            all
-        }
-        places => chosen(structure, run.columns, &rows, places),
-    };
-    let times: Vec<f64> = rows.iter().filter_map(|row| row.first().copied()).collect();
+    let Comparison { times, panels } = curves(run);
     let first = run.mechanism.scene(&run.rows[..run.rows.len().min(1)])?;
     Ok(json!({
         "name": run.name,
@@ -63,12 +52,40 @@ pub fn data(run: &Run) -> Result<Value, String> {
         "summary": run.summary,
         "error": run.error,
         "marks": run.marks.iter().enumerate().map(marks).collect::<Vec<_>>(),
-        "rows": run.rows.len(),
+        "rows": run.compared.as_ref().map_or(run.rows.len(), |all| all.times.len()),
+        "moving": run.moving,
         "times": doubles(&times),
         "panels": panels.iter().map(|p| panel(p, structure)).collect::<Vec<_>>(),
         "scene": moving(run, &first)?,
         "live": run.live.map(|live| json!({ "script": live.name(), "version": live.version })),
     }))
+}
+
+/// The curves, at as many times as a page has room for.
+fn curves(run: &Run) -> Comparison {
+    let structure = run.mechanism.structure();
+    let places = |rows: &[Vec<f64>]| {
+        let width = rows.first().map_or(1, Vec::len);
+        kept(rows, (NUMBERS / width).min(ROWS))
+    };
+    if let Some(compared) = &run.compared {
+        return compared.thinned(&places(&compared.rows()));
+    }
+    let rows: Vec<Vec<f64>> = places(run.rows)
+        .into_iter()
+        .map(|i| run.rows[i].clone())
+        .collect();
+    let panels = match run.curves {
+        [] => {
+            let mut all = coordinates(structure, &rows);
+            all.extend(velocities(structure, &rows));
+            all.extend(added(structure, run.columns, &rows));
+            all
+        }
+        places => chosen(structure, run.columns, &rows, places),
+    };
+    let times = rows.iter().filter_map(|row| row.first().copied()).collect();
+    Comparison { times, panels }
 }
 
 /// The command line that was given, to give it again.

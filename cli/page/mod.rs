@@ -15,6 +15,7 @@ mod thin;
 pub use live::Live;
 
 use crate::column::Column;
+use crate::comparison::Comparison;
 use crate::error::CommandError;
 use crate::output::replace;
 use bricard_driver::{AnyMechanism, WORDS};
@@ -60,8 +61,12 @@ pub struct Run<'a> {
     /// The columns that are drawn over time, by their places in the rows; all if there are
     /// none.
     pub curves: &'a [usize],
-    /// The rows.
+    /// The rows; of several runs those of the one that moves.
     pub rows: &'a [Vec<f64>],
+    /// The curves of several runs, if there are several.
+    pub compared: Option<Comparison>,
+    /// What the run that moves is called among several.
+    pub moving: &'a str,
     /// What happened, and when.
     pub marks: &'a [crate::plot::Marks],
     /// How it was integrated: pairs of words.

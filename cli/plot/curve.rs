@@ -25,6 +25,9 @@ const POINTS: usize = 1600;
 pub struct Curve {
     /// The names of all series that it shows.
     pub name: String,
+    /// The place of the first of them, which decides the colour: a run has the same one in
+    /// all panels.
+    pub place: usize,
     /// Time and value.
     pub points: Vec<(f64, f64)>,
 }
@@ -53,6 +56,7 @@ pub fn curves(times: &[f64], series: &[Series], scale: Scale) -> (Vec<Curve>, (f
             .collect();
         Curve {
             name: names.join(", "),
+            place: i,
             points: thinned(points),
         }
     };

@@ -1,8 +1,9 @@
 //! Configurations of a mechanism, side by side.
 
+use super::Sheet;
 use super::curve::has_place;
 use super::style::{DETAIL, FONT, GHOST, GRID, HEADING, INK, TEXT, colour};
-use super::svg::{self, Area, Drawn};
+use super::svg::{Area, Drawn};
 use crate::error::CommandError;
 use plotters::prelude::*;
 use std::fs;
@@ -44,12 +45,10 @@ impl Shape {
     }
 }
 
-/// Frames in a row.
+/// Frames in a row, where there is room.
 const COLUMNS: usize = 3;
-/// Width of a frame (pixels).
+/// Width of a frame on the screen (pixels).
 const WIDTH: u32 = 300;
-/// Height of the title (pixels).
-const TITLE: u32 = 36;
 /// Height of a caption (pixels).
 const CAPTION: u32 = 26;
 /// Empty border around what is drawn, as a fraction of its size.
@@ -62,9 +61,9 @@ const SMALLEST: f64 = 1e-9;
 ///
 /// # Errors
 ///
-/// As [`svg::write`].
+/// As [`svg::write`](super::svg::write).
 pub fn frames(path: &Path, title: &str, frames: &[Frame]) -> Result<(), CommandError> {
-    let text = frames_as_svg(path, title, frames)?;
+    let text = frames_as_svg(&Sheet::screen(path, title), frames)?;
     fs::write(path, text).map_err(|error| CommandError::write(path, error))
 }
 
@@ -72,16 +71,16 @@ pub fn frames(path: &Path, title: &str, frames: &[Frame]) -> Result<(), CommandE
 ///
 /// # Errors
 ///
-/// As [`svg::text`].
-pub fn frames_as_svg(path: &Path, title: &str, frames: &[Frame]) -> Result<String, CommandError> {
-    strip(path, title, frames, bounds(frames))
+/// As [`svg::text`](super::svg::text).
+pub fn frames_as_svg(sheet: &Sheet, frames: &[Frame]) -> Result<String, CommandError> {
+    strip(sheet, frames, bounds(frames))
 }
 
 /// Draws each configuration for itself, all in one scale.
 ///
 /// # Errors
 ///
-/// As [`svg::text`].
+/// As [`svg::text`](super::svg::text).
 pub fn film_as_svg<'a>(
     path: &'a Path,
     title: &'a str,
@@ -89,38 +88,44 @@ pub fn film_as_svg<'a>(
 ) -> impl Iterator<Item = Result<String, CommandError>> + 'a {
     let bounds = bounds(frames);
     let each = frames.iter().map(std::slice::from_ref);
-    each.map(move |frame| strip(path, title, frame, bounds))
+    each.map(move |frame| strip(&Sheet::screen(path, title), frame, bounds))
 }
 
 fn strip(
-    path: &Path,
-    title: &str,
+    sheet: &Sheet,
     frames: &[Frame],
     bounds: ([f64; 2], [f64; 2]),
 ) -> Result<String, CommandError> {
     let (across, up) = (bounds.1[0] - bounds.0[0], bounds.1[1] - bounds.0[1]);
-    let picture = (f64::from(WIDTH) * (up / across).clamp(0.3, 2.0)) as u32;
-    let columns = u32::try_from(frames.len().clamp(1, COLUMNS)).unwrap_or(1);
-    let rows = u32::try_from(frames.len().div_ceil(COLUMNS)).unwrap_or(1);
+    let most = if sheet.is_narrow() { 2 } else { COLUMNS };
+    let columns = u32::try_from(frames.len().clamp(1, most)).unwrap_or(1);
+    let rows = u32::try_from(frames.len().div_ceil(most)).unwrap_or(1);
+    let wide = sheet
+        .pixels()
+        .map_or(WIDTH, |pixels| (pixels - 24) / columns);
+    let picture = (f64::from(wide) * (up / across).clamp(0.3, 2.0)) as u32;
     let size = (
-        columns * WIDTH + 24,
-        TITLE + rows * (CAPTION + picture + 8) + 8,
+        sheet.pixels().unwrap_or(columns * wide + 24),
+        sheet.head() + rows * (CAPTION + picture + 8) + 8,
     );
-    svg::text(path, size, |root| {
-        let style = TextStyle::from((FONT, HEADING).into_font()).color(&INK);
-        let head = i32::try_from(12 * DETAIL).unwrap_or(0);
-        root.draw(&Text::new(title.to_string(), (head, head * 5 / 6), style))?;
+    sheet.draw(size, |root| {
+        if sheet.head() > 0 {
+            let style = TextStyle::from((FONT, HEADING).into_font()).color(&INK);
+            let head = i32::try_from(12 * DETAIL).unwrap_or(0);
+            let title = sheet.title.to_string();
+            root.draw(&Text::new(title, (head, head * 5 / 6), style))?;
+        }
         for (i, frame) in (0u32..).zip(frames) {
             let corner = (
-                12 + (i % columns) * WIDTH,
-                TITLE + (i / columns) * (CAPTION + picture + 8),
+                12 + (i % columns) * wide,
+                sheet.head() + (i / columns) * (CAPTION + picture + 8),
             );
             let place = |v: u32| i32::try_from(v * DETAIL).unwrap_or(0);
             let area = root.clone().shrink(
                 (place(corner.0), place(corner.1)),
-                (WIDTH * DETAIL, (CAPTION + picture) * DETAIL),
+                (wide * DETAIL, (CAPTION + picture) * DETAIL),
             );
-            draw(&area, frame, &Projection::new(bounds, picture))?;
+            draw(&area, frame, &Projection::new(bounds, (wide, picture)))?;
         }
         Ok(())
     })
@@ -134,9 +139,9 @@ struct Projection {
 }
 
 impl Projection {
-    fn new(bounds: ([f64; 2], [f64; 2]), height: u32) -> Self {
+    fn new(bounds: ([f64; 2], [f64; 2]), (width, height): (u32, u32)) -> Self {
         let detail = f64::from(DETAIL);
-        let (width, height) = (f64::from(WIDTH - 10) * detail, f64::from(height) * detail);
+        let (width, height) = (f64::from(width - 10) * detail, f64::from(height) * detail);
         let size = [bounds.1[0] - bounds.0[0], bounds.1[1] - bounds.0[1]];
         let scale = (width / size[0]).min(height / size[1]);
         let spare = [width / scale - size[0], height / scale - size[1]];
@@ -155,8 +160,16 @@ impl Projection {
     }
 }
 
-/// The corners of what is drawn, with a border.
+/// The corners of what is drawn in frames, with a border.
 fn bounds(frames: &[Frame]) -> ([f64; 2], [f64; 2]) {
+    let before = frames
+        .iter()
+        .flat_map(|frame| frame.before.iter().flatten());
+    bounds_of(before.chain(frames.iter().flat_map(|frame| &frame.now)))
+}
+
+/// The corners of shapes, with a border.
+pub fn bounds_of<'a>(shapes: impl Iterator<Item = &'a Shape>) -> ([f64; 2], [f64; 2]) {
     let mut corners = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     let mut include = |point: [f64; 2], radius: f64| {
         for (axis, x) in point.into_iter().enumerate() {
@@ -164,10 +177,7 @@ fn bounds(frames: &[Frame]) -> ([f64; 2], [f64; 2]) {
             corners.1[axis] = corners.1[axis].max(x + radius);
         }
     };
-    let all = frames
-        .iter()
-        .flat_map(|frame| frame.before.iter().flatten().chain(&frame.now))
-        .filter(|shape| shape.has_place());
+    let all = shapes.filter(|shape| shape.has_place());
     for shape in all {
         match shape {
             Shape::Line(points) | Shape::Polygon(points) => {

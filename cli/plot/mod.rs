@@ -9,15 +9,20 @@
 mod axis;
 mod curve;
 mod frames;
+mod legend;
+mod moving;
 mod panel;
 mod phase;
+mod sheet;
 mod style;
 mod svg;
 mod work;
 
 pub use frames::{Frame, Shape, film_as_svg, frames, frames_as_svg};
+pub use moving::moving_svg;
 pub use panel::{Marks, Times, panels, panels_as_svg};
-pub use phase::phase_as_svg;
+pub use phase::{Portrait, phase_as_svg};
+pub use sheet::Sheet;
 pub use work::{Cloud, Mark, work_diagram};
 
 /// One diagram over time.

@@ -2,12 +2,12 @@
 
 use super::axis::{power_of_ten, px, short};
 use super::curve::{Curve, curves, has_place};
+use super::legend::{self, Entry, Kind};
 use super::style::{DETAIL, DOT, FONT, GRID, HEADING, INK, STROKE, TEXT, colour, mark};
-use super::svg::{self, Area, Drawn};
-use super::{Panel, Scale};
+use super::svg::{Area, Drawn};
+use super::{Panel, Scale, Sheet};
 use crate::error::CommandError;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::fs;
 use std::path::Path;
 
@@ -15,14 +15,12 @@ use std::path::Path;
 const WIDTH: u32 = 860;
 /// Height of a panel (pixels).
 const PANEL: u32 = 190;
-/// Height of the title (pixels).
-const TITLE: u32 = 36;
 /// Height that the axis of time adds to the last panel (pixels).
 const TIME_AXIS: u32 = 44;
 /// Width of the vertical axis with its labels (pixels).
 const LABELS: u32 = 78;
-/// Width of a letter of the legend (pixels), generously.
-const LETTER: u32 = 9;
+/// Width that a tick of time has for its number (pixels), about.
+const WIDTH_OF_TICK: u32 = 92;
 /// Spans of time shorter than this part of the time itself are not drawn.
 const SHORTEST: f64 = 1e-9;
 /// Lines of the grid, about.
@@ -50,14 +48,14 @@ pub struct Marks {
 ///
 /// # Errors
 ///
-/// As [`svg::write`].
+/// As [`svg::write`](super::svg::write).
 pub fn panels(
     path: &Path,
     title: &str,
     times: Times,
     panels: &[Panel],
 ) -> Result<(), CommandError> {
-    let text = panels_as_svg(path, title, times, panels)?;
+    let text = panels_as_svg(&Sheet::screen(path, title), times, panels)?;
     fs::write(path, text).map_err(|error| CommandError::write(path, error))
 }
 
@@ -65,10 +63,9 @@ pub fn panels(
 ///
 /// # Errors
 ///
-/// As [`svg::text`].
+/// As [`svg::text`](super::svg::text).
 pub fn panels_as_svg(
-    path: &Path,
-    title: &str,
+    sheet: &Sheet,
     times: Times,
     panels: &[Panel],
 ) -> Result<String, CommandError> {
@@ -76,39 +73,64 @@ pub fn panels_as_svg(
         .iter()
         .map(|panel| curves(times.values, &panel.series, panel.scale))
         .collect();
-    let names = prepared
-        .iter()
-        .flat_map(|(curves, _)| curves)
-        .map(|c| c.name.chars().count());
     let happens = times.marks.iter().filter(|marks| !marks.times.is_empty());
     let happens: Vec<&Marks> = happens.collect();
-    let marked = happens.iter().map(|marks| marks.name.chars().count());
-    let longest = u32::try_from(names.chain(marked).max().unwrap_or(0)).unwrap_or(0);
-    let legend = 56 + LETTER * longest.min(30);
+    let legends: Vec<Vec<Entry>> = (0..).zip(&prepared).map(entries(&happens)).collect();
+    let beside = legend::width(legends.iter().flatten());
+    let (width, narrow) = (sheet.pixels(), sheet.is_narrow());
+    let wide = match width {
+        Some(width) if narrow => width,
+        Some(width) => width - beside.min(width / 2),
+        None => WIDTH,
+    };
+    let heads: Vec<u32> = match narrow {
+        true => legends
+            .iter()
+            .map(|legend| legend::height(legend, wide - LABELS))
+            .collect(),
+        false => vec![0; panels.len()],
+    };
     let count = u32::try_from(panels.len()).unwrap_or(1);
-    let size = (WIDTH + legend, TITLE + PANEL * count + TIME_AXIS);
+    let height = sheet.head() + PANEL * count + heads.iter().sum::<u32>() + TIME_AXIS;
     let mut known = times.values.iter().copied().filter(|t| has_place(*t));
     let from = known.next().unwrap_or(0.0);
     let time = widened((from, known.next_back().unwrap_or(from)));
-    svg::text(path, size, |root| {
-        let (head, mut rest) = root.split_vertically(TITLE * DETAIL);
-        heading(&head, title)?;
+    sheet.draw((width.unwrap_or(WIDTH + beside), height), |root| {
+        let (head, mut rest) = root.split_vertically(sheet.head() * DETAIL);
+        if sheet.head() > 0 {
+            heading(&head, sheet.title)?;
+        }
         for (i, (panel, (curves, range))) in panels.iter().zip(&prepared).enumerate() {
             let last = i + 1 == panels.len();
+            let (above, below) = rest.split_vertically(heads[i] * DETAIL);
             let height = if last { PANEL + TIME_AXIS } else { PANEL };
-            let (area, below) = rest.split_vertically(height * DETAIL);
-            let (left, right) = area.split_horizontally(WIDTH * DETAIL);
+            let (area, below) = below.split_vertically(height * DETAIL);
+            let (left, right) = area.split_horizontally(wide * DETAIL);
             diagram(&left, panel, curves, (time, *range), (&happens, last))?;
-            explain(&right, curves)?;
-            if i == 0 {
-                for (place, marks) in happens.iter().enumerate() {
-                    explain_marks(&right, curves.len() + place, (place, &marks.name))?;
-                }
+            match narrow {
+                true => legend::above(&above, &legends[i], LABELS, wide - LABELS)?,
+                false => legend::beside(&right, &legends[i], PANEL)?,
             }
             rest = below;
         }
         Ok(())
     })
+}
+
+/// What explains a panel; the first one explains the marks, too.
+fn entries<'a>(happens: &'a [&Marks]) -> impl Fn((usize, &(Vec<Curve>, Range))) -> Vec<Entry> + 'a {
+    |(panel, (curves, _))| {
+        let curve = |curve: &Curve| Entry {
+            name: curve.name.clone(),
+            kind: Kind::Curve(curve.place),
+        };
+        let mark = |(place, marks): (usize, &&Marks)| Entry {
+            name: marks.name.clone(),
+            kind: Kind::Mark(place),
+        };
+        let marks = happens.iter().enumerate().filter(|_| panel == 0).map(mark);
+        curves.iter().map(curve).chain(marks).collect()
+    }
 }
 
 fn heading(area: &Area, title: &str) -> Drawn {
@@ -148,7 +170,7 @@ fn diagram(
         .set_tick_mark_size(LabelAreaPosition::Left, 5 * DETAIL)
         .set_tick_mark_size(LabelAreaPosition::Bottom, 5 * DETAIL)
         .y_labels(ticks(panel.scale, range))
-        .x_labels(9)
+        .x_labels((area.dim_in_pixel().0 / (WIDTH_OF_TICK * DETAIL)) as usize)
         .y_desc(panel.axis.as_str())
         .x_desc("time t [s]")
         .y_label_formatter(&label)
@@ -163,14 +185,15 @@ fn diagram(
             .filter(|t| (time.0..=time.1).contains(*t));
         chart.draw_series(shown.map(|t| line(*t)))?;
     }
-    for (i, curve) in curves.iter().enumerate() {
+    for curve in curves {
+        let ink = colour(curve.place);
         let points = curve.points.iter().copied();
         match panel.scale {
             Scale::Linear | Scale::Whole => {
-                chart.draw_series(LineSeries::new(points, colour(i).stroke_width(STROKE)))?;
+                chart.draw_series(LineSeries::new(points, ink.stroke_width(STROKE)))?;
             }
             Scale::Logarithmic { .. } => {
-                chart.draw_series(points.map(|at| Circle::new(at, DOT, colour(i).filled())))?;
+                chart.draw_series(points.map(|at| Circle::new(at, DOT, ink.filled())))?;
             }
         }
     }
@@ -206,35 +229,4 @@ fn tick(y: f64, scale: Scale, range: Range) -> String {
         Scale::Logarithmic { low, .. } if y <= f64::from(low) => format!("≤{}", power_of_ten(y)),
         Scale::Logarithmic { .. } => power_of_ten(y),
     }
-}
-
-fn explain_marks(area: &Area, place: usize, (kind, text): (usize, &str)) -> Drawn {
-    let anchor = Pos::new(HPos::Left, VPos::Center);
-    let style = TextStyle::from((FONT, TEXT).into_font())
-        .color(&INK)
-        .pos(anchor);
-    let y = 22 + 18 * u32::try_from(place).unwrap_or(0);
-    area.draw(&PathElement::new(
-        vec![px(20, y - 8), px(20, y + 8)],
-        mark(kind).stroke_width(DETAIL),
-    ))?;
-    area.draw(&Text::new(text.to_string(), px(40, y), style))
-}
-
-/// The legend, beside the diagram so that it hides nothing.
-fn explain(area: &Area, curves: &[Curve]) -> Drawn {
-    let anchor = Pos::new(HPos::Left, VPos::Center);
-    let style = TextStyle::from((FONT, TEXT).into_font())
-        .color(&INK)
-        .pos(anchor);
-    for (i, curve) in (0u32..).zip(curves) {
-        let y = 22 + 18 * i;
-        if y + 10 > PANEL {
-            break;
-        }
-        let sample = colour(i as usize).stroke_width(STROKE + 2);
-        area.draw(&PathElement::new(vec![px(8, y), px(32, y)], sample))?;
-        area.draw(&Text::new(curve.name.clone(), px(40, y), style.clone()))?;
-    }
-    Ok(())
 }

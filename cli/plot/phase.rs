@@ -1,18 +1,15 @@
 //! One quantity over another: a phase portrait.
 
-use super::Series;
+use super::Sheet;
 use super::axis::{px, short};
 use super::curve::has_place;
+use super::legend::{self, Entry, Kind};
 use super::style::{DETAIL, FONT, GRID, HEADING, INK, STROKE, TEXT, colour};
-use super::svg;
 use crate::error::CommandError;
 use plotters::prelude::*;
-use std::path::Path;
 
 /// Size of a picture (pixels).
-const SIZE: (u32, u32) = (620, 520);
-/// Height of the title (pixels).
-const TITLE: u32 = 36;
+const SIZE: (u32, u32) = (620, 484);
 /// Width of the vertical axis with its labels (pixels).
 const LABELS: u32 = 78;
 /// Margin around the values, as a part of their range.
@@ -20,27 +17,43 @@ const MARGIN: f64 = 0.06;
 /// Points of a curve, at most.
 const POINTS: usize = 20_000;
 
-/// Draws a quantity over another one, each with its name and unit.
+/// One quantity over another in one run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Portrait {
+    /// What tells the run from others; empty if there is one.
+    pub name: String,
+    /// Both quantities; those that have no place are left out.
+    pub points: Vec<(f64, f64)>,
+}
+
+/// Draws a quantity over another one, each with its name and unit, in one run or several.
 ///
 /// # Errors
 ///
-/// As [`svg::text`].
-pub fn phase_as_svg(path: &Path, title: &str, pair: &[Series; 2]) -> Result<String, CommandError> {
-    let [across, up] = pair;
-    let all = across.values.iter().copied().zip(up.values.iter().copied());
-    let points: Vec<(f64, f64)> = all
-        .filter(|(x, y)| has_place(*x) && has_place(*y))
-        .collect();
-    let x = range(points.iter().map(|point| point.0));
-    let y = range(points.iter().map(|point| point.1));
-    svg::text(path, SIZE, |root| {
-        let (head, rest) = root.split_vertically(TITLE * DETAIL);
+/// As [`svg::text`](super::svg::text).
+pub fn phase_as_svg(
+    sheet: &Sheet,
+    [across, up]: [&str; 2],
+    portraits: &[Portrait],
+) -> Result<String, CommandError> {
+    let placed = |(x, y): &&(f64, f64)| has_place(*x) && has_place(*y);
+    let all = || portraits.iter().flat_map(|portrait| &portrait.points);
+    let x = range(all().filter(placed).map(|point| point.0));
+    let y = range(all().filter(placed).map(|point| point.1));
+    let legend = entries(portraits);
+    let width = sheet.pixels().unwrap_or(SIZE.0);
+    let above = legend::height(&legend, width - LABELS);
+    let height = width * SIZE.1 / SIZE.0 + sheet.head() + above;
+    sheet.draw((width, height), |root| {
+        let (head, rest) = root.split_vertically((sheet.head() + above) * DETAIL);
         let style = |size| TextStyle::from((FONT, size).into_font()).color(&INK);
-        head.draw(&Text::new(
-            title.to_string(),
-            px(LABELS, 10),
-            style(HEADING),
-        ))?;
+        let (title, explained) = head.split_vertically(sheet.head() * DETAIL);
+        if sheet.head() > 0 {
+            let heading = sheet.title.to_string();
+            title.draw(&Text::new(heading, px(LABELS, 10), style(HEADING)))?;
+        }
+        legend::above(&explained, &legend, LABELS, width - LABELS)?;
+        let labels = (width / 90) as usize;
         let mut chart = ChartBuilder::on(&rest)
             .margin(12 * DETAIL)
             .set_label_area_size(LabelAreaPosition::Left, LABELS * DETAIL)
@@ -53,22 +66,36 @@ pub fn phase_as_svg(path: &Path, title: &str, pair: &[Series; 2]) -> Result<Stri
             .axis_style(INK.stroke_width(DETAIL))
             .label_style(style(TEXT))
             .axis_desc_style(style(TEXT))
-            .x_labels(7)
-            .y_labels(7)
-            .x_desc(across.name.as_str())
-            .y_desc(up.name.as_str())
+            .x_labels(labels)
+            .y_labels(labels)
+            .x_desc(across)
+            .y_desc(up)
             .x_label_formatter(&|value| short(*value, x.1 - x.0))
             .y_label_formatter(&|value| short(*value, y.1 - y.0))
             .draw()?;
-        let step = points.len().div_ceil(POINTS).max(1);
-        let drawn = points.iter().copied().step_by(step);
-        chart.draw_series(LineSeries::new(drawn, colour(0).stroke_width(STROKE)))?;
-        // Where it begins.
-        let first = points.first().copied();
-        let begin = first.map(|at| Circle::new(at, 4 * DETAIL, colour(1).filled()));
-        chart.draw_series(begin)?;
+        for (place, portrait) in portraits.iter().enumerate() {
+            let points = || portrait.points.iter().filter(placed).copied();
+            let step = portrait.points.len().div_ceil(POINTS).max(1);
+            let line = colour(place).stroke_width(STROKE);
+            chart.draw_series(LineSeries::new(points().step_by(step), line))?;
+            // Where it begins.
+            let ink = if portraits.len() == 1 { 1 } else { place };
+            let first = points().next();
+            let begin = first.map(|at| Circle::new(at, 4 * DETAIL, colour(ink).filled()));
+            chart.draw_series(begin)?;
+        }
         Ok(())
     })
+}
+
+/// What tells runs apart, if there are several.
+fn entries(portraits: &[Portrait]) -> Vec<Entry> {
+    let entry = |(place, portrait): (usize, &Portrait)| Entry {
+        name: portrait.name.clone(),
+        kind: Kind::Curve(place),
+    };
+    let all = portraits.iter().enumerate().map(entry);
+    all.filter(|_| portraits.len() > 1).collect()
 }
 
 /// The range of values with a margin; not empty.

@@ -111,11 +111,19 @@ pub fn freedom(n: usize) -> String {
 pub fn sizes(mechanism: &Mechanism) -> String {
     let states = match mechanism.states {
         0 => String::new(),
-        1 => ", 1 state of the first order".to_string(),
-        n => format!(", {n} states of the first order"),
+        n => format!(", {} of the first order", counted(n, "state")),
     };
-    let (n, r) = (mechanism.freedoms(), mechanism.constraints.len());
-    format!("{n} coordinates{states}, {r} constraint equations")
+    let coordinates = counted(mechanism.freedoms(), "coordinate");
+    let equations = counted(mechanism.constraints.len(), "constraint equation");
+    format!("{coordinates}{states}, {equations}")
+}
+
+/// A number of things in words.
+pub fn counted(count: usize, what: &str) -> String {
+    match count {
+        1 => format!("1 {what}"),
+        _ => format!("{count} {what}s"),
+    }
 }
 
 fn heading(mechanism: &Mechanism, subject: &Subject) -> String {

@@ -1,5 +1,6 @@
 //! Which checkpoints a run writes and goes on from, from the options of the command line.
 
+use super::cases::Case;
 use crate::arguments::Simulate;
 use crate::checkpoint::{Checkpoint, Checkpoints, read};
 use crate::error::CommandError;
@@ -17,7 +18,7 @@ use std::path::Path;
 ///
 /// [`CommandError::Read`], [`CommandError::Write`], [`CommandError::Checkpoint`].
 pub fn checkpoints(
-    arguments: &Simulate,
+    (arguments, case): (&Simulate, &Case),
     plan: &Plan,
     changes: &Changes,
     structure: &'static Structure,
@@ -28,7 +29,7 @@ pub fn checkpoints(
     if let Some(file) = &arguments.checkpoint {
         probe(file)?;
     }
-    let run = described(arguments, plan, changes)?;
+    let run = described((arguments, case), plan, changes)?;
     let from = arguments.resume.as_ref();
     let from = from.map(|file| read(file, &run, structure)).transpose()?;
     if let (Some(file), Some(checkpoint)) = (&arguments.resume, &from) {
@@ -54,7 +55,11 @@ fn goes_further(until: f64, file: &Path, checkpoint: &Checkpoint) -> Result<(), 
 
 /// Everything that decides the bits of a run, in words. Its end is not among it: a run
 /// may be taken up again to go further.
-fn described(arguments: &Simulate, plan: &Plan, changes: &Changes) -> Result<String, CommandError> {
+fn described(
+    (arguments, case): (&Simulate, &Case),
+    plan: &Plan,
+    changes: &Changes,
+) -> Result<String, CommandError> {
     let (version, name) = (env!("CARGO_PKG_VERSION"), identity(&arguments.name)?);
     let options = Options {
         until: 0.0,
@@ -62,7 +67,7 @@ fn described(arguments: &Simulate, plan: &Plan, changes: &Changes) -> Result<Str
     };
     let (every, columns) = (plan.every, &plan.columns);
     let is_law = |setting: &&Setting| matches!(setting, Setting::Law { .. });
-    let laws: Vec<&Setting> = arguments.set.iter().filter(is_law).collect();
+    let laws: Vec<&Setting> = case.set.iter().filter(is_law).collect();
     let laws = match laws.is_empty() {
         true => String::new(),
         false => format!(" {laws:?}"),

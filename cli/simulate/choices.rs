@@ -159,6 +159,7 @@ fn positive(option: &'static str, value: Option<f64>) -> Result<Option<f64>, Com
 /// [`CommandError::FileKind`], [`CommandError::SameFile`].
 pub fn check_files(arguments: &Simulate) -> Result<(), CommandError> {
     different(arguments)?;
+    wide(arguments)?;
     let kind = |path: &Path| path.extension().map(|kind| kind.to_ascii_lowercase());
     let refuse = |path: &Path, instead| {
         Err(CommandError::FileKind {
@@ -215,6 +216,32 @@ pub fn check_files(arguments: &Simulate) -> Result<(), CommandError> {
         );
     }
     Ok(())
+}
+
+/// Refuses a width where nothing has one.
+fn wide(arguments: &Simulate) -> Result<(), CommandError> {
+    let refuse = |method, instead| {
+        Err(CommandError::UselessOption {
+            option: "--width",
+            method,
+            instead,
+        })
+    };
+    let is_gif = |path: &Path| {
+        path.extension()
+            .is_some_and(|kind| kind.eq_ignore_ascii_case("gif"))
+    };
+    let for_print = |path: &&PathBuf| !is_page(path) && !is_gif(path);
+    let mut pictures = arguments.plot.iter().chain(&arguments.film);
+    match (arguments.width, pictures.clone().next()) {
+        (None, _) => Ok(()),
+        (Some(_), None) => refuse("a run without a picture", "add `--plot run.pdf`"),
+        (Some(_), Some(_)) if pictures.any(|path| for_print(&path)) => Ok(()),
+        (Some(_), Some(_)) => refuse(
+            "what moves",
+            "write `--plot run.pdf` or `--film run.pdf`, or another name in .svg or .png",
+        ),
+    }
 }
 
 /// Refuses one file for two purposes: the one would replace the other.

@@ -5,7 +5,7 @@
 
 use crate::error::CommandError;
 use crate::output::replace;
-use crate::plot::{Frame, Shape, film_as_svg, frames_as_svg};
+use crate::plot::{Frame, Shape, Sheet, film_as_svg, frames_as_svg};
 use crate::raster::{self, pixels};
 use crate::scene::{is_spatial, shapes};
 use bricard_driver::{AnyMechanism, Scene};
@@ -42,11 +42,11 @@ fn moves(path: &Path) -> bool {
 ///
 /// [`CommandError::Draw`], [`CommandError::Write`].
 pub fn film(
-    path: &Path,
-    title: &str,
+    sheet: &Sheet,
     mechanism: &dyn AnyMechanism,
     rows: &[Vec<f64>],
 ) -> Result<(), CommandError> {
+    let Sheet { path, title, .. } = *sheet;
     let failed = |reason: String| CommandError::Draw(path.to_path_buf(), reason);
     if !mechanism.structure().drawn {
         let reason = "the description draws nothing; add statements such as \
@@ -80,7 +80,7 @@ pub fn film(
     };
     let times: Vec<f64> = shown.iter().flat_map(|t| earlier(*t)).collect();
     let frames = still(&shown, &seen(&times)?);
-    raster::write(path, &frames_as_svg(path, title, &frames)?)
+    raster::write(path, &frames_as_svg(sheet, &frames)?, sheet.width.is_some())
 }
 
 /// Times at equal distances, both ends among them.

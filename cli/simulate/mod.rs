@@ -3,51 +3,78 @@
 //! In:  a mechanism's name and what to change, how to integrate, what to record.
 //! Out: CSV or Parquet, a summary on standard error, SVG or HTML.
 
+mod cases;
 mod checkpoints;
 mod choices;
 mod film;
 mod picture;
 mod record;
+mod several;
 pub mod summary;
 
+pub use cases::only_one;
 pub use choices::TOLERANCE;
 
 use crate::arguments::Simulate;
 use crate::changes;
 use crate::column::columns;
+use crate::comparison::Called;
 use crate::error::CommandError;
 use crate::interrupt;
 use crate::law::find_with;
 use crate::output::{print, say};
 use crate::page::Live;
 use crate::run::{Stopped, run};
+use bricard_driver::{AnyMechanism, Changes};
+use cases::Case;
 use picture::Picture;
 use record::Record;
 
-/// Simulates a mechanism.
+/// Simulates a mechanism, once or for each value of a list.
 pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
-    simulate_for(arguments, None)
+    match cases::varied(arguments)? {
+        Some(varied) => several::simulate(arguments, &varied),
+        None => simulate_for(arguments, None),
+    }
 }
 
-/// Simulates a mechanism for a page that is kept up to date, if there is one.
-pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), CommandError> {
-    let (mut mechanism, set) = find_with(&arguments.name, &arguments.set)?;
+/// Tells the user something who has not asked for silence.
+fn tell(arguments: &Simulate, text: &str) {
+    if !arguments.quiet {
+        say(text);
+    }
+}
+
+/// A mechanism with the changes of a case.
+///
+/// # Errors
+///
+/// As [`find_with`] and [`changes::find`].
+fn prepared(
+    arguments: &Simulate,
+    case: &Case,
+) -> Result<(Box<dyn AnyMechanism>, Changes), CommandError> {
+    let (mut mechanism, set) = find_with(&arguments.name, &case.set)?;
     let structure = mechanism.structure();
-    let changes = changes::find(structure, &arguments.name, &set, &arguments.start)?;
-    let tell = |text: &str| {
-        if !arguments.quiet {
-            say(text);
-        }
-    };
+    let changes = changes::find(structure, &arguments.name, &set, &case.start)?;
     for name in changes::negative_inertia(&changes, structure) {
-        tell(&format!("warning: `{name}` is an inertia, and negative"));
+        let text = format!("warning: `{name}` is an inertia, and negative");
+        tell(arguments, &text);
     }
     changes::apply(&changes, mechanism.as_mut());
+    Ok((mechanism, changes))
+}
+
+/// Simulates a mechanism once, for a page that is kept up to date, if there is one.
+pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), CommandError> {
+    let case = cases::single(arguments);
+    let (mechanism, changes) = prepared(arguments, &case)?;
+    let structure = mechanism.structure();
     let columns = columns(&arguments.columns, structure, &arguments.name)?;
     let mut plan = choices::plan(arguments, columns.clone())?;
     choices::check_files(arguments)?;
-    plan.checkpoints = checkpoints::checkpoints(arguments, &plan, &changes, structure)?;
-    let mut record = Record::open(arguments, structure, &columns)?;
+    plan.checkpoints = checkpoints::checkpoints((arguments, &case), &plan, &changes, structure)?;
+    let mut record = Record::open(arguments, structure, &columns, None)?;
     let shown = picture::shown(arguments, &columns, structure)?;
     plan.columns = shown.columns.clone();
     if let Some(checkpoint) = plan
@@ -69,26 +96,28 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
         plan: &plan,
         shown: &shown,
         report,
-        error: result.as_ref().err().map(|stopped| &stopped.error),
+        summary: report
+            .map(|report| summary::quantities(report, structure))
+            .unwrap_or_default(),
+        error: result
+            .as_ref()
+            .err()
+            .map(|stopped| stopped.error.to_string()),
         live,
     };
-    let kept = record.close(|rows| picture.draw(rows))?;
+    let kept = record.close(|rows| picture.draw(&[Called::alone(rows)]))?;
     if let Some(report) = report.filter(|report| result.is_ok() || report.steps > 0) {
-        tell(summary::summary(report, structure).trim_end());
+        tell(arguments, summary::summary(report, structure).trim_end());
     }
     if let Some(report) = report.filter(|_| arguments.json) {
         let error = result.as_ref().err().map(|stopped| &stopped.error);
-        print(&summary::json(report, structure, error))?;
+        print(&format!("{:#}\n", summary::json(report, structure, error)))?;
     }
     match result {
         Ok(_) => Ok(()),
         Err(Stopped { error, .. }) => {
             checkpoints::say_how_to_go_on(arguments);
-            match error {
-                CommandError::Run { reason, .. } => Err(CommandError::Run { reason, kept }),
-                CommandError::Interrupted { .. } => Err(CommandError::Interrupted { kept }),
-                error => Err(error),
-            }
+            Err(error.with(kept))
         }
     }
 }

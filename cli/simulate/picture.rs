@@ -5,17 +5,17 @@
 
 use crate::arguments::Simulate;
 use crate::column::{Column, columns, header};
+use crate::comparison::{Called, Comparison, compared};
 use crate::error::CommandError;
-use crate::figure::{chosen, named, overview};
-use crate::formula::Setting;
+use crate::figure::{chosen, named, overview, places as places_of};
+use crate::formula::{Assignment, Setting};
 use crate::mechanism::description;
 use crate::number::exact;
 use crate::page::{self, Live, is_page};
-use crate::plot::{Marks, Times, panels_as_svg, phase_as_svg};
+use crate::plot::{Marks, Portrait, Sheet, Times, panels_as_svg, phase_as_svg};
 use crate::raster;
 use crate::run::{Plan, Report};
 use crate::simulate::film::film;
-use crate::simulate::summary::quantities;
 use bricard_driver::AnyMechanism;
 use bricard_runtime::{Pace, Stabilisation, Structure};
 use std::path::Path;
@@ -32,8 +32,10 @@ pub struct Picture<'a> {
     pub shown: &'a Shown,
     /// What was done.
     pub report: Option<&'a Report>,
+    /// The same in words.
+    pub summary: Vec<[String; 2]>,
     /// Why it ended early.
-    pub error: Option<&'a CommandError>,
+    pub error: Option<String>,
     /// What keeps a page up to date.
     pub live: Option<&'a Live>,
 }
@@ -117,65 +119,106 @@ fn places(
 }
 
 impl Picture<'_> {
-    /// Draws rows into the files that are wanted. Returns their names.
+    /// Draws a run, or compares several, in the files that are wanted. Returns their names.
     ///
     /// # Errors
     ///
     /// [`CommandError::Write`], [`CommandError::Draw`].
-    pub fn draw(&self, rows: &[Vec<f64>]) -> Result<Vec<String>, CommandError> {
+    pub fn draw(&self, runs: &[Called]) -> Result<Vec<String>, CommandError> {
         let (plot, path) = (&self.arguments.plot, &self.arguments.film);
         if let Some(plot) = plot {
-            self.plot(plot, rows)?;
+            match is_page(plot) {
+                true => self.page(plot, runs)?,
+                false => raster::write(plot, &self.plot(plot, runs)?, self.is_print())?,
+            }
         }
-        if let Some(path) = path {
-            film(path, &self.arguments.name, self.mechanism, rows)?;
+        if let (Some(path), Some(run)) = (path, runs.first()) {
+            film(&self.sheet(path), self.mechanism, &run.rows)?;
         }
         let files = plot.iter().chain(path);
         Ok(files.map(|path| path.display().to_string()).collect())
     }
 
-    fn plot(&self, path: &Path, rows: &[Vec<f64>]) -> Result<(), CommandError> {
-        let structure = self.mechanism.structure();
-        let marks = self.report.map(|report| marks(report, structure));
-        let marks = marks.unwrap_or_default();
-        if is_page(path) {
-            return self.page(path, rows, &marks);
-        }
-        let values: Vec<f64> = rows.iter().filter_map(|row| row.first().copied()).collect();
-        let times = Times {
-            values: &values,
-            marks: &marks,
-        };
-        let (title, columns) = (&self.arguments.name, &self.shown.columns);
-        if let Some(pair) = self.shown.phase {
-            let pair = pair.map(|place| named(structure, columns, rows, place));
-            return raster::write(path, &phase_as_svg(path, title, &pair)?);
-        }
-        let curves = match &self.shown.curves[..] {
-            [] => overview(structure, columns, rows),
-            places => chosen(structure, columns, rows, places),
-        };
-        raster::write(path, &panels_as_svg(path, title, times, &curves)?)
+    fn is_print(&self) -> bool {
+        self.arguments.width.is_some()
     }
 
-    fn page(&self, path: &Path, rows: &[Vec<f64>], marks: &[Marks]) -> Result<(), CommandError> {
+    fn sheet<'b>(&'b self, path: &'b Path) -> Sheet<'b> {
+        Sheet {
+            path,
+            title: &self.arguments.name,
+            width: self.arguments.width,
+        }
+    }
+
+    fn plot(&self, path: &Path, runs: &[Called]) -> Result<String, CommandError> {
         let structure = self.mechanism.structure();
+        let (sheet, columns) = (self.sheet(path), &self.shown.columns);
+        if let Some(pair) = self.shown.phase {
+            let axes = pair.map(|place| named(structure, columns, &[], place).name);
+            let portraits: Vec<Portrait> = runs.iter().map(|run| portrait(run, pair)).collect();
+            return phase_as_svg(&sheet, [&axes[0], &axes[1]], &portraits);
+        }
+        if let [run] = runs {
+            let marks = self.marks();
+            let times: Vec<f64> = run.rows.iter().map(|row| row[0]).collect();
+            let times = Times {
+                values: &times,
+                marks: &marks,
+            };
+            let curves = match &self.shown.curves[..] {
+                [] => overview(structure, columns, &run.rows),
+                places => chosen(structure, columns, &run.rows, places),
+            };
+            return panels_as_svg(&sheet, times, &curves);
+        }
+        // Each run has passages and events of its own.
+        let comparison = self.compared(runs, places_of(structure, columns));
+        let times = Times {
+            values: &comparison.times,
+            marks: &[],
+        };
+        panels_as_svg(&sheet, times, &comparison.panels)
+    }
+
+    /// The curves that are wanted, or those at some places, of several runs.
+    fn compared(&self, runs: &[Called], all: Vec<usize>) -> Comparison {
+        let places = match self.shown.curves.is_empty() {
+            true => all,
+            false => self.shown.curves.clone(),
+        };
+        let structure = self.mechanism.structure();
+        compared(structure, &self.shown.columns, runs, &places)
+    }
+
+    /// What is marked: singular positions, and events.
+    fn marks(&self) -> Vec<Marks> {
+        let structure = self.mechanism.structure();
+        let marks = self.report.map(|report| marks(report, structure));
+        marks.unwrap_or_default()
+    }
+
+    fn page(&self, path: &Path, runs: &[Called]) -> Result<(), CommandError> {
         let name = &self.arguments.name;
+        let columns = &self.shown.columns;
         // The file may have been removed since.
         let description = description(name).ok();
         let source = description.map(|d| (d.file.display().to_string(), d.source));
-        let summary = self.report.map(|report| quantities(report, structure));
+        let all = || (1..header(self.mechanism.structure(), columns).len()).collect();
+        let first = runs.first();
         let run = page::Run {
             mechanism: self.mechanism,
             name,
             source,
-            columns: &self.shown.columns,
+            columns,
             curves: &self.shown.curves,
-            rows,
-            marks,
+            rows: first.map_or(&[], |run| &run.rows),
+            compared: (runs.len() > 1).then(|| self.compared(runs, all())),
+            moving: first.map_or("", |run| &run.name),
+            marks: &self.marks(),
             settings: self.settings(),
-            summary: summary.unwrap_or_default(),
-            error: self.error.map(ToString::to_string),
+            summary: self.summary.clone(),
+            error: self.error.clone(),
             live: self.live,
         };
         page::write(path, &run)
@@ -211,21 +254,30 @@ impl Picture<'_> {
             Some(every) => tell("rows every", format!("{} s", exact(every))),
             None => tell("rows", "after each step".to_string()),
         }
-        for setting in &self.arguments.set {
-            let value = match setting {
+        for choice in &self.arguments.set {
+            let value = |setting: &Setting| match setting {
                 Setting::Number(number) => exact(number.value),
                 Setting::Law { text, .. } => text.clone(),
             };
-            tell("set", format!("{} = {value}", setting.name()));
+            let values: Vec<String> = choice.all().map(value).collect();
+            let name = choice.first.name();
+            tell("set", format!("{name} = {}", values.join(", ")));
         }
-        for change in &self.arguments.start {
-            let sign = if change.held { '=' } else { '~' };
-            tell(
-                "start",
-                format!("{} {sign} {}", change.name, exact(change.value)),
-            );
+        for choice in &self.arguments.start {
+            let Assignment { name, held, .. } = &choice.first;
+            let sign = if *held { '=' } else { '~' };
+            let values: Vec<String> = choice.all().map(|x| exact(x.value)).collect();
+            tell("start", format!("{name} {sign} {}", values.join(", ")));
         }
         pairs
+    }
+}
+
+/// Two columns of a run, one over the other.
+fn portrait(run: &Called, [x, y]: [usize; 2]) -> Portrait {
+    Portrait {
+        name: run.name.clone(),
+        points: run.rows.iter().map(|row| (row[x], row[y])).collect(),
     }
 }
 

@@ -11,6 +11,7 @@ use crate::output::{CsvWriter, probe};
 use crate::parquet::ParquetWriter;
 use crate::run::RowSink;
 use bricard_runtime::Structure;
+use std::mem;
 use std::path::Path;
 
 /// A table on its way out.
@@ -58,6 +59,8 @@ pub fn is_parquet(path: &Path) -> bool {
 /// Where the rows go.
 pub struct Record {
     table: Option<Table>,
+    /// What tells the rows of several runs apart, before each row of the table.
+    value: Option<f64>,
     /// Numbers of a row that the table gets: a picture may want more.
     width: usize,
     rows: Option<Vec<Vec<f64>>>,
@@ -66,7 +69,7 @@ pub struct Record {
 }
 
 impl Record {
-    /// What the command line asks for.
+    /// What the command line asks for; `varied` is the column that tells several runs apart.
     ///
     /// # Errors
     ///
@@ -75,20 +78,34 @@ impl Record {
         arguments: &Simulate,
         structure: &Structure,
         columns: &[Column],
+        varied: Option<String>,
     ) -> Result<Self, CommandError> {
         let pictures = || arguments.plot.iter().chain(&arguments.film);
         pictures().try_for_each(|path| probe(path))?;
         let drawn = pictures().next().is_some();
         let wanted = arguments.out.is_some() || !drawn;
         let header = header(structure, columns);
-        let open = || Table::new(arguments.out.as_deref(), &header);
+        let width = header.len();
+        let all: Vec<String> = varied.into_iter().chain(header).collect();
+        let open = || Table::new(arguments.out.as_deref(), &all);
         Ok(Self {
             table: wanted.then(open).transpose()?,
-            width: header.len(),
+            value: None,
+            width,
             rows: drawn.then(Vec::new),
             count: 0,
             last: 0.0,
         })
+    }
+
+    /// Takes the rows of another run, which this value tells from the others.
+    pub fn begin(&mut self, value: f64) {
+        self.value = Some(value);
+    }
+
+    /// Gives the rows of a run that has ended, if there will be a picture of them.
+    pub fn end(&mut self) -> Vec<Vec<f64>> {
+        self.rows.as_mut().map(mem::take).unwrap_or_default()
     }
 
     /// Goes on after the rows of a checkpoint.
@@ -107,13 +124,13 @@ impl Record {
     /// A [`CommandError`] if a file can't be written to its end.
     pub fn close(
         &mut self,
-        draw: impl FnOnce(&[Vec<f64>]) -> Result<Vec<String>, CommandError>,
+        draw: impl FnOnce(Vec<Vec<f64>>) -> Result<Vec<String>, CommandError>,
     ) -> Result<String, CommandError> {
         let mut places = Vec::new();
         // A reader of the rows that has gone is no reason not to draw the picture.
         let finished = self.table.as_mut().map_or(Ok(()), Table::finish);
         places.extend(self.table.as_ref().map(Table::destination));
-        if let Some(rows) = &self.rows
+        if let Some(rows) = self.rows.take()
             && self.count > 0
         {
             places.extend(draw(rows)?);
@@ -133,7 +150,11 @@ impl Record {
 impl RowSink for Record {
     fn row(&mut self, values: &[f64]) -> Result<(), CommandError> {
         if let Some(table) = &mut self.table {
-            table.row(values.get(..self.width).unwrap_or(values))?;
+            let values = values.get(..self.width).unwrap_or(values);
+            match self.value {
+                Some(value) => table.row(&[&[value], values].concat())?,
+                None => table.row(values)?,
+            }
         }
         if let Some(rows) = &mut self.rows {
             rows.push(values.to_vec());

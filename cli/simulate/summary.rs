@@ -53,14 +53,29 @@ pub fn quantities(report: &Report, structure: &Structure) -> Vec<[String; 2]> {
     rows
 }
 
-/// The same as one JSON object, with a line feed at its end.
-pub fn json(report: &Report, structure: &Structure, error: Option<&CommandError>) -> String {
+/// The same in one line.
+pub fn line(report: &Report, structure: &Structure) -> String {
+    let [what, error] = energy(report, structure);
+    let mut line = format!("{} steps, {what} {error}", report.steps);
+    if !structure.constraints.is_empty() {
+        let constraints = report.constraint_error;
+        let passages = report.passages.len();
+        line += &format!(
+            ", largest constraint error {constraints:.1e}, passages through singular positions: \
+             {passages}"
+        );
+    }
+    line
+}
+
+/// The same as one JSON object.
+pub fn json(report: &Report, structure: &Structure, error: Option<&CommandError>) -> Value {
     let passages: Vec<f64> = report.passages.iter().map(|passage| passage.t).collect();
     let events = report.events.iter();
     let events: Vec<Value> = events
         .map(|(name, t)| json!({ "name": name, "t": t }))
         .collect();
-    let object = json!({
+    json!({
         "mechanism": structure.name,
         "steps": report.steps,
         "rejected_steps": report.rejected,
@@ -78,8 +93,7 @@ pub fn json(report: &Report, structure: &Structure, error: Option<&CommandError>
         "rank_decisions": report.counters.rank_decisions,
         "undetermined": report.counters.undetermined,
         "error": error.map(ToString::to_string),
-    });
-    format!("{object:#}\n")
+    })
 }
 
 fn energy(report: &Report, structure: &Structure) -> [String; 2] {

@@ -4,8 +4,8 @@
 //! Out: variables, in the order of their value references, which `instance.c` counts in the
 //!      same order.
 
-use bricard_codegen::expr::{ExprId, Symbol};
-use bricard_codegen::model::{Mechanism, Quantity};
+use bricard_codegen::internals::expr::{ExprId, Symbol};
+use bricard_codegen::internals::model::{Mechanism, Quantity};
 use std::collections::BTreeSet;
 
 /// A variable of an FMU.

@@ -7,6 +7,17 @@ const MEMORY = `bricard ${location.pathname}`;
 /** How often news are looked for (ms). */
 const NEWS = 400;
 
+/** Whether the system is dark. */
+const SYSTEM = matchMedia("(prefers-color-scheme: dark)");
+/** What the button says, if it was pressed, and whether the page is going to paper. */
+const theme = { chosen: null, printed: false };
+
+/** Dark as the system is unless the button says otherwise, and light on paper. */
+function dress() {
+  const wanted = theme.chosen ?? (SYSTEM.matches ? "dark" : "light");
+  document.documentElement.dataset.theme = theme.printed ? "light" : wanted;
+}
+
 function complain(message) {
   $("message").hidden = message === null;
   $("message").replaceChildren(element("pre", {}, message ?? ""));
@@ -52,6 +63,7 @@ function begin() {
   const scene = run.scene ? new Scene(run.scene) : null;
   const view = scene ? new View($("canvas"), scene) : null;
   if (!view) explainPicture();
+  if (view && run.moving) $("tools").prepend(element("label", {}, run.moving));
   let told = 0;
   const player = new Player(scene ? scene.times : times, (t) => {
     view?.draw(t);
@@ -128,29 +140,29 @@ function controls(player, view) {
     redraw();
   });
   $("theme").addEventListener("click", () => {
-    const dark = getComputedStyle(document.documentElement).colorScheme === "dark" || (!document.documentElement.dataset.theme && matchMedia("(prefers-color-scheme: dark)").matches);
-    document.documentElement.dataset.theme = dark ? "light" : "dark";
+    theme.chosen = document.documentElement.dataset.theme === "dark" ? "light" : "dark";
+    dress();
     repaint(player, view);
   });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => repaint(player, view));
+  SYSTEM.addEventListener("change", () => {
+    dress();
+    repaint(player, view);
+  });
   if (view) {
     steer(view, redraw);
     new ResizeObserver(redraw).observe($("canvas"));
     if (!view.scene.shapes.some(({ kind }) => kind === "trace")) $("trails").parentElement.hidden = true;
   }
-  // On paper the page is light.
-  const theme = document.documentElement.dataset;
-  let before = "";
   addEventListener("beforeprint", () => {
     for (const box of document.querySelectorAll("details")) box.open = true;
-    before = theme.theme ?? "";
-    theme.theme = "light";
+    theme.printed = true;
+    dress();
     repaint(player, view);
     view?.draw(player.time);
   });
   addEventListener("afterprint", () => {
-    if (before) theme.theme = before;
-    else delete theme.theme;
+    theme.printed = false;
+    dress();
     repaint(player, view);
   });
   document.addEventListener("keydown", (event) => key(event, player, view, acts));
@@ -247,6 +259,7 @@ function live(player, view) {
   wait = setInterval(look, NEWS);
 }
 
+dress();
 if (run.mechanism) {
   const { player, view } = begin();
   if (run.live) live(player, view);

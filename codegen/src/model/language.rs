@@ -24,7 +24,7 @@ pub const OTHERS: [(&str, usize, &str); 17] = [
 ];
 
 /// Names that other languages have for the same.
-pub const ELSEWHERE: [(&str, &str); 24] = [
+pub const ELSEWHERE: [(&str, &str); 25] = [
     ("integral", "state z; der(z) = x;"),
     ("integrate", "state z; der(z) = x;"),
     ("int", "state z; der(z) = x;"),
@@ -43,6 +43,7 @@ pub const ELSEWHERE: [(&str, &str); 24] = [
     ("pow", "x^n"),
     ("sgn", "sign(x)"),
     ("diff", "der(x)"),
+    ("ddot", "der(der(x))"),
     ("ddt", "der(x)"),
     ("d", "der(x)"),
     ("length", "norm(v)"),

@@ -37,7 +37,7 @@ pub use count::{Cost, cost};
 pub use interpret::interpret;
 pub use pass::{Pass, alone};
 pub use program::{Operation, Program, Slot, Value};
-pub use programs::{Array, LeftOut, List, Optimised, Programs, StartPrograms, programs};
+pub use programs::{Array, Besides, LeftOut, List, Optimised, Programs, StartPrograms, programs};
 pub use solve::{Solved, Way};
 pub use trig::{Polynomials, in_trig_ring};
 pub use verify::verify;

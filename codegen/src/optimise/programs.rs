@@ -13,7 +13,9 @@ use super::{
     Cost, Polynomials, Program, Slot, Solved, cost, derived_cost, optimise_among, plain,
     regular_acceleration, regular_correction,
 };
-use crate::derive::{Equations, Linearised, StartRows, coriolis_matrix, linearise};
+use crate::derive::{
+    Equations, Linearised, Partials, StartRows, coriolis_matrix, differentiate, linearise,
+};
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Mechanism, Shape};
 
@@ -96,6 +98,10 @@ pub struct Programs {
     pub energy: Optimised,
     /// The linearised equations of motion, or why they are left out.
     pub linearised: Result<Optimised, LeftOut>,
+    /// `force_by_input`, `outputs`, `events`: their derivatives, each row by row. Nothing
+    /// where they are not wanted, would be too long, or the linearised equations are left
+    /// out.
+    pub partials: Option<Optimised>,
     /// `switches`: value and rate of each switching function.
     pub switches: Optimised,
     /// Arrays for those who want them one by one. Their slots have no array's name.
@@ -121,16 +127,21 @@ pub struct Programs {
     pub defaults: Vec<Program>,
 }
 
-/// The programs of a mechanism; the Coriolis matrix if it is wanted.
+/// What is computed besides what every module has.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Besides {
+    /// The Coriolis matrix.
+    pub coriolis_matrix: bool,
+    /// How forces, outputs and events change.
+    pub partials: bool,
+}
+
+/// The programs of a mechanism.
 ///
 /// # Panics
 ///
 /// As [`optimise`](super::optimise).
-pub fn programs(
-    mechanism: &mut Mechanism,
-    equations: &Equations,
-    coriolis_matrix: bool,
-) -> Programs {
+pub fn programs(mechanism: &mut Mechanism, equations: &Equations, besides: Besides) -> Programs {
     let laws = mechanism.inputs.iter().map(|input| input.law).collect();
     let mut optimiser = Optimiser {
         mechanism,
@@ -143,13 +154,14 @@ pub fn programs(
     let energy = optimiser.energy();
     let linearised = optimiser.linearised();
     let switches = optimiser.switches();
-    let arrays = optimiser.arrays(coriolis_matrix);
+    let arrays = optimiser.arrays(besides.coriolis_matrix);
     let starts = [&equations.start_positions, &equations.start_velocities];
     let [start_positions, start_velocities] = [
         (starts[0], ["position_errors", "position_slopes"]),
         (starts[1], ["velocity_errors", "velocity_slopes"]),
     ]
     .map(|(rows, names)| optimiser.start_rows(rows, names));
+    let wants_partials = besides.partials && linearised.is_ok();
     Programs {
         terms,
         regular,
@@ -168,6 +180,7 @@ pub fn programs(
         draw: optimiser.draw(),
         described: optimiser.described(),
         defaults: optimiser.defaults(),
+        partials: wants_partials.then(|| optimiser.partials()).flatten(),
     }
 }
 
@@ -270,6 +283,20 @@ impl Optimiser<'_> {
             length if length > LINEARISED_MAX => Err(LeftOut::Operations(length)),
             _ => Ok(linearised),
         }
+    }
+
+    fn partials(&mut self) -> Option<Optimised> {
+        let Partials {
+            force_by_input,
+            outputs,
+            events,
+        } = differentiate(self.mechanism, self.equations)?;
+        let partials = self.optimised(&merged([
+            vector("force_by_input", &force_by_input.concat()),
+            vector("outputs", &outputs.concat()),
+            vector("events", &events.concat()),
+        ]));
+        (partials.program.len() <= LINEARISED_MAX).then_some(partials)
     }
 
     fn switches(&mut self) -> Optimised {

@@ -46,6 +46,18 @@ impl Model {
         })
     }
 
+    /// The parameters of the mechanism itself that are no arrays, and where their values
+    /// stand.
+    #[doc(hidden)]
+    pub fn values(&self) -> impl Iterator<Item = (&str, Span)> {
+        self.items.iter().filter_map(|item| match &item.kind {
+            ItemKind::Declaration(d) if d.kind == Declared::Parameter && d.size.is_none() => {
+                Some((d.name.text.as_str(), d.value.span))
+            }
+            _ => None,
+        })
+    }
+
     /// As the parser begins one.
     pub(crate) fn named(name: Name, docs: String) -> Self {
         Self {

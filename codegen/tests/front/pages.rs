@@ -11,7 +11,15 @@ use std::path::{Path, PathBuf};
 const RECIPES: usize = 25;
 
 /// Folders whose pages are read.
-const FOLDERS: [&str; 6] = [".", "docs", "tests", "editors", "benches", "examples/host"];
+const FOLDERS: [&str; 7] = [
+    ".",
+    "docs",
+    "docs/gallery",
+    "tests",
+    "editors",
+    "benches",
+    "examples/host",
+];
 
 /// A page of the documentation.
 struct Page {
@@ -313,7 +321,8 @@ fn the_table_of_contents_lists_every_page() {
     let contents = page("docs/README.md").links();
     let names = pages().into_iter().filter_map(|page| {
         let folder = page.path.parent()?;
-        let is_other = folder.ends_with("docs") && !page.path.ends_with("README.md");
+        let own = ["README.md", "SUMMARY.md"];
+        let is_other = folder.ends_with("docs") && !own.iter().any(|own| page.path.ends_with(own));
         is_other.then(|| {
             page.path
                 .file_name()
@@ -322,4 +331,77 @@ fn the_table_of_contents_lists_every_page() {
     });
     let missing: Vec<String> = names.filter(|name| !contents.contains(name)).collect();
     assert!(missing.is_empty(), "docs/README.md lacks {missing:?}");
+}
+
+/// The pages that the book has, as files of the repository.
+fn chapters() -> Vec<PathBuf> {
+    let summary = page("docs/SUMMARY.md");
+    let folder = root().join("docs");
+    let real = |link: String| folder.join(link).canonicalize().ok();
+    summary.links().into_iter().filter_map(real).collect()
+}
+
+#[test]
+fn the_book_has_every_page_of_the_documentation_once() {
+    let chapters = chapters();
+    let different: BTreeSet<&PathBuf> = chapters.iter().collect();
+    assert_eq!(chapters.len(), different.len(), "a page is a chapter twice");
+    let pages = pages()
+        .into_iter()
+        .filter(|page| !page.path.ends_with("SUMMARY.md"));
+    let of_the_book = |path: &Path| path.components().any(|part| part.as_os_str() == "docs");
+    let real: Vec<PathBuf> = pages
+        .filter_map(|page| page.path.canonicalize().ok())
+        .filter(|path| of_the_book(path) && !chapters.contains(path))
+        .collect();
+    assert!(real.is_empty(), "docs/SUMMARY.md lacks {real:?}");
+}
+
+/// In the book a link to a page that is no chapter leads nowhere.
+#[test]
+fn pages_of_the_book_link_to_chapters() {
+    let chapters = chapters();
+    let mut lost = Vec::new();
+    for chapter in &chapters {
+        let text = fs::read_to_string(chapter).expect("a chapter can be read");
+        let folder = chapter.parent().expect("a page has a folder").to_path_buf();
+        let path = chapter.clone();
+        for link in (Page { path, text }).links() {
+            let target = link.split('#').next().unwrap_or_default();
+            let is_page = target.ends_with(".md") && !link.contains("://");
+            let found = || folder.join(target).canonicalize().ok();
+            if is_page && !found().is_some_and(|target| chapters.contains(&target)) {
+                lost.push(format!("{}: {link}", chapter.display()));
+            }
+        }
+    }
+    assert!(lost.is_empty(), "{}", lost.join("\n"));
+}
+
+#[test]
+fn the_gallery_shows_every_mechanism_of_the_library() {
+    let gallery = page("docs/gallery.md");
+    let links = gallery.links();
+    let entries = fs::read_dir(root().join("mechanisms")).expect("the library");
+    let mut seen = 0;
+    for entry in entries {
+        let path = entry.expect("it can be read").path();
+        if path.extension().is_none_or(|kind| kind != "mech") {
+            continue;
+        }
+        let name = path
+            .file_stem()
+            .expect("a name")
+            .to_string_lossy()
+            .into_owned();
+        let shown = [format!("gallery/{name}.svg"), format!("gallery/{name}.md")];
+        assert!(shown.iter().all(|link| links.contains(link)), "no {name}");
+        let svg = fs::read_to_string(root().join("docs").join(&shown[0]));
+        assert!(
+            svg.is_ok_and(|svg| svg.contains("<animate ")),
+            "{name} stands still"
+        );
+        seen += 1;
+    }
+    assert!(seen > 30, "only {seen} mechanisms");
 }
