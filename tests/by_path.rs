@@ -168,6 +168,26 @@ fn only_an_edited_file_is_compiled_again() {
 }
 
 #[test]
+fn a_parameter_that_gets_another_number_in_the_file_needs_no_compiler() {
+    let folder = folder("parameter");
+    write(&folder, "told.mech", &pendulum("Parameter", 0.5));
+    let simulate = ["simulate", "told.mech", "--until", "1", "--every", "0.25"];
+    let set = done(&folder, &[&simulate[..], &["--set", "L=0.7"]].concat());
+    write(&folder, "told.mech", &pendulum("Parameter", 0.7));
+    let edited = done(&folder, &simulate);
+    assert!(!compiles(&edited, "told.mech"), "{}", edited.err);
+    assert_eq!(edited.out, set.out);
+    // What is wrong with a value is said all the same.
+    write(
+        &folder,
+        "told.mech",
+        &pendulum("Parameter", -0.7).replace("kg = 1", "kg = -1"),
+    );
+    let wrong = run(&folder, &simulate);
+    assert!(wrong.err.contains("told.mech:"), "{}", wrong.err);
+}
+
+#[test]
 fn a_wrong_file_gets_the_messages_of_check() {
     let folder = folder("wrong");
     write(
