@@ -53,6 +53,7 @@ static void nulls(bricard *m)
 
 static void names(bricard *m)
 {
+    int held = 0;
     size_t place = 7;
     double x = 0.0;
     CHECK(strcmp(bricard_name(m, BRICARD_MECHANISM, 0), "Engine") == 0);
@@ -66,13 +67,14 @@ static void names(bricard *m)
             "there is no parameter `l`; there are `L`, `m`");
     CHECK(place == ENGINE_Y_pin_at_y);
     REFUSED(m, bricard_find(m, -1, "L", &place), BRICARD_ERROR_ARGUMENT, "no list -1");
-    REFUSED(m, bricard_count(m, 7, &place), BRICARD_ERROR_ARGUMENT, "no list 7");
+    REFUSED(m, bricard_count(m, 8, &place), BRICARD_ERROR_ARGUMENT, "no list 8");
     REFUSED(m, bricard_parameter(m, 4, &x), BRICARD_ERROR_INDEX, "they are 0 to 3");
     REFUSED(m, bricard_set_parameter(m, (size_t)-1, 1.0), BRICARD_ERROR_INDEX, "parameter");
     REFUSED(m, bricard_hold_input_named(m, "tork", 1.0), BRICARD_ERROR_NAME, "`torque`");
     REFUSED(m, bricard_release_input(m, 1), BRICARD_ERROR_INDEX, "input");
     REFUSED(m, bricard_set_start_named(m, "", 0, 1.0, 1), BRICARD_ERROR_NAME, "coordinate");
-    REFUSED(m, bricard_size(m, 12, &place), BRICARD_ERROR_ARGUMENT, "no quantity 12");
+    REFUSED(m, bricard_size(m, 15, &place), BRICARD_ERROR_ARGUMENT, "no quantity 15");
+    REFUSED(m, bricard_start(m, ENGINE_N, 1, &x, &held), BRICARD_ERROR_INDEX, "0 to 2");
     REFUSED(m, bricard_row_size(m, 16, &place), BRICARD_ERROR_ARGUMENT, "columns");
 }
 
