@@ -77,11 +77,8 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
     let mut record = Record::open(arguments, structure, &columns, None)?;
     let shown = picture::shown(arguments, &columns, structure)?;
     plan.columns = shown.columns.clone();
-    if let Some(checkpoint) = plan
-        .checkpoints
-        .as_ref()
-        .and_then(|checkpoints| checkpoints.from.as_ref())
-    {
+    let checkpoints = plan.checkpoints.as_ref();
+    if let Some(checkpoint) = checkpoints.and_then(|all| all.from.as_ref()) {
         record.go_on(checkpoint);
     }
     interrupt::listen();
