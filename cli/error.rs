@@ -196,11 +196,10 @@ impl CommandError {
 
     /// Whether nothing more is wanted, of other runs either.
     pub fn ends_all(&self) -> bool {
-        match self {
-            Self::Interrupted { .. } | Self::NobodyReads => true,
-            Self::Write(..) | Self::WriteRows { .. } => true,
-            _ => false,
-        }
+        matches!(
+            self,
+            Self::Interrupted { .. } | Self::NobodyReads | Self::Write(..) | Self::WriteRows { .. }
+        )
     }
 
     /// The exit status.
@@ -286,13 +285,15 @@ impl Display for CommandError {
             Self::Exists(path) => exists(f, path),
             Self::Name { name, why } => write!(f, "a crate can't be called `{name}`: {why}"),
             Self::Said => Ok(()),
-            Self::OutOfBounds(broken) => {
-                f.write_str("these bounds are not kept:")?;
-                broken.iter().try_for_each(|bound| write!(f, "\n  {bound}"))
-            }
+            Self::OutOfBounds(broken) => out_of_bounds(f, broken),
             Self::NobodyReads => f.write_str("nobody reads standard output any more"),
         }
     }
+}
+
+fn out_of_bounds(f: &mut Formatter<'_>, broken: &[String]) -> fmt::Result {
+    f.write_str("these bounds are not kept:")?;
+    broken.iter().try_for_each(|bound| write!(f, "\n  {bound}"))
 }
 
 fn two_lists(f: &mut Formatter<'_>, [one, other]: &[String; 2]) -> fmt::Result {

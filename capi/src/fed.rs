@@ -6,8 +6,8 @@
 use crate::callback::{Callback, LawFunction};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Canvas, Condition, Correction, Described, Energy, Interface, Linearised, Mechanism, Partials,
-    Position, Regular, Start, StartFault, State, Structure, Switch, Terms,
+    Canvas, Condition, Correction, Described, Differentiated, Energy, Interface, Linearised,
+    Mechanism, Partials, Position, Regular, Start, StartFault, State, Structure, Switch, Terms,
 };
 use core::cell::Cell;
 
@@ -203,17 +203,6 @@ where
         self.at(state, |mechanism| mechanism.events(state, values));
     }
 
-    fn partials(
-        &self,
-        state: &State<f64, N>,
-        acceleration: &SVector<f64, N>,
-        out: &mut Partials<'_, f64>,
-    ) -> bool {
-        self.at(state, |mechanism| {
-            mechanism.partials(state, acceleration, out)
-        })
-    }
-
     fn draw(&self, state: &State<f64, N>, canvas: &mut dyn Canvas<f64>) {
         self.at(state, |mechanism| mechanism.draw(state, canvas));
     }
@@ -227,5 +216,21 @@ where
         self.at(state, |mechanism| {
             mechanism.described(state, acceleration, values);
         });
+    }
+}
+
+impl<M, const N: usize> Differentiated<f64, N> for Fed<M>
+where
+    M: Interface<f64, N> + Differentiated<f64, N> + Clone,
+{
+    fn partials(
+        &self,
+        state: &State<f64, N>,
+        acceleration: &SVector<f64, N>,
+        out: &mut Partials<'_, f64>,
+    ) -> bool {
+        self.at(state, |mechanism| {
+            mechanism.partials(state, acceleration, out)
+        })
     }
 }

@@ -47,6 +47,7 @@ pub use table::interface;
 pub trait Embedded<const N: usize, const R: usize>:
     bricard_runtime::Mechanism<f64, N, R>
     + bricard_runtime::Interface<f64, N>
+    + bricard_runtime::Differentiated<f64, N>
     + Clone
     + Default
     + Send
@@ -57,6 +58,7 @@ pub trait Embedded<const N: usize, const R: usize>:
 impl<M, const N: usize, const R: usize> Embedded<N, R> for M where
     M: bricard_runtime::Mechanism<f64, N, R>
         + bricard_runtime::Interface<f64, N>
+        + bricard_runtime::Differentiated<f64, N>
         + Clone
         + Default
         + Send

@@ -11,7 +11,7 @@ use crate::engine::{Engine, Outcome};
 use crate::evaluate::Quantity;
 use crate::status::Status;
 use bricard_runtime::nalgebra::{SMatrix, SVector};
-use bricard_runtime::{Interface, Partials, SimulateError, Slope, State, Structure};
+use bricard_runtime::{Differentiated, Partials, SimulateError, Slope, State, Structure};
 
 /// How many numbers [`Partials`] are.
 pub(crate) fn room<const N: usize>(structure: &Structure) -> usize {

@@ -75,7 +75,11 @@ pub fn panels_as_svg(
         .collect();
     let happens = times.marks.iter().filter(|marks| !marks.times.is_empty());
     let happens: Vec<&Marks> = happens.collect();
-    let legends: Vec<Vec<Entry>> = (0..).zip(&prepared).map(entries(&happens)).collect();
+    let legends: Vec<Vec<Entry>> = prepared
+        .iter()
+        .enumerate()
+        .map(|(panel, (curves, _))| entries(curves, if panel == 0 { &happens } else { &[] }))
+        .collect();
     let beside = legend::width(legends.iter().flatten());
     let (width, narrow) = (sheet.pixels(), sheet.is_narrow());
     let wide = match width {
@@ -117,20 +121,18 @@ pub fn panels_as_svg(
     })
 }
 
-/// What explains a panel; the first one explains the marks, too.
-fn entries<'a>(happens: &'a [&Marks]) -> impl Fn((usize, &(Vec<Curve>, Range))) -> Vec<Entry> + 'a {
-    |(panel, (curves, _))| {
-        let curve = |curve: &Curve| Entry {
-            name: curve.name.clone(),
-            kind: Kind::Curve(curve.place),
-        };
-        let mark = |(place, marks): (usize, &&Marks)| Entry {
-            name: marks.name.clone(),
-            kind: Kind::Mark(place),
-        };
-        let marks = happens.iter().enumerate().filter(|_| panel == 0).map(mark);
-        curves.iter().map(curve).chain(marks).collect()
-    }
+/// What explains the curves and the marks of a panel; the first one explains the marks.
+fn entries(curves: &[Curve], happens: &[&Marks]) -> Vec<Entry> {
+    let curve = |curve: &Curve| Entry {
+        name: curve.name.clone(),
+        kind: Kind::Curve(curve.place),
+    };
+    let mark = |(place, marks): (usize, &&Marks)| Entry {
+        name: marks.name.clone(),
+        kind: Kind::Mark(place),
+    };
+    let marks = happens.iter().enumerate().map(mark);
+    curves.iter().map(curve).chain(marks).collect()
 }
 
 fn heading(area: &Area, title: &str) -> Drawn {

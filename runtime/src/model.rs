@@ -114,17 +114,6 @@ pub trait Interface<T: Real, const N: usize> {
     /// Writes the event functions in the order of [`Structure::events`], as many
     /// as `values` has room for.
     fn events(&self, state: &State<T, N>, values: &mut [T]);
-    /// Writes how forces, outputs and events change, at a state with this acceleration;
-    /// `false` if that is not provided: it is emitted for programs that ask for it, those in
-    /// other languages, where [`Mechanism::linearised`] is.
-    fn partials(
-        &self,
-        _state: &State<T, N>,
-        _acceleration: &SVector<T, N>,
-        _out: &mut Partials<'_, T>,
-    ) -> bool {
-        false
-    }
     /// Draws the mechanism at a state.
     fn draw(&self, state: &State<T, N>, canvas: &mut dyn Canvas<T>);
     /// Writes the coordinates that the description declares, in the order of
@@ -136,6 +125,22 @@ pub trait Interface<T: Real, const N: usize> {
         _acceleration: &SVector<T, N>,
         _values: &mut [Described<T>],
     ) {
+    }
+}
+
+/// A mechanism whose derivatives programs in other languages may ask for. It is implemented
+/// where modules are generated for them.
+pub trait Differentiated<T: Real, const N: usize> {
+    /// Writes how forces, outputs and events change, at a state with this acceleration;
+    /// `false` if that is not provided, because its code would be too long or
+    /// [`Mechanism::linearised`] is not.
+    fn partials(
+        &self,
+        _state: &State<T, N>,
+        _acceleration: &SVector<T, N>,
+        _out: &mut Partials<'_, T>,
+    ) -> bool {
+        false
     }
 }
 

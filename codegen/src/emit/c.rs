@@ -33,15 +33,12 @@ pub(super) fn export(mechanism: &Mechanism, module: &str) -> TokenStream {
     }
 }
 
-/// The header of a mechanism, which goes with `bricard.h`.
-pub fn c_header(mechanism: &Mechanism, module: &str) -> String {
-    let module = module_name(module);
-    let upper = module.to_uppercase();
-    let (n, r) = (mechanism.coordinates.len(), mechanism.constraints.len());
-    let mut names = Constants::of(&upper);
+/// The places of everything that a mechanism has, as constants.
+fn places(mechanism: &Mechanism, prefix: &str) -> String {
+    let mut names = Constants::of(prefix);
     let (freedoms, states) = coordinates(mechanism);
     let first = freedoms.len();
-    let quantities: Vec<String> = [
+    [
         ("Coordinates.", "Q", 0, freedoms),
         ("States of the first order, in v.", "Z", first, states),
         ("Parameters.", "P", 0, parameters(mechanism)),
@@ -51,7 +48,15 @@ pub fn c_header(mechanism: &Mechanism, module: &str) -> String {
     ]
     .into_iter()
     .map(|(title, letter, first, entries)| names.places(title, letter, first, &entries))
-    .collect();
+    .collect()
+}
+
+/// The header of a mechanism, which goes with `bricard.h`.
+pub fn c_header(mechanism: &Mechanism, module: &str) -> String {
+    let module = module_name(module);
+    let upper = module.to_uppercase();
+    let (n, r) = (mechanism.coordinates.len(), mechanism.constraints.len());
+    let quantities = places(mechanism, &upper);
     let states = match mechanism.states {
         0 => String::new(),
         1 => ", 1 state".to_string(),
@@ -100,7 +105,6 @@ static inline bricard_status {module}_create(bricard **m)
 #endif
 ",
         name = mechanism.name,
-        quantities = quantities.concat(),
     )
 }
 

@@ -29,12 +29,13 @@ pub(super) fn imports(subject: &Subject) -> TokenStream {
     let held = !mechanism.start_equations.is_empty();
     let guessed = !mechanism.start_guesses.is_empty();
     let named = mechanism.constraints.iter().any(|c| c.multiplier.is_some());
-    let parts: [(bool, &[&str]); 13] = [
+    let parts: [(bool, &[&str]); 14] = [
         (true, &ALWAYS),
         (programs.regular.is_some(), &["Regular"]),
         (programs.position.is_some(), &["ConstraintRow", "Position"]),
         (programs.correction.is_some(), &["Correction"]),
         (programs.linearised.is_ok(), &["Linearised"]),
+        (subject.options.c_interface, &["Differentiated"]),
         (programs.partials.is_some(), &["Partials"]),
         (named, &["Multiplier"]),
         (

@@ -3,7 +3,6 @@
 use super::described::described;
 use super::list::list;
 use super::outputs;
-use super::partials::partials;
 use super::subject::{Subject, Written};
 use crate::model::{Point, Shape};
 use crate::optimise::Slot;
@@ -19,7 +18,6 @@ pub(super) fn interface(subject: &Subject) -> TokenStream {
     let outputs = outputs::outputs(subject);
     let signals = outputs::signals(subject);
     let events = list(subject, "events", &subject.programs.events);
-    let partials = partials(subject);
     let draw = draw(subject);
     let described = described(subject);
     let name = subject.type_name();
@@ -32,7 +30,6 @@ pub(super) fn interface(subject: &Subject) -> TokenStream {
             #outputs
             #signals
             #events
-            #partials
             #draw
             #described
         }

@@ -76,6 +76,7 @@ pub fn module(
     let arrays = arrays::arrays(&subject);
     let start_equations = start::equations(&subject);
     let interface = interface::interface(&subject);
+    let derivatives = partials::derivatives(&subject);
     let export = options
         .c_interface
         .then(|| c::export(mechanism, origin.module));
@@ -98,6 +99,7 @@ pub fn module(
             #arrays
             #start_equations
             #interface
+            #derivatives
         }
 
         #export

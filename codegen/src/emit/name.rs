@@ -84,11 +84,15 @@ pub(super) fn snake_case(name: &str) -> String {
 }
 
 /// Types that stand beside a mechanism's in its module.
-const NEIGHBOURS: [&str; 32] = [
+const NEIGHBOURS: [&str; 38] = [
     "Canvas",
+    "Condition",
     "ConstraintRow",
     "Correction",
+    "Declared",
     "Default",
+    "Described",
+    "Differentiated",
     "Direction",
     "Energy",
     "Event",
@@ -97,6 +101,7 @@ const NEIGHBOURS: [&str; 32] = [
     "Interface",
     "Linearised",
     "Mechanism",
+    "Multiplier",
     "None",
     "Option",
     "Parameters",
@@ -115,6 +120,7 @@ const NEIGHBOURS: [&str; 32] = [
     "StartFault",
     "State",
     "Structure",
+    "Switch",
     "T",
     "Terms",
 ];

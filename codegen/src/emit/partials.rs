@@ -1,7 +1,7 @@
 //! How forces, outputs and events change: a method for programs in other languages.
 //!
 //! In:  a mechanism, its programs.
-//! Out: `fn partials` of the interface.
+//! Out: `impl Differentiated`.
 
 use super::outputs::assigned;
 use super::subject::{Reads, Subject, Written, argument};
@@ -9,8 +9,22 @@ use crate::optimise::Program;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
-/// `fn partials`; nothing where it is not wanted or would be too long.
-pub(super) fn partials(subject: &Subject) -> TokenStream {
+/// `impl Differentiated`, where programs in other languages are served.
+pub(super) fn derivatives(subject: &Subject) -> TokenStream {
+    if !subject.options.c_interface {
+        return TokenStream::new();
+    }
+    let partials = partials(subject);
+    let (n, name) = (subject.sizes().0, subject.type_name());
+    quote! {
+        impl<T: Real> Differentiated<T, #n> for #name<T> {
+            #partials
+        }
+    }
+}
+
+/// `fn partials`; nothing where it would be too long.
+fn partials(subject: &Subject) -> TokenStream {
     let Some(computed) = &subject.programs.partials else {
         return TokenStream::new();
     };
