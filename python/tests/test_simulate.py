@@ -239,8 +239,13 @@ def test_control_c_ends_a_run(tmp_path):
         "    print('interrupted')\n"
         "print(m.simulate(until=1).summary.t)\n"
     )
+    # What runs in the background of a shell may have inherited that Ctrl-C is ignored.
     process = subprocess.Popen(
-        [sys.executable, program], stdout=subprocess.PIPE, text=True, env=os.environ
+        [sys.executable, program],
+        stdout=subprocess.PIPE,
+        text=True,
+        env=os.environ,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
     assert process.stdout.readline() == "begun\n"
     time.sleep(0.3)
