@@ -4,8 +4,9 @@
 use crate::fixtures::{Framed, PLAIN};
 use bricard_runtime::nalgebra::{SMatrix, SVector};
 use bricard_runtime::{
-    ConstraintRow, DynamicsError, Energy, IntegrateError, Mechanism, Options, Position, Quantity,
-    SimulateError, Singularity, State, Structure, Terms, simulate,
+    AssemblyError, ConstraintRow, DynamicsError, Energy, Initial, IntegrateError, Mechanism,
+    Options, Position, Quantity, SimulateError, Singularity, Start, State, Structure, Terms,
+    assemble, simulate,
 };
 
 /// Two coordinates without units, so that they may be angles and the usual size of the
@@ -207,4 +208,50 @@ fn parabolas_that_touch_are_not_taken_for_a_square() {
         .expect_err("nothing tells which one is meant");
     let vanishing = format!("{:?}", failure.error).contains("Vanishing");
     assert!(!vanishing, "{failure}");
+}
+
+/// Lengths, so that nothing but the guess tells how large rows are.
+static LENGTHS: Structure = Structure {
+    coordinates: &[length("x"), length("y")],
+    ..LOOSE
+};
+
+const fn length(name: &'static str) -> Quantity {
+    Quantity {
+        name,
+        unit: "m",
+        docs: "",
+    }
+}
+
+/// Assembles the mechanism from a guess.
+fn assembled(power: Power, q: [f64; 2]) -> Result<State<f64, 2>, AssemblyError<f64, 2, 1>> {
+    let guess = |value| Initial { value, held: false };
+    let start = Start {
+        q: q.map(guess),
+        v: [guess(0.0); 2],
+    };
+    assemble(&Framed::new(power, &LENGTHS), &start, 0.0)
+}
+
+#[test]
+fn a_guess_that_leads_to_where_the_gradient_vanishes_is_refused_if_nothing_crosses_there() {
+    let power = |u, n| Power { u, n, excess: 0.0 };
+    for mechanism in [power(distance, 1), power(circle, 2), power(distance, 2)] {
+        let error = assembled(mechanism, [2.3, 1.4]).expect_err("it can't be crossed");
+        assert!(
+            matches!(error, AssemblyError::Vanishing { row: 0, .. }),
+            "{error:?}"
+        );
+        assert!(
+            error.to_string().contains("write what is squared"),
+            "{error}"
+        );
+    }
+    // Where lines cross, or parabolas touch, the motion has somewhere to go.
+    for mechanism in [power(cross, 1), power(touching, 1)] {
+        for guess in [[1.3, 1.3], [2.3, 1.4], [0.4, 1.0]] {
+            assembled(mechanism, guess).unwrap_or_else(|error| panic!("{guess:?}: {error}"));
+        }
+    }
 }

@@ -46,6 +46,13 @@ pub enum AssemblyError<T, const N: usize, const R: usize> {
         /// Which velocities are held.
         held: [bool; N],
     },
+    /// A constraint has no gradient where it holds, and one sign around.
+    Vanishing {
+        /// The mechanism, for the names.
+        structure: &'static Structure,
+        /// The constraint equation.
+        row: usize,
+    },
     /// Equations of the `start` block don't hold.
     Start(StartFault<T, N>),
     /// The mechanism can move with a negative kinetic energy.
@@ -92,6 +99,15 @@ impl<T: Real, const N: usize, const R: usize> Display for AssemblyError<T, N, R>
                      has the held velocities",
                 )?;
                 advice(f, structure.coordinates, held, ("der(", ")"))
+            }
+            Self::Vanishing { structure, row } => {
+                f.write_str("at the start ")?;
+                structure.write_constraint(f, *row)?;
+                f.write_str(
+                    " has a gradient that vanishes where it holds, and can't be followed from \
+                     there; if it says that a square is zero, write what is squared; else check \
+                     the parameters",
+                )
             }
             Self::Start(fault) => fault.fmt(f),
             Self::NegativeInertia {

@@ -21,6 +21,7 @@ mod error;
 mod inertia;
 mod position;
 mod scales;
+mod vanishing;
 mod velocity;
 
 pub use equations::{StartEquations, StartFault, guess, meet};
@@ -42,6 +43,8 @@ use nalgebra::SVector;
 ///   guess or the mass matrix, is infinite or NaN.
 /// - [`AssemblyError::Positions`] and [`AssemblyError::Velocities`] if the held
 ///   values contradict the constraints; with the error of each constraint.
+/// - [`AssemblyError::Vanishing`] if a constraint loses its gradient where it holds, and
+///   can't be crossed there, such as a sum of squares that is zero.
 /// - [`AssemblyError::Start`] if equations of the `start` block don't hold with them.
 /// - [`AssemblyError::NegativeInertia`] if the kinetic energy is negative for some
 ///   velocities.

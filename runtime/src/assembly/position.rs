@@ -10,6 +10,7 @@
 use super::AssemblyError;
 use super::decomposition::Decomposition;
 use super::scales::{Scales, disturbed};
+use super::vanishing::vanishing_row;
 use crate::tolerance::negligible;
 use crate::{Mechanism, Position, Real, State};
 use nalgebra::SVector;
@@ -57,7 +58,13 @@ where
         let mut descent = Descent::new(mechanism, state, &scales)?;
         descent.run(mechanism, state)?;
         if descent.is_satisfied() {
-            return Ok(());
+            return match descent.vanishing_row(mechanism, state, &measured) {
+                Some(row) => Err(AssemblyError::Vanishing {
+                    structure: mechanism.structure(),
+                    row,
+                }),
+                None => Ok(()),
+            };
         }
         if best.as_ref().is_none_or(|best| descent.merit < best.merit) {
             best = Some(descent);
@@ -168,6 +175,17 @@ impl<'a, T: Real, const N: usize, const R: usize> Descent<'a, T, N, R> {
     /// Whether every constraint error is down to round-off.
     fn is_satisfied(&self) -> bool {
         self.contradictions().iter().all(|x| *x == T::zero())
+    }
+
+    /// A constraint that lost its gradient on the way, and can't be crossed here.
+    fn vanishing_row<M: Mechanism<T, N, R> + ?Sized>(
+        &self,
+        mechanism: &M,
+        state: &State<T, N>,
+        measured: &Scales<T, N, R>,
+    ) -> Option<usize> {
+        let round_off = T::EPSILON * T::from_f64(CONTRADICTION);
+        vanishing_row(mechanism, state, &self.at.jacobian, measured, round_off)
     }
 
     /// Constraint errors that are more than round-off; zero for the others.

@@ -1,0 +1,88 @@
+//! Constraints that lose their gradient where they hold, and can't be crossed there.
+//!
+//! In:  an assembled position, the scales of the guess that led to it.
+//! Out: such a constraint, if there is one.
+//!
+//! A sum of squares that is zero is of this kind. It holds at a point, or along a line
+//! of fewer dimensions than one equation leaves, and what is found is the point up to
+//! the root of round-off: a run would go on in steps as small as that.
+
+use super::scales::Scales;
+use crate::tolerance::regular;
+use crate::{Mechanism, Position, Real, State};
+use nalgebra::SMatrix;
+
+/// How far around a position the sign of a constraint is looked at, in sizes of the
+/// coordinates.
+const AROUND: f64 = 1e-2;
+
+/// A constraint equation whose gradient is as good as none at a position, compared with
+/// what it was around the guess, and whose error has one sign wherever it is looked at
+/// around the position; `jacobian` is that at the position, `round_off` what errors of one
+/// unit of [`Scales::reach`] have.
+pub(super) fn vanishing_row<T, M, const N: usize, const R: usize>(
+    mechanism: &M,
+    state: &State<T, N>,
+    jacobian: &SMatrix<T, R, N>,
+    scales: &Scales<T, N, R>,
+    round_off: T,
+) -> Option<usize>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    let size = |row: usize| {
+        let entries = jacobian.row(row);
+        let lengths = entries.iter().zip(scales.columns.iter());
+        let square = lengths.fold(T::zero(), |sum, (a, c)| sum + *a * *a * *c * *c);
+        square.sqrt() * scales.rows[row]
+    };
+    let lost = |row: &usize| scales.rows[*row] > T::zero() && size(*row) <= regular();
+    (0..R).filter(lost).find(|row| {
+        has_one_sign(
+            mechanism,
+            state,
+            scales,
+            *row,
+            round_off * scales.reach[*row],
+        )
+    })
+}
+
+/// Whether the error of a constraint is nowhere positive or nowhere negative around a
+/// position, along each coordinate and between each two.
+fn has_one_sign<T, M, const N: usize, const R: usize>(
+    mechanism: &M,
+    state: &State<T, N>,
+    scales: &Scales<T, N, R>,
+    row: usize,
+    noise: T,
+) -> bool
+where
+    T: Real,
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    let mut at = Position::default();
+    let (mut above, mut below) = (false, false);
+    let mut look = |moved: &State<T, N>| {
+        mechanism.position(moved, &mut at);
+        above |= at.residual[row] > noise;
+        below |= at.residual[row] < -noise;
+    };
+    let distance = |i: usize, sign: f64| scales.sizes[i] * T::from_f64(AROUND * sign);
+    for i in 0..N {
+        for sign in [1.0, -1.0] {
+            let mut moved = *state;
+            moved.q[i] += distance(i, sign);
+            look(&moved);
+            for j in 0..i {
+                for other in [1.0, -1.0] {
+                    let mut both = moved;
+                    both.q[j] += distance(j, other);
+                    look(&both);
+                }
+            }
+        }
+    }
+    above != below
+}
