@@ -100,15 +100,7 @@ impl<T: Real, const N: usize, const R: usize> Display for AssemblyError<T, N, R>
                 )?;
                 advice(f, structure.coordinates, held, ("der(", ")"))
             }
-            Self::Vanishing { structure, row } => {
-                f.write_str("at the start ")?;
-                structure.write_constraint(f, *row)?;
-                f.write_str(
-                    " has a gradient that vanishes where it holds, and can't be followed from \
-                     there; if it says that a square is zero, write what is squared; else check \
-                     the parameters",
-                )
-            }
+            Self::Vanishing { structure, row } => vanishing(f, structure, *row),
             Self::Start(fault) => fault.fmt(f),
             Self::NegativeInertia {
                 t,
@@ -128,6 +120,15 @@ impl<T: Real, const N: usize, const R: usize> Display for AssemblyError<T, N, R>
             }
         }
     }
+}
+
+fn vanishing(f: &mut Formatter<'_>, structure: &Structure, row: usize) -> Result {
+    f.write_str("at the start ")?;
+    structure.write_constraint(f, row)?;
+    f.write_str(
+        " has a gradient that vanishes where it holds, and can't be followed from there; if it \
+         says that a square is zero, write what is squared; else check the parameters",
+    )
 }
 
 /// The part of the largest residual below which others are none.
