@@ -15,8 +15,8 @@ const ROUND_OFF: f64 = f64::EPSILON;
 /// small any more, and a first-order bound says nothing.
 const SMALL: f64 = 1e-6;
 
-/// Powers outside of this range overflow in one order of the operations and not in
-/// another.
+/// Numbers outside of this range have powers that overflow in one order of the operations
+/// and not in another.
 const RANGE: std::ops::Range<f64> = 1e-30..1e30;
 
 /// A value, its derivative in one direction, and bounds on the errors of both.
@@ -167,6 +167,8 @@ impl Jet {
             Function2::Atan2 if self.value.abs() <= self.value_error && other.value <= 0.0 => {
                 self.unsound()
             }
+            // Its derivatives divide by the square of the distance.
+            Function2::Atan2 if !RANGE.contains(&self.value.hypot(other.value)) => self.unsound(),
             Function2::Atan2 => self.through2(other, |x, y| x.atan2(y)),
             Function2::Pow => {
                 let power = self.through2(other, |x, y| (y * x.ln()).exp());
