@@ -82,6 +82,8 @@ fn program(file: &Path, source: &str, digits: Digits) -> Result<PathBuf, Command
         Digits::Double => identity(file, &parameters::without_values(source)),
         Digits::Many => identity(file, source),
     };
+    // A wrong description is the first thing to know, toolchain or not.
+    warn(file, source)?;
     let toolchain = Toolchain::find();
     let cache = Cache::find()?;
     let known = toolchain.as_ref().ok().and_then(|toolchain| {
@@ -89,12 +91,8 @@ fn program(file: &Path, source: &str, digits: Digits) -> Result<PathBuf, Command
         version.program(file, &identity)
     });
     match known {
-        Some(program) => {
-            warn(file, source)?;
-            Ok(program)
-        }
+        Some(program) => Ok(program),
         None => {
-            // A wrong description is the first thing to know, toolchain or not.
             let program = Program::generate(file, source, &identity)?;
             let toolchain = toolchain?;
             program.build(&Version::new(&cache, &toolchain, digits), &toolchain)
@@ -102,8 +100,8 @@ fn program(file: &Path, source: &str, digits: Digits) -> Result<PathBuf, Command
     }
 }
 
-/// Says what is doubtful about a description that has a program already: with other values
-/// of the parameters it may be.
+/// Says what is doubtful about a description, whether or not it has a program already: with
+/// other values of the parameters something else may be.
 ///
 /// # Errors
 ///

@@ -31,7 +31,7 @@ pub fn name(file: &Path) -> String {
 }
 
 impl<'a> Program<'a> {
-    /// Generates the code of a description, and says what is doubtful about it.
+    /// Generates the code of a description.
     ///
     /// # Errors
     ///
@@ -40,9 +40,6 @@ impl<'a> Program<'a> {
         let shown = file.display().to_string();
         let compiled = compile_source(source, MODULE, &name(file), &Settings::beside(file))
             .map_err(|errors| CommandError::Description(errors.render(&shown, source)))?;
-        if !compiled.warnings.is_empty() {
-            say(compiled.warnings.render(&shown, source).trim_end());
-        }
         let kind = type_name(&compiled.name);
         let main = format!(
             "fn main() -> std::process::ExitCode {{\n    \
