@@ -20,7 +20,7 @@ mod serve;
 mod wire;
 mod writer;
 
-pub use any::{AnyMechanism, Given, TimedRun, erase_type, state_of};
+pub use any::{AnyMechanism, EraseType, Given, TimedRun, erase_type, state_of};
 pub use column::{Column, WORDS, heads};
 pub use link::Link;
 pub use precise::{Around, Changes, Exact, Path, Precise, PreciseLink, serve_precise};
