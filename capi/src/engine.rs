@@ -65,7 +65,7 @@ where
             start: mechanism.start(),
             state: None,
             options,
-            stepper: Stepper::new(options.scheme, options.pace, options.settings)?,
+            stepper: Stepper::new(options.method, options.step_control, options.settings)?,
             inquiry: Solver::new(options.settings),
             partials: vec![0.0; room::<N>(structure)].into(),
             text: Text::new(),
@@ -361,13 +361,13 @@ where
         self.start = start;
         self.state = state;
         let Options {
-            scheme,
-            pace,
+            method,
+            step_control,
             settings,
             ..
         } = self.options;
         // The options were checked when they were set.
-        if let Ok(stepper) = Stepper::new(scheme, pace, settings) {
+        if let Ok(stepper) = Stepper::new(method, step_control, settings) {
             self.stepper = stepper;
         }
     }
@@ -383,7 +383,7 @@ where
     ///
     /// [`Status::Argument`]; nothing is changed then.
     pub fn set_options(&mut self, options: Options<f64>) -> Outcome {
-        match Stepper::new(options.scheme, options.pace, options.settings) {
+        match Stepper::new(options.method, options.step_control, options.settings) {
             Ok(stepper) => {
                 self.stepper = stepper;
                 self.inquiry = Solver::new(options.settings);

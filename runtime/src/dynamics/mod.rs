@@ -11,6 +11,7 @@
 //! Not here: the way back onto the constraints ([`crate::projection`]).
 
 mod acceleration;
+mod acceleration_jacobian;
 mod constrained;
 mod emitted;
 mod follow;
@@ -26,7 +27,6 @@ mod rows;
 mod settings;
 mod sizes;
 mod sliding;
-mod slope;
 mod solver;
 mod switching;
 mod verify;

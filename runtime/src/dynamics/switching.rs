@@ -25,7 +25,7 @@ const REFINEMENTS: u32 = 3;
 const SAME_TIME: f64 = 8.0;
 /// Functions of states within a step are off by this part of its accepted error.
 const NOISE: f64 = 0.01;
-/// The same in units of round-off, at least and at a fixed pace.
+/// The same in units of round-off, at least and with fixed steps.
 const NOISE_OF_FIXED: f64 = 4096.0;
 /// Conditions that change again after this part of an attempt at a step get nowhere.
 const HARDLY_LATER: f64 = 1e-6;

@@ -84,8 +84,8 @@ where
     /// The time (s) in which the sheet moves by one unit of length when it is fastest;
     /// none if it rests.
     fn clock(&self) -> Option<T> {
-        let pace = self.chart.pace;
-        (pace > T::zero()).then(|| T::one() / pace)
+        let speed = self.chart.speed;
+        (speed > T::zero()).then(|| T::one() / speed)
     }
 
     /// A line along some coordinates of the chart, of which time may be the last.
