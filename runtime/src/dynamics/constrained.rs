@@ -41,14 +41,32 @@ pub struct ConstraintError<T> {
     pub velocity: T,
 }
 
+impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+    /// The system that an integrator sees, for as long as the mechanism does not
+    /// change.
+    pub fn on<'a, M>(&'a mut self, mechanism: &'a M) -> ConstrainedSystem<'a, M, T, N, R>
+    where
+        M: Mechanism<T, N, R> + ?Sized,
+    {
+        self.metric.forget();
+        self.safe = None;
+        self.expect_regular();
+        let conditions = match self.settings.across_switches {
+            true => &[],
+            false => mechanism.switches(&State::default(), &SVector::zeros(), &mut []),
+        };
+        self.conditions.forget(conditions);
+        ConstrainedSystem {
+            mechanism,
+            solver: self,
+        }
+    }
+}
+
 impl<'a, M, T: Real, const N: usize, const R: usize> ConstrainedSystem<'a, M, T, N, R>
 where
     M: Mechanism<T, N, R> + ?Sized,
 {
-    pub(super) fn new(mechanism: &'a M, solver: &'a mut Solver<T, N, R>) -> Self {
-        Self { mechanism, solver }
-    }
-
     /// The mechanism.
     pub fn mechanism(&self) -> &'a M {
         self.mechanism

@@ -12,6 +12,7 @@
 
 mod acceleration;
 mod acceleration_jacobian;
+mod conditions;
 mod constrained;
 mod emitted;
 mod follow;

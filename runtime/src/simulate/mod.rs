@@ -6,6 +6,7 @@
 //! [`Stepper`] is the same without observers, one step at a time.
 
 mod conserve;
+mod driver;
 mod error;
 mod event;
 mod grid;
@@ -21,8 +22,8 @@ pub use stepper::Stepper;
 pub use summary::Summary;
 
 use conserve::Conserving;
+use driver::Driver;
 use grid::Grid;
-use options::Driver;
 use watch::Watchers;
 
 use crate::{

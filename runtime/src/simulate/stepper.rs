@@ -5,8 +5,9 @@
 //!
 //! Not here: observers and audits ([`super::simulate`]).
 
+use super::driver::Driver;
 use super::metered::Metered;
-use super::options::{Driver, Method, StepControl};
+use super::options::{Method, StepControl};
 use super::{Grid, SimulateError};
 use crate::integrator::Inside;
 use crate::{Counters, Integrator, Mechanism, Real, Settings, Solver, State, System};
