@@ -4,10 +4,10 @@
 //! Out: a [`Status`].
 
 use crate::Embedded;
-use crate::abi::{Choices, Summary, Watch};
+use crate::abi::{Choices, Handle, Summary, Watch};
 use crate::callback::Callback;
 use crate::engine::{Engine, Outcome};
-use crate::handle::{Body, Handle};
+use crate::handle::Body;
 use crate::pointer::{enter, give, write};
 use crate::status::Status;
 use crate::watch::{Columns, Ended, Listeners, MOST_INSIDE, Sheet};

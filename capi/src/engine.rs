@@ -10,7 +10,6 @@
 use crate::Embedded;
 use crate::fed::{Fed, Law};
 use crate::names::{Known, List, Names};
-use crate::slopes::room;
 use crate::status::Status;
 use crate::text::Text;
 use bricard_runtime::nalgebra::SVector;
@@ -403,4 +402,11 @@ pub(crate) fn state_of<const N: usize>(t: f64, q: &[f64], v: &[f64]) -> State<f6
         q: SVector::from_fn(|i, _| q.get(i).copied().unwrap_or(0.0)),
         v: SVector::from_fn(|i, _| v[i]),
     }
+}
+
+/// How many numbers the derivatives of forces, outputs and events are.
+fn room<const N: usize>(structure: &Structure) -> usize {
+    let inputs = structure.inputs.len();
+    let functions = structure.outputs.len() + structure.events.len();
+    N * inputs + functions * (3 * N + inputs)
 }

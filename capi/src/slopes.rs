@@ -11,16 +11,7 @@ use crate::engine::{Engine, Outcome};
 use crate::evaluate::Quantity;
 use crate::status::Status;
 use bricard_runtime::nalgebra::{SMatrix, SVector};
-use bricard_runtime::{
-    AccelerationJacobian, Differentiated, Partials, SimulateError, State, Structure,
-};
-
-/// How many numbers [`Partials`] are.
-pub(crate) fn room<const N: usize>(structure: &Structure) -> usize {
-    let inputs = structure.inputs.len();
-    let functions = structure.outputs.len() + structure.events.len();
-    N * inputs + functions * (3 * N + inputs)
-}
+use bricard_runtime::{AccelerationJacobian, Differentiated, Partials, SimulateError, State};
 
 /// Derivatives of accelerations, and by forces.
 type Slopes<const N: usize> = (AccelerationJacobian<f64, N>, SMatrix<f64, N, N>);

@@ -19,11 +19,8 @@ mod session;
 mod text;
 
 pub use picture::Picture;
-pub use session::{ROOM, Session};
+pub use session::{ROOM, Session, VERSION};
 pub use text::Text;
-
-/// The version of the exported functions; `js/index.js` refuses another.
-pub const VERSION: u32 = 1;
 
 /// The one session of a module.
 pub type Shared<M, const N: usize, const R: usize> = spin::LazyLock<spin::Mutex<Session<M, N, R>>>;

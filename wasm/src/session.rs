@@ -6,12 +6,14 @@
 //! Functions that can fail give 0, or 1 with the reason as text. Those that give several
 //! numbers say how many. What doesn't exist fails.
 
-use crate::{Picture, Text, VERSION, describe};
+use crate::{Picture, Text, describe};
 use bricard_runtime::{
     Initial, Interface, Mechanism, Method, Probe, Settings, State, StepControl, Stepper,
 };
 use core::fmt::{Display, Write};
 
+/// The version of the exported functions; `js/index.js` refuses another.
+pub const VERSION: u32 = 1;
 /// Numbers that can be read at once.
 pub const ROOM: usize = 1 << 12;
 /// The answer of what has succeeded.

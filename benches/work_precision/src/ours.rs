@@ -1,7 +1,6 @@
 //! Our runs.
 
-use crate::problem::Problem;
-use crate::run::{End, Failed};
+use crate::problem::{End, Failed, Problem};
 use bricard_runtime::{Interface, Mechanism, Method, Settings, State, StepControl, Stepper};
 use instructions::mechanism::double_four_bar_folded::double_four_bar::DoubleFourBar;
 use instructions::mechanism::slider_crank_folded::slider_crank::SliderCrank;

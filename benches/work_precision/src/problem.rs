@@ -11,6 +11,12 @@ use bricard_runtime::{
     Energy, Mechanism, Method, Settings, SimulateError, State, StepControl, Stepper, Structure,
     Terms,
 };
+use std::error::Error;
+
+/// All coordinates at the end.
+pub type End = Vec<f64>;
+/// Why a run failed.
+pub type Failed = Box<dyn Error>;
 
 /// A run of the paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

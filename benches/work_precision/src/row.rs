@@ -6,7 +6,7 @@
 //! All forty parallelograms fold into one line at once, several times. There is no
 //! exact motion to compare with, so the energy is what tells.
 
-use crate::run::Failed;
+use crate::problem::Failed;
 use crate::work::timed;
 use bricard_runtime::Interface;
 use bricard_runtime::{Mechanism, Method, Settings, State, StepControl, Stepper, assemble};

@@ -1,14 +1,8 @@
 //! A method at a setting, whoever's it is.
 
-use crate::problem::Problem;
+use crate::problem::{End, Failed, Problem};
 use crate::{index_one, joints, ours};
 use bricard_runtime::{Method, StepControl};
-use std::error::Error;
-
-/// All coordinates at the end.
-pub type End = Vec<f64>;
-/// Why a run failed.
-pub type Failed = Box<dyn Error>;
 
 /// A method.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Time and error from the nominal start.
 
-use crate::problem::Problem;
-use crate::run::{Failed, Solver};
+use crate::problem::{Failed, Problem};
+use crate::run::Solver;
 use rustix::time::{ClockId, clock_gettime};
 use std::time::Duration;
 
