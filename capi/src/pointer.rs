@@ -4,8 +4,9 @@
 //! Out: an engine to work with, numbers to read and to write.
 
 use crate::Embedded;
+use crate::abi::Handle;
 use crate::engine::{Engine, Outcome};
-use crate::handle::{Body, Handle};
+use crate::handle::Body;
 use crate::status::Status;
 use core::slice;
 

@@ -17,7 +17,7 @@ use crate::output::{print, say};
 use crate::run::{Plan, RowSink, run};
 use crate::table::{Align, headed};
 use bricard_driver::{AnyMechanism, Around, Path, Precise};
-use bricard_runtime::{Audit, Options, Pace, Scheme};
+use bricard_runtime::{Audit, Method, Options, StepControl};
 
 /// How long a motion is followed (s).
 const SPAN: f64 = 0.4;
@@ -49,13 +49,13 @@ pub fn passage(arguments: &Passage) -> Result<(), CommandError> {
         for &method in &arguments.methods {
             say(&format!(
                 "{name}: placing stages of {}",
-                Scheme::from(method)
+                Method::from(method)
             ));
             for steps in STEPS {
                 let found =
                     Placements::of(precise.as_mut(), mechanism.as_ref(), (method, steps), about)?;
                 if !found.is_even() {
-                    broken.push(format!("{name}, {}, {steps} steps", Scheme::from(method)));
+                    broken.push(format!("{name}, {}, {steps} steps", Method::from(method)));
                 }
                 rows.push(found.row(name, method, steps));
             }
@@ -111,7 +111,7 @@ impl Placements {
             let Some(end) = row_at(&exact, row[0] + SPAN) else {
                 continue;
             };
-            let mut options = Options::new(end[0], method.into(), Pace::Fixed { step });
+            let mut options = Options::new(end[0], method.into(), StepControl::Fixed { step });
             options.audit = Audit::NONE;
             let found = mechanism
                 .timed_run(Some(row), &options)
@@ -145,7 +145,7 @@ impl Placements {
     fn row(&self, name: &str, method: MethodName, steps: u32) -> Vec<String> {
         vec![
             name.to_string(),
-            Scheme::from(method).to_string(),
+            Method::from(method).to_string(),
             (SPAN / f64::from(steps)).to_string(),
             self.errors.len().to_string(),
             format!("{:.1e}", self.median()),

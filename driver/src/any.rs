@@ -186,9 +186,3 @@ pub fn state_of<const N: usize>(row: &[f64]) -> State<f64, N> {
         v: SVector::from_fn(|i, _| at(1 + N + i)),
     }
 }
-
-/// A state as a row, with the integrals of states of the first order in it.
-pub(crate) fn row_of<const N: usize>(state: &State<f64, N>) -> Vec<f64> {
-    let values = state.q.iter().chain(state.v.iter());
-    std::iter::once(&state.t).chain(values).copied().collect()
-}

@@ -44,11 +44,11 @@ pub use observer::{
 pub use real::Real;
 pub use sides::{Condition, Sides, Switch};
 pub use simulate::{
-    Audit, Failure, Options, Origin, Pace, Scheme, SimulateError, Stepper, Summary, simulate,
+    Audit, Failure, Method, Options, Origin, SimulateError, StepControl, Stepper, Summary, simulate,
 };
 pub use singular::Passage;
 pub use state::State;
 #[doc(hidden)]
 pub use structure::written_for;
 pub use structure::{ConstraintRow, Declared, Direction, Event, Multiplier, Quantity, Structure};
-pub use system::{Slope, Switching, System};
+pub use system::{AccelerationJacobian, Switching, System};

@@ -122,7 +122,7 @@ macro_rules! real_for_float {
             }
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
-                let (sin, cos) = sin_cos(f64::from(self));
+                let (sin, cos) = sincos::sin_cos(f64::from(self));
                 (sin as $float, cos as $float)
             }
             #[inline(always)]
@@ -189,22 +189,6 @@ macro_rules! real_for_float {
             num_traits::Float::$name($($argument),*)
         }
     }};
-}
-
-/// Inlined where the reduction is exact enough, the library's elsewhere.
-#[inline(always)]
-pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
-    if x.abs() <= sincos::LARGEST {
-        sincos::sin_cos(x)
-    } else {
-        library_sin_cos(x)
-    }
-}
-
-#[cold]
-#[inline(never)]
-fn library_sin_cos(x: f64) -> (f64, f64) {
-    real_for_float!(@call f64, sin_cos, x)
 }
 
 real_for_float!(f64);

@@ -16,7 +16,7 @@ mod scan;
 mod work;
 
 use problem::Problem;
-use run::Method;
+use run::Solver;
 use scan::{Scan, Starts};
 use std::error::Error;
 use std::fs;
@@ -39,11 +39,11 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Methods that the problem can be given to.
-fn methods(problem: Problem) -> impl Iterator<Item = Method> {
+fn methods(problem: Problem) -> impl Iterator<Item = Solver> {
     let driven = problem == Problem::Driven;
-    Method::ALL
+    Solver::ALL
         .into_iter()
-        .filter(move |method| !(driven && matches!(method, Method::Rapier(_))))
+        .filter(move |method| !(driven && matches!(method, Solver::Rapier(_))))
 }
 
 fn work_table(problem: Problem, out: &Path) -> Result<(), Box<dyn Error>> {

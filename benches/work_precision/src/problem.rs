@@ -8,8 +8,15 @@
 
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Energy, Mechanism, Pace, Scheme, Settings, SimulateError, State, Stepper, Structure, Terms,
+    Energy, Mechanism, Method, Settings, SimulateError, State, StepControl, Stepper, Structure,
+    Terms,
 };
+use std::error::Error;
+
+/// All coordinates at the end.
+pub type End = Vec<f64>;
+/// Why a run failed.
+pub type Failed = Box<dyn Error>;
 
 /// A run of the paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -81,10 +88,11 @@ impl Problem {
     ///
     /// A run that fails.
     pub fn exact(self, start: f64) -> Result<f64, SimulateError<f64>> {
-        let pace = Pace::Fixed {
+        let step_control = StepControl::Fixed {
             step: REFERENCE_STEP,
         };
-        let mut stepper = Stepper::<f64, 1, 0>::new(Scheme::Dop853, pace, Settings::default())?;
+        let mut stepper =
+            Stepper::<f64, 1, 0>::new(Method::Dop853, step_control, Settings::default())?;
         let mut state = State::new(0.0, [start].into(), [0.0].into());
         stepper.step(&Reduced(self), &mut state, self.end())?;
         Ok(state.q[0])

@@ -4,7 +4,7 @@
 //! Out: how many runs left the branch or stopped; median and worst error of the rest.
 
 use crate::problem::Problem;
-use crate::run::Method;
+use crate::run::Solver;
 use bricard_runtime::SimulateError;
 
 /// Start angles lie within this of the nominal one (rad).
@@ -42,7 +42,7 @@ pub struct Scan {
 
 impl Scan {
     /// Runs all start angles.
-    pub fn new(problem: Problem, method: Method, setting: f64, starts: &Starts) -> Self {
+    pub fn new(problem: Problem, method: Solver, setting: f64, starts: &Starts) -> Self {
         let mut errors = Vec::new();
         for (start, exact) in &starts.0 {
             if let Ok(q) = method.run(problem, *start, setting)

@@ -3,8 +3,8 @@
 use super::{Reply, Request, receive, send};
 use crate::{Column, Drawn, Given, Reached, Scene, Segment};
 use bricard_runtime::{
-    ConstraintRow, Counters, Direction, Event, Options, Origin, Pace, Passage, Quantity, Scheme,
-    Stabilisation, Structure,
+    ConstraintRow, Counters, Direction, Event, Method, Options, Origin, Passage, Quantity,
+    Stabilisation, StepControl, Structure,
 };
 use std::time::Duration;
 
@@ -38,7 +38,7 @@ fn structure() -> Structure {
 }
 
 fn segment() -> Segment {
-    let mut options = Options::new(1.0, Scheme::Radau9, Pace::Fixed { step: 0.1 + 0.2 });
+    let mut options = Options::new(1.0, Method::Radau9, StepControl::Fixed { step: 0.1 + 0.2 });
     options.settings.stabilisation = Stabilisation::Baumgarte {
         alpha: 1e-300,
         beta: -0.0,

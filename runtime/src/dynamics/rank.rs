@@ -5,8 +5,9 @@
 //!      singular values; the null-space form by a rank decision alone.
 
 use super::{Solver, Source, Which};
-use crate::linalg::{Breakdown, add_scaled, dot, eigen, norm, orthogonalise, scaled};
-use crate::singular::{orthonormal, remove};
+use crate::linalg::{
+    Breakdown, add_scaled, dot, eigen, norm, orthogonalise, orthonormal, remove, scaled,
+};
 use crate::tolerance::{difference, negligible, regular};
 use crate::{DynamicsError, Mechanism, Real, Singularity, State};
 use nalgebra::{SMatrix, SVector};

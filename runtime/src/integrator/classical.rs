@@ -11,8 +11,8 @@
 //! Not here: methods that estimate their error ([`super::explicit`]).
 
 use super::control::check_bound;
-use super::pace::{Inside, in_parts};
 use super::step::Step;
+use super::step_control::{Inside, in_parts};
 use super::{IntegrateError, Integrator};
 use crate::linalg::add_scaled;
 use crate::system::escalating;
@@ -195,7 +195,7 @@ fn ahead<T: Real, const N: usize>(
     state
 }
 
-/// Six times the mean slope of the stages.
+/// Six times the mean derivative of the stages.
 #[inline(always)]
 fn mean<T: Real, const N: usize>(
     first: &SVector<T, N>,

@@ -18,7 +18,8 @@
 
 use crate::observer::balance;
 use crate::{
-    ConstrainedSystem, DynamicsError, Mechanism, Real, Slope, State, Step, Switching, System,
+    AccelerationJacobian, ConstrainedSystem, DynamicsError, Mechanism, Real, State, Step,
+    Switching, System,
 };
 use nalgebra::SVector;
 
@@ -126,7 +127,7 @@ where
         self.system.commit(step)
     }
 
-    fn slope(&mut self, state: &State<T, N>) -> Option<Slope<T, N>> {
-        self.system.slope(state)
+    fn acceleration_jacobian(&mut self, state: &State<T, N>) -> Option<AccelerationJacobian<T, N>> {
+        self.system.acceleration_jacobian(state)
     }
 }

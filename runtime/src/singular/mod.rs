@@ -29,4 +29,4 @@ pub(crate) use passage::{Found, Reference};
 pub(crate) use place::Placement;
 pub(crate) use session::{Placed, Session};
 pub(crate) use sheet::Point;
-pub(crate) use start::{Start, orthonormal, remove};
+pub(crate) use start::Start;

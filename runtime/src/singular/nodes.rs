@@ -11,7 +11,7 @@
 //! sheet is interpolated: position, tangent space, the acceleration that curvature
 //! demands. Masses and forces are taken at the state itself.
 
-use super::direction::Direction;
+use super::direction::{Direction, SIDE};
 use super::obstacle::Obstacle;
 use super::sheet::{Point, Sheet};
 use crate::linalg::{Block, Frame, dot};
@@ -19,8 +19,6 @@ use crate::tolerance::clearance;
 use crate::{Mechanism, Real, State};
 use nalgebra::{SMatrix, SVector};
 
-/// Nodes on each side.
-pub(super) const SIDE: usize = 5;
 /// Nodes on both.
 const NODES: usize = 2 * SIDE;
 /// How many earlier nodes predict the next.

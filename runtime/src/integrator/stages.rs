@@ -1,4 +1,4 @@
-//! The slopes of the stages of a step.
+//! The derivatives of the state at the stages of a step: kᵢ in the literature.
 //!
 //! In:  velocities and accelerations.
 //! Out: their combinations.
@@ -8,16 +8,16 @@ use crate::Real;
 use crate::linalg::add_scaled;
 use nalgebra::SVector;
 
-/// Slopes of `(q, q̇)` in `S` slots.
+/// Derivatives of `(q, q̇)` in `S` slots.
 #[derive(Clone, Debug)]
-pub(super) struct Slopes<T, const N: usize, const S: usize> {
-    /// Velocities, the slopes of `q`.
+pub(super) struct Stages<T, const N: usize, const S: usize> {
+    /// Velocities, the derivatives of `q`.
     pub(super) v: [SVector<T, N>; S],
-    /// Accelerations, the slopes of `q̇`.
+    /// Accelerations, the derivatives of `q̇`.
     pub(super) a: [SVector<T, N>; S],
 }
 
-impl<T: Real, const N: usize, const S: usize> Slopes<T, N, S> {
+impl<T: Real, const N: usize, const S: usize> Stages<T, N, S> {
     pub(super) fn new() -> Self {
         let zero = [SVector::zeros(); S];
         Self { v: zero, a: zero }
@@ -29,7 +29,7 @@ impl<T: Real, const N: usize, const S: usize> Slopes<T, N, S> {
         self.a[to] = self.a[from];
     }
 
-    /// A combination of the slopes.
+    /// A combination of the derivatives.
     #[inline(always)]
     pub(super) fn combine(&self, row: &[Term]) -> (SVector<T, N>, SVector<T, N>) {
         let Some((&(slot, high, low), rest)) = row.split_first() else {
