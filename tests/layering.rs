@@ -55,7 +55,10 @@ fn stage(file: &File) -> Option<&str> {
 fn imports_within(sources: &str) -> Imports {
     let module = |file: File| {
         let inside = file.path.strip_prefix(sources).unwrap_or(&file.path);
-        (imports::module_of(inside.trim_start_matches('/')), file.text)
+        (
+            imports::module_of(inside.trim_start_matches('/')),
+            file.text,
+        )
     };
     imports::imports(source::files(&[sources]).into_iter().map(module))
 }
