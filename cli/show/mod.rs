@@ -13,12 +13,13 @@ mod sections;
 mod skipped;
 
 use crate::arguments::Show;
+use crate::description::Description;
 use crate::error::CommandError;
-use crate::list::first_sentence;
-use crate::mechanism::{Description, description, freedom_at_start};
+use crate::mechanism::{description, freedom_at_start};
 use crate::output::print;
+use crate::words::{first_sentence, freedom, sizes};
 use bricard_codegen::Settings;
-use bricard_codegen::internals::expr::{Notation, Symbol};
+use bricard_codegen::internals::expr::Symbol;
 use bricard_codegen::internals::model::{Described, Mechanism};
 use bricard_codegen::internals::{analyse, derive};
 use cost::Programs;
@@ -102,30 +103,6 @@ impl Subject {
     }
 }
 
-/// A number of degrees of freedom in words.
-pub fn freedom(n: usize) -> String {
-    format!("{n} degree{} of freedom", if n == 1 { "" } else { "s" })
-}
-
-/// How many coordinates, states and constraint equations there are.
-pub fn sizes(mechanism: &Mechanism) -> String {
-    let states = match mechanism.states {
-        0 => String::new(),
-        n => format!(", {} of the first order", counted(n, "state")),
-    };
-    let coordinates = counted(mechanism.freedoms(), "coordinate");
-    let equations = counted(mechanism.constraints.len(), "constraint equation");
-    format!("{coordinates}{states}, {equations}")
-}
-
-/// A number of things in words.
-pub fn counted(count: usize, what: &str) -> String {
-    match count {
-        1 => format!("1 {what}"),
-        _ => format!("{count} {what}s"),
-    }
-}
-
 fn heading(mechanism: &Mechanism, subject: &Subject) -> String {
     let (n, r) = (mechanism.freedoms(), mechanism.constraints.len());
     let mut lines = vec![
@@ -174,22 +151,4 @@ fn given(coordinate: &Described) -> Option<String> {
     let name = &coordinate.quantity.name;
     let line = row.span.start.line;
     Some(format!("{name} is given by line {line}: {}", row.text))
-}
-
-/// The entry as it is, or as a reduced polynomial in sines and cosines:
-/// whichever is shorter.
-fn shortest(
-    graph: &mut bricard_codegen::internals::expr::Graph,
-    e: bricard_codegen::internals::expr::ExprId,
-    notation: Notation,
-    names: &dyn Fn(Symbol) -> String,
-) -> String {
-    let plain = graph.print(e, notation, names);
-    let reduced = bricard_codegen::internals::optimise::in_trig_ring(graph, e);
-    let reduced = graph.print(reduced, notation, names);
-    if reduced.chars().count() < plain.chars().count() {
-        reduced
-    } else {
-        plain
-    }
 }
