@@ -2,7 +2,7 @@
 //!
 //! In:  a mechanism of the library, or the file of a description.
 //! Out: every entry of M, C, C q̇, h, Q, g, G, b and p₂ on a line of its own, zeros
-//!      included; what a program for them costs; degrees of freedom.
+//!      included; what a program for them costs; degrees of freedom. Or those programs.
 //!
 //! The text can be read by a computer algebra system once `^` is replaced by its
 //! power and `der(q1)` by a symbol.
@@ -21,8 +21,8 @@ use crate::words::{first_sentence, freedom, sizes};
 use bricard_codegen::Settings;
 use bricard_codegen::internals::expr::Symbol;
 use bricard_codegen::internals::model::{Described, Mechanism};
+use bricard_codegen::internals::optimise::{Besides, Programs, cost as operations, programs};
 use bricard_codegen::internals::{analyse, derive};
-use cost::Programs;
 use std::path::Path;
 
 /// Prints the equations of motion.
@@ -37,9 +37,13 @@ pub fn show(arguments: &Show) -> Result<(), CommandError> {
         mechanism = derive::eliminate(mechanism).map_err(rendered)?;
     }
     let equations = derive::derive(&mut mechanism).map_err(rendered)?;
+    if arguments.programs {
+        let programs = programs(&mut mechanism, &equations, Besides::default());
+        return print(&listing(&mechanism, &programs));
+    }
     let sections = sections::sections(&mut mechanism, &equations);
-    let programs = Programs::of(&mut mechanism, &equations);
-    let costs = programs.costs();
+    let programs = programs(&mut mechanism, &equations, Besides::default());
+    let costs = cost::costs(&programs);
     let skipped = skipped::skipped(&mechanism, &equations, &programs);
     if !mechanism.described.is_empty() {
         // The rank at the start is that of all constraints.
@@ -62,6 +66,17 @@ pub fn show(arguments: &Show) -> Result<(), CommandError> {
         let body = sections::text(&mut graph, &sections, &names);
         format!("{heading}\n{body}{costs}{skipped}")
     })
+}
+
+/// The programs, each with what it costs.
+fn listing(mechanism: &Mechanism, programs: &Programs) -> String {
+    let names = |symbol: Symbol| mechanism.symbol_text(symbol);
+    let named = programs.named().into_iter();
+    let texts = named.map(|(name, program)| {
+        let cost = operations(program);
+        format!("{name}: {cost}\n{}", program.text(&names))
+    });
+    texts.collect::<Vec<_>>().join("\n")
 }
 
 /// Of an array of the equations of motion what it is, and its entries with their values, in
