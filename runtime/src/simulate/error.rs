@@ -1,6 +1,5 @@
 //! Why a run could not begin or go on.
 //!
-//! In:  nothing.
 //! Out: [`SimulateError`], and [`Failure`] with what was reached before it.
 
 use super::Summary;
