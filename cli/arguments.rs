@@ -87,6 +87,9 @@ pub struct Show {
     /// `Builder::eliminate` does
     #[arg(long)]
     pub eliminate: bool,
+    /// Print the programs that the generated functions run, operation by operation
+    #[arg(long, conflicts_with = "latex")]
+    pub programs: bool,
 }
 
 /// Arguments of `check`.

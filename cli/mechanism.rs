@@ -3,10 +3,10 @@
 //! In:  what the command line calls it.
 //! Out: [`AnyMechanism`], on which the commands work.
 
-use crate::check::read;
 use crate::compiled;
+use crate::description::{Description, read};
 use crate::error::CommandError;
-use crate::show::freedom;
+use crate::words::freedom;
 use bricard_driver::{AnyMechanism, Precise};
 use bricard_runtime::Structure;
 use std::path::{self, Path, PathBuf};
@@ -64,15 +64,6 @@ pub fn identity(name: &str) -> Result<String, CommandError> {
 pub fn names() -> impl Iterator<Item = &'static str> {
     let library = bricard::NAMES.iter();
     library.chain(bricard_benchmarks::NAMES).copied()
-}
-
-/// A description, and the file that it is in.
-#[derive(Clone, Debug)]
-pub struct Description {
-    /// The file; of a mechanism that the command has in it, the one it was compiled from.
-    pub file: PathBuf,
-    /// The text.
-    pub source: String,
 }
 
 /// The description of a mechanism by its name or path.

@@ -20,10 +20,11 @@ const STAGES: [(&str, &[&str]); 8] = [
 ];
 
 /// The sources of packages, in which modules import one another in no circle.
-const PACKAGES: [&str; 8] = [
+const PACKAGES: [&str; 9] = [
     "benches/instructions/src",
     "benches/work_precision/src",
     "capi/src",
+    "cli",
     "codegen/src",
     "driver/src",
     "reference/src",

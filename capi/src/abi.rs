@@ -1,6 +1,5 @@
 //! What the header declares, as Rust sees it.
 //!
-//! In:  nothing.
 //! Out: structures with the layout that C gives them.
 //!
 //! `include/bricard.h` is the other half; the tests hold one against the other.

@@ -77,7 +77,7 @@ fn shown(options: &Options<f64>) -> Choices {
     }
 }
 
-/// Options as C wrote them, or why they are none.
+/// The options that C wrote, or what is wrong with them.
 fn chosen(choices: &Choices) -> Result<Options<f64>, &'static str> {
     if choices.size != size_of::<Choices>() {
         return Err("these options are of another size: begin with bricard_get_options");
@@ -144,7 +144,7 @@ pub(crate) unsafe extern "C" fn set_options<M: Embedded<N, R>, const N: usize, c
     unsafe { enter(handle, act) }
 }
 
-/// Why a watch is none.
+/// What is wrong with a watch; `None` if it can be used.
 fn refusal(watch: &Watch, width: usize) -> Option<&'static str> {
     let room = watch.room / width.max(1);
     let no_rows = watch.room == 0 && watch.take.is_none();

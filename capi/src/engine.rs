@@ -53,7 +53,7 @@ where
     ///
     /// # Errors
     ///
-    /// [`SimulateError`] if the default options are none.
+    /// [`SimulateError`] if the default options are refused.
     pub fn new() -> Result<Self, SimulateError<f64>> {
         let mechanism = M::default();
         let structure = mechanism.structure();
@@ -157,7 +157,7 @@ where
         Err(Status::Name)
     }
 
-    /// Refuses a number that is none.
+    /// Refuses what is infinite or NaN.
     fn expect_finite(&mut self, value: f64, list: List, index: usize) -> Outcome {
         if value.is_finite() {
             return Ok(());

@@ -1,6 +1,5 @@
 //! The scalar that generated code and the runtime's kernels are generic over.
 //!
-//! In:  nothing.
 //! Out: [`Real`], implemented here for `f64` and `f32`.
 //!
 //! Not here: lanes, dual numbers and extended precision. A type joins by
@@ -84,11 +83,9 @@ pub trait Real:
     fn abs(self) -> Self;
     /// −1, 0 or 1: the sign, with 0 for 0 (unlike `f64::signum`).
     fn sign(self) -> Self;
-    /// The smaller of two numbers; not a number if one of them is none (unlike
-    /// `f64::min`).
+    /// The smaller of two numbers; NaN if one of them is NaN (unlike `f64::min`).
     fn min(self, other: Self) -> Self;
-    /// The larger of two numbers; not a number if one of them is none (unlike
-    /// `f64::max`).
+    /// The larger of two numbers; NaN if one of them is NaN (unlike `f64::max`).
     fn max(self, other: Self) -> Self;
 }
 

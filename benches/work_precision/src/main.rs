@@ -47,7 +47,7 @@ fn methods(problem: Problem) -> impl Iterator<Item = Solver> {
 }
 
 fn work_table(problem: Problem, out: &Path) -> Result<(), Box<dyn Error>> {
-    let exact = problem.exact(problem.nominal())?;
+    let exact = problem.exact(problem.nominal());
     println!("| method | setting | error of q₁ (rad) | processor time (ms) |\n|---|---|--:|--:|");
     let mut drawn = Vec::new();
     for method in methods(problem) {
@@ -78,7 +78,7 @@ fn work_table(problem: Problem, out: &Path) -> Result<(), Box<dyn Error>> {
 }
 
 fn scan_table(problem: Problem, angles: u32) -> Result<(), Box<dyn Error>> {
-    let starts = Starts::new(problem, angles)?;
+    let starts = Starts::new(problem, angles);
     println!("{angles} start angles, the paper's ± 0.05 rad:\n");
     println!(
         "| method | setting | left the branch or stopped | median error | worst | worst / median |\n|---|---|--:|--:|--:|--:|"

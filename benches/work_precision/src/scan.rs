@@ -5,7 +5,6 @@
 
 use crate::problem::Problem;
 use crate::run::Solver;
-use bricard_runtime::SimulateError;
 
 /// Start angles lie within this of the nominal one (rad).
 const AROUND: f64 = 0.05;
@@ -17,17 +16,13 @@ pub struct Starts(Vec<(f64, f64)>);
 
 impl Starts {
     /// `count` angles spread evenly around the nominal one.
-    ///
-    /// # Errors
-    ///
-    /// A reference run that fails.
-    pub fn new(problem: Problem, count: u32) -> Result<Self, SimulateError<f64>> {
+    pub fn new(problem: Problem, count: u32) -> Self {
         let angle = |i| {
             let part = (f64::from(i) + 0.5) / f64::from(count);
             problem.nominal() + AROUND * (2.0 * part - 1.0)
         };
-        let pair = |i| Ok((angle(i), problem.exact(angle(i))?));
-        (0..count).map(pair).collect::<Result<_, _>>().map(Self)
+        let pair = |i| (angle(i), problem.exact(angle(i)));
+        Self((0..count).map(pair).collect())
     }
 }
 

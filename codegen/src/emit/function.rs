@@ -268,7 +268,8 @@ impl Writer<'_> {
         sum
     }
 
-    /// What a sum begins with, a term that is no product if one is added, and the rest.
+    /// What a sum begins with, and its other terms: a term that is added and is no product, if
+    /// there is one.
     fn begun(&self, terms: &[(bool, Value)]) -> (Piece, Vec<(bool, Value)>) {
         let mut rest = terms.to_vec();
         let plain = |(minus, value): &(bool, Value)| !minus && self.piece(*value).factors.is_none();

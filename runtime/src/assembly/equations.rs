@@ -46,7 +46,7 @@ where
 
 /// Moves the guesses of a start onto equations that are guesses, of which there are `P`
 /// for positions and `V` for velocities, those that are held among them; whether they can
-/// be met. Constraints are none of them: they are met afterwards, from there.
+/// be met. Constraints are not among them: they are met afterwards, from there.
 pub fn guess<T, M, const N: usize, const R: usize, const P: usize, const V: usize>(
     mechanism: &M,
     structure: &'static Structure,

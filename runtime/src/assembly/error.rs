@@ -1,6 +1,5 @@
 //! Why no consistent initial state could be found.
 //!
-//! In:  nothing.
 //! Out: [`AssemblyError`].
 
 use super::fault::{StartFault, advice};
@@ -131,7 +130,7 @@ fn vanishing(f: &mut Formatter<'_>, structure: &Structure, row: usize) -> Result
     )
 }
 
-/// The part of the largest residual below which others are none.
+/// Residuals below this part of the largest are not worth telling.
 const HARMLESS: f64 = 1e-6;
 
 /// One clause per constraint equation that is not satisfied.

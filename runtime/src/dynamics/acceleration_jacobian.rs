@@ -4,7 +4,7 @@
 //!      constraints.
 //! Out: `∂q̈/∂q`, `∂q̈/∂q̇`, by the factors of `M` and `A M⁻¹ Aᵀ`.
 //!
-//! Not here: what is done near singular positions, where these factors are none.
+//! Not here: what is done near singular positions, where `A M⁻¹ Aᵀ` has no factors.
 
 use super::Solver;
 use crate::tolerance::{passes, window};

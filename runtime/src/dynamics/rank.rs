@@ -19,7 +19,7 @@ const RETURNS: f64 = 1e-2;
 /// vanishes wherever they hold, each halves the distance, and the gradient with it.
 const CORRECTIONS: usize = 16;
 
-/// Second derivatives below this part of the largest are none.
+/// Second derivatives below this part of the largest count as zero.
 const FLAT: f64 = 1e-3;
 /// How far, relative to the coordinates, the neighbours lie that tell whether constraints
 /// that touch zero go through it.

@@ -19,6 +19,9 @@ use crate::system::escalating;
 use crate::{DynamicsError, Real, State, Switching, System};
 use nalgebra::SVector;
 
+/// Abscissae of the stages.
+pub(super) const ABSCISSAE: [f64; 4] = [0.0, 0.5, 0.5, 1.0];
+
 /// Accelerations of a step, but for that at its start.
 const STAGES: u32 = 3;
 
@@ -168,7 +171,7 @@ fn classical<T: Real, Y: System<T, N> + ?Sized, const N: usize>(
     end: T,
 ) -> Result<State<T, N>, DynamicsError<T>> {
     let h = end - start.t;
-    let half = h * T::from_f64(0.5);
+    let half = h * T::from_f64(ABSCISSAE[1]);
     let second = ahead(start, start.t + half, half, &start.v, first);
     let a2 = system.acceleration(&second)?;
     let third = ahead(start, start.t + half, half, &second.v, &a2);

@@ -1,6 +1,6 @@
 //! The methods, with fixed steps or with steps that follow a tolerance.
 //!
-//! In:  nothing, or a [`Tolerance`].
+//! In:  a [`Tolerance`], if the steps follow one.
 //! Out: [`Dp5`], [`Dop853`], [`Radau5`], [`Radau9`].
 
 use super::explicit::Explicit;

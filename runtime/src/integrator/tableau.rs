@@ -1,6 +1,5 @@
 //! Coefficients of the explicit Runge–Kutta methods, with their papers.
 //!
-//! In:  nothing.
 //! Out: one [`Tableau`] per method.
 //!
 //! Every coefficient is a pair `high + low`, so that a scalar of more than 53

@@ -4,11 +4,11 @@
 //! Out: steps.
 
 use super::SimulateError;
-use super::options::{Method, StepControl};
+use super::options::StepControl;
 use crate::integrator::Inside;
 use crate::{
-    Dop853, Dp5, IntegrateError, Integrator, Radau5, Radau9, Real, Rk4, State, Step, System,
-    Tolerance,
+    Dop853, Dp5, IntegrateError, Integrator, Method, Radau5, Radau9, Real, Rk4, State, Step,
+    System, Tolerance,
 };
 
 /// The chosen method, whichever it is.

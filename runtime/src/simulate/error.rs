@@ -1,11 +1,10 @@
 //! Why a run could not begin or go on.
 //!
-//! In:  nothing.
 //! Out: [`SimulateError`], and [`Failure`] with what was reached before it.
 
-use super::{Method, Summary};
+use super::Summary;
 use crate::number::Number;
-use crate::{DynamicsError, IntegrateError, Real};
+use crate::{DynamicsError, IntegrateError, Method, Real};
 use core::fmt::{Display, Formatter, Result};
 
 /// Why a run could not begin or go on.

@@ -17,7 +17,7 @@ mod summary;
 mod watch;
 
 pub use error::{Failure, SimulateError};
-pub use options::{Audit, Method, Options, Origin, StepControl};
+pub use options::{Audit, Options, Origin, StepControl};
 pub use stepper::Stepper;
 pub use summary::Summary;
 

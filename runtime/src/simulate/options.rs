@@ -2,35 +2,7 @@
 //!
 //! Out: [`Options`].
 
-use crate::{Real, Settings};
-use core::fmt::{Display, Formatter};
-
-/// Which method makes the steps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
-    /// [`Rk4`], of order 4.
-    Rk4,
-    /// [`Dp5`], of order 5.
-    Dp5,
-    /// [`Dop853`], of order 8.
-    Dop853,
-    /// [`Radau5`], implicit, of order 5: for stiff mechanisms.
-    Radau5,
-    /// [`Radau9`], implicit, of order 9: for stiff mechanisms, to many digits.
-    Radau9,
-}
-
-impl Display for Method {
-    fn fmt(&self, f: &mut Formatter<'_>) -> core::fmt::Result {
-        f.write_str(match self {
-            Self::Rk4 => "rk4",
-            Self::Dp5 => "dp5",
-            Self::Dop853 => "dop853",
-            Self::Radau5 => "radau5",
-            Self::Radau9 => "radau9",
-        })
-    }
-}
+use crate::{Method, Real, Settings};
 
 /// How long the steps are.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,10 +7,10 @@
 
 use super::driver::Driver;
 use super::metered::Metered;
-use super::options::{Method, StepControl};
+use super::options::StepControl;
 use super::{Grid, SimulateError};
 use crate::integrator::Inside;
-use crate::{Counters, Integrator, Mechanism, Real, Settings, Solver, State, System};
+use crate::{Counters, Integrator, Mechanism, Method, Real, Settings, Solver, State, System};
 
 /// Makes steps on demand and does not hold the mechanism in between, so that a
 /// program can set its inputs.

@@ -39,7 +39,7 @@ pub(crate) struct Chart<T, const N: usize, const R: usize> {
     pub(crate) spacing: T,
     /// Error of an interpolation, relative, that is accepted.
     pub(crate) accepted: T,
-    /// The critical configuration nearby is none: a gap keeps the sheets apart.
+    /// No sheets cross at the critical configuration nearby: a gap keeps them apart.
     pub(crate) gap: bool,
 }
 

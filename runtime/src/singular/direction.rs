@@ -208,7 +208,7 @@ fn meeting<T: Real, const R: usize>(slopes: &Block<T, R>, values: &[T]) -> Optio
     let mut nearest = T::from_f64(f64::INFINITY);
     for (i, value) in values.iter().enumerate() {
         let centre = -*value / slopes.entries[i][i];
-        // NaN is none.
+        // False for NaN.
         if centre.abs() < nearest.abs() {
             nearest = centre;
         }

@@ -14,11 +14,12 @@ mod slider_crank;
 mod small;
 mod twice;
 
+pub use bricard_testkit::Reduction;
 pub use four_bars::FourBars;
 pub use hung::{Hung, HungReduced};
 pub use massless::Massless;
 pub use parallelogram::Parallelogram;
-pub use reference::{Passage, Reduced, Reduction};
+pub use reference::{Passage, Reduced};
 pub use side::{COUNT, Side};
 pub use slider_crank::SliderCrank;
 pub use small::{Sled, Spring};
