@@ -79,6 +79,7 @@ pub mod cart_pole {
         multipliers: &[],
         constant_mass: false,
         conservative: false,
+        scleronomic: true,
         drawn: true,
         regular: false,
         weighed: &[],

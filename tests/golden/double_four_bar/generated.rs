@@ -203,6 +203,7 @@ pub mod double_four_bar {
         multipliers: &[],
         constant_mass: false,
         conservative: true,
+        scleronomic: true,
         drawn: true,
         regular: false,
         weighed: &[],

@@ -83,6 +83,7 @@ pub mod double_pendulum {
         multipliers: &[],
         constant_mass: false,
         conservative: true,
+        scleronomic: true,
         drawn: true,
         regular: false,
         weighed: &[],

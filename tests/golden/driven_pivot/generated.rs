@@ -92,6 +92,7 @@ pub mod driven_pivot {
         multipliers: &[],
         constant_mass: false,
         conservative: false,
+        scleronomic: false,
         drawn: true,
         regular: false,
         weighed: &[],

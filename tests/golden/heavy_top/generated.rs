@@ -116,6 +116,7 @@ pub mod heavy_top {
         multipliers: &[],
         constant_mass: false,
         conservative: true,
+        scleronomic: true,
         drawn: true,
         regular: false,
         weighed: &[],

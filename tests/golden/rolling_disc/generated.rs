@@ -97,6 +97,7 @@ pub mod rolling_disc {
         multipliers: &[],
         constant_mass: false,
         conservative: true,
+        scleronomic: false,
         drawn: true,
         regular: false,
         weighed: &[],

@@ -107,6 +107,7 @@ pub mod slider_crank {
         multipliers: &[],
         constant_mass: false,
         conservative: true,
+        scleronomic: true,
         drawn: true,
         regular: false,
         weighed: &[],
