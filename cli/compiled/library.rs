@@ -6,7 +6,7 @@
 use super::cache::{Cache, Scratch, Version};
 use super::compiler::{Toolchain, output};
 use super::program::name;
-use super::shared::{libraries, rustc};
+use super::shared::{border, rustc};
 use super::{Digits, identity};
 use crate::error::CommandError;
 use crate::output::say;
@@ -126,13 +126,13 @@ fn build(
     if Version::holds(&entry, identity) {
         return Ok(entry);
     }
-    let shared = libraries(version, toolchain)?;
+    let border = border(version, toolchain)?;
     say(&format!("compiling {}", file.display()));
     let scratch = Scratch::new(version)?;
     scratch.write(Path::new("lib.rs"), code)?;
     let built = scratch.folder("exported")?;
     let mut rustc = rustc(
-        &[&shared],
+        &[&version.libraries(), &border],
         &["bricard_runtime", "bricard_capi"].map(String::from),
     );
     rustc
