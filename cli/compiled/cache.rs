@@ -145,6 +145,11 @@ impl Version {
         self.folder.join("libraries")
     }
 
+    /// Where the border to C is.
+    pub fn border(&self) -> PathBuf {
+        self.folder.join("border")
+    }
+
     /// Where the library for a pair of sizes is.
     pub fn sized(&self, [coordinates, constraints]: [usize; 2]) -> PathBuf {
         let name = format!("{coordinates}-{constraints}");

@@ -6,7 +6,7 @@
 use super::cache::{Cache, Digits, Scratch, Version, name};
 use super::compiler::{Toolchain, output};
 use super::identity;
-use super::shared::{libraries, rustc};
+use super::shared::{border, rustc};
 use crate::error::CommandError;
 use crate::output::say;
 use bricard_codegen::internals::emit::module_name;
@@ -125,13 +125,13 @@ fn build(
     if Version::holds(&entry, identity) {
         return Ok(entry);
     }
-    let shared = libraries(version, toolchain)?;
+    let border = border(version, toolchain)?;
     say(&format!("compiling {}", file.display()));
     let scratch = Scratch::new(version)?;
     scratch.write(Path::new("lib.rs"), code)?;
     let built = scratch.folder("exported")?;
     let mut rustc = rustc(
-        &[&shared],
+        &[&version.libraries(), &border],
         &["bricard_runtime", "bricard_capi"].map(String::from),
     );
     rustc

@@ -2,7 +2,7 @@
 //!
 //! In:  the sources that the command carries.
 //! Out: libraries in the cache: the runtime and the driver with all that they depend on,
-//!      and the driver for each pair of sizes.
+//!      the driver for each pair of sizes, and the border to C.
 
 use super::cache::{Digits, Scratch, Version};
 use super::compiler::{Toolchain, command, output};
@@ -15,11 +15,26 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+/// How the shared libraries are compiled. What a run computes with is generic and compiled
+/// with each pair of sizes, so these crates hold none of it: nalgebra nothing but generic
+/// code, num-rational what nalgebra asks for and nobody uses, and the driver the messages
+/// between two programs.
+const PROFILE: &str = "
+[profile.release.package.nalgebra]
+opt-level = 0
+
+[profile.release.package.num-rational]
+opt-level = 0
+
+[profile.release.package.bricard-driver]
+opt-level = 0
+";
+
 impl Digits {
     /// The packages among the sources that are needed.
     fn packages(self) -> &'static [&'static str] {
         match self {
-            Self::Double => &["runtime", "driver", "capi"],
+            Self::Double => &["runtime", "driver"],
             Self::Many => &["runtime", "driver", "reference"],
         }
     }
@@ -148,6 +163,9 @@ fn manifest(name: &str, text: &str, packages: &[&str]) -> String {
             manifest.push('\n');
         }
     }
+    if is_root {
+        manifest.push_str(PROFILE);
+    }
     manifest
 }
 
@@ -185,6 +203,35 @@ pub fn sized(
     Ok(sized)
 }
 
+/// Builds the border to C, which libraries for other languages need and no program, unless
+/// it is there.
+///
+/// # Errors
+///
+/// [`CommandError::Cache`], [`CommandError::Compile`].
+pub fn border(version: &Version, toolchain: &Toolchain) -> Result<PathBuf, CommandError> {
+    let libraries = libraries(version, toolchain)?;
+    let border = version.border();
+    if border.is_dir() {
+        return Ok(border);
+    }
+    let scratch = Scratch::new(version)?;
+    let built = scratch.folder("border")?;
+    let sources = SOURCES.1.iter();
+    for (name, text) in sources.filter(|(name, _)| name.starts_with("capi/")) {
+        scratch.write(Path::new(name), text)?;
+    }
+    let mut rustc = rustc(&[&libraries], &["bricard_runtime".to_string()]);
+    rustc
+        .args(["--crate-type", "lib", "--crate-name", "bricard_capi"])
+        .args(["capi/src/lib.rs", "--out-dir"])
+        .arg(&built);
+    let failed = "the border to C could not be compiled";
+    output(rustc, scratch.path(), failed)?;
+    scratch.keep(&built, &border)?;
+    Ok(border)
+}
+
 /// The compiler, with folders of libraries and the crates that are used of them.
 pub fn rustc(libraries: &[&Path], crates: &[String]) -> Command {
     let mut rustc = command("rustc");
@@ -193,6 +240,8 @@ pub fn rustc(libraries: &[&Path], crates: &[String]) -> Command {
         "2024",
         "-C",
         "opt-level=3",
+        "-C",
+        "embed-bitcode=no",
         "--cap-lints",
         "allow",
     ]);

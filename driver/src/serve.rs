@@ -5,7 +5,7 @@
 
 use crate::any::{AnyMechanism, erase_type};
 use crate::segment::Watch;
-use crate::wire::{Reply, Request, Wire, receive, send};
+use crate::wire::{Reply, Request, Wire, receive, row, send};
 use bricard_runtime::{Real, Solver, Whole};
 use std::io::{self, BufWriter, Stdout, Write};
 use std::mem;
@@ -32,7 +32,9 @@ static WANTED: AtomicBool = AtomicBool::new(false);
 /// Answers what is asked about a mechanism until nobody asks any more: the whole of a
 /// program's `main`.
 pub fn serve<const N: usize, const R: usize>(make: fn() -> Box<dyn Whole<f64, N, R>>) -> ExitCode {
-    with_room::<f64, N, R>(move || match answer(erase_type(make())) {
+    // Named here, how rows are written is compiled with the sizes: fast, as the rest of this
+    // package need not be.
+    with_room::<f64, N, R>(move || match answer(erase_type(make()), row) {
         Ok(()) => ExitCode::SUCCESS,
         // Nobody is there to be told.
         Err(_) => ExitCode::FAILURE,
@@ -62,13 +64,13 @@ pub fn with_room<T: Real, const N: usize, const R: usize>(
     }
 }
 
-fn answer(mut mechanism: Box<dyn AnyMechanism>) -> io::Result<()> {
+fn answer(mut mechanism: Box<dyn AnyMechanism>, row: WriteRow) -> io::Result<()> {
     let requests = listen(|request| {
         if *request == Request::Stop {
             WANTED.store(true, Ordering::Relaxed);
         }
     });
-    let mut out = Out::new();
+    let mut out = Out::new(row);
     out.send(&Reply::Structure(*mechanism.structure()))?;
     for request in requests {
         let reply = match request {
@@ -117,18 +119,26 @@ where
     requests
 }
 
+/// Writes the message of a row instead of what was there.
+type WriteRow = fn(&[f64], &mut Vec<u8>);
+
 /// Standard output, of which rows fill large pieces.
 struct Out {
     out: BufWriter<Stdout>,
+    row: WriteRow,
+    /// The latest row.
+    bytes: Vec<u8>,
     told: Instant,
     /// Steps that nobody has heard of.
     steps: u64,
 }
 
 impl Out {
-    fn new() -> Self {
+    fn new(row: WriteRow) -> Self {
         Self {
             out: BufWriter::with_capacity(1 << 16, io::stdout()),
+            row,
+            bytes: Vec::new(),
             told: Instant::now(),
             steps: 0,
         }
@@ -151,7 +161,8 @@ fn flow(sent: io::Result<()>) -> ControlFlow<()> {
 
 impl Watch for Out {
     fn row(&mut self, values: &[f64]) -> ControlFlow<()> {
-        flow(send(&mut self.out, &Reply::Row(values.to_vec())))
+        (self.row)(values, &mut self.bytes);
+        flow(self.out.write_all(&self.bytes))
     }
 
     fn at(&mut self, t: f64, steps: u64) -> ControlFlow<()> {

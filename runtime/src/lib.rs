@@ -20,6 +20,7 @@ mod singular;
 mod state;
 mod structure;
 mod system;
+mod table;
 mod tolerance;
 
 pub use assembly::{AssemblyError, StartEquations, StartFault, assemble, guess, meet};
@@ -52,3 +53,4 @@ pub use state::State;
 pub use structure::written_for;
 pub use structure::{ConstraintRow, Declared, Direction, Event, Multiplier, Quantity, Structure};
 pub use system::{AccelerationJacobian, Switching, System};
+pub use table::Table;

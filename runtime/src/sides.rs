@@ -41,6 +41,15 @@ impl Sides {
         !self.above(index, !found)
     }
 
+    /// Which of some functions in a row are held above zero, a bit for each; none if not all
+    /// of them are held.
+    pub fn code(self, first: u32, count: u32) -> Option<u32> {
+        let all = Self::bit(count).wrapping_sub(1);
+        let [held, above] =
+            [self.held, self.above].map(|sides| sides.checked_shr(first).unwrap_or_default() & all);
+        (held == all).then_some(above as u32)
+    }
+
     /// Holds a function above zero, or below it.
     pub fn hold(&mut self, index: u32, above: bool) {
         let bit = Self::bit(index);
@@ -89,6 +98,10 @@ mod tests {
             assert_eq!(sides.below(4, found), found);
             assert_eq!(sides.above(128, found), found, "beyond the room");
         }
+        assert_eq!((sides.code(3, 1), sides.code(3, 2)), (Some(1), None));
+        sides.hold(4, false);
+        sides.hold(5, true);
+        assert_eq!(sides.code(3, 3), Some(0b101));
         sides.hold(3, false);
         assert!(sides.below(3, false));
     }

@@ -1,3 +1,10 @@
 //! Mechanisms whose forces jump.
 
-include!(concat!(env!("OUT_DIR"), "/mechanisms.rs"));
+include!(concat!(env!("OUT_DIR"), "/contact.rs"));
+include!(concat!(env!("OUT_DIR"), "/friction.rs"));
+include!(concat!(env!("OUT_DIR"), "/frozen.rs"));
+include!(concat!(env!("OUT_DIR"), "/looped.rs"));
+include!(concat!(env!("OUT_DIR"), "/measured.rs"));
+include!(concat!(env!("OUT_DIR"), "/placed.rs"));
+include!(concat!(env!("OUT_DIR"), "/tabled.rs"));
+include!(concat!(env!("OUT_DIR"), "/timed.rs"));

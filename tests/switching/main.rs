@@ -2,4 +2,6 @@
 
 mod events;
 mod jumps;
+mod measured;
+mod points;
 mod tables;

@@ -35,9 +35,9 @@ from `benches/recorded.json`; `short` counts again and compares, as CI does. The
 of the others were counted once, in the same way.
 ";
 
-const ELIMINATED: &str = "## Coordinates that constraints give
+const ELIMINATED: &str = "## Dependent coordinates
 
-`Builder::eliminate(true)` leaves out coordinates like the `q3` of
+`Builder::eliminate(true)` leaves out dependent coordinates like the `q3` of
 `L1*cos(q1) + L2*cos(q2) = q3`, with the constraint. The motion is the same one, through
 singular positions too (`tests/eliminated.rs`). An evaluation costs as much, for what the
 coordinate took goes into the other entries; the solves are smaller. It stays an option

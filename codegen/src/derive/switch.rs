@@ -93,7 +93,7 @@ fn rate(mechanism: &mut Mechanism, function: ExprId) -> ExprId {
 fn too_many(count: usize, span: Span) -> Diagnostics {
     let message = format!("{count} conditions decide the forces, and there is room for {ROOM}");
     let help = "write forces that begin and end smoothly instead, such as `tanh(x/d)` for \
-                `sign(x)`, and `spline` for a `table` of many points";
+                `sign(x)`, and `spline` for `table`";
     let mut errors = Diagnostics::new();
     errors.push(Diagnostic::error(span, message).help(help));
     errors

@@ -8,6 +8,7 @@
 
 use super::literal;
 use super::name::Names;
+use super::tables;
 use crate::expr::{Comparison, Function, Function2, Side, Symbol, Test};
 use crate::optimise::{Operation, Program, Slot, Value};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
@@ -339,6 +340,13 @@ impl Writer<'_> {
     }
 
     fn call(&self, function: Function, x: Value) -> Piece {
+        if let Function::Table(lookup) = function {
+            let tokens = tables::call(lookup, &self.piece(x).tokens, self.decided);
+            return Piece {
+                operands: self.operands([x]),
+                ..atom(tokens)
+            };
+        }
         let argument = self.bound(x, Binding::Atom);
         let name = Ident::new(function.name(), Span::call_site());
         Piece {

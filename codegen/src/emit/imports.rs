@@ -29,7 +29,7 @@ pub(super) fn imports(subject: &Subject) -> TokenStream {
     let held = !mechanism.start_equations.is_empty();
     let guessed = !mechanism.start_guesses.is_empty();
     let named = mechanism.constraints.iter().any(|c| c.multiplier.is_some());
-    let parts: [(bool, &[&str]); 14] = [
+    let parts: [(bool, &[&str]); 15] = [
         (true, &ALWAYS),
         (programs.regular.is_some(), &["Regular"]),
         (programs.position.is_some(), &["ConstraintRow", "Position"]),
@@ -47,6 +47,7 @@ pub(super) fn imports(subject: &Subject) -> TokenStream {
         (held || guessed, &["StartEquations", "StartFault"]),
         (!mechanism.events.is_empty(), &["Direction", "Event"]),
         (!mechanism.switches.is_empty(), &["Condition", "Switch"]),
+        (!mechanism.tables.is_empty(), &["Table"]),
     ];
     let used = parts.into_iter().filter(|(used, _)| *used);
     let mut names: Vec<&str> = used.flat_map(|(_, names)| names).copied().collect();

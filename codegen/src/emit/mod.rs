@@ -27,6 +27,7 @@ mod structure;
 mod subject;
 mod switches;
 mod symbol;
+mod tables;
 mod write;
 
 pub use c::c_header;
@@ -69,6 +70,7 @@ pub fn module(
     let source = origin.source;
     let structure = structure::structure(&subject);
     let conditions = switches::table(&subject);
+    let tables = tables::tables(&subject);
     let parameters = structure::parameters(&subject);
     let inputs = structure::inputs(&subject);
     let holder = holder(&subject);
@@ -92,6 +94,7 @@ pub fn module(
 
             #structure
             #conditions
+            #tables
             #parameters
             #inputs
             #holder

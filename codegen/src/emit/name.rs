@@ -84,7 +84,7 @@ pub(super) fn snake_case(name: &str) -> String {
 }
 
 /// Types that stand beside a mechanism's in its module.
-const NEIGHBOURS: [&str; 38] = [
+const NEIGHBOURS: [&str; 39] = [
     "Canvas",
     "Condition",
     "ConstraintRow",
@@ -122,6 +122,7 @@ const NEIGHBOURS: [&str; 38] = [
     "Structure",
     "Switch",
     "T",
+    "Table",
     "Terms",
 ];
 

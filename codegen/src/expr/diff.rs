@@ -167,6 +167,10 @@ impl Graph {
             }
             Function::Abs => self.function(Function::Sign, x),
             Function::Sign => self.integer(0),
+            Function::Table(lookup) => match lookup.slope() {
+                Some(slope) => self.function(Function::Table(slope), x),
+                None => self.integer(0),
+            },
         }
     }
 

@@ -1,5 +1,7 @@
 //! The functions of the language, and their names.
 
+use super::Lookup;
+
 /// A function of one argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[allow(missing_docs)]
@@ -18,6 +20,8 @@ pub enum Function {
     Sqrt,
     Abs,
     Sign,
+    /// Something in a table.
+    Table(Lookup),
 }
 
 /// A function of two arguments.
@@ -88,7 +92,7 @@ impl Test {
 }
 
 impl Function {
-    /// Every function with the name it has in a description.
+    /// Every function that is known by its name alone, with the name it has in a description.
     pub const ALL: [(Function, &'static str); 14] = [
         (Function::Sin, "sin"),
         (Function::Cos, "cos"),
@@ -108,6 +112,9 @@ impl Function {
 
     /// The name it has in a description.
     pub fn name(self) -> &'static str {
+        if let Self::Table(lookup) = self {
+            return lookup.name();
+        }
         Self::ALL
             .iter()
             .find(|(function, _)| *function == self)
@@ -132,12 +139,17 @@ impl Function {
             Function::Abs => x.abs(),
             Function::Sign if x == 0.0 => 0.0,
             Function::Sign => x.signum(),
+            Function::Table(lookup) => lookup.apply(x),
         }
     }
 
     /// Whether it has a derivative on the inside of its domain.
     pub fn is_differentiable(self) -> bool {
-        !matches!(self, Function::Abs | Function::Sign)
+        match self {
+            Function::Abs | Function::Sign => false,
+            Function::Table(lookup) => lookup.is_differentiable(),
+            _ => true,
+        }
     }
 }
 

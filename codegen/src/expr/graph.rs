@@ -311,7 +311,9 @@ impl Graph {
         }
         let parity = match function {
             Function::Cos | Function::Cosh | Function::Abs => 1,
-            Function::Exp | Function::Ln | Function::Sqrt | Function::Acos => 0,
+            Function::Exp | Function::Ln | Function::Sqrt | Function::Acos | Function::Table(_) => {
+                0
+            }
             _ => -1,
         };
         if parity == 0 || !self.leads_negative(x) {
@@ -391,7 +393,7 @@ fn exact_value(function: Function, x: Number) -> Option<Number> {
         Function::Acos if x.is_one() => Some(Number::ZERO),
         _ if !x.is_zero() => None,
         Function::Cos | Function::Cosh | Function::Exp => Some(Number::ONE),
-        Function::Ln | Function::Acos => None,
+        Function::Ln | Function::Acos | Function::Table(_) => None,
         _ => Some(Number::ZERO),
     }
 }

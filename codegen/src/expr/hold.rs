@@ -8,7 +8,9 @@
 //! difference share one. What depends on parameters alone never changes along a motion
 //! and stays as it is; so does what tells equal from unequal, which no step can find.
 
-use super::{Comparison, ExprId, Function, Function2, Graph, Node, Number, Side, Symbol, Test};
+use super::{
+    Comparison, Entry, ExprId, Function, Function2, Graph, Lookup, Node, Number, Side, Symbol, Test,
+};
 use rustc_hash::FxHashMap;
 
 /// A function whose sign decides something.
@@ -75,6 +77,11 @@ impl Graph {
                 let rest = self.select(at_most, zero, x, zero, minus);
                 self.select(less, zero, x, one, rest)
             }
+            Node::Function(Function::Table(lookup), x) if lookup.jumps() => {
+                let x = of(x);
+                let held = self.interval(switches, *lookup, x, e);
+                self.function(Function::Table(Lookup { held, ..*lookup }), x)
+            }
             Node::Function2(Function2::Min, x, y) => {
                 let (x, y) = (of(x), of(y));
                 self.select_less(switches, (y, x), e, [y, x])
@@ -106,6 +113,47 @@ impl Graph {
         self.select(test, a, b, then, otherwise)
     }
 
+    /// The first of the switching functions that tell an interval of a table; none if it
+    /// never changes.
+    fn interval(
+        &mut self,
+        switches: &mut Switches,
+        lookup: Lookup,
+        x: ExprId,
+        met_in: ExprId,
+    ) -> Option<u32> {
+        if self.is_fixed(x) {
+            return None;
+        }
+        let bits = 0..lookup.table.bits();
+        let functions: Vec<_> = bits
+            .map(|bit| {
+                let entry = Entry::Side(bit);
+                self.function(Function::Table(Lookup { entry, ..lookup }), x)
+            })
+            .collect();
+        let list = &mut switches.list;
+        let known = list
+            .iter()
+            .position(|switch| switch.function == functions[0]);
+        let first = known.unwrap_or_else(|| {
+            let first = list.len();
+            list.extend(functions.iter().map(|&function| Switch {
+                function,
+                met_in,
+                kinks: true,
+            }));
+            first
+        });
+        Some(u32::try_from(first).unwrap_or(u32::MAX))
+    }
+
+    /// Whether an expression is the same all along a motion.
+    fn is_fixed(&self, e: ExprId) -> bool {
+        let fixed = |symbol: &Symbol| matches!(symbol, Symbol::Parameter(_));
+        self.symbols(e).iter().all(fixed)
+    }
+
     /// The side of a switching function on which `a < b`; none if it never changes.
     fn side(
         &mut self,
@@ -116,8 +164,7 @@ impl Graph {
     ) -> Option<Side> {
         let difference =
             self.weighted_sum(Number::ZERO, &[(b, Number::ONE), (a, Number::MINUS_ONE)]);
-        let fixed = |symbol: &Symbol| matches!(symbol, Symbol::Parameter(_));
-        if self.symbols(difference).iter().all(fixed) {
+        if self.is_fixed(difference) {
             return None;
         }
         let opposite = self.neg(difference);

@@ -14,6 +14,7 @@ mod number;
 mod print;
 mod reach;
 mod substitute;
+mod table;
 
 pub(crate) use bits::Bits;
 pub use diff::Direction;
@@ -22,3 +23,4 @@ pub use graph::{ExprId, Graph, Node, Symbol};
 pub use hold::{Switch, Switches};
 pub use number::Number;
 pub use print::Notation;
+pub use table::{Entry, Lookup, Table};

@@ -207,7 +207,9 @@ impl Printer<'_> {
             Function::Asin => format!("\\arcsin {}", self.argument(x)),
             Function::Acos => format!("\\arccos {}", self.argument(x)),
             Function::Atan => format!("\\arctan {}", self.argument(x)),
-            Function::Sign => format!("\\operatorname{{sign}} {}", self.argument(x)),
+            Function::Sign | Function::Table(_) => {
+                format!("\\operatorname{{{}}} {}", function.name(), self.argument(x))
+            }
             _ => format!("\\{} {}", function.name(), self.argument(x)),
         };
         (text, Binding::Power)

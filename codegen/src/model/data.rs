@@ -8,8 +8,8 @@ use crate::diagnostic::{figure, nearest};
 use std::fs;
 use std::path::Path;
 
-/// The most pairs of a table: code has a piece for each.
-const MOST: usize = 2000;
+/// The most pairs of a table, all of which the compiler of the code has to read.
+const MOST: usize = 100_000;
 
 /// What is wrong with a file, behind its name.
 pub struct Fault {

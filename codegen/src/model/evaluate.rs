@@ -13,7 +13,7 @@ use super::scope::{BUILT_IN, Kind, Scope};
 use super::unit::Unit;
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest};
-use crate::expr::{Direction, ExprId, Function, Graph, Number, Symbol};
+use crate::expr::{Direction, ExprId, Function, Graph, Number, Symbol, Table};
 use crate::syntax::NESTING;
 use crate::syntax::ast::{Expr, ExprKind, Range};
 use std::path::PathBuf;
@@ -45,6 +45,8 @@ pub struct Evaluator {
     pub folder: Option<PathBuf>,
     /// The files that were read.
     pub files: Vec<PathBuf>,
+    /// The tables that code holds as data.
+    pub tables: Vec<&'static Table>,
     work: u64,
     /// The number of formulas inside one another.
     depth: usize,

@@ -44,6 +44,11 @@ impl Evaluator {
                 "a vector stands behind the matrix".to_string(),
                 "write `transpose(R)*v`",
             ),
+            (Value::Matrix(plane), Value::Vector(v)) if plane.rows.len() == 2 && v.len() == 3 => (
+                format!("{} times {}", a.shape(), b.shape()),
+                "a rotation in space has an axis: `rotx(a)`, `roty(a)`, `rotz(a)`, \
+                 `rot(axis, a)`",
+            ),
             _ => (
                 format!("{} times {}", a.shape(), b.shape()),
                 "the sizes have to fit",

@@ -67,6 +67,7 @@ pub fn lower(
         return Err(evaluator.diagnostics.into_errors());
     }
     mechanism.files = std::mem::take(&mut evaluator.files);
+    mechanism.tables = std::mem::take(&mut evaluator.tables);
     mechanism.graph = std::mem::replace(&mut evaluator.graph, Graph::new());
     Ok((mechanism, evaluator.diagnostics))
 }

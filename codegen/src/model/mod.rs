@@ -44,7 +44,7 @@ pub(crate) use scope::built_in;
 pub(crate) use unit_names::{scaled_units, units};
 
 use crate::diagnostic::Span;
-use crate::expr::{ExprId, Graph, Symbol};
+use crate::expr::{ExprId, Graph, Symbol, Table};
 
 /// A mechanism whose every part has been checked.
 #[derive(Clone, Debug)]
@@ -96,6 +96,8 @@ pub struct Mechanism {
     pub described: Vec<Described>,
     /// Files that the description reads.
     pub files: Vec<std::path::PathBuf>,
+    /// Tables that code holds as data.
+    pub tables: Vec<&'static Table>,
     /// What decides the forces along a motion by its sign; found when the equations of
     /// motion are derived.
     pub switches: Vec<Switch>,
@@ -315,6 +317,7 @@ impl Mechanism {
             shapes: Vec::new(),
             described: Vec::new(),
             files: Vec::new(),
+            tables: Vec::new(),
             switches: Vec::new(),
         }
     }

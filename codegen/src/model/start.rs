@@ -55,7 +55,13 @@ impl Lowering<'_> {
             }));
         }
         let both = wanted.scalars().into_iter().zip(given.scalars());
-        for ((wanted, given), suffix) in both.zip(wanted.suffixes()) {
+        // Of what turns about a fixed axis, components of the angular velocity are zero.
+        let says_something = |((wanted, given), _): &((Scalar, Scalar), _)| wanted.id != given.id;
+        let mut entries: Vec<_> = both.zip(wanted.suffixes()).collect();
+        if entries.iter().any(says_something) {
+            entries.retain(says_something);
+        }
+        for ((wanted, given), suffix) in entries {
             let suffix = suffix.as_str();
             let (wanted, given) = ((wanted, target), (given, value));
             match self.start_target(wanted.0) {

@@ -14,8 +14,12 @@ use super::evaluate::Evaluator;
 use super::unit::Unit;
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::expr::{Comparison, ExprId, Number, Test};
+use crate::expr::{Comparison, ExprId, Function, Lookup, Number, Table, Test};
 use crate::syntax::ast::{Expr, ExprKind};
+
+/// The most points of a table for each of which code has a choice. The points of longer
+/// ones are data, if they are constant.
+const FEW: usize = 32;
 
 /// How a table is read from a file.
 const FROM_FILE: &str = "write `table(\"file.csv\", t)` for the first two columns, or name them: \
@@ -155,6 +159,13 @@ impl Evaluator {
 
     /// Straight pieces between the points.
     fn polygon(&mut self, points: &[Point], x: ExprId) -> ExprId {
+        let values = points
+            .iter()
+            .map(|point| self.analysis(point.value.id).value);
+        let values: Option<Vec<f64>> = values.collect();
+        if let Some(values) = values.filter(|_| points.len() > FEW) {
+            return self.data(points, straight(points, &values), x, false);
+        }
         let mut result = points[points.len() - 1].value.id;
         for pair in points.windows(2).rev() {
             let [from, to] = pair else { continue };
@@ -173,6 +184,26 @@ impl Evaluator {
         self.graph.select(Comparison::Less, x, at, value, result)
     }
 
+    /// A table that code holds as data, until the program ends: a compiler ends soon.
+    fn data(&mut self, points: &[Point], pieces: Vec<[f64; 4]>, x: ExprId, smooth: bool) -> ExprId {
+        let places = places(points);
+        let tables = &mut self.tables;
+        let same = |table: &&Table| {
+            table.places == places && table.pieces == pieces && table.smooth == smooth
+        };
+        let table = tables.iter().copied().find(same).unwrap_or_else(|| {
+            let table: &'static Table = Box::leak(Box::new(Table {
+                index: u32::try_from(tables.len()).unwrap_or(u32::MAX),
+                places,
+                pieces,
+                smooth,
+            }));
+            tables.push(table);
+            table
+        });
+        self.graph.function(Function::Table(Lookup::of(table)), x)
+    }
+
     /// The natural cubic spline through the points.
     fn spline(&mut self, points: &[Point], x: ExprId) -> Option<ExprId> {
         let mut values = Vec::new();
@@ -185,27 +216,20 @@ impl Evaluator {
             };
             values.push(value);
         }
-        let places: Vec<f64> = points.iter().map(|point| point.place).collect();
-        let bends = bends(&places, &values);
+        let places = places(points);
+        let pieces = cubics(&places, &values);
+        if points.len() > FEW {
+            return Some(self.data(points, pieces, x, true));
+        }
         let smooth = Test {
             smooth: true,
             ..Comparison::Less.into()
         };
         let last = places.len() - 1;
-        let mut pieces = vec![[values[0], 0.0, 0.0, 0.0]];
-        for i in 0..last {
-            let run = places[i + 1] - places[i];
-            let (bend, next) = (bends[i], bends[i + 1]);
-            let slope = (values[i + 1] - values[i]) / run - run * (2.0 * bend + next) / 6.0;
-            pieces.push([values[i], slope, bend / 2.0, (next - bend) / (6.0 * run)]);
-        }
-        pieces[0][1] = pieces[1][1];
-        let run = places[last] - places[last - 1];
-        let arrival = pieces[last][1] + run * (bends[last - 1] + bends[last]) / 2.0;
-        let mut result = self.cubic([values[last], arrival, 0.0, 0.0], places[last], x);
-        for (i, piece) in pieces.into_iter().enumerate().rev() {
+        let mut result = self.cubic(pieces[last + 1], places[last], x);
+        for (i, piece) in pieces[..=last].iter().enumerate().rev() {
             // The first piece goes on straight from the first point.
-            let cubic = self.cubic(piece, places[i.saturating_sub(1)], x);
+            let cubic = self.cubic(*piece, places[i.saturating_sub(1)], x);
             let end = points[i].at.id;
             result = self.graph.select(smooth, x, end, cubic, result);
         }
@@ -226,6 +250,40 @@ impl Evaluator {
         }
         sum
     }
+}
+
+fn places(points: &[Point]) -> Vec<f64> {
+    points.iter().map(|point| point.place).collect()
+}
+
+/// The pieces of a table: before the first point, between the points, behind the last.
+fn straight(points: &[Point], values: &[f64]) -> Vec<[f64; 4]> {
+    let mut pieces = vec![[values[0], 0.0, 0.0, 0.0]];
+    for (points, values) in points.windows(2).zip(values.windows(2)) {
+        let slope = (values[1] - values[0]) / (points[1].place - points[0].place);
+        pieces.push([values[0], slope, 0.0, 0.0]);
+    }
+    pieces.push([values[values.len() - 1], 0.0, 0.0, 0.0]);
+    pieces
+}
+
+/// The pieces of a natural spline: straight before the first point, cubic between the
+/// points, straight behind the last.
+fn cubics(places: &[f64], values: &[f64]) -> Vec<[f64; 4]> {
+    let bends = bends(places, values);
+    let last = places.len() - 1;
+    let mut pieces = vec![[values[0], 0.0, 0.0, 0.0]];
+    for i in 0..last {
+        let run = places[i + 1] - places[i];
+        let (bend, next) = (bends[i], bends[i + 1]);
+        let slope = (values[i + 1] - values[i]) / run - run * (2.0 * bend + next) / 6.0;
+        pieces.push([values[i], slope, bend / 2.0, (next - bend) / (6.0 * run)]);
+    }
+    pieces[0][1] = pieces[1][1];
+    let run = places[last] - places[last - 1];
+    let arrival = pieces[last][1] + run * (bends[last - 1] + bends[last]) / 2.0;
+    pieces.push([values[last], arrival, 0.0, 0.0]);
+    pieces
 }
 
 /// The second derivatives at the points of a natural spline: zero at both ends, between

@@ -24,7 +24,10 @@ const ELSEWHERE: [(&str, &str); 5] = [
         "|",
         "the size of a number is `abs(x)`, that of a vector `norm(v)`",
     ),
-    ("%", "there is no remainder; angles may grow beyond a turn"),
+    (
+        "%",
+        "there is no remainder; angles may grow beyond a turn; comments begin with `//`",
+    ),
 ];
 
 impl Cursor<'_> {

@@ -310,7 +310,8 @@ impl Cursor<'_> {
             return Err(self.fail(error.help("a point or vector is written `[x, y]`")));
         }
         self.comparison_stands_after_if()?;
-        self.expect_symbol(")", "")?;
+        let help = self.number_in_front(false).unwrap_or_default();
+        self.expect_symbol(")", &help)?;
         Ok(Expr {
             span: start.to(self.last_span()),
             kind: inside.kind,

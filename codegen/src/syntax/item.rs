@@ -15,7 +15,11 @@ impl Cursor<'_> {
     pub fn file(&mut self) -> Parsed<Model> {
         let docs = self.docs();
         if !self.take_word("mechanism") {
-            return Err(self.unexpected("`mechanism`", FILE));
+            let help = match self.at_word("use") || self.at_statement() {
+                true => format!("{FILE}, and this stands inside the braces"),
+                false => FILE.to_string(),
+            };
+            return Err(self.unexpected("`mechanism`", &help));
         }
         let name = self.expect_name("the name of the mechanism", FILE)?;
         let mut model = Model::named(name, docs);

@@ -1,8 +1,8 @@
 //! Tables from files beside the description.
 
 use super::with;
-use bricard_codegen::Settings;
 use bricard_codegen::internals::analyse;
+use bricard_codegen::{Settings, compile_source};
 use std::fs;
 use std::path::PathBuf;
 
@@ -85,4 +85,50 @@ fn what_is_wrong_with_a_file_is_told_with_its_line_and_column() {
     );
     let text = said("text", "0,1\n1,2\n", "3*\"data.csv\"");
     assert!(text.contains("quoted text has no meaning here"), "{text}");
+}
+
+/// A file of so many rows.
+fn rows(count: usize) -> String {
+    let row = |i: usize| format!("{i},{}\n", i * i % 17);
+    (0..count).map(row).collect()
+}
+
+#[test]
+fn the_points_of_a_long_table_are_data_and_not_choices() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("files_long");
+    fs::create_dir_all(&folder).expect("a folder");
+    fs::write(folder.join("data.csv"), rows(1000)).expect("a file");
+    let settings = Settings::beside(&folder.join("test.mech"));
+    for (function, conditions) in [("table", 10), ("spline", 0)] {
+        let source = with(&format!("force {function}(\"data.csv\", t) on q;"));
+        let code = compile_source(&source, "long", "test.mech", &settings)
+            .expect("a right description")
+            .code;
+        let statements = code.matches("let ").count() + code.matches(" if ").count();
+        assert!(statements < 100, "{statements} statements");
+        assert_eq!(code.matches("Condition {").count(), conditions);
+        assert_eq!(code.matches("TABLE_0: Table").count(), 1);
+    }
+}
+
+#[test]
+fn tables_for_which_there_is_no_room_are_refused() {
+    let many: String = (0..13)
+        .map(|i| format!("force table(\"data.csv\", t + {i}) on q;\n"))
+        .collect();
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("files_many");
+    fs::create_dir_all(&folder).expect("a folder");
+    fs::write(folder.join("data.csv"), rows(1000)).expect("a file");
+    let settings = Settings::beside(&folder.join("test.mech"));
+    let source = with(&many);
+    let errors = compile_source(&source, "many", "test.mech", &settings)
+        .expect_err("more conditions than there is room for");
+    let message = errors.render("test.mech", &source);
+    let words = "130 conditions decide the forces, and there is room for 128";
+    assert!(message.contains(words), "{message}");
+    let longest = said("longest", &rows(100_001), "table(\"data.csv\", t)");
+    assert!(
+        longest.contains("has 100001 rows, and there is room for 100000"),
+        "{longest}"
+    );
 }

@@ -74,3 +74,21 @@ fn a_start_that_equations_contradict_is_warned_of() {
     let held = said("q = 1; der(q) = 2; der(w - q) = 0;");
     assert!(held.contains("the held velocities contradict"), "{held}");
 }
+
+#[test]
+fn components_that_are_as_they_begin_anyway_are_no_equations() {
+    let m = accept(&with(
+        "let R = rot([0, 0, 1], q); start { omega(R) = [0, 0, 10*pi]; }",
+    ));
+    let texts = m.start_equations.iter().map(|row| row.text.as_str());
+    let starts: Vec<_> = m.starts.iter().map(|start| start.velocity).collect();
+    assert_eq!((texts.count(), starts), (0, vec![true]));
+    refuse_saying(
+        &with("let R = rot([0, 0, 1], q); start { omega(R) = [0, 1, 10*pi]; }"),
+        "only coordinates and their velocities have start values",
+    );
+    refuse_saying(
+        &with("start { [0, 0] = [0, 0]; }"),
+        "only coordinates and their velocities have start values",
+    );
+}

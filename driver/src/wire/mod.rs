@@ -37,6 +37,17 @@ pub(crate) fn send(out: &mut impl Write, value: &impl Wire) -> io::Result<()> {
     out.write_all(&bytes)
 }
 
+/// The bytes of [`Reply::Row`], instead of what was there. Rows are most of what is sent.
+#[inline]
+pub(crate) fn row(values: &[f64], bytes: &mut Vec<u8>) {
+    const VARIANT: u64 = 1;
+    let count = values.len() as u64;
+    let head = [8 * (count + 2), VARIANT, count];
+    bytes.clear();
+    bytes.extend(head.iter().flat_map(|n| n.to_le_bytes()));
+    bytes.extend(values.iter().flat_map(|x| x.to_le_bytes()));
+}
+
 /// Receives a value.
 ///
 /// # Errors

@@ -1,6 +1,6 @@
 //! What is sent arrives to the same bits, or not at all.
 
-use super::{Reply, Request, receive, send};
+use super::{Reply, Request, receive, row, send};
 use crate::{Column, Drawn, Given, Reached, Scene, Segment};
 use bricard_runtime::{
     ConstraintRow, Counters, Direction, Event, Method, Options, Origin, Passage, Quantity,
@@ -85,6 +85,15 @@ fn reached() -> Reached {
             projections: 4,
             ..Counters::default()
         },
+    }
+}
+
+#[test]
+fn a_row_is_written_like_any_other_message() {
+    let mut written = vec![7; 3];
+    for values in [vec![], vec![1.5], vec![0.1, -0.0, f64::NAN, 4e300]] {
+        row(&values, &mut written);
+        assert_eq!(written, bytes(&Reply::Row(values)));
     }
 }
 

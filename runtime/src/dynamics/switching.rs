@@ -95,8 +95,10 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 return Ok(Switching::AtStart);
             }
             Some((index, t)) => {
+                // What passes zero long before is another zero of the same function.
+                let near = t - start > (end - start) * T::from_f64(0.5);
                 let tries = aim
-                    .filter(|aim| aim.index == index)
+                    .filter(|aim| aim.index == index && near)
                     .map_or(0, |aim| aim.tries + 1);
                 if t < end - same && tries <= REFINEMENTS {
                     self.conditions.aim = Some(Aim { index, tries });
@@ -219,8 +221,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 self.end_of_sliding(mechanism, step, index)?
             } else {
                 let side = self.conditions.side(index);
-                let mut value = |t| {
-                    let value = values(mechanism, &step.at(t), &still)[index].value;
+                let defined = |t, value: T| {
                     let undefined = DynamicsError::WatchedNotFinite {
                         t,
                         quantity: Watched::Condition(list[index].text),
@@ -230,11 +231,12 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                         .map(|_| value)
                         .ok_or(undefined)
                 };
+                let mut value = |t| defined(t, values(mechanism, &step.at(t), &still)[index].value);
                 let mut samples = [T::zero(); NODES];
                 for (sample, values) in samples.iter_mut().zip(&sampled) {
                     *sample = values[index].value;
                 }
-                value(step.end().t)?;
+                defined(step.end().t, samples[NODES - 1])?;
                 earliest(&mut value, (times, samples), side, self.noise())?
             };
             if let Some(t) = found {
