@@ -21,7 +21,7 @@ mod serve;
 mod wire;
 mod writer;
 
-pub use any::{AnyMechanism, Given, TimedRun, erase_type, state_of};
+pub use any::{AnyMechanism, EraseType, Given, TimedRun, erase_type, state_of};
 pub use column::{Column, WORDS, heads};
 pub use digits::{Around, Changes, Exact, Path, Precise};
 pub use link::Link;

@@ -61,7 +61,8 @@ pub(super) use choices;
 records! {
     Structure {
         name, docs, file, coordinates, states, described, parameters, inputs, outputs, accelerated, events,
-        constraints, multipliers, weighed, constant_mass, conservative, drawn, regular
+        constraints, multipliers, weighed, constant_mass, conservative, scleronomic,
+        drawn, regular
     }
     Quantity { name, unit, docs }
     Declared { quantity, given_by }

@@ -103,6 +103,7 @@ fn messages_arrive_as_they_were_sent() {
         Request::Stop,
         Request::TimedRun(None, segment().options),
         Request::Scene(vec![vec![0.0, 1.5], Vec::new()]),
+        Request::RankAtStart,
     ] {
         let arrived: Request = receive(&mut &bytes(&request)[..]).expect("it is whole");
         assert_eq!(arrived, request);
@@ -123,6 +124,7 @@ fn messages_arrive_as_they_were_sent() {
             ],
             frames: vec![vec![0.1, -0.0], Vec::new()],
         })),
+        Reply::RankAtStart(Ok(4)),
     ] {
         let arrived: Reply = receive(&mut &bytes(&reply)[..]).expect("it is whole");
         assert_eq!(arrived, reply);

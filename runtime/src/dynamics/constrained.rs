@@ -49,6 +49,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         M: Mechanism<T, N, R> + ?Sized,
     {
         self.metric.forget();
+        self.session.nodes.forget();
         self.safe = None;
         self.expect_regular();
         let conditions = match self.settings.across_switches {
@@ -176,6 +177,11 @@ where
                 .iter()
                 .fold(T::one(), |least, value| least.min(*value)),
         })
+    }
+
+    /// Chooses whether passages through singular configurations are looked for.
+    pub(crate) fn seek_passages(&mut self, wanted: bool) {
+        self.solver.seeks_passages = wanted;
     }
 
     /// The passages of the last accepted step.

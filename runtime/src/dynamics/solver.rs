@@ -41,6 +41,8 @@ pub struct Solver<T, const N: usize, const R: usize> {
     pub(crate) correction: Correction<T, N, R>,
     pub(crate) session: Session<T, N, R>,
     pub(super) conditions: Conditions<T, N>,
+    /// Whether passages through singular configurations are looked for.
+    pub(crate) seeks_passages: bool,
     /// Whether the mechanism provides emitted solves, as far as is known.
     pub(crate) emitted: bool,
     /// Whether emitted code may be called before anything else is asked.
@@ -80,6 +82,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             correction: Correction::default(),
             session: Session::new(),
             conditions: Conditions::new(),
+            seeks_passages: false,
             emitted: true,
             expected: false,
             safe: None,

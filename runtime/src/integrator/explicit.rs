@@ -56,8 +56,8 @@ impl<T: Real, const N: usize, const S: usize> Explicit<T, N, S> {
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         self.step.evaluations += 1;
-        self.stages.a[slot] = system.acceleration(state)?;
-        self.stages.v[slot] = state.v;
+        let acceleration = system.acceleration(state)?;
+        self.stages.set(slot, &state.v, &acceleration);
         Ok(())
     }
 
@@ -137,7 +137,7 @@ impl<T: Real, const N: usize, const S: usize> Trial<T, N> for Explicit<T, N, S> 
         }
         self.end_known = false;
         self.step.start = *state;
-        Ok(self.stages.a[0])
+        Ok(self.stages.acceleration(0))
     }
 
     fn attempt<Y: System<T, N> + ?Sized>(
@@ -201,7 +201,8 @@ impl<T: Real, const N: usize, const S: usize> Trial<T, N> for Explicit<T, N, S> 
             return Ok(());
         }
         self.know_end(system)?;
-        let (first, last) = (self.stages.a[0], self.stages.a[self.tableau.stages()]);
+        let last = self.tableau.stages();
+        let (first, last) = [0, last].map(|slot| self.stages.acceleration(slot)).into();
         let h = self.step.set_ends(&first, &last);
         if inside == Inside::Hermite || self.tableau.dense.is_empty() {
             self.step.interpolant.complete_hermite(h, &first, &last);

@@ -5,43 +5,50 @@
 
 use super::tableau::Term;
 use crate::Real;
-use crate::linalg::add_scaled;
 use nalgebra::SVector;
 
 /// Derivatives of `(q, q̇)` in `S` slots.
 #[derive(Clone, Debug)]
 pub(super) struct Stages<T, const N: usize, const S: usize> {
-    /// Velocities, the derivatives of `q`.
-    pub(super) v: [SVector<T, N>; S],
-    /// Accelerations, the derivatives of `q̇`.
-    pub(super) a: [SVector<T, N>; S],
+    /// Velocities and accelerations of each, which are combined in one go.
+    slots: [[[T; N]; 2]; S],
 }
 
 impl<T: Real, const N: usize, const S: usize> Stages<T, N, S> {
     pub(super) fn new() -> Self {
-        let zero = [SVector::zeros(); S];
-        Self { v: zero, a: zero }
+        Self {
+            slots: [[[T::zero(); N]; 2]; S],
+        }
+    }
+
+    /// Fills a slot.
+    #[inline(always)]
+    pub(super) fn set(&mut self, slot: usize, v: &SVector<T, N>, a: &SVector<T, N>) {
+        self.slots[slot] = [v.data.0[0], a.data.0[0]];
+    }
+
+    /// The acceleration in a slot.
+    pub(super) fn acceleration(&self, slot: usize) -> SVector<T, N> {
+        SVector::from(self.slots[slot][1])
     }
 
     /// Copies a slot into another.
     pub(super) fn copy(&mut self, from: usize, to: usize) {
-        self.v[to] = self.v[from];
-        self.a[to] = self.a[from];
+        self.slots[to] = self.slots[from];
     }
 
     /// A combination of the derivatives.
     #[inline(always)]
     pub(super) fn combine(&self, row: &[Term]) -> (SVector<T, N>, SVector<T, N>) {
-        let Some((&(slot, high, low), rest)) = row.split_first() else {
-            return (SVector::zeros(), SVector::zeros());
-        };
-        let weight = T::constant(high, low);
-        let (mut q, mut v) = (self.v[slot] * weight, self.a[slot] * weight);
-        for &(slot, high, low) in rest {
+        let mut sum = [[T::zero(); N]; 2];
+        for &(slot, high, low) in row {
             let weight = T::constant(high, low);
-            add_scaled(&mut q.data.0[0], weight, &self.v[slot].data.0[0]);
-            add_scaled(&mut v.data.0[0], weight, &self.a[slot].data.0[0]);
+            let entries = sum.as_flattened_mut().iter_mut();
+            for (sum, entry) in entries.zip(self.slots[slot].as_flattened()) {
+                *sum = weight.mul_add(*entry, *sum);
+            }
         }
-        (q, v)
+        let [q, v] = sum;
+        (SVector::from(q), SVector::from(v))
     }
 }

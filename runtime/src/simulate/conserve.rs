@@ -56,6 +56,11 @@ where
         self.system.start(state, tolerance)
     }
 
+    /// Chooses whether passages through singular configurations are looked for.
+    pub(super) fn seek_passages(&mut self, wanted: bool) {
+        self.system.seek_passages(wanted);
+    }
+
     /// The system whose energy is kept.
     pub(super) fn system(&self) -> &ConstrainedSystem<'a, M, T, N, R> {
         &self.system

@@ -134,6 +134,8 @@ where
             return Ok(());
         }
         driver.keep(self.watchers.inside());
+        let seeks_passages = self.watchers.want_passages();
+        self.system.seek_passages(seeks_passages);
         for interval in first..=grid.intervals() {
             let bound = grid.time(interval);
             while self.done.end.t < bound {

@@ -115,6 +115,15 @@ where
         }
     }
 
+    /// The direction of the first coordinate of the chart.
+    pub(super) fn along_chart(&self) -> Direction<T, N> {
+        let mut shares = [T::zero(); N];
+        if let Some(first) = shares.first_mut() {
+            *first = T::one();
+        }
+        self.line(&shares, None)
+    }
+
     /// Judges a direction: how fast the block's singular values change, and whether they
     /// pass zero near one place.
     fn consider(

@@ -18,6 +18,7 @@ mod nodes;
 mod obstacle;
 mod passage;
 mod place;
+mod recall;
 mod session;
 mod sheet;
 mod start;

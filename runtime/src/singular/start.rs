@@ -107,6 +107,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             position: &mut self.position,
             terms: &mut self.terms,
             frame: &mut self.frame,
+            nodes: &mut self.session.nodes,
             holonomic: self.rows.any_holonomic(),
         }
     }

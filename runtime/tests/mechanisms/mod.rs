@@ -41,7 +41,8 @@ pub trait Passing<const N: usize, const R: usize>: Mechanism<f64, N, R> {
     fn singular(&self) -> (f64, f64);
 }
 
-/// A structure with nothing but coordinates and constraints.
+/// A structure with nothing but coordinates and constraints on positions that stay what
+/// they are.
 pub const fn structure(
     coordinates: &'static [Quantity],
     constraints: &'static [ConstraintRow],
@@ -51,6 +52,7 @@ pub const fn structure(
         coordinates,
         constraints,
         conservative: true,
+        scleronomic: true,
         ..Structure::PLAIN
     }
 }
