@@ -13,6 +13,7 @@ mod library;
 mod lints;
 mod lists;
 mod mechanisms;
+mod messages;
 mod model;
 mod names;
 mod pages;

@@ -1,7 +1,7 @@
 //! Derivatives against dual numbers.
 
 use super::recipe::{self, SYMBOLS, evaluated, value_of};
-use super::{agree, config};
+use super::{agree, config, dual};
 use bricard_codegen::internals::expr::{Function, Function2, Graph, Symbol};
 use num_dual::{Dual64, DualNum};
 use proptest::prelude::*;
@@ -19,27 +19,6 @@ fn domain(function: Function) -> (f64, f64) {
     }
 }
 
-fn dual(function: Function, x: Dual64) -> Dual64 {
-    match function {
-        Function::Sin => x.sin(),
-        Function::Cos => x.cos(),
-        Function::Tan => x.tan(),
-        Function::Asin => x.asin(),
-        Function::Acos => x.acos(),
-        Function::Atan => x.atan(),
-        Function::Sinh => x.sinh(),
-        Function::Cosh => x.cosh(),
-        Function::Tanh => x.tanh(),
-        Function::Exp => x.exp(),
-        Function::Ln => x.ln(),
-        Function::Sqrt => x.sqrt(),
-        Function::Abs if x.re < 0.0 => -x,
-        Function::Abs => x,
-        Function::Sign => Dual64::from_re(x.re.signum()),
-        Function::Table(_) => unreachable!("no long table is among these"),
-    }
-}
-
 fn close(found: f64, exact: f64) -> bool {
     (found - exact).abs() <= RELATIVE * exact.abs()
 }
@@ -54,7 +33,7 @@ fn every_function_has_the_derivative_and_value_of_dual_numbers() {
         let (low, high) = domain(function);
         for i in 0..1000 {
             let at = low + (high - low) * (f64::from(i) + 0.37) / 1000.0;
-            let exact = dual(function, Dual64::from_re(at).derivative());
+            let exact = dual::function(function, Dual64::from_re(at).derivative());
             let found = graph.evaluate_all(&[value, slope], &|_| at);
             assert!(
                 close(found[0], exact.re),

@@ -5,6 +5,7 @@
 //!      operations may stray from it. The derivatives of functions are taken
 //!      from dual numbers, so they share nothing with the symbolic rules.
 
+use super::dual;
 use bricard_codegen::internals::expr::{Comparison, Function, Function2};
 use num_dual::{Dual2_64, DualNum, HyperDual64};
 
@@ -124,27 +125,11 @@ impl Jet {
 
     pub fn function(self, function: Function) -> Self {
         let x = Dual2_64::from_re(self.value).derivative();
-        let y = match function {
-            Function::Sin => x.sin(),
-            Function::Cos => x.cos(),
-            Function::Tan => x.tan(),
-            Function::Asin => x.asin(),
-            Function::Acos => x.acos(),
-            Function::Atan => x.atan(),
-            Function::Sinh => x.sinh(),
-            Function::Cosh => x.cosh(),
-            Function::Tanh => x.tanh(),
-            Function::Exp => x.exp(),
-            Function::Ln => x.ln(),
-            Function::Sqrt => x.sqrt(),
-            Function::Abs | Function::Sign if self.value.abs() <= self.value_error => {
-                return self.unsound();
-            }
-            Function::Abs if self.value < 0.0 => -x,
-            Function::Abs => x,
-            Function::Sign => Dual2_64::from_re(self.value.signum()),
-            Function::Table(_) => unreachable!("no long table is among these"),
-        };
+        let kinks = matches!(function, Function::Abs | Function::Sign);
+        if kinks && self.value.abs() <= self.value_error {
+            return self.unsound();
+        }
+        let y = dual::function(function, x);
         self.through(taylor(y))
     }
 

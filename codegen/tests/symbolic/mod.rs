@@ -3,6 +3,7 @@
 
 mod canonical;
 mod derivative;
+mod dual;
 mod jet;
 mod limits;
 mod number;

@@ -7,15 +7,13 @@
 //! matrix for each coordinate of the chart. Of the directions the one is taken along
 //! which all of its singular values pass zero fast and at one place.
 
+use super::kept::SIDE;
 use super::obstacle::Obstacle;
 use super::sheet::Sheet;
 use crate::linalg::{Block, Frame, largest_of, norm};
 use crate::tolerance::{difference, hull, spacing, window};
 use crate::{Mechanism, Real, State};
 use nalgebra::SVector;
-
-/// Nodes on each side of a singular configuration.
-pub(super) const SIDE: usize = 5;
 
 /// Directions that are tried where several loops are nearly singular at once.
 const TRIALS: usize = 64;

@@ -14,6 +14,7 @@
 
 mod chart;
 mod direction;
+mod kept;
 mod nodes;
 mod obstacle;
 mod passage;

@@ -11,7 +11,8 @@
 //! sheet is interpolated: position, tangent space, the acceleration that curvature
 //! demands. Masses and forces are taken at the state itself.
 
-use super::direction::{Direction, SIDE};
+use super::direction::Direction;
+use super::kept::{NODES, SIDE};
 use super::obstacle::Obstacle;
 use super::sheet::{Point, Sheet};
 use crate::linalg::{Block, Frame, dot};
@@ -19,8 +20,6 @@ use crate::tolerance::clearance;
 use crate::{Mechanism, Real, State};
 use nalgebra::{SMatrix, SVector};
 
-/// Nodes on both.
-pub(super) const NODES: usize = 2 * SIDE;
 /// How many earlier nodes predict the next.
 const PREDICTORS: usize = 5;
 /// The interpolations that are compared leave out this many pairs of nodes.

@@ -9,47 +9,14 @@
 //! chart only what its tangent and its acceleration are measured by changes:
 //! `D* D̃ = 1`, and `D* aₚ = 0`.
 
-use super::direction::{Direction, SIDE};
-use super::nodes::{BEYOND, Interpolated, NODES, ORDER, SETS, weights};
+use super::direction::Direction;
+use super::kept::{NODES, SIDE};
+use super::nodes::{BEYOND, Interpolated, ORDER, SETS, weights};
 use super::place::Best;
 use super::sheet::{Point, Sheet};
 use crate::tolerance::{hull, resolved};
 use crate::{Mechanism, Real, State};
 use nalgebra::SVector;
-
-/// The nodes of the last interpolation on a curve.
-#[derive(Clone, Debug)]
-pub(crate) struct Nodes<T, const N: usize> {
-    /// Positions, tangents, and the accelerations that the constraints demand of a motion
-    /// with the velocity of the tangent.
-    points: [[SVector<T, N>; 3]; NODES],
-    /// How the round-off of each is magnified.
-    noise: [T; NODES],
-    /// Their spacing, as a change of the sine.
-    spacing: T,
-    /// How fast the sine changes along the curve.
-    rate: T,
-    /// The angle between the sheets.
-    angle: T,
-    known: bool,
-}
-
-impl<T: Real, const N: usize> Nodes<T, N> {
-    pub(crate) fn new() -> Self {
-        Self {
-            points: [[SVector::zeros(); 3]; NODES],
-            noise: [T::zero(); NODES],
-            spacing: T::zero(),
-            rate: T::zero(),
-            angle: T::zero(),
-            known: false,
-        }
-    }
-
-    pub(crate) fn forget(&mut self) {
-        self.known = false;
-    }
-}
 
 impl<M, T: Real, const N: usize, const R: usize> Sheet<'_, M, T, N, R>
 where

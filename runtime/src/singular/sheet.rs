@@ -10,8 +10,8 @@
 //! Not here: states where that system is nearly singular ([`super::nodes`]).
 
 use super::chart::Chart;
+use super::kept::Nodes;
 use super::obstacle::Obstacle;
-use super::recall::Nodes;
 use crate::linalg::{Frame, dot};
 use crate::tolerance::{contraction, critical, near_dependent, round_off};
 use crate::{Mechanism, Position, Real, State, Terms};
