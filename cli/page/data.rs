@@ -57,6 +57,7 @@ pub fn data(run: &Run) -> Result<Value, String> {
         "times": doubles(&times),
         "panels": panels.iter().map(|p| panel(p, structure)).collect::<Vec<_>>(),
         "scene": moving(run, &first)?,
+        "sliders": run.sliders.map(|sliders| sliders.json(structure, run.columns, &first)),
         "live": run.live.map(|live| json!({ "script": live.name(), "version": live.version })),
     }))
 }

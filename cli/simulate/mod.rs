@@ -19,9 +19,11 @@ use crate::arguments::Simulate;
 use crate::changes;
 use crate::column::columns;
 use crate::comparison::Called;
+use crate::compiled::browser;
 use crate::error::CommandError;
 use crate::interrupt;
-use crate::law::find_with;
+use crate::law::{described_with, find_with};
+use crate::mechanism::Description;
 use crate::output::{print, say};
 use crate::page::Live;
 use crate::run::{Stopped, run};
@@ -65,6 +67,23 @@ fn prepared(
     Ok((mechanism, changes))
 }
 
+/// The mechanism as WebAssembly, if the page is to have sliders and that can be made; a page
+/// without them is better than none.
+///
+/// # Errors
+///
+/// As [`described_with`].
+fn module(arguments: &Simulate, case: &Case) -> Result<Option<Vec<u8>>, CommandError> {
+    if !arguments.live {
+        return Ok(None);
+    }
+    let Description { file, source } = described_with(&arguments.name, &case.set)?;
+    let made = browser::module(&file, &source);
+    Ok(made
+        .map_err(|error| say(&format!("warning: the page has no sliders: {error}")))
+        .ok())
+}
+
 /// Simulates a mechanism once, for a page that is kept up to date, if there is one.
 pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), CommandError> {
     let case = cases::single(arguments);
@@ -81,6 +100,7 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
     if let Some(checkpoint) = checkpoints.and_then(|all| all.from.as_ref()) {
         record.go_on(checkpoint);
     }
+    let module = module(arguments, &case)?;
     interrupt::listen();
     let result = run(mechanism.as_ref(), &plan, &mut record);
     let report = match &result {
@@ -101,6 +121,7 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
             .err()
             .map(|stopped| stopped.error.to_string()),
         live,
+        module: module.as_deref().map(|module| (module, &changes)),
     };
     let kept = record.close(|rows| picture.draw(&[Called::alone(rows)]))?;
     if let Some(report) = report.filter(|report| result.is_ok() || report.steps > 0) {
