@@ -159,8 +159,7 @@ fn positive(option: &'static str, value: Option<f64>) -> Result<Option<f64>, Com
 /// [`CommandError::FileKind`], [`CommandError::SameFile`].
 pub fn check_files(arguments: &Simulate) -> Result<(), CommandError> {
     different(arguments)?;
-    wide(arguments)?;
-    live(arguments)?;
+    wide(arguments).and_then(|()| live(arguments))?;
     let kind = |path: &Path| path.extension().map(|kind| kind.to_ascii_lowercase());
     let refuse = |path: &Path, instead| {
         Err(CommandError::FileKind {

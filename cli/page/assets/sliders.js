@@ -29,6 +29,8 @@ class Sliders {
     };
     this.number = 0;
     this.waiting = null;
+    this.alarm = element("pre", { class: "refused", role: "alert", hidden: "" });
+    place.append(this.alarm);
     this.reset();
     this.employ();
   }
@@ -77,7 +79,6 @@ class Sliders {
 
   /** Says why the motion is not that of the sliders; nothing if it is. */
   complain(message) {
-    this.alarm ??= this.place.appendChild(element("pre", { class: "refused", role: "alert" }));
     this.place.hidden = false;
     this.alarm.hidden = message === null;
     this.alarm.textContent = message === null ? "" : `${message}\nThe motion is that of before.`;
@@ -115,7 +116,7 @@ class Sliders {
   group(name, wanted, closed = false) {
     const box = element("details", {}, element("summary", {}, name));
     box.open = !closed;
-    if (wanted) this.place.insertBefore(box, this.alarm ?? null);
+    if (wanted) this.place.append(box);
     return box;
   }
 
