@@ -14,7 +14,7 @@ use bricard_codegen::Compiled;
 use bricard_codegen::internals::emit::type_name;
 use std::env;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// What modules are compiled for.
 pub const TARGET: &str = "wasm32-unknown-unknown";
@@ -79,7 +79,7 @@ pub fn module(file: &Path, source: &str) -> Result<Vec<u8>, CommandError> {
 fn build(
     (file, source, identity): (&Path, &str, &str),
     version: &Version,
-    entry: &PathBuf,
+    entry: &Path,
 ) -> Result<(), CommandError> {
     let _alone = version.lock()?;
     if Version::holds(entry, identity) {
