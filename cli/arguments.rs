@@ -325,6 +325,10 @@ pub struct Simulate {
     /// Make --plot draw one quantity over another, instead of over time
     #[arg(long, value_name = "X,Y", value_parser = pair, requires = "plot")]
     pub phase: Option<[String; 2]>,
+    /// Put the mechanism itself into the page of --plot, with sliders for its parameters,
+    /// inputs and start that change the motion there
+    #[arg(long, requires = "plot")]
+    pub live: bool,
     /// Film the mechanism: a moving picture (.gif), or a strip of configurations
     #[arg(
         long,

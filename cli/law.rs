@@ -27,30 +27,53 @@ pub fn find_with(
     name: &str,
     set: &[Setting],
 ) -> Result<(Box<dyn AnyMechanism>, Vec<Setting>), CommandError> {
-    let laws: Vec<Law> = set.iter().filter_map(law).collect();
-    if laws.is_empty() {
+    let Some((Description { file, source }, left)) = with_laws(name, set)? else {
         return Ok((find(name)?, set.to_vec()));
-    }
-    let Description { file, source: text } = description(name)?;
-    // What is wrong with a description is told when it is compiled.
-    let (text, left) = match parse(&text) {
-        Ok(model) => match replaced(&text, &model, &laws, set)? {
-            Some(replaced) => replaced,
-            None => return Ok((find(name)?, set.to_vec())),
-        },
-        Err(_) => (text, Vec::new()),
     };
-    let opened = compiled::open_text(&file, &text).map_err(|error| match error {
+    let laws = set.iter().filter_map(law);
+    let opened = compiled::open_text(&file, &source).map_err(|error| match error {
         CommandError::Description(said) => {
-            let given = laws
-                .iter()
-                .map(|(name, law)| format!("`--set '{name}={law}'`"));
+            let given = laws.map(|(name, law)| format!("`--set '{name}={law}'`"));
             let given: Vec<String> = given.collect();
             CommandError::Description(format!("with {}\n{said}", given.join(", ")))
         }
         error => error,
     })?;
     Ok((Box::new(opened), left))
+}
+
+/// The description of a mechanism with the formulas among settings in it.
+///
+/// # Errors
+///
+/// As [`find_with`].
+pub fn described_with(name: &str, set: &[Setting]) -> Result<Description, CommandError> {
+    match with_laws(name, set)? {
+        Some((description, _)) => Ok(description),
+        None => description(name),
+    }
+}
+
+/// A description with the formulas among settings in it, and the settings that are left;
+/// none if no formula is the law of one of its inputs.
+fn with_laws(
+    name: &str,
+    set: &[Setting],
+) -> Result<Option<(Description, Vec<Setting>)>, CommandError> {
+    let laws: Vec<Law> = set.iter().filter_map(law).collect();
+    if laws.is_empty() {
+        return Ok(None);
+    }
+    let Description { file, source } = description(name)?;
+    // What is wrong with a description is told when it is compiled.
+    let (source, left) = match parse(&source) {
+        Ok(model) => match replaced(&source, &model, &laws, set)? {
+            Some(replaced) => replaced,
+            None => return Ok(None),
+        },
+        Err(_) => (source, Vec::new()),
+    };
+    Ok(Some((Description { file, source }, left)))
 }
 
 fn law(setting: &Setting) -> Option<Law<'_>> {

@@ -38,6 +38,13 @@ pub fn watch(arguments: &Simulate) -> Result<(), CommandError> {
         return Err(CommandError::NoFile(arguments.name.clone()));
     };
     only_one(arguments, "`watch` shows one run")?;
+    if arguments.live {
+        return Err(CommandError::UselessOption {
+            option: "--live",
+            method: "`watch`",
+            instead: "its page follows the file; for sliders say `bricard simulate` with --live",
+        });
+    }
     let (sender, changes) = channel();
     let mut watcher = recommended_watcher(move |heard: Heard| {
         // What is only read has not changed.

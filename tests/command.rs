@@ -175,6 +175,27 @@ fn options_that_contradict_each_other_are_refused() {
     check_refused(&both, 2, &["--step", "--rtol"]);
     let useless = [&name[..], &["--method", "rk4", "--rtol", "1e-6"]].concat();
     check_refused(&useless, 2, &["rk4 has no use for --rtol", "--method dp5"]);
+    let alone = [&name[..], &["--live"]].concat();
+    check_refused(&alone, 2, &["--plot"]);
+    let no_page = [&name[..], &["--live", "--plot", "run.svg"]].concat();
+    let wanted = [
+        "a plot that is no page has no use for --live",
+        "--plot run.html",
+    ];
+    check_refused(&no_page, 2, &wanted);
+    let several = ["--live", "--plot", "run.html", "--set", "m1=1,2"];
+    let several = [&name[..], &several].concat();
+    check_refused(
+        &several,
+        2,
+        &["--live moves one run, and `--set m1` asks for 2"],
+    );
+    let followed = ["watch", "absent.mech", "--live", "--plot", "run.html"];
+    check_refused(
+        &followed,
+        2,
+        &["`watch` has no use for --live", "bricard simulate"],
+    );
     let unknown = [&name[..], &["--method", "rk5"]].concat();
     check_refused(&unknown, 2, &["rk4, dp5, dop853"]);
     check_refused(&["simulat"], 2, &["simulate"]);

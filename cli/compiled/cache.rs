@@ -150,6 +150,16 @@ impl Version {
         self.folder.join("border")
     }
 
+    /// Where the module of a description for browsers is.
+    pub fn module(&self, file: &Path, source: &str) -> PathBuf {
+        self.folder.join("browsers").join(named(file, source))
+    }
+
+    /// Where the libraries are that all modules for browsers share.
+    pub fn browser_libraries(&self) -> PathBuf {
+        self.folder.join("browser-libraries")
+    }
+
     /// Where the library for a pair of sizes is.
     pub fn sized(&self, [coordinates, constraints]: [usize; 2]) -> PathBuf {
         let name = format!("{coordinates}-{constraints}");

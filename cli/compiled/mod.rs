@@ -12,6 +12,7 @@
 //! ([`shared`]), what those of one pair of sizes share, and the code of the description
 //! ([`program`]). Parameters and starts are told to the running program.
 
+pub mod browser;
 pub mod cache;
 pub mod compiler;
 mod library;

@@ -66,63 +66,98 @@ impl Digits {
 ///
 /// [`CommandError::Cache`], [`CommandError::Compile`].
 pub fn libraries(version: &Version, toolchain: &Toolchain) -> Result<PathBuf, CommandError> {
-    let libraries = version.libraries();
-    if libraries.is_dir() {
-        return Ok(libraries);
-    }
-    let numbers = match version.digits {
-        Digits::Double => "",
-        Digits::Many => " in numbers of 106 bits",
+    let shared = Shared {
+        packages: version.digits.packages(),
+        wanted: version.digits.packages(),
+        target: &toolchain.host,
+        kind: match version.digits {
+            Digits::Double => "",
+            Digits::Many => " in numbers of 106 bits",
+        },
     };
-    say(&format!(
-        "compiling what all mechanisms share{numbers}: once for this version of bricard and of \
-         Rust, about 15 s"
-    ));
-    let scratch = Scratch::new(version)?;
-    let packages = version.digits.packages();
-    for (name, text) in SOURCES.1 {
-        let text = manifest(name, text, packages);
-        scratch.write(&Path::new("sources").join(name), &text)?;
+    shared.build(version, version.libraries())
+}
+
+/// What libraries are built of, and for which machine.
+pub struct Shared<'a> {
+    /// Packages among the sources that take part.
+    pub packages: &'a [&'a str],
+    /// Those of them that are asked for; the others with the features that these want.
+    pub wanted: &'a [&'a str],
+    /// The machine.
+    pub target: &'a str,
+    /// What tells them from others, in words.
+    pub kind: &'a str,
+}
+
+impl Shared<'_> {
+    /// Builds libraries in their place, unless they are there.
+    ///
+    /// # Errors
+    ///
+    /// As [`libraries`].
+    pub fn build(&self, version: &Version, libraries: PathBuf) -> Result<PathBuf, CommandError> {
+        if libraries.is_dir() {
+            return Ok(libraries);
+        }
+        say(&format!(
+            "compiling what all mechanisms share{}: once for this version of bricard and of \
+             Rust, about 15 s",
+            self.kind
+        ));
+        let scratch = Scratch::new(version)?;
+        for (name, text) in SOURCES.1 {
+            let text = manifest(name, text, self.packages);
+            scratch.write(&Path::new("sources").join(name), &text)?;
+        }
+        let sources = scratch.path().join("sources");
+        let built = scratch.folder("libraries")?;
+        copy(self.compiled(&sources)?, &built)?;
+        scratch.keep(&built, &libraries)?;
+        Ok(libraries)
     }
-    let sources = scratch.path().join("sources");
-    let built = scratch.folder("libraries")?;
-    for library in compiled(&sources, toolchain)? {
+
+    /// Compiles the sources; the libraries that came of it.
+    fn compiled(&self, sources: &Path) -> Result<Vec<PathBuf>, CommandError> {
+        let cargo = |network: &[&str]| {
+            let mut cargo = command("cargo");
+            cargo
+                .args([
+                    "build",
+                    "--release",
+                    "--message-format=json-render-diagnostics",
+                    "--target-dir",
+                ])
+                .arg("target")
+                .args(["--target", self.target])
+                .args(network);
+            for package in self.wanted {
+                cargo.args(["--package", &format!("bricard-{package}")]);
+            }
+            cargo
+        };
+        let failed = "what all mechanisms share could not be compiled; the first time it may need a \
+                      network, for nalgebra and what that depends on";
+        // Whoever has built bricard has all of it, so the network is asked last.
+        let run = |cargo: Command| output(cargo, sources, failed);
+        let output = run(cargo(&["--offline"])).or_else(|_| run(cargo(&[])))?;
+        let text = String::from_utf8_lossy(&output.stdout);
+        let messages = text
+            .lines()
+            .filter_map(|line| serde_json::from_str(line).ok());
+        let files = messages.flat_map(|message: Value| files(&message));
+        Ok(files.filter(|file| is_library(file)).collect())
+    }
+}
+
+fn copy(files: Vec<PathBuf>, built: &Path) -> Result<(), CommandError> {
+    for library in files {
         if let Some(name) = library.file_name() {
             fs::copy(&library, built.join(name))
                 .map_err(|error| CommandError::Cache(library.clone(), error))?;
         }
     }
-    scratch.keep(&built, &libraries)?;
-    Ok(libraries)
-}
-
-/// Compiles the sources; the libraries that came of it.
-fn compiled(sources: &Path, toolchain: &Toolchain) -> Result<Vec<PathBuf>, CommandError> {
-    let cargo = |network: &[&str]| {
-        let mut cargo = command("cargo");
-        cargo
-            .args([
-                "build",
-                "--release",
-                "--message-format=json-render-diagnostics",
-                "--target-dir",
-            ])
-            .arg("target")
-            .args(["--target", &toolchain.host])
-            .args(network);
-        cargo
-    };
-    let failed = "what all mechanisms share could not be compiled; the first time it may need a \
-                  network, for nalgebra and what that depends on";
-    // Whoever has built bricard has all of it, so the network is asked last.
-    let run = |cargo: Command| output(cargo, sources, failed);
-    let output = run(cargo(&["--offline"])).or_else(|_| run(cargo(&[])))?;
-    let text = String::from_utf8_lossy(&output.stdout);
-    let messages = text
-        .lines()
-        .filter_map(|line| serde_json::from_str(line).ok());
-    let files = messages.flat_map(|message: Value| files(&message));
-    Ok(files.filter(|file| is_library(file)).collect())
+    Ok(())
 }
 
 /// The files of a message of cargo.

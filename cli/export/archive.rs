@@ -4,25 +4,27 @@
 //! Out: a file.
 
 use crate::error::CommandError;
-use std::fs::File;
-use std::io::{self, Write};
+use crate::output::replace;
+use std::io::{self, Cursor, Write};
 use std::path::Path;
 use zip::write::{SimpleFileOptions, ZipWriter};
 
 /// The files of an archive: paths with contents.
 pub type Files = Vec<(String, Vec<u8>)>;
 
-/// Writes an archive.
+/// Writes an archive, whole or not at all.
 ///
 /// # Errors
 ///
 /// [`CommandError::Write`].
 pub fn write(path: &Path, files: &Files) -> Result<(), CommandError> {
-    pack(path, files).map_err(|error| CommandError::write(path, error))
+    let bytes = pack(files).map_err(|error| CommandError::write(path, error))?;
+    replace(path, &bytes)
 }
 
-fn pack(path: &Path, files: &Files) -> io::Result<()> {
-    let mut archive = ZipWriter::new(File::create(path)?);
+/// The bytes of an archive: one on a disk that is full could not be closed.
+fn pack(files: &Files) -> io::Result<Vec<u8>> {
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default()
         .compression_method(zip::CompressionMethod::Stored)
         .unix_permissions(0o755);
@@ -30,6 +32,5 @@ fn pack(path: &Path, files: &Files) -> io::Result<()> {
         archive.start_file(name.as_str(), options)?;
         archive.write_all(bytes)?;
     }
-    archive.finish()?;
-    Ok(())
+    Ok(archive.finish()?.into_inner())
 }

@@ -5,6 +5,7 @@
 
 use super::equations::mathml;
 use super::live::Live;
+use super::sliders::Sliders;
 use super::thin::{evenly, kept};
 use crate::column::Column;
 use crate::comparison::Comparison;
@@ -58,6 +59,8 @@ pub struct Run<'a> {
     pub error: Option<String>,
     /// What keeps the page up to date, if something does.
     pub live: Option<&'a Live>,
+    /// The mechanism itself, if the page has sliders.
+    pub sliders: Option<&'a Sliders<'a>>,
 }
 
 /// All that a page tells of a run.
@@ -89,6 +92,7 @@ pub fn data(run: &Run) -> Result<Value, String> {
         "times": doubles(&times),
         "panels": panels.iter().map(|p| panel(p, structure)).collect::<Vec<_>>(),
         "scene": moving(run, &first)?,
+        "sliders": run.sliders.map(|sliders| sliders.json(structure, run.columns, &first)),
         "live": run.live.map(|live| json!({ "script": live.name(), "version": live.version })),
     }))
 }

@@ -10,11 +10,13 @@
 mod data;
 mod equations;
 mod live;
+mod sliders;
 mod template;
 mod thin;
 
 pub use data::Run;
 pub use live::Live;
+pub use sliders::Sliders;
 
 use crate::column::Column;
 use crate::error::CommandError;

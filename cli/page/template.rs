@@ -5,6 +5,10 @@
 
 use serde_json::Value;
 
+/// The wrapper of a mechanism, for pages and Node.
+const WRAPPER: &str = include_str!("../../wasm/js/index.js");
+/// What runs a mechanism beside the page.
+const WORKER: &str = include_str!("assets/worker.js");
 /// The page, with `{{NAME}}` where something has to go.
 const TEMPLATE: &str = include_str!("assets/page.html");
 /// What goes into all pages. Only `run` differs from one to the next.
@@ -25,6 +29,7 @@ const PARTS: [(&str, &str); 3] = [
             include_str!("assets/view.js"),
             include_str!("assets/curves.js"),
             include_str!("assets/player.js"),
+            include_str!("assets/sliders.js"),
             include_str!("assets/page.js"),
         ),
     ),
@@ -39,6 +44,7 @@ pub fn page(title: &str, data: &Value) -> String {
         match name {
             "title" => text.push_str(&escaped(title)),
             // What would end the element, or begin a comment in it, begins with this.
+            "worker" if data["sliders"].is_object() => text.push_str(&worker()),
             "run" => text.push_str(&data.to_string().replace('<', "\\u003c")),
             _ => text.extend(
                 PARTS
@@ -50,6 +56,13 @@ pub fn page(title: &str, data: &Value) -> String {
         rest = after;
     }
     text + rest
+}
+
+/// The script of the worker. It is no module, which pages without a server can't start
+/// everywhere.
+fn worker() -> String {
+    let wrapper = WRAPPER.replace("\nexport class", "\nclass");
+    wrapper.replace("import.meta.url", "location.href") + WORKER
 }
 
 /// The first `{{NAME}}` of a text, and what is before and after it.
@@ -66,7 +79,7 @@ fn escaped(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{PARTS, TEMPLATE, marker, page};
+    use super::{PARTS, TEMPLATE, marker, page, worker};
     use serde_json::json;
 
     #[test]
@@ -75,21 +88,31 @@ mod tests {
         let mut found = 0;
         while let Some((_, name, after)) = marker(rest) {
             let known = PARTS.iter().any(|part| part.0 == name);
-            assert!(known || ["title", "run"].contains(&name), "{name}");
+            let other = ["title", "run", "worker"].contains(&name);
+            assert!(known || other, "{name}");
             found += 1;
             rest = after;
         }
-        assert_eq!(found, PARTS.len() + 2);
+        assert_eq!(found, PARTS.len() + 3);
     }
 
     #[test]
     fn no_part_ends_the_element_that_it_stands_in() {
-        for (name, part) in PARTS {
+        let worker = ("worker", &*worker());
+        for (name, part) in PARTS.into_iter().chain([worker]) {
             assert!(
                 !part.contains("</script") && !part.contains("</style"),
                 "{name}"
             );
         }
+    }
+
+    #[test]
+    fn the_worker_is_no_module_and_only_where_there_are_sliders() {
+        let worker = worker();
+        assert!(!worker.contains("\nexport ") && !worker.contains("import.meta"));
+        assert!(page("x", &json!({ "sliders": {} })).contains(&worker));
+        assert!(!page("x", &json!({})).contains(&worker));
     }
 
     #[test]

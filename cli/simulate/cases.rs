@@ -147,6 +147,11 @@ impl Varied {
         if arguments.resume.is_some() {
             return Err(self.refused("--resume goes on with one run", GIVE_ONE));
         }
+        if arguments.live {
+            let instead =
+                "give it one value, which a slider changes, or compare the runs without --live";
+            return Err(self.refused("--live moves one run", instead));
+        }
         if arguments.film.is_some() {
             let instead = "give it one value, or compare the runs by --plot";
             return Err(self.refused("--film shows one run", instead));

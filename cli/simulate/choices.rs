@@ -170,7 +170,7 @@ fn positive(option: &'static str, value: Option<f64>) -> Result<Option<f64>, Com
 /// [`CommandError::FileKind`], [`CommandError::SameFile`].
 pub fn check_files(arguments: &Simulate) -> Result<(), CommandError> {
     different(arguments)?;
-    wide(arguments)?;
+    wide(arguments).and_then(|()| live(arguments))?;
     let kind = |path: &Path| path.extension().map(|kind| kind.to_ascii_lowercase());
     let refuse = |path: &Path, instead| {
         Err(CommandError::FileKind {
@@ -227,6 +227,18 @@ pub fn check_files(arguments: &Simulate) -> Result<(), CommandError> {
         );
     }
     Ok(())
+}
+
+/// Refuses sliders where there is no page.
+fn live(arguments: &Simulate) -> Result<(), CommandError> {
+    match arguments.live && !arguments.plot.as_deref().is_some_and(is_page) {
+        true => Err(CommandError::UselessOption {
+            option: "--live",
+            method: "a plot that is no page",
+            instead: "write `--plot run.html`",
+        }),
+        false => Ok(()),
+    }
 }
 
 /// Refuses a width where nothing has one.

@@ -19,11 +19,15 @@ pub use choices::TOLERANCE;
 use crate::arguments::Simulate;
 use crate::column::columns;
 use crate::comparison::Called;
+use crate::compiled::browser;
+use crate::description::Description;
 use crate::error::CommandError;
 use crate::interrupt;
-use crate::output::print;
+use crate::law::described_with;
+use crate::output::{print, say};
 use crate::page::Live;
 use crate::run::{Stopped, run};
+use cases::Case;
 use picture::Picture;
 use prepare::{prepared, tell};
 use record::Record;
@@ -34,6 +38,23 @@ pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
         Some(varied) => several::simulate(arguments, &varied),
         None => simulate_for(arguments, None),
     }
+}
+
+/// The mechanism as WebAssembly, if the page is to have sliders and that can be made; a page
+/// without them is better than none.
+///
+/// # Errors
+///
+/// As [`described_with`].
+fn module(arguments: &Simulate, case: &Case) -> Result<Option<Vec<u8>>, CommandError> {
+    if !arguments.live {
+        return Ok(None);
+    }
+    let Description { file, source } = described_with(&arguments.name, &case.set)?;
+    let made = browser::module(&file, &source);
+    Ok(made
+        .map_err(|error| say(&format!("warning: the page has no sliders: {error}")))
+        .ok())
 }
 
 /// Simulates a mechanism once, for a page that is kept up to date, if there is one.
@@ -52,6 +73,7 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
     if let Some(checkpoint) = checkpoints.and_then(|all| all.from.as_ref()) {
         record.go_on(checkpoint);
     }
+    let module = module(arguments, &case)?;
     interrupt::listen();
     let result = run(mechanism.as_ref(), &plan, &mut record);
     let report = match &result {
@@ -72,6 +94,7 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
             .err()
             .map(|stopped| stopped.error.to_string()),
         live,
+        module: module.as_deref().map(|module| (module, &changes)),
     };
     let kept = record.close(|rows| picture.draw(&[Called::alone(rows)]))?;
     if let Some(report) = report.filter(|report| result.is_ok() || report.steps > 0) {

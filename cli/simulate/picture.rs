@@ -11,12 +11,12 @@ use crate::figure::{chosen, named, overview, places as places_of};
 use crate::formula::{Assignment, Setting};
 use crate::mechanism::description;
 use crate::number::exact;
-use crate::page::{self, Live, is_page};
+use crate::page::{self, Live, Sliders, is_page};
 use crate::plot::{Marks, Portrait, Sheet, Times, panels_as_svg, phase_as_svg};
 use crate::raster;
 use crate::run::{Plan, Report};
 use crate::simulate::film::film;
-use bricard_driver::AnyMechanism;
+use bricard_driver::{AnyMechanism, Changes};
 use bricard_runtime::{Stabilisation, StepControl, Structure};
 use std::path::Path;
 
@@ -38,6 +38,8 @@ pub struct Picture<'a> {
     pub error: Option<String>,
     /// What keeps a page up to date.
     pub live: Option<&'a Live>,
+    /// The mechanism as WebAssembly, for the sliders of a page, and what was changed of it.
+    pub module: Option<(&'a [u8], &'a Changes)>,
 }
 
 /// What is shown of the rows.
@@ -206,6 +208,11 @@ impl Picture<'_> {
         let source = description.map(|d| (d.file.display().to_string(), d.source));
         let all = || (1..header(self.mechanism.structure(), columns).len()).collect();
         let first = runs.first();
+        let sliders = self.module.map(|(module, changes)| Sliders {
+            module,
+            plan: self.plan,
+            changes,
+        });
         let run = page::Run {
             mechanism: self.mechanism,
             name,
@@ -220,6 +227,7 @@ impl Picture<'_> {
             summary: self.summary.clone(),
             error: self.error.clone(),
             live: self.live,
+            sliders: sliders.as_ref(),
         };
         page::write(path, &run)
     }

@@ -121,6 +121,7 @@ fn draw(
         summary: done.iter().map(line).collect(),
         error: (!errors.is_empty()).then(|| errors.join("\n")),
         live: None,
+        module: None,
     };
     picture.draw(&runs)
 }

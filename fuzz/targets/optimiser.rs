@@ -4,6 +4,8 @@
 #![no_main]
 #![allow(dead_code)]
 
+#[path = "../../codegen/tests/symbolic/dual.rs"]
+mod dual;
 #[path = "../../codegen/tests/symbolic/jet.rs"]
 mod jet;
 #[path = "../../codegen/tests/symbolic/recipe.rs"]

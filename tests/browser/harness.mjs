@@ -9,7 +9,7 @@ import puppeteer from "puppeteer-core";
 export const BRICARD = process.env.BRICARD;
 /** Compiled descriptions are kept from one run of the tests to the next. */
 const CACHE = path.join(path.dirname(BRICARD), "..", "browser-cache");
-const ENVIRONMENT = { ...process.env, XDG_CACHE_HOME: CACHE };
+export const ENVIRONMENT = { ...process.env, XDG_CACHE_HOME: CACHE };
 export const FOLDER = fs.mkdtempSync(path.join(os.tmpdir(), "bricard-page-"));
 
 /** Runs the command in the folder of the tests; what it says on standard error. */

@@ -6,11 +6,51 @@ export interface Quantity {
   readonly docs: string;
 }
 
-/** Time (s), coordinates and velocities, in the order of `coordinates`. */
+/** Time (s), coordinates and velocities, in the order of `coordinates`, and states of the
+ * first order, in the order of `states`. */
 export interface State {
   t: number;
   q: number[];
   v: number[];
+  states: number[];
+}
+
+/** A coordinate, a velocity `der(name)` or a state at the start. */
+export interface Given {
+  readonly name: string;
+  readonly value: number;
+  /** Whether the value is held; a guess gives way to the constraints. */
+  readonly held: boolean;
+}
+
+/** The form of the equations, and what keeps the state on the constraints. */
+export interface Settings {
+  form?: "reduced" | "full" | "multipliers" | "partitioning";
+  stabilisation?: "projection" | "none" | { alpha: number; beta: number };
+  /** Singular positions as published, by a decision on the rank alone. */
+  published?: boolean;
+  /** Steps go across jumps of forces. */
+  acrossSwitches?: boolean;
+  /** Runs keep the energy of the start. */
+  keepEnergy?: boolean;
+}
+
+/** What rows of a run have besides time, coordinates, velocities and states. */
+export type Columns =
+  | "outputs"
+  | "inputs"
+  | "accelerations"
+  | "reactions"
+  | "multipliers"
+  | "energies"
+  | "errors"
+  | "rank";
+
+/** A run: its columns by name, the times of passages through singular positions, events. */
+export interface Run {
+  columns: Record<string, Float64Array>;
+  passages: number[];
+  events: { name: string; t: number }[];
 }
 
 export type Method = "rk4" | "dp5" | "dop853" | "radau5" | "radau9";
@@ -40,6 +80,12 @@ export class Mechanism {
   readonly parameters: readonly Quantity[];
   readonly inputs: readonly Quantity[];
   readonly outputs: readonly Quantity[];
+  /** States of the first order. */
+  readonly states: readonly Quantity[];
+  /** The names of events. */
+  readonly events: readonly string[];
+  /** The names of the reactions of named constraints. */
+  readonly multipliers: readonly string[];
 
   /** The value of a parameter (SI). */
   parameter(name: string): number;
@@ -49,6 +95,10 @@ export class Mechanism {
   input(values: Record<string, number | null>): this;
   /** Chooses the method, and how long its steps are; `dop853` to 1e-9 by default. */
   method(name: Method, steps?: Steps): this;
+  /** Chooses the form of the equations; what isn't given is as by default. */
+  settings(settings?: Settings): this;
+  /** What is given for the start. */
+  readonly start: readonly Given[];
   /** Puts the mechanism together at t = 0; velocities are called `der(name)`. */
   assemble(start?: {
     held?: Record<string, number>;
@@ -56,6 +106,9 @@ export class Mechanism {
   }): this;
   /** Moves on to a time (s). */
   advance(time: number): this;
+  /** Moves on to a time (s) in one run, as the command does, with rows at equal distances
+   * of time (s). A run that fails keeps nothing but the last good state. */
+  run(run: { until: number; every: number; columns?: readonly Columns[] }): Run;
 
   /** Where the motion is. A state that is set has to be on the constraints. */
   state: State;
@@ -63,8 +116,8 @@ export class Mechanism {
   readonly results: Record<string, number>;
   /** Kinetic and potential energy (J), and the power (W) that is supplied. */
   readonly energy: { kinetic: number; potential: number; power: number };
-  /** Accelerations, and the generalized reaction forces of the constraints. */
-  readonly forces: { accelerations: number[]; reactions: number[] };
+  /** Accelerations, rates of states, the generalized reaction forces of the constraints. */
+  readonly forces: { accelerations: number[]; rates: number[]; reactions: number[] };
   /** The picture. */
   readonly shapes: Shape[];
 }

@@ -6,10 +6,29 @@
 // A module's memory holds one mechanism, so each `Mechanism` has an instance of its own.
 
 /** The version of the module's functions that this file calls. */
-const VERSION = 1;
+const VERSION = 2;
 
 /** The methods, by the numbers that the module knows them by. */
 const METHODS = ["rk4", "dp5", "dop853", "radau5", "radau9"];
+
+/** The forms of the equations of motion, by the numbers that the module knows them by. */
+const FORMS = ["reduced", "full", "multipliers", "partitioning"];
+
+/** The kinds of columns that rows of a run may have besides time, coordinates, velocities
+ * and states, in the order of their bits and of their places in a row. */
+const COLUMNS = {
+  outputs: ({ outputs }) => outputs.map(named),
+  inputs: ({ inputs }) => inputs.map(named),
+  accelerations: ({ coordinates, states }) => [
+    ...coordinates.map(({ name }) => `der(der(${name}))`),
+    ...states.map(({ name }) => `der(${name})`),
+  ],
+  reactions: ({ coordinates }) => coordinates.map(({ name }) => `r(${name})`),
+  multipliers: ({ multipliers }) => multipliers,
+  energies: () => ["kinetic", "potential"],
+  errors: () => ["constraint_error", "velocity_error"],
+  rank: () => ["rank"],
+};
 
 /** The kinds of shapes, by the numbers that the module knows them by. */
 const SHAPES = ["line", "circle", "polygon", "trace"];
@@ -33,12 +52,13 @@ export class Mechanism {
     }
     this.#check(this.#wasm.describe());
     const described = JSON.parse(this.#text());
-    for (const list of ["coordinates", "parameters", "inputs", "outputs"]) {
+    for (const list of ["coordinates", "states", "parameters", "inputs", "outputs"]) {
       described[list] = Object.freeze(described[list].map(Object.freeze));
     }
+    for (const list of ["events", "multipliers"]) Object.freeze(described[list]);
     Object.assign(this, described);
     this.#index = {};
-    for (const list of ["coordinates", "parameters", "inputs"]) {
+    for (const list of ["coordinates", "states", "parameters", "inputs"]) {
       this.#index[list] = new Map(this[list].map(({ name }, place) => [name, place]));
     }
     Object.freeze(this);
@@ -90,13 +110,44 @@ export class Mechanism {
     return this;
   }
 
+  /** Chooses the form of the equations, and what keeps the state on the constraints:
+   * "projection", "none", or the gains of Baumgarte's stabilisation (1/s). */
+  settings({ form = "reduced", stabilisation = "projection", published = false, acrossSwitches = false, keepEnergy = false } = {}) {
+    const place = FORMS.indexOf(form);
+    if (place < 0) {
+      throw new MechanismError(`there is no form "${form}"; there are ${FORMS.join(", ")}`);
+    }
+    const gains = typeof stabilisation === "object";
+    const way = gains ? 2 : ["projection", "none"].indexOf(stabilisation);
+    if (way < 0) {
+      throw new MechanismError(
+        `there is no stabilisation "${stabilisation}"; there are projection, none, and { alpha, beta }`,
+      );
+    }
+    const [alpha, beta] = gains
+      ? [number(stabilisation.alpha, "alpha"), number(stabilisation.beta, "beta")]
+      : [0, 0];
+    const bits = (published ? 1 : 0) | (acrossSwitches ? 2 : 0) | (keepEnergy ? 4 : 0);
+    this.#check(this.#wasm.settings(place, way, alpha, beta, bits));
+    return this;
+  }
+
+  /** Coordinates, velocities and states at the start, as they are given: held, or a guess. */
+  get start() {
+    return this.#startNames().map((name, place) => {
+      this.#check(this.#wasm.start(place));
+      const [value, held] = this.#numbers(2);
+      return { name, value, held: held === 1 };
+    });
+  }
+
   /** Puts the mechanism together at t = 0: with held values and guesses other than those of
    * the description, if some are given. */
   assemble({ held = {}, guessed = {} } = {}) {
     this.#check(this.#wasm.forget());
     for (const [values, isHeld] of [[guessed, 0], [held, 1]]) {
       for (const [name, value] of Object.entries(values)) {
-        this.#check(this.#wasm.begin(this.#coordinate(name), number(value, name), isHeld));
+        this.#check(this.#wasm.begin(this.#beginning(name), number(value, name), isHeld));
       }
     }
     this.#check(this.#wasm.assemble());
@@ -109,19 +160,62 @@ export class Mechanism {
     return this;
   }
 
-  /** Time, coordinates and velocities. */
+  /** Moves on to a time (s) in one run, as the command does: with rows at equal distances
+   * of time (s), which have the kinds of columns that are wanted. */
+  run({ until, every, columns = [] }) {
+    const kinds = Object.keys(COLUMNS);
+    const unknown = columns.find((kind) => !kinds.includes(kind));
+    if (unknown !== undefined) {
+      throw new MechanismError(`there are no columns "${unknown}"; there are ${kinds.join(", ")}`);
+    }
+    const bits = kinds.reduce((sum, kind, i) => sum | (columns.includes(kind) ? 1 << i : 0), 0);
+    const added = kinds.filter((kind) => columns.includes(kind));
+    const names = ["t", ...this.#startNames(), ...added.flatMap((kind) => COLUMNS[kind](this))];
+    const { run, rows, unfinished, width } = this.#wasm;
+    const pieces = [];
+    do {
+      const again = pieces.length > 0 ? 1 : 0;
+      this.#check(run(number(until, "until"), number(every, "every"), bits, again));
+      pieces.push(this.#view(rows() * width(bits)).slice());
+    } while (unfinished() === 1);
+    const count = pieces.reduce((sum, piece) => sum + piece.length, 0) / names.length;
+    const found = Object.fromEntries(names.map((name) => [name, new Float64Array(count)]));
+    let row = 0;
+    for (const piece of pieces) {
+      for (let at = 0; at < piece.length; at += names.length, row++) {
+        names.forEach((name, i) => (found[name][row] = piece[at + i]));
+      }
+    }
+    return { columns: found, ...this.#happened() };
+  }
+
+  /** The passages and events of the last run. */
+  #happened() {
+    const marks = this.#numbers(2 * this.#wasm.marks());
+    const passages = [];
+    const events = [];
+    for (let at = 0; at < marks.length; at += 2) {
+      const [kind, t] = [marks[at], marks[at + 1]];
+      if (kind === 0) passages.push(t);
+      else events.push({ name: this.events[kind - 1], t });
+    }
+    return { passages, events };
+  }
+
+  /** Time, coordinates, velocities, and states of the first order. */
   get state() {
     const [t, ...rest] = this.#numbers(this.#begun(this.#wasm.state()));
     const n = this.coordinates.length;
-    return { t, q: rest.slice(0, n), v: rest.slice(n) };
+    return { t, q: rest.slice(0, n), v: rest.slice(n, 2 * n), states: rest.slice(2 * n) };
   }
 
-  set state({ t, q, v }) {
-    const n = this.coordinates.length;
-    if (q?.length !== n || v?.length !== n) {
-      throw new MechanismError(`a state has ${n} coordinates and as many velocities`);
+  set state({ t, q, v, states = [] }) {
+    const [n, m] = [this.coordinates.length, this.states.length];
+    if (q?.length !== n || v?.length !== n || states.length !== m) {
+      const more = m > 0 ? ` and ${m} of the first order in \`states\`` : "";
+      throw new MechanismError(`a state has ${n} coordinates and as many velocities${more}`);
     }
-    [t, ...q, ...v].forEach((value, place) =>
+    [t, ...q, ...v, ...states].forEach((value, place) =>
       this.#check(this.#wasm.place(place, number(value, "the state"))),
     );
   }
@@ -139,12 +233,17 @@ export class Mechanism {
     return { kinetic, potential, power };
   }
 
-  /** Accelerations, and the generalized reaction forces of the constraints. */
+  /** Accelerations, rates of states of the first order, and the generalized reaction forces
+   * of the constraints. */
   get forces() {
     this.#check(this.#wasm.forces());
-    const n = this.coordinates.length;
-    const numbers = this.#numbers(2 * n);
-    return { accelerations: numbers.slice(0, n), reactions: numbers.slice(n) };
+    const [n, m] = [this.coordinates.length, this.states.length];
+    const numbers = this.#numbers(2 * n + m);
+    return {
+      accelerations: numbers.slice(0, n),
+      rates: numbers.slice(n, n + m),
+      reactions: numbers.slice(n + m),
+    };
   }
 
   /** The shapes of the mechanism's picture. */
@@ -172,12 +271,20 @@ export class Mechanism {
     return place;
   }
 
-  /** The place of a coordinate, or of the velocity `der(name)`, which come after them. */
-  #coordinate(name) {
-    const [, of] = /^der\((.*)\)$/.exec(name) ?? [];
-    return of === undefined
-      ? this.#place("coordinates", name)
-      : this.coordinates.length + this.#place("coordinates", of);
+  /** What a start gives: coordinates, their velocities, states of the first order. */
+  #startNames() {
+    const names = this.coordinates.map(named);
+    return [...names, ...names.map((name) => `der(${name})`), ...this.states.map(named)];
+  }
+
+  /** The place of a coordinate, of a velocity `der(name)`, or of a state at the start. */
+  #beginning(name) {
+    const place = this.#startNames().indexOf(name);
+    if (place >= 0) return place;
+    const names = [...this.coordinates, ...this.states].map(named).join(", ") || "none";
+    throw new MechanismError(
+      `${this.name} has no "${name}" among its coordinates and states: ${names}; the velocity of a coordinate is der(name)`,
+    );
   }
 
   #begun(count) {
@@ -190,17 +297,26 @@ export class Mechanism {
   }
 
   #numbers(count) {
+    return Array.from(this.#view(count));
+  }
+
+  /** Numbers where they are, until the module writes others. */
+  #view(count) {
     const { memory, numbers, room } = this.#wasm;
     if (count > room()) {
       throw new MechanismError(`${count} numbers are more than the module has room for: ${room()}`);
     }
-    return Array.from(new Float64Array(memory.buffer, numbers(), count));
+    return new Float64Array(memory.buffer, numbers(), count);
   }
 
   #text() {
     const { memory, text, length } = this.#wasm;
     return new TextDecoder().decode(new Uint8Array(memory.buffer, text(), length()));
   }
+}
+
+function named({ name }) {
+  return name;
 }
 
 /** Compiles a module from an address, an answer of `fetch`, or bytes. */

@@ -1,7 +1,8 @@
 //! What a mechanism has, as JSON.
 //!
 //! In:  its structure.
-//! Out: `{"name": …, "docs": …, "coordinates": [{"name": …, "unit": …, "docs": …}, …], …}`.
+//! Out: `{"name": …, "docs": …, "coordinates": [{"name": …, "unit": …, "docs": …}, …], …}`;
+//!      of events and of multipliers the names alone.
 
 use bricard_runtime::{Quantity, Structure};
 use core::fmt::{Result, Write};
@@ -12,8 +13,10 @@ pub fn describe(structure: &Structure, out: &mut dyn Write) -> Result {
     string(structure.name, out)?;
     out.write_str(",\"docs\":")?;
     string(structure.docs, out)?;
+    let (freedoms, states) = structure.coordinates.split_at(structure.freedoms().len());
     for (name, quantities) in [
-        ("coordinates", structure.coordinates),
+        ("coordinates", freedoms),
+        ("states", states),
         ("parameters", structure.parameters),
         ("inputs", structure.inputs),
         ("outputs", structure.outputs),
@@ -25,7 +28,21 @@ pub fn describe(structure: &Structure, out: &mut dyn Write) -> Result {
         }
         out.write_str("]")?;
     }
+    let events = structure.events.iter().map(|event| event.name);
+    names("events", events, out)?;
+    let multipliers = structure.multipliers.iter().map(|row| row.quantity.name);
+    names("multipliers", multipliers, out)?;
     out.write_str("}")
+}
+
+/// A list of names.
+fn names<'a>(name: &str, all: impl Iterator<Item = &'a str>, out: &mut dyn Write) -> Result {
+    write!(out, ",\"{name}\":[")?;
+    for (place, each) in all.enumerate() {
+        out.write_str(if place == 0 { "" } else { "," })?;
+        string(each, out)?;
+    }
+    out.write_str("]")
 }
 
 fn quantity(quantity: &Quantity, out: &mut dyn Write) -> Result {
@@ -75,8 +92,8 @@ mod tests {
         let mut text = Text::new();
         describe(&structure, &mut text).expect("there is room");
         let length = r#"{"name":"L[0]","unit":"m","docs":"the \"long\" one\u000a\\ ℓ"}"#;
-        let rest = r#","inputs":[],"outputs":[]}"#;
-        let begin = r#"{"name":"Bar","docs":"","coordinates":[],"parameters":["#;
+        let rest = r#","inputs":[],"outputs":[],"events":[],"multipliers":[]}"#;
+        let begin = r#"{"name":"Bar","docs":"","coordinates":[],"states":[],"parameters":["#;
         let wanted = [begin, length, ",", length, "]", rest];
         let mut told = core::str::from_utf8(text.bytes()).expect("text");
         for part in wanted {

@@ -13,8 +13,11 @@
 //! memory, where [`Session`] keeps them. No standard library and no allocator is needed.
 #![cfg_attr(not(test), no_std)]
 
+mod conduct;
 mod describe;
 mod picture;
+mod row;
+mod run;
 mod session;
 mod text;
 
@@ -24,6 +27,19 @@ pub use text::Text;
 
 /// The one session of a module.
 pub type Shared<M, const N: usize, const R: usize> = spin::LazyLock<spin::Mutex<Session<M, N, R>>>;
+
+/// The one place of a module where numbers are read.
+pub type Numbers = spin::Mutex<[f64; ROOM]>;
+
+/// An empty place for numbers.
+pub const fn no_numbers() -> Numbers {
+    Numbers::new([0.0; ROOM])
+}
+
+/// The place for good: nobody else may have it.
+pub fn taken(numbers: &'static Numbers) -> &'static mut [f64; ROOM] {
+    spin::MutexGuard::leak(numbers.lock())
+}
 
 /// Exports a mechanism: its type, its coordinates, its constraint equations.
 ///
@@ -37,8 +53,11 @@ pub type Shared<M, const N: usize, const R: usize> = spin::LazyLock<spin::Mutex<
 #[macro_export]
 macro_rules! module {
     ($mechanism:ty, $n:literal, $r:literal) => {
-        static SESSION: $crate::Shared<$mechanism, $n, $r> =
-            $crate::Shared::new(|| $crate::Session::new(<$mechanism>::default()).into());
+        static NUMBERS: $crate::Numbers = $crate::no_numbers();
+        static SESSION: $crate::Shared<$mechanism, $n, $r> = $crate::Shared::new(|| {
+            let numbers = $crate::taken(&NUMBERS);
+            $crate::Session::new(<$mechanism>::default(), numbers).into()
+        });
 
         $crate::export! {
             SESSION:
@@ -53,10 +72,17 @@ macro_rules! module {
             set_input(index: u32, value: f64) -> u32;
             free_input(index: u32) -> u32;
             begin(place: u32, value: f64, held: u32) -> u32;
+            start(place: u32) -> u32;
             forget() -> u32;
             fixed(method: u32, step: f64) -> u32;
             adaptive(method: u32, relative: f64, absolute: f64) -> u32;
+            settings(form: u32, way: u32, alpha: f64, beta: f64, bits: u32) -> u32;
             assemble() -> u32;
+            run(until: f64, every: f64, columns: u32, again: u32) -> u32;
+            rows() -> u32;
+            unfinished() -> u32;
+            width(columns: u32) -> u32;
+            marks() -> u32;
             place(index: u32, value: f64) -> u32;
             advance(time: f64) -> u32;
             state() -> u32;

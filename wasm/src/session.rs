@@ -5,21 +5,26 @@
 //!
 //! Functions that can fail give 0, or 1 with the reason as text. Those that give several
 //! numbers say how many. What doesn't exist fails.
+//!
+//! Not here: whole runs (`conduct`).
 
+use crate::row::numbers;
+use crate::run::Log;
 use crate::{Picture, Text, describe};
 use bricard_runtime::{
-    Initial, Interface, Mechanism, Method, Probe, Settings, State, StepControl, Stepper,
+    Audit, Form, Initial, Interface, Mechanism, Method, Options, Probe, Settings, Stabilisation,
+    Start, State, StepControl, Stepper,
 };
 use core::fmt::{Display, Write};
 
 /// The version of the exported functions; `js/index.js` refuses another.
-pub const VERSION: u32 = 1;
-/// Numbers that can be read at once.
-pub const ROOM: usize = 1 << 12;
+pub const VERSION: u32 = 2;
+/// Numbers that can be read at once: the rows of most runs.
+pub const ROOM: usize = 1 << 17;
 /// The answer of what has succeeded.
-const DONE: u32 = 0;
+pub(crate) const DONE: u32 = 0;
 /// The answer of what has failed.
-const FAILED: u32 = 1;
+pub(crate) const FAILED: u32 = 1;
 
 /// What is known of a coordinate or velocity at the start; nothing where the description
 /// decides.
@@ -27,18 +32,19 @@ type Given = Option<Initial<f64>>;
 
 /// A mechanism, where it is, and how it is integrated.
 pub struct Session<M, const N: usize, const R: usize> {
-    mechanism: M,
+    pub(crate) mechanism: M,
     given: [[Given; N]; 2],
-    method: Method,
-    step_control: StepControl<f64>,
-    motion: Option<Motion<N, R>>,
-    numbers: [f64; ROOM],
+    /// The method, its steps, the form of the equations.
+    pub(crate) options: Options<f64>,
+    pub(crate) motion: Option<Motion<N, R>>,
+    pub(crate) log: Log,
+    pub(crate) numbers: &'static mut [f64; ROOM],
     text: Text,
 }
 
 /// A motion that has begun.
-struct Motion<const N: usize, const R: usize> {
-    state: State<f64, N>,
+pub(crate) struct Motion<const N: usize, const R: usize> {
+    pub(crate) state: State<f64, N>,
     stepper: Stepper<f64, N, R>,
 }
 
@@ -47,20 +53,28 @@ where
     M: Mechanism<f64, N, R> + Interface<f64, N>,
 {
     /// A mechanism that is not assembled yet, to be integrated with an error per step of
-    /// 1e-9.
-    pub fn new(mechanism: M) -> Self {
+    /// 1e-9; numbers are read in the place that is given, which is too large for a stack.
+    pub fn new(mechanism: M, numbers: &'static mut [f64; ROOM]) -> Self {
+        let mut options = Options::dop853(0.0, 1e-9);
+        options.audit = Audit {
+            passages: true,
+            ..Audit::NONE
+        };
         Self {
             mechanism,
             given: [[None; N]; 2],
-            method: Method::Dop853,
-            step_control: StepControl::Adaptive {
-                relative: 1e-9,
-                absolute: 1e-9,
-            },
+            options,
             motion: None,
-            numbers: [0.0; ROOM],
+            log: Log::EMPTY,
+            numbers,
             text: Text::new(),
         }
+    }
+
+    /// How many coordinates the description declares; behind these stand the integrals of
+    /// states of the first order, which nobody sees.
+    fn freedoms(&self) -> usize {
+        self.mechanism.structure().freedoms().len()
     }
 
     /// The version of these functions.
@@ -71,6 +85,16 @@ where
     /// Where numbers are read.
     pub fn numbers(&self) -> *const f64 {
         self.numbers.as_ptr()
+    }
+
+    /// The numbers themselves, for programs of Rust.
+    pub fn read(&self) -> &[f64] {
+        &self.numbers[..]
+    }
+
+    /// The text itself, for programs of Rust.
+    pub fn told(&self) -> &str {
+        core::str::from_utf8(self.text.bytes()).unwrap_or_default()
     }
 
     /// Where text is read.
@@ -128,16 +152,32 @@ where
         }
     }
 
-    /// Gives a coordinate at the start, or a velocity, which come after all coordinates:
-    /// held, or a guess.
+    /// Gives a coordinate at the start, a velocity, which come after all coordinates, or a
+    /// state of the first order, which come last: held, or a guess.
     pub fn begin(&mut self, place: u32, value: f64, held: u32) -> u32 {
         if !value.is_finite() {
             return self.refuse(value);
         }
-        match self.given.as_flattened_mut().get_mut(place as usize) {
+        let freedoms = self.freedoms();
+        let [q, v] = &mut self.given;
+        match q.iter_mut().take(freedoms).chain(v).nth(place as usize) {
             Some(given) => {
                 let held = held != 0;
                 *given = Some(Initial { value, held });
+                DONE
+            }
+            None => self.fail(&"there is no coordinate at this place"),
+        }
+    }
+
+    /// What is known of a coordinate, velocity or state at the start: two numbers, its value
+    /// and whether it is held, which is 1.
+    pub fn start(&mut self, place: u32) -> u32 {
+        let start = self.beginning();
+        let q = start.q.iter().take(self.freedoms());
+        match q.chain(&start.v).nth(place as usize) {
+            Some(Initial { value, held }) => {
+                self.numbers[..2].copy_from_slice(&[*value, f64::from(u8::from(*held))]);
                 DONE
             }
             None => self.fail(&"there is no coordinate at this place"),
@@ -164,9 +204,46 @@ where
         let Some(method) = method_of(method) else {
             return self.fail(&"there is no method of this number");
         };
-        match Stepper::new(method, step_control, Settings::default()) {
+        self.take(Options {
+            method,
+            step_control,
+            ..self.options
+        })
+    }
+
+    /// Chooses the form of the equations, and what keeps the state on the constraints:
+    /// projection, nothing, or Baumgarte's gains. Then bits: 1 for passages as published, 2
+    /// for steps across jumps of forces, 4 for runs that keep the energy.
+    pub fn settings(&mut self, form: u32, way: u32, alpha: f64, beta: f64, bits: u32) -> u32 {
+        let Some(form) = form_of(form) else {
+            return self.fail(&"there is no form of this number");
+        };
+        let stabilisation = match way {
+            0 => Stabilisation::Projection,
+            1 => Stabilisation::None,
+            2 if alpha > 0.0 && beta > 0.0 && (alpha + beta).is_finite() => {
+                Stabilisation::Baumgarte { alpha, beta }
+            }
+            2 => return self.fail(&"the gains of Baumgarte's stabilisation must be positive"),
+            _ => return self.fail(&"there is no stabilisation of this number"),
+        };
+        self.take(Options {
+            settings: Settings {
+                form,
+                stabilisation,
+                published: bits & 1 != 0,
+                across_switches: bits & 2 != 0,
+            },
+            keep_energy: bits & 4 != 0,
+            ..self.options
+        })
+    }
+
+    /// Takes options, if steps can be made with them.
+    fn take(&mut self, options: Options<f64>) -> u32 {
+        match Stepper::new(options.method, options.step_control, options.settings) {
             Ok(stepper) => {
-                (self.method, self.step_control) = (method, step_control);
+                self.options = options;
                 if let Some(motion) = &mut self.motion {
                     motion.stepper = stepper;
                 }
@@ -176,23 +253,30 @@ where
         }
     }
 
-    /// Puts the mechanism together at `t = 0`, where a motion then begins.
-    pub fn assemble(&mut self) -> u32 {
+    /// The start: what was given, and else what the description says.
+    fn beginning(&self) -> Start<f64, N> {
         let mut start = self.mechanism.start();
-        let [q, v] = &self.given;
-        for (start, given) in start
-            .q
-            .iter_mut()
-            .chain(&mut start.v)
-            .zip(q.iter().chain(v))
-        {
+        let given = self.given.as_flattened();
+        for (start, given) in start.q.iter_mut().chain(&mut start.v).zip(given) {
             *start = given.unwrap_or(*start);
         }
+        start
+    }
+
+    /// Puts the mechanism together at `t = 0`, where a motion then begins.
+    pub fn assemble(&mut self) -> u32 {
+        let start = self.beginning();
         let state = match bricard_runtime::assemble(&self.mechanism, &start, 0.0) {
             Ok(state) => state,
             Err(error) => return self.fail(&error),
         };
-        match Stepper::new(self.method, self.step_control, Settings::default()) {
+        let Options {
+            method,
+            step_control,
+            settings,
+            ..
+        } = self.options;
+        match Stepper::new(method, step_control, settings) {
             Ok(stepper) => {
                 self.motion = Some(Motion { state, stepper });
                 DONE
@@ -201,7 +285,8 @@ where
         }
     }
 
-    /// Changes one number of the state: the time, a coordinate, or a velocity.
+    /// Changes one number of the state: the time, a coordinate, a velocity, a state of the
+    /// first order.
     pub fn place(&mut self, index: u32, value: f64) -> u32 {
         if !value.is_finite() {
             return self.refuse(value);
@@ -209,8 +294,10 @@ where
         let Some(motion) = &mut self.motion else {
             return self.not_begun();
         };
+        let freedoms = self.mechanism.structure().freedoms().len();
         let State { t, q, v } = &mut motion.state;
-        let place = core::iter::once(t).chain(q.iter_mut()).chain(v.iter_mut());
+        let place = core::iter::once(t).chain(q.iter_mut().take(freedoms));
+        let place = place.chain(v.iter_mut());
         match place.into_iter().nth(index as usize) {
             Some(place) => {
                 *place = value;
@@ -232,17 +319,17 @@ where
         }
     }
 
-    /// Time, coordinates, velocities.
+    /// Time, coordinates, velocities, states of the first order; how many numbers.
     pub fn state(&mut self) -> u32 {
         let Some(motion) = &self.motion else {
             return 0;
         };
-        let State { t, q, v } = &motion.state;
-        let numbers = core::iter::once(t).chain(q).chain(v);
-        for (place, number) in self.numbers.iter_mut().zip(numbers) {
-            *place = *number;
+        let structure = self.mechanism.structure();
+        let state = numbers(&motion.state, structure);
+        for (place, number) in self.numbers.iter_mut().zip(state) {
+            *place = number;
         }
-        (2 * N + 1) as u32
+        (1 + structure.freedoms().len() + N) as u32
     }
 
     /// The outputs.
@@ -269,14 +356,17 @@ where
         3
     }
 
-    /// Accelerations, then the generalized reaction forces of the constraints.
+    /// Accelerations, the rates of states of the first order, then the generalized reaction
+    /// forces of the constraints.
     pub fn forces(&mut self) -> u32 {
         let Some(Motion { state, stepper }) = &mut self.motion else {
             return self.not_begun();
         };
+        let freedoms = self.mechanism.structure().freedoms().len();
         match stepper.solver().clone().on(&self.mechanism).reaction(state) {
             Ok((acceleration, reaction)) => {
-                let numbers = acceleration.iter().chain(&reaction);
+                let reaction = reaction.iter().take(freedoms);
+                let numbers = acceleration.iter().chain(reaction);
                 for (place, number) in self.numbers.iter_mut().zip(numbers) {
                     *place = *number;
                 }
@@ -297,12 +387,12 @@ where
         let Some(motion) = &self.motion else {
             return 0;
         };
-        let mut picture = Picture::new(&mut self.numbers);
+        let mut picture = Picture::new(&mut self.numbers[..]);
         self.mechanism.draw(&motion.state, &mut picture);
         picture.length() as u32
     }
 
-    fn not_begun(&mut self) -> u32 {
+    pub(crate) fn not_begun(&mut self) -> u32 {
         self.fail(&"the mechanism isn't assembled yet")
     }
 
@@ -311,7 +401,7 @@ where
     }
 
     /// Takes note of a reason. One that has no room is cut.
-    fn fail(&mut self, reason: &dyn Display) -> u32 {
+    pub(crate) fn fail(&mut self, reason: &dyn Display) -> u32 {
         self.text.clear();
         match write!(self.text, "{reason}") {
             Ok(()) | Err(_) => FAILED,
@@ -326,6 +416,16 @@ fn method_of(number: u32) -> Option<Method> {
         Method::Dop853,
         Method::Radau5,
         Method::Radau9,
+    ];
+    all.get(number as usize).copied()
+}
+
+fn form_of(number: u32) -> Option<Form> {
+    let all = [
+        Form::Reduced,
+        Form::Full,
+        Form::Multipliers,
+        Form::Partitioning,
     ];
     all.get(number as usize).copied()
 }

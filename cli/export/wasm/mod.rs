@@ -6,16 +6,14 @@
 
 use super::folder::Folder;
 use super::sources;
+use crate::compiled::browser::{TARGET, can_compile, krate as code};
 use crate::compiled::{command, generate, module_of, output};
 use crate::description::Description;
 use crate::error::CommandError;
 use crate::output::print;
 use bricard_codegen::Compiled;
-use bricard_codegen::internals::emit::type_name;
 use std::path::{Path, PathBuf};
 
-/// What the module is compiled for.
-const TARGET: &str = "wasm32-unknown-unknown";
 /// The module in the package.
 const MODULE: &str = "mechanism.wasm";
 
@@ -63,7 +61,14 @@ fn write(folder: &Folder, module: &str, compiled: &Compiled) -> Result<(), Comma
     let manifest = sources::manifest(&krate(module), &about, library, &packages)
         .replace("runtime\" }", "runtime\", default-features = false }");
     folder.write("Cargo.toml", &(manifest + PROFILE))?;
-    folder.write("src/lib.rs", &code(&about, module, compiled))?;
+    folder.write(
+        "src/lib.rs",
+        &code(
+            &format!("{about}: `index.js` calls its functions."),
+            module,
+            compiled,
+        ),
+    )?;
     folder.write("index.js", WRAPPER)?;
     folder.write("index.d.ts", TYPES)?;
     for (name, text) in [
@@ -81,17 +86,6 @@ fn write(folder: &Folder, module: &str, compiled: &Compiled) -> Result<(), Comma
     sources::write(folder, &packages)
 }
 
-/// The library: the generated code and its functions.
-fn code(about: &str, module: &str, compiled: &Compiled) -> String {
-    let kind = type_name(&compiled.name);
-    let (n, r) = (compiled.coordinates, compiled.constraints);
-    format!(
-        "//! {about}: `index.js` calls its functions.\n#![no_std]\n\n{}\n\
-         bricard_wasm::module!({module}::{kind}<f64>, {n}, {r});\n",
-        compiled.code
-    )
-}
-
 fn package(module: &str) -> String {
     krate(module).replace('_', "-")
 }
@@ -102,19 +96,14 @@ fn krate(module: &str) -> String {
 
 /// Compiles the module.
 fn build(folder: &Path, module: &str) -> Result<PathBuf, CommandError> {
-    let mut rustc = command("rustc");
-    rustc.args(["--print", "target-libdir", "--target", TARGET]);
-    let place = output(rustc, folder, "`rustc --print target-libdir` failed")?;
-    let place = String::from_utf8_lossy(&place.stdout).trim().to_string();
-    if !Path::new(&place).is_dir() {
-        return Err(CommandError::Compile(format!(
-            "the module is not made: this Rust can't compile for {TARGET} yet.\nGet that with\n\n    \
-             rustup target add {TARGET}\n\nand say the same again, or, because all else is in {}:\n\n    \
-             cd {} && npm run build",
+    can_compile().map_err(|error| {
+        CommandError::Compile(format!(
+            "the module is not made: {error}\nand say the same again, or, because all else is in \
+             {}:\n\n    cd {} && npm run build",
             folder.display(),
             folder.display()
-        )));
-    }
+        ))
+    })?;
     let mut cargo = command("cargo");
     cargo.args([
         "build",

@@ -36,9 +36,7 @@ class Curves {
     const box = element("div", { class: "chart" }, element("h2", {}, panel.axis));
     this.place.append(box);
     const raw = panel.series.map((series) => numbers(series.values, Float64Array));
-    const floor = panel.scale === "logarithmic" ? 10 ** panel.low : -Infinity;
-    const shown = raw.map((values) => Array.from(values, (y) => (Math.abs(y) <= 1e300 ? Math.max(floor === -Infinity ? y : Math.abs(y), floor) : null)));
-    const chart = new uPlot(this.options(panel, raw, box), [this.times, ...shown], box);
+    const chart = new uPlot(this.options(panel, raw, box), [this.times, ...shown(panel, raw)], box);
     const line = element("div", { class: "cursor" });
     chart.over.append(line);
     box.querySelectorAll(".u-series").forEach((row, i) => {
@@ -52,7 +50,18 @@ class Curves {
       });
     });
     this.listen(chart);
-    return { chart, line };
+    return { chart, line, panel, raw };
+  }
+
+  /** Takes the times and, by the names of curves, the values of another motion. */
+  take(times, values) {
+    this.times = times;
+    for (const { chart, panel, raw } of this.charts) {
+      const { min, max } = chart.scales.x;
+      panel.series.forEach(({ name }, i) => (raw[i] = values(name)));
+      chart.setData([times, ...shown(panel, raw)], false);
+      chart.setScale("x", { min, max });
+    }
   }
 
   options(panel, raw, box) {
@@ -175,6 +184,13 @@ class Curves {
   redraw() {
     for (const { chart } of this.charts) chart.redraw(false, true);
   }
+}
+
+/** The values of a panel as they are drawn: what is infinite has no place. */
+function shown(panel, raw) {
+  const floor = panel.scale === "logarithmic" ? 10 ** panel.low : -Infinity;
+  const place = (y) => (Math.abs(y) <= 1e300 ? Math.max(floor === -Infinity ? y : Math.abs(y), floor) : null);
+  return raw.map((values) => Array.from(values, place));
 }
 
 /** A range with a margin, not so narrow that round-off looks like motion. */

@@ -76,6 +76,9 @@ function begin() {
   window.bricard = { run, scene, view, player, curves };
   controls(player, view);
   marks(player);
+  if (run.sliders) {
+    window.bricard.sliders = new Sliders($("sliders"), run.sliders, scene !== null, (made) => change(made, player, scene, curves));
+  }
   facts(run);
   equations(run);
   const kept = times.length;
@@ -89,6 +92,22 @@ function begin() {
   player.time = Math.min(Math.max(memory.time ?? player.start, player.start), player.end);
   player.play((memory.playing ?? !still) && player.end > player.start);
   return { player, view };
+}
+
+/** Puts another motion in place of the one that is there. */
+function change({ columns, passages, events, scene: moved }, player, scene, curves) {
+  const { times: own, kinetic, potential } = { times: columns.t, ...columns };
+  const energy = () => kinetic.map((x, i) => x + potential[i]);
+  run.marks.forEach((mark) => {
+    const times = mark.event ? events.filter(({ name }) => name === mark.name).map(({ t }) => t) : passages;
+    Object.assign(mark, { times, all: times.length });
+  });
+  if (scene && moved) scene.take(moved);
+  player.take(scene ? scene.times : own);
+  curves.take(own, (name) => columns[name] ?? (name === "energy" ? energy() : new Float64Array(own.length).fill(NaN)));
+  marks(player);
+  $("thinned").textContent = "The curves and the picture are those of the sliders; the tables below and the command are of the run that made this page.";
+  player.ask();
 }
 
 /** What the controls say. */
@@ -211,6 +230,8 @@ function key(event, player, view, acts) {
 function marks(player) {
   const length = Math.max(player.end - player.start, 1e-9);
   const few = 24;
+  $("ticks").replaceChildren();
+  $("marks").replaceChildren();
   for (const { name, event, times, all } of run.marks) {
     const kind = event ? "event" : "passage";
     times.forEach((t, i) => {

@@ -7,9 +7,8 @@ const SHORTEST = 2;
 
 class Player {
   constructor(times, draw) {
-    this.times = times;
+    this.take(times);
     this.draw = draw;
-    [this.start, this.end] = [times[0], times[times.length - 1]];
     this.time = this.start;
     this.playing = false;
     this.loop = true;
@@ -17,6 +16,12 @@ class Player {
     const fits = SPEEDS.filter((speed) => length / speed <= LONGEST && length / speed >= SHORTEST);
     this.speed = fits.includes(1) || fits.length === 0 ? 1 : fits.reduce((a, b) => (Math.abs(Math.log(a)) < Math.abs(Math.log(b)) ? a : b));
     this.wanted = false;
+  }
+
+  /** Takes the times of a motion. */
+  take(times) {
+    this.times = times;
+    [this.start, this.end] = [times[0], times[times.length - 1]];
   }
 
   /** Draws before the next picture of the screen. */

@@ -34,6 +34,20 @@ class Scene {
     this.findGround();
   }
 
+  /** Takes another motion of the same shapes. What it needs more room for gets it; the
+   * measure stays, so that what has become longer looks so. */
+  take({ times, frames }) {
+    const before = [this.low, this.high];
+    [this.times, this.frames] = [times, frames];
+    this.measure();
+    const [low, high] = [this.low, this.high];
+    this.bound(
+      low.map((x, axis) => Math.min(x, before[0][axis])),
+      high.map((x, axis) => Math.max(x, before[1][axis])),
+    );
+    this.findGround();
+  }
+
   /** The numbers at a time, between two frames on the straight line between them. */
   at(t) {
     const i = before(this.times, t);
@@ -65,6 +79,11 @@ class Scene {
       if (!(low[axis] <= high[axis])) [low[axis], high[axis]] = [-0.5, 0.5];
     }
     if (!this.spatial) low[2] = high[2] = 0;
+    this.bound(low, high);
+  }
+
+  /** The box, and how large it is. */
+  bound(low, high) {
     this.low = low;
     this.high = high;
     this.middle = low.map((x, axis) => (x + high[axis]) / 2);

@@ -34,6 +34,7 @@ class View {
 
   /** Shows all that ever happens. */
   whole() {
+    this.scene.measure();
     this.turn = { azimuth: (-62 * Math.PI) / 180, elevation: (20 * Math.PI) / 180 };
     this.zoom = 1;
     this.target = [...this.scene.middle];

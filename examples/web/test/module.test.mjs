@@ -51,6 +51,26 @@ test("energy, reactions and pictures are those of a mechanism", async () => {
   assert.ok(Math.abs(line.points[2][0] - engine.state.q[2]) < 1e-12);
 });
 
+test("a run in one call has rows, passages and events, and pieces of it fit together", async () => {
+  const engine = await Mechanism.load();
+  engine.assemble({ held: { "der(crank)": 8 } });
+  const run = engine.run({ until: 3, every: 0.1, columns: ["energies", "errors", "rank"] });
+  assert.deepEqual(Object.keys(run.columns).slice(0, 4), ["t", "crank", "rod", "slider"]);
+  assert.equal(run.columns.t.length, 31);
+  assert.equal(run.columns.t[7], 0.7);
+  assert.equal(run.columns.slider[30], engine.state.q[2]);
+  assert.ok(run.passages.length > 3 && run.passages.every((t) => t > 0 && t < 3));
+  run.columns.constraint_error.forEach((error) => assert.ok(error < 1e-9));
+  // So many rows that they come in pieces.
+  engine.assemble({ held: { "der(crank)": 8 } });
+  const fine = engine.run({ until: 3, every: 1e-4 });
+  assert.equal(fine.columns.t.length, 30001);
+  for (let row = 0; row <= 30; row++) {
+    assert.ok(Math.abs(fine.columns.crank[1000 * row] - run.columns.crank[row]) < 1e-6);
+  }
+  assert.equal(fine.passages.length, run.passages.length);
+});
+
 test("two mechanisms share nothing, and a state can be set", async () => {
   const [one, two] = [await Mechanism.load(), await Mechanism.load()];
   one.set({ ms: 2 }).assemble().advance(1);
@@ -76,6 +96,11 @@ test("mistakes are errors that say what is wrong", async () => {
   fails(() => engine.advance(1), /isn't assembled yet/);
   fails(() => engine.state, /isn't assembled yet/);
   fails(() => engine.method("euler"), /there is no method "euler"; there are rk4/);
+  fails(() => engine.settings({ form: "other" }), /there is no form "other"; there are reduced/);
+  fails(() => engine.settings({ stabilisation: { alpha: -1, beta: 1 } }), /gains .* must be positive/);
+  fails(() => engine.run({ until: 1, every: 0.1 }), /isn't assembled yet/);
+  fails(() => engine.run({ until: 1, every: 0.1, columns: ["speed"] }), /no columns "speed"/);
+  fails(() => engine.run({ until: 1 }), /every must be a number/);
   fails(() => engine.method("rk4", { rtol: 1e-6 }), /has no error estimate/);
   fails(() => engine.assemble({ held: { crank: 0, rod: 2 } }), /./);
   engine.assemble();

@@ -1,0 +1,193 @@
+//! A run in one call.
+//!
+//! In:  steps.
+//! Out: rows, one after the other in one place, and what happened when.
+//!
+//! Where the place is full, the run ends, to be gone on with when the rows have been read:
+//! at the end of a step away from singular positions if there is one in time, since the
+//! passage through a singular position belongs to one piece.
+
+use crate::row::Columns;
+use bricard_runtime::{
+    DynamicsError, Observer, Occurrence, Origin, Passage, Probe, Sampler, State, Step,
+};
+use core::cell::Cell;
+use core::ops::ControlFlow;
+
+/// Passages and events that are kept of a run.
+pub const MOST_MARKS: usize = 1000;
+/// Constraints that are independent by more than this sine are away from singular positions.
+const CALM_SINE: f64 = 0.3;
+/// The part of the place that is left for steps near singular positions.
+const SPARE: usize = 8;
+/// What is left of the last interval between rows is round-off up to this part of it.
+const SHORT: f64 = 1e-9;
+
+/// What is known of a run from one piece to the next.
+#[derive(Clone, Copy, Debug)]
+pub struct Log {
+    /// Its beginning, once it has begun.
+    pub origin: Option<Origin<f64>>,
+    /// Rows of all pieces.
+    pub rows: u64,
+    /// Rows of the last piece.
+    pub written: usize,
+    /// Whether rows are missing.
+    pub unfinished: bool,
+    marks: [(u32, f64); MOST_MARKS],
+    happened: usize,
+}
+
+impl Log {
+    /// Of no run.
+    pub const EMPTY: Self = Self {
+        origin: None,
+        rows: 0,
+        written: 0,
+        unfinished: false,
+        marks: [(0, 0.0); MOST_MARKS],
+        happened: 0,
+    };
+
+    /// What happened, and when: zero for a passage through a singular position, one more
+    /// than its place for an event.
+    pub fn marks(&self) -> &[(u32, f64)] {
+        &self.marks[..self.happened.min(MOST_MARKS)]
+    }
+
+    fn happens(&mut self, kind: usize, t: f64) -> ControlFlow<()> {
+        if let Some(place) = self.marks.get_mut(self.happened) {
+            *place = (kind as u32, t);
+        }
+        self.happened += 1;
+        ControlFlow::Continue(())
+    }
+}
+
+/// Makes rows of steps.
+pub struct Writer<'a, const N: usize, const R: usize, F> {
+    pub log: &'a mut Log,
+    pub columns: Columns,
+    pub numbers: &'a mut [f64],
+    /// Gives the rows of a step one at a time.
+    pub sampler: Sampler<f64, F>,
+    pub sampled: &'a Cell<Option<State<f64, N>>>,
+    /// The state of the last row, where a run goes on that was cut there.
+    pub last: State<f64, N>,
+    pub every: f64,
+    pub until: f64,
+}
+
+impl<const N: usize, const R: usize, F> Writer<'_, N, R, F>
+where
+    F: FnMut(&State<f64, N>) -> ControlFlow<()>,
+{
+    /// Rows that there is room for.
+    fn room(&self, probe: &dyn Probe<f64, N>) -> usize {
+        self.numbers.len() / self.columns.width(probe.structure())
+    }
+
+    fn add(
+        &mut self,
+        state: &State<f64, N>,
+        probe: &mut dyn Probe<f64, N>,
+    ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
+        if self.log.written >= self.room(probe) {
+            self.log.unfinished = true;
+            return Ok(ControlFlow::Break(()));
+        }
+        let width = self.columns.width(probe.structure());
+        let begin = self.log.written * width;
+        let row = &mut self.numbers[begin..begin + width];
+        self.columns.write::<N, R>(state, probe, row)?;
+        self.log.written += 1;
+        self.log.rows += 1;
+        self.last = *state;
+        Ok(ControlFlow::Continue(()))
+    }
+
+    /// The rows of a step, and one at the end of the run, where the last interval is a
+    /// short one.
+    fn rows(
+        &mut self,
+        step: &Step<f64, N>,
+        probe: &mut dyn Probe<f64, N>,
+    ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
+        loop {
+            // It breaks off at each row, because it can't be asked for anything meanwhile.
+            let _goes_on = self.sampler.step(step, probe)?;
+            let Some(state) = self.sampled.take() else {
+                break;
+            };
+            if self.add(&state, probe)?.is_break() {
+                return Ok(ControlFlow::Break(()));
+            }
+        }
+        let end = step.end();
+        match end.t >= self.until && end.t - self.last.t > self.every * SHORT {
+            true => self.add(end, probe),
+            false => Ok(ControlFlow::Continue(())),
+        }
+    }
+
+    /// Whether the end of a step is a good place to end a piece.
+    fn is_over(
+        &self,
+        state: &State<f64, N>,
+        probe: &mut dyn Probe<f64, N>,
+    ) -> Result<bool, DynamicsError<f64>> {
+        let room = self.room(probe);
+        let full = self.log.written >= room - room / SPARE;
+        Ok(full && state.t < self.until && probe.rank(state)?.sine >= CALM_SINE)
+    }
+}
+
+impl<const N: usize, const R: usize, F> Observer<f64, N> for Writer<'_, N, R, F>
+where
+    F: FnMut(&State<f64, N>) -> ControlFlow<()>,
+{
+    fn begin(
+        &mut self,
+        state: &State<f64, N>,
+        probe: &mut dyn Probe<f64, N>,
+    ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
+        if let Some(origin) = self.log.origin {
+            self.sampler.go_on(origin.t, self.log.rows);
+            return Ok(ControlFlow::Continue(()));
+        }
+        self.log.origin = Some(Origin {
+            t: state.t,
+            energy: probe.energy(state).balance,
+            supplied: 0.0,
+        });
+        let _goes_on = self.sampler.begin(state, probe)?;
+        self.sampled.take();
+        // The projection of the start may have moved what is held by its round-off.
+        let first = self.last;
+        self.add(&first, probe)
+    }
+
+    fn step(
+        &mut self,
+        step: &Step<f64, N>,
+        probe: &mut dyn Probe<f64, N>,
+    ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
+        if self.rows(step, probe)?.is_break() {
+            return Ok(ControlFlow::Break(()));
+        }
+        if self.is_over(step.end(), probe)? {
+            self.log.unfinished = true;
+            self.last = *step.end();
+            return Ok(ControlFlow::Break(()));
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn event(&mut self, occurrence: &Occurrence<f64, N>) -> ControlFlow<()> {
+        self.log.happens(occurrence.index + 1, occurrence.state.t)
+    }
+
+    fn passage(&mut self, passage: &Passage<f64>) -> ControlFlow<()> {
+        self.log.happens(0, passage.t)
+    }
+}
