@@ -20,6 +20,8 @@ use nalgebra::SVector;
 
 /// Attempts to end a step where one function passes zero, after the first.
 const REFINEMENTS: u32 = 3;
+/// Switching functions that are sampled at once: the room for more has to be cleared.
+const AT_ONCE: usize = 8;
 /// Times closer than this multiple of the round-off of time are one.
 const SAME_TIME: f64 = 8.0;
 /// Functions of states within a step are off by this part of its accepted error.
@@ -153,7 +155,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             return Ok(None);
         }
         let acceleration = self.held_acceleration(mechanism, step.end())?;
-        let Switch { value, rate } = values(mechanism, step.end(), &acceleration)[aim.index];
+        let Switch { value, rate } = one(mechanism, step.end(), &acceleration, aim.index);
         let change = -(value / rate);
         // False for NaN, too: a function that only just reaches zero.
         let worth = change.abs() > same && change.abs() < step.length() * T::from_f64(0.1);
@@ -183,7 +185,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             self.conditions.sides.hold(place, above);
             self.decide(self.conditions.sides);
             let acceleration = self.held_acceleration(mechanism, state)?;
-            *push = values(mechanism, state, &acceleration)[index].rate * side;
+            *push = one(mechanism, state, &acceleration, index).rate * side;
         }
         let [leaves, returns] = [pushes[0] < T::zero(), pushes[1] > T::zero()];
         if leaves && returns && !self.conditions.list[index].kinks {
@@ -214,9 +216,12 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let list = self.conditions.list;
         let still = SVector::zeros();
         let times = nodes((step.start().t, step.end().t));
-        let sampled = times.map(|t| values(mechanism, &step.at(t), &still));
+        let mut sampled = [[T::zero(); NODES]; AT_ONCE];
         let mut first: Option<(usize, T)> = None;
         for index in 0..list.len() {
+            if index % AT_ONCE == 0 {
+                sample(mechanism, step, (&times, index), &mut sampled);
+            }
             let found = if self.conditions.slides(index) {
                 self.end_of_sliding(mechanism, step, index)?
             } else {
@@ -231,11 +236,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                         .map(|_| value)
                         .ok_or(undefined)
                 };
-                let mut value = |t| defined(t, values(mechanism, &step.at(t), &still)[index].value);
-                let mut samples = [T::zero(); NODES];
-                for (sample, values) in samples.iter_mut().zip(&sampled) {
-                    *sample = values[index].value;
-                }
+                let mut value = |t| defined(t, one(mechanism, &step.at(t), &still, index).value);
+                let samples = sampled[index % AT_ONCE];
                 defined(step.end().t, samples[NODES - 1])?;
                 earliest(&mut value, (times, samples), side, self.noise())?
             };
@@ -276,6 +278,42 @@ pub(super) fn earliest<T: Real>(
     }
     let t = zero(function, (from, before), (to, after))?;
     Ok(Some(t))
+}
+
+/// Samples some switching functions of a step, from one on.
+fn sample<T, M, const N: usize, const R: usize>(
+    mechanism: &M,
+    step: &Step<T, N>,
+    (times, first): (&[T; NODES], usize),
+    sampled: &mut [[T; NODES]; AT_ONCE],
+) where
+    T: Real,
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    let mut values = [Switch::default(); Sides::ROOM];
+    let values = &mut values[..(first + AT_ONCE).min(Sides::ROOM)];
+    for (k, t) in times.iter().enumerate() {
+        mechanism.switches(&step.at(*t), &SVector::zeros(), values);
+        for (samples, switch) in sampled.iter_mut().zip(&values[first..]) {
+            samples[k] = switch.value;
+        }
+    }
+}
+
+/// The value of one switching function at a state.
+fn one<T, M, const N: usize, const R: usize>(
+    mechanism: &M,
+    state: &State<T, N>,
+    acceleration: &SVector<T, N>,
+    index: usize,
+) -> Switch<T>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    let mut values = [Switch::default(); Sides::ROOM];
+    mechanism.switches(state, acceleration, &mut values[..=index]);
+    values[index]
 }
 
 /// The values of all switching functions at a state.
