@@ -341,7 +341,8 @@ impl Writer<'_> {
 
     fn call(&self, function: Function, x: Value) -> Piece {
         if let Function::Table(lookup) = function {
-            let tokens = tables::call(lookup, &self.piece(x).tokens, self.decided);
+            let by_sides = self.decided == Decided::BySides;
+            let tokens = tables::call(lookup, &self.piece(x).tokens, by_sides);
             return Piece {
                 operands: self.operands([x]),
                 ..atom(tokens)

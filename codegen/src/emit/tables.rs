@@ -3,15 +3,14 @@
 //! In:  the tables of a mechanism.
 //! Out: a static for each, and calls of it.
 
-use super::function::Decided;
-use super::subject::Subject;
 use crate::expr::{Entry, Lookup};
+use crate::model::Mechanism;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
 /// The statics.
-pub(super) fn tables(subject: &Subject) -> TokenStream {
-    let tables = subject.mechanism.tables.iter().map(|table| {
+pub(super) fn tables(mechanism: &Mechanism) -> TokenStream {
+    let tables = mechanism.tables.iter().map(|table| {
         let name = name(table.index);
         let docs = format!(" A function through {} points.", table.places.len());
         let places = table.places.iter().map(|place| number(*place));
@@ -30,10 +29,10 @@ pub(super) fn tables(subject: &Subject) -> TokenStream {
     tables.collect()
 }
 
-/// A call of a table.
-pub(super) fn call(lookup: Lookup, x: &TokenStream, decided: Decided) -> TokenStream {
+/// A call of a table; whether a run may hold the interval.
+pub(super) fn call(lookup: Lookup, x: &TokenStream, by_sides: bool) -> TokenStream {
     let table = name(lookup.table.index);
-    let held = lookup.held.filter(|_| decided == Decided::BySides);
+    let held = lookup.held.filter(|_| by_sides);
     match (lookup.entry, held) {
         (Entry::Derivative(order), Some(first)) => {
             let (order, first) = (

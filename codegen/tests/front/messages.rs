@@ -111,6 +111,7 @@ const STATEMENTS: &[&str] = &[
     "output a = sum(i in 0..[1, 2], 1);",
     "output a = [1, 2]*[[1, 0], [0, 1]];",
     "output a = [[1, 0], [0, 1]]*[1, 2, 3];",
+    "output a = [[1, 0, 0], [0, 1, 0]]*[1, 2];",
     "let R = rot([1, 2]);",
     "let R = rot([1, 2], q);",
     "let R = rot([0, 0, 0], q);",
@@ -369,7 +370,7 @@ fn set(said: &mut Vec<String>) {
 fn tables(said: &mut Vec<String>) {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("messages");
     fs::create_dir_all(&folder).expect("a folder");
-    let many: String = (0..100_000).map(|i| format!("{i},1\n")).collect();
+    let many: String = (0..100_001).map(|i| format!("{i},1\n")).collect();
     let plain = "table(\"data.csv\", t)";
     let named = "table(\"data.csv\", \"force\", t)";
     for (data, table) in [
