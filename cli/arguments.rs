@@ -5,7 +5,7 @@
 
 use crate::formula::{self, Assignment, Choice, Setting};
 use bricard_codegen::internals::diagnostic::nearest;
-use bricard_runtime::{Form, Scheme, Stabilisation};
+use bricard_runtime::{Form, Method, Stabilisation};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
@@ -87,6 +87,9 @@ pub struct Show {
     /// `Builder::eliminate` does
     #[arg(long)]
     pub eliminate: bool,
+    /// Print the programs that the generated functions run, operation by operation
+    #[arg(long, conflicts_with = "latex")]
+    pub programs: bool,
 }
 
 /// Arguments of `check`.
@@ -386,14 +389,14 @@ pub enum FormName {
     Partitioning,
 }
 
-impl From<MethodName> for Scheme {
+impl From<MethodName> for Method {
     fn from(name: MethodName) -> Self {
         match name {
-            MethodName::Rk4 => Scheme::Rk4,
-            MethodName::Dp5 => Scheme::Dp5,
-            MethodName::Dop853 => Scheme::Dop853,
-            MethodName::Radau5 => Scheme::Radau5,
-            MethodName::Radau9 => Scheme::Radau9,
+            MethodName::Rk4 => Method::Rk4,
+            MethodName::Dp5 => Method::Dp5,
+            MethodName::Dop853 => Method::Dop853,
+            MethodName::Radau5 => Method::Radau5,
+            MethodName::Radau9 => Method::Radau9,
         }
     }
 }

@@ -1,6 +1,5 @@
 //! Why a command could not do what it was asked to, in the user's words.
 //!
-//! In:  nothing.
 //! Out: [`CommandError`]: a message and an exit status.
 
 use crate::interrupt::INTERRUPTED;

@@ -7,13 +7,12 @@
 
 use crate::arguments::Gallery;
 use crate::error::CommandError;
-use crate::list::first_sentence;
 use crate::mechanism::find;
 use crate::output::{say, write};
 use crate::plot::{Shape, moving_svg};
 use crate::run::{Plan, RowSink, run};
 use crate::scene::{is_spatial, shapes};
-use crate::show::counted;
+use crate::words::{counted, first_sentence};
 use bricard_driver::AnyMechanism;
 use bricard_runtime::{Options, Structure};
 use std::fs;

@@ -6,9 +6,10 @@
 //!      and gets the same messages.
 
 use crate::compiled;
+use crate::description::Description;
 use crate::error::CommandError;
 use crate::formula::Setting;
-use crate::mechanism::{Description, description, find};
+use crate::mechanism::{description, find};
 use bricard_codegen::internals::diagnostic::Span;
 use bricard_codegen::internals::syntax::{Model, parse};
 use bricard_driver::AnyMechanism;

@@ -15,6 +15,7 @@ mod checkpoint;
 mod column;
 mod comparison;
 mod compiled;
+mod description;
 mod error;
 mod export;
 mod figure;
@@ -42,6 +43,7 @@ mod simulate;
 mod table;
 mod validate;
 mod watch;
+mod words;
 mod workprecision;
 
 use arguments::{Arguments, Command};

@@ -3,12 +3,12 @@
 //! In:  what the command line calls it.
 //! Out: [`AnyMechanism`], on which the commands work.
 
-use crate::check::read;
 use crate::compiled;
+use crate::description::{Description, read};
 use crate::error::CommandError;
-use crate::show::freedom;
-use bricard_driver::{AnyMechanism, Precise, erase_type};
-use bricard_runtime::{Interface, Mechanism, Settings, Solver, Visitor, Whole, assemble};
+use crate::words::freedom;
+use bricard_driver::{AnyMechanism, Precise};
+use bricard_runtime::Structure;
 use std::path::{self, Path, PathBuf};
 
 /// Finds a mechanism of the library or of the benchmark problems, or compiles a file.
@@ -20,9 +20,12 @@ pub fn find(name: &str) -> Result<Box<dyn AnyMechanism>, CommandError> {
     if let Some(file) = file(name) {
         return Ok(Box::new(compiled::open(file)?));
     }
-    let found =
-        bricard::visit(name, EraseType).or_else(|| bricard_benchmarks::visit(name, EraseType));
-    found.ok_or_else(|| unknown(name))
+    included(name).ok_or_else(|| unknown(name))
+}
+
+/// A mechanism that the command has in it.
+fn included(name: &str) -> Option<Box<dyn AnyMechanism>> {
+    bricard::any(name).or_else(|| bricard_benchmarks::any(name))
 }
 
 fn unknown(name: &str) -> CommandError {
@@ -63,15 +66,6 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     library.chain(bricard_benchmarks::NAMES).copied()
 }
 
-/// A description, and the file that it is in.
-#[derive(Clone, Debug)]
-pub struct Description {
-    /// The file; of a mechanism that the command has in it, the one it was compiled from.
-    pub file: PathBuf,
-    /// The text.
-    pub source: String,
-}
-
 /// The description of a mechanism by its name or path.
 ///
 /// # Errors
@@ -92,19 +86,6 @@ pub fn description(name: &str) -> Result<Description, CommandError> {
     })
 }
 
-struct EraseType;
-
-impl Visitor<f64> for EraseType {
-    type Output = Box<dyn AnyMechanism>;
-
-    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
-    where
-        M: Mechanism<f64, N, R> + Interface<f64, N> + Clone + 'static,
-    {
-        erase_type::<N, R>(Box::new(mechanism))
-    }
-}
-
 /// The same mechanism in numbers of 106 bits, in a program of its own: few commands ask
 /// for them, and everyone who builds the command would pay for their code.
 ///
@@ -119,36 +100,19 @@ pub fn precise(name: &str) -> Result<Box<dyn Precise>, CommandError> {
 /// In words: rank of the constraints of a mechanism of the library at its start, and what
 /// is left free; `None` if there is no such mechanism.
 pub fn freedom_at_start(name: &str) -> Option<String> {
-    bricard::visit(name, Freedom).or_else(|| bricard_benchmarks::visit(name, Freedom))
-}
-
-struct Freedom;
-
-impl Visitor<f64> for Freedom {
-    type Output = String;
-
-    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
-    where
-        M: Mechanism<f64, N, R> + Interface<f64, N> + Clone + 'static,
-    {
-        free::<N, R>(&mechanism)
-    }
-}
-
-fn free<const N: usize, const R: usize>(mechanism: &dyn Whole<f64, N, R>) -> String {
-    if R == 0 {
-        return freedom(N);
-    }
-    let state = match assemble(mechanism, &mechanism.start(), 0.0) {
-        Ok(state) => state,
-        Err(error) => return format!("the start can't be assembled: {error}"),
-    };
-    match Solver::new(Settings::default()).on(mechanism).rank(&state) {
+    let mechanism = included(name)?;
+    let Structure {
+        coordinates,
+        constraints,
+        ..
+    } = mechanism.structure();
+    Some(match mechanism.rank_at_start() {
+        _ if constraints.is_empty() => freedom(coordinates.len()),
         Ok(rank) => format!(
-            "at the start {} of {R} constraint equations are independent: {}",
-            rank.rank,
-            freedom(N - rank.rank)
+            "at the start {rank} of {} constraint equations are independent: {}",
+            constraints.len(),
+            freedom(coordinates.len() - rank)
         ),
-        Err(error) => format!("the rank at the start can't be decided: {error}"),
-    }
+        Err(error) => error,
+    })
 }

@@ -1,7 +1,7 @@
 //! Numbers as text that reads back to the same bits, and the largest of several.
 //!
 //! In:  numbers.
-//! Out: their shortest digits; a number that is none if one of them is none.
+//! Out: their shortest digits; the largest size, NaN if one of them is NaN.
 
 /// A number in the fewest digits that read back to the same bits.
 pub fn exact(value: f64) -> String {
@@ -12,7 +12,7 @@ pub fn exact(value: f64) -> String {
     }
 }
 
-/// The largest absolute value; not a number if one of them is none.
+/// The largest absolute value; NaN if one of them is NaN.
 pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     let sizes = values.into_iter().map(f64::abs);
     sizes.fold(0.0, |most, x| if x > most || x.is_nan() { x } else { most })
@@ -23,7 +23,7 @@ mod tests {
     use super::largest;
 
     #[test]
-    fn the_largest_of_numbers_is_none_if_one_is_none() {
+    fn the_largest_of_numbers_is_nan_if_one_is_nan() {
         assert_eq!(largest([1.0, -3.0, 2.0]), 3.0);
         for values in [[f64::NAN, 1.0], [1.0, f64::NAN]] {
             assert!(largest(values).is_nan());

@@ -74,7 +74,7 @@ fn outlined(tree: &Tree) -> String {
 ///
 /// # Errors
 ///
-/// Why there are none, in words.
+/// In words, why the picture can't be drawn.
 pub fn pixels(svg: &str, detail: f32) -> Result<Pixmap, String> {
     let tree = tree(svg)?;
     let size = tree.size().to_int_size();

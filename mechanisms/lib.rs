@@ -4,6 +4,16 @@
 //! Dropping a new `.mech` file in here is all it takes to have it compiled, listed
 //! and runnable by name.
 
+use bricard_driver::{AnyMechanism, EraseType};
+
 pub use bricard_runtime as runtime;
 
 include!(concat!(env!("OUT_DIR"), "/mechanisms.rs"));
+
+/// A mechanism of the library by its name, with its type and sizes forgotten.
+///
+/// Whoever runs mechanisms of the library through this shares one compiled simulation for
+/// each pair of sizes.
+pub fn any(name: &str) -> Option<Box<dyn AnyMechanism>> {
+    visit(name, EraseType)
+}

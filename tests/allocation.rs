@@ -3,15 +3,15 @@
 use crate::library::step_scale;
 use allocation_counter::measure;
 use bricard_runtime::{
-    Interface, Mechanism, Options, Pace, Scheme, Settings, State, Stepper, Visitor, Whole,
+    Interface, Mechanism, Method, Options, Settings, State, StepControl, Stepper, Visitor, Whole,
     assemble, simulate,
 };
 
 /// Counts the allocations of steps on demand and of a whole run with all audits.
 struct Count {
-    scheme: Scheme,
+    method: Method,
     /// As for a mechanism of usual speed.
-    pace: Pace<f64>,
+    step_control: StepControl<f64>,
     step_scale: f64,
 }
 
@@ -25,12 +25,12 @@ impl Visitor<f64> for Count {
     {
         let mechanism: &dyn Whole<f64, N, R> = &mechanism;
         let Count {
-            scheme,
-            pace,
+            method,
+            step_control,
             step_scale,
         } = self;
-        let pace = match pace {
-            Pace::Fixed { step } => Pace::Fixed {
+        let step_control = match step_control {
+            StepControl::Fixed { step } => StepControl::Fixed {
                 step: step * step_scale,
             },
             adaptive => adaptive,
@@ -42,7 +42,7 @@ impl Visitor<f64> for Count {
         let start = state;
         let settings = Settings::default();
         let mut stepper: Stepper<f64, N, R> =
-            Stepper::new(scheme, pace, settings).expect("a pace that fits");
+            Stepper::new(method, step_control, settings).expect("a step control that fits");
         let stepping = measure(|| {
             for _ in 0..100 {
                 stepper
@@ -50,7 +50,7 @@ impl Visitor<f64> for Count {
                     .expect("a step");
             }
         });
-        let options = Options::new(step_scale, scheme, pace);
+        let options = Options::new(step_scale, method, step_control);
         let running = measure(|| {
             let run = simulate(mechanism, &start, &options, &mut []);
             assert!(run.is_ok(), "the run ends well");
@@ -61,30 +61,30 @@ impl Visitor<f64> for Count {
 
 #[test]
 fn running_a_mechanism_allocates_nothing() {
-    let adaptive = Pace::Adaptive {
+    let adaptive = StepControl::Adaptive {
         relative: 1e-8,
         absolute: 1e-8,
     };
-    let fixed = Pace::Fixed { step: 0.01 };
-    for (scheme, pace) in [
-        (Scheme::Rk4, fixed),
-        (Scheme::Dp5, adaptive),
-        (Scheme::Dop853, adaptive),
-        (Scheme::Radau5, adaptive),
-        (Scheme::Radau9, adaptive),
+    let fixed = StepControl::Fixed { step: 0.01 };
+    for (method, step_control) in [
+        (Method::Rk4, fixed),
+        (Method::Dp5, adaptive),
+        (Method::Dop853, adaptive),
+        (Method::Radau5, adaptive),
+        (Method::Radau9, adaptive),
     ] {
         for name in bricard::NAMES {
             let step_scale = step_scale(name);
             let count = Count {
-                scheme,
-                pace,
+                method,
+                step_control,
                 step_scale,
             };
             let counted = bricard::visit::<f64, _>(name, count);
             assert_eq!(
                 counted,
                 Some([0; 3]),
-                "{name}, {scheme}: assembling, stepping, running"
+                "{name}, {method}: assembling, stepping, running"
             );
         }
     }

@@ -398,6 +398,25 @@ fn equations_are_shown_entry_by_entry() {
 }
 
 #[test]
+fn programs_are_shown_operation_by_operation() {
+    let ran = bricard(&["show", "slider_crank", "--programs"]);
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    for line in [
+        "terms: ",
+        "%9 = sin(q1)\n",
+        "mass[3,3] = m3\n",
+        "\nenergy: ",
+    ] {
+        assert!(ran.out.contains(line), "no `{line}` in {}", ran.out);
+    }
+    check_refused(
+        &["show", "slider_crank", "--programs", "--latex"],
+        2,
+        &["--programs", "--latex"],
+    );
+}
+
+#[test]
 fn equations_are_shown_as_latex() {
     let ran = bricard(&["show", "cart_pole", "--latex"]);
     assert_eq!(ran.status, Some(0), "{}", ran.err);

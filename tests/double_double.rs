@@ -5,7 +5,7 @@ use bricard::n_four_bar::NFourBar;
 use bricard::slider_crank::SliderCrank;
 use bricard::slider_crank_driven::SliderCrankDriven;
 use bricard_reference::{DoubleDouble, Reference, ReferenceError, reference};
-use bricard_runtime::{Options, Pace, Real, Scheme, Whole, assemble, simulate};
+use bricard_runtime::{Method, Options, Real, StepControl, Whole, assemble, simulate};
 
 /// What a reference motion may be off by (m, rad, m/s, rad/s).
 const ERROR: f64 = 1e-18;
@@ -100,11 +100,11 @@ fn coefficients_of_the_implicit_method_have_more_digits_than_an_f64() {
     let start = assemble(mechanism, &mechanism.start(), DoubleDouble::default());
     let start = start.unwrap_or_else(|error| panic!("{error}"));
     let tolerance = DoubleDouble::from(1e-19);
-    let pace = Pace::Adaptive {
+    let step_control = StepControl::Adaptive {
         relative: tolerance,
         absolute: tolerance,
     };
-    let options = Options::new(until, Scheme::Radau9, pace);
+    let options = Options::new(until, Method::Radau9, step_control);
     let run = simulate(mechanism, &start, &options, &mut []);
     let end = run.unwrap_or_else(|failure| panic!("{failure}")).end;
     let off = (end.q - exact.end.q).map(|x| x.abs().to_f64()).max();

@@ -8,8 +8,8 @@ use crate::reduction::Reduction;
 use bricard_fixtures::eliminated as less;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Described, Interface, Mechanism, Options, Pace, Recorder, Scheme, Settings, Solver, State,
-    Structure, Visitor, assemble, simulate,
+    Described, Interface, Mechanism, Method, Options, Recorder, Settings, Solver, State,
+    StepControl, Structure, Visitor, assemble, simulate,
 };
 
 /// The tolerance of the runs, per step.
@@ -51,11 +51,11 @@ where
     let structure = mechanism.structure();
     let start = assemble(mechanism, &mechanism.start(), 0.0).expect("the start assembles");
     let mut recorder = Recorder::new(EVERY).expect("a positive interval");
-    let pace = Pace::Adaptive {
+    let step_control = StepControl::Adaptive {
         relative: TOLERANCE,
         absolute: TOLERANCE,
     };
-    let options = Options::new(UNTIL, Scheme::Dop853, pace);
+    let options = Options::new(UNTIL, Method::Dop853, step_control);
     let ended = simulate(mechanism, &start, &options, &mut [&mut recorder]);
     assert!(ended.is_ok(), "{}: {:?}", structure.name, ended.err());
     let mut solver = Solver::new(Settings::default());

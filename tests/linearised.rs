@@ -5,8 +5,8 @@ use crate::library::{Derived, Point, everything, has_regular_states, names, step
 use bricard_codegen::internals::expr::{ExprId, Symbol};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Interface, Mechanism, Options, Settings, Slope, Solver, State, System, Visitor, Whole,
-    assemble, simulate,
+    AccelerationJacobian, Interface, Mechanism, Options, Settings, Solver, State, System, Visitor,
+    Whole, assemble, simulate,
 };
 use bricard_testkit::Random;
 use num_dual::Dual64;
@@ -125,7 +125,7 @@ fn check(derived: &Derived, point: &Point) {
     }
 }
 
-/// Compares the slope of the acceleration with differences; whether there is one.
+/// Compares the Jacobian of the acceleration with differences; whether there is one.
 struct Compare {
     name: &'static str,
 }
@@ -159,7 +159,7 @@ impl Visitor<f64> for Compare {
             by_q.push(change(&|state, size| state.q[j] += size));
             by_v.push(change(&|state, size| state.v[j] += size));
         }
-        let Some(Slope { q, v }) = system.slope(&state) else {
+        let Some(AccelerationJacobian { q, v }) = system.acceleration_jacobian(&state) else {
             return false;
         };
         for (what, found, near) in [("q", q, by_q), ("q̇", v, by_v)] {
@@ -183,5 +183,5 @@ fn slopes_of_accelerations_are_the_limits_of_differences() {
         .filter(|name| has_regular_states(name))
         .filter(|name| !visit(name, Compare { name }))
         .collect();
-    assert!(without.is_empty(), "no slope for {without:?}");
+    assert!(without.is_empty(), "no Jacobian for {without:?}");
 }

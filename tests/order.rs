@@ -7,17 +7,17 @@
 
 use crate::motion::{end, run};
 use crate::reduction::Reduction;
-use bricard_runtime::{Options, Pace, Scheme};
+use bricard_runtime::{Method, Options, StepControl};
 use std::ops::RangeInclusive;
 
 /// Times at which errors are taken (s), multiples of every step.
 const TIMES: [f64; 10] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
 
 /// The largest error of q₁ in the first second.
-fn error(reduction: Reduction, scheme: Scheme, step: f64) -> f64 {
+fn error(reduction: Reduction, method: Method, step: f64) -> f64 {
     let from = (reduction.start(), 0.0);
     let at = |t: f64| {
-        let options = Options::new(t, scheme, Pace::Fixed { step });
+        let options = Options::new(t, method, StepControl::Fixed { step });
         let (exact, _) = reduction.after(t, from);
         (run(reduction.name(), &options).q[0] - exact).abs()
     };
@@ -25,16 +25,16 @@ fn error(reduction: Reduction, scheme: Scheme, step: f64) -> f64 {
 }
 
 /// The order from the coarsest step to the finest.
-fn check(reduction: Reduction, scheme: Scheme, steps: &[f64], orders: RangeInclusive<f64>) {
+fn check(reduction: Reduction, method: Method, steps: &[f64], orders: RangeInclusive<f64>) {
     let errors: Vec<f64> = steps
         .iter()
-        .map(|step| error(reduction, scheme, *step))
+        .map(|step| error(reduction, method, *step))
         .collect();
     let halvings = (steps[0] / steps[steps.len() - 1]).log2();
     let observed = (errors[0] / errors[errors.len() - 1]).log2() / halvings;
     assert!(
         orders.contains(&observed),
-        "{}, {scheme}: order {observed:.2} from errors {errors:?}",
+        "{}, {method}: order {observed:.2} from errors {errors:?}",
         reduction.name()
     );
 }
@@ -44,7 +44,7 @@ fn rk4_converges_with_order_four_through_singular_positions() {
     for reduction in Reduction::ALL {
         check(
             reduction,
-            Scheme::Rk4,
+            Method::Rk4,
             &[0.02, 0.01, 0.005, 0.0025],
             3.8..=4.2,
         );
@@ -55,7 +55,7 @@ fn rk4_converges_with_order_four_through_singular_positions() {
 fn dp5_converges_with_order_five_through_singular_positions() {
     for reduction in Reduction::ALL {
         // On the exact reduction these steps show 4.9 to 5.3.
-        check(reduction, Scheme::Dp5, &[0.01, 0.005, 0.0025], 4.8..=5.4);
+        check(reduction, Method::Dp5, &[0.01, 0.005, 0.0025], 4.8..=5.4);
     }
 }
 

@@ -5,11 +5,12 @@
 //! distance `d` from the singular position, `d = ±{1, 3.3}·10⁻ᵏ`, `k = 1…16`, and is
 //! followed for 0.4 s. No placement may be much worse than the median of all.
 
-use crate::reduction::{Motion, Reduction};
+use crate::reduction::Reduction;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Integrator, Interface, Mechanism, Rk4, Settings, Solver, State, Visitor, Whole,
 };
+use bricard_testkit::Motion;
 
 /// How long a motion is followed (s).
 const SPAN: f64 = 0.4;

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// A run at a fixed pace, one that follows a tolerance through singular positions, and
+/// A run with fixed steps, one that follows a tolerance through singular positions, and
 /// one whose rows lie within steps.
 const RUNS: [&[&str]; 3] = [
     &["double_pendulum", "--until", "60", "--step", "0.002"],
@@ -138,7 +138,7 @@ fn interrupted(arguments: &[String], csv: &Path) -> String {
 }
 
 #[test]
-fn checkpoints_at_a_fixed_pace_change_no_bit() {
+fn checkpoints_with_fixed_steps_change_no_bit() {
     let folder = folder("checkpoint");
     let [plain, kept, file] = ["plain.csv", "kept.csv", "c"].map(|f| folder.join(f));
     let arguments = ["double_pendulum", "--until", "10", "--step", "0.002"];

@@ -64,6 +64,24 @@ fn a_constant_mass_matrix_has_no_coriolis_terms_and_is_factorised_once() {
 }
 
 #[test]
+fn constraints_that_stay_what_they_are_are_known() {
+    let wire = |law: &str| {
+        format!(
+            "mechanism Bead {{ param m: kg = 1; param r: m = 2; const w: 1/s = 1;
+            coord x: m; coord y: m; kinetic 1/2*m*(der(x)^2 + der(y)^2); {law} start {{ x = 2; y ~ 0; }} }}"
+        )
+    };
+    for (law, flag) in [
+        ("constraint x^2 + y^2 = r^2;", "true"),
+        ("constraint x^2 + y^2 = r^2*(1 + w*t);", "false"),
+        ("constraint der(x) = w*y;", "false"),
+    ] {
+        let said = format!("scleronomic: {flag}");
+        assert!(code(&wire(law)).contains(&said), "{law}");
+    }
+}
+
+#[test]
 fn functions_of_a_coordinate_that_enters_nothing_are_not_written() {
     let sprung = CART.replace("potential m*g*P.y;", "potential m*g*P.y + m*g*x^2/l;");
     let line = differs("ignorable", "(ignorable)", [&sprung, CART]);

@@ -1,7 +1,7 @@
 //! Stiff mechanisms of the library against published and computed references.
 
 use bricard_runtime::{
-    Interface, Mechanism, Options, Pace, Scheme, Summary, Visitor, Whole, assemble, simulate,
+    Interface, Mechanism, Method, Options, StepControl, Summary, Visitor, Whole, assemble, simulate,
 };
 
 /// Height of the sleeve of the flyball governor after 10 s (m): an implicit method of
@@ -45,25 +45,25 @@ impl Visitor<f64> for Run {
     }
 }
 
-fn run(name: &str, until: f64, scheme: Scheme, tolerance: f64) -> (Vec<f64>, u64) {
-    let pace = Pace::Adaptive {
+fn run(name: &str, until: f64, method: Method, tolerance: f64) -> (Vec<f64>, u64) {
+    let step_control = StepControl::Adaptive {
         relative: tolerance,
         absolute: tolerance,
     };
-    let options = Options::new(until, scheme, pace);
+    let options = Options::new(until, method, step_control);
     bricard::visit(name, Run { options }).expect("a name of the catalogue")
 }
 
 #[test]
 fn the_flyball_governor_takes_a_fiftieth_of_the_steps_of_dp5() {
-    let governor = |scheme, tolerance| {
-        let (q, steps) = run("flyball_governor", 10.0, scheme, tolerance);
+    let governor = |method, tolerance| {
+        let (q, steps) = run("flyball_governor", 10.0, method, tolerance);
         let error = (q[2] - SLEEVE).abs();
-        assert!(error <= 1e-7, "{scheme}: s is off by {error:e}");
+        assert!(error <= 1e-7, "{method}: s is off by {error:e}");
         steps
     };
-    let explicit = governor(Scheme::Dp5, 1e-7).min(governor(Scheme::Dp5, 1e-5));
-    let implicit = governor(Scheme::Radau9, 1e-7);
+    let explicit = governor(Method::Dp5, 1e-7).min(governor(Method::Dp5, 1e-5));
+    let implicit = governor(Method::Radau9, 1e-7);
     assert!(
         50 * implicit <= explicit,
         "{implicit} steps instead of {explicit}"
@@ -72,13 +72,13 @@ fn the_flyball_governor_takes_a_fiftieth_of_the_steps_of_dp5() {
 
 #[test]
 fn the_flexible_slider_crank_ends_at_the_published_reference() {
-    for scheme in [Scheme::Dop853, Scheme::Radau9] {
-        let (q, _) = run("flexible_slider_crank", 0.1, scheme, 1e-12);
+    for method in [Method::Dop853, Method::Radau9] {
+        let (q, _) = run("flexible_slider_crank", 0.1, method, 1e-12);
         for (i, (found, exact)) in q.iter().zip(FLEXIBLE).enumerate() {
             let error = ((found - exact) / exact).abs();
             assert!(
                 error <= 1e-7,
-                "{scheme}: q[{i}] = {found:e} is off by {error:e}"
+                "{method}: q[{i}] = {found:e} is off by {error:e}"
             );
         }
     }

@@ -1,13 +1,12 @@
 //! What the header declares, as Rust sees it.
 //!
-//! In:  nothing.
 //! Out: structures with the layout that C gives them.
 //!
 //! `include/bricard.h` is the other half; the tests hold one against the other.
 
 use crate::callback::{EventFunction, GoOnFunction, LawFunction, PassageFunction, TakeFunction};
-use crate::handle::Handle;
 use crate::status::Status;
+use core::any::TypeId;
 use core::ffi::{c_char, c_int, c_void};
 
 /// The version of the interface: programs and libraries of different ones don't fit.
@@ -15,6 +14,15 @@ pub const ABI: u32 = 2;
 
 /// The header.
 pub const HEADER: &str = include_str!("../include/bricard.h");
+
+/// A mechanism, as C knows it: its first member is the table of its functions.
+#[derive(Debug)]
+#[repr(C)]
+pub struct Handle {
+    pub(crate) interface: &'static Interface,
+    /// Which mechanism it is. Tables may be there more than once and tell nothing.
+    pub(crate) kind: TypeId,
+}
 
 /// A state to evaluate something at.
 #[derive(Clone, Copy, Debug)]

@@ -9,33 +9,16 @@
 //! needed after the call, but functions, and what is given back to them.
 
 use crate::Embedded;
-use crate::abi::Interface;
+use crate::abi::Handle;
 use crate::callback::{Callback, LawFunction};
 use crate::engine::{Engine, Outcome};
-use crate::handle::{Body, Handle, caught};
+use crate::handle::{Body, caught};
 use crate::names::{Entry, List};
 use crate::pointer::{enter, give};
 use crate::status::Status;
 use bricard_runtime::Initial;
 use core::ffi::{CStr, c_char, c_int, c_void};
 use core::ptr;
-
-pub(crate) unsafe extern "C" fn clone<M: Embedded<N, R>, const N: usize, const R: usize>(
-    handle: *mut Handle,
-    copy: *mut *mut Handle,
-) -> Status {
-    let interface: &'static Interface = crate::table::Table::<M, N, R>::INTERFACE;
-    let act = |engine: &mut Engine<M, N, R>| {
-        if copy.is_null() {
-            return Err(Status::Null);
-        }
-        let made = Body::boxed(interface, engine.copy());
-        // SAFETY: the header's promise for `copy`.
-        unsafe { give(copy, made) }
-    };
-    // SAFETY: the header's promise.
-    unsafe { enter(handle, act) }
-}
 
 pub(crate) unsafe extern "C" fn assign<M: Embedded<N, R>, const N: usize, const R: usize>(
     into: *mut Handle,

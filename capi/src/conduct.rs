@@ -4,26 +4,26 @@
 //! Out: a [`Status`].
 
 use crate::Embedded;
-use crate::abi::{Choices, Summary, Watch};
+use crate::abi::{Choices, Handle, Summary, Watch};
 use crate::callback::Callback;
 use crate::engine::{Engine, Outcome};
-use crate::handle::{Body, Handle};
+use crate::handle::Body;
 use crate::pointer::{enter, give, write};
 use crate::status::Status;
 use crate::watch::{Columns, Ended, Listeners, MOST_INSIDE, Sheet};
 use bricard_runtime::{
-    Audit, Form, Options, Pace, Scheme, Settings, Stabilisation, Structure, Summary as Done,
+    Audit, Form, Method, Options, Settings, Stabilisation, StepControl, Structure, Summary as Done,
 };
 use core::ffi::c_int;
 use core::sync::atomic::Ordering;
 
 /// The methods, in the order of their numbers.
-const METHODS: [Scheme; 5] = [
-    Scheme::Rk4,
-    Scheme::Dp5,
-    Scheme::Dop853,
-    Scheme::Radau5,
-    Scheme::Radau9,
+const METHODS: [Method; 5] = [
+    Method::Rk4,
+    Method::Dp5,
+    Method::Dop853,
+    Method::Radau5,
+    Method::Radau9,
 ];
 
 /// The forms of the equations of motion, in the order of their numbers.
@@ -51,9 +51,9 @@ fn choice<C: Copy>(list: &[C], number: c_int) -> Option<C> {
 
 /// Options as C reads them.
 fn shown(options: &Options<f64>) -> Choices {
-    let (step, rtol, atol) = match options.pace {
-        Pace::Fixed { step } => (step, 0.0, 0.0),
-        Pace::Adaptive { relative, absolute } => (0.0, relative, absolute),
+    let (step, rtol, atol) = match options.step_control {
+        StepControl::Fixed { step } => (step, 0.0, 0.0),
+        StepControl::Adaptive { relative, absolute } => (0.0, relative, absolute),
     };
     let (stabilisation, alpha, beta) = match options.settings.stabilisation {
         Stabilisation::Projection => (0, 0.0, 0.0),
@@ -62,7 +62,7 @@ fn shown(options: &Options<f64>) -> Choices {
     };
     Choices {
         size: size_of::<Choices>(),
-        method: number(&METHODS, &options.scheme),
+        method: number(&METHODS, &options.method),
         form: number(&FORMS, &options.settings.form),
         stabilisation,
         keep_energy: options.keep_energy.into(),
@@ -77,12 +77,12 @@ fn shown(options: &Options<f64>) -> Choices {
     }
 }
 
-/// Options as C wrote them, or why they are none.
+/// The options that C wrote, or what is wrong with them.
 fn chosen(choices: &Choices) -> Result<Options<f64>, &'static str> {
     if choices.size != size_of::<Choices>() {
         return Err("these options are of another size: begin with bricard_get_options");
     }
-    let scheme = choice(&METHODS, choices.method).ok_or("there is no method of this number")?;
+    let method = choice(&METHODS, choices.method).ok_or("there is no method of this number")?;
     let form = choice(&FORMS, choices.form).ok_or("there is no form of this number")?;
     let gains = [choices.alpha, choices.beta];
     let stabilisation = match choices.stabilisation {
@@ -95,14 +95,14 @@ fn chosen(choices: &Choices) -> Result<Options<f64>, &'static str> {
         2 => return Err("the gains of Baumgarte's stabilisation must be positive"),
         _ => return Err("there is no stabilisation of this number"),
     };
-    let pace = match choices.step == 0.0 {
-        true => Pace::Adaptive {
+    let step_control = match choices.step == 0.0 {
+        true => StepControl::Adaptive {
             relative: choices.rtol,
             absolute: choices.atol,
         },
-        false => Pace::Fixed { step: choices.step },
+        false => StepControl::Fixed { step: choices.step },
     };
-    let mut options = Options::new(0.0, scheme, pace);
+    let mut options = Options::new(0.0, method, step_control);
     options.settings = Settings {
         form,
         stabilisation,
@@ -144,7 +144,7 @@ pub(crate) unsafe extern "C" fn set_options<M: Embedded<N, R>, const N: usize, c
     unsafe { enter(handle, act) }
 }
 
-/// Why a watch is none.
+/// What is wrong with a watch; `None` if it can be used.
 fn refusal(watch: &Watch, width: usize) -> Option<&'static str> {
     let room = watch.room / width.max(1);
     let no_rows = watch.room == 0 && watch.take.is_none();

@@ -10,7 +10,6 @@
 use crate::Embedded;
 use crate::fed::{Fed, Law};
 use crate::names::{Known, List, Names};
-use crate::slopes::room;
 use crate::status::Status;
 use crate::text::Text;
 use bricard_runtime::nalgebra::SVector;
@@ -54,7 +53,7 @@ where
     ///
     /// # Errors
     ///
-    /// [`SimulateError`] if the default options are none.
+    /// [`SimulateError`] if the default options are refused.
     pub fn new() -> Result<Self, SimulateError<f64>> {
         let mechanism = M::default();
         let structure = mechanism.structure();
@@ -65,7 +64,7 @@ where
             start: mechanism.start(),
             state: None,
             options,
-            stepper: Stepper::new(options.scheme, options.pace, options.settings)?,
+            stepper: Stepper::new(options.method, options.step_control, options.settings)?,
             inquiry: Solver::new(options.settings),
             partials: vec![0.0; room::<N>(structure)].into(),
             text: Text::new(),
@@ -158,7 +157,7 @@ where
         Err(Status::Name)
     }
 
-    /// Refuses a number that is none.
+    /// Refuses what is infinite or NaN.
     fn expect_finite(&mut self, value: f64, list: List, index: usize) -> Outcome {
         if value.is_finite() {
             return Ok(());
@@ -361,13 +360,13 @@ where
         self.start = start;
         self.state = state;
         let Options {
-            scheme,
-            pace,
+            method,
+            step_control,
             settings,
             ..
         } = self.options;
         // The options were checked when they were set.
-        if let Ok(stepper) = Stepper::new(scheme, pace, settings) {
+        if let Ok(stepper) = Stepper::new(method, step_control, settings) {
             self.stepper = stepper;
         }
     }
@@ -383,7 +382,7 @@ where
     ///
     /// [`Status::Argument`]; nothing is changed then.
     pub fn set_options(&mut self, options: Options<f64>) -> Outcome {
-        match Stepper::new(options.scheme, options.pace, options.settings) {
+        match Stepper::new(options.method, options.step_control, options.settings) {
             Ok(stepper) => {
                 self.stepper = stepper;
                 self.inquiry = Solver::new(options.settings);
@@ -403,4 +402,11 @@ pub(crate) fn state_of<const N: usize>(t: f64, q: &[f64], v: &[f64]) -> State<f6
         q: SVector::from_fn(|i, _| q.get(i).copied().unwrap_or(0.0)),
         v: SVector::from_fn(|i, _| v[i]),
     }
+}
+
+/// How many numbers the derivatives of forces, outputs and events are.
+fn room<const N: usize>(structure: &Structure) -> usize {
+    let inputs = structure.inputs.len();
+    let functions = structure.outputs.len() + structure.events.len();
+    N * inputs + functions * (3 * N + inputs)
 }

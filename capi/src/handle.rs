@@ -7,22 +7,13 @@
 //! from a callback, is turned away: so nothing is ever borrowed twice. A panic ends here.
 
 use crate::Embedded;
-use crate::abi::Interface;
+use crate::abi::{Handle, Interface};
 use crate::engine::{Engine, Outcome};
 use crate::status::Status;
 use core::any::TypeId;
 use core::cell::UnsafeCell;
 use core::sync::atomic::{AtomicBool, Ordering};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-
-/// A mechanism, as C knows it: its first member is the table of its functions.
-#[derive(Debug)]
-#[repr(C)]
-pub struct Handle {
-    interface: &'static Interface,
-    /// Which mechanism it is. Tables may be there more than once and tell nothing.
-    kind: TypeId,
-}
 
 /// A mechanism, as it is.
 #[repr(C)]

@@ -35,10 +35,9 @@ mod table;
 mod text;
 mod watch;
 
-pub use abi::{ABI, Choices, HEADER, Interface, Point, Summary, Watch};
+pub use abi::{ABI, Choices, HEADER, Handle, Interface, Point, Summary, Watch};
 pub use engine::Engine;
 pub use evaluate::Quantity;
-pub use handle::Handle;
 pub use names::List;
 pub use status::Status;
 pub use table::interface;

@@ -95,7 +95,7 @@ where
         }
     }
 
-    /// Goes on by a span of time (s), in as many steps as the pace wants, for programs that
+    /// Goes on by a span of time (s), in as many steps as the step control wants, for programs that
     /// act between: what steps taught is remembered, and nobody listens.
     ///
     /// # Errors
@@ -107,7 +107,7 @@ where
         self.stepped(state, result)
     }
 
-    /// Goes on by one step, as long as the pace wants it and at most to a time.
+    /// Goes on by one step, as long as the step control wants it and at most to a time.
     ///
     /// # Errors
     ///

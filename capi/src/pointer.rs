@@ -4,8 +4,9 @@
 //! Out: an engine to work with, numbers to read and to write.
 
 use crate::Embedded;
+use crate::abi::Handle;
 use crate::engine::{Engine, Outcome};
-use crate::handle::{Body, Handle};
+use crate::handle::Body;
 use crate::status::Status;
 use core::slice;
 
@@ -68,8 +69,8 @@ pub(crate) unsafe fn write<'a>(numbers: *mut f64, n: usize) -> Outcome<&'a mut [
     match (numbers.is_null(), n) {
         (_, 0) => Ok(&mut []),
         (true, _) => Err(Status::Null),
-        // SAFETY: as promised; numbers that were never written are none that C could have
-        // passed: the header asks for arrays that hold some.
+        // SAFETY: as promised; all numbers are initialised, because the header asks for
+        // arrays that hold some.
         (false, _) => Ok(unsafe { slice::from_raw_parts_mut(numbers, n) }),
     }
 }

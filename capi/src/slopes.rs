@@ -11,17 +11,10 @@ use crate::engine::{Engine, Outcome};
 use crate::evaluate::Quantity;
 use crate::status::Status;
 use bricard_runtime::nalgebra::{SMatrix, SVector};
-use bricard_runtime::{Differentiated, Partials, SimulateError, Slope, State, Structure};
-
-/// How many numbers [`Partials`] are.
-pub(crate) fn room<const N: usize>(structure: &Structure) -> usize {
-    let inputs = structure.inputs.len();
-    let functions = structure.outputs.len() + structure.events.len();
-    N * inputs + functions * (3 * N + inputs)
-}
+use bricard_runtime::{AccelerationJacobian, Differentiated, Partials, SimulateError, State};
 
 /// Derivatives of accelerations, and by forces.
-type Slopes<const N: usize> = (Slope<f64, N>, SMatrix<f64, N, N>);
+type Slopes<const N: usize> = (AccelerationJacobian<f64, N>, SMatrix<f64, N, N>);
 
 impl<M, const N: usize, const R: usize> Engine<M, N, R>
 where
@@ -71,7 +64,10 @@ where
     ) -> Outcome {
         let mut system = self.inquiry.on(&self.fed);
         let (acceleration, slopes) = match system.acceleration(state) {
-            Ok(acceleration) => (acceleration, system.slopes(state)),
+            Ok(acceleration) => (
+                acceleration,
+                system.acceleration_jacobian_and_compliance(state),
+            ),
             Err(error) => return Err(self.fault(&SimulateError::Observe(error))),
         };
         self.partials.fill(0.0);
@@ -162,17 +158,17 @@ impl Columns<'_> {
     /// Adds to a row what comes by way of the accelerations, each with its weight.
     fn add<const N: usize>(
         &self,
-        (slope, compliance): &Slopes<N>,
+        (jacobian, compliance): &Slopes<N>,
         weights: &SVector<f64, N>,
         row: &mut [f64],
     ) {
         let (q, rest) = row.split_at_mut(self.freedoms);
         let (v, u) = rest.split_at_mut(N);
         for (j, entry) in q.iter_mut().enumerate() {
-            *entry += weights.dot(&slope.q.column(j));
+            *entry += weights.dot(&jacobian.q.column(j));
         }
         for (j, entry) in v.iter_mut().enumerate() {
-            *entry += weights.dot(&slope.v.column(j));
+            *entry += weights.dot(&jacobian.v.column(j));
         }
         let by_force = compliance.tr_mul(weights);
         for (j, entry) in u.iter_mut().enumerate() {

@@ -4,10 +4,9 @@
 //! Out: a [`Status`].
 
 use crate::Embedded;
-use crate::abi::Point;
+use crate::abi::{Handle, Point};
 use crate::engine::{Engine, Outcome, state_of};
 use crate::evaluate::Quantity;
-use crate::handle::Handle;
 use crate::pointer::{enter, give, read, write};
 use crate::status::Status;
 use bricard_runtime::State;

@@ -4,10 +4,10 @@
 //! Out: an [`Interface`].
 
 use crate::Embedded;
-use crate::abi::{ABI, Interface};
+use crate::abi::{ABI, Handle, Interface};
 use crate::engine::Engine;
-use crate::handle::{Body, Handle, caught};
-use crate::pointer::give;
+use crate::handle::{Body, caught};
+use crate::pointer::{enter, give};
 use crate::status::Status;
 use crate::{border, conduct, states};
 use core::marker::PhantomData;
@@ -30,7 +30,7 @@ impl<M: Embedded<N, R>, const N: usize, const R: usize> Table<M, N, R> {
     pub(crate) const INTERFACE: &'static Interface = &Interface {
         abi: ABI,
         create: create::<M, N, R>,
-        clone: border::clone::<M, N, R>,
+        clone: clone::<M, N, R>,
         assign: border::assign::<M, N, R>,
         free: border::free::<M, N, R>,
         message: border::message::<M, N, R>,
@@ -83,4 +83,20 @@ unsafe extern "C" fn create<M: Embedded<N, R>, const N: usize, const R: usize>(
             Err(status) => status,
         }
     })
+}
+
+unsafe extern "C" fn clone<M: Embedded<N, R>, const N: usize, const R: usize>(
+    handle: *mut Handle,
+    copy: *mut *mut Handle,
+) -> Status {
+    let act = |engine: &mut Engine<M, N, R>| {
+        if copy.is_null() {
+            return Err(Status::Null);
+        }
+        let made = Body::boxed(Table::<M, N, R>::INTERFACE, engine.copy());
+        // SAFETY: the header's promise for `copy`.
+        unsafe { give(copy, made) }
+    };
+    // SAFETY: the header's promise.
+    unsafe { enter(handle, act) }
 }

@@ -4,9 +4,13 @@
 //! Out: one JSON object. Lines and columns count from 1, columns in characters; an
 //!      `end` is behind the last character.
 
-use super::Examined;
+use bricard_codegen::Diagnostics;
 use bricard_codegen::internals::diagnostic::{Diagnostic, Label, Position, Severity};
+use bricard_codegen::internals::model::Mechanism;
 use serde_json::{Value, json};
+
+/// What the front end gives: a mechanism with warnings, or errors.
+pub type Examined = Result<(Mechanism, Diagnostics), Diagnostics>;
 
 /// The findings about a file as JSON, with a line feed at the end.
 pub fn report(file: &str, examined: &Examined) -> String {

@@ -7,14 +7,14 @@
 mod json;
 
 use crate::arguments::Check;
+use crate::description::read;
 use crate::error::CommandError;
 use crate::mechanism::names;
 use crate::output::{print, say};
-use crate::show::sizes;
+use crate::words::sizes;
+use bricard_codegen::Settings;
 use bricard_codegen::internals::examine;
 use bricard_codegen::internals::model::Mechanism;
-use bricard_codegen::{Diagnostics, Settings};
-use std::path::Path;
 
 /// Checks a description.
 pub fn check(arguments: &Check) -> Result<(), CommandError> {
@@ -39,13 +39,4 @@ pub fn check(arguments: &Check) -> Result<(), CommandError> {
 fn in_order(file: &str, mechanism: &Mechanism) -> String {
     let sizes = sizes(mechanism);
     format!("{file}: `{}` is in order: {sizes}\n", mechanism.name)
-}
-
-/// What the front end gives: a mechanism with warnings, or errors.
-type Examined = Result<(Mechanism, Diagnostics), Diagnostics>;
-
-/// The text of a description.
-pub fn read(path: &Path) -> Result<String, CommandError> {
-    bricard_codegen::internals::read_description(path)
-        .map_err(|error| CommandError::Read(path.to_path_buf(), error))
 }

@@ -103,7 +103,7 @@ fn replace(path: &Path, text: &str) -> io::Result<()> {
 ///
 /// # Errors
 ///
-/// [`CommandError::Read`], and [`CommandError::Checkpoint`] if the file is none, or one
+/// [`CommandError::Read`], and [`CommandError::Checkpoint`] if the file is no checkpoint, or one
 /// of another run.
 pub fn read(path: &Path, run: &str, structure: &Structure) -> Result<Checkpoint, CommandError> {
     let text = fs::read_to_string(path).map_err(|e| CommandError::Read(path.to_path_buf(), e))?;

@@ -7,13 +7,12 @@
 //! process builds at a time; the others wait for it, and need no lock for what is there.
 
 use super::compiler::Toolchain;
-use super::program::name;
-use super::shared::{SOURCES, create};
-use super::{Digits, hash};
+use super::sources::SOURCES;
 use crate::error::CommandError;
 use crate::output::say;
 use std::env;
 use std::fs::{self, DirEntry, File, TryLockError};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -84,6 +83,15 @@ impl Cache {
         }
         Ok(file)
     }
+}
+
+/// The numbers that a program computes with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Digits {
+    /// `f64`.
+    Double,
+    /// 106 bits, to compare runs with.
+    Many,
 }
 
 /// The part of the cache that belongs to one version of the sources and of the toolchain,
@@ -305,4 +313,31 @@ impl Drop for Scratch {
     fn drop(&mut self) {
         let _stays = fs::remove_dir_all(&self.0);
     }
+}
+
+/// Creates a folder and all above it.
+///
+/// # Errors
+///
+/// What the system says.
+fn create(folder: &Path) -> Result<(), CommandError> {
+    let failed = |error: io::Error| CommandError::Cache(folder.to_path_buf(), error);
+    fs::create_dir_all(folder).map_err(failed)
+}
+
+/// The name of a file without its folder: a program is the same wherever the file lies.
+pub fn name(file: &Path) -> String {
+    let name = file.file_name().unwrap_or(file.as_os_str());
+    name.to_string_lossy().into_owned()
+}
+
+/// A short name for a text: the hash of Fowler, Noll and Vo (FNV-1a, 64 bits).
+pub fn hash<'a>(parts: impl IntoIterator<Item = &'a str>) -> u64 {
+    // What ends a part occurs in no text.
+    let bytes = |part: &'a str| part.bytes().chain([0xff]);
+    let step = |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    parts
+        .into_iter()
+        .flat_map(bytes)
+        .fold(0xcbf2_9ce4_8422_2325, step)
 }

@@ -3,11 +3,10 @@
 //! In:  a description.
 //! Out: a shared and a static library in the cache.
 
-use super::cache::{Cache, Scratch, Version};
+use super::cache::{Cache, Digits, Scratch, Version, name};
 use super::compiler::{Toolchain, output};
-use super::program::name;
+use super::identity;
 use super::shared::{border, rustc};
-use super::{Digits, identity};
 use crate::error::CommandError;
 use crate::output::say;
 use bricard_codegen::internals::emit::module_name;

@@ -17,18 +17,20 @@ pub mod compiler;
 mod library;
 mod parameters;
 mod program;
-pub mod shared;
+mod shared;
+pub mod sources;
 
+pub use cache::hash;
 pub use compiler::{command, output};
 pub use library::{Library, generate, library, module_of};
 
-use crate::check::read;
+use crate::description::read;
 use crate::error::CommandError;
 use crate::output::say;
 use bricard_codegen::Settings;
 use bricard_codegen::internals::examine;
 use bricard_driver::{Link, PreciseLink};
-use cache::{Cache, Version};
+use cache::{Cache, Digits, Version};
 use compiler::Toolchain;
 use program::Program;
 use std::fs;
@@ -64,15 +66,6 @@ pub fn open_text(file: &Path, source: &str) -> Result<Link, CommandError> {
 /// As [`open`].
 pub fn open_precise(file: &Path, source: &str) -> Result<PreciseLink, CommandError> {
     start(&program(file, source, Digits::Many)?, PreciseLink::start)
-}
-
-/// The numbers that a program computes with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Digits {
-    /// `f64`.
-    Double,
-    /// 106 bits, to compare runs with.
-    Many,
 }
 
 /// The program of a description, from the cache or built.
@@ -147,15 +140,4 @@ fn start<L>(
             program.display()
         ))
     })
-}
-
-/// A short name for a text: the hash of Fowler, Noll and Vo (FNV-1a, 64 bits).
-pub fn hash<'a>(parts: impl IntoIterator<Item = &'a str>) -> u64 {
-    // What ends a part occurs in no text.
-    let bytes = |part: &'a str| part.bytes().chain([0xff]);
-    let step = |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-    parts
-        .into_iter()
-        .flat_map(bytes)
-        .fold(0xcbf2_9ce4_8422_2325, step)
 }

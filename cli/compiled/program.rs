@@ -3,7 +3,7 @@
 //! In:  a description.
 //! Out: a program in the cache.
 
-use super::cache::{Scratch, Version};
+use super::cache::{Scratch, Version, name};
 use super::compiler::{Toolchain, output};
 use super::shared::{rustc, sized};
 use crate::error::CommandError;
@@ -22,12 +22,6 @@ pub struct Program<'a> {
     identity: &'a str,
     code: String,
     sizes: [usize; 2],
-}
-
-/// The name of a file without its folder: a program is the same wherever the file lies.
-pub fn name(file: &Path) -> String {
-    let name = file.file_name().unwrap_or(file.as_os_str());
-    name.to_string_lossy().into_owned()
 }
 
 impl<'a> Program<'a> {

@@ -4,22 +4,16 @@
 //! Out: libraries in the cache: the runtime and the driver with all that they depend on,
 //!      the driver for each pair of sizes, and the border to C.
 
-use super::Digits;
-use super::cache::{Scratch, Version};
+use super::cache::{Digits, Scratch, Version};
 use super::compiler::{Toolchain, command, output};
+use super::sources::SOURCES;
 use crate::error::CommandError;
 use crate::output::say;
 use serde_json::Value;
 use std::ffi::OsStr;
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-
-/// What changes with the sources and with what makes a program of them, and the paths and
-/// texts of the sources.
-type Sources = (u64, &'static [(&'static str, &'static str)]);
-pub const SOURCES: Sources = include!(concat!(env!("OUT_DIR"), "/sources.rs"));
 
 /// How the shared libraries are compiled. What a run computes with is generic and compiled
 /// with each pair of sizes, so these crates hold none of it: nalgebra nothing but generic
@@ -258,14 +252,4 @@ pub fn rustc(libraries: &[&Path], crates: &[String]) -> Command {
         rustc.arg("-L").arg(folder);
     }
     rustc
-}
-
-/// Creates a folder and all above it.
-///
-/// # Errors
-///
-/// What the system says.
-pub fn create(folder: &Path) -> Result<(), CommandError> {
-    let failed = |error: io::Error| CommandError::Cache(folder.to_path_buf(), error);
-    fs::create_dir_all(folder).map_err(failed)
 }

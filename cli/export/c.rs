@@ -7,8 +7,8 @@
 use super::folder::{Folder, vacant};
 use super::sources;
 use crate::compiled::{Library, generate, library, module_of};
+use crate::description::Description;
 use crate::error::CommandError;
-use crate::mechanism::Description;
 use crate::output::print;
 use bricard_codegen::Compiled;
 use std::path::{Path, PathBuf};

@@ -6,8 +6,8 @@
 use super::folder::Folder;
 use super::sources;
 use crate::compiled::{generate, module_of};
+use crate::description::Description;
 use crate::error::CommandError;
-use crate::mechanism::Description;
 use crate::new::RESERVED;
 use crate::output::print;
 use bricard_codegen::internals::emit::type_name;

@@ -5,7 +5,7 @@
 //! Out: the same in a folder, manifests without a workspace.
 
 use super::folder::Folder;
-use crate::compiled::shared::SOURCES;
+use crate::compiled::sources::SOURCES;
 use crate::error::CommandError;
 use std::path::Path;
 

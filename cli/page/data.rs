@@ -3,9 +3,10 @@
 //! In:  [`Run`].
 //! Out: JSON. Long rows of numbers are there as their bytes, in base 64.
 
-use super::Run;
 use super::equations::mathml;
+use super::live::Live;
 use super::thin::{evenly, kept};
+use crate::column::Column;
 use crate::comparison::Comparison;
 use crate::figure::{added, chosen, coordinates, velocities};
 use crate::number::exact;
@@ -13,7 +14,7 @@ use crate::plot::{Marks, Panel, Scale};
 use crate::scene::is_spatial;
 use base64::{Engine, engine::general_purpose::STANDARD};
 use bricard_codegen::internals::keywords;
-use bricard_driver::{Drawn, Scene};
+use bricard_driver::{AnyMechanism, Drawn, Scene};
 use bricard_runtime::{Quantity, Structure};
 use serde_json::{Value, json};
 use std::env;
@@ -27,6 +28,37 @@ const ROWS: usize = 6000;
 const PLACES: usize = 100_000;
 /// Times of one kind that are marked.
 const MARKS: usize = 500;
+
+/// What a page tells of a run.
+pub struct Run<'a> {
+    /// The mechanism, as it was set for the run.
+    pub mechanism: &'a dyn AnyMechanism,
+    /// What the command line calls it.
+    pub name: &'a str,
+    /// The file of its description and the text of it, as far as it is known.
+    pub source: Option<(String, String)>,
+    /// Columns besides time, coordinates and velocities.
+    pub columns: &'a [Column],
+    /// The columns that are drawn over time, by their places in the rows; all if there are
+    /// none.
+    pub curves: &'a [usize],
+    /// The rows; of several runs those of the one that moves.
+    pub rows: &'a [Vec<f64>],
+    /// The curves of several runs, if there are several.
+    pub compared: Option<Comparison>,
+    /// What the run that moves is called among several.
+    pub moving: &'a str,
+    /// What happened, and when.
+    pub marks: &'a [Marks],
+    /// How it was integrated: pairs of words.
+    pub settings: Vec<[String; 2]>,
+    /// What came of it: pairs of words.
+    pub summary: Vec<[String; 2]>,
+    /// Why it ended early.
+    pub error: Option<String>,
+    /// What keeps the page up to date, if something does.
+    pub live: Option<&'a Live>,
+}
 
 /// All that a page tells of a run.
 ///

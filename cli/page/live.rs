@@ -6,7 +6,7 @@
 //!
 //! A page that was opened as a file may read scripts beside it, and nothing else.
 
-use super::page;
+use super::template::page;
 use crate::error::CommandError;
 use crate::output::replace;
 use serde_json::json;

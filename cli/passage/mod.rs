@@ -17,7 +17,7 @@ use crate::output::{print, say};
 use crate::run::{Plan, RowSink, run};
 use crate::table::{Align, headed};
 use bricard_driver::{AnyMechanism, Around, Path, Precise};
-use bricard_runtime::{Audit, Options, Pace, Scheme};
+use bricard_runtime::{Audit, Method, Options, StepControl};
 
 /// How long a motion is followed (s).
 const SPAN: f64 = 0.4;
@@ -49,13 +49,13 @@ pub fn passage(arguments: &Passage) -> Result<(), CommandError> {
         for &method in &arguments.methods {
             say(&format!(
                 "{name}: placing stages of {}",
-                Scheme::from(method)
+                Method::from(method)
             ));
             for steps in STEPS {
                 let found =
                     Placements::of(precise.as_mut(), mechanism.as_ref(), (method, steps), about)?;
                 if !found.is_even() {
-                    broken.push(format!("{name}, {}, {steps} steps", Scheme::from(method)));
+                    broken.push(format!("{name}, {}, {steps} steps", Method::from(method)));
                 }
                 rows.push(found.row(name, method, steps));
             }
@@ -102,7 +102,7 @@ impl Placements {
         let step = SPAN / f64::from(steps);
         let around = Around {
             about,
-            places: places(stages(method), step),
+            places: places(&stages(method.into()), step),
             span: SPAN,
         };
         let exact = precise.path(&around).map_err(failed)?;
@@ -111,7 +111,7 @@ impl Placements {
             let Some(end) = row_at(&exact, row[0] + SPAN) else {
                 continue;
             };
-            let mut options = Options::new(end[0], method.into(), Pace::Fixed { step });
+            let mut options = Options::new(end[0], method.into(), StepControl::Fixed { step });
             options.audit = Audit::NONE;
             let found = mechanism
                 .timed_run(Some(row), &options)
@@ -145,7 +145,7 @@ impl Placements {
     fn row(&self, name: &str, method: MethodName, steps: u32) -> Vec<String> {
         vec![
             name.to_string(),
-            Scheme::from(method).to_string(),
+            Method::from(method).to_string(),
             (SPAN / f64::from(steps)).to_string(),
             self.errors.len().to_string(),
             format!("{:.1e}", self.median()),
@@ -177,35 +177,11 @@ fn places(stages: &[f64], step: f64) -> Vec<(f64, f64)> {
     places
 }
 
-/// The abscissae of the stages of a method.
-fn stages(method: MethodName) -> &'static [f64] {
-    match method {
-        MethodName::Rk4 => &[0.0, 0.5, 1.0],
-        MethodName::Dp5 => &[0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0],
-        MethodName::Dop853 => &[
-            0.0,
-            0.052_600_151_958_767_7,
-            0.078_900_227_938_151_6,
-            0.118_350_341_907_227,
-            0.281_649_658_092_773,
-            1.0 / 3.0,
-            0.25,
-            4.0 / 13.0,
-            127.0 / 195.0,
-            0.6,
-            6.0 / 7.0,
-            1.0,
-        ],
-        MethodName::Radau5 => &[0.0, 0.155_051_025_721_682, 0.644_948_974_278_318, 1.0],
-        MethodName::Radau9 => &[
-            0.0,
-            0.057_104_196_114_517_7,
-            0.276_843_013_638_124,
-            0.583_590_432_368_917,
-            0.860_240_135_656_219,
-            1.0,
-        ],
-    }
+/// The abscissae of the stages of a method, and the start of the step.
+fn stages(method: Method) -> Vec<f64> {
+    let mut stages: Vec<f64> = std::iter::once(0.0).chain(method.abscissae()).collect();
+    stages.dedup();
+    stages
 }
 
 /// When a mechanism first passes a singular position (s).

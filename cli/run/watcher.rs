@@ -3,7 +3,7 @@
 //! In:  rows and times, as they are reached.
 //! Out: rows to a [`RowSink`], a line of progress, Ctrl-C.
 
-use super::{Plan, RowSink};
+use super::plan::{Plan, RowSink};
 use crate::error::CommandError;
 use crate::interrupt;
 use crate::progress::Progress;

@@ -2,7 +2,7 @@
 //!
 //! In:  a mechanism of the library, or the file of a description.
 //! Out: every entry of M, C, C q̇, h, Q, g, G, b and p₂ on a line of its own, zeros
-//!      included; what a program for them costs; degrees of freedom.
+//!      included; what a program for them costs; degrees of freedom. Or those programs.
 //!
 //! The text can be read by a computer algebra system once `^` is replaced by its
 //! power and `der(q1)` by a symbol.
@@ -13,15 +13,16 @@ mod sections;
 mod skipped;
 
 use crate::arguments::Show;
+use crate::description::Description;
 use crate::error::CommandError;
-use crate::list::first_sentence;
-use crate::mechanism::{Description, description, freedom_at_start};
+use crate::mechanism::{description, freedom_at_start};
 use crate::output::print;
+use crate::words::{first_sentence, freedom, sizes};
 use bricard_codegen::Settings;
-use bricard_codegen::internals::expr::{Notation, Symbol};
+use bricard_codegen::internals::expr::Symbol;
 use bricard_codegen::internals::model::{Described, Mechanism};
+use bricard_codegen::internals::optimise::{Besides, Programs, cost as operations, programs};
 use bricard_codegen::internals::{analyse, derive};
-use cost::Programs;
 use std::path::Path;
 
 /// Prints the equations of motion.
@@ -36,9 +37,13 @@ pub fn show(arguments: &Show) -> Result<(), CommandError> {
         mechanism = derive::eliminate(mechanism).map_err(rendered)?;
     }
     let equations = derive::derive(&mut mechanism).map_err(rendered)?;
+    if arguments.programs {
+        let programs = programs(&mut mechanism, &equations, Besides::default());
+        return print(&listing(&mechanism, &programs));
+    }
     let sections = sections::sections(&mut mechanism, &equations);
-    let programs = Programs::of(&mut mechanism, &equations);
-    let costs = programs.costs();
+    let programs = programs(&mut mechanism, &equations, Besides::default());
+    let costs = cost::costs(&programs);
     let skipped = skipped::skipped(&mechanism, &equations, &programs);
     if !mechanism.described.is_empty() {
         // The rank at the start is that of all constraints.
@@ -61,6 +66,17 @@ pub fn show(arguments: &Show) -> Result<(), CommandError> {
         let body = sections::text(&mut graph, &sections, &names);
         format!("{heading}\n{body}{costs}{skipped}")
     })
+}
+
+/// The programs, each with what it costs.
+fn listing(mechanism: &Mechanism, programs: &Programs) -> String {
+    let names = |symbol: Symbol| mechanism.symbol_text(symbol);
+    let named = programs.named().into_iter();
+    let texts = named.map(|(name, program)| {
+        let cost = operations(program);
+        format!("{name}: {cost}\n{}", program.text(&names))
+    });
+    texts.collect::<Vec<_>>().join("\n")
 }
 
 /// Of an array of the equations of motion what it is, and its entries with their values, in
@@ -99,30 +115,6 @@ impl Subject {
             source,
             start: freedom_at_start(name),
         })
-    }
-}
-
-/// A number of degrees of freedom in words.
-pub fn freedom(n: usize) -> String {
-    format!("{n} degree{} of freedom", if n == 1 { "" } else { "s" })
-}
-
-/// How many coordinates, states and constraint equations there are.
-pub fn sizes(mechanism: &Mechanism) -> String {
-    let states = match mechanism.states {
-        0 => String::new(),
-        n => format!(", {} of the first order", counted(n, "state")),
-    };
-    let coordinates = counted(mechanism.freedoms(), "coordinate");
-    let equations = counted(mechanism.constraints.len(), "constraint equation");
-    format!("{coordinates}{states}, {equations}")
-}
-
-/// A number of things in words.
-pub fn counted(count: usize, what: &str) -> String {
-    match count {
-        1 => format!("1 {what}"),
-        _ => format!("{count} {what}s"),
     }
 }
 
@@ -174,22 +166,4 @@ fn given(coordinate: &Described) -> Option<String> {
     let name = &coordinate.quantity.name;
     let line = row.span.start.line;
     Some(format!("{name} is given by line {line}: {}", row.text))
-}
-
-/// The entry as it is, or as a reduced polynomial in sines and cosines:
-/// whichever is shorter.
-fn shortest(
-    graph: &mut bricard_codegen::internals::expr::Graph,
-    e: bricard_codegen::internals::expr::ExprId,
-    notation: Notation,
-    names: &dyn Fn(Symbol) -> String,
-) -> String {
-    let plain = graph.print(e, notation, names);
-    let reduced = bricard_codegen::internals::optimise::in_trig_ring(graph, e);
-    let reduced = graph.print(reduced, notation, names);
-    if reduced.chars().count() < plain.chars().count() {
-        reduced
-    } else {
-        plain
-    }
 }

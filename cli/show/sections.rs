@@ -1,9 +1,9 @@
 //! The arrays of the equations of motion, entry by entry.
 
-use super::shortest;
 use bricard_codegen::internals::derive::{Equations, Matrix, coriolis_matrix};
 use bricard_codegen::internals::expr::{ExprId, Graph, Notation, Symbol};
 use bricard_codegen::internals::model::Mechanism;
+use bricard_codegen::internals::optimise::in_trig_ring;
 
 /// One array.
 pub struct Section {
@@ -165,5 +165,23 @@ fn places(entries: &Entries) -> Box<dyn Iterator<Item = (String, ExprId)> + '_> 
                 .enumerate()
                 .map(|(i, e)| ((i + 1).to_string(), *e)),
         ),
+    }
+}
+
+/// The entry as it is, or as a reduced polynomial in sines and cosines:
+/// whichever is shorter.
+fn shortest(
+    graph: &mut Graph,
+    e: ExprId,
+    notation: Notation,
+    names: &dyn Fn(Symbol) -> String,
+) -> String {
+    let plain = graph.print(e, notation, names);
+    let reduced = in_trig_ring(graph, e);
+    let reduced = graph.print(reduced, notation, names);
+    if reduced.chars().count() < plain.chars().count() {
+        reduced
+    } else {
+        plain
     }
 }

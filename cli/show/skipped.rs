@@ -4,11 +4,10 @@
 //! Out: a line for each thing that this mechanism doesn't need, with the operations that
 //!      a program for any mechanism of its size would spend on it.
 
-use super::cost::Programs;
 use bricard_codegen::internals::derive::Equations;
 use bricard_codegen::internals::expr::{ExprId, Graph, Symbol};
 use bricard_codegen::internals::model::Mechanism;
-use bricard_codegen::internals::optimise::{Program, cost, regular_acceleration};
+use bricard_codegen::internals::optimise::{Cost, Programs, cost};
 use std::collections::BTreeSet;
 
 /// The section, empty where everything is needed.
@@ -16,13 +15,13 @@ pub fn skipped(mechanism: &Mechanism, equations: &Equations, programs: &Programs
     let lines = [
         coriolis(&mechanism.graph, equations),
         constant_mass(&mechanism.graph, equations),
-        solve(&mechanism.graph, equations, &programs.acceleration),
+        solve(&mechanism.graph, equations, programs),
         repeated(&mechanism.graph, equations),
         time(&mechanism.graph, equations),
         ignorable(mechanism, equations),
         folded(mechanism),
         no_constraints(equations),
-        on_request(programs),
+        on_request(mechanism, programs),
     ];
     let lines: Vec<String> = lines.into_iter().flatten().collect();
     match lines.is_empty() {
@@ -31,9 +30,8 @@ pub fn skipped(mechanism: &Mechanism, equations: &Equations, programs: &Programs
     }
 }
 
-/// The operations of a program.
-fn operations(program: &Program) -> usize {
-    let cost = cost(program);
+/// All operations.
+fn operations(cost: Cost) -> usize {
     cost.sums + cost.products + cost.quotients + cost.angles + cost.functions
 }
 
@@ -72,12 +70,12 @@ fn constant_mass(graph: &Graph, equations: &Equations) -> Option<String> {
 }
 
 /// What zeros of M and G save in the solve.
-fn solve(graph: &Graph, equations: &Equations, terms: &Program) -> Option<String> {
+fn solve(graph: &Graph, equations: &Equations, programs: &Programs) -> Option<String> {
     let (n, r) = (equations.mass.len(), equations.jacobian.len());
     let absent = zeros(graph, equations.mass.iter().flatten())
         + 2 * zeros(graph, equations.jacobian.iter().flatten());
-    let solved = regular_acceleration(terms, (n, r), &equations.weighed)?;
-    let spent = operations(&solved.program).saturating_sub(operations(terms));
+    let solved = operations(cost(&programs.regular.as_ref()?.program));
+    let spent = solved.saturating_sub(operations(programs.terms.cost));
     // Cholesky factors of M and of G M⁻¹ Gᵀ, products for that, and four substitutions.
     let cube = |k: usize| (k * k * k + 2 * k) / 3;
     let dense = cube(n) + n * n * r + n * r * r + cube(r) + 2 * n * n + 2 * r * r + 4 * n * r;
@@ -158,12 +156,16 @@ fn no_constraints(equations: &Equations) -> Option<String> {
 }
 
 /// What is computed only when it is asked for.
-fn on_request(programs: &Programs) -> Option<String> {
-    let named = [
-        ("the energies", &programs.energies),
-        ("outputs", &programs.outputs),
+fn on_request(mechanism: &Mechanism, programs: &Programs) -> Option<String> {
+    let accelerated = mechanism.outputs.iter().any(|output| output.accelerated);
+    let signals = match accelerated {
+        true => operations(programs.signals.cost),
+        false => 0,
+    };
+    let counted = [
+        ("the energies", operations(programs.energy.cost)),
+        ("outputs", operations(programs.outputs.cost) + signals),
     ];
-    let counted = named.map(|(name, program)| (name, operations(program)));
     let said: Vec<String> = counted
         .into_iter()
         .filter(|(_, spent)| *spent > 0)

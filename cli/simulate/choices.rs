@@ -7,7 +7,7 @@ use crate::error::CommandError;
 use crate::page::is_page;
 use crate::run::Plan;
 use bricard_codegen::internals::diagnostic::figure;
-use bricard_runtime::{Options, Pace, Settings};
+use bricard_runtime::{Options, Settings, StepControl};
 use std::path::{Path, PathBuf};
 
 /// Step of RK4, unless one is given (s).
@@ -54,7 +54,11 @@ pub fn plan(arguments: &Simulate, columns: Vec<Column>) -> Result<Plan, CommandE
     } else {
         MethodName::Dop853
     });
-    let mut options = Options::new(arguments.until, method.into(), pace(arguments, method)?);
+    let mut options = Options::new(
+        arguments.until,
+        method.into(),
+        step_control(arguments, method)?,
+    );
     options.settings = Settings {
         form: arguments.form.into(),
         stabilisation: arguments.stabilisation,
@@ -62,7 +66,7 @@ pub fn plan(arguments: &Simulate, columns: Vec<Column>) -> Result<Plan, CommandE
         across_switches: arguments.across_switches,
     };
     options.keep_energy = arguments.keep_energy;
-    let adaptive = matches!(options.pace, Pace::Adaptive { .. });
+    let adaptive = matches!(options.step_control, StepControl::Adaptive { .. });
     let drawn = arguments.plot.is_some() || arguments.film.is_some();
     let smooth = adaptive && drawn && arguments.until > 0.0;
     let moving = arguments.plot.as_deref().is_some_and(is_page) || arguments.film.is_some();
@@ -71,14 +75,17 @@ pub fn plan(arguments: &Simulate, columns: Vec<Column>) -> Result<Plan, CommandE
         false => PLOTTED,
     };
     let every = every.or(smooth.then_some(arguments.until / intervals));
-    bounded(arguments, every, options.pace)?;
+    bounded(arguments, every, options.step_control)?;
     Ok(Plan {
         watched: !arguments.quiet,
         ..Plan::new(options, every, columns)
     })
 }
 
-fn pace(arguments: &Simulate, method: MethodName) -> Result<Pace<f64>, CommandError> {
+fn step_control(
+    arguments: &Simulate,
+    method: MethodName,
+) -> Result<StepControl<f64>, CommandError> {
     let step = positive("--step", arguments.step)?;
     let relative = positive("--rtol", arguments.rtol)?;
     if let Some(value) = relative.filter(|relative| *relative >= 1.0) {
@@ -98,10 +105,10 @@ fn pace(arguments: &Simulate, method: MethodName) -> Result<Pace<f64>, CommandEr
     match (fixed, relative, absolute) {
         (Some(_), Some(_), _) => Err(useless("--rtol")),
         (Some(_), _, Some(_)) => Err(useless("--atol")),
-        (Some(step), None, None) => Ok(Pace::Fixed { step }),
+        (Some(step), None, None) => Ok(StepControl::Fixed { step }),
         (None, relative, absolute) => {
             let relative = relative.unwrap_or(TOLERANCE);
-            Ok(Pace::Adaptive {
+            Ok(StepControl::Adaptive {
                 relative,
                 absolute: absolute.unwrap_or(relative),
             })
@@ -110,7 +117,11 @@ fn pace(arguments: &Simulate, method: MethodName) -> Result<Pace<f64>, CommandEr
 }
 
 /// Refuses steps that are longer than the run, and more rows than can be meant.
-fn bounded(arguments: &Simulate, every: Option<f64>, pace: Pace<f64>) -> Result<(), CommandError> {
+fn bounded(
+    arguments: &Simulate,
+    every: Option<f64>,
+    step_control: StepControl<f64>,
+) -> Result<(), CommandError> {
     let until = arguments.until;
     let refuse = |option, value, wanted| {
         Err(CommandError::OutOfRange {
@@ -122,10 +133,10 @@ fn bounded(arguments: &Simulate, every: Option<f64>, pace: Pace<f64>) -> Result<
     if let Some(step) = arguments.step.filter(|step| *step > until && until > 0.0) {
         return refuse("--step", step, format!("at most the {until} s of the run"));
     }
-    let (option, distance) = match (every, pace) {
+    let (option, distance) = match (every, step_control) {
         (Some(every), _) => ("--every", every),
-        (None, Pace::Fixed { step }) => ("--step", step),
-        (None, Pace::Adaptive { .. }) => return Ok(()),
+        (None, StepControl::Fixed { step }) => ("--step", step),
+        (None, StepControl::Adaptive { .. }) => return Ok(()),
     };
     let least = until / MOST_ROWS;
     match distance < least {

@@ -8,6 +8,7 @@ mod checkpoints;
 mod choices;
 mod film;
 mod picture;
+mod prepare;
 mod record;
 mod several;
 pub mod summary;
@@ -16,18 +17,15 @@ pub use cases::only_one;
 pub use choices::TOLERANCE;
 
 use crate::arguments::Simulate;
-use crate::changes;
 use crate::column::columns;
 use crate::comparison::Called;
 use crate::error::CommandError;
 use crate::interrupt;
-use crate::law::find_with;
-use crate::output::{print, say};
+use crate::output::print;
 use crate::page::Live;
 use crate::run::{Stopped, run};
-use bricard_driver::{AnyMechanism, Changes};
-use cases::Case;
 use picture::Picture;
+use prepare::{prepared, tell};
 use record::Record;
 
 /// Simulates a mechanism, once or for each value of a list.
@@ -36,33 +34,6 @@ pub fn simulate(arguments: &Simulate) -> Result<(), CommandError> {
         Some(varied) => several::simulate(arguments, &varied),
         None => simulate_for(arguments, None),
     }
-}
-
-/// Tells the user something who has not asked for silence.
-fn tell(arguments: &Simulate, text: &str) {
-    if !arguments.quiet {
-        say(text);
-    }
-}
-
-/// A mechanism with the changes of a case.
-///
-/// # Errors
-///
-/// As [`find_with`] and [`changes::find`].
-fn prepared(
-    arguments: &Simulate,
-    case: &Case,
-) -> Result<(Box<dyn AnyMechanism>, Changes), CommandError> {
-    let (mut mechanism, set) = find_with(&arguments.name, &case.set)?;
-    let structure = mechanism.structure();
-    let changes = changes::find(structure, &arguments.name, &set, &case.start)?;
-    for name in changes::negative_inertia(&changes, structure) {
-        let text = format!("warning: `{name}` is an inertia, and negative");
-        tell(arguments, &text);
-    }
-    changes::apply(&changes, mechanism.as_mut());
-    Ok((mechanism, changes))
 }
 
 /// Simulates a mechanism once, for a page that is kept up to date, if there is one.

@@ -17,7 +17,7 @@ use crate::raster;
 use crate::run::{Plan, Report};
 use crate::simulate::film::film;
 use bricard_driver::AnyMechanism;
-use bricard_runtime::{Pace, Stabilisation, Structure};
+use bricard_runtime::{Stabilisation, StepControl, Structure};
 use std::path::Path;
 
 /// What a picture tells of a run besides its rows.
@@ -227,11 +227,11 @@ impl Picture<'_> {
     /// How it was integrated, and what was changed of the mechanism, in words.
     fn settings(&self) -> Vec<[String; 2]> {
         let options = &self.plan.options;
-        let mut pairs = vec![["method", &options.scheme.to_string()].map(String::from)];
+        let mut pairs = vec![["method", &options.method.to_string()].map(String::from)];
         let mut tell = |what: &str, value: String| pairs.push([what.to_string(), value]);
-        match options.pace {
-            Pace::Fixed { step } => tell("step", format!("{} s", exact(step))),
-            Pace::Adaptive { relative, absolute } => {
+        match options.step_control {
+            StepControl::Fixed { step } => tell("step", format!("{} s", exact(step))),
+            StepControl::Adaptive { relative, absolute } => {
                 tell("relative tolerance", exact(relative));
                 tell("absolute tolerance", exact(absolute));
             }

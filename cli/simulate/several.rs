@@ -5,8 +5,9 @@
 
 use super::cases::Varied;
 use super::picture::{Picture, Shown, shown};
+use super::prepare::{prepared, tell};
 use super::record::Record;
-use super::{choices, prepared, summary, tell};
+use super::{choices, summary};
 use crate::arguments::Simulate;
 use crate::column::columns;
 use crate::comparison::Called;

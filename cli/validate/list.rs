@@ -19,7 +19,7 @@
 
 use super::problem::{Measure, Problem};
 use crate::simulate::TOLERANCE;
-use bricard_runtime::Scheme;
+use bricard_runtime::Method;
 
 /// What most problems have in common.
 const USUAL: Problem = Problem {
@@ -27,7 +27,7 @@ const USUAL: Problem = Problem {
     mechanism: "",
     held: &[],
     until: 10.0,
-    scheme: Scheme::Dop853,
+    method: Method::Dop853,
     tolerance: (1e-13, 1e-13),
     keep_energy: false,
     reference: &[],
@@ -136,7 +136,7 @@ pub const PROBLEMS: &[Problem] = &[
     Problem {
         title: "A05 flyball governor",
         mechanism: "flyball_governor",
-        scheme: Scheme::Radau9,
+        method: Method::Radau9,
         tolerance: (1e-8, 1e-8),
         reference: &[("s", 0.619_622_917_061_313_1)],
         bound: 1e-7,

@@ -9,7 +9,7 @@ use crate::mechanism::find;
 use crate::number::largest;
 use crate::run::{Plan, Report, RowSink, run};
 use bricard_driver::{AnyMechanism, Given};
-use bricard_runtime::{Options, Pace, Scheme, Structure};
+use bricard_runtime::{Method, Options, StepControl, Structure};
 
 /// A benchmark problem.
 #[derive(Debug)]
@@ -23,7 +23,7 @@ pub struct Problem {
     /// Its end (s).
     pub until: f64,
     /// The method.
-    pub scheme: Scheme,
+    pub method: Method,
     /// Relative and absolute tolerance of a step.
     pub tolerance: (f64, f64),
     /// Whether the energy is kept.
@@ -84,10 +84,10 @@ pub struct Figures {
 }
 
 impl Problem {
-    fn plan(&self, scheme: Scheme, tolerance: (f64, f64), columns: Vec<Column>) -> Plan {
+    fn plan(&self, method: Method, tolerance: (f64, f64), columns: Vec<Column>) -> Plan {
         let (relative, absolute) = tolerance;
-        let pace = Pace::Adaptive { relative, absolute };
-        let mut options = Options::new(self.until, scheme, pace);
+        let step_control = StepControl::Adaptive { relative, absolute };
+        let mut options = Options::new(self.until, method, step_control);
         options.keep_energy = self.keep_energy;
         Plan::new(options, None, columns)
     }
@@ -134,7 +134,7 @@ fn perform(problem: &'static Problem, tolerance: (f64, f64)) -> Result<Outcome, 
     let mut columns = vec![Column::Energy];
     columns.extend((0..structure.outputs.len()).map(Column::Output));
     let mut ends = Ends::default();
-    let plan = problem.plan(problem.scheme, tolerance, columns.clone());
+    let plan = problem.plan(problem.method, tolerance, columns.clone());
     let result = match run(mechanism.as_ref(), &plan, &mut ends) {
         Ok(report) => figures(problem, structure, &columns, &ends, report)
             .and_then(|figures| compared(problem, mechanism.as_ref(), figures)),
@@ -191,7 +191,7 @@ fn compared(
     if problem.stiffness.is_none() {
         return Ok(figures);
     }
-    let plan = problem.plan(Scheme::Dp5, problem.tolerance, Vec::new());
+    let plan = problem.plan(Method::Dp5, problem.tolerance, Vec::new());
     let explicit =
         run(mechanism, &plan, &mut Ends::default()).map_err(|stopped| stopped.error.to_string())?;
     let ratio = explicit.steps as f64 / figures.report.steps.max(1) as f64;

@@ -134,7 +134,7 @@ fn entry(outcome: &Outcome) -> Value {
         "problem": problem.title,
         "mechanism": problem.mechanism,
         "until_s": problem.until,
-        "method": problem.scheme.to_string(),
+        "method": problem.method.to_string(),
         "tolerance": { "relative": problem.tolerance.0, "absolute": problem.tolerance.1 },
         "error_bound": problem.bound,
         "balance_bound_J": problem.balance_bound,

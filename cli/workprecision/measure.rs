@@ -6,7 +6,7 @@
 use crate::arguments::{FormName, MethodName};
 use crate::number::largest;
 use bricard_driver::{AnyMechanism, Exact, TimedRun};
-use bricard_runtime::{Audit, Options, Pace};
+use bricard_runtime::{Audit, Options, StepControl};
 use std::time::Duration;
 
 /// Steps of RK4 (s), from the longest on each half of the one before.
@@ -65,8 +65,8 @@ pub fn series(
         points: Vec::new(),
         failed: None,
     };
-    for (setting, pace) in settings(method) {
-        let mut options = Options::new(until, method.into(), pace);
+    for (setting, step_control) in settings(method) {
+        let mut options = Options::new(until, method.into(), step_control);
         options.settings.form = form.into();
         options.audit = Audit::NONE;
         options.most_steps = Some(MOST_STEPS);
@@ -90,19 +90,19 @@ pub fn series(
 }
 
 /// The settings of a method, and what to call them.
-fn settings(method: MethodName) -> Vec<(String, Pace<f64>)> {
+fn settings(method: MethodName) -> Vec<(String, StepControl<f64>)> {
     if method == MethodName::Rk4 {
         let step = |halving: i32| LONGEST_STEP * 0.5_f64.powi(halving);
-        let of = |step| (format!("h = {step}"), Pace::Fixed { step });
+        let of = |step| (format!("h = {step}"), StepControl::Fixed { step });
         return (0..HALVINGS).map(step).map(of).collect();
     }
     let adaptive = |exponent: i32| {
         let tolerance = 10.0_f64.powi(-exponent);
-        let pace = Pace::Adaptive {
+        let step_control = StepControl::Adaptive {
             relative: tolerance,
             absolute: tolerance,
         };
-        (format!("tolerance {tolerance:.0e}"), pace)
+        (format!("tolerance {tolerance:.0e}"), step_control)
     };
     EXPONENTS.map(adaptive).collect()
 }

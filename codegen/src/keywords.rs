@@ -1,6 +1,5 @@
 //! The words of the language, for editors and other tools.
 //!
-//! In:  nothing.
 //! Out: every word that means something, by what it is.
 
 use crate::expr::Function;

@@ -10,7 +10,10 @@ use crate::scene::{Scene, scene};
 use crate::segment::{Reached, Segment, Watch};
 use crate::writer::segment;
 use bricard_runtime::nalgebra::SVector;
-use bricard_runtime::{Initial, Options, Start, State, Structure, Whole, assemble, simulate};
+use bricard_runtime::{
+    Initial, Interface, Mechanism, Options, Settings, Solver, Start, State, Structure, Visitor,
+    Whole, assemble, simulate,
+};
 use std::time::{Duration, Instant};
 
 /// What commands do with a mechanism. What fails says why in words.
@@ -30,6 +33,8 @@ pub trait AnyMechanism {
     fn timed_run(&self, from: Option<&[f64]>, options: &Options<f64>) -> Result<TimedRun, String>;
     /// What can be seen in some rows (time, coordinates, velocities).
     fn scene(&self, rows: &[Vec<f64>]) -> Result<Scene, String>;
+    /// The number of independent constraint equations at the assembled start.
+    fn rank_at_start(&self) -> Result<usize, String>;
 }
 
 /// A run against the clock.
@@ -56,6 +61,21 @@ pub struct Given {
     pub held: bool,
     /// The value (SI).
     pub value: f64,
+}
+
+/// Forgets the types of the mechanisms of a catalogue.
+#[derive(Clone, Copy, Debug)]
+pub struct EraseType;
+
+impl Visitor<f64> for EraseType {
+    type Output = Box<dyn AnyMechanism>;
+
+    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
+    where
+        M: Mechanism<f64, N, R> + Interface<f64, N> + Clone + 'static,
+    {
+        erase_type::<N, R>(Box::new(mechanism))
+    }
 }
 
 /// Forgets the sizes of a mechanism.
@@ -143,6 +163,18 @@ impl<const N: usize, const R: usize> AnyMechanism for SizedMechanism<N, R> {
     fn scene(&self, rows: &[Vec<f64>]) -> Result<Scene, String> {
         Ok(scene(&*self.mechanism, rows))
     }
+
+    fn rank_at_start(&self) -> Result<usize, String> {
+        if R == 0 {
+            return Ok(0);
+        }
+        let start = assemble(&*self.mechanism, &self.start(), 0.0);
+        let start = start.map_err(|error| format!("the start can't be assembled: {error}"))?;
+        let mut solver = Solver::new(Settings::default());
+        let rank = solver.on(&*self.mechanism).rank(&start);
+        rank.map(|decided| decided.rank)
+            .map_err(|error| format!("the rank at the start can't be decided: {error}"))
+    }
 }
 
 /// The state in a row: time, coordinates, velocities.
@@ -153,10 +185,4 @@ pub fn state_of<const N: usize>(row: &[f64]) -> State<f64, N> {
         q: SVector::from_fn(|i, _| at(1 + i)),
         v: SVector::from_fn(|i, _| at(1 + N + i)),
     }
-}
-
-/// A state as a row, with the integrals of states of the first order in it.
-pub(crate) fn row_of<const N: usize>(state: &State<f64, N>) -> Vec<f64> {
-    let values = state.q.iter().chain(state.v.iter());
-    std::iter::once(&state.t).chain(values).copied().collect()
 }

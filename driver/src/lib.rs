@@ -12,6 +12,7 @@
 
 mod any;
 mod column;
+mod digits;
 mod link;
 mod precise;
 mod scene;
@@ -20,10 +21,11 @@ mod serve;
 mod wire;
 mod writer;
 
-pub use any::{AnyMechanism, Given, TimedRun, erase_type, state_of};
+pub use any::{AnyMechanism, EraseType, Given, TimedRun, erase_type, state_of};
 pub use column::{Column, WORDS, heads};
+pub use digits::{Around, Changes, Exact, Path, Precise};
 pub use link::Link;
-pub use precise::{Around, Changes, Exact, Path, Precise, PreciseLink, serve_precise};
+pub use precise::{PreciseLink, serve_precise};
 pub use scene::{Drawn, Scene};
 pub use segment::{Reached, Segment, Watch};
 pub use serve::{serve, with_room};

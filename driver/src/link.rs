@@ -173,4 +173,11 @@ impl AnyMechanism for Link {
             _ => Err(Ends::NONSENSE.to_string()),
         }
     }
+
+    fn rank_at_start(&self) -> Result<usize, String> {
+        match self.ends.borrow_mut().ask(&Request::RankAtStart)? {
+            Reply::RankAtStart(rank) => rank,
+            _ => Err(Ends::NONSENSE.to_string()),
+        }
+    }
 }

@@ -92,6 +92,7 @@ fn answer(mut mechanism: Box<dyn AnyMechanism>, row: WriteRow) -> io::Result<()>
                 Reply::TimedRun(mechanism.timed_run(from.as_deref(), &options))
             }
             Request::Scene(rows) => Reply::Scene(mechanism.scene(&rows)),
+            Request::RankAtStart => Reply::RankAtStart(mechanism.rank_at_start()),
         };
         out.send(&reply)?;
     }

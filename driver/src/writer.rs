@@ -5,7 +5,6 @@
 //!
 //! Compiled once for each pair of sizes.
 
-use crate::any::row_of;
 use crate::column::Column;
 use crate::segment::{CALM_SINE, EXTRA_STEPS, Reached, STEPS, Segment, Watch};
 use bricard_runtime::{
@@ -320,4 +319,10 @@ fn multiplier<const N: usize>(
     let structure = probe.structure();
     let row = structure.multipliers[place].row;
     known[row].ok_or(DynamicsError::SharedReaction { t, row, structure })
+}
+
+/// A state as a row, with the integrals of states of the first order in it.
+fn row_of<const N: usize>(state: &State<f64, N>) -> Vec<f64> {
+    let values = state.q.iter().chain(state.v.iter());
+    std::iter::once(&state.t).chain(values).copied().collect()
 }

@@ -8,8 +8,7 @@
 use core::ops::{
     Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, RemAssign, Sub, SubAssign,
 };
-use core::str::FromStr;
-use num_traits::{Num, One, ParseFloatError, Zero};
+use num_traits::{One, Zero};
 use qd::Quad;
 
 /// A number of 106 bits: about 31 decimal digits, in the range of `f64`.
@@ -63,14 +62,6 @@ impl DoubleDouble {
 impl From<f64> for DoubleDouble {
     fn from(value: f64) -> Self {
         Self::new(value, 0.0)
-    }
-}
-
-impl FromStr for DoubleDouble {
-    type Err = ParseFloatError;
-
-    fn from_str(text: &str) -> Result<Self, ParseFloatError> {
-        crate::text::parse(text, 10)
     }
 }
 
@@ -133,13 +124,5 @@ impl Zero for DoubleDouble {
 impl One for DoubleDouble {
     fn one() -> Self {
         Self(Quad::ONE)
-    }
-}
-
-impl Num for DoubleDouble {
-    type FromStrRadixErr = ParseFloatError;
-
-    fn from_str_radix(text: &str, radix: u32) -> Result<Self, ParseFloatError> {
-        crate::text::parse(text, radix)
     }
 }

@@ -5,7 +5,8 @@
 
 use crate::DoubleDouble;
 use core::fmt::{Display, Formatter, Result as FmtResult};
-use num_traits::{FloatErrorKind, One, ParseFloatError, Zero};
+use core::str::FromStr;
+use num_traits::{FloatErrorKind, Num, One, ParseFloatError, Zero};
 
 /// Significant digits after the first, where none are asked for.
 const DIGITS: usize = 31;
@@ -77,8 +78,24 @@ fn digits(mut rest: DoubleDouble, wanted: usize) -> Vec<u8> {
     digits
 }
 
+impl FromStr for DoubleDouble {
+    type Err = ParseFloatError;
+
+    fn from_str(text: &str) -> Result<Self, ParseFloatError> {
+        parse(text, 10)
+    }
+}
+
+impl Num for DoubleDouble {
+    type FromStrRadixErr = ParseFloatError;
+
+    fn from_str_radix(text: &str, radix: u32) -> Result<Self, ParseFloatError> {
+        parse(text, radix)
+    }
+}
+
 /// Reads a decimal number: digits with at most one point, and an exponent.
-pub(crate) fn parse(text: &str, radix: u32) -> Result<DoubleDouble, ParseFloatError> {
+fn parse(text: &str, radix: u32) -> Result<DoubleDouble, ParseFloatError> {
     let invalid = || ParseFloatError {
         kind: if text.is_empty() {
             FloatErrorKind::Empty

@@ -1,6 +1,5 @@
 //! What can go wrong at run time: when, what, and what to try.
 //!
-//! In:  nothing.
 //! Out: one enum per stage, with data and a message for people.
 
 use crate::number::Number;

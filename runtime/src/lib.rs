@@ -30,7 +30,7 @@ pub use dynamics::{
 };
 pub use error::{DynamicsError, Singularity, Watched};
 pub use integrator::{
-    Dop853, Dp5, IntegrateError, Integrator, Radau5, Radau9, Rk4, Step, Tolerance,
+    Dop853, Dp5, IntegrateError, Integrator, Method, Radau5, Radau9, Rk4, Step, Tolerance,
 };
 pub use model::{
     Canvas, Correction, Described, Differentiated, Energy, Initial, Interface, Linearised,
@@ -45,12 +45,12 @@ pub use observer::{
 pub use real::Real;
 pub use sides::{Condition, Sides, Switch};
 pub use simulate::{
-    Audit, Failure, Options, Origin, Pace, Scheme, SimulateError, Stepper, Summary, simulate,
+    Audit, Failure, Options, Origin, SimulateError, StepControl, Stepper, Summary, simulate,
 };
 pub use singular::Passage;
 pub use state::State;
 #[doc(hidden)]
 pub use structure::written_for;
 pub use structure::{ConstraintRow, Declared, Direction, Event, Multiplier, Quantity, Structure};
-pub use system::{Slope, Switching, System};
+pub use system::{AccelerationJacobian, Switching, System};
 pub use table::Table;

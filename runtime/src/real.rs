@@ -1,6 +1,5 @@
 //! The scalar that generated code and the runtime's kernels are generic over.
 //!
-//! In:  nothing.
 //! Out: [`Real`], implemented here for `f64` and `f32`.
 //!
 //! Not here: lanes, dual numbers and extended precision. A type joins by
@@ -84,11 +83,9 @@ pub trait Real:
     fn abs(self) -> Self;
     /// −1, 0 or 1: the sign, with 0 for 0 (unlike `f64::signum`).
     fn sign(self) -> Self;
-    /// The smaller of two numbers; not a number if one of them is none (unlike
-    /// `f64::min`).
+    /// The smaller of two numbers; NaN if one of them is NaN (unlike `f64::min`).
     fn min(self, other: Self) -> Self;
-    /// The larger of two numbers; not a number if one of them is none (unlike
-    /// `f64::max`).
+    /// The larger of two numbers; NaN if one of them is NaN (unlike `f64::max`).
     fn max(self, other: Self) -> Self;
 }
 
@@ -122,7 +119,7 @@ macro_rules! real_for_float {
             }
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
-                let (sin, cos) = sin_cos(f64::from(self));
+                let (sin, cos) = sincos::sin_cos(f64::from(self));
                 (sin as $float, cos as $float)
             }
             #[inline(always)]
@@ -189,22 +186,6 @@ macro_rules! real_for_float {
             num_traits::Float::$name($($argument),*)
         }
     }};
-}
-
-/// Inlined where the reduction is exact enough, the library's elsewhere.
-#[inline(always)]
-pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
-    if x.abs() <= sincos::LARGEST {
-        sincos::sin_cos(x)
-    } else {
-        library_sin_cos(x)
-    }
-}
-
-#[cold]
-#[inline(never)]
-fn library_sin_cos(x: f64) -> (f64, f64) {
-    real_for_float!(@call f64, sin_cos, x)
 }
 
 real_for_float!(f64);

@@ -1,6 +1,5 @@
 //! Conditions of forces, and what holds them.
 //!
-//! In:  nothing.
 //! Out: [`Sides`], which generated code asks instead of the state; [`Switch`] and
 //!      [`Condition`], which say what decides otherwise.
 //!

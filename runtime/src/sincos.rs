@@ -1,6 +1,6 @@
-//! Sine and cosine of one angle together, inlined and without branches.
+//! Sine and cosine of one angle together, inlined and without branches up to [`LARGEST`].
 //!
-//! In:  an angle `|x| ≤` [`LARGEST`].
+//! In:  angles.
 //! Out: both values, each within one and a half units in the last place.
 //!
 //! The angle is reduced by multiples of π/2 held in parts (Cody & Waite, *Software
@@ -12,7 +12,7 @@ use core::hint::black_box;
 
 /// The largest angle (rad) for which the reduction is exact enough: the multiples
 /// of π/2 then have at most 17 bits.
-pub(crate) const LARGEST: f64 = 1.0e5;
+const LARGEST: f64 = 1.0e5;
 
 /// The multiple of π/2 up to which angles are small: less than [`LARGEST`] by a quarter.
 const MULTIPLE: f64 = 63_661.0;
@@ -93,10 +93,28 @@ const NUMBERS: Table = Table {
 };
 static TABLE: Table = NUMBERS;
 
-/// Sine and cosine of `x`, `|x| ≤` [`LARGEST`].
+/// Sine and cosine of `x`: inlined where the reduction is exact enough, the library's
+/// elsewhere.
 #[inline(always)]
 pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
-    in_lane(x, &NUMBERS, 0).0
+    if x.abs() <= LARGEST {
+        in_lane(x, &NUMBERS, 0).0
+    } else {
+        library_sin_cos(x)
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn library_sin_cos(x: f64) -> (f64, f64) {
+    #[cfg(feature = "std")]
+    {
+        f64::sin_cos(x)
+    }
+    #[cfg(not(feature = "std"))]
+    {
+        num_traits::Float::sin_cos(x)
+    }
 }
 
 /// Sine and cosine of the angle in a lane, and the multiple of π/2 that is nearest to it.
@@ -263,7 +281,7 @@ fn lanes(block: &Block, table: &Table, sines: &mut Block, cosines: &mut Block) -
 #[inline(never)]
 fn one_by_one(angles: &[f64], sines: &mut [f64], cosines: &mut [f64]) {
     for ((angle, sin), cos) in angles.iter().zip(sines).zip(cosines) {
-        (*sin, *cos) = crate::real::sin_cos(*angle);
+        (*sin, *cos) = sin_cos(*angle);
     }
 }
 
@@ -327,7 +345,7 @@ mod tests {
         fn same<const K: usize>(angles: [f64; K]) {
             let (sines, cosines) = sin_cos_all(&angles);
             for (i, angle) in angles.into_iter().enumerate() {
-                let (sine, cosine) = crate::real::sin_cos(angle);
+                let (sine, cosine) = sin_cos(angle);
                 assert_eq!((sines[i], cosines[i]), (sine, cosine), "{angle}");
             }
         }

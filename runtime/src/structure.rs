@@ -129,6 +129,9 @@ pub struct Structure {
     /// `balance` is conserved: no dissipation, applied force, input, or explicit
     /// time anywhere.
     pub conservative: bool,
+    /// The constraints are holonomic and scleronomic: they restrict positions only, and do
+    /// not depend on time.
+    pub scleronomic: bool,
     /// The description draws something.
     pub drawn: bool,
     /// The constraints were declared to be regular: a run ends with an error at a
@@ -157,6 +160,7 @@ impl Structure {
         multipliers: &[],
         constant_mass: false,
         conservative: false,
+        scleronomic: false,
         drawn: false,
         regular: false,
         weighed: &[],

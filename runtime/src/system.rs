@@ -12,7 +12,7 @@ use nalgebra::{SMatrix, SVector};
 
 /// Partial derivatives of the acceleration.
 #[derive(Clone, Debug)]
-pub struct Slope<T, const N: usize> {
+pub struct AccelerationJacobian<T, const N: usize> {
     /// `∂q̈/∂q`, `N × N`.
     pub q: SMatrix<T, N, N>,
     /// `∂q̈/∂q̇`, `N × N`.
@@ -24,7 +24,7 @@ pub struct Slope<T, const N: usize> {
 pub enum Switching<T> {
     /// Not within the step.
     Nowhere,
-    /// At its end: the step stands, and what is known of the slope there is forgotten.
+    /// At its end: the step stands, and what is known of the derivative there is forgotten.
     AtEnd,
     /// At this time within it (s), where a step from the same start has to end.
     Within(T),
@@ -125,7 +125,10 @@ pub trait System<T: Real, const N: usize> {
     /// How the acceleration changes with the state, to the few digits that the
     /// iteration of an implicit method needs; `None` where that is not known, so that
     /// differences must do.
-    fn slope(&mut self, _state: &State<T, N>) -> Option<Slope<T, N>> {
+    fn acceleration_jacobian(
+        &mut self,
+        _state: &State<T, N>,
+    ) -> Option<AccelerationJacobian<T, N>> {
         None
     }
 }

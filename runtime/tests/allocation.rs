@@ -4,7 +4,7 @@ use crate::fixtures::{Framed, PLAIN};
 use crate::mechanisms::{FourBars, Passing, SliderCrank};
 use allocation_counter::measure;
 use bricard_runtime::{
-    Form, Options, Pace, Scheme, Settings, Stabilisation, Start, State, Stepper, Structure,
+    Form, Method, Options, Settings, Stabilisation, Start, State, StepControl, Stepper, Structure,
     assemble, simulate,
 };
 
@@ -13,29 +13,29 @@ static CONSERVATIVE: Structure = Structure {
     ..PLAIN
 };
 
-/// Paces for every scheme.
-const PACES: [(Scheme, Pace<f64>); 7] = [
-    (Scheme::Radau5, Pace::Fixed { step: 0.01 }),
+/// Paces for every method.
+const STEP_CONTROLS: [(Method, StepControl<f64>); 7] = [
+    (Method::Radau5, StepControl::Fixed { step: 0.01 }),
     (
-        Scheme::Radau5,
-        Pace::Adaptive {
+        Method::Radau5,
+        StepControl::Adaptive {
             relative: 1e-7,
             absolute: 1e-7,
         },
     ),
-    (Scheme::Rk4, Pace::Fixed { step: 0.01 }),
-    (Scheme::Dp5, Pace::Fixed { step: 0.01 }),
+    (Method::Rk4, StepControl::Fixed { step: 0.01 }),
+    (Method::Dp5, StepControl::Fixed { step: 0.01 }),
     (
-        Scheme::Dp5,
-        Pace::Adaptive {
+        Method::Dp5,
+        StepControl::Adaptive {
             relative: 1e-8,
             absolute: 1e-8,
         },
     ),
-    (Scheme::Dop853, Pace::Fixed { step: 0.01 }),
+    (Method::Dop853, StepControl::Fixed { step: 0.01 }),
     (
-        Scheme::Dop853,
-        Pace::Adaptive {
+        Method::Dop853,
+        StepControl::Adaptive {
             relative: 1e-10,
             absolute: 1e-10,
         },
@@ -61,14 +61,15 @@ fn steps_allocate_nothing_with_any_form_method_and_stabilisation() {
         Form::Partitioning,
     ] {
         for stabilisation in [Stabilisation::Projection, baumgarte] {
-            for (scheme, pace) in PACES {
+            for (method, step_control) in STEP_CONTROLS {
                 let settings = Settings {
                     form,
                     stabilisation,
                     ..Settings::default()
                 };
                 let count = allocations(|| {
-                    let mut stepper = Stepper::<f64, 5, 4>::new(scheme, pace, settings).unwrap();
+                    let mut stepper =
+                        Stepper::<f64, 5, 4>::new(method, step_control, settings).unwrap();
                     let mut state = start;
                     for _ in 0..8 {
                         // Through the first singular position, for those forms
@@ -78,7 +79,7 @@ fn steps_allocate_nothing_with_any_form_method_and_stabilisation() {
                         }
                     }
                 });
-                assert_eq!(count, 0, "{form} {scheme} {pace:?}");
+                assert_eq!(count, 0, "{form} {method} {step_control:?}");
             }
         }
     }
@@ -88,13 +89,13 @@ fn steps_allocate_nothing_with_any_form_method_and_stabilisation() {
 fn whole_runs_with_audits_allocate_nothing() {
     let mechanism = Framed::new(FourBars, &CONSERVATIVE);
     let start = Passing::<5, 4>::state(&FourBars, 0.0, 80.0_f64.to_radians(), 0.0);
-    for (scheme, pace) in PACES {
+    for (method, step_control) in STEP_CONTROLS {
         let count = allocations(|| {
-            let options = Options::new(3.0, scheme, pace);
+            let options = Options::new(3.0, method, step_control);
             let summary = simulate::<_, _, 5, 4>(&mechanism, &start, &options, &mut []).unwrap();
             assert_eq!(summary.passages, Some(4));
         });
-        assert_eq!(count, 0, "{scheme} {pace:?}");
+        assert_eq!(count, 0, "{method} {step_control:?}");
     }
 }
 

@@ -5,7 +5,7 @@
 use crate::fixtures::{Framed, Oscillator, PLAIN};
 use crate::mechanisms::{FourBars, Passing, SliderCrank};
 use bricard_runtime::nalgebra::SVector;
-use bricard_runtime::{Options, Pace, Scheme, SimulateError, State, Structure, simulate};
+use bricard_runtime::{Method, Options, SimulateError, State, StepControl, Structure, simulate};
 
 static CONSERVATIVE: Structure = Structure {
     conservative: true,
@@ -35,30 +35,30 @@ where
 }
 
 /// A long run of a method, with and without keeping the energy.
-fn kept(scheme: Scheme, pace: Pace<f64>, bound: f64) {
-    let mut options = Options::new(200.0, scheme, pace);
+fn kept(method: Method, step_control: StepControl<f64>, bound: f64) {
+    let mut options = Options::new(200.0, method, step_control);
     let (drift, _, _) = run::<_, 5, 4>(FourBars, 80.0, &options);
     options.keep_energy = true;
     let (error, passages, _) = run::<_, 5, 4>(FourBars, 80.0, &options);
-    assert!(error < bound, "{scheme}: {error:e}");
+    assert!(error < bound, "{method}: {error:e}");
     assert!(
         error < drift / 10.0,
-        "{scheme}: {error:e} instead of {drift:e}"
+        "{method}: {error:e} instead of {drift:e}"
     );
-    assert_eq!(passages, 225, "{scheme}");
+    assert_eq!(passages, 225, "{method}");
 }
 
 #[test]
 fn no_method_drifts_when_the_energy_is_kept() {
-    kept(Scheme::Rk4, Pace::Fixed { step: 0.01 }, 1e-9);
-    kept(Scheme::Dp5, Pace::Fixed { step: 0.02 }, 1e-9);
-    kept(Scheme::Dop853, Pace::Fixed { step: 0.05 }, 1e-12);
-    let tolerance = |relative| Pace::Adaptive {
+    kept(Method::Rk4, StepControl::Fixed { step: 0.01 }, 1e-9);
+    kept(Method::Dp5, StepControl::Fixed { step: 0.02 }, 1e-9);
+    kept(Method::Dop853, StepControl::Fixed { step: 0.05 }, 1e-12);
+    let tolerance = |relative| StepControl::Adaptive {
         relative,
         absolute: relative,
     };
-    kept(Scheme::Dp5, tolerance(1e-7), 1e-7);
-    kept(Scheme::Dop853, tolerance(1e-9), 1e-10);
+    kept(Method::Dp5, tolerance(1e-7), 1e-7);
+    kept(Method::Dop853, tolerance(1e-9), 1e-10);
 }
 
 #[test]
@@ -78,8 +78,8 @@ fn a_million_passages_later_the_motion_is_still_on_its_branch() {
         None => 200.0,
     };
     // A passage every 0.8895 s.
-    let pace = Pace::Fixed { step: 0.05 };
-    let mut options = Options::new(passages * 0.89, Scheme::Dop853, pace);
+    let step_control = StepControl::Fixed { step: 0.05 };
+    let mut options = Options::new(passages * 0.89, Method::Dop853, step_control);
     options.keep_energy = true;
     let (error, count, end) = run::<_, 5, 4>(FourBars, 80.0, &options);
     assert!(count as f64 >= passages, "{count}");

@@ -2,8 +2,8 @@
 
 use crate::mechanisms::{FourBars, Passing, SliderCrank};
 use bricard_runtime::{
-    Condition, Correction, Energy, Linearised, Mechanism, Pace, Position, Regular, Scheme,
-    Settings, SimulateError, State, Stepper, Structure, Switch, Terms,
+    Condition, Correction, Energy, Linearised, Mechanism, Method, Position, Regular, Settings,
+    SimulateError, State, StepControl, Stepper, Structure, Switch, Terms,
 };
 use nalgebra::SVector;
 use std::cell::Cell;
@@ -74,8 +74,13 @@ impl<M: Mechanism<f64, N, R>, const N: usize, const R: usize> Mechanism<f64, N, 
     }
 }
 
-fn stepper<const N: usize, const R: usize>(scheme: Scheme) -> Stepper<f64, N, R> {
-    Stepper::new(scheme, Pace::Fixed { step: STEP }, Settings::default()).unwrap()
+fn stepper<const N: usize, const R: usize>(method: Method) -> Stepper<f64, N, R> {
+    Stepper::new(
+        method,
+        StepControl::Fixed { step: STEP },
+        Settings::default(),
+    )
+    .unwrap()
 }
 
 /// A state a few steps before the singular position.
@@ -85,10 +90,10 @@ fn before<M: Passing<N, R>, const N: usize, const R: usize>(mechanism: &M) -> St
 }
 
 /// Steps through a singular position, without a limit and with one that is never met.
-fn agrees<M: Passing<N, R>, const N: usize, const R: usize>(mechanism: M, scheme: Scheme) {
+fn agrees<M: Passing<N, R>, const N: usize, const R: usize>(mechanism: M, method: Method) {
     let mechanism = Counted::new(mechanism);
     let start = before(&mechanism.mechanism);
-    let (mut free, mut limited) = (stepper::<N, R>(scheme), stepper::<N, R>(scheme));
+    let (mut free, mut limited) = (stepper::<N, R>(method), stepper::<N, R>(method));
     let mut states = [start; 2];
     let mut most = 0;
     for _ in 0..20 {
@@ -96,27 +101,27 @@ fn agrees<M: Passing<N, R>, const N: usize, const R: usize>(mechanism: M, scheme
         mechanism.asked.set(0);
         let limit = u32::MAX;
         let told = limited.step_within(&mechanism, &mut states[1], STEP, limit);
-        assert_eq!(told, Ok(mechanism.asked.get()), "{scheme}");
-        assert_eq!(states[0], states[1], "{scheme}");
+        assert_eq!(told, Ok(mechanism.asked.get()), "{method}");
+        assert_eq!(states[0], states[1], "{method}");
         most = most.max(mechanism.asked.get());
     }
-    assert_eq!(free.counters(), limited.counters(), "{scheme}");
+    assert_eq!(free.counters(), limited.counters(), "{method}");
     assert!(free.counters().robust_accelerations > 0, "no passage");
     assert!(most > 20, "{most}");
 }
 
 #[test]
 fn a_limit_that_is_not_met_changes_nothing_and_evaluations_are_told() {
-    for scheme in [Scheme::Rk4, Scheme::Dop853, Scheme::Radau5] {
-        agrees::<_, 3, 2>(SliderCrank::default(), scheme);
-        agrees::<_, 5, 4>(FourBars, scheme);
+    for method in [Method::Rk4, Method::Dop853, Method::Radau5] {
+        agrees::<_, 3, 2>(SliderCrank::default(), method);
+        agrees::<_, 5, 4>(FourBars, method);
     }
 }
 
 /// Cuts off each step near a singular position after every number of evaluations.
-fn is_cut_off<M: Passing<N, R>, const N: usize, const R: usize>(mechanism: M, scheme: Scheme) {
+fn is_cut_off<M: Passing<N, R>, const N: usize, const R: usize>(mechanism: M, method: Method) {
     let mechanism = Counted::new(mechanism);
-    let mut stepper = stepper::<N, R>(scheme);
+    let mut stepper = stepper::<N, R>(method);
     let mut state = before(&mechanism.mechanism);
     let (mut cuts, mut longest) = (0, 0);
     for _ in 0..20 {
@@ -133,30 +138,30 @@ fn is_cut_off<M: Passing<N, R>, const N: usize, const R: usize>(mechanism: M, sc
             assert_eq!(
                 error,
                 Err(SimulateError::TooMuchWork { t, most }),
-                "{scheme}"
+                "{method}"
             );
             longest = longest.max(mechanism.asked.get() - most);
-            assert!(reached.is_finite(), "{scheme}, {most}: {reached:?}");
+            assert!(reached.is_finite(), "{method}, {most}: {reached:?}");
             // Nothing that was spoilt is left.
             let rest = plain.1.t - t;
             if rest > 0.0 {
                 cut.step(&mechanism, &mut reached, rest).unwrap();
             }
             let off = (reached.q - plain.1.q).norm() + (reached.v - plain.1.v).norm();
-            assert!(off < 1e-7, "{scheme}, {most} at t = {t}: {off:e}");
+            assert!(off < 1e-7, "{method}, {most} at t = {t}: {off:e}");
             cuts += 1;
         }
         (stepper, state) = plain;
     }
     assert!(cuts > 500, "{cuts}");
-    assert!(longest <= FEW, "{scheme}: {longest} more than were granted");
+    assert!(longest <= FEW, "{method}: {longest} more than were granted");
 }
 
 #[test]
 fn a_step_that_is_cut_off_ends_soon_and_leaves_a_state_to_go_on_from() {
-    for scheme in [Scheme::Rk4, Scheme::Radau5] {
-        is_cut_off::<_, 3, 2>(SliderCrank::default(), scheme);
-        is_cut_off::<_, 5, 4>(FourBars, scheme);
+    for method in [Method::Rk4, Method::Radau5] {
+        is_cut_off::<_, 3, 2>(SliderCrank::default(), method);
+        is_cut_off::<_, 5, 4>(FourBars, method);
     }
 }
 

@@ -4,8 +4,8 @@
 use crate::fixtures::{Framed, Oscillator, PLAIN};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Audit, Direction, DynamicsError, Energy, Event, IntegrateError, Mechanism, Options, Pace,
-    Scheme, Settings, SimulateError, State, Stepper, Structure, Terms, Watched, simulate,
+    Audit, Direction, DynamicsError, Energy, Event, IntegrateError, Mechanism, Method, Options,
+    Settings, SimulateError, State, StepControl, Stepper, Structure, Terms, Watched, simulate,
 };
 
 static CONSERVATIVE: Structure = Structure {
@@ -161,14 +161,14 @@ fn a_step_of_fixed_length_that_overflows_is_refused() {
         );
     };
     let mechanism = Framed::new(Huge, &PLAIN);
-    for scheme in [Scheme::Rk4, Scheme::Dp5, Scheme::Dop853] {
-        let pace = Pace::Fixed { step: 4.0 };
-        let mut options = Options::new(4.0, scheme, pace);
+    for method in [Method::Rk4, Method::Dp5, Method::Dop853] {
+        let step_control = StepControl::Fixed { step: 4.0 };
+        let mut options = Options::new(4.0, method, step_control);
         options.audit = Audit::NONE;
         let failure = simulate::<_, _, 1, 0>(&mechanism, &start(0.0), &options, &mut []);
         refused(failure.expect_err("beyond the largest number").error);
-        let mut stepper = Stepper::<f64, 1, 0>::new(scheme, pace, Settings::default())
-            .expect("the pace is positive");
+        let mut stepper = Stepper::<f64, 1, 0>::new(method, step_control, Settings::default())
+            .expect("the step is positive");
         let mut state = start(0.0);
         let error = stepper.step(&mechanism, &mut state, 4.0);
         refused(error.expect_err("beyond the largest number"));

@@ -12,6 +12,7 @@ mod hits;
 mod integrator;
 mod mechanisms;
 mod placement;
+mod recall;
 mod scan;
 mod segments;
 mod simulate;

@@ -11,7 +11,7 @@
 use crate::mechanisms::{
     FourBars, Hung, HungReduced, Parallelogram, Passage, Passing, Reduced, SliderCrank, Twice,
 };
-use bricard_runtime::{Dop853, Dp5, Integrator, Mechanism, Rk4, Settings, Solver, State};
+use bricard_runtime::{Dop853, Dp5, Integrator, Mechanism, Method, Rk4, Settings, Solver, State};
 
 /// How long a motion is followed (s).
 const SPAN: f64 = 0.4;
@@ -23,27 +23,12 @@ const SPREAD: f64 = 2.0;
 const FLOOR: f64 = 1e-12;
 const PLACED: f64 = 1e-11;
 
-/// Abscissae of the stages of RK4.
-const RK4: [f64; 3] = [0.0, 0.5, 1.0];
-
-/// Abscissae of the stages of DP5.
-const DP5: [f64; 6] = [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0];
-
-/// Abscissae of the stages of DOP853.
-const DOP853: [f64; 12] = [
-    0.0,
-    0.052_600_151_958_767_7,
-    0.078_900_227_938_151_6,
-    0.118_350_341_907_227,
-    0.281_649_658_092_773,
-    1.0 / 3.0,
-    0.25,
-    4.0 / 13.0,
-    127.0 / 195.0,
-    0.6,
-    6.0 / 7.0,
-    1.0,
-];
+/// The abscissae of a method, each once.
+fn abscissae(method: Method) -> Vec<f64> {
+    let mut all: Vec<f64> = method.abscissae().collect();
+    all.dedup();
+    all
+}
 
 /// Errors of all placements.
 #[derive(Clone, Copy, Debug)]
@@ -106,7 +91,7 @@ fn distances() -> Vec<f64> {
 /// All placements of a mechanism with one method and step size.
 fn placements<P, I, const N: usize, const R: usize>(
     method: impl Fn() -> I,
-    stages: &[f64],
+    stages: Method,
     mechanism: &P,
     steps: u32,
 ) -> Placements
@@ -121,7 +106,7 @@ where
         mechanism.state(t, angle, rate)
     };
     let mut errors = Vec::new();
-    for stage in stages {
+    for stage in abscissae(stages) {
         for distance in distances() {
             let t = distance / rate.abs() - stage * SPAN / f64::from(steps);
             errors.push((
@@ -136,12 +121,12 @@ where
 /// The same placements of the exact reduction of a mechanism.
 fn reduced_placements<I: Integrator<f64, 1>>(
     method: impl Fn() -> I,
-    stages: &[f64],
+    stages: Method,
     (reduced, (angle, rate)): (&Reduced, (f64, f64)),
     steps: u32,
 ) -> Placements {
     let mut errors = Vec::new();
-    for stage in stages {
+    for stage in abscissae(stages) {
         for distance in distances() {
             let t = distance / rate.abs() - stage * SPAN / f64::from(steps);
             let state = |t: f64| {
@@ -216,7 +201,7 @@ fn check<P, const N: usize, const R: usize>(mechanism: &P)
 where
     P: Passing<N, R>,
 {
-    judge_rk4(|steps| placements(Rk4::new, &RK4, mechanism, steps));
+    judge_rk4(|steps| placements(Rk4::new, Method::Rk4, mechanism, steps));
 }
 
 /// A mechanism with the methods of higher order.
@@ -227,12 +212,15 @@ where
     let reduced = Reduced(mechanism.reduction());
     let reduced = (&reduced, mechanism.singular());
     judge_high("DP5", |steps| {
-        let alone = reduced_placements(Dp5::fixed, &DP5, reduced, steps);
-        [placements(Dp5::fixed, &DP5, mechanism, steps), alone]
+        let alone = reduced_placements(Dp5::fixed, Method::Dp5, reduced, steps);
+        [placements(Dp5::fixed, Method::Dp5, mechanism, steps), alone]
     });
     judge_high("DOP853", |steps| {
-        let alone = reduced_placements(Dop853::fixed, &DOP853, reduced, steps);
-        [placements(Dop853::fixed, &DOP853, mechanism, steps), alone]
+        let alone = reduced_placements(Dop853::fixed, Method::Dop853, reduced, steps);
+        [
+            placements(Dop853::fixed, Method::Dop853, mechanism, steps),
+            alone,
+        ]
     });
 }
 
@@ -293,7 +281,7 @@ fn after(span: f64, start: &State<f64, 2>) -> State<f64, 2> {
 /// makes a state of it from one of the reduction.
 fn hung_placements<M, I, const N: usize, const R: usize>(
     method: impl Fn() -> I,
-    stages: &[f64],
+    stages: Method,
     (mechanism, full): (&M, impl Fn(&State<f64, 2>) -> State<f64, N>),
     steps: u32,
 ) -> Placements
@@ -304,7 +292,7 @@ where
     let rate: f64 = -6.0;
     let singular = State::new(0.0, [0.0, -1.2].into(), [rate, 2.0].into());
     let mut errors = Vec::new();
-    for stage in stages {
+    for stage in abscissae(stages) {
         for distance in distances() {
             let t = distance / rate.abs() - stage * SPAN / f64::from(steps);
             let start = after(t, &singular);
@@ -319,21 +307,21 @@ where
 #[test]
 fn a_second_degree_of_freedom_changes_no_placement() {
     let once = (&Hung, Hung::state);
-    judge_rk4(|steps| hung_placements::<_, _, 6, 4>(Rk4::new, &RK4, once, steps));
+    judge_rk4(|steps| hung_placements::<_, _, 6, 4>(Rk4::new, Method::Rk4, once, steps));
     let twice = (&Twice::<_, 4>(Hung), Hung::state);
-    judge_rk4(|steps| hung_placements::<_, _, 6, 8>(Rk4::new, &RK4, twice, steps));
+    judge_rk4(|steps| hung_placements::<_, _, 6, 8>(Rk4::new, Method::Rk4, twice, steps));
     let reduced = (&HungReduced, |state: &State<f64, 2>| *state);
     judge_high("DP5", |steps| {
-        let alone = hung_placements::<_, _, 2, 0>(Dp5::fixed, &DP5, reduced, steps);
+        let alone = hung_placements::<_, _, 2, 0>(Dp5::fixed, Method::Dp5, reduced, steps);
         [
-            hung_placements::<_, _, 6, 4>(Dp5::fixed, &DP5, once, steps),
+            hung_placements::<_, _, 6, 4>(Dp5::fixed, Method::Dp5, once, steps),
             alone,
         ]
     });
     judge_high("DOP853", |steps| {
-        let alone = hung_placements::<_, _, 2, 0>(Dop853::fixed, &DOP853, reduced, steps);
+        let alone = hung_placements::<_, _, 2, 0>(Dop853::fixed, Method::Dop853, reduced, steps);
         [
-            hung_placements::<_, _, 6, 4>(Dop853::fixed, &DOP853, once, steps),
+            hung_placements::<_, _, 6, 4>(Dop853::fixed, Method::Dop853, once, steps),
             alone,
         ]
     });

@@ -142,7 +142,7 @@ where
             let [found, alone] = scan(mechanism, range, &options);
             let what = format!(
                 "{} at {tolerance:e}: {}; without constraints {}",
-                options.scheme, found, alone
+                options.method, found, alone
             );
             println!("{what}");
             assert!(found.is_even(&alone), "{what}");

@@ -65,7 +65,7 @@ fn oscillator() -> (Framed<Oscillator, 1>, State<f64, 1>) {
 }
 
 #[test]
-fn parts_at_a_fixed_pace_have_the_bits_of_the_whole() {
+fn parts_with_fixed_steps_have_the_bits_of_the_whole() {
     let (mechanism, start) = oscillator();
     for steps in [1, 7, 100] {
         let options = Options::rk4(7.0, 0.013);

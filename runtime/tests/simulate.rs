@@ -4,9 +4,9 @@ use crate::fixtures::{BEAD, Bead, Framed, MOVING_BEAD, Oscillator, PLAIN, distan
 use crate::mechanisms::{FourBars, Passing, SliderCrank};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Audit, Direction, DynamicsError, Event, Form, IntegrateError, Observer, Occurrence, Options,
-    Pace, Passage, Probe, Recorder, Sampler, Scheme, Settings, SimulateError, State, Step, Stepper,
-    Structure, simulate,
+    Audit, Direction, DynamicsError, Event, Form, IntegrateError, Method, Observer, Occurrence,
+    Options, Passage, Probe, Recorder, Sampler, Settings, SimulateError, State, Step, StepControl,
+    Stepper, Structure, simulate,
 };
 use core::ops::ControlFlow;
 
@@ -88,7 +88,7 @@ fn the_double_four_bar_passes_nine_singular_positions_in_eight_seconds() {
             times.len(),
             PASSAGES.len(),
             "{:?}: {times:?}",
-            options.scheme
+            options.method
         );
         assert_eq!(summary.passages, Some(9));
         for (passage, exact) in diary.passages.iter().zip(PASSAGES) {
@@ -99,7 +99,7 @@ fn the_double_four_bar_passes_nine_singular_positions_in_eight_seconds() {
             assert_eq!((passage.rank, passage.regular), (2, 4), "{passage:?}");
         }
         let constraints = summary.constraint_error.unwrap();
-        println!("{:?} {constraints:?}", options.scheme);
+        println!("{:?} {constraints:?}", options.method);
         assert!(constraints.position <= 1e-13, "{constraints:?}");
         assert!(
             summary.energy_error.unwrap() < 1e-4,
@@ -218,15 +218,15 @@ fn bad_options_are_typed_errors() {
         ),
         "{error}"
     );
-    let pace = Pace::Adaptive {
+    let step_control = StepControl::Adaptive {
         relative: 1e-6,
         absolute: 1e-6,
     };
-    let error = run(Options::new(1.0, Scheme::Rk4, pace), &start).unwrap_err();
+    let error = run(Options::new(1.0, Method::Rk4, step_control), &start).unwrap_err();
     assert_eq!(
         error,
         SimulateError::NoErrorEstimate {
-            scheme: Scheme::Rk4
+            method: Method::Rk4
         }
     );
     let nan = State::new(0.0, SVector::from([f64::NAN]), SVector::from([0.0]));
@@ -259,7 +259,7 @@ fn rows_are_at_decimal_multiples_and_on_the_constraints() {
     ] {
         let mut recorder = Recorder::new(0.01).unwrap();
         simulate::<_, _, 3, 2>(&mechanism, &start, &options, &mut [&mut recorder]).unwrap();
-        assert_eq!(recorder.rows().len(), 201, "{:?}", options.scheme);
+        assert_eq!(recorder.rows().len(), 201, "{:?}", options.method);
         for (i, row) in recorder.rows().iter().enumerate() {
             assert_eq!(row.t, i as f64 / 100.0);
             let gap = 0.5 * (row.q[0].sin() - row.q[1].sin());
@@ -287,7 +287,7 @@ fn rows_agree_between_methods() {
             assert!(
                 error < bound,
                 "{:?} is {error:e} off at {}",
-                options.scheme,
+                options.method,
                 row.t
             );
         }
@@ -439,7 +439,7 @@ fn the_energy_of_a_damped_motion_falls_by_what_the_damping_takes() {
     ] {
         let summary = simulate::<_, _, 1, 0>(&mechanism, &start, &options, &mut []).unwrap();
         let error = summary.energy_error.unwrap();
-        assert!(error < bound, "{:?}: {error:e}", options.scheme);
+        assert!(error < bound, "{:?}: {error:e}", options.method);
     }
 }
 
@@ -483,8 +483,8 @@ fn a_bead_on_a_circle_stays_there() {
 fn a_stepper_lets_a_program_act_between_steps() {
     // A thermostat of an oscillator: push against the velocity.
     let (mut mechanism, mut state) = oscillator(0.0);
-    let pace = Pace::Fixed { step: 0.001 };
-    let mut stepper = Stepper::new(Scheme::Rk4, pace, Settings::default()).unwrap();
+    let step_control = StepControl::Fixed { step: 0.001 };
+    let mut stepper = Stepper::new(Method::Rk4, step_control, Settings::default()).unwrap();
     for _ in 0..400 {
         mechanism.input = -2.0 * state.v[0];
         stepper.step::<_>(&mechanism, &mut state, 0.05).unwrap();
@@ -496,31 +496,32 @@ fn a_stepper_lets_a_program_act_between_steps() {
 #[test]
 fn a_stepper_and_a_run_agree() {
     let (mechanism, start) = four_bar();
-    for (scheme, pace) in [
-        (Scheme::Rk4, Pace::Fixed { step: 0.01 }),
+    for (method, step_control) in [
+        (Method::Rk4, StepControl::Fixed { step: 0.01 }),
         (
-            Scheme::Dp5,
-            Pace::Adaptive {
+            Method::Dp5,
+            StepControl::Adaptive {
                 relative: 1e-10,
                 absolute: 1e-10,
             },
         ),
         (
-            Scheme::Dop853,
-            Pace::Adaptive {
+            Method::Dop853,
+            StepControl::Adaptive {
                 relative: 1e-11,
                 absolute: 1e-11,
             },
         ),
     ] {
-        let mut stepper = Stepper::<f64, 5, 4>::new(scheme, pace, Settings::default()).unwrap();
+        let mut stepper =
+            Stepper::<f64, 5, 4>::new(method, step_control, Settings::default()).unwrap();
         let mut state = start;
         for _ in 0..20 {
             stepper.step(&mechanism, &mut state, 0.1).unwrap();
         }
-        let options = Options::new(2.0, scheme, pace);
+        let options = Options::new(2.0, method, step_control);
         let run = simulate::<_, _, 5, 4>(&mechanism, &start, &options, &mut []).unwrap();
         let error = distance(&state, &run.end);
-        assert!(error < 1e-7, "{scheme}: {error:e}");
+        assert!(error < 1e-7, "{method}: {error:e}");
     }
 }

@@ -5,7 +5,8 @@ use crate::integrator::inside_order;
 use crate::mechanisms::{FourBars, Passing};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Dp5, Integrator, Options, Pace, Radau5, Radau9, Scheme, State, Structure, Tolerance, simulate,
+    Dp5, Integrator, Method, Options, Radau5, Radau9, State, StepControl, Structure, Tolerance,
+    simulate,
 };
 
 /// Eccentricity and end of the orbits in these tests.
@@ -159,24 +160,24 @@ fn implicit_methods_pass_singular_positions() {
     let start = Passing::<5, 4>::state(&FourBars, 0.0, angle, 0.0);
     let (angle, rate) = Passing::<5, 4>::reduction(&FourBars).after(8.0, (angle, 0.0));
     let exact = Passing::<5, 4>::state(&FourBars, 8.0, angle, rate);
-    let fixed = |step| Pace::Fixed { step };
-    let adaptive = Pace::Adaptive {
+    let fixed = |step| StepControl::Fixed { step };
+    let adaptive = StepControl::Adaptive {
         relative: 1e-8,
         absolute: 1e-8,
     };
-    for (scheme, pace, bound) in [
-        (Scheme::Radau5, fixed(0.01), 1e-5),
-        (Scheme::Radau5, adaptive, 1e-5),
-        (Scheme::Radau9, fixed(0.02), 1e-7),
+    for (method, step_control, bound) in [
+        (Method::Radau5, fixed(0.01), 1e-5),
+        (Method::Radau5, adaptive, 1e-5),
+        (Method::Radau9, fixed(0.02), 1e-7),
         // The iterates of its stages lie on both sides of the window in which states are
         // interpolated, which costs it digits (2.2e-6 was measured).
-        (Scheme::Radau9, adaptive, 4e-6),
+        (Method::Radau9, adaptive, 4e-6),
     ] {
-        let options = Options::new(8.0, scheme, pace);
+        let options = Options::new(8.0, method, step_control);
         let summary = simulate::<_, _, 5, 4>(&mechanism, &start, &options, &mut [])
             .unwrap_or_else(|failure| panic!("{failure}"));
         assert_eq!(summary.passages, Some(9));
         let error = distance(&summary.end, &exact);
-        assert!(error < bound, "{scheme}, {pace:?}: {error:e}");
+        assert!(error < bound, "{method}, {step_control:?}: {error:e}");
     }
 }

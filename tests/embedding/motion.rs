@@ -6,9 +6,9 @@ use bricard_embedding::double_pendulum::DoublePendulum;
 use bricard_embedding::engine::Engine;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    DynamicsError, Initial, Interface, Mechanism, Observer, Occurrence, Options, Pace, Passage,
-    Position, Probe, Recorder, Scheme, Settings, Solver, State, Step, Stepper, Terms, assemble,
-    simulate,
+    DynamicsError, Initial, Interface, Mechanism, Method, Observer, Occurrence, Options, Passage,
+    Position, Probe, Recorder, Settings, Solver, State, Step, StepControl, Stepper, Terms,
+    assemble, simulate,
 };
 use std::mem::{offset_of, size_of};
 use std::ops::ControlFlow;
@@ -162,8 +162,9 @@ fn rows_at_equal_distances_are_those_of_the_recorder() {
 fn a_controller_in_c_does_what_one_in_rust_does() {
     let (mut engine, mut state) = engine();
     engine.parameters.ms = 0.75;
-    let pace = Pace::Fixed { step: 1e-3 };
-    let mut stepper = Stepper::new(Scheme::Rk4, pace, Settings::default()).expect("a pace");
+    let step_control = StepControl::Fixed { step: 1e-3 };
+    let mut stepper =
+        Stepper::new(Method::Rk4, step_control, Settings::default()).expect("a step control");
     for _ in 0..2000 {
         engine.inputs.torque = Some(20.0 * (10.0 - state.v[0]));
         stepper.step(&engine, &mut state, 1e-3).expect("it goes on");
@@ -178,11 +179,12 @@ fn adaptive_steps_one_by_one_are_those_of_rust_and_of_a_copy() {
     let held = |value| Initial { value, held: true };
     (start.q[0], start.v[0]) = (held(0.5), held(3.0));
     let mut state: State<f64, 3> = assemble(&engine, &start, 0.25).expect("it assembles");
-    let pace = Pace::Adaptive {
+    let step_control = StepControl::Adaptive {
         relative: 1e-7,
         absolute: 1e-7,
     };
-    let mut stepper = Stepper::new(Scheme::Dp5, pace, Settings::default()).expect("a pace");
+    let mut stepper =
+        Stepper::new(Method::Dp5, step_control, Settings::default()).expect("a step control");
     for _ in 0..40 {
         stepper
             .step_once(&engine, &mut state, 100.0)

@@ -29,7 +29,10 @@ fn a_step_through_the_border_costs_what_a_step_costs() {
     let engine = Engine::default();
     let start: State<f64, 3> = assemble(&engine, &engine.start(), 0.0).expect("it assembles");
     let options = Options::dop853(0.0, 1e-9);
-    let new = || Stepper::new(options.scheme, options.pace, options.settings).expect("a pace");
+    let new = || {
+        Stepper::new(options.method, options.step_control, options.settings)
+            .expect("a step control")
+    };
     let rust = best(|| {
         let (mut stepper, mut state) = (new(), start);
         for _ in 0..STEPS {

@@ -12,7 +12,7 @@ use bricard_runtime::{Interface, Mechanism, Options, assemble, simulate};
 
 const G: f64 = 9.81;
 const SPEED: f64 = 5.0;
-/// The motion is that small (rad/s), so that what is not linear is none.
+/// The motion is that small (rad/s), so that what is not linear is lost in round-off.
 const SMALL: f64 = 1e-5;
 
 /// The rates of lean, steer and their velocities.

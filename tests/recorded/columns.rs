@@ -35,10 +35,10 @@ fn a_pin_carries_what_moves_the_rod() {
         ];
         for [q, w, a_x, a_y, spin, pin_x, pin_y, column] in rows.each(names) {
             let near = |found: f64, wanted: f64| {
-                let scheme = options.scheme;
+                let method = options.method;
                 assert!(
                     (found - wanted).abs() < 1e-9,
-                    "{scheme}: {found}, not {wanted}"
+                    "{method}: {found}, not {wanted}"
                 );
             };
             let exact = -1.5 * G / L * q.cos();

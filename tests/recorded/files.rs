@@ -9,7 +9,7 @@ fn a_mass_pushed_by_a_file_is_where_its_integrals_say() {
     let columns = [Column::Input(0), Column::Output(0)];
     for options in methods(4.0) {
         let rows = record::<_, 2, 0>(Sampled::default(), options, &columns);
-        let scheme = options.scheme;
+        let method = options.method;
         let all = rows.each(["t", "der(x)", "push", "wave"]);
         for [t, v, push, wave] in &all {
             let (wanted, speed) = match t {
@@ -21,11 +21,11 @@ fn a_mass_pushed_by_a_file_is_where_its_integrals_say() {
                 }
                 _ => (0.0, 40.0),
             };
-            assert!((push - wanted).abs() < 1e-12, "{scheme} at {t}: {push}");
-            assert!((v - speed).abs() < 1e-11, "{scheme} at {t}: {v}");
+            assert!((push - wanted).abs() < 1e-12, "{method} at {t}: {push}");
+            assert!((v - speed).abs() < 1e-11, "{method} at {t}: {v}");
             let point = [(0.0, 0.0), (0.5, 1.0), (2.0, 0.0), (2.5, -1.0), (4.0, 0.0)];
             if let Some((_, exact)) = point.iter().find(|(at, _)| (at - t).abs() < 1e-12) {
-                assert!((wave - exact).abs() < 1e-12, "{scheme} at {t}: {wave}");
+                assert!((wave - exact).abs() < 1e-12, "{method} at {t}: {wave}");
             }
         }
     }

@@ -1,19 +1,19 @@
 //! Rows of a run.
 
 use bricard_driver::{Column, Reached, Segment, Watch, erase_type, heads};
-use bricard_runtime::{Options, Pace, Scheme, Structure, Whole};
+use bricard_runtime::{Method, Options, StepControl, Structure, Whole};
 use std::ops::ControlFlow;
 
 /// Every method, adaptive where it can be.
 pub fn methods(until: f64) -> Vec<Options<f64>> {
-    let fixed = Pace::Fixed { step: 1e-3 };
-    let adaptive = Pace::Adaptive {
+    let fixed = StepControl::Fixed { step: 1e-3 };
+    let adaptive = StepControl::Adaptive {
         relative: 1e-10,
         absolute: 1e-10,
     };
-    let adaptive = [Scheme::Dp5, Scheme::Dop853, Scheme::Radau5, Scheme::Radau9]
-        .map(|scheme| Options::new(until, scheme, adaptive));
-    let rk4 = Options::new(until, Scheme::Rk4, fixed);
+    let adaptive = [Method::Dp5, Method::Dop853, Method::Radau5, Method::Radau9]
+        .map(|method| Options::new(until, method, adaptive));
+    let rk4 = Options::new(until, Method::Rk4, fixed);
     std::iter::once(rk4).chain(adaptive).collect()
 }
 

@@ -35,10 +35,10 @@ fn a_lag_goes_to_its_goal_and_pushes() {
         for [t, x, v, f, a, rise, column, rate] in rows.each(names) {
             let fading = (begin - goal) * (-t / time).exp();
             let near = |found: f64, wanted: f64| {
-                let scheme = options.scheme;
+                let method = options.method;
                 assert!(
                     (found - wanted).abs() < TOLERANCE,
-                    "{scheme} at {t}: {found}"
+                    "{method} at {t}: {found}"
                 );
             };
             near(f, goal + fading);
@@ -80,17 +80,17 @@ fn a_controller_that_integrates_has_the_roots_of_its_closed_loop() {
             let [a, b, c] = [-1.25, 4.0, -2.25].map(|x: f64| x);
             let parts = [a * (-t).exp(), b * (-2.0 * t).exp(), c * (-3.0 * t).exp()];
             let error: f64 = parts.iter().sum();
-            let scheme = options.scheme;
-            assert!((0.5 - x - error).abs() < TOLERANCE, "{scheme} at {t}: {x}");
+            let method = options.method;
+            assert!((0.5 - x - error).abs() < TOLERANCE, "{method} at {t}: {x}");
             let integral = a * (1.0 - (-t).exp())
                 + b / 2.0 * (1.0 - (-2.0 * t).exp())
                 + c / 3.0 * (1.0 - (-3.0 * t).exp());
             assert!(
                 (wound - integral).abs() < TOLERANCE,
-                "{scheme} at {t}: {wound}"
+                "{method} at {t}: {wound}"
             );
             let force = -parts[0] - 4.0 * parts[1] - 9.0 * parts[2];
-            assert!((u - force).abs() < 20.0 * TOLERANCE, "{scheme} at {t}: {u}");
+            assert!((u - force).abs() < 20.0 * TOLERANCE, "{method} at {t}: {u}");
         }
     }
 }
@@ -112,16 +112,16 @@ fn a_state_goes_through_singular_configurations_with_its_mechanism() {
         for ([t, q, v, i], [_, q_free, v_free, _]) in
             driven.each(names).into_iter().zip(alone.each(names))
         {
-            let scheme = options.scheme;
+            let method = options.method;
             let current = 4.0 * (1.0 - (-t / 0.3).exp());
-            assert!((i - current).abs() < TOLERANCE, "{scheme} at {t}: {i}");
+            assert!((i - current).abs() < TOLERANCE, "{method} at {t}: {i}");
             assert!(
                 (q - q_free).abs() < 1e-6,
-                "{scheme} at {t}: {q} and {q_free}"
+                "{method} at {t}: {q} and {q_free}"
             );
             assert!(
                 (v - v_free).abs() < 1e-6,
-                "{scheme} at {t}: {v} and {v_free}"
+                "{method} at {t}: {v} and {v_free}"
             );
         }
     }

@@ -1,6 +1,5 @@
 //! One run whose right answer is known.
 //!
-//! In:  nothing.
 //! Out: [`Trial`].
 
 use crate::planting::Planting;

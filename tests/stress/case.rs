@@ -1,6 +1,6 @@
 //! A mechanism, what is changed of it, how it is run, what should come of it.
 
-use bricard_runtime::{Options, Pace, Scheme};
+use bricard_runtime::{Method, Options, StepControl};
 
 /// A run under stress.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +20,7 @@ pub struct Case {
     /// The end of the run (s).
     pub until: f64,
     /// The method.
-    pub scheme: Scheme,
+    pub method: Method,
     /// Relative and absolute tolerance.
     pub tolerance: f64,
     /// What it should come to.
@@ -50,7 +50,7 @@ impl Case {
         inputs: &[],
         hold: &[],
         until: 1.0,
-        scheme: Scheme::Dop853,
+        method: Method::Dop853,
         tolerance: 1e-10,
         wanted: Wanted::Right {
             energy: 1e-8,
@@ -60,16 +60,16 @@ impl Case {
 
     /// How it is run.
     pub fn options(&self) -> Options<f64> {
-        self.options_by(self.scheme, self.tolerance)
+        self.options_by(self.method, self.tolerance)
     }
 
     /// The same by another method.
-    pub fn options_by(&self, scheme: Scheme, tolerance: f64) -> Options<f64> {
-        let pace = Pace::Adaptive {
+    pub fn options_by(&self, method: Method, tolerance: f64) -> Options<f64> {
+        let step_control = StepControl::Adaptive {
             relative: tolerance,
             absolute: tolerance,
         };
-        let mut options = Options::new(self.until, scheme, pace);
+        let mut options = Options::new(self.until, method, step_control);
         options.most_steps = Some(MOST_STEPS);
         options
     }

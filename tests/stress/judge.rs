@@ -2,7 +2,7 @@
 
 use crate::case::{Case, Wanted};
 use bricard_runtime::{
-    Initial, Interface, Mechanism, Options, Scheme, State, Summary, Visitor, Whole, assemble,
+    Initial, Interface, Mechanism, Method, Options, State, Summary, Visitor, Whole, assemble,
     simulate,
 };
 
@@ -134,7 +134,7 @@ fn balanced(ran: &Ran, energy: f64) -> Result<(), String> {
 
 /// Holds the end against that of an implicit method, which shares no coefficients.
 fn compared(case: &Case, ran: &Ran, bound: f64) -> Result<(), String> {
-    let other = run(case, case.options_by(Scheme::Radau9, case.tolerance * 0.1))?;
+    let other = run(case, case.options_by(Method::Radau9, case.tolerance * 0.1))?;
     for (a, b) in ran.end.iter().zip(&other.end) {
         let off = (a - b).abs() / (1.0 + b.abs());
         if off.is_nan() || off > bound {

@@ -2,7 +2,7 @@
 
 use crate::judge::start;
 use bricard_runtime::{
-    Audit, Interface, Mechanism, Options, Pace, Scheme, Visitor, Whole, simulate,
+    Audit, Interface, Mechanism, Method, Options, StepControl, Visitor, Whole, simulate,
 };
 
 /// Runs with the energy kept, and returns what the energy is off by, relative to its
@@ -28,8 +28,8 @@ impl Visitor<f64> for Long {
     }
 }
 
-fn run(name: &str, scheme: Scheme, pace: Pace<f64>, until: f64) -> (f64, u64) {
-    let mut options = Options::new(until, scheme, pace);
+fn run(name: &str, method: Method, step_control: StepControl<f64>, until: f64) -> (f64, u64) {
+    let mut options = Options::new(until, method, step_control);
     options.keep_energy = true;
     options.audit = Audit::NONE;
     let visited = bricard_stress::visit(name, Long { options });
@@ -46,8 +46,8 @@ fn is_long() -> bool {
 fn a_thousand_million_steps_keep_the_energy() {
     let steps = if is_long() { 1_000_000_000 } else { 1_000_000 };
     let step = 1e-3;
-    let pace = Pace::Fixed { step };
-    let (off, done) = run("pendulum", Scheme::Rk4, pace, step * steps as f64);
+    let step_control = StepControl::Fixed { step };
+    let (off, done) = run("pendulum", Method::Rk4, step_control, step * steps as f64);
     assert_eq!(done, steps);
     assert!(off < 1e-9, "the energy is off by {off:e} of itself");
 }
@@ -55,12 +55,12 @@ fn a_thousand_million_steps_keep_the_energy() {
 #[test]
 fn a_million_seconds_keep_the_energy() {
     let until = if is_long() { 1e6 } else { 1e3 };
-    let pace = Pace::Adaptive {
+    let step_control = StepControl::Adaptive {
         relative: 1e-9,
         absolute: 1e-9,
     };
     for name in ["pendulum", "point_pendulum"] {
-        let (off, steps) = run(name, Scheme::Dop853, pace, until);
+        let (off, steps) = run(name, Method::Dop853, step_control, until);
         assert!(
             off < 1e-7,
             "{name}: the energy is off by {off:e} of itself after {steps} steps"

@@ -2,7 +2,7 @@
 
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    DynamicsError, Observer, Occurrence, Options, Pace, Probe, Scheme, State, Step, simulate,
+    DynamicsError, Method, Observer, Occurrence, Options, Probe, State, Step, StepControl, simulate,
 };
 use bricard_switching::contact::Contact;
 use core::ops::ControlFlow;
@@ -52,7 +52,7 @@ fn check(d: f64, options: &Options<f64>, most: f64) {
         .unwrap_or_else(|failure| panic!("{failure}"));
     let found: Vec<_> = diary.0.iter().filter(|(index, ..)| *index == 0).collect();
     let exact = passages(d, options.until);
-    assert_eq!(found.len(), exact.len(), "d = {d:e} {:?}", options.scheme);
+    assert_eq!(found.len(), exact.len(), "d = {d:e} {:?}", options.method);
     for ((_, t, rising), (wanted, grows)) in found.iter().zip(&exact) {
         assert!((t - wanted).abs() < most, "{t} instead of {wanted}");
         assert_eq!(rising, grows, "at {t}");
@@ -63,7 +63,7 @@ fn check(d: f64, options: &Options<f64>, most: f64) {
 
 #[test]
 fn a_function_that_dips_below_zero_for_a_moment_is_seen_eleven_times() {
-    let fixed = Options::new(3.5, Scheme::Dop853, Pace::Fixed { step: 0.02 });
+    let fixed = Options::new(3.5, Method::Dop853, StepControl::Fixed { step: 0.02 });
     for options in [Options::dp5(3.5, 1e-9), Options::dop853(3.5, 1e-10), fixed] {
         check(1e-5, &options, 1e-8);
     }

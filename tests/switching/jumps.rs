@@ -2,8 +2,8 @@
 
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    DynamicsError, IntegrateError, Interface, Mechanism, Options, Pace, Scheme, SimulateError,
-    State, Stepper, Summary, assemble, simulate,
+    DynamicsError, IntegrateError, Interface, Mechanism, Method, Options, SimulateError, State,
+    StepControl, Stepper, Summary, assemble, simulate,
 };
 use bricard_switching::contact::Contact;
 use bricard_switching::friction::Friction;
@@ -12,24 +12,24 @@ use bricard_switching::looped::Looped;
 use bricard_switching::placed::Placed;
 use bricard_switching::timed::Timed;
 
-/// Every method at a pace of its own: polynomials of the second degree are exact for all.
+/// Every method with a step control of its own: polynomials of the second degree are exact for all.
 fn methods(until: f64) -> Vec<Options<f64>> {
-    let fixed = Pace::Fixed { step: 0.13 };
-    let adaptive = Pace::Adaptive {
+    let fixed = StepControl::Fixed { step: 0.13 };
+    let adaptive = StepControl::Adaptive {
         relative: 1e-8,
         absolute: 1e-8,
     };
     let all = [
-        Scheme::Rk4,
-        Scheme::Dp5,
-        Scheme::Dop853,
-        Scheme::Radau5,
-        Scheme::Radau9,
+        Method::Rk4,
+        Method::Dp5,
+        Method::Dop853,
+        Method::Radau5,
+        Method::Radau9,
     ];
-    let fixed = all.map(|scheme| Options::new(until, scheme, fixed));
+    let fixed = all.map(|method| Options::new(until, method, fixed));
     let adaptive = all[1..]
         .iter()
-        .map(|scheme| Options::new(until, *scheme, adaptive));
+        .map(|method| Options::new(until, *method, adaptive));
     fixed.into_iter().chain(adaptive).collect()
 }
 
@@ -46,7 +46,7 @@ where
     M: Mechanism<f64, N, R> + Interface<f64, N>,
 {
     simulate(mechanism, start, options, &mut [])
-        .unwrap_or_else(|failure| panic!("{:?}: {failure}", options.scheme))
+        .unwrap_or_else(|failure| panic!("{:?}: {failure}", options.method))
 }
 
 #[track_caller]
@@ -55,8 +55,8 @@ fn near(found: f64, exact: f64, most: f64, what: &Options<f64>) {
     assert!(
         error <= most * exact.abs().max(1.0),
         "{found} instead of {exact}, off by {error:e}: {:?} {:?}",
-        what.scheme,
-        what.pace
+        what.method,
+        what.step_control
     );
 }
 
@@ -78,8 +78,8 @@ fn a_force_that_ends_at_a_time_leaves_the_exact_parabola_and_line() {
 fn whoever_wants_it_goes_across_jumps() {
     let mut mechanism = Timed::default();
     mechanism.parameters.until = 1.0 / 3.0;
-    let step = Pace::Fixed { step: 0.13 };
-    let mut options = Options::new(2.0, Scheme::Rk4, step);
+    let step = StepControl::Fixed { step: 0.13 };
+    let mut options = Options::new(2.0, Method::Rk4, step);
     let exact = run::<_, 1, 0>(&mechanism, &state([0.0], [0.0]), &options);
     options.settings.across_switches = true;
     let across = run::<_, 1, 0>(&mechanism, &state([0.0], [0.0]), &options);
@@ -161,23 +161,23 @@ fn the_work_of_a_push_that_ends_at_a_place_is_exact_in_a_loop() {
         let end = summary.end;
         let work = 2.0 * (end.q[0].min(0.25) - 0.2);
         let off = energy(&end) - energy(&start) - work;
-        let most = if options.scheme == Scheme::Dp5 {
+        let most = if options.method == Method::Dp5 {
             1e-8
         } else {
             1e-11
         };
-        assert!(off.abs() < most, "{off:e}: {:?}", options.scheme);
+        assert!(off.abs() < most, "{off:e}: {:?}", options.method);
     }
 }
 
 #[test]
 fn a_stepper_and_a_run_end_alike() {
     let mut stepper = Stepper::<f64, 1, 0>::new(
-        Scheme::Dp5,
-        Pace::Fixed { step: 0.13 },
+        Method::Dp5,
+        StepControl::Fixed { step: 0.13 },
         bricard_runtime::Settings::default(),
     )
-    .expect("the pace is positive");
+    .expect("the step is positive");
     let mut state = state([0.0], [0.0]);
     for _ in 0..100 {
         stepper

@@ -2,7 +2,7 @@
 
 use crate::points::{SPAN, points};
 use bricard_runtime::nalgebra::SVector;
-use bricard_runtime::{Interface, Options, Pace, Scheme, State, simulate};
+use bricard_runtime::{Interface, Method, Options, State, StepControl, simulate};
 use bricard_switching::measured::Measured;
 
 /// The value of a table, its integral from zero and the integral of that, both zero at
@@ -58,13 +58,13 @@ fn near(found: f64, exact: f64, most: f64, what: &str) {
 fn masses_pushed_by_long_tables_are_where_their_integrals_say() {
     let mechanism = Measured::default();
     let (thousand, many) = (points(1_000), points(10_000));
-    let fixed = |scheme| Options::new(0.4, scheme, Pace::Fixed { step: 0.13 });
+    let fixed = |method| Options::new(0.4, method, StepControl::Fixed { step: 0.13 });
     for (options, most) in [
-        (fixed(Scheme::Rk4), 1e-11),
-        (fixed(Scheme::Radau5), 1e-11),
+        (fixed(Method::Rk4), 1e-11),
+        (fixed(Method::Radau5), 1e-11),
         (Options::dp5(0.4, 1e-9), 1e-9),
     ] {
-        let what = options.scheme.to_string();
+        let what = options.method.to_string();
         let end = simulate::<_, _, 4, 1>(&mechanism, &start(&mechanism), &options, &mut [])
             .unwrap_or_else(|failure| panic!("{what}: {failure}"))
             .end;

@@ -1,7 +1,7 @@
 //! Tables and splines, against their closed forms.
 
 use bricard_runtime::nalgebra::SVector;
-use bricard_runtime::{Interface, Options, Pace, Scheme, State, simulate};
+use bricard_runtime::{Interface, Method, Options, State, StepControl, simulate};
 use bricard_switching::tabled::Tabled;
 
 /// Where the mass is after four seconds: the table pushes by 2 t, then 2, then 8 - 2 t.
@@ -27,20 +27,20 @@ fn spline(t: f64) -> (f64, f64) {
 fn a_mass_pushed_by_a_table_is_where_its_integral_says() {
     let mechanism = Tabled::default();
     let start = State::new(0.0, SVector::zeros(), SVector::from([0.0, 1.5, 0.0]));
-    let fixed = Pace::Fixed { step: 0.13 };
-    for scheme in [
-        Scheme::Rk4,
-        Scheme::Dp5,
-        Scheme::Dop853,
-        Scheme::Radau5,
-        Scheme::Radau9,
+    let fixed = StepControl::Fixed { step: 0.13 };
+    for method in [
+        Method::Rk4,
+        Method::Dp5,
+        Method::Dop853,
+        Method::Radau5,
+        Method::Radau9,
     ] {
-        let options = Options::new(4.0, scheme, fixed);
+        let options = Options::new(4.0, method, fixed);
         let end = simulate::<_, _, 3, 1>(&mechanism, &start, &options, &mut [])
-            .unwrap_or_else(|failure| panic!("{scheme}: {failure}"))
+            .unwrap_or_else(|failure| panic!("{method}: {failure}"))
             .end;
-        assert!((end.v[0] - SPEED).abs() < 1e-13, "{scheme}: {}", end.v[0]);
-        assert!((end.q[0] - PLACE).abs() < 1e-12, "{scheme}: {}", end.q[0]);
+        assert!((end.v[0] - SPEED).abs() < 1e-13, "{method}: {}", end.v[0]);
+        assert!((end.q[0] - PLACE).abs() < 1e-12, "{method}: {}", end.q[0]);
     }
 }
 

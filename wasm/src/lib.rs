@@ -19,11 +19,8 @@ mod session;
 mod text;
 
 pub use picture::Picture;
-pub use session::{ROOM, Session};
+pub use session::{ROOM, Session, VERSION};
 pub use text::Text;
-
-/// The version of the exported functions; `js/index.js` refuses another.
-pub const VERSION: u32 = 1;
 
 /// The one session of a module.
 pub type Shared<M, const N: usize, const R: usize> = spin::LazyLock<spin::Mutex<Session<M, N, R>>>;
@@ -57,8 +54,8 @@ macro_rules! module {
             free_input(index: u32) -> u32;
             begin(place: u32, value: f64, held: u32) -> u32;
             forget() -> u32;
-            fixed(scheme: u32, step: f64) -> u32;
-            adaptive(scheme: u32, relative: f64, absolute: f64) -> u32;
+            fixed(method: u32, step: f64) -> u32;
+            adaptive(method: u32, relative: f64, absolute: f64) -> u32;
             assemble() -> u32;
             place(index: u32, value: f64) -> u32;
             advance(time: f64) -> u32;

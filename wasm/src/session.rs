@@ -6,12 +6,14 @@
 //! Functions that can fail give 0, or 1 with the reason as text. Those that give several
 //! numbers say how many. What doesn't exist fails.
 
-use crate::{Picture, Text, VERSION, describe};
+use crate::{Picture, Text, describe};
 use bricard_runtime::{
-    Initial, Interface, Mechanism, Pace, Probe, Scheme, Settings, State, Stepper,
+    Initial, Interface, Mechanism, Method, Probe, Settings, State, StepControl, Stepper,
 };
 use core::fmt::{Display, Write};
 
+/// The version of the exported functions; `js/index.js` refuses another.
+pub const VERSION: u32 = 1;
 /// Numbers that can be read at once.
 pub const ROOM: usize = 1 << 12;
 /// The answer of what has succeeded.
@@ -27,8 +29,8 @@ type Given = Option<Initial<f64>>;
 pub struct Session<M, const N: usize, const R: usize> {
     mechanism: M,
     given: [[Given; N]; 2],
-    scheme: Scheme,
-    pace: Pace<f64>,
+    method: Method,
+    step_control: StepControl<f64>,
     motion: Option<Motion<N, R>>,
     numbers: [f64; ROOM],
     text: Text,
@@ -50,8 +52,8 @@ where
         Self {
             mechanism,
             given: [[None; N]; 2],
-            scheme: Scheme::Dop853,
-            pace: Pace::Adaptive {
+            method: Method::Dop853,
+            step_control: StepControl::Adaptive {
                 relative: 1e-9,
                 absolute: 1e-9,
             },
@@ -149,22 +151,22 @@ where
     }
 
     /// Chooses a method with steps of one length (s).
-    pub fn fixed(&mut self, scheme: u32, step: f64) -> u32 {
-        self.choose(scheme, Pace::Fixed { step })
+    pub fn fixed(&mut self, method: u32, step: f64) -> u32 {
+        self.choose(method, StepControl::Fixed { step })
     }
 
     /// Chooses a method whose steps follow the accepted error.
-    pub fn adaptive(&mut self, scheme: u32, relative: f64, absolute: f64) -> u32 {
-        self.choose(scheme, Pace::Adaptive { relative, absolute })
+    pub fn adaptive(&mut self, method: u32, relative: f64, absolute: f64) -> u32 {
+        self.choose(method, StepControl::Adaptive { relative, absolute })
     }
 
-    fn choose(&mut self, scheme: u32, pace: Pace<f64>) -> u32 {
-        let Some(scheme) = scheme_of(scheme) else {
+    fn choose(&mut self, method: u32, step_control: StepControl<f64>) -> u32 {
+        let Some(method) = method_of(method) else {
             return self.fail(&"there is no method of this number");
         };
-        match Stepper::new(scheme, pace, Settings::default()) {
+        match Stepper::new(method, step_control, Settings::default()) {
             Ok(stepper) => {
-                (self.scheme, self.pace) = (scheme, pace);
+                (self.method, self.step_control) = (method, step_control);
                 if let Some(motion) = &mut self.motion {
                     motion.stepper = stepper;
                 }
@@ -190,7 +192,7 @@ where
             Ok(state) => state,
             Err(error) => return self.fail(&error),
         };
-        match Stepper::new(self.scheme, self.pace, Settings::default()) {
+        match Stepper::new(self.method, self.step_control, Settings::default()) {
             Ok(stepper) => {
                 self.motion = Some(Motion { state, stepper });
                 DONE
@@ -317,13 +319,13 @@ where
     }
 }
 
-fn scheme_of(number: u32) -> Option<Scheme> {
+fn method_of(number: u32) -> Option<Method> {
     let all = [
-        Scheme::Rk4,
-        Scheme::Dp5,
-        Scheme::Dop853,
-        Scheme::Radau5,
-        Scheme::Radau9,
+        Method::Rk4,
+        Method::Dp5,
+        Method::Dop853,
+        Method::Radau5,
+        Method::Radau9,
     ];
     all.get(number as usize).copied()
 }

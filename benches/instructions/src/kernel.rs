@@ -7,8 +7,8 @@
 //! same for all; the kernel `call` is that surrounding alone.
 
 use bricard_runtime::{
-    Correction, Interface, Mechanism, Pace, Regular, Scheme, Settings, Solver, State, Stepper,
-    Terms, assemble,
+    Correction, Interface, Mechanism, Method, Regular, Settings, Solver, State, StepControl,
+    Stepper, Terms, assemble,
 };
 use instructions::hand::{self, ByHand};
 use instructions::mechanism as generated;
@@ -40,7 +40,7 @@ enum Work {
     Robust,
     /// The same near the position where the rods of one swing of many do.
     Turning,
-    Run(Scheme),
+    Run(Method),
 }
 
 /// Every kernel of the short form, by name.
@@ -154,8 +154,8 @@ pub fn run(name: &str, rounds: u64) -> Result<(), Failed> {
         "step" => Work::Step,
         "robust" => Work::Robust,
         "turning" => Work::Turning,
-        "run_rk4" => Work::Run(Scheme::Rk4),
-        "run_dop853" => Work::Run(Scheme::Dop853),
+        "run_rk4" => Work::Run(Method::Rk4),
+        "run_dop853" => Work::Run(Method::Dop853),
         _ => return Err(format!("there is no kernel `{work}`").into()),
     };
     let job = (work, rounds);
@@ -264,7 +264,7 @@ where
 {
     let mut state =
         assemble(mechanism, &mechanism.start(), 0.0).map_err(|error| error.to_string())?;
-    let mut stepper = stepper(Scheme::Rk4)?;
+    let mut stepper = stepper(Method::Rk4)?;
     let mut states = Vec::new();
     for _ in 0..ROUND {
         states.push(state);
@@ -303,16 +303,20 @@ fn one_in_line<const N: usize>(k: u64) -> State<f64, N> {
 
 /// Steps of 0.01 s, or as long as an error of 1e-9 allows.
 fn stepper<const N: usize, const R: usize>(
-    scheme: Scheme,
+    method: Method,
 ) -> Result<Box<Stepper<f64, N, R>>, Failed> {
-    let pace = match scheme {
-        Scheme::Rk4 => Pace::Fixed { step: STEP },
-        _ => Pace::Adaptive {
+    let step_control = match method {
+        Method::Rk4 => StepControl::Fixed { step: STEP },
+        _ => StepControl::Adaptive {
             relative: 1e-9,
             absolute: 1e-9,
         },
     };
-    Ok(Box::new(Stepper::new(scheme, pace, Settings::default())?))
+    Ok(Box::new(Stepper::new(
+        method,
+        step_control,
+        Settings::default(),
+    )?))
 }
 
 fn ours<M, const N: usize, const R: usize>(
@@ -346,7 +350,7 @@ where
             correction,
         ),
         Work::Step => {
-            let mut stepper = stepper::<N, R>(Scheme::Rk4)?;
+            let mut stepper = stepper::<N, R>(Method::Rk4)?;
             let starts = along(mechanism)?;
             for _ in 0..rounds {
                 for start in &starts {
@@ -358,11 +362,11 @@ where
         }
         Work::Robust => weak(mechanism, rounds, in_line::<N, R>)?,
         Work::Turning => weak(mechanism, rounds, one_in_line::<N>)?,
-        Work::Run(scheme) => {
+        Work::Run(method) => {
             for _ in 0..rounds {
                 let mut state = assemble(mechanism, &mechanism.start(), 0.0)
                     .map_err(|error| error.to_string())?;
-                stepper::<N, R>(scheme)?.step(mechanism, &mut state, 8.0)?;
+                stepper::<N, R>(method)?.step(mechanism, &mut state, 8.0)?;
                 black_box(&state);
             }
         }

@@ -4,8 +4,7 @@
 //! pivoting; the gain α keeps the constraints. Nothing else treats the singular
 //! positions.
 
-use crate::problem::Problem;
-use crate::run::{End, Failed};
+use crate::problem::{End, Failed, Problem};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{State, Terms};
 use diffsol::{NalgebraMat, OdeBuilder, OdeSolverMethod, OdeSolverStopReason};

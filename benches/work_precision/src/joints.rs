@@ -1,7 +1,6 @@
 //! rapier: rigid bodies held together by impulse joints.
 
-use crate::problem::Problem;
-use crate::run::{End, Failed};
+use crate::problem::{End, Failed, Problem};
 use rapier2d_f64::prelude::{
     MassProperties, PhysicsWorld, PrismaticJointBuilder, RevoluteJointBuilder, RigidBodyBuilder,
     RigidBodyHandle, Vector,

@@ -16,7 +16,7 @@ mod scan;
 mod work;
 
 use problem::Problem;
-use run::Method;
+use run::Solver;
 use scan::{Scan, Starts};
 use std::error::Error;
 use std::fs;
@@ -39,15 +39,15 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 /// Methods that the problem can be given to.
-fn methods(problem: Problem) -> impl Iterator<Item = Method> {
+fn methods(problem: Problem) -> impl Iterator<Item = Solver> {
     let driven = problem == Problem::Driven;
-    Method::ALL
+    Solver::ALL
         .into_iter()
-        .filter(move |method| !(driven && matches!(method, Method::Rapier(_))))
+        .filter(move |method| !(driven && matches!(method, Solver::Rapier(_))))
 }
 
 fn work_table(problem: Problem, out: &Path) -> Result<(), Box<dyn Error>> {
-    let exact = problem.exact(problem.nominal())?;
+    let exact = problem.exact(problem.nominal());
     println!("| method | setting | error of q₁ (rad) | processor time (ms) |\n|---|---|--:|--:|");
     let mut drawn = Vec::new();
     for method in methods(problem) {
@@ -78,7 +78,7 @@ fn work_table(problem: Problem, out: &Path) -> Result<(), Box<dyn Error>> {
 }
 
 fn scan_table(problem: Problem, angles: u32) -> Result<(), Box<dyn Error>> {
-    let starts = Starts::new(problem, angles)?;
+    let starts = Starts::new(problem, angles);
     println!("{angles} start angles, the paper's ± 0.05 rad:\n");
     println!(
         "| method | setting | left the branch or stopped | median error | worst | worst / median |\n|---|---|--:|--:|--:|--:|"

@@ -1,8 +1,7 @@
 //! Our runs.
 
-use crate::problem::Problem;
-use crate::run::{End, Failed};
-use bricard_runtime::{Interface, Mechanism, Pace, Scheme, Settings, State, Stepper};
+use crate::problem::{End, Failed, Problem};
+use bricard_runtime::{Interface, Mechanism, Method, Settings, State, StepControl, Stepper};
 use instructions::mechanism::double_four_bar_folded::double_four_bar::DoubleFourBar;
 use instructions::mechanism::slider_crank_folded::slider_crank::SliderCrank;
 
@@ -17,20 +16,25 @@ use driven::slider_crank_driven::SliderCrankDriven;
 /// # Errors
 ///
 /// A run that fails.
-pub fn run(problem: Problem, start: f64, scheme: Scheme, pace: Pace<f64>) -> Result<End, Failed> {
+pub fn run(
+    problem: Problem,
+    start: f64,
+    method: Method,
+    step_control: StepControl<f64>,
+) -> Result<End, Failed> {
     let q = problem.coordinates(start);
-    let (scheme, until) = ((scheme, pace), problem.end());
+    let (method, until) = ((method, step_control), problem.end());
     match problem {
-        Problem::Free => end::<_, 3, 2>(&SliderCrank::default(), &q, scheme, until),
-        Problem::Driven => end::<_, 3, 2>(&SliderCrankDriven::default(), &q, scheme, until),
-        Problem::FourBar => end::<_, 5, 4>(&DoubleFourBar::default(), &q, scheme, until),
+        Problem::Free => end::<_, 3, 2>(&SliderCrank::default(), &q, method, until),
+        Problem::Driven => end::<_, 3, 2>(&SliderCrankDriven::default(), &q, method, until),
+        Problem::FourBar => end::<_, 5, 4>(&DoubleFourBar::default(), &q, method, until),
     }
 }
 
 fn end<M, const N: usize, const R: usize>(
     mechanism: &M,
     q: &[f64],
-    (scheme, pace): (Scheme, Pace<f64>),
+    (method, step_control): (Method, StepControl<f64>),
     until: f64,
 ) -> Result<End, Failed>
 where
@@ -38,7 +42,7 @@ where
 {
     let mut state = State::<f64, N>::default();
     state.q.copy_from_slice(q);
-    let mut stepper = Stepper::<f64, N, R>::new(scheme, pace, Settings::default())?;
+    let mut stepper = Stepper::<f64, N, R>::new(method, step_control, Settings::default())?;
     stepper.step(mechanism, &mut state, until)?;
     Ok(state.q.as_slice().to_vec())
 }

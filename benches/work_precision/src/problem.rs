@@ -3,13 +3,15 @@
 //! In:  a start angle.
 //! Out: the state on the constraints, and where the motion ends.
 //!
-//! All three reduce to one degree of freedom,
-//! `Meff(q) q̈ + ½ Meff'(q) q̇² + V'(q) = Q`, which has no singular position.
+//! All three reduce to one degree of freedom, which has no singular position.
 
-use bricard_runtime::nalgebra::SVector;
-use bricard_runtime::{
-    Energy, Mechanism, Pace, Scheme, Settings, SimulateError, State, Stepper, Structure, Terms,
-};
+use bricard_testkit::Reduction;
+use std::error::Error;
+
+/// All coordinates at the end.
+pub type End = Vec<f64>;
+/// Why a run failed.
+pub type Failed = Box<dyn Error>;
 
 /// A run of the paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,97 +77,13 @@ impl Problem {
         }
     }
 
-    /// Where the crank is at the end, to about 1e-12 rad.
-    ///
-    /// # Errors
-    ///
-    /// A run that fails.
-    pub fn exact(self, start: f64) -> Result<f64, SimulateError<f64>> {
-        let pace = Pace::Fixed {
-            step: REFERENCE_STEP,
+    /// Where the crank is at the end, to about 1e-11 rad.
+    pub fn exact(self, start: f64) -> f64 {
+        let reduction = match self {
+            Self::Free => Reduction::SLIDER_CRANK,
+            Self::Driven => Reduction::SLIDER_CRANK_DRIVEN,
+            Self::FourBar => Reduction::DOUBLE_FOUR_BAR,
         };
-        let mut stepper = Stepper::<f64, 1, 0>::new(Scheme::Dop853, pace, Settings::default())?;
-        let mut state = State::new(0.0, [start].into(), [0.0].into());
-        stepper.step(&Reduced(self), &mut state, self.end())?;
-        Ok(state.q[0])
-    }
-}
-
-/// Steps of order 8 so short that round-off is all that is left (s).
-const REFERENCE_STEP: f64 = 0.002;
-const G: f64 = 9.81;
-
-static PLAIN: Structure = Structure {
-    name: "Reduced",
-    ..Structure::PLAIN
-};
-
-/// The equation of one degree of freedom.
-struct Reduced(Problem);
-
-impl Reduced {
-    /// `Meff`, `½ Meff'`, `V'`.
-    fn at(&self, q: f64) -> [f64; 3] {
-        match self.0 {
-            Problem::Free | Problem::Driven => {
-                let (l, e, j, m3) = (0.5, 0.25, 0.1, 0.5);
-                let constant = e * e + j + l * l + e * e + j;
-                let mass =
-                    constant - 2.0 * l * e * (2.0 * q).cos() + 4.0 * m3 * l * l * q.sin().powi(2);
-                let slope = 2.0 * l * e * (2.0 * q).sin() + 2.0 * m3 * l * l * (2.0 * q).sin();
-                [mass, slope, G * (e + l - e) * q.cos()]
-            }
-            Problem::FourBar => {
-                let (r, e, j) = (0.4, 0.2, 0.1);
-                [
-                    3.0 * (e * e + j) + 2.0 * r * r,
-                    0.0,
-                    G * (3.0 * e + 2.0 * r) * q.cos(),
-                ]
-            }
-        }
-    }
-}
-
-impl Mechanism<f64, 1, 0> for Reduced {
-    fn structure(&self) -> &'static Structure {
-        &PLAIN
-    }
-
-    fn terms(&self, state: &State<f64, 1>, out: &mut Terms<f64, 1, 0>) {
-        let (q, v) = (state.q[0], state.v[0]);
-        let [mass, slope, weight] = self.at(q);
-        let moment = if self.0 == Problem::Driven {
-            10.0 - 2.0 * v
-        } else {
-            0.0
-        };
-        out.mass[(0, 0)] = mass;
-        out.force = SVector::from([moment - slope * v * v - weight]);
-    }
-
-    fn energy(&self, _state: &State<f64, 1>) -> Energy<f64> {
-        Energy::default()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Problem;
-
-    /// Ends of the nominal motions by Gauss–Legendre collocation of order 20 with 34
-    /// digits.
-    const ENDS: [(Problem, f64); 3] = [
-        (Problem::Free, -1.962_686_419_093_815_3),
-        (Problem::Driven, 89.830_891_650_147_32),
-        (Problem::FourBar, -1.528_710_001_192_138_2),
-    ];
-
-    #[test]
-    fn the_reference_ends_where_34_digits_do_to_1e_11() {
-        for (problem, end) in ENDS {
-            let found = problem.exact(problem.nominal()).unwrap();
-            assert!((found - end).abs() < 1e-11, "{problem:?}: {found}");
-        }
+        reduction.after(self.end(), (start, 0.0)).0
     }
 }

@@ -6,10 +6,10 @@
 //! All forty parallelograms fold into one line at once, several times. There is no
 //! exact motion to compare with, so the energy is what tells.
 
-use crate::run::Failed;
+use crate::problem::Failed;
 use crate::work::timed;
 use bricard_runtime::Interface;
-use bricard_runtime::{Mechanism, Pace, Scheme, Settings, State, Stepper, assemble};
+use bricard_runtime::{Mechanism, Method, Settings, State, StepControl, Stepper, assemble};
 use instructions::mechanism::row_40::n_four_bar::NFourBar;
 
 /// Length of the run (s).
@@ -31,11 +31,11 @@ pub fn table() -> Result<(), Failed> {
     );
     let mechanism = NFourBar::default();
     let start = assemble(&mechanism, &mechanism.start(), 0.0).map_err(|e| e.to_string())?;
-    for scheme in [Scheme::Dp5, Scheme::Dop853] {
+    for method in [Method::Dp5, Method::Dop853] {
         for tolerance in [1e-6, 1e-7, 1e-8, 1e-9, 1e-10] {
-            let (change, seconds) = timed(|| run(&mechanism, start, scheme, tolerance))?;
+            let (change, seconds) = timed(|| run(&mechanism, start, method, tolerance))?;
             println!(
-                "| bricard {scheme} | tolerance {tolerance:.0e} | {:.1e} | {:.1} |",
+                "| bricard {method} | tolerance {tolerance:.0e} | {:.1e} | {:.1} |",
                 change.abs(),
                 1e3 * seconds
             );
@@ -48,17 +48,17 @@ pub fn table() -> Result<(), Failed> {
 fn run(
     mechanism: &NFourBar<f64>,
     start: State<f64, N>,
-    scheme: Scheme,
+    method: Method,
     tolerance: f64,
 ) -> Result<f64, Failed> {
-    let pace = Pace::Adaptive {
+    let step_control = StepControl::Adaptive {
         relative: tolerance,
         absolute: tolerance,
     };
     let mut state = start;
     let mut stepper = Box::new(Stepper::<f64, N, R>::new(
-        scheme,
-        pace,
+        method,
+        step_control,
         Settings::default(),
     )?);
     stepper.step(mechanism, &mut state, END)?;

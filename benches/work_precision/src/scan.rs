@@ -4,8 +4,7 @@
 //! Out: how many runs left the branch or stopped; median and worst error of the rest.
 
 use crate::problem::Problem;
-use crate::run::Method;
-use bricard_runtime::SimulateError;
+use crate::run::Solver;
 
 /// Start angles lie within this of the nominal one (rad).
 const AROUND: f64 = 0.05;
@@ -17,17 +16,13 @@ pub struct Starts(Vec<(f64, f64)>);
 
 impl Starts {
     /// `count` angles spread evenly around the nominal one.
-    ///
-    /// # Errors
-    ///
-    /// A reference run that fails.
-    pub fn new(problem: Problem, count: u32) -> Result<Self, SimulateError<f64>> {
+    pub fn new(problem: Problem, count: u32) -> Self {
         let angle = |i| {
             let part = (f64::from(i) + 0.5) / f64::from(count);
             problem.nominal() + AROUND * (2.0 * part - 1.0)
         };
-        let pair = |i| Ok((angle(i), problem.exact(angle(i))?));
-        (0..count).map(pair).collect::<Result<_, _>>().map(Self)
+        let pair = |i| (angle(i), problem.exact(angle(i)));
+        Self((0..count).map(pair).collect())
     }
 }
 
@@ -42,7 +37,7 @@ pub struct Scan {
 
 impl Scan {
     /// Runs all start angles.
-    pub fn new(problem: Problem, method: Method, setting: f64, starts: &Starts) -> Self {
+    pub fn new(problem: Problem, method: Solver, setting: f64, starts: &Starts) -> Self {
         let mut errors = Vec::new();
         for (start, exact) in &starts.0 {
             if let Ok(q) = method.run(problem, *start, setting)

@@ -1,7 +1,7 @@
 //! Time and error from the nominal start.
 
-use crate::problem::Problem;
-use crate::run::{Failed, Method};
+use crate::problem::{Failed, Problem};
+use crate::run::Solver;
 use rustix::time::{ClockId, clock_gettime};
 use std::time::Duration;
 
@@ -26,7 +26,7 @@ pub struct Point {
 }
 
 /// Runs a method at all its settings; what fails has its reason instead.
-pub fn points(problem: Problem, method: Method, exact: f64) -> Vec<(f64, Result<Point, String>)> {
+pub fn points(problem: Problem, method: Solver, exact: f64) -> Vec<(f64, Result<Point, String>)> {
     let point = |setting: f64| {
         let (q, seconds) = timed(|| method.run(problem, problem.nominal(), setting))?;
         Ok(Point {

@@ -3,8 +3,8 @@
 //! In:  a checked mechanism.
 //! Out: text.
 
-use super::Version;
 use super::variables::{Kind, Variable, variables};
+use super::version::Version;
 use bricard_codegen::internals::model::Mechanism;
 use std::collections::BTreeSet;
 use std::fmt::Write;

@@ -9,13 +9,16 @@
 
 mod description;
 mod variables;
+mod version;
+
+pub use version::Version;
 
 use super::archive::{self, Files};
 use super::c::library_sources;
 use crate::compiled::compiler::{command, output};
 use crate::compiled::{Library, generate, hash, identity, library, module_of};
+use crate::description::Description;
 use crate::error::CommandError;
-use crate::mechanism::Description;
 use crate::output::print;
 use bricard_codegen::internals::analyse;
 use bricard_codegen::{Compiled, Settings};
@@ -25,46 +28,6 @@ use std::path::{Path, PathBuf};
 
 const HEADER: &str = include_str!("../../../capi/include/bricard.h");
 const INSTANCE: &str = include_str!("instance.c");
-
-/// A version of the standard.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Version {
-    /// FMI 2.0.
-    Two,
-    /// FMI 3.0.
-    Three,
-}
-
-impl Version {
-    /// As the standard writes it.
-    fn number(self) -> &'static str {
-        match self {
-            Self::Two => "2.0",
-            Self::Three => "3.0",
-        }
-    }
-
-    /// The file of the functions, and what is in it.
-    fn functions(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Two => ("fmi2.c", include_str!("fmi2.c")),
-            Self::Three => ("fmi3.c", include_str!("fmi3.c")),
-        }
-    }
-
-    /// The folder of libraries for this machine.
-    fn platform(self) -> String {
-        let system = match (cfg!(windows), cfg!(target_os = "macos")) {
-            (true, _) => ["win64", "windows"],
-            (_, true) => ["darwin64", "darwin"],
-            _ => ["linux64", "linux"],
-        };
-        match self {
-            Self::Two => system[0].to_string(),
-            Self::Three => format!("{}-{}", std::env::consts::ARCH, system[1]),
-        }
-    }
-}
 
 /// Writes the FMU.
 ///

@@ -6,8 +6,8 @@
 
 use super::archive::{self, Files};
 use crate::compiled::{Library, generate, library, module_of};
+use crate::description::Description;
 use crate::error::CommandError;
-use crate::mechanism::Description;
 use crate::output::print;
 use base64::Engine;
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;

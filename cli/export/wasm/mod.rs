@@ -7,8 +7,8 @@
 use super::folder::Folder;
 use super::sources;
 use crate::compiled::{command, generate, module_of, output};
+use crate::description::Description;
 use crate::error::CommandError;
-use crate::mechanism::Description;
 use crate::output::print;
 use bricard_codegen::Compiled;
 use bricard_codegen::internals::emit::type_name;

@@ -12,6 +12,12 @@ impl Equations {
         self.mass.iter().flatten().all(constant)
     }
 
+    /// Whether the constraints restrict positions only, to the same ones at all times.
+    pub fn are_scleronomic(&self, mechanism: &Mechanism) -> bool {
+        let still = |e: &ExprId| !mechanism.graph.symbols(*e).contains(&Symbol::Time);
+        mechanism.constraints.iter().all(|c| c.holonomic) && self.residual.iter().all(still)
+    }
+
     /// Whether nothing is supplied from outside: no power, and no moving constraint.
     pub fn are_conservative(&self, mechanism: &Mechanism) -> bool {
         let still = |e: &ExprId| mechanism.graph.is_zero(*e);

@@ -112,7 +112,7 @@ fn without_inertia(mass: &[Sparse]) -> Vec<Sparse> {
             rest[*i].remove(&k);
         }
         let pivot = row.get(&k).copied().unwrap_or(0.0);
-        // A mass that is negative is none that the runtime would take.
+        // The runtime refuses a negative mass.
         if pivot <= ROUND_OFF * mass[k].get(&k).copied().unwrap_or(0.0) {
             continue;
         }

@@ -27,9 +27,8 @@ enum Shape {
     Matrix(Literal, Literal),
 }
 
-/// An array's name, documentation and shape.
+/// An array's documentation and shape.
 struct Described {
-    name: &'static str,
     docs: &'static str,
     shape: Shape,
 }
@@ -38,7 +37,7 @@ struct Described {
 pub(super) fn arrays(subject: &Subject) -> TokenStream {
     let arrays = subject.programs.arrays.iter();
     let functions: TokenStream = arrays
-        .map(|(array, computed)| function(subject, described(subject, *array), computed))
+        .map(|(array, computed)| function(subject, *array, computed))
         .collect();
     let name = subject.type_name();
     quote!(impl<T: Real> #name<T> { #functions })
@@ -46,44 +45,36 @@ pub(super) fn arrays(subject: &Subject) -> TokenStream {
 
 fn described(subject: &Subject, array: Array) -> Described {
     let (n, r) = subject.sizes();
-    let (name, docs, shape) = match array {
-        Array::Mass => ("mass_matrix", MASS, Shape::Matrix(n.clone(), n)),
+    let (docs, shape) = match array {
+        Array::Mass => (MASS, Shape::Matrix(n.clone(), n)),
         Array::PotentialForce => (
-            "potential_force",
             "Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.",
             Shape::Vector(n),
         ),
         Array::AppliedForce => (
-            "applied_force",
             "Applied and dissipative forces `Q`, `N`; N for a length, N·m for an angle.",
             Shape::Vector(n),
         ),
-        Array::CoriolisForce => ("coriolis_force", CORIOLIS_FORCE, Shape::Vector(n)),
-        Array::CoriolisMatrix => (
-            "coriolis_matrix",
-            CORIOLIS_MATRIX,
-            Shape::Matrix(n.clone(), n),
-        ),
+        Array::CoriolisForce => (CORIOLIS_FORCE, Shape::Vector(n)),
+        Array::CoriolisMatrix => (CORIOLIS_MATRIX, Shape::Matrix(n.clone(), n)),
         Array::Residual => (
-            "constraint_residual",
             "Constraints `g`, `R`, each in the unit it is written in; zero for velocity constraints.",
             Shape::Vector(r),
         ),
         Array::Jacobian => (
-            "constraint_jacobian",
             "Constraint Jacobian `A = ∂g/∂q`, `R × N`; unit of the row per unit of the coordinate.",
             Shape::Matrix(r, n),
         ),
         Array::Bias => (
-            "constraint_bias",
             "`p₂ = −(Ȧ q̇ + ḃ)`, `R`: the constraints ask for `A q̈ = p₂`; unit of the row per s².",
             Shape::Vector(r),
         ),
     };
-    Described { name, docs, shape }
+    Described { docs, shape }
 }
 
-fn function(subject: &Subject, described: Described, computed: &Optimised) -> TokenStream {
+fn function(subject: &Subject, array: Array, computed: &Optimised) -> TokenStream {
+    let described = described(subject, array);
     let place = |slot: &_| Some(entry(quote!(out), slot));
     let Written { body, state, cost } = subject.optimised(computed, &place, Decided::ByState);
     let (kind, sizes) = match described.shape {
@@ -96,7 +87,7 @@ fn function(subject: &Subject, described: Described, computed: &Optimised) -> To
         false => quote!(#kind::zeros()),
     };
     let docs = doc_lines(described.docs);
-    let name = Ident::new(described.name, Span::call_site());
+    let name = Ident::new(array.name(), Span::call_site());
     let n = subject.sizes().0;
     quote! {
         #(#[doc = #docs])*

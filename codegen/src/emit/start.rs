@@ -29,7 +29,7 @@ pub(super) fn begin(subject: &Subject) -> TokenStream {
     let guess = (!guessed.is_empty()).then(|| {
         let sizes = sizes(0, &mut all(subject.mechanism));
         quote! {
-            // Guesses that can't be met are none.
+            // Guesses that can't be met are ignored.
             let _met = guess::#sizes(self, &STRUCTURE, start, t);
         }
     });

@@ -36,6 +36,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
     });
     let constant_mass = subject.equations.has_constant_mass(&mechanism.graph);
     let conservative = subject.equations.are_conservative(mechanism);
+    let scleronomic = subject.equations.are_scleronomic(mechanism);
     let drawn = !mechanism.shapes.is_empty();
     let regular = subject.options.regular;
     let weighed = subject.equations.weighed.iter().copied();
@@ -57,6 +58,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
             multipliers: &[#(#multipliers),*],
             constant_mass: #constant_mass,
             conservative: #conservative,
+            scleronomic: #scleronomic,
             drawn: #drawn,
             regular: #regular,
             weighed: &[#(#weighed),*],

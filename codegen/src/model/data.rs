@@ -1,7 +1,7 @@
 //! Files of numbers beside a description.
 //!
 //! In:  the text of a file: rows of numbers, parted by commas, semicolons or blanks; above
-//!      them, if there is one, a row of names. Empty lines and what follows `#` are none.
+//!      them, if there is one, a row of names. Empty lines and what follows `#` are left out.
 //! Out: pairs of two columns, or what is wrong, with line and column.
 
 use crate::diagnostic::{figure, nearest};

@@ -54,7 +54,7 @@ impl Evaluator {
         }
     }
 
-    /// Refuses an expression that is no number of this world.
+    /// Refuses an expression with numbers that no `f64` can hold, or with a huge exponent.
     pub fn valid(&mut self, id: ExprId, span: Span) -> Option<ExprId> {
         let (finite, tame) = match self.graph.node(id) {
             Node::Number(value) => (value.is_finite(), true),

@@ -29,6 +29,7 @@ mod schedule;
 mod share;
 mod solve;
 mod squares;
+mod text;
 mod trig;
 mod verify;
 mod wanted;
@@ -140,7 +141,7 @@ fn checked_solution(solved: Solved) -> Solved {
 
 fn checked(program: Program) -> Program {
     if let Err(broken) = verify(&program) {
-        panic!("internal error, please report: {broken} in {program:?}");
+        panic!("internal error, please report: {broken} in\n{program}");
     }
     program
 }

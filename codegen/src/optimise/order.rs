@@ -3,7 +3,7 @@
 //! In:  a program.
 //! Out: the same one, with outputs that read the same coordinates one after the other,
 //!      and the operations in the order in which these ask for them. What one output
-//!      has computed is then still at hand for the next, however many there are.
+//!      has computed is then still in registers for the next, however many there are.
 //!
 //! Coordinates are put in a row so that those that meet in an output are near each
 //! other (Cuthill & McKee 1969, "Reducing the bandwidth of sparse symmetric matrices").

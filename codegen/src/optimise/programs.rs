@@ -64,6 +64,22 @@ pub enum Array {
     Bias,
 }
 
+impl Array {
+    /// The name of its function.
+    pub fn name(self) -> &'static str {
+        match self {
+            Array::Mass => "mass_matrix",
+            Array::PotentialForce => "potential_force",
+            Array::AppliedForce => "applied_force",
+            Array::CoriolisForce => "coriolis_force",
+            Array::CoriolisMatrix => "coriolis_matrix",
+            Array::Residual => "constraint_residual",
+            Array::Jacobian => "constraint_jacobian",
+            Array::Bias => "constraint_bias",
+        }
+    }
+}
+
 /// Values that a function writes one after the other.
 #[derive(Clone, Debug, Default)]
 pub struct List {
@@ -125,6 +141,49 @@ pub struct Programs {
     pub described: Optimised,
     /// `default`: one program for each default of a parameter.
     pub defaults: Vec<Program>,
+}
+
+impl Programs {
+    /// Those that compute something, each with the name of its function.
+    pub fn named(&self) -> Vec<(&'static str, &Program)> {
+        let starts = [&self.start_positions, &self.start_velocities];
+        let [positions, velocities] = starts.map(|rows| [&rows.errors, &rows.slopes]);
+        let arrays = self.arrays.iter();
+        let all = [
+            ("terms", Some(&self.terms.program)),
+            (
+                "regular",
+                self.regular.as_ref().map(|solved| &solved.program),
+            ),
+            ("position", self.position.as_ref().map(|made| &made.program)),
+            (
+                "correction",
+                self.correction.as_ref().map(|solved| &solved.program),
+            ),
+            ("energy", Some(&self.energy.program)),
+            (
+                "linearised",
+                self.linearised.as_ref().ok().map(|made| &made.program),
+            ),
+            ("partials", self.partials.as_ref().map(|made| &made.program)),
+            ("switches", Some(&self.switches.program)),
+            ("position_errors", Some(&positions[0].computed.program)),
+            ("position_slopes", Some(&positions[1].computed.program)),
+            ("velocity_errors", Some(&velocities[0].computed.program)),
+            ("velocity_slopes", Some(&velocities[1].computed.program)),
+            ("start", Some(&self.start.program)),
+            ("outputs", Some(&self.outputs.program)),
+            ("signals", Some(&self.signals.program)),
+            ("events", Some(&self.events.computed.program)),
+            ("draw", Some(&self.draw.program)),
+            ("described", Some(&self.described.program)),
+        ];
+        let arrays = arrays.map(|(array, made)| (array.name(), Some(&made.program)));
+        let all = all.into_iter().chain(arrays);
+        all.filter_map(|(name, program)| Some((name, program?)))
+            .filter(|(_, program)| !program.outputs.is_empty())
+            .collect()
+    }
 }
 
 /// What is computed besides what every module has.

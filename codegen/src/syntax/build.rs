@@ -29,7 +29,7 @@ impl Model {
     ///
     /// # Errors
     ///
-    /// The texts that were given as formulas, units or names and are none.
+    /// The texts that were given as formulas, units or names and can't be read as such.
     pub fn text(&self) -> Result<String, ModelError> {
         if self.faults.is_empty() {
             Ok(print::description(&self.name.text, &self.docs, &self.items))
@@ -48,7 +48,7 @@ impl Model {
         self
     }
 
-    /// `const name: unit = value;` An empty unit is none.
+    /// `const name: unit = value;` An empty unit is left out.
     pub fn constant(self, name: &str, unit: &str, value: impl Into<Formula>) -> Self {
         self.declaration(Declared::Constant, name, unit, value.into())
     }

@@ -3,7 +3,7 @@
 use crate::diagnostic::{Diagnostic, Diagnostics, Position, Span};
 use std::fmt::{self, Display, Formatter};
 
-/// Texts that were given for formulas, units or names and are none.
+/// Texts that were given as formulas, units or names and can't be read as such.
 ///
 /// Displayed, and shown by `Debug`, as messages with the text underlined.
 #[derive(Clone, Default)]

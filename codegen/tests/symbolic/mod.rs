@@ -12,6 +12,7 @@ mod program;
 mod recipe;
 mod ring;
 mod solve;
+mod text;
 mod weighed;
 
 use proptest::test_runner::{Config, RngSeed, TestCaseError};

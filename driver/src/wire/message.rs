@@ -21,6 +21,8 @@ pub(crate) enum Request {
     TimedRun(Option<Vec<f64>>, Options<f64>),
     /// Wants [`Reply::Scene`].
     Scene(Vec<Vec<f64>>),
+    /// Wants [`Reply::RankAtStart`].
+    RankAtStart,
 }
 
 /// What the mechanism answers.
@@ -38,6 +40,8 @@ pub(crate) enum Reply {
     TimedRun(Result<TimedRun, String>),
     /// What can be seen in some rows.
     Scene(Result<Scene, String>),
+    /// How many constraint equations are independent at the start.
+    RankAtStart(Result<usize, String>),
 }
 
 /// What a mechanism in numbers of many digits is asked for.
@@ -63,10 +67,11 @@ choices! {
     Answer { 0 => Exact(exact), 1 => Path(path) }
     Request {
         0 => Parameter(place, value), 1 => Input(place, value), 2 => Begin(given),
-        3 => Segment(segment), 4 => Stop, 5 => TimedRun(from, options), 6 => Scene(rows)
+        3 => Segment(segment), 4 => Stop, 5 => TimedRun(from, options), 6 => Scene(rows),
+        7 => RankAtStart
     }
     Reply {
         0 => Structure(structure), 1 => Row(values), 2 => At(time, steps), 3 => Segment(reached),
-        4 => TimedRun(timed), 5 => Scene(scene)
+        4 => TimedRun(timed), 5 => Scene(scene), 6 => RankAtStart(rank)
     }
 }

@@ -20,7 +20,7 @@ use std::time::Duration;
 pub(crate) trait Wire: Sized {
     /// Appends the value's bytes.
     fn put(&self, out: &mut Vec<u8>);
-    /// Takes a value from the front of bytes; `None` if they are none.
+    /// Takes a value from the front of bytes; `None` if they don't begin with one.
     fn take(from: &mut &[u8]) -> Option<Self>;
 }
 

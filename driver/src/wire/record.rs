@@ -5,8 +5,8 @@ use crate::{
     Around, Changes, Column, Drawn, Exact, Given, Path, Reached, Scene, Segment, TimedRun,
 };
 use bricard_runtime::{
-    Audit, ConstraintRow, Counters, Declared, Direction, Event, Form, Multiplier, Options, Origin,
-    Pace, Passage, Quantity, Scheme, Settings, Stabilisation, Structure,
+    Audit, ConstraintRow, Counters, Declared, Direction, Event, Form, Method, Multiplier, Options,
+    Origin, Passage, Quantity, Settings, Stabilisation, StepControl, Structure,
 };
 
 /// Structs by their fields. A field that is missing here does not compile.
@@ -61,14 +61,15 @@ pub(super) use choices;
 records! {
     Structure {
         name, docs, file, coordinates, states, described, parameters, inputs, outputs, accelerated, events,
-        constraints, multipliers, weighed, constant_mass, conservative, drawn, regular
+        constraints, multipliers, weighed, constant_mass, conservative, scleronomic,
+        drawn, regular
     }
     Quantity { name, unit, docs }
     Declared { quantity, given_by }
     ConstraintRow { text, line, holonomic }
     Multiplier { quantity, row }
     Event { name, direction }
-    Options<f64> { until, scheme, pace, settings, keep_energy, audit, most_steps, origin }
+    Options<f64> { until, method, step_control, settings, keep_energy, audit, most_steps, origin }
     Settings<f64> { form, stabilisation, published, across_switches }
     Audit { constraints, energy, passages }
     Origin<f64> { t, energy, supplied }
@@ -94,8 +95,8 @@ records! {
 
 choices! {
     Direction { 0 => Rising, 1 => Falling, 2 => Crossing }
-    Scheme { 0 => Rk4, 1 => Dp5, 2 => Dop853, 3 => Radau5, 4 => Radau9 }
-    Pace<f64> { 0 => Fixed { step }, 1 => Adaptive { relative, absolute } }
+    Method { 0 => Rk4, 1 => Dp5, 2 => Dop853, 3 => Radau5, 4 => Radau9 }
+    StepControl<f64> { 0 => Fixed { step }, 1 => Adaptive { relative, absolute } }
     Form { 0 => Reduced, 1 => Full, 2 => Multipliers, 3 => Partitioning }
     Stabilisation<f64> { 0 => Projection, 1 => Baumgarte { alpha, beta }, 2 => None }
     Column {

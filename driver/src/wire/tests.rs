@@ -3,8 +3,8 @@
 use super::{Reply, Request, receive, row, send};
 use crate::{Column, Drawn, Given, Reached, Scene, Segment};
 use bricard_runtime::{
-    ConstraintRow, Counters, Direction, Event, Options, Origin, Pace, Passage, Quantity, Scheme,
-    Stabilisation, Structure,
+    ConstraintRow, Counters, Direction, Event, Method, Options, Origin, Passage, Quantity,
+    Stabilisation, StepControl, Structure,
 };
 use std::time::Duration;
 
@@ -38,7 +38,7 @@ fn structure() -> Structure {
 }
 
 fn segment() -> Segment {
-    let mut options = Options::new(1.0, Scheme::Radau9, Pace::Fixed { step: 0.1 + 0.2 });
+    let mut options = Options::new(1.0, Method::Radau9, StepControl::Fixed { step: 0.1 + 0.2 });
     options.settings.stabilisation = Stabilisation::Baumgarte {
         alpha: 1e-300,
         beta: -0.0,
@@ -112,6 +112,7 @@ fn messages_arrive_as_they_were_sent() {
         Request::Stop,
         Request::TimedRun(None, segment().options),
         Request::Scene(vec![vec![0.0, 1.5], Vec::new()]),
+        Request::RankAtStart,
     ] {
         let arrived: Request = receive(&mut &bytes(&request)[..]).expect("it is whole");
         assert_eq!(arrived, request);
@@ -132,6 +133,7 @@ fn messages_arrive_as_they_were_sent() {
             ],
             frames: vec![vec![0.1, -0.0], Vec::new()],
         })),
+        Reply::RankAtStart(Ok(4)),
     ] {
         let arrived: Reply = receive(&mut &bytes(&reply)[..]).expect("it is whole");
         assert_eq!(arrived, reply);

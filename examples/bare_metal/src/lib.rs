@@ -4,7 +4,7 @@
 #![forbid(unsafe_code)]
 
 use bricard_runtime::{
-    Interface, Pace, Real, Scheme, Settings, SimulateError, State, Stepper, assemble,
+    Interface, Method, Real, Settings, SimulateError, State, StepControl, Stepper, assemble,
 };
 use engine::Engine;
 
@@ -36,8 +36,8 @@ impl<T: Real> Loop<T> {
         let engine = Engine::<T>::default();
         let state = assemble(&engine, &engine.start(), T::zero()).ok()?;
         let step = T::from_f64(PERIOD);
-        let pace = Pace::Fixed { step };
-        let stepper = Stepper::new(Scheme::Rk4, pace, Settings::default()).ok()?;
+        let step_control = StepControl::Fixed { step };
+        let stepper = Stepper::new(Method::Rk4, step_control, Settings::default()).ok()?;
         Some(Self {
             engine,
             state,

@@ -1,7 +1,9 @@
 //! A motor controller around an engine: every millisecond it reads the crank's
 //! speed and sets the motor's torque, while the engine runs through its dead centres.
 
-use bricard_runtime::{Interface, Mechanism, Pace, Scheme, Settings, State, Stepper, assemble};
+use bricard_runtime::{
+    Interface, Mechanism, Method, Settings, State, StepControl, Stepper, assemble,
+};
 use engine::Engine;
 use std::error::Error;
 
@@ -31,8 +33,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut engine = Engine::<f64>::default();
     let mut state: State<f64, 3> = assemble(&engine, &engine.start(), 0.0)?;
     let mut stepper = Stepper::new(
-        Scheme::Rk4,
-        Pace::Fixed { step: PERIOD },
+        Method::Rk4,
+        StepControl::Fixed { step: PERIOD },
         Settings::default(),
     )?;
     let mut controller = Controller {

@@ -1,6 +1,5 @@
 //! The kinds of singular configurations.
 //!
-//! In:  nothing.
 //! Out: a picture of each.
 
 use crate::curve::{Point, along, sampled};

@@ -6,11 +6,8 @@
 //! They are further rows of the constraints while positions are assembled, and others while
 //! velocities are: a position that is given says nothing about velocities.
 
-use super::error::{AssemblyError, advice};
-use super::{position, velocity};
-use crate::number::Number;
+use super::{AssemblyError, StartFault, position, velocity};
 use crate::{Energy, Mechanism, Position, Real, Start, State, Structure, Terms};
-use core::fmt::{self, Display, Formatter};
 use nalgebra::{SMatrix, SVector};
 
 /// What a mechanism with such equations provides.
@@ -26,22 +23,6 @@ pub trait StartEquations<T: Real, const N: usize> {
     fn velocity_errors(&self, state: &State<T, N>, values: &mut [T]);
     /// Their derivatives by the velocities.
     fn velocity_slopes(&self, state: &State<T, N>, values: &mut [T]);
-}
-
-/// Which equations of the `start` block do not hold.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StartFault<T, const N: usize> {
-    /// Time of the start (s).
-    pub t: T,
-    /// The constraints and the equations, for their texts.
-    pub structure: &'static Structure,
-    /// The row that is farthest off, and by how much; `None` if something is infinite or
-    /// NaN.
-    pub farthest: Option<(usize, T)>,
-    /// Whether velocities don't satisfy it, else positions.
-    pub velocities: bool,
-    /// Which held values stand in the way.
-    pub conflicting: [bool; N],
 }
 
 /// Moves a start onto the equations of a mechanism, of which `structures` lists the
@@ -65,7 +46,7 @@ where
 
 /// Moves the guesses of a start onto equations that are guesses, of which there are `P`
 /// for positions and `V` for velocities, those that are held among them; whether they can
-/// be met. Constraints are none of them: they are met afterwards, from there.
+/// be met. Constraints are not among them: they are met afterwards, from there.
 pub fn guess<T, M, const N: usize, const R: usize, const P: usize, const V: usize>(
     mechanism: &M,
     structure: &'static Structure,
@@ -250,34 +231,5 @@ fn fault<T: Real, const N: usize, const S: usize>(
         farthest,
         velocities,
         conflicting,
-    }
-}
-
-impl<T: Real, const N: usize> Display for StartFault<T, N> {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let Some((row, error)) = self.farthest else {
-            return write!(
-                f,
-                "an equation of `start`, or a constraint or the mass matrix, is infinite or NaN at \
-                 t = {t} s; check the values in `start` and the parameters",
-                t = Number(&self.t)
-            );
-        };
-        let (what, hold, per, around) = match self.velocities {
-            true => ("velocities", "satisfy", " per second", ("der(", ")")),
-            false => ("position", "satisfies", "", ("", "")),
-        };
-        write!(
-            f,
-            "no {what} near the start {hold} the constraints and the equations of `start`: "
-        )?;
-        self.structure.write_constraint(f, row)?;
-        let holonomic = self.structure.constraints.get(row);
-        let per = match holonomic.is_some_and(|row| row.holonomic) {
-            true => per,
-            false => "",
-        };
-        write!(f, " is off by {error}{per}", error = Number(&error))?;
-        advice(f, self.structure.coordinates, &self.conflicting, around)
     }
 }

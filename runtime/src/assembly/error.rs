@@ -1,11 +1,10 @@
 //! Why no consistent initial state could be found.
 //!
-//! In:  nothing.
 //! Out: [`AssemblyError`].
 
-use super::StartFault;
+use super::fault::{StartFault, advice};
 use crate::number::Number;
-use crate::{Quantity, Real, Structure};
+use crate::{Real, Structure};
 use core::fmt::{Display, Formatter, Result};
 use nalgebra::SVector;
 
@@ -131,7 +130,7 @@ fn vanishing(f: &mut Formatter<'_>, structure: &Structure, row: usize) -> Result
     )
 }
 
-/// The part of the largest residual below which others are none.
+/// Residuals below this part of the largest are not worth telling.
 const HARMLESS: f64 = 1e-6;
 
 /// One clause per constraint equation that is not satisfied.
@@ -155,30 +154,6 @@ fn rows<T: Real, const R: usize>(
         separator = ", ";
     }
     Ok(())
-}
-
-/// What to write instead.
-pub(super) fn advice<const N: usize>(
-    f: &mut Formatter<'_>,
-    coordinates: &[Quantity],
-    conflicting: &[bool; N],
-    (before, after): (&str, &str),
-) -> Result {
-    if conflicting.iter().all(|x| !x) {
-        return f.write_str("; check the parameters, or give guesses (`~`) that are nearer");
-    }
-    f.write_str("; these held values contradict each other or the parameters:")?;
-    let mut separator = " ";
-    for (i, _) in conflicting
-        .iter()
-        .enumerate()
-        .filter(|(_, conflicts)| **conflicts)
-    {
-        let name = coordinates.get(i).map_or("?", |coordinate| coordinate.name);
-        write!(f, "{separator}{before}{name}{after}")?;
-        separator = ", ";
-    }
-    f.write_str("; turn one of them into a guess (`~`)")
 }
 
 impl<T: Real, const N: usize, const R: usize> core::error::Error for AssemblyError<T, N, R> {}

@@ -18,14 +18,16 @@
 mod decomposition;
 mod equations;
 mod error;
+mod fault;
 mod inertia;
 mod position;
 mod scales;
 mod vanishing;
 mod velocity;
 
-pub use equations::{StartEquations, StartFault, guess, meet};
+pub use equations::{StartEquations, guess, meet};
 pub use error::AssemblyError;
+pub use fault::StartFault;
 
 use crate::{Mechanism, Position, Real, Start, State, Terms};
 use nalgebra::SVector;

@@ -7,7 +7,9 @@ use super::{Solver, Source, Which};
 use crate::singular::Found;
 use crate::system::escalating;
 use crate::tolerance::{passes, regular, window};
-use crate::{Counters, DynamicsError, Mechanism, Real, Slope, State, Step, Switching, System};
+use crate::{
+    AccelerationJacobian, Counters, DynamicsError, Mechanism, Real, State, Step, Switching, System,
+};
 use nalgebra::{SMatrix, SVector};
 
 /// A mechanism bound to the solver of its equations, by [`Solver::on`].
@@ -39,14 +41,33 @@ pub struct ConstraintError<T> {
     pub velocity: T,
 }
 
+impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+    /// The system that an integrator sees, for as long as the mechanism does not
+    /// change.
+    pub fn on<'a, M>(&'a mut self, mechanism: &'a M) -> ConstrainedSystem<'a, M, T, N, R>
+    where
+        M: Mechanism<T, N, R> + ?Sized,
+    {
+        self.metric.forget();
+        self.session.nodes.forget();
+        self.safe = None;
+        self.expect_regular();
+        let conditions = match self.settings.across_switches {
+            true => &[],
+            false => mechanism.switches(&State::default(), &SVector::zeros(), &mut []),
+        };
+        self.conditions.forget(conditions);
+        ConstrainedSystem {
+            mechanism,
+            solver: self,
+        }
+    }
+}
+
 impl<'a, M, T: Real, const N: usize, const R: usize> ConstrainedSystem<'a, M, T, N, R>
 where
     M: Mechanism<T, N, R> + ?Sized,
 {
-    pub(super) fn new(mechanism: &'a M, solver: &'a mut Solver<T, N, R>) -> Self {
-        Self { mechanism, solver }
-    }
-
     /// The mechanism.
     pub fn mechanism(&self) -> &'a M {
         self.mechanism
@@ -158,6 +179,11 @@ where
         })
     }
 
+    /// Chooses whether passages through singular configurations are looked for.
+    pub(crate) fn seek_passages(&mut self, wanted: bool) {
+        self.solver.seeks_passages = wanted;
+    }
+
     /// The passages of the last accepted step.
     pub(crate) fn passages(&self) -> &Found<T> {
         &self.solver.session.passages
@@ -181,9 +207,12 @@ where
     /// How the acceleration changes with coordinates and velocities, and with applied forces,
     /// `∂q̈/∂p₁`, by the emitted linearisation; `None` where there is none, near singular
     /// positions and with Baumgarte's stabilisation.
-    pub fn slopes(&mut self, state: &State<T, N>) -> Option<(Slope<T, N>, SMatrix<T, N, N>)> {
-        let slope = self.solver.slope(self.mechanism, state)?;
-        Some((slope, self.solver.compliance()))
+    pub fn acceleration_jacobian_and_compliance(
+        &mut self,
+        state: &State<T, N>,
+    ) -> Option<(AccelerationJacobian<T, N>, SMatrix<T, N, N>)> {
+        let jacobian = self.solver.acceleration_jacobian(self.mechanism, state)?;
+        Some((jacobian, self.solver.compliance()))
     }
 
     /// How far a state is off the constraints.
@@ -241,7 +270,7 @@ where
         self.solver.commit(self.mechanism, step)
     }
 
-    fn slope(&mut self, state: &State<T, N>) -> Option<Slope<T, N>> {
-        self.solver.slope(self.mechanism, state)
+    fn acceleration_jacobian(&mut self, state: &State<T, N>) -> Option<AccelerationJacobian<T, N>> {
+        self.solver.acceleration_jacobian(self.mechanism, state)
     }
 }

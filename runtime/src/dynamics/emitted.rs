@@ -123,8 +123,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// One correction by emitted code of a state that was off by `before` until the last
-    /// one. A function of its own: most states need one, and what a loop keeps in
-    /// registers for the next would be loaded for nothing.
+    /// one. A function of its own: most states need just one correction, and in the body of a
+    /// loop the compiler would load registers for a second one.
     #[inline(never)]
     fn correct<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,

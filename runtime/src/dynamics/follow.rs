@@ -296,15 +296,18 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         Ok(())
     }
 
-    /// Finds the passages of an accepted step and puts its chart aside.
+    /// Finds the passages of an accepted step, if anyone wants them, and puts its chart
+    /// aside.
     fn look_back<M: Mechanism<T, N, R> + ?Sized>(&mut self, mechanism: &M, step: &Step<T, N>) {
         let Some(chart) = self.session.chart.take() else {
             return;
         };
-        let regular = N - chart.freedoms;
-        let at = |t| step.inside_at(t);
-        let ends = (&step.start, &step.end);
-        self.session.passages = self.sheet(mechanism, &chart).passages(ends, &at, regular);
+        if self.seeks_passages {
+            let regular = N - chart.freedoms;
+            let at = |t| step.inside_at(t);
+            let ends = (&step.start, &step.end);
+            self.session.passages = self.sheet(mechanism, &chart).passages(ends, &at, regular);
+        }
         self.session.used = Some(chart);
     }
 

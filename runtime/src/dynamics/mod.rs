@@ -11,6 +11,8 @@
 //! Not here: the way back onto the constraints ([`crate::projection`]).
 
 mod acceleration;
+mod acceleration_jacobian;
+mod conditions;
 mod constrained;
 mod emitted;
 mod follow;
@@ -26,7 +28,6 @@ mod rows;
 mod settings;
 mod sizes;
 mod sliding;
-mod slope;
 mod solver;
 mod switching;
 mod verify;

@@ -5,8 +5,9 @@
 //!      singular values; the null-space form by a rank decision alone.
 
 use super::{Solver, Source, Which};
-use crate::linalg::{Breakdown, add_scaled, dot, eigen, norm, orthogonalise, scaled};
-use crate::singular::{orthonormal, remove};
+use crate::linalg::{
+    Breakdown, add_scaled, dot, eigen, norm, orthogonalise, orthonormal, remove, scaled,
+};
 use crate::tolerance::{difference, negligible, regular};
 use crate::{DynamicsError, Mechanism, Real, Singularity, State};
 use nalgebra::{SMatrix, SVector};
@@ -18,7 +19,7 @@ const RETURNS: f64 = 1e-2;
 /// vanishes wherever they hold, each halves the distance, and the gradient with it.
 const CORRECTIONS: usize = 16;
 
-/// Second derivatives below this part of the largest are none.
+/// Second derivatives below this part of the largest count as zero.
 const FLAT: f64 = 1e-3;
 /// How far, relative to the coordinates, the neighbours lie that tell whether constraints
 /// that touch zero go through it.

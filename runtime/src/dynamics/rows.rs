@@ -217,7 +217,7 @@ impl<T: Real, const R: usize> Rows<T, R> {
             let best = shares.fold(T::zero(), |best: T, row| {
                 best.max(share(row, j) / largest[row])
             });
-            // Levers of round-off are none.
+            // A lever that is round-off says nothing.
             if best > T::EPSILON * T::EPSILON {
                 least = least.min(best);
             }

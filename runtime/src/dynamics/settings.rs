@@ -1,6 +1,5 @@
 //! The choices a user has, and the counts of what was done.
 //!
-//! In:  nothing.
 //! Out: [`Form`], [`Stabilisation`], [`Settings`], [`Counters`].
 
 use core::fmt::{Display, Formatter};

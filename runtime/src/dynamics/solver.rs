@@ -6,8 +6,8 @@
 //! Nothing allocates: all buffers have the sizes of the mechanism and live here
 //! or on the stack.
 
-use super::switching::Conditions;
-use super::{ConstrainedSystem, Lifted, Metric, Rows, Which};
+use super::conditions::Conditions;
+use super::{Lifted, Metric, Rows, Which};
 use crate::linalg::{Frame, NotDefinite};
 use crate::singular::{Obstacle, Session};
 use crate::{
@@ -41,6 +41,8 @@ pub struct Solver<T, const N: usize, const R: usize> {
     pub(crate) correction: Correction<T, N, R>,
     pub(crate) session: Session<T, N, R>,
     pub(super) conditions: Conditions<T, N>,
+    /// Whether passages through singular configurations are looked for.
+    pub(crate) seeks_passages: bool,
     /// Whether the mechanism provides emitted solves, as far as is known.
     pub(crate) emitted: bool,
     /// Whether emitted code may be called before anything else is asked.
@@ -80,6 +82,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             correction: Correction::default(),
             session: Session::new(),
             conditions: Conditions::new(),
+            seeks_passages: false,
             emitted: true,
             expected: false,
             safe: None,
@@ -88,23 +91,6 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             weights: [T::zero(); N],
             prepared: false,
         }
-    }
-
-    /// The system that an integrator sees, for as long as the mechanism does not
-    /// change.
-    pub fn on<'a, M>(&'a mut self, mechanism: &'a M) -> ConstrainedSystem<'a, M, T, N, R>
-    where
-        M: Mechanism<T, N, R> + ?Sized,
-    {
-        self.metric.forget();
-        self.safe = None;
-        self.expect_regular();
-        let conditions = match self.settings.across_switches {
-            true => &[],
-            false => mechanism.switches(&State::default(), &SVector::zeros(), &mut []),
-        };
-        self.conditions.forget(conditions);
-        ConstrainedSystem::new(mechanism, self)
     }
 
     /// What was done so far.

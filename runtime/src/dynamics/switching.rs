@@ -13,10 +13,9 @@
 //! 137–165 (discontinuity locking).
 
 use super::Solver;
+use super::conditions::Aim;
 use crate::crossing::{Left, NODES, Samples, first_crossing, nodes, zero};
-use crate::{
-    Condition, DynamicsError, Mechanism, Real, Sides, State, Step, Switch, Switching, Watched,
-};
+use crate::{DynamicsError, Mechanism, Real, Sides, State, Step, Switch, Switching, Watched};
 use nalgebra::SVector;
 
 /// Attempts to end a step where one function passes zero, after the first.
@@ -25,7 +24,7 @@ const REFINEMENTS: u32 = 3;
 const SAME_TIME: f64 = 8.0;
 /// Functions of states within a step are off by this part of its accepted error.
 const NOISE: f64 = 0.01;
-/// The same in units of round-off, at least and at a fixed pace.
+/// The same in units of round-off, at least and with fixed steps.
 const NOISE_OF_FIXED: f64 = 4096.0;
 /// Conditions that change again after this part of an attempt at a step get nowhere.
 const HARDLY_LATER: f64 = 1e-6;
@@ -34,85 +33,6 @@ const MOST_TURNS: usize = 100;
 
 /// The values of all switching functions at a state.
 pub(super) type Values<T> = [Switch<T>; Sides::ROOM];
-
-/// What an attempt at a step was shortened for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Aim {
-    /// The function that passes zero at its end.
-    index: usize,
-    /// How often that was tried.
-    tries: u32,
-}
-
-/// The conditions of a motion.
-#[derive(Clone, Debug)]
-pub(crate) struct Conditions<T, const N: usize> {
-    /// All there are.
-    pub(super) list: &'static [Condition],
-    /// The sides on which they are held.
-    pub(super) sides: Sides,
-    /// Those that the motion slides along, a bit for each.
-    pub(super) sliding: u128,
-    /// How much of the force above zero acts on a motion that slides, at the last state.
-    pub(super) shares: [T; Sides::ROOM],
-    /// Sides, and those slid along, with which the last step was made.
-    pub(super) made: Option<(Sides, u128)>,
-    /// The state that they are known for.
-    at: Option<State<T, N>>,
-    aim: Option<Aim>,
-    /// When a condition changed last (s).
-    turned: T,
-    /// Changes in a row that hardly got any further.
-    turns: usize,
-    /// The longest attempt at the step at hand (s).
-    attempt: T,
-}
-
-impl<T: Real, const N: usize> Conditions<T, N> {
-    /// Nothing is known.
-    pub(super) fn new() -> Self {
-        Self {
-            list: &[],
-            sides: Sides::FREE,
-            sliding: 0,
-            shares: [T::zero(); Sides::ROOM],
-            made: None,
-            at: None,
-            aim: None,
-            turned: T::zero(),
-            turns: 0,
-            attempt: T::zero(),
-        }
-    }
-
-    /// Forgets on which sides a motion was.
-    pub(super) fn forget(&mut self, list: &'static [Condition]) {
-        self.list = list;
-        (self.at, self.made) = (None, None);
-    }
-
-    /// Holds the conditions as another motion did in its last step; where it has made
-    /// none, the state decides.
-    pub(super) fn adopt(&mut self, other: &Self) {
-        self.made = other.made;
-        self.shares = other.shares;
-        if let Some((sides, sliding)) = self.made {
-            (self.sides, self.sliding) = (sides, sliding);
-        }
-    }
-
-    /// The sign of a function on the side where it is held.
-    fn side(&self, index: usize) -> T {
-        match self.sides.above(index as u32, true) {
-            true => T::one(),
-            false => -T::one(),
-        }
-    }
-
-    pub(super) fn slides(&self, index: usize) -> bool {
-        self.sliding >> index & 1 == 1
-    }
-}
 
 impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// Hands the sides to everything that evaluates forces.

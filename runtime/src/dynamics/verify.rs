@@ -180,7 +180,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             rows,
             (self.reach, self.accepted()),
         )?;
-        next.set_drift(placed.drift, chart.pace);
+        next.set_drift(placed.drift, chart.speed);
         next.spacing = placed.spacing;
         next.gap = placed.gap || chart.gap && placed.sine < window();
         Some(next)

@@ -11,13 +11,16 @@
 //! Not here: methods that estimate their error ([`super::explicit`]).
 
 use super::control::check_bound;
-use super::pace::{Inside, in_parts};
 use super::step::Step;
+use super::step_control::{Inside, in_parts};
 use super::{IntegrateError, Integrator};
 use crate::linalg::add_scaled;
 use crate::system::escalating;
 use crate::{DynamicsError, Real, State, Switching, System};
 use nalgebra::SVector;
+
+/// Abscissae of the stages.
+pub(super) const ABSCISSAE: [f64; 4] = [0.0, 0.5, 0.5, 1.0];
 
 /// Accelerations of a step, but for that at its start.
 const STAGES: u32 = 3;
@@ -168,7 +171,7 @@ fn classical<T: Real, Y: System<T, N> + ?Sized, const N: usize>(
     end: T,
 ) -> Result<State<T, N>, DynamicsError<T>> {
     let h = end - start.t;
-    let half = h * T::from_f64(0.5);
+    let half = h * T::from_f64(ABSCISSAE[1]);
     let second = ahead(start, start.t + half, half, &start.v, first);
     let a2 = system.acceleration(&second)?;
     let third = ahead(start, start.t + half, half, &second.v, &a2);
@@ -195,7 +198,7 @@ fn ahead<T: Real, const N: usize>(
     state
 }
 
-/// Six times the mean slope of the stages.
+/// Six times the mean derivative of the stages.
 #[inline(always)]
 fn mean<T: Real, const N: usize>(
     first: &SVector<T, N>,

@@ -23,19 +23,19 @@ const CORRECTIONS: usize = 3;
 
 /// What tells one method from another: the first digits of its nodes but for the last,
 /// which is one, and of the eigenvalues of its matrix, one of each complex pair.
-struct Digits {
-    nodes: &'static [f64],
+pub(super) struct Digits {
+    pub(super) nodes: &'static [f64],
     real: f64,
     pairs: &'static [(f64, f64)],
 }
 
-const THREE: Digits = Digits {
+pub(super) const THREE: Digits = Digits {
     nodes: &[0.1550510257216822, 0.6449489742783178],
     real: 0.27488882959567734,
     pairs: &[(0.16255558520216132, 0.1849493244071408)],
 };
 
-const FIVE: Digits = Digits {
+pub(super) const FIVE: Digits = Digits {
     nodes: &[
         0.05710419611451768,
         0.2768430136381238,

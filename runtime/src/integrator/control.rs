@@ -129,7 +129,7 @@ pub(crate) struct Gains {
 }
 
 impl Gains {
-    /// For explicit methods. The integral part is small: mechanisms change their pace
+    /// For explicit methods. The integral part is small: mechanisms change their speed
     /// smoothly, and a control that follows it calmly has fewer steps rejected, and
     /// errors that are more alike from one start to the next.
     pub(crate) const CALM: Self = Self {

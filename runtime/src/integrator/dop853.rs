@@ -1,6 +1,5 @@
 //! Coefficients of the method of order 8 of Dormand and Prince.
 //!
-//! In:  nothing.
 //! Out: the [`Tableau`], to 30 digits.
 //!
 //! Not here: what the fields mean ([`super::tableau`]).

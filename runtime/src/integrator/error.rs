@@ -1,6 +1,5 @@
 //! Why an integrator could not make a step.
 //!
-//! In:  nothing.
 //! Out: [`IntegrateError`].
 
 use crate::number::Number;

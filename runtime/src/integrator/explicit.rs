@@ -3,9 +3,9 @@
 //! In:  a [`Tableau`], a [`System`], the state at the start of the step.
 //! Out: the projected state at its end, error estimates, the interpolant.
 //!
-//! Order of work, and why. The end of the step is projected *before* the slope
-//! there is evaluated. The slope is then the right one to begin the next step
-//! with (a slope at the unprojected end would not be), to estimate the error
+//! Order of work, and why. The end of the step is projected *before* the derivative
+//! there is evaluated. The derivative is then the right one to begin the next step
+//! with (the derivative at the unprojected end would not be), to estimate the error
 //! with (the projection moves the end by no more than the error of the step, so
 //! the estimate changes by one order of `h` less than itself), and to join the
 //! interpolants of consecutive steps without a kink.
@@ -14,9 +14,9 @@
 
 use super::IntegrateError;
 use super::control::Tolerance;
-use super::pace::{Inside, Trial};
-use super::slopes::Slopes;
+use super::stages::Stages;
 use super::step::Step;
+use super::step_control::{Inside, Trial};
 use super::tableau::{Tableau, Term};
 use crate::{DynamicsError, Real, State, System};
 use nalgebra::SVector;
@@ -25,14 +25,14 @@ use nalgebra::SVector;
 /// fifth-order one where that is accidentally small.
 const THIRD_ORDER_WEIGHT: f64 = 0.01;
 
-/// A method at work, with `S` slots for slopes.
+/// A method at work, with `S` slots for derivatives.
 #[derive(Clone, Debug)]
 pub(super) struct Explicit<T, const N: usize, const S: usize> {
     tableau: &'static Tableau,
     inside: Inside,
     step: Step<T, N>,
-    slopes: Slopes<T, N, S>,
-    /// Whether the slot after the stages holds the slope at the step's end.
+    stages: Stages<T, N, S>,
+    /// Whether the slot after the stages holds the derivative at the step's end.
     end_known: bool,
 }
 
@@ -42,12 +42,12 @@ impl<T: Real, const N: usize, const S: usize> Explicit<T, N, S> {
             tableau,
             inside: Inside::Full,
             step: Step::new(),
-            slopes: Slopes::new(),
+            stages: Stages::new(),
             end_known: false,
         }
     }
 
-    /// Computes the slope at a state into a slot.
+    /// Computes the derivative at a state into a slot.
     #[inline]
     fn evaluate<Y: System<T, N> + ?Sized>(
         &mut self,
@@ -56,15 +56,15 @@ impl<T: Real, const N: usize, const S: usize> Explicit<T, N, S> {
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         self.step.evaluations += 1;
-        self.slopes.a[slot] = system.acceleration(state)?;
-        self.slopes.v[slot] = state.v;
+        let acceleration = system.acceleration(state)?;
+        self.stages.set(slot, &state.v, &acceleration);
         Ok(())
     }
 
     /// The state at the fraction `node` of a step of length `h`.
     #[inline(always)]
     fn stage(&self, h: T, node: T, row: &[Term]) -> State<T, N> {
-        let (q, v) = self.slopes.combine(row);
+        let (q, v) = self.stages.combine(row);
         let start = &self.step.start;
         State {
             t: start.t + h * node,
@@ -73,7 +73,7 @@ impl<T: Real, const N: usize, const S: usize> Explicit<T, N, S> {
         }
     }
 
-    /// Evaluates the slope at the end of the step unless it is known.
+    /// Evaluates the derivative at the end of the step unless it is known.
     fn know_end<Y: System<T, N> + ?Sized>(
         &mut self,
         system: &mut Y,
@@ -99,7 +99,7 @@ impl<T: Real, const N: usize, const S: usize> Explicit<T, N, S> {
             self.evaluate(system, slot, &state)?;
         }
         for row in tableau.dense {
-            let (q, v) = self.slopes.combine(row);
+            let (q, v) = self.stages.combine(row);
             self.step.interpolant.push(q * h, v * h);
         }
         Ok(())
@@ -131,13 +131,13 @@ impl<T: Real, const N: usize, const S: usize> Trial<T, N> for Explicit<T, N, S> 
         self.step.rejected = 0;
         self.step.evaluations = 0;
         if self.end_known && self.step.end == *state {
-            self.slopes.copy(self.tableau.stages(), 0);
+            self.stages.copy(self.tableau.stages(), 0);
         } else {
             self.evaluate(system, 0, state)?;
         }
         self.end_known = false;
         self.step.start = *state;
-        Ok(self.slopes.a[0])
+        Ok(self.stages.acceleration(0))
     }
 
     fn attempt<Y: System<T, N> + ?Sized>(
@@ -168,7 +168,7 @@ impl<T: Real, const N: usize, const S: usize> Trial<T, N> for Explicit<T, N, S> 
         let Step { start, end, .. } = &self.step;
         let h = (end.t - start.t).abs();
         let norm = |row: &[Term]| {
-            let (q, v) = self.slopes.combine(row);
+            let (q, v) = self.stages.combine(row);
             tolerance.norm((&q, &v), start, end)
         };
         match self.tableau.errors {
@@ -201,7 +201,8 @@ impl<T: Real, const N: usize, const S: usize> Trial<T, N> for Explicit<T, N, S> 
             return Ok(());
         }
         self.know_end(system)?;
-        let (first, last) = (self.slopes.a[0], self.slopes.a[self.tableau.stages()]);
+        let last = self.tableau.stages();
+        let (first, last) = [0, last].map(|slot| self.stages.acceleration(slot)).into();
         let h = self.step.set_ends(&first, &last);
         if inside == Inside::Hermite || self.tableau.dense.is_empty() {
             self.step.interpolant.complete_hermite(h, &first, &last);

@@ -5,11 +5,11 @@
 
 use super::collocation::{Collocation, MOST_PAIRS};
 use super::lu::Lu;
-use crate::{Real, Slope};
+use crate::{AccelerationJacobian, Real};
 use nalgebra::{Complex, SVector};
 
 /// A vector for each stage.
-pub(super) type Stages<T, const N: usize, const S: usize> = [SVector<T, N>; S];
+pub(super) type StageVectors<T, const N: usize, const S: usize> = [SVector<T, N>; S];
 
 /// `W` for the real and the complex eigenvalues at a step length.
 #[derive(Clone, Debug)]
@@ -24,7 +24,7 @@ pub(super) struct Factors<T, const N: usize> {
 impl<T: Real, const N: usize> Factors<T, N> {
     /// `None` where a matrix is singular.
     pub(super) fn new<const S: usize>(
-        slope: &Slope<T, N>,
+        jacobian: &AccelerationJacobian<T, N>,
         h: T,
         coefficients: &Collocation<T, S>,
     ) -> Option<Self> {
@@ -32,7 +32,7 @@ impl<T: Real, const N: usize> Factors<T, N> {
         let factor = coefficients.real.value * h;
         let real = |i: usize, j: usize| {
             let one = if i == j { T::one() } else { zero };
-            one - slope.v[(i, j)] * factor - slope.q[(i, j)] * (factor * factor)
+            one - jacobian.v[(i, j)] * factor - jacobian.q[(i, j)] * (factor * factor)
         };
         let matrix = core::array::from_fn(|i| core::array::from_fn(|j| real(i, j)));
         let real = Lu::new(matrix)?;
@@ -43,7 +43,7 @@ impl<T: Real, const N: usize> Factors<T, N> {
             let square = factor * factor;
             let entry = |i: usize, j: usize| {
                 let one = if i == j { T::one() } else { zero };
-                Complex::new(one, zero) - factor * slope.v[(i, j)] - square * slope.q[(i, j)]
+                Complex::new(one, zero) - factor * jacobian.v[(i, j)] - square * jacobian.q[(i, j)]
             };
             let matrix = core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j)));
             *place = Some(Lu::new::<T>(matrix)?);
@@ -55,16 +55,16 @@ impl<T: Real, const N: usize> Factors<T, N> {
     /// equations.
     pub(super) fn solve<const S: usize>(
         &self,
-        rest: &Stages<T, N, S>,
+        rest: &StageVectors<T, N, S>,
         coefficients: &Collocation<T, S>,
-    ) -> Stages<T, N, S> {
+    ) -> StageVectors<T, N, S> {
         let Collocation { real, complex, .. } = coefficients;
         let zero = Complex::new(T::zero(), T::zero());
         let along = core::array::from_fn(|k| {
             (0..S).fold(T::zero(), |sum, i| sum + real.left[i] * rest[i][k])
         });
         let along = self.real.solve(&along);
-        let mut change: Stages<T, N, S> =
+        let mut change: StageVectors<T, N, S> =
             core::array::from_fn(|i| SVector::from_fn(|k, _| real.right[i] * along[k]));
         for (eigen, factors) in complex.iter().zip(self.complex.iter().flatten()) {
             let across = core::array::from_fn(|k| {

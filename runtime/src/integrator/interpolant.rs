@@ -6,7 +6,7 @@
 //!
 //! With `θ` the fraction of the step, both polynomials are written as
 //! `c₀ + θ(c₁ + (1−θ)(c₂ + θ(c₃ + (1−θ)(c₄ + …))))`. The first four coefficients
-//! are those of the cubic through both ends with the slopes there, so that
+//! are those of the cubic through both ends with the derivatives there, so that
 //! consecutive steps join with continuous derivatives, also where the end was
 //! moved back onto the constraints.
 //!
@@ -43,7 +43,7 @@ impl<T: Real, const N: usize> Default for Interpolant<T, N> {
 }
 
 impl<T: Real, const N: usize> Interpolant<T, N> {
-    /// The cubic part: both ends of the step and the slopes there.
+    /// The cubic part: both ends of the step and the derivatives there.
     pub(crate) fn set_ends(
         &mut self,
         start: (&State<T, N>, &SVector<T, N>),
@@ -144,7 +144,7 @@ fn set_through<T: Real, const N: usize>(
     }
 }
 
-/// The cubic through both ends `(value, slope)`.
+/// The cubic through both ends `(value, derivative)`.
 fn set_cubic<T: Real, const N: usize>(
     out: &mut [SVector<T, N>; COEFFICIENTS],
     h: T,

@@ -1,30 +1,30 @@
-//! The methods, at a fixed pace or at one that follows a tolerance.
+//! The methods, with fixed steps or with steps that follow a tolerance.
 //!
-//! In:  nothing, or a [`Tolerance`].
+//! In:  a [`Tolerance`], if the steps follow one.
 //! Out: [`Dp5`], [`Dop853`], [`Radau5`], [`Radau9`].
 
 use super::explicit::Explicit;
-use super::pace::{Inside, Paced, Trial};
 use super::radau::Radau;
 use super::step::Step;
+use super::step_control::{Controlled, Inside, Trial};
 use super::tableau::{DOP853, DP5, RADAU5, RADAU9};
 use super::{IntegrateError, Integrator, Tolerance};
 use crate::{Real, State, System};
 
-/// Slots of DP5: six stages and the slope at the end.
+/// Slots of DP5: six stages and the derivative at the end.
 const SLOTS_DP5: usize = 7;
-/// Slots of DOP853: twelve stages, the slope at the end, three extra stages.
+/// Slots of DOP853: twelve stages, the derivative at the end, three extra stages.
 const SLOTS_DOP853: usize = 16;
 
 macro_rules! method {
     ($(#[$docs:meta])* $name:ident, $method:ty) => {
         $(#[$docs])*
         #[derive(Clone, Debug)]
-        pub struct $name<T, const N: usize>(Paced<$method, T, N>);
+        pub struct $name<T, const N: usize>(Controlled<$method, T, N>);
 
         impl<T: Real, const N: usize> $name<T, N> {
-            /// Forgets the slope at the last step's end, because the system has
-            /// changed since; an adaptive pace keeps its step size.
+            /// Forgets the derivative at the last step's end, because the system has
+            /// changed since; adaptive step control keeps its step size.
             pub fn forget(&mut self) {
                 self.0.method.forget();
             }
@@ -50,14 +50,14 @@ macro_rules! method {
 macro_rules! adaptive {
     ($name:ident, $method:expr) => {
         impl<T: Real, const N: usize> $name<T, N> {
-            /// The method at a fixed pace: each step goes to its bound at once.
+            /// The method with fixed steps: each goes to its bound at once.
             pub fn fixed() -> Self {
-                Self(Paced::fixed($method))
+                Self(Controlled::fixed($method))
             }
 
-            /// The method at a pace that follows a tolerance.
+            /// The method with steps that follow a tolerance.
             pub fn adaptive(tolerance: Tolerance<T, N>) -> Self {
-                Self(Paced::adaptive($method, tolerance))
+                Self(Controlled::adaptive($method, tolerance))
             }
         }
     };
@@ -96,15 +96,15 @@ method!(
 macro_rules! implicit {
     ($name:ident, $tableau:ident) => {
         impl<T: Real, const N: usize> $name<T, N> {
-            /// The method at a fixed pace: each step goes to its bound at once.
+            /// The method with fixed steps: each goes to its bound at once.
             pub fn fixed() -> Self {
-                Self(Paced::fixed(Radau::new(&$tableau, None)))
+                Self(Controlled::fixed(Radau::new(&$tableau, None)))
             }
 
-            /// The method at a pace that follows a tolerance.
+            /// The method with steps that follow a tolerance.
             pub fn adaptive(tolerance: Tolerance<T, N>) -> Self {
                 let method = Radau::new(&$tableau, Some(tolerance));
-                Self(Paced::adaptive(method, tolerance))
+                Self(Controlled::adaptive(method, tolerance))
             }
         }
     };

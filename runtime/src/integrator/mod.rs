@@ -21,21 +21,23 @@ mod error;
 mod explicit;
 mod factors;
 mod interpolant;
+mod jacobian;
 mod lu;
+mod method;
 mod methods;
-mod pace;
 mod radau;
-mod slope;
-mod slopes;
+mod stages;
 mod step;
+mod step_control;
 mod tableau;
 
 pub use classical::Rk4;
 pub use control::Tolerance;
 pub use error::IntegrateError;
+pub use method::Method;
 pub use methods::{Dop853, Dp5, Radau5, Radau9};
-pub(crate) use pace::Inside;
 pub use step::Step;
+pub(crate) use step_control::Inside;
 
 use crate::{Real, State, System};
 

@@ -17,12 +17,12 @@
 use super::IntegrateError;
 use super::collocation::{Collocation, cardinal};
 use super::control::Tolerance;
-use super::factors::{Factors, Stages};
-use super::pace::{Inside, Trial};
-use super::slope::slope;
+use super::factors::{Factors, StageVectors};
+use super::jacobian::acceleration_jacobian;
 use super::step::Step;
+use super::step_control::{Inside, Trial};
 use super::tableau::Tableau;
-use crate::{DynamicsError, Real, Slope, State, System};
+use crate::{AccelerationJacobian, DynamicsError, Real, State, System};
 use nalgebra::SVector;
 
 /// Newton's iteration ends when what is left is this part of the tolerance.
@@ -30,7 +30,7 @@ const NEWTON_PART: f64 = 0.01;
 /// Where the iteration no longer improves, the accelerations have no more digits
 /// to give (near singular positions, for instance); the step is made all the same
 /// if what is left is this part of the tolerance, or the square root of round-off
-/// at a fixed pace.
+/// with fixed steps.
 const TOLERABLE_PART: f64 = 0.2;
 /// Iterations after which a step is given up.
 const MOST_ITERATIONS: usize = 10;
@@ -43,7 +43,7 @@ const BEST_RATE: f64 = 1e-3;
 const UNKNOWN_RATE: f64 = 0.5;
 /// Rate of convergence at which a step is given up.
 const WORST_RATE: f64 = 0.9;
-/// Tolerance of Newton's iteration at a fixed pace, in units of round-off.
+/// Tolerance of Newton's iteration with fixed steps, in units of round-off.
 const FIXED_PACE: f64 = 1e3;
 
 /// The method at work.
@@ -58,14 +58,14 @@ pub(super) struct Radau<T, const N: usize, const S: usize> {
     enough: T,
     /// The same where nothing improves any more.
     tolerable: T,
-    slope: Option<Slope<T, N>>,
+    jacobian: Option<AccelerationJacobian<T, N>>,
     factors: Option<Factors<T, N>>,
     /// Acceleration at the start of the step.
     first: SVector<T, N>,
     /// Accelerations of the stages of the trial step.
-    a: Stages<T, N, S>,
+    a: StageVectors<T, N, S>,
     /// Those of the last accepted step, and its length; zero if there is none.
-    before: (Stages<T, N, S>, T),
+    before: (StageVectors<T, N, S>, T),
     /// Error estimate of the trial step.
     estimate: (SVector<T, N>, SVector<T, N>),
     /// The worst rate of convergence in the last trial.
@@ -74,7 +74,7 @@ pub(super) struct Radau<T, const N: usize, const S: usize> {
 
 impl<T: Real, const N: usize, const S: usize> Radau<T, N, S> {
     /// The method; `tolerance` tells Newton's iteration when to end, which at a
-    /// fixed pace is near round-off.
+    /// fixed steps is near round-off.
     pub(super) fn new(tableau: &'static Tableau, tolerance: Option<Tolerance<T, N>>) -> Self {
         let zero = SVector::zeros();
         let (tolerance, tolerable) = match tolerance {
@@ -92,7 +92,7 @@ impl<T: Real, const N: usize, const S: usize> Radau<T, N, S> {
             enough: tolerance.part(NEWTON_PART),
             tolerable,
             tolerance,
-            slope: None,
+            jacobian: None,
             factors: None,
             first: zero,
             a: [zero; S],
@@ -113,7 +113,7 @@ impl<T: Real, const N: usize, const S: usize> Radau<T, N, S> {
     }
 
     /// The state of a stage of a step of length `h`.
-    fn stage(&self, a: &Stages<T, N, S>, h: T, i: usize) -> State<T, N> {
+    fn stage(&self, a: &StageVectors<T, N, S>, h: T, i: usize) -> State<T, N> {
         let Collocation {
             nodes,
             matrix,
@@ -135,7 +135,7 @@ impl<T: Real, const N: usize, const S: usize> Radau<T, N, S> {
 
     /// Accelerations to begin the iteration with: those of the last step's
     /// stages, extrapolated.
-    fn guess(&self, h: T) -> Stages<T, N, S> {
+    fn guess(&self, h: T) -> StageVectors<T, N, S> {
         let (before, length) = &self.before;
         if *length <= T::zero() {
             return [self.first; S];
@@ -158,15 +158,16 @@ impl<T: Real, const N: usize, const S: usize> Radau<T, N, S> {
         h: T,
     ) -> Result<(), IntegrateError<T>> {
         let start = self.step.start;
-        if self.slope.is_none() {
-            let (slope, evaluations) = slope(system, &start, &self.first)?;
+        if self.jacobian.is_none() {
+            let (jacobian, evaluations) = acceleration_jacobian(system, &start, &self.first)?;
             self.step.evaluations += evaluations;
-            self.slope = Some(slope);
+            self.jacobian = Some(jacobian);
             self.factors = None;
         }
         if self.factors.as_ref().is_none_or(|factors| factors.h != h) {
-            let slope = self.slope.as_ref();
-            self.factors = slope.and_then(|slope| Factors::new(slope, h, &self.coefficients));
+            let jacobian = self.jacobian.as_ref();
+            self.factors =
+                jacobian.and_then(|jacobian| Factors::new(jacobian, h, &self.coefficients));
         }
         match self.factors {
             Some(_) => Ok(()),
@@ -217,7 +218,7 @@ impl<T: Real, const N: usize, const S: usize> Radau<T, N, S> {
         &mut self,
         system: &mut Y,
         h: T,
-        a: &mut Stages<T, N, S>,
+        a: &mut StageVectors<T, N, S>,
     ) -> Result<T, IntegrateError<T>> {
         let mut rest = *a;
         for (i, rest) in rest.iter_mut().enumerate() {
@@ -242,26 +243,26 @@ impl<T: Real, const N: usize, const S: usize> Radau<T, N, S> {
         Ok((sum / T::from_f64(S as f64)).sqrt())
     }
 
-    /// The error estimate of a step (IV.8.19), with the slopes at the start, or
-    /// near it for a second look (IV.8.20): the slopes are compared with those that
+    /// The error estimate of a step (IV.8.19), with the derivatives at the start, or
+    /// near it for a second look (IV.8.20): the derivatives are compared with those that
     /// the stages lead back to.
     fn estimate(
         &self,
         h: T,
-        (v, slope): (&SVector<T, N>, &SVector<T, N>),
+        (v, a): (&SVector<T, N>, &SVector<T, N>),
     ) -> (SVector<T, N>, SVector<T, N>) {
-        let (Some(factors), Some(derivatives)) = (&self.factors, &self.slope) else {
+        let (Some(factors), Some(jacobian)) = (&self.factors, &self.jacobian) else {
             return (SVector::zeros(), SVector::zeros());
         };
         let factor = self.coefficients.real.value * h;
-        let (mut dq, mut dv) = (v * factor, slope * factor);
+        let (mut dq, mut dv) = (v * factor, a * factor);
         for (i, weight) in self.coefficients.start.iter().enumerate() {
             let weight = *weight * factor;
             dq -= self.stage(&self.a, h, i).v * weight;
             dv -= self.a[i] * weight;
         }
         // Filtered, so that it stays small where stiff parts have died out.
-        let right = dv + derivatives.q * dq * factor;
+        let right = dv + jacobian.q * dq * factor;
         let dv = SVector::from(factors.real.solve(&right.data.0[0]));
         (dq + dv * factor, dv)
     }
@@ -281,7 +282,7 @@ impl<T: Real, const N: usize, const S: usize> Trial<T, N> for Radau<T, N, S> {
     }
 
     fn forget(&mut self) {
-        self.slope = None;
+        self.jacobian = None;
         self.before.1 = T::zero();
     }
 
@@ -307,10 +308,10 @@ impl<T: Real, const N: usize, const S: usize> Trial<T, N> for Radau<T, N, S> {
     ) -> Result<(), IntegrateError<T>> {
         let start = self.step.start;
         let h = end - start.t;
-        let fresh = self.slope.is_none();
+        let fresh = self.jacobian.is_none();
         let mut result = self.solve(system, h);
         if result.is_err() && !fresh {
-            self.slope = None;
+            self.jacobian = None;
             result = self.solve(system, h);
         }
         result?;
@@ -327,8 +328,8 @@ impl<T: Real, const N: usize, const S: usize> Trial<T, N> for Radau<T, N, S> {
                 q: start.q + q,
                 v: start.v + v,
             };
-            let slope = self.evaluate(system, &near)?;
-            self.estimate = self.estimate(h, (&near.v, &slope));
+            let a = self.evaluate(system, &near)?;
+            self.estimate = self.estimate(h, (&near.v, &a));
         }
         system.project(&mut last)?;
         self.step.end = last;
@@ -358,7 +359,7 @@ impl<T: Real, const N: usize, const S: usize> Trial<T, N> for Radau<T, N, S> {
         }
         self.before = (self.a, h);
         if self.rate > T::from_f64(GOOD_RATE) {
-            self.slope = None;
+            self.jacobian = None;
         }
         Ok(())
     }

@@ -1,6 +1,5 @@
 //! Coefficients of the explicit Runge–Kutta methods, with their papers.
 //!
-//! In:  nothing.
 //! Out: one [`Tableau`] per method.
 //!
 //! Every coefficient is a pair `high + low`, so that a scalar of more than 53
@@ -13,12 +12,12 @@ use crate::Real;
 
 pub(crate) use super::dop853::DOP853;
 
-/// One non-zero entry of a row: slot of the slope it multiplies, and its value
+/// One non-zero entry of a row: slot of the derivative it multiplies, and its value
 /// as `high + low`.
 pub(crate) type Term = (usize, f64, f64);
 
-/// A Runge–Kutta method as data. Slots `0..s` hold the slopes of the `s`
-/// stages, slot `s` the slope at the end of the step, the slots after it those
+/// A Runge–Kutta method as data. Slots `0..s` hold the derivatives of the `s`
+/// stages, slot `s` the derivative at the end of the step, the slots after it those
 /// of the extra stages of the interpolant.
 #[derive(Debug)]
 pub(crate) struct Tableau {
@@ -36,7 +35,7 @@ pub(crate) struct Tableau {
     pub(crate) rows: &'static [&'static [Term]],
     /// Weights `b_i`.
     pub(crate) weights: &'static [Term],
-    /// Error estimates, each a combination of slopes.
+    /// Error estimates, each a combination of derivatives.
     pub(crate) errors: &'static [&'static [Term]],
     /// Abscissae of the extra stages of the interpolant.
     pub(crate) extra_nodes: &'static [(f64, f64)],
@@ -47,7 +46,7 @@ pub(crate) struct Tableau {
 }
 
 impl Tableau {
-    /// Number of stages, which is also the slot of the slope at the end.
+    /// Number of stages, which is also the slot of the derivative at the end.
     pub(crate) const fn stages(&self) -> usize {
         self.nodes.len()
     }

@@ -18,7 +18,8 @@
 
 use crate::observer::balance;
 use crate::{
-    ConstrainedSystem, DynamicsError, Mechanism, Real, Slope, State, Step, Switching, System,
+    AccelerationJacobian, ConstrainedSystem, DynamicsError, Mechanism, Real, State, Step,
+    Switching, System,
 };
 use nalgebra::SVector;
 
@@ -53,6 +54,11 @@ where
         tolerance: Option<T>,
     ) -> Result<(), DynamicsError<T>> {
         self.system.start(state, tolerance)
+    }
+
+    /// Chooses whether passages through singular configurations are looked for.
+    pub(super) fn seek_passages(&mut self, wanted: bool) {
+        self.system.seek_passages(wanted);
     }
 
     /// The system whose energy is kept.
@@ -126,7 +132,7 @@ where
         self.system.commit(step)
     }
 
-    fn slope(&mut self, state: &State<T, N>) -> Option<Slope<T, N>> {
-        self.system.slope(state)
+    fn acceleration_jacobian(&mut self, state: &State<T, N>) -> Option<AccelerationJacobian<T, N>> {
+        self.system.acceleration_jacobian(state)
     }
 }

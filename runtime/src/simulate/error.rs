@@ -1,11 +1,10 @@
 //! Why a run could not begin or go on.
 //!
-//! In:  nothing.
 //! Out: [`SimulateError`], and [`Failure`] with what was reached before it.
 
-use super::{Scheme, Summary};
+use super::Summary;
 use crate::number::Number;
-use crate::{DynamicsError, IntegrateError, Real};
+use crate::{DynamicsError, IntegrateError, Method, Real};
 use core::fmt::{Display, Formatter, Result};
 
 /// Why a run could not begin or go on.
@@ -30,7 +29,7 @@ pub enum SimulateError<T> {
     /// The method has no error estimate, so it can't follow a tolerance.
     NoErrorEstimate {
         /// The method.
-        scheme: Scheme,
+        method: Method,
     },
     /// The run would end before it begins, or never.
     BadEnd {
@@ -94,9 +93,9 @@ impl<T: Real> Display for SimulateError<T> {
                 step = Number(step),
                 smallest = Number(smallest)
             ),
-            Self::NoErrorEstimate { scheme } => write!(
+            Self::NoErrorEstimate { method } => write!(
                 f,
-                "the method {scheme} has no error estimate and can't follow a tolerance; give it \
+                "the method {method} has no error estimate and can't follow a tolerance; give it \
                  a fixed step, or take dp5 or dop853"
             ),
             Self::BadEnd { start, until } => write!(

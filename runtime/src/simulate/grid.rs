@@ -1,10 +1,10 @@
 //! Where the steps of a run must end.
 //!
-//! In:  start, end, pace.
+//! In:  start, end, step control.
 //! Out: the times `t₀ + i·h`, and the end.
 
 use super::SimulateError;
-use super::options::Pace;
+use super::options::StepControl;
 use crate::Real;
 
 /// A last step shorter than this part of the others is made one with the step
@@ -24,15 +24,19 @@ pub(super) struct Grid<T> {
 }
 
 impl<T: Real> Grid<T> {
-    pub(super) fn new(start: T, until: T, pace: Pace<T>) -> Result<Self, SimulateError<T>> {
+    pub(super) fn new(
+        start: T,
+        until: T,
+        step_control: StepControl<T>,
+    ) -> Result<Self, SimulateError<T>> {
         let span = until - start;
         // Infinite or not a number if either end is.
         if !(span >= T::zero() && span.is_finite()) {
             return Err(SimulateError::BadEnd { start, until });
         }
-        let step = match pace {
-            Pace::Adaptive { .. } => span,
-            Pace::Fixed { step } => step,
+        let step = match step_control {
+            StepControl::Adaptive { .. } => span,
+            StepControl::Fixed { step } => step,
         };
         let (begin, end) = (start.abs(), until.abs());
         let farthest = if begin > end { begin } else { end };

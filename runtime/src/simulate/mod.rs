@@ -6,6 +6,7 @@
 //! [`Stepper`] is the same without observers, one step at a time.
 
 mod conserve;
+mod driver;
 mod error;
 mod event;
 mod grid;
@@ -16,13 +17,13 @@ mod summary;
 mod watch;
 
 pub use error::{Failure, SimulateError};
-pub use options::{Audit, Options, Origin, Pace, Scheme};
+pub use options::{Audit, Options, Origin, StepControl};
 pub use stepper::Stepper;
 pub use summary::Summary;
 
 use conserve::Conserving;
+use driver::Driver;
 use grid::Grid;
-use options::Driver;
 use watch::Watchers;
 
 use crate::{
@@ -95,8 +96,8 @@ where
     fn all(&mut self) -> Result<(), SimulateError<T>> {
         let Options {
             until,
-            scheme,
-            pace,
+            method,
+            step_control,
             origin,
             ..
         } = *self.options;
@@ -105,9 +106,9 @@ where
             return Err(SimulateError::StartNotFinite { t: state.t });
         }
         let begun = origin.map_or(state.t, |origin| origin.t);
-        let grid = Grid::new(begun, until, pace)?;
+        let grid = Grid::new(begun, until, step_control)?;
         let first = grid.first_after(state.t);
-        let mut driver = Driver::new(scheme, pace)?;
+        let mut driver = Driver::new(method, step_control)?;
         self.system
             .start(&mut state, driver.tolerance())
             .map_err(IntegrateError::Dynamics)?;
@@ -133,6 +134,8 @@ where
             return Ok(());
         }
         driver.keep(self.watchers.inside());
+        let seeks_passages = self.watchers.want_passages();
+        self.system.seek_passages(seeks_passages);
         for interval in first..=grid.intervals() {
             let bound = grid.time(interval);
             while self.done.end.t < bound {

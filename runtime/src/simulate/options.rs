@@ -1,46 +1,12 @@
 //! What a user chooses about a run.
 //!
-//! In:  nothing.
-//! Out: [`Options`], and the method they choose.
+//! Out: [`Options`].
 
-use super::SimulateError;
-use crate::integrator::Inside;
-use crate::{
-    Dop853, Dp5, IntegrateError, Integrator, Radau5, Radau9, Real, Rk4, Settings, State, Step,
-    System, Tolerance,
-};
-use core::fmt::{Display, Formatter};
-
-/// Which method makes the steps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scheme {
-    /// [`Rk4`], of order 4.
-    Rk4,
-    /// [`Dp5`], of order 5.
-    Dp5,
-    /// [`Dop853`], of order 8.
-    Dop853,
-    /// [`Radau5`], implicit, of order 5: for stiff mechanisms.
-    Radau5,
-    /// [`Radau9`], implicit, of order 9: for stiff mechanisms, to many digits.
-    Radau9,
-}
-
-impl Display for Scheme {
-    fn fmt(&self, f: &mut Formatter<'_>) -> core::fmt::Result {
-        f.write_str(match self {
-            Self::Rk4 => "rk4",
-            Self::Dp5 => "dp5",
-            Self::Dop853 => "dop853",
-            Self::Radau5 => "radau5",
-            Self::Radau9 => "radau9",
-        })
-    }
-}
+use crate::{Method, Real, Settings};
 
 /// How long the steps are.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Pace<T> {
+pub enum StepControl<T> {
     /// All of one length; the last one ends where the run ends.
     Fixed {
         /// The length (s).
@@ -100,9 +66,9 @@ pub struct Options<T> {
     /// Time at which the run ends (s).
     pub until: T,
     /// The method.
-    pub scheme: Scheme,
+    pub method: Method,
     /// The length of its steps.
-    pub pace: Pace<T>,
+    pub step_control: StepControl<T>,
     /// The form of the equations and how the constraints are kept.
     pub settings: Settings<T>,
     /// Whether the energy is kept at what it was at the start, for long runs of
@@ -121,7 +87,7 @@ pub struct Options<T> {
 impl<T: Real> Options<T> {
     /// RK4 with a fixed step, everything else by default.
     pub fn rk4(until: T, step: T) -> Self {
-        Self::new(until, Scheme::Rk4, Pace::Fixed { step })
+        Self::new(until, Method::Rk4, StepControl::Fixed { step })
     }
 
     /// DP5 with the same relative and absolute tolerance, everything else by
@@ -129,8 +95,8 @@ impl<T: Real> Options<T> {
     pub fn dp5(until: T, tolerance: T) -> Self {
         Self::new(
             until,
-            Scheme::Dp5,
-            Pace::Adaptive {
+            Method::Dp5,
+            StepControl::Adaptive {
                 relative: tolerance,
                 absolute: tolerance,
             },
@@ -140,114 +106,26 @@ impl<T: Real> Options<T> {
     /// DOP853 with the same relative and absolute tolerance, everything else by
     /// default.
     pub fn dop853(until: T, tolerance: T) -> Self {
-        let pace = Pace::Adaptive {
+        let step_control = StepControl::Adaptive {
             relative: tolerance,
             absolute: tolerance,
         };
-        Self::new(until, Scheme::Dop853, pace)
+        Self::new(until, Method::Dop853, step_control)
     }
 
-    /// A method at a pace, everything else by default: the reduced form with
+    /// A method and its step control, everything else by default: the reduced form with
     /// projection, all audits.
-    pub fn new(until: T, scheme: Scheme, pace: Pace<T>) -> Self {
+    pub fn new(until: T, method: Method, step_control: StepControl<T>) -> Self {
         let settings = Settings::default();
         Self {
             until,
-            scheme,
-            pace,
+            method,
+            step_control,
             settings,
             keep_energy: false,
             audit: Audit::ALL,
             most_steps: None,
             origin: None,
-        }
-    }
-}
-
-/// The chosen method, whichever it is.
-#[derive(Clone, Debug)]
-pub(super) struct Driver<T, const N: usize> {
-    method: Method<T, N>,
-    /// Accepted error of a step, relative, if the steps follow one.
-    tolerance: Option<T>,
-}
-
-#[derive(Clone, Debug)]
-enum Method<T, const N: usize> {
-    Rk4(Rk4<T, N>),
-    Dp5(Dp5<T, N>),
-    Dop853(Dop853<T, N>),
-    Radau5(Radau5<T, N>),
-    Radau9(Radau9<T, N>),
-}
-
-impl<T: Real, const N: usize> Driver<T, N> {
-    pub(super) fn new(scheme: Scheme, pace: Pace<T>) -> Result<Self, SimulateError<T>> {
-        let tolerance = match pace {
-            Pace::Fixed { step } if step.is_finite() && step > T::zero() => None,
-            Pace::Fixed { step } => return Err(SimulateError::StepNotPositive { step }),
-            Pace::Adaptive { relative, absolute } => Some(Tolerance::uniform(relative, absolute)?),
-        };
-        let method = match (scheme, tolerance) {
-            (Scheme::Rk4, None) => Method::Rk4(Rk4::new()),
-            (Scheme::Rk4, Some(_)) => return Err(SimulateError::NoErrorEstimate { scheme }),
-            (Scheme::Dp5, None) => Method::Dp5(Dp5::fixed()),
-            (Scheme::Dp5, Some(tolerance)) => Method::Dp5(Dp5::adaptive(tolerance)),
-            (Scheme::Dop853, None) => Method::Dop853(Dop853::fixed()),
-            (Scheme::Dop853, Some(tolerance)) => Method::Dop853(Dop853::adaptive(tolerance)),
-            (Scheme::Radau5, None) => Method::Radau5(Radau5::fixed()),
-            (Scheme::Radau5, Some(tolerance)) => Method::Radau5(Radau5::adaptive(tolerance)),
-            (Scheme::Radau9, None) => Method::Radau9(Radau9::fixed()),
-            (Scheme::Radau9, Some(tolerance)) => Method::Radau9(Radau9::adaptive(tolerance)),
-        };
-        let tolerance = match pace {
-            Pace::Fixed { .. } => None,
-            Pace::Adaptive { relative, .. } => Some(relative),
-        };
-        Ok(Self { method, tolerance })
-    }
-
-    /// Accepted error of a step, relative, if the steps follow one.
-    pub(super) fn tolerance(&self) -> Option<T> {
-        self.tolerance
-    }
-
-    /// Chooses what is kept of the inside of steps.
-    pub(super) fn keep(&mut self, inside: Inside) {
-        match &mut self.method {
-            Method::Rk4(method) => method.keep(inside),
-            Method::Dp5(method) => method.keep(inside),
-            Method::Dop853(method) => method.keep(inside),
-            Method::Radau5(method) => method.keep(inside),
-            Method::Radau9(method) => method.keep(inside),
-        }
-    }
-
-    /// Forgets the last step, because the system has changed since.
-    pub(super) fn forget(&mut self) {
-        match &mut self.method {
-            Method::Rk4(method) => method.forget(),
-            Method::Dp5(method) => method.forget(),
-            Method::Dop853(method) => method.forget(),
-            Method::Radau5(method) => method.forget(),
-            Method::Radau9(method) => method.forget(),
-        }
-    }
-}
-
-impl<T: Real, const N: usize> Integrator<T, N> for Driver<T, N> {
-    fn step<Y: System<T, N> + ?Sized>(
-        &mut self,
-        system: &mut Y,
-        state: &State<T, N>,
-        bound: T,
-    ) -> Result<&Step<T, N>, IntegrateError<T>> {
-        match &mut self.method {
-            Method::Rk4(method) => method.step(system, state, bound),
-            Method::Dp5(method) => method.step(system, state, bound),
-            Method::Dop853(method) => method.step(system, state, bound),
-            Method::Radau5(method) => method.step(system, state, bound),
-            Method::Radau9(method) => method.step(system, state, bound),
         }
     }
 }

@@ -5,11 +5,12 @@
 //!
 //! Not here: observers and audits ([`super::simulate`]).
 
+use super::driver::Driver;
 use super::metered::Metered;
-use super::options::{Driver, Pace, Scheme};
+use super::options::StepControl;
 use super::{Grid, SimulateError};
 use crate::integrator::Inside;
-use crate::{Counters, Integrator, Mechanism, Real, Settings, Solver, State, System};
+use crate::{Counters, Integrator, Mechanism, Method, Real, Settings, Solver, State, System};
 
 /// Makes steps on demand and does not hold the mechanism in between, so that a
 /// program can set its inputs.
@@ -19,7 +20,7 @@ use crate::{Counters, Integrator, Mechanism, Real, Settings, Solver, State, Syst
 pub struct Stepper<T, const N: usize, const R: usize> {
     solver: Solver<T, N, R>,
     driver: Driver<T, N>,
-    pace: Pace<T>,
+    step_control: StepControl<T>,
 }
 
 impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
@@ -27,24 +28,24 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
     ///
     /// # Errors
     ///
-    /// [`SimulateError`] if the pace is not usable: a step that isn't positive, a
+    /// [`SimulateError`] if the step control is not usable: a step that isn't positive, a
     /// tolerance that isn't or that is below round-off, or a tolerance for a
     /// method without error estimate.
     pub fn new(
-        scheme: Scheme,
-        pace: Pace<T>,
+        method: Method,
+        step_control: StepControl<T>,
         settings: Settings<T>,
     ) -> Result<Self, SimulateError<T>> {
-        let mut driver = Driver::new(scheme, pace)?;
+        let mut driver = Driver::new(method, step_control)?;
         driver.keep(Inside::Nothing);
         Ok(Self {
             solver: Solver::new(settings),
             driver,
-            pace,
+            step_control,
         })
     }
 
-    /// Moves `state` on by `span` seconds, in as many steps as the pace wants.
+    /// Moves `state` on by `span` seconds, in as many steps as the step control wants.
     /// Inputs keep their values meanwhile, unless they follow a law.
     ///
     /// # Errors
@@ -60,7 +61,7 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
         M: Mechanism<T, N, R> + ?Sized,
     {
         let until = state.t + span;
-        let grid = Grid::new(state.t, until, self.pace)?;
+        let grid = Grid::new(state.t, until, self.step_control)?;
         self.driver.forget();
         self.solver.expect_error(self.driver.tolerance());
         let mut system = self.solver.on(mechanism);
@@ -101,7 +102,7 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
         result.map(|()| metered.asked())
     }
 
-    /// Moves `state` on by one accepted step, as long as the pace wants it and at most to
+    /// Moves `state` on by one accepted step, as long as the step control wants it and at most to
     /// the time `bound` (s).
     ///
     /// # Errors
@@ -116,7 +117,7 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
     where
         M: Mechanism<T, N, R> + ?Sized,
     {
-        let grid = Grid::new(state.t, bound, self.pace)?;
+        let grid = Grid::new(state.t, bound, self.step_control)?;
         if grid.intervals() == 0 {
             return Ok(());
         }

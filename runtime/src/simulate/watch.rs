@@ -99,6 +99,11 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
         }
     }
 
+    /// Whether anyone wants to know of passages.
+    pub(super) fn want_passages(&self) -> bool {
+        self.passages.is_some()
+    }
+
     /// Shows everyone a step; `done.end` becomes its end.
     pub(super) fn show<I: Interface<T, N> + ?Sized>(
         &mut self,

@@ -27,7 +27,7 @@ pub(crate) struct Chart<T, const N: usize, const R: usize> {
     /// The velocity of the sheet where the coordinates of the chart rest.
     pub(crate) drift: SVector<T, N>,
     /// The largest length of that so far.
-    pub(crate) pace: T,
+    pub(crate) speed: T,
     /// Constraint rows that are independent at regular states, `N − freedoms` of them.
     pub(crate) rows: [usize; R],
     /// What rows and columns are multiplied by to have size one.
@@ -39,7 +39,7 @@ pub(crate) struct Chart<T, const N: usize, const R: usize> {
     pub(crate) spacing: T,
     /// Error of an interpolation, relative, that is accepted.
     pub(crate) accepted: T,
-    /// The critical configuration nearby is none: a gap keeps the sheets apart.
+    /// No sheets cross at the critical configuration nearby: a gap keeps them apart.
     pub(crate) gap: bool,
 }
 
@@ -88,7 +88,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             freedoms,
             base: *base,
             drift: SVector::zeros(),
-            pace: T::zero(),
+            speed: T::zero(),
             rows: list,
             row_scale: core::array::from_fn(|row| rows.scale(row)),
             column_scale: core::array::from_fn(|j| T::one() / metric.factor.diagonal(j).sqrt()),
@@ -100,8 +100,8 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
     }
 
     /// Takes note of how fast the sheet moves.
-    pub(crate) fn set_drift(&mut self, drift: SVector<T, N>, pace: T) {
+    pub(crate) fn set_drift(&mut self, drift: SVector<T, N>, speed: T) {
         self.drift = drift;
-        self.pace = pace.max(self.length(&drift));
+        self.speed = speed.max(self.length(&drift));
     }
 }

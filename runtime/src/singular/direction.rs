@@ -7,13 +7,15 @@
 //! matrix for each coordinate of the chart. Of the directions the one is taken along
 //! which all of its singular values pass zero fast and at one place.
 
-use super::nodes::SIDE;
 use super::obstacle::Obstacle;
 use super::sheet::Sheet;
 use crate::linalg::{Block, Frame, largest_of, norm};
 use crate::tolerance::{difference, hull, spacing, window};
 use crate::{Mechanism, Real, State};
 use nalgebra::SVector;
+
+/// Nodes on each side of a singular configuration.
+pub(super) const SIDE: usize = 5;
 
 /// Directions that are tried where several loops are nearly singular at once.
 const TRIALS: usize = 64;
@@ -84,8 +86,8 @@ where
     /// The time (s) in which the sheet moves by one unit of length when it is fastest;
     /// none if it rests.
     fn clock(&self) -> Option<T> {
-        let pace = self.chart.pace;
-        (pace > T::zero()).then(|| T::one() / pace)
+        let speed = self.chart.speed;
+        (speed > T::zero()).then(|| T::one() / speed)
     }
 
     /// A line along some coordinates of the chart, of which time may be the last.
@@ -111,6 +113,15 @@ where
             centre: T::zero(),
             rate: T::zero(),
         }
+    }
+
+    /// The direction of the first coordinate of the chart.
+    pub(super) fn along_chart(&self) -> Direction<T, N> {
+        let mut shares = [T::zero(); N];
+        if let Some(first) = shares.first_mut() {
+            *first = T::one();
+        }
+        self.line(&shares, None)
     }
 
     /// Judges a direction: how fast the block's singular values change, and whether they
@@ -197,7 +208,7 @@ fn meeting<T: Real, const R: usize>(slopes: &Block<T, R>, values: &[T]) -> Optio
     let mut nearest = T::from_f64(f64::INFINITY);
     for (i, value) in values.iter().enumerate() {
         let centre = -*value / slopes.entries[i][i];
-        // NaN is none.
+        // False for NaN.
         if centre.abs() < nearest.abs() {
             nearest = centre;
         }

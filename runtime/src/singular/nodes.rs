@@ -11,7 +11,7 @@
 //! sheet is interpolated: position, tangent space, the acceleration that curvature
 //! demands. Masses and forces are taken at the state itself.
 
-use super::direction::Direction;
+use super::direction::{Direction, SIDE};
 use super::obstacle::Obstacle;
 use super::sheet::{Point, Sheet};
 use crate::linalg::{Block, Frame, dot};
@@ -19,14 +19,12 @@ use crate::tolerance::clearance;
 use crate::{Mechanism, Real, State};
 use nalgebra::{SMatrix, SVector};
 
-/// Nodes on each side.
-pub(super) const SIDE: usize = 5;
 /// Nodes on both.
-const NODES: usize = 2 * SIDE;
+pub(super) const NODES: usize = 2 * SIDE;
 /// How many earlier nodes predict the next.
 const PREDICTORS: usize = 5;
 /// The interpolations that are compared leave out this many pairs of nodes.
-const SETS: usize = 3;
+pub(super) const SETS: usize = 3;
 
 /// What is interpolated.
 #[derive(Clone, Debug)]
@@ -48,7 +46,13 @@ impl<T: Real, const N: usize> Sum<T, N> {
         }
     }
 
-    fn add(&mut self, weight: T, offset: &SVector<T, N>, point: &Point<T, N>, columns: usize) {
+    pub(super) fn add(
+        &mut self,
+        weight: T,
+        offset: &SVector<T, N>,
+        point: &Point<T, N>,
+        columns: usize,
+    ) {
         self.offset.axpy(weight, offset, T::one());
         self.drift.axpy(weight, &point.drift, T::one());
         self.particular.axpy(weight, &point.particular, T::one());
@@ -84,8 +88,13 @@ pub(super) struct Interpolated<T, const N: usize> {
     /// By all nodes, and by one and two pairs fewer.
     pub(super) sums: [Sum<T, N>; SETS],
     /// The offsets of the nodes, and their places in units of the spacing.
-    offsets: [SVector<T, N>; NODES],
-    places: [T; NODES],
+    pub(super) offsets: [SVector<T, N>; NODES],
+    pub(super) places: [T; NODES],
+    /// The tangents of the nodes, of the first coordinate of the chart, and the accelerations
+    /// that the constraints demand there.
+    pub(super) geometry: [[SVector<T, N>; 2]; NODES],
+    /// How the round-off of each node is magnified by what is solved there.
+    pub(super) noises: [T; NODES],
     /// How the sheet bends, as far as it is known.
     bend: Bend<T, N>,
     /// By how much round-off is magnified.
@@ -100,6 +109,8 @@ impl<T: Real, const N: usize> Interpolated<T, N> {
             sums: core::array::from_fn(|_| Sum::zeros()),
             offsets: [SVector::zeros(); NODES],
             places: [T::zero(); NODES],
+            geometry: [[SVector::zeros(); 2]; NODES],
+            noises: [T::zero(); NODES],
             bend: Bend {
                 whole: SVector::zeros(),
                 share: T::zero(),
@@ -122,12 +133,12 @@ impl<T: Real, const N: usize> Interpolated<T, N> {
 
 /// The order in which nodes are found, for a state ahead of the singular configuration:
 /// from the state outwards and across, so that those before predict the next.
-const ORDER: [f64; NODES] = [1.0, 2.0, 3.0, -1.0, 4.0, -2.0, 5.0, -3.0, -4.0, -5.0];
+pub(super) const ORDER: [f64; NODES] = [1.0, 2.0, 3.0, -1.0, 4.0, -2.0, 5.0, -3.0, -4.0, -5.0];
 /// The one next to the singular configuration beyond it.
-const BEYOND: usize = 3;
+pub(super) const BEYOND: usize = 3;
 
 /// Lagrange's weights, at a place, of the places that are wanted; the others are zero.
-fn weights<T: Real, const K: usize>(
+pub(super) fn weights<T: Real, const K: usize>(
     places: &[T; K],
     wanted: impl Fn(usize) -> bool,
     at: T,
@@ -195,7 +206,9 @@ where
                     );
                 }
             }
-            found.noise += sets[0][node].abs() / (sine * sine);
+            found.geometry[node] = [point.tangent.column(0).into(), point.particular];
+            found.noises[node] = T::one() / (sine * sine);
+            found.noise += sets[0][node].abs() * found.noises[node];
             if ORDER[node].abs() == 1.0 {
                 blocks[usize::from(node > 0)] = self.frame.block().clone();
             }

@@ -1,6 +1,5 @@
 //! Why a state could not be put onto its sheet.
 //!
-//! In:  nothing.
 //! Out: [`Obstacle`]s: most are met by shorter steps, some are what a run ends with.
 
 /// What stood in the way.

@@ -117,8 +117,6 @@ pub(crate) struct Reference<T, const N: usize, const R: usize> {
 struct Look<T, const R: usize> {
     t: T,
     signs: Signs<T, R>,
-    /// How fast the determinant changes (1/s).
-    rate: T,
 }
 
 /// What is needed to look into a step.
@@ -172,7 +170,7 @@ where
             length: end.t - start.t,
             regular,
         };
-        let mut before: Option<Look<T, R>> = None;
+        let mut before: Option<(Look<T, R>, T)> = None;
         for k in 0..=LOOKS {
             let t = match k {
                 LOOKS => end.t,
@@ -181,33 +179,43 @@ where
             let Some(here) = self.look(&view, t) else {
                 continue;
             };
-            if let Some(before) = &before {
-                self.between(&view, before, &here, &mut found);
+            let Some(rate) = self.rate(&view, &here) else {
+                continue;
+            };
+            if let Some((before, rate_before)) = &before {
+                match self.beyond(&view, (before, &here), [*rate_before, rate]) {
+                    Some(middle) => {
+                        self.between(&view, before, &middle, &mut found);
+                        self.between(&view, &middle, &here, &mut found);
+                    }
+                    None => self.between(&view, before, &here, &mut found),
+                }
             }
-            before = Some(here);
+            before = Some((here, rate));
         }
         found
     }
 
     fn look(&mut self, view: &View<T, N, R>, t: T) -> Option<Look<T, R>> {
-        let moment = view.length * T::from_f64(MOMENT);
-        let beside = match t > view.start + moment {
-            true => t - moment,
-            false => t + moment,
-        };
-        let other = self.signs_at(view, beside)?.determinant;
-        let signs = self.signs_at(view, t)?;
-        let rate = (signs.determinant - other) / (t - beside);
-        Some(Look { t, signs, rate })
-    }
-
-    fn signs_at(&mut self, view: &View<T, N, R>, t: T) -> Option<Signs<T, R>> {
         self.eliminate(&(view.at)(t), Some(&view.like)).ok()?;
-        Some(Signs::of(self.frame))
+        let signs = Signs::of(self.frame);
+        Some(Look { t, signs })
     }
 
-    /// Passages between two looks: each loop that becomes singular has one, or two where
-    /// it comes back.
+    /// How fast the determinant changes where somebody looks (1/s).
+    fn rate(&mut self, view: &View<T, N, R>, look: &Look<T, R>) -> Option<T> {
+        let moment = view.length * T::from_f64(MOMENT);
+        let beside = match look.t > view.start + moment {
+            true => look.t - moment,
+            false => look.t + moment,
+        };
+        self.eliminate(&(view.at)(beside), Some(&view.like)).ok()?;
+        let change = look.signs.determinant - self.frame.determinant();
+        Some(change / (look.t - beside))
+    }
+
+    /// Passages between two looks: one for each loop that becomes singular, unless several
+    /// do so at once.
     fn between(
         &mut self,
         view: &View<T, N, R>,
@@ -216,10 +224,11 @@ where
         found: &mut Found<T>,
     ) {
         let changes = to.signs.changes_from(&from.signs);
+        let at_once = to.t - from.t <= view.length * T::from_f64(AT_ONCE);
         let middle = match changes {
-            0 => self.beyond(view, from, to),
+            0 => return,
             1 => None,
-            _ if to.t - from.t <= view.length * T::from_f64(AT_ONCE) => None,
+            _ if at_once => None,
             _ => self.look(view, (from.t + to.t) * T::from_f64(0.5)),
         };
         match middle {
@@ -227,7 +236,6 @@ where
                 self.between(view, from, &middle, found);
                 self.between(view, &middle, to, found);
             }
-            None if changes == 0 => {}
             None => self.pass(view, (from, to), changes, found),
         }
     }
@@ -244,7 +252,7 @@ where
             true => (from.t + to.t) * T::from_f64(0.5),
             false => self.locate(view, from, to),
         };
-        let sine = match self.signs_at(view, t) {
+        let sine = match self.look(view, t) {
             Some(_) => self.frame.smallest(),
             None => T::zero(),
         };
@@ -256,15 +264,18 @@ where
         });
     }
 
-    /// A look between two others that is beyond a singular configuration, if there is one:
-    /// by the cubic polynomial through the determinants and their rates, and then by
-    /// bisection.
+    /// A look between two others, of equal signs, that is beyond a singular configuration,
+    /// if there is one: by the cubic polynomial through the determinants and their rates,
+    /// and then by bisection.
     fn beyond(
         &mut self,
         view: &View<T, N, R>,
-        from: &Look<T, R>,
-        to: &Look<T, R>,
+        (from, to): (&Look<T, R>, &Look<T, R>),
+        rates: [T; 2],
     ) -> Option<Look<T, R>> {
+        if from.signs.negative != to.signs.negative {
+            return None;
+        }
         let sign = if from.signs.negative {
             -T::one()
         } else {
@@ -272,10 +283,11 @@ where
         };
         let span = to.t - from.t;
         let ends = [from, to].map(|look| sign * look.signs.determinant);
-        let rates = [from, to].map(|look| sign * look.rate * span);
+        let rates = rates.map(|rate| sign * rate * span);
         let dips = rates[0] < T::zero() && rates[1] > T::zero();
         let (mut x, lowest) = lowest_of_cubic(ends, rates);
-        if !dips || lowest > ends[0].min(ends[1]) * T::from_f64(WORTH_A_LOOK) {
+        let worth_a_look = lowest <= ends[0].min(ends[1]) * T::from_f64(WORTH_A_LOOK);
+        if !dips || !worth_a_look || to.signs.changes_from(&from.signs) > 0 {
             return None;
         }
         let (mut a, mut b) = (T::zero(), T::one());
@@ -285,7 +297,7 @@ where
                 return Some(look);
             }
             // Towards where it falls.
-            if sign * look.rate > T::zero() {
+            if sign * self.rate(view, &look)? > T::zero() {
                 b = x;
             } else {
                 a = x;
@@ -307,7 +319,7 @@ where
                 break;
             }
             let t = b - fb * (b - a) / (fb - fa);
-            let Some(f) = self.signs_at(view, t).map(|signs| signs.determinant) else {
+            let Some(f) = self.look(view, t).map(|look| look.signs.determinant) else {
                 break;
             };
             if (f < T::zero()) != (fb < T::zero()) {

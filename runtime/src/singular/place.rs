@@ -39,11 +39,11 @@ pub(crate) enum Placement<T> {
 }
 
 /// The best interpolation so far.
-struct Best<T, const N: usize> {
-    found: Interpolated<T, N>,
-    score: T,
-    error: T,
-    spacing: T,
+pub(super) struct Best<T, const N: usize> {
+    pub(super) found: Interpolated<T, N>,
+    pub(super) score: T,
+    pub(super) error: T,
+    pub(super) spacing: T,
 }
 
 impl<M, T: Real, const N: usize, const R: usize> Sheet<'_, M, T, N, R>
@@ -71,6 +71,7 @@ where
                 Ok(crossing) => return self.checked(point, crossing),
                 Err(obstacle) => why = obstacle,
             }
+            self.eliminate(state, None)?;
         }
         let noise = match self.chart.gap {
             true => noisy(),
@@ -107,19 +108,13 @@ where
         like: &Frame<T, N, R>,
         point: &mut Point<T, N>,
     ) -> Result<Placement<T>, Obstacle> {
-        let direction = self.direction(state, like)?;
-        let angle = self.angle(state, like, &direction)?;
-        let Some(best) = self.search(state, like, &direction, angle)? else {
-            return Ok(Placement::Regular);
+        let best = match self.recall(state) {
+            Some(best) => best,
+            None => match self.find_nodes(state, like)? {
+                Ok(best) => best,
+                Err(placement) => return Ok(placement),
+            },
         };
-        if !self.is_crossing(state, like, &direction, &best) {
-            return Ok(Placement::Gap);
-        }
-        let noise = T::from_f64(NOISE) * T::EPSILON * best.found.noise;
-        let scale = T::one().max(self.chart.reach * direction.rate);
-        if best.error > self.chart.accepted.max(noise * scale) {
-            return Err(Obstacle::Unresolved);
-        }
         let [sum, ..] = &best.found.sums;
         point.tangent = sum.tangent;
         point.drift = sum.drift;
@@ -132,6 +127,29 @@ where
         Ok(Placement::Crossing {
             spacing: best.spacing,
         })
+    }
+
+    /// Finds nodes for a state, or that it is not well between any.
+    fn find_nodes(
+        &mut self,
+        state: &State<T, N>,
+        like: &Frame<T, N, R>,
+    ) -> Result<Result<Best<T, N>, Placement<T>>, Obstacle> {
+        let direction = self.direction(state, like)?;
+        let angle = self.angle(state, like, &direction)?;
+        let Some(best) = self.search(state, like, &direction, angle)? else {
+            return Ok(Err(Placement::Regular));
+        };
+        if !self.is_crossing(state, like, &direction, &best) {
+            return Ok(Err(Placement::Gap));
+        }
+        let noise = T::from_f64(NOISE) * T::EPSILON * best.found.noise;
+        let scale = T::one().max(self.chart.reach * direction.rate);
+        if best.error > self.chart.accepted.max(noise * scale) {
+            return Err(Obstacle::Unresolved);
+        }
+        self.remember(state, &direction, angle, &best);
+        Ok(Ok(best))
     }
 
     /// Tries spacings; `None` if the state is outside the nodes of all that are narrow
@@ -242,7 +260,7 @@ where
 
     /// Whether nodes are on the sheet of the last accepted state and not on another one
     /// that crosses it.
-    fn is_on_sheet(
+    pub(super) fn is_on_sheet(
         &self,
         direction: &Direction<T, N>,
         width: T,
@@ -267,7 +285,7 @@ where
     /// By how much the interpolation is off, relative to what is interpolated: the
     /// difference that one pair of nodes makes, made smaller by as much as it is smaller
     /// than that of the pair before.
-    fn error(&self, state: &State<T, N>, rate: T, found: &Interpolated<T, N>) -> T {
+    pub(super) fn error(&self, state: &State<T, N>, rate: T, found: &Interpolated<T, N>) -> T {
         let [all, fewer, fewest] = &found.sums;
         let speed = self.chart.length(&state.v);
         let bend = self.chart.length(&all.particular) + speed * speed * rate;

@@ -8,6 +8,7 @@
 
 use super::chart::Chart;
 use super::passage::Found;
+use super::recall::Nodes;
 use crate::{Real, State};
 use nalgebra::SVector;
 
@@ -29,6 +30,8 @@ pub(crate) struct Session<T, const N: usize, const R: usize> {
     pub(crate) sine: Option<T>,
     /// What the trial step at hand came to.
     pub(crate) trial: Trial<T, N, R>,
+    /// The nodes of the last interpolation.
+    pub(crate) nodes: Nodes<T, N>,
     /// Passages of the last accepted step.
     pub(crate) passages: Found<T>,
     /// The largest kinetic energy (J) so far.
@@ -104,6 +107,7 @@ impl<T: Real, const N: usize, const R: usize> Session<T, N, R> {
             near: false,
             sine: None,
             trial: Trial::new(),
+            nodes: Nodes::new(),
             passages: Found::new(),
             liveliest: T::zero(),
             tolerance: None,
@@ -121,6 +125,7 @@ impl<T: Real, const N: usize, const R: usize> Session<T, N, R> {
         self.near = false;
         self.sine = None;
         self.trial.forget();
+        self.nodes.forget();
         self.passages.clear();
         self.liveliest = T::zero();
     }

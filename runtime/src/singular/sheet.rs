@@ -11,6 +11,7 @@
 
 use super::chart::Chart;
 use super::obstacle::Obstacle;
+use super::recall::Nodes;
 use crate::linalg::{Frame, dot};
 use crate::tolerance::{contraction, critical, near_dependent, round_off};
 use crate::{Mechanism, Position, Real, State, Terms};
@@ -96,6 +97,8 @@ pub(crate) struct Sheet<'a, M: ?Sized, T, const N: usize, const R: usize> {
     pub(crate) position: &'a mut Position<T, N, R>,
     pub(crate) terms: &'a mut Terms<T, N, R>,
     pub(crate) frame: &'a mut Frame<T, N, R>,
+    /// The nodes of the last interpolation.
+    pub(crate) nodes: &'a mut Nodes<T, N>,
     /// Whether any row restricts positions.
     pub(crate) holonomic: bool,
 }
@@ -200,15 +203,24 @@ where
     }
 
     /// Moves a position along the chart's complement onto the sheet, by Newton's
-    /// iteration; leaves its frame. How large the round-off of the position is there.
+    /// iteration; leaves its frame.
     pub(super) fn project(
+        &mut self,
+        state: &mut State<T, N>,
+        like: Option<&Frame<T, N, R>>,
+    ) -> Result<(), Obstacle> {
+        self.eliminate(state, like)?;
+        self.project_from_here(state, like)
+    }
+
+    /// The same, from a position whose frame is at hand.
+    fn project_from_here(
         &mut self,
         state: &mut State<T, N>,
         like: Option<&Frame<T, N, R>>,
     ) -> Result<(), Obstacle> {
         let mut before: Option<T> = None;
         for _ in 0..MAX_CORRECTIONS {
-            self.eliminate(state, like)?;
             if !self.holonomic {
                 return Ok(());
             }
@@ -232,6 +244,7 @@ where
             }
             state.q += correction;
             before = Some(size);
+            self.eliminate(state, like)?;
         }
         Err(Obstacle::NotContracting)
     }
@@ -270,14 +283,15 @@ where
         Ok(())
     }
 
-    /// Puts a state onto the sheet where the constraints are regular.
+    /// Puts a state whose frame is at hand onto the sheet where the constraints are
+    /// regular.
     pub(super) fn place_regular(
         &mut self,
         state: &State<T, N>,
         point: &mut Point<T, N>,
     ) -> Result<(), Obstacle> {
         point.state = *state;
-        self.project(&mut point.state, None)?;
+        self.project_from_here(&mut point.state, None)?;
         let along = self.chart.coordinates(&state.v);
         self.measure(Some(&along), point);
         Ok(())

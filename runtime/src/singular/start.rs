@@ -14,7 +14,7 @@ use super::chart::Chart;
 use super::place::Placement;
 use super::sheet::{Point, Sheet};
 use crate::dynamics::{Combined, Solver, Source, Which};
-use crate::linalg::{add_scaled, dot, eigen, independent_rows, norm, scaled};
+use crate::linalg::{add_scaled, dot, eigen, norm, orthonormal, remove, scaled};
 use crate::tolerance::{critical, difference, passes, regular, round_off, window};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::{SMatrix, SVector};
@@ -107,6 +107,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             position: &mut self.position,
             terms: &mut self.terms,
             frame: &mut self.frame,
+            nodes: &mut self.session.nodes,
             holonomic: self.rows.any_holonomic(),
         }
     }
@@ -347,35 +348,5 @@ fn nearer<T: Real>([first, second]: [T; 2], factor: T) -> Option<usize> {
         Some(1)
     } else {
         None
-    }
-}
-
-/// An orthonormal basis, in the first columns, of what is left of the axes when `remove`
-/// takes away what is decided.
-pub(crate) fn orthonormal<T: Real, const N: usize>(
-    count: usize,
-    remove: impl Fn(&mut [T; N]),
-) -> SMatrix<T, N, N> {
-    let mut axes: SMatrix<T, N, N> = SMatrix::identity();
-    for axis in &mut axes.data.0 {
-        // The second time takes the round-off of the first.
-        remove(axis);
-        remove(axis);
-    }
-    let mut chosen = [0; N];
-    let found = independent_rows(&mut axes, count, |_| false, T::zero(), &mut chosen);
-    let mut free = SMatrix::zeros();
-    for (column, &j) in free.data.0.iter_mut().zip(&chosen[..found]) {
-        let axis = &axes.data.0[j];
-        *column = scaled(T::one() / norm(axis), axis);
-    }
-    free
-}
-
-/// Subtracts from a vector its parts along orthonormal directions.
-pub(crate) fn remove<T: Real, const N: usize>(x: &mut [T; N], directions: &[[T; N]]) {
-    for direction in directions {
-        let share = dot(direction, x);
-        add_scaled(x, -share, direction);
     }
 }

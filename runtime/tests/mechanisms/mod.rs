@@ -14,11 +14,12 @@ mod slider_crank;
 mod small;
 mod twice;
 
+pub use bricard_testkit::Reduction;
 pub use four_bars::FourBars;
 pub use hung::{Hung, HungReduced};
 pub use massless::Massless;
 pub use parallelogram::Parallelogram;
-pub use reference::{Passage, Reduced, Reduction};
+pub use reference::{Passage, Reduced};
 pub use side::{COUNT, Side};
 pub use slider_crank::SliderCrank;
 pub use small::{Sled, Spring};
@@ -40,7 +41,8 @@ pub trait Passing<const N: usize, const R: usize>: Mechanism<f64, N, R> {
     fn singular(&self) -> (f64, f64);
 }
 
-/// A structure with nothing but coordinates and constraints.
+/// A structure with nothing but coordinates and constraints on positions that stay what
+/// they are.
 pub const fn structure(
     coordinates: &'static [Quantity],
     constraints: &'static [ConstraintRow],
@@ -50,6 +52,7 @@ pub const fn structure(
         coordinates,
         constraints,
         conservative: true,
+        scleronomic: true,
         ..Structure::PLAIN
     }
 }

@@ -99,12 +99,9 @@ impl Mechanism<f64, 3, 2> for SliderCrank {
 impl Passing<3, 2> for SliderCrank {
     fn reduction(&self) -> Reduction {
         Reduction {
-            // M_eff = constant + ripple cos 2q, V = weight sin q.
-            constant: M1 * E * E + J + M2 * L * L + M2 * E * E + J + 2.0 * M3 * L * L,
-            ripple: -2.0 * M2 * L * E - 2.0 * M3 * L * L,
-            weight: GRAVITY * (M1 * E + M2 * L - M2 * E),
             drive: self.drive,
             damping: self.damping,
+            ..Reduction::SLIDER_CRANK
         }
     }
 

@@ -33,14 +33,17 @@ impl Mechanism<f64, 1, 0> for Spring {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Sled;
 
-static SLED: Structure = structure(
-    &[LENGTH, LENGTH, ANGLE],
-    &[ConstraintRow {
-        text: "der(x)*sin(theta) = der(y)*cos(theta)",
-        line: 1,
-        holonomic: false,
-    }],
-);
+static SLED: Structure = Structure {
+    scleronomic: false,
+    ..structure(
+        &[LENGTH, LENGTH, ANGLE],
+        &[ConstraintRow {
+            text: "der(x)*sin(theta) = der(y)*cos(theta)",
+            line: 1,
+            holonomic: false,
+        }],
+    )
+};
 
 impl Sled {
     fn mass() -> SMatrix<f64, 3, 3> {

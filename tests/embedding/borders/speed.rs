@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mechanism = SliderCrank::<f64>::default();
     let start: State<f64, 3> = assemble(&mechanism, &mechanism.start(), 0.0)?;
     let options = Options::dop853(8.0, 1e-9);
-    let stepper = || Stepper::new(options.scheme, options.pace, options.settings);
+    let stepper = || Stepper::new(options.method, options.step_control, options.settings);
     let step = median(|| {
         let (mut stepper, mut state) = (stepper()?, start);
         for _ in 0..STEPS {

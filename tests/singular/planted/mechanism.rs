@@ -68,6 +68,7 @@ pub fn trial_structure(n: usize, rows: usize, conservative: bool) -> &'static St
         events: &[],
         constant_mass: false,
         conservative,
+        scleronomic: conservative,
         ..*other.structure()
     };
     let structure: &'static Structure = Box::leak(Box::new(structure));

@@ -1,6 +1,5 @@
 //! Numbers that carry derivatives.
 //!
-//! In:  nothing.
 //! Out: [`Smooth`], the operations that scenes are made of; [`Slope`], with all first
 //!      derivatives; [`Path`], with the first two along a path.
 

@@ -39,8 +39,8 @@ mod tests {
     use super::{ByHand, DoubleFourBar, SliderCrank, step};
     use crate::mechanism::{double_four_bar_folded, slider_crank_folded};
     use bricard_runtime::{
-        Correction, Interface, Mechanism, Pace, Regular, Scheme, Settings, State, Stepper, Terms,
-        assemble,
+        Correction, Interface, Mechanism, Method, Regular, Settings, State, StepControl, Stepper,
+        Terms, assemble,
     };
 
     /// What round-off may come to.
@@ -51,9 +51,9 @@ mod tests {
         H: ByHand<N, R>,
         M: Mechanism<f64, N, R> + Interface<f64, N>,
     {
-        let pace = Pace::Fixed { step: 0.01 };
+        let step_control = StepControl::Fixed { step: 0.01 };
         let mut stepper =
-            Stepper::<f64, N, R>::new(Scheme::Rk4, pace, Settings::default()).unwrap();
+            Stepper::<f64, N, R>::new(Method::Rk4, step_control, Settings::default()).unwrap();
         let start = assemble(generated, &generated.start(), 0.0).unwrap();
         let (mut state, mut same) = (start, start);
         for _ in 0..30 {

@@ -4,7 +4,7 @@
 //!      "torque", "repeat"}`.
 //! Out: for each a line of JSON: the bits of the states, and the shortest time (s).
 
-use bricard_runtime::{Interface, Pace, Scheme, Settings, State, Stepper, assemble};
+use bricard_runtime::{Interface, Method, Settings, State, StepControl, Stepper, assemble};
 use engine::Engine;
 use serde_json::{Value, json};
 use std::error::Error;
@@ -38,20 +38,20 @@ fn run(case: &Value) -> Result<Vec<Vec<String>>, Box<dyn Error>> {
     let mut engine = Engine::<f64>::default();
     engine.inputs.torque = Some(number(case, "torque")?);
     let mut state: State<f64, 3> = assemble(&engine, &engine.start(), 0.0)?;
-    let scheme = match case["method"].as_str() {
-        Some("rk4") => Scheme::Rk4,
-        Some("dop853") => Scheme::Dop853,
-        Some("radau5") => Scheme::Radau5,
+    let method = match case["method"].as_str() {
+        Some("rk4") => Method::Rk4,
+        Some("dop853") => Method::Dop853,
+        Some("radau5") => Method::Radau5,
         _ => return Err(format!("{case} has no known method").into()),
     };
-    let pace = match case["step"].as_f64() {
-        Some(step) => Pace::Fixed { step },
-        None => Pace::Adaptive {
+    let step_control = match case["step"].as_f64() {
+        Some(step) => StepControl::Fixed { step },
+        None => StepControl::Adaptive {
             relative: number(case, "rtol")?,
             absolute: number(case, "rtol")?,
         },
     };
-    let mut stepper = Stepper::<f64, 3, 2>::new(scheme, pace, Settings::default())?;
+    let mut stepper = Stepper::<f64, 3, 2>::new(method, step_control, Settings::default())?;
     let every = number(case, "every")?;
     let mut states = Vec::new();
     for place in 1..=(number(case, "until")? / every).round() as u32 {

@@ -1,10 +1,10 @@
-//! How a method gets from a state to the next accepted one: at a fixed pace, or at
+//! How a method gets from a state to the next accepted one: with steps of fixed length, or with
 //! one that follows a tolerance.
 //!
 //! In:  a [`Trial`]: a method that makes trial steps and tells their error.
 //! Out: accepted steps.
 //!
-//! At an adaptive pace, a trial step whose error is too large, whose error can't
+//! With adaptive steps, a trial step whose error is too large, whose error can't
 //! be told (NaN), or on whose way the mechanics failed, is tried again with a
 //! shorter one, until the step is lost in the round-off of time. A singular
 //! position that the form of the equations can't pass is reported at once: no
@@ -18,9 +18,9 @@ use crate::system::escalating;
 use crate::{DynamicsError, Real, State, Switching, System};
 use nalgebra::SVector;
 
-/// The first step should change the slope by this fraction (Hairer's guess).
+/// The first step should change the derivative by this fraction (Hairer's guess).
 const FIRST_STEP: f64 = 0.01;
-/// First step where the state or its slope is nearly zero (s).
+/// First step where the state or its derivative is nearly zero (s).
 const TINY_STEP: f64 = 1e-6;
 
 /// What is kept of the inside of a step.
@@ -45,7 +45,7 @@ pub(super) trait Trial<T: Real, const N: usize> {
     /// Chooses what is kept of the inside of steps.
     fn keep(&mut self, inside: Inside);
 
-    /// Forgets the slope at the end of the last step.
+    /// Forgets the derivative at the end of the last step.
     fn forget(&mut self);
 
     /// Makes `state` the start of the next step and gives the acceleration
@@ -66,7 +66,7 @@ pub(super) trait Trial<T: Real, const N: usize> {
     /// The error of the trial step in units of the tolerance.
     fn error(&self, tolerance: &Tolerance<T, N>) -> T;
 
-    /// Completes an accepted step: the slope at its end, and so much of its inside.
+    /// Completes an accepted step: the derivative at its end, and so much of its inside.
     fn accept<Y: System<T, N> + ?Sized>(
         &mut self,
         system: &mut Y,
@@ -79,22 +79,25 @@ pub(super) trait Trial<T: Real, const N: usize> {
 
 /// What decides how long a step is.
 #[derive(Clone, Debug)]
-struct Pace<T, const N: usize> {
+struct Adaptive<T, const N: usize> {
     tolerance: Tolerance<T, N>,
     control: Control<T>,
 }
 
-/// A method at a pace: fixed without a [`Pace`].
+/// A method and its step control: fixed steps without an [`Adaptive`].
 #[derive(Clone, Debug)]
-pub(super) struct Paced<K, T, const N: usize> {
+pub(super) struct Controlled<K, T, const N: usize> {
     pub(super) method: K,
-    pace: Option<Pace<T, N>>,
+    adaptive: Option<Adaptive<T, N>>,
 }
 
-impl<K: Trial<T, N>, T: Real, const N: usize> Paced<K, T, N> {
+impl<K: Trial<T, N>, T: Real, const N: usize> Controlled<K, T, N> {
     /// Goes to each bound at once.
     pub(super) fn fixed(method: K) -> Self {
-        Self { method, pace: None }
+        Self {
+            method,
+            adaptive: None,
+        }
     }
 
     /// Goes as far as the tolerance allows.
@@ -103,7 +106,7 @@ impl<K: Trial<T, N>, T: Real, const N: usize> Paced<K, T, N> {
         let control = Control::new(tableau.error_order, tableau.gains, tableau.jumps);
         Self {
             method,
-            pace: Some(Pace { tolerance, control }),
+            adaptive: Some(Adaptive { tolerance, control }),
         }
     }
 
@@ -120,10 +123,10 @@ impl<K: Trial<T, N>, T: Real, const N: usize> Paced<K, T, N> {
             true => Inside::Full,
             false => self.method.kept(),
         };
-        let mut slope = self.begin(system, state)?;
+        let mut acceleration = self.begin(system, state)?;
         let mut bound = bound;
         loop {
-            self.advance(system, &slope, bound, inside)?;
+            self.advance(system, &acceleration, bound, inside)?;
             match system.switch(self.method.step())? {
                 Switching::Nowhere => break,
                 Switching::AtEnd => {
@@ -133,7 +136,7 @@ impl<K: Trial<T, N>, T: Real, const N: usize> Paced<K, T, N> {
                 Switching::Within(t) => bound = t,
                 Switching::AtStart => {
                     self.method.forget();
-                    slope = self.begin(system, state)?;
+                    acceleration = self.begin(system, state)?;
                 }
             }
             self.method.step().rejected += 1;
@@ -149,19 +152,20 @@ impl<K: Trial<T, N>, T: Real, const N: usize> Paced<K, T, N> {
         system: &mut Y,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, IntegrateError<T>> {
-        let slope = escalating(system, |system| self.method.begin(system, state))?;
-        Ok(slope)
+        Ok(escalating(system, |system| {
+            self.method.begin(system, state)
+        })?)
     }
 
     /// Makes attempts at a step until one is accepted.
     fn advance<Y: System<T, N> + ?Sized>(
         &mut self,
         system: &mut Y,
-        slope: &SVector<T, N>,
+        acceleration: &SVector<T, N>,
         bound: T,
         inside: Inside,
     ) -> Result<(), IntegrateError<T>> {
-        match &mut self.pace {
+        match &mut self.adaptive {
             None => in_parts(self.method.step().start.t, bound, |end| {
                 attempt(&mut self.method, system, end)?;
                 if !complete(&mut self.method, system, inside)? {
@@ -170,7 +174,9 @@ impl<K: Trial<T, N>, T: Real, const N: usize> Paced<K, T, N> {
                 }
                 Ok::<_, IntegrateError<T>>(())
             }),
-            Some(pace) => pace.advance(&mut self.method, system, slope, (bound, inside)),
+            Some(adaptive) => {
+                adaptive.advance(&mut self.method, system, acceleration, (bound, inside))
+            }
         }
     }
 }
@@ -239,18 +245,18 @@ fn complete<K: Trial<T, N>, T: Real, Y: System<T, N> + ?Sized, const N: usize>(
     }
 }
 
-impl<T: Real, const N: usize> Pace<T, N> {
+impl<T: Real, const N: usize> Adaptive<T, N> {
     /// Makes trial steps until one is accepted.
     fn advance<K: Trial<T, N>, Y: System<T, N> + ?Sized>(
         &mut self,
         method: &mut K,
         system: &mut Y,
-        slope: &SVector<T, N>,
+        acceleration: &SVector<T, N>,
         (bound, inside): (T, Inside),
     ) -> Result<(), IntegrateError<T>> {
         let t = method.step().start.t;
         if self.control.h <= T::zero() {
-            self.control.h = self.first_step(method, system, slope, bound);
+            self.control.h = self.first_step(method, system, acceleration, bound);
         }
         // What stood in the way of the last trial, to be reported if no step is
         // short enough to avoid it.
@@ -296,7 +302,7 @@ impl<T: Real, const N: usize> Pace<T, N> {
         Ok(Some(error))
     }
 
-    /// Hairer's guess of the first step: the slope and an explicit Euler step
+    /// Hairer's guess of the first step: the derivative and an explicit Euler step
     /// tell how fast things change (II.4, "Starting Step Size").
     fn first_step<K: Trial<T, N>, Y: System<T, N> + ?Sized>(
         &self,
@@ -308,17 +314,17 @@ impl<T: Real, const N: usize> Pace<T, N> {
         let start = method.step().start;
         let span = bound - start.t;
         let size = self.tolerance.norm((&start.q, &start.v), &start, &start);
-        let slope = self.tolerance.norm((&start.v, a), &start, &start);
+        let rate = self.tolerance.norm((&start.v, a), &start, &start);
         let tiny = T::from_f64(TINY_STEP);
         let small = T::from_f64(1e-5);
-        let guess = if size < small || slope < small {
+        let guess = if size < small || rate < small {
             tiny
         } else {
-            T::from_f64(FIRST_STEP) * size / slope
+            T::from_f64(FIRST_STEP) * size / rate
         };
         let guess = if guess < span { guess } else { span };
         let curvature = self.curvature(method, system, a, guess);
-        let change = slope.max(curvature);
+        let change = rate.max(curvature);
         let better = if change.is_finite() && change > T::from_f64(1e-15) {
             let order = f64::from(method.tableau().order);
             (T::from_f64(FIRST_STEP) / change).powf(T::from_f64(1.0 / order))
@@ -328,7 +334,7 @@ impl<T: Real, const N: usize> Pace<T, N> {
         (guess * T::from_f64(100.0)).min(better).min(span)
     }
 
-    /// How fast the slope changes over an Euler step of length `h`; infinite
+    /// How fast the derivative changes over an Euler step of length `h`; infinite
     /// where the mechanics fail on the way.
     fn curvature<K: Trial<T, N>, Y: System<T, N> + ?Sized>(
         &self,

@@ -4,21 +4,21 @@
 //!      constraints.
 //! Out: `∂q̈/∂q`, `∂q̈/∂q̇`, by the factors of `M` and `A M⁻¹ Aᵀ`.
 //!
-//! Not here: what is done near singular positions, where these factors are none.
+//! Not here: what is done near singular positions, where `A M⁻¹ Aᵀ` has no factors.
 
 use super::Solver;
 use crate::tolerance::{passes, window};
-use crate::{Linearised, Mechanism, Real, Slope, Stabilisation, State};
+use crate::{AccelerationJacobian, Linearised, Mechanism, Real, Stabilisation, State};
 use nalgebra::{SMatrix, SVector};
 
 impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// The derivatives of the acceleration where the constraints are regular; `None`
     /// near singular positions, and where constraint errors take part in it.
-    pub(crate) fn slope<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn acceleration_jacobian<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
-    ) -> Option<Slope<T, N>> {
+    ) -> Option<AccelerationJacobian<T, N>> {
         if matches!(self.settings.stabilisation, Stabilisation::Baumgarte { .. }) {
             return None;
         }
@@ -40,14 +40,14 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         };
         mechanism
             .linearised(state, &acceleration, &multiplier, &mut out)
-            .then(|| Slope {
+            .then(|| AccelerationJacobian {
                 q: self.changes(&out.force_by_position, &out.row_by_position),
                 v: self.changes(&out.force_by_velocity, &out.row_by_velocity),
             })
     }
 
     /// How the acceleration changes with applied forces, `∂q̈/∂p₁`, at the state at which
-    /// [`slope`](Self::slope) was found last.
+    /// [`acceleration_jacobian`](Self::acceleration_jacobian) was found last.
     pub(crate) fn compliance(&self) -> SMatrix<T, N, N> {
         self.changes(&SMatrix::identity(), &SMatrix::zeros())
     }

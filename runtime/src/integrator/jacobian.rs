@@ -6,7 +6,7 @@
 //! The iteration that uses them needs no more than a few digits: they decide how
 //! fast it converges, not what it converges to.
 
-use crate::{DynamicsError, Real, Slope, State, System};
+use crate::{AccelerationJacobian, DynamicsError, Real, State, System};
 use nalgebra::{SMatrix, SVector};
 
 /// How far coordinates and velocities are varied, relative to their size, as a
@@ -16,19 +16,19 @@ const VARIATION: f64 = 0.4;
 
 /// The derivatives at a state with acceleration `a`, and how many accelerations were
 /// computed for them.
-pub(super) fn slope<T: Real, const N: usize, Y: System<T, N> + ?Sized>(
+pub(super) fn acceleration_jacobian<T: Real, const N: usize, Y: System<T, N> + ?Sized>(
     system: &mut Y,
     state: &State<T, N>,
     a: &SVector<T, N>,
-) -> Result<(Slope<T, N>, u32), DynamicsError<T>> {
-    match system.slope(state) {
-        Some(slope) if is_finite(&slope) => Ok((slope, 0)),
+) -> Result<(AccelerationJacobian<T, N>, u32), DynamicsError<T>> {
+    match system.acceleration_jacobian(state) {
+        Some(jacobian) if is_finite(&jacobian) => Ok((jacobian, 0)),
         _ => Ok((differences(system, state, a)?, 2 * N as u32)),
     }
 }
 
-fn is_finite<T: Real, const N: usize>(slope: &Slope<T, N>) -> bool {
-    slope.q.iter().chain(&slope.v).all(|x| x.is_finite())
+fn is_finite<T: Real, const N: usize>(jacobian: &AccelerationJacobian<T, N>) -> bool {
+    jacobian.q.iter().chain(&jacobian.v).all(|x| x.is_finite())
 }
 
 /// One-sided differences.
@@ -36,8 +36,8 @@ fn differences<T: Real, const N: usize, Y: System<T, N> + ?Sized>(
     system: &mut Y,
     state: &State<T, N>,
     a: &SVector<T, N>,
-) -> Result<Slope<T, N>, DynamicsError<T>> {
-    let mut slope = Slope {
+) -> Result<AccelerationJacobian<T, N>, DynamicsError<T>> {
+    let mut jacobian = AccelerationJacobian {
         q: SMatrix::zeros(),
         v: SMatrix::zeros(),
     };
@@ -53,11 +53,11 @@ fn differences<T: Real, const N: usize, Y: System<T, N> + ?Sized>(
         let mut near = *state;
         near.q[j] += by_q;
         let difference = near.q[j] - state.q[j];
-        slope.q.data.0[j] = ((system.acceleration(&near)? - a) / difference).data.0[0];
+        jacobian.q.data.0[j] = ((system.acceleration(&near)? - a) / difference).data.0[0];
         let mut near = *state;
         near.v[j] += by_v;
         let difference = near.v[j] - state.v[j];
-        slope.v.data.0[j] = ((system.acceleration(&near)? - a) / difference).data.0[0];
+        jacobian.v.data.0[j] = ((system.acceleration(&near)? - a) / difference).data.0[0];
     }
-    Ok(slope)
+    Ok(jacobian)
 }
