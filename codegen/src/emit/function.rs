@@ -7,9 +7,8 @@
 //!      others get a name. Nothing is computed here.
 
 use super::literal;
-use super::name::Names;
-use super::tables;
-use crate::expr::{Comparison, Function, Function2, Side, Symbol, Test};
+use super::name::{Names, table_name};
+use crate::expr::{Comparison, Entry, Function, Function2, Lookup, Side, Symbol, Test};
 use crate::optimise::{Operation, Program, Slot, Value};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
@@ -341,18 +340,41 @@ impl Writer<'_> {
 
     fn call(&self, function: Function, x: Value) -> Piece {
         if let Function::Table(lookup) = function {
-            let by_sides = self.decided == Decided::BySides;
-            let tokens = tables::call(lookup, &self.piece(x).tokens, by_sides);
-            return Piece {
-                operands: self.operands([x]),
-                ..atom(tokens)
-            };
+            return self.lookup(lookup, x);
         }
         let argument = self.bound(x, Binding::Atom);
         let name = Ident::new(function.name(), Span::call_site());
         Piece {
             operands: self.operands([x]),
             ..atom(quote!(#argument.#name()))
+        }
+    }
+
+    fn lookup(&self, lookup: Lookup, x: Value) -> Piece {
+        let (table, argument) = (table_name(lookup.table.index), &self.piece(x).tokens);
+        let held = lookup.held.filter(|_| self.decided == Decided::BySides);
+        let number = Literal::u32_unsuffixed;
+        let tokens = match (lookup.entry, held.map(number)) {
+            (Entry::Derivative(order), Some(first)) => {
+                let order = Literal::u8_unsuffixed(order);
+                quote!(#table.held(#order, #argument, out.sides, #first))
+            }
+            (Entry::Derivative(order), None) => {
+                let order = Literal::u8_unsuffixed(order);
+                quote!(#table.value(#order, #argument))
+            }
+            (Entry::Side(bit), _) => {
+                let bit = number(bit);
+                quote!(#table.side(#bit, #argument))
+            }
+            (Entry::Turn(bit), _) => {
+                let bit = number(bit);
+                quote!(#table.turn(#bit, #argument))
+            }
+        };
+        Piece {
+            operands: self.operands([x]),
+            ..atom(tokens)
         }
     }
 

@@ -70,7 +70,7 @@ pub fn module(
     let source = origin.source;
     let structure = structure::structure(&subject);
     let conditions = switches::table(&subject);
-    let tables = tables::tables(mechanism);
+    let tables = tables::tables(&subject);
     let parameters = structure::parameters(&subject);
     let inputs = structure::inputs(&subject);
     let holder = holder(&subject);

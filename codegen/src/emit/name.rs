@@ -126,6 +126,11 @@ const NEIGHBOURS: [&str; 39] = [
     "Terms",
 ];
 
+/// The static of a table.
+pub(super) fn table_name(index: u32) -> Ident {
+    Ident::new(&format!("TABLE_{index}"), Span::call_site())
+}
+
 /// `slider_crank` → `SliderCrank`; what is in camel case stays so. A name that one
 /// of its neighbours has gets `Mechanism` in front.
 pub(super) fn camel_case(name: &str) -> String {

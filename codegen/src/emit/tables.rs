@@ -1,17 +1,17 @@
 //! Tables of many points, which code holds as data.
 //!
 //! In:  the tables of a mechanism.
-//! Out: a static for each, and calls of it.
+//! Out: a static for each.
 
-use crate::expr::{Entry, Lookup};
-use crate::model::Mechanism;
-use proc_macro2::{Ident, Literal, Span, TokenStream};
-use quote::{format_ident, quote};
+use super::name::table_name;
+use super::subject::Subject;
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
 
 /// The statics.
-pub(super) fn tables(mechanism: &Mechanism) -> TokenStream {
-    let tables = mechanism.tables.iter().map(|table| {
-        let name = name(table.index);
+pub(super) fn tables(subject: &Subject) -> TokenStream {
+    let tables = subject.mechanism.tables.iter().map(|table| {
+        let name = table_name(table.index);
         let docs = format!(" A function through {} points.", table.places.len());
         let places = table.places.iter().map(|place| number(*place));
         let pieces = table.pieces.iter().map(|piece| {
@@ -27,38 +27,6 @@ pub(super) fn tables(mechanism: &Mechanism) -> TokenStream {
         }
     });
     tables.collect()
-}
-
-/// A call of a table; whether a run may hold the interval.
-pub(super) fn call(lookup: Lookup, x: &TokenStream, by_sides: bool) -> TokenStream {
-    let table = name(lookup.table.index);
-    let held = lookup.held.filter(|_| by_sides);
-    match (lookup.entry, held) {
-        (Entry::Derivative(order), Some(first)) => {
-            let (order, first) = (
-                Literal::u8_unsuffixed(order),
-                Literal::u32_unsuffixed(first),
-            );
-            quote!(#table.held(#order, #x, out.sides, #first))
-        }
-        (Entry::Derivative(order), None) => {
-            let order = Literal::u8_unsuffixed(order);
-            quote!(#table.value(#order, #x))
-        }
-        (Entry::Side(bit) | Entry::Turn(bit), _) => {
-            let bit = Literal::u32_unsuffixed(bit);
-            let what = match lookup.entry {
-                Entry::Side(_) => "side",
-                _ => "turn",
-            };
-            let what = Ident::new(what, Span::call_site());
-            quote!(#table.#what(#bit, #x))
-        }
-    }
-}
-
-fn name(index: u32) -> Ident {
-    format_ident!("TABLE_{index}")
 }
 
 /// A number of the data. A sign is a token of its own.

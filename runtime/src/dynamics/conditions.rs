@@ -6,10 +6,12 @@
 use crate::{Condition, Real, Sides, State};
 
 /// What an attempt at a step was shortened for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Aim {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Aim<T> {
     /// The function that passes zero at its end.
     pub(super) index: usize,
+    /// Where that end should be (s).
+    pub(super) t: T,
     /// How often that was tried.
     pub(super) tries: u32,
 }
@@ -29,7 +31,7 @@ pub(crate) struct Conditions<T, const N: usize> {
     pub(super) made: Option<(Sides, u128)>,
     /// The state that they are known for.
     pub(super) at: Option<State<T, N>>,
-    pub(super) aim: Option<Aim>,
+    pub(super) aim: Option<Aim<T>>,
     /// When a condition changed last (s).
     pub(super) turned: T,
     /// Changes in a row that hardly got any further.

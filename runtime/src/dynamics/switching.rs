@@ -90,7 +90,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let (start, end) = (step.start().t, step.end().t);
         let same = T::EPSILON * T::from_f64(SAME_TIME) * start.abs().max(end.abs());
         self.conditions.attempt = self.conditions.attempt.max(end - start);
+        // An attempt that was too long for its tolerance ends earlier than it should.
         let aim = self.conditions.aim.take();
+        let aim = aim.filter(|aim| end >= aim.t - same);
         let index = match self.first_change(mechanism, step)? {
             Some((index, t)) if t <= start + same => {
                 self.turn(mechanism, index, step.start())?;
@@ -103,7 +105,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                     .filter(|aim| aim.index == index && near)
                     .map_or(0, |aim| aim.tries + 1);
                 if t < end - same && tries <= REFINEMENTS {
-                    self.conditions.aim = Some(Aim { index, tries });
+                    self.conditions.aim = Some(Aim { index, t, tries });
                     return Ok(Switching::Within(t));
                 }
                 index
@@ -116,6 +118,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 Some(aim) => {
                     if let Some(t) = self.refined(mechanism, step, aim, same)? {
                         self.conditions.aim = Some(Aim {
+                            t,
                             tries: aim.tries + 1,
                             ..aim
                         });
@@ -148,7 +151,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         &mut self,
         mechanism: &M,
         step: &Step<T, N>,
-        aim: Aim,
+        aim: Aim<T>,
         same: T,
     ) -> Result<Option<T>, DynamicsError<T>> {
         if aim.tries >= REFINEMENTS || self.conditions.slides(aim.index) {
