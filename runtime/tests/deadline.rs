@@ -153,7 +153,7 @@ fn is_cut_off<M: Passing<N, R>, const N: usize, const R: usize>(mechanism: M, me
         }
         (stepper, state) = plain;
     }
-    assert!(cuts > 500, "{cuts}");
+    assert!(cuts > 200, "{cuts}");
     assert!(longest <= FEW, "{method}: {longest} more than were granted");
 }
 
