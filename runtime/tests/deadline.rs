@@ -11,7 +11,7 @@ use std::cell::Cell;
 /// Length of a step (s).
 const STEP: f64 = 0.004;
 /// Evaluations after the last that was granted with which a step may come to its end.
-const FEW: u32 = 40;
+const FEW: u32 = 48;
 
 /// Counts the evaluations of a mechanism by its own.
 struct Counted<M> {
