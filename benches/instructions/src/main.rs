@@ -42,9 +42,10 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
             page::write(&Recorded::read()?)?;
             Ok(ExitCode::SUCCESS)
         }
+        ["count", ref kernels @ .., "--record"] => measure(kernels.to_vec(), true),
         ["count", ref kernels @ ..] => measure(kernels.to_vec(), false),
         _ => Err(
-            "write `short`, `long`, either with `--record`, `size`, `table`, or `count KERNEL…`"
+            "write `short`, `long`, or `count KERNEL…`, each with `--record` or without, `size`, or `table`"
                 .into(),
         ),
     }
