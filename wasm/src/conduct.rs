@@ -15,7 +15,7 @@ where
     M: Mechanism<f64, N, R> + Interface<f64, N>,
 {
     /// Moves on to a time (s) in one run, with rows at equal distances of time (s), which
-    /// have the columns of some bits (see [`Columns`]). If [`unfinished`](Self::unfinished)
+    /// have the columns of some bits (see `row.rs`). If [`unfinished`](Self::unfinished)
     /// says so afterwards, rows had no room: with `again` the same run goes on.
     pub fn run(&mut self, until: f64, every: f64, columns: u32, again: u32) -> u32 {
         let Some(columns) = Columns::of(columns) else {
