@@ -44,25 +44,7 @@ fn per_call(name: &str) -> Result<Option<f64>, Box<dyn Error>> {
         ROUNDS
     };
     let calls = ((many - few) * kernel::calls(name)) as f64;
-    let counted = collected(name, many)?.zip(collected(name, few)?);
+    let collected = |rounds: u64| counting::collected(&["kernel", name, &rounds.to_string()]);
+    let counted = collected(many)?.zip(collected(few)?);
     Ok(counted.map(|(more, less)| (more - less) / calls))
-}
-
-fn collected(name: &str, rounds: u64) -> Result<Option<f64>, Box<dyn Error>> {
-    let output = Command::new("valgrind")
-        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
-        .arg(std::env::current_exe()?)
-        .args(["kernel", name, &rounds.to_string()])
-        .output()?;
-    let said = String::from_utf8_lossy(&output.stderr);
-    if said.contains("Unrecognised instruction") {
-        return Ok(None);
-    }
-    let count = said
-        .lines()
-        .find_map(|line| line.split_once("Collected : "));
-    match count {
-        Some((_, count)) if output.status.success() => Ok(Some(count.trim().parse()?)),
-        _ => Err(format!("callgrind could not count {name}:\n{said}").into()),
-    }
 }

@@ -11,7 +11,6 @@ use std::error::Error;
 use std::fs;
 use std::hint::black_box;
 use std::path::Path;
-use std::process::Command;
 
 type Failed = Box<dyn Error>;
 
@@ -103,20 +102,8 @@ fn audited<const N: usize, const R: usize>(
 
 /// Instructions of a run.
 fn collected(name: &str, needed: bool, audit: bool, steps: u32) -> Result<f64, Failed> {
-    let output = Command::new("valgrind")
-        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
-        .arg(std::env::current_exe()?)
-        .args(["run", name])
-        .args([needed.to_string(), audit.to_string(), steps.to_string()])
-        .output()?;
-    let said = String::from_utf8_lossy(&output.stderr);
-    let count = said
-        .lines()
-        .find_map(|line| line.split_once("Collected : "));
-    match count {
-        Some((_, count)) if output.status.success() => Ok(count.trim().parse()?),
-        _ => Err(format!("callgrind could not count {name}:\n{said}").into()),
-    }
+    let [needed, audit] = [needed, audit].map(|flag| flag.to_string());
+    counting::counted(&["run", name, &needed, &audit, &steps.to_string()])
 }
 
 /// Instructions of one step, or of a whole run through a singular position.

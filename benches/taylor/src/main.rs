@@ -13,7 +13,6 @@ use bricard_testkit::Reduction;
 use std::error::Error;
 use std::f64::consts::FRAC_PI_4;
 use std::hint::black_box;
-use std::process::Command;
 
 type Failed = Box<dyn Error>;
 
@@ -111,25 +110,12 @@ fn end(problem: &Problem, setting: Setting) -> Result<f64, Failed> {
 
 fn collected(index: usize, setting: Setting, rounds: u32) -> Result<f64, Failed> {
     let Setting { order, tolerance } = setting;
-    let words = [
-        index.to_string(),
-        order.to_string(),
-        tolerance.to_string(),
-        rounds.to_string(),
-    ];
-    let output = Command::new("valgrind")
-        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
-        .arg(std::env::current_exe()?)
-        .args(words)
-        .output()?;
-    let said = String::from_utf8_lossy(&output.stderr);
-    let count = said
-        .lines()
-        .find_map(|line| line.split_once("Collected : "));
-    match count {
-        Some((_, count)) if output.status.success() => Ok(count.trim().parse()?),
-        _ => Err(format!("callgrind could not count:\n{said}").into()),
-    }
+    counting::counted(&[
+        &index.to_string(),
+        &order.to_string(),
+        &tolerance.to_string(),
+        &rounds.to_string(),
+    ])
 }
 
 /// The fewest instructions of some settings that are accurate enough.
