@@ -9,7 +9,7 @@ use crate::error::CommandError;
 use crate::words::freedom;
 use bricard_driver::{AnyMechanism, Precise};
 use bricard_runtime::Structure;
-use std::path::{self, Path, PathBuf};
+use std::path::{self, Path};
 
 /// Finds a mechanism of the library or of the benchmark problems, or compiles a file.
 ///
@@ -20,12 +20,7 @@ pub fn find(name: &str) -> Result<Box<dyn AnyMechanism>, CommandError> {
     if let Some(file) = file(name) {
         return Ok(Box::new(compiled::open(file)?));
     }
-    included(name).ok_or_else(|| unknown(name))
-}
-
-/// A mechanism that the command has in it.
-fn included(name: &str) -> Option<Box<dyn AnyMechanism>> {
-    bricard::any(name).or_else(|| bricard_benchmarks::any(name))
+    bricard::any(name).ok_or_else(|| unknown(name))
 }
 
 fn unknown(name: &str) -> CommandError {
@@ -78,10 +73,15 @@ pub fn description(name: &str) -> Result<Description, CommandError> {
             source: read(file)?,
         });
     }
-    let source = bricard::source(name).or_else(|| bricard_benchmarks::source(name));
+    let (folder, source) = match bricard::source(name) {
+        Some(source) => ("mechanisms", Some(source)),
+        None => ("mechanisms/benchmarks", bricard_benchmarks::source(name)),
+    };
     let source = source.ok_or_else(|| unknown(name))?;
+    let file = Path::new(folder).join(find(name)?.structure().file);
     Ok(Description {
-        file: PathBuf::from(find(name)?.structure().file),
+        // Without the `.` of the folder that the library was compiled in.
+        file: file.components().collect(),
         source: source.to_string(),
     })
 }
@@ -100,7 +100,7 @@ pub fn precise(name: &str) -> Result<Box<dyn Precise>, CommandError> {
 /// In words: rank of the constraints of a mechanism of the library at its start, and what
 /// is left free; `None` if there is no such mechanism.
 pub fn freedom_at_start(name: &str) -> Option<String> {
-    let mechanism = included(name)?;
+    let mechanism = bricard::any(name)?;
     let Structure {
         coordinates,
         constraints,

@@ -104,7 +104,10 @@ impl Version {
     /// Listens to the folders of the files: a new file under the old name is another file.
     fn listen(&self, watcher: &mut RecommendedWatcher, file: &Path) -> Result<(), String> {
         let listened = watcher.watch(folder(file), RecursiveMode::NonRecursive);
-        listened.map_err(|error| error.to_string())?;
+        listened.map_err(|error| match folder(file).is_dir() {
+            true => error.to_string(),
+            false => format!("there is no folder {}", folder(file).display()),
+        })?;
         for other in self.files.iter().map(|file| folder(file)) {
             if other != folder(file) {
                 // A folder that isn't there is said to be missing by the run.

@@ -45,10 +45,9 @@ impl Digits {
             Self::Double => ("f64", "bricard_driver::serve(make)".to_string()),
             Self::Many => (
                 "bricard_reference::DoubleDouble",
-                format!(
-                    "bricard_driver::with_room::<Number, {coordinates}, {constraints}>(move || {{\n        \
-                     bricard_driver::serve_precise(bricard_reference::precise(make()))\n    }})"
-                ),
+                "bricard_driver::with_room(move || {\n        \
+                 bricard_driver::serve_precise(bricard_reference::precise(make()))\n    })"
+                    .to_string(),
             ),
         };
         let kind = format!("dyn bricard_runtime::Whole<Number, {coordinates}, {constraints}>");

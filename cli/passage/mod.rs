@@ -4,10 +4,7 @@
 //! In:  names of mechanisms that pass one.
 //! Out: median and worst error over many placements, for several steps.
 //!
-//! A run begins on the exact motion so that a stage of its first step lies at a
-//! distance `d` from the singular position, `d = ±{1, 3.3}·10⁻ᵏ`, `k = 1…16`, for each
-//! stage of the method, and goes on for 0.4 s. The distance is that of the fastest
-//! coordinate.
+//! Stages are placed by their abscissae; the distance is that of the fastest coordinate.
 
 use crate::arguments::{MethodName, Passage};
 use crate::error::CommandError;
@@ -18,16 +15,8 @@ use crate::run::{Plan, RowSink, run};
 use crate::table::{Align, headed};
 use bricard_driver::{AnyMechanism, Around, Path, Precise};
 use bricard_runtime::{Audit, Method, Options, StepControl};
+use bricard_testkit::placement::{Placements, SPAN, STEPS, distances, stages};
 
-/// How long a motion is followed (s).
-const SPAN: f64 = 0.4;
-/// Steps in that time.
-const STEPS: [u32; 4] = [20, 40, 80, 160];
-/// How much worse than the median the worst placement may be.
-const SPREAD: f64 = 2.0;
-/// A median that is round-off, and what no placement may exceed then.
-const FLOOR: f64 = 1e-12;
-const PLACED: f64 = 1e-11;
 /// Tolerance of the run that finds the singular position.
 const SEARCH: f64 = 1e-11;
 /// How long that run looks for one (s).
@@ -52,12 +41,11 @@ pub fn passage(arguments: &Passage) -> Result<(), CommandError> {
                 Method::from(method)
             ));
             for steps in STEPS {
-                let found =
-                    Placements::of(precise.as_mut(), mechanism.as_ref(), (method, steps), about)?;
+                let found = placed(precise.as_mut(), mechanism.as_ref(), (method, steps), about)?;
                 if !found.is_even() {
                     broken.push(format!("{name}, {}, {steps} steps", Method::from(method)));
                 }
-                rows.push(found.row(name, method, steps));
+                rows.push(row(&found, name, method, steps));
             }
         }
     }
@@ -86,74 +74,48 @@ pub fn passage(arguments: &Passage) -> Result<(), CommandError> {
     }
 }
 
-/// Errors of all placements of one method and step.
-struct Placements {
-    /// Sorted.
-    errors: Vec<f64>,
+/// The errors of all placements of one method and step.
+fn placed(
+    precise: &mut dyn Precise,
+    mechanism: &dyn AnyMechanism,
+    (method, steps): (MethodName, u32),
+    about: f64,
+) -> Result<Placements<()>, CommandError> {
+    let step = SPAN / f64::from(steps);
+    let around = Around {
+        about,
+        places: places(method.into(), step),
+        span: SPAN,
+    };
+    let exact = precise.path(&around).map_err(failed)?;
+    let mut errors = Vec::new();
+    for row in &exact.rows {
+        let Some(end) = row_at(&exact, row[0] + SPAN) else {
+            continue;
+        };
+        let mut options = Options::new(end[0], method.into(), StepControl::Fixed { step });
+        options.audit = Audit::NONE;
+        let run = mechanism.timed_run(Some(row), &options).map_err(failed)?;
+        let differences = run.end.iter().zip(&end[1..]).map(|(a, b)| a - b);
+        errors.push((largest(differences), ()));
+    }
+    let too_near = || failed("it begins too near the singular position".to_string());
+    Placements::of(errors).ok_or_else(too_near)
 }
 
-impl Placements {
-    fn of(
-        precise: &mut dyn Precise,
-        mechanism: &dyn AnyMechanism,
-        (method, steps): (MethodName, u32),
-        about: f64,
-    ) -> Result<Self, CommandError> {
-        let step = SPAN / f64::from(steps);
-        let around = Around {
-            about,
-            places: places(&stages(method.into()), step),
-            span: SPAN,
-        };
-        let exact = precise.path(&around).map_err(failed)?;
-        let mut errors = Vec::new();
-        for row in &exact.rows {
-            let Some(end) = row_at(&exact, row[0] + SPAN) else {
-                continue;
-            };
-            let mut options = Options::new(end[0], method.into(), StepControl::Fixed { step });
-            options.audit = Audit::NONE;
-            let found = mechanism
-                .timed_run(Some(row), &options)
-                .map_err(failed)?
-                .end;
-            let differences = found.iter().zip(&end[1..]).map(|(a, b)| a - b);
-            errors.push(largest(differences));
-        }
-        errors.sort_by(f64::total_cmp);
-        match errors.is_empty() {
-            true => Err(failed(
-                "it begins too near the singular position".to_string(),
-            )),
-            false => Ok(Self { errors }),
-        }
-    }
-
-    fn median(&self) -> f64 {
-        self.errors[self.errors.len() / 2]
-    }
-
-    fn worst(&self) -> f64 {
-        self.errors[self.errors.len() - 1]
-    }
-
-    fn is_even(&self) -> bool {
-        let floor = if self.median() <= FLOOR { PLACED } else { 0.0 };
-        self.worst() <= floor.max(SPREAD * self.median())
-    }
-
-    fn row(&self, name: &str, method: MethodName, steps: u32) -> Vec<String> {
-        vec![
-            name.to_string(),
-            Method::from(method).to_string(),
-            (SPAN / f64::from(steps)).to_string(),
-            self.errors.len().to_string(),
-            format!("{:.1e}", self.median()),
-            format!("{:.1e}", self.worst()),
-            format!("{:.1}", self.worst() / self.median()),
-            if self.is_even() { "ok" } else { "uneven" }.to_string(),
-        ]
-    }
+/// What is printed of them.
+fn row(placements: &Placements<()>, name: &str, method: MethodName, steps: u32) -> Vec<String> {
+    let (median, (worst, ())) = (placements.median(), placements.worst());
+    vec![
+        name.to_string(),
+        Method::from(method).to_string(),
+        (SPAN / f64::from(steps)).to_string(),
+        placements.count().to_string(),
+        format!("{median:.1e}"),
+        format!("{worst:.1e}"),
+        format!("{:.1}", worst / median),
+        if placements.is_even() { "ok" } else { "uneven" }.to_string(),
+    ]
 }
 
 /// The row at a time, if there is one.
@@ -164,24 +126,12 @@ fn row_at(path: &Path, time: f64) -> Option<&Vec<f64>> {
 }
 
 /// Where stages lie, and how long before that runs begin (s).
-fn places(stages: &[f64], step: f64) -> Vec<(f64, f64)> {
-    let mut places = Vec::new();
-    for stage in stages {
-        for exponent in 1..=16 {
-            for size in [1.0, -1.0, 3.3, -3.3] {
-                let distance = size * 10.0_f64.powi(-exponent);
-                places.push((distance, stage * step));
-            }
-        }
-    }
-    places
-}
-
-/// The abscissae of the stages of a method, and the start of the step.
-fn stages(method: Method) -> Vec<f64> {
-    let mut stages: Vec<f64> = std::iter::once(0.0).chain(method.abscissae()).collect();
-    stages.dedup();
-    stages
+fn places(method: Method, step: f64) -> Vec<(f64, f64)> {
+    let of = |stage| distances().into_iter().map(move |d| (d, stage * step));
+    stages(method.abscissae())
+        .into_iter()
+        .flat_map(of)
+        .collect()
 }
 
 /// When a mechanism first passes a singular position (s).

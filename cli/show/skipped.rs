@@ -4,6 +4,7 @@
 //! Out: a line for each thing that this mechanism doesn't need, with the operations that
 //!      a program for any mechanism of its size would spend on it.
 
+use super::parts::parts;
 use bricard_codegen::internals::derive::Equations;
 use bricard_codegen::internals::expr::{ExprId, Graph, Symbol};
 use bricard_codegen::internals::model::Mechanism;
@@ -19,6 +20,7 @@ pub fn skipped(mechanism: &Mechanism, equations: &Equations, programs: &Programs
         repeated(&mechanism.graph, equations),
         time(&mechanism.graph, equations),
         ignorable(mechanism, equations),
+        apart(mechanism, equations),
         folded(mechanism),
         no_constraints(equations),
         on_request(mechanism, programs),
@@ -135,6 +137,25 @@ fn ignorable(mechanism: &Mechanism, equations: &Equations) -> Option<String> {
             "functions of {}: no term depends on {} (ignorable)",
             absent.join(", "),
             if absent.len() == 1 { "it" } else { "them" }
+        )
+    })
+}
+
+/// Entries between parts that nothing ties to one another.
+fn apart(mechanism: &Mechanism, equations: &Equations) -> Option<String> {
+    let parts = parts(&mechanism.graph, equations);
+    let named = |part: &Vec<usize>| {
+        let names: Vec<&str> = part
+            .iter()
+            .map(|i| mechanism.coordinates[*i].name.as_str())
+            .collect();
+        format!("{{{}}}", names.join(", "))
+    };
+    let named: Vec<String> = parts.iter().map(named).collect();
+    (parts.len() > 1).then(|| {
+        format!(
+            "whatever would tie these parts to one another: {}; in descriptions of their own each would take steps of its own",
+            named.join(" and ")
         )
     })
 }

@@ -97,6 +97,7 @@ struct SizedMechanism<const N: usize, const R: usize> {
 
 impl<const N: usize, const R: usize> SizedMechanism<N, R> {
     /// The `start` block of the description, with what is given instead.
+    #[inline(never)]
     fn start(&self) -> Start<f64, N> {
         let mut start = self.mechanism.start();
         for given in &self.given {
@@ -116,6 +117,7 @@ impl<const N: usize, const R: usize> SizedMechanism<N, R> {
     }
 
     /// A state in a row, or the assembled start.
+    #[inline(never)]
     fn state(&self, from: Option<&[f64]>) -> Result<State<f64, N>, String> {
         match from {
             Some(row) => Ok(state_of(row)),
@@ -153,7 +155,7 @@ impl<const N: usize, const R: usize> AnyMechanism for SizedMechanism<N, R> {
         let wall = begun.elapsed();
         let summary = result.map_err(|failure| failure.error.to_string())?;
         Ok(TimedRun {
-            end: summary.end.q.iter().copied().collect(),
+            end: summary.end.q.as_slice().to_vec(),
             steps: summary.steps,
             evaluations: summary.evaluations,
             wall,

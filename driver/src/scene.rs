@@ -34,6 +34,7 @@ pub enum Drawn {
 }
 
 /// Draws a mechanism in each of some rows (see [`heads`](crate::heads)).
+#[inline(never)]
 pub(crate) fn scene<const N: usize, const R: usize>(
     mechanism: &dyn Whole<f64, N, R>,
     rows: &[Vec<f64>],
@@ -55,6 +56,7 @@ pub(crate) fn scene<const N: usize, const R: usize>(
 
 /// The state that a row shows; the integrals of states of the first order, on which no
 /// picture depends, are not in it.
+#[inline(never)]
 fn shown_in<const N: usize>(row: &[f64], structure: &Structure) -> State<f64, N> {
     let at = |i: usize| row.get(i).copied().unwrap_or(0.0);
     let freedoms = structure.freedoms().len();

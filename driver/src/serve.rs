@@ -6,7 +6,7 @@
 use crate::any::{AnyMechanism, erase_type};
 use crate::segment::Watch;
 use crate::wire::{Reply, Request, Wire, receive, row, send};
-use bricard_runtime::{Real, Solver, Whole};
+use bricard_runtime::Whole;
 use std::io::{self, BufWriter, Stdout, Write};
 use std::mem;
 use std::ops::ControlFlow;
@@ -21,10 +21,8 @@ const PERIOD: Duration = Duration::from_millis(50);
 /// Steps between looks at the clock.
 const STEPS_BETWEEN_LOOKS: u64 = 16;
 
-/// The stack of a small mechanism, in bytes.
-const LEAST_STACK: usize = 8 << 20;
-/// How many times the matrices of a solver are on the stack at once, at most.
-const SOLVERS: usize = 32;
+/// The stack of a program, in bytes: some systems give it less to begin with.
+const STACK: usize = 8 << 20;
 
 /// Whether the run should end.
 static WANTED: AtomicBool = AtomicBool::new(false);
@@ -34,31 +32,24 @@ static WANTED: AtomicBool = AtomicBool::new(false);
 pub fn serve<const N: usize, const R: usize>(make: fn() -> Box<dyn Whole<f64, N, R>>) -> ExitCode {
     // Named here, how rows are written is compiled with the sizes: fast, as the rest of this
     // package need not be.
-    with_room::<f64, N, R>(move || match answer(erase_type(make()), row) {
+    with_room(move || match answer(erase_type(make()), row) {
         Ok(()) => ExitCode::SUCCESS,
         // Nobody is there to be told.
         Err(_) => ExitCode::FAILURE,
     })
 }
 
-/// Does something on a stack that holds the matrices of a mechanism: those of a hundred
-/// coordinates are larger than the one that a program begins with. A page of it that is
-/// never touched costs nothing.
-pub fn with_room<T: Real, const N: usize, const R: usize>(
-    work: impl FnOnce() -> ExitCode + Send + 'static,
-) -> ExitCode {
-    let room = LEAST_STACK + SOLVERS * size_of::<Solver<T, N, R>>();
-    let thread = thread::Builder::new().stack_size(room).spawn(work);
+/// Does something on a stack of usual size. For matrices that don't fit, the runtime has room
+/// of its own.
+pub fn with_room(work: impl FnOnce() -> ExitCode + Send + 'static) -> ExitCode {
+    let thread = thread::Builder::new().stack_size(STACK).spawn(work);
     let done = thread.map(thread::JoinHandle::join);
     match done {
         Ok(Ok(code)) => code,
         // The panic has said why.
         Ok(Err(_)) => ExitCode::FAILURE,
         Err(refused) => {
-            eprintln!(
-                "this mechanism needs {} MiB of memory for its matrices: {refused}",
-                room >> 20
-            );
+            eprintln!("a program needs {} MiB of memory: {refused}", STACK >> 20);
             ExitCode::FAILURE
         }
     }

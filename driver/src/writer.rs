@@ -22,6 +22,7 @@ use std::time::{Duration, Instant};
 ///
 /// In words, why it could not begin. That it could not go on is no error here: what was
 /// done until then is kept.
+#[inline(never)]
 pub(crate) fn segment<const N: usize, const R: usize>(
     mechanism: &dyn Whole<f64, N, R>,
     state: State<f64, N>,
@@ -68,6 +69,7 @@ struct Writer<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Writer<'a, N> {
+    #[inline(never)]
     fn new(
         segment: &'a Segment,
         first: State<f64, N>,
@@ -105,6 +107,7 @@ impl<'a, const N: usize> Writer<'a, N> {
     }
 
     /// Where this part ended, and what was done in it.
+    #[inline(never)]
     fn reached(self, summary: &Summary<f64, N>) -> Reached {
         let supplied = summary.energy_supplied.unwrap_or(0.0);
         let origin = self.origin.unwrap_or(Origin {
@@ -156,11 +159,12 @@ impl<'a, const N: usize> Writer<'a, N> {
     }
 
     /// Hands the sampled states over as rows.
+    #[inline(never)]
     fn write(
         &mut self,
         probe: &mut dyn Probe<f64, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
-        let states: Vec<_> = self.sampled.borrow_mut().drain(..).collect();
+        let states = self.sampled.take();
         for state in &states {
             let row = row(state, &self.segment.columns, probe)?;
             if self.watch.row(&row).is_break() {
@@ -237,6 +241,7 @@ impl<const N: usize> Observer<f64, N> for Writer<'_, N> {
 }
 
 /// The numbers of a row.
+#[inline(never)]
 fn row<const N: usize>(
     state: &State<f64, N>,
     columns: &[Column],
@@ -244,7 +249,8 @@ fn row<const N: usize>(
 ) -> Result<Vec<f64>, DynamicsError<f64>> {
     let freedoms = probe.structure().freedoms().len();
     let mut row = vec![state.t];
-    row.extend(state.q.iter().take(freedoms).chain(state.v.iter()));
+    row.extend_from_slice(&state.q.as_slice()[..freedoms]);
+    row.extend_from_slice(state.v.as_slice());
     let known = Known::of(state, columns, probe)?;
     for column in columns {
         row.push(match column {
@@ -278,6 +284,7 @@ struct Known {
 }
 
 impl Known {
+    #[inline(never)]
     fn of<const N: usize>(
         state: &State<f64, N>,
         columns: &[Column],
@@ -287,14 +294,14 @@ impl Known {
         let mut known = Self::default();
         let any = |wanted: fn(&Column) -> bool| columns.iter().any(wanted);
         if any(|column| matches!(column, Column::Reaction(_))) {
-            known.reactions = probe.reaction(state)?.iter().copied().collect();
+            known.reactions = probe.reaction(state)?.as_slice().to_vec();
         }
         if any(|column| matches!(column, Column::Multiplier(_))) {
             known.multipliers = vec![None; structure.constraints.len()];
         }
         if any(|column| matches!(column, Column::Acceleration(_) | Column::Multiplier(_))) {
             let acceleration = probe.acceleration(state, &mut known.multipliers)?;
-            known.accelerations = acceleration.iter().copied().collect();
+            known.accelerations = acceleration.as_slice().to_vec();
         }
         if any(|column| matches!(column, Column::Output(_))) {
             known.outputs = vec![0.0; structure.outputs.len()];
@@ -310,6 +317,7 @@ impl Known {
 }
 
 /// A multiplier, if the constraints determine it.
+#[inline(never)]
 fn multiplier<const N: usize>(
     t: f64,
     place: usize,
@@ -322,7 +330,8 @@ fn multiplier<const N: usize>(
 }
 
 /// A state as a row, with the integrals of states of the first order in it.
+#[inline(never)]
 fn row_of<const N: usize>(state: &State<f64, N>) -> Vec<f64> {
-    let values = state.q.iter().chain(state.v.iter());
-    std::iter::once(&state.t).chain(values).copied().collect()
+    let parts = [&[state.t], state.q.as_slice(), state.v.as_slice()];
+    parts.concat()
 }

@@ -12,6 +12,7 @@
 //! singular where the whole was.
 
 use super::explicit::{Explicit, explicit};
+use super::gradient::Sweep;
 use super::gradient::{coordinates, velocities};
 use super::motion::{Motion, motion};
 use super::swell;
@@ -59,7 +60,7 @@ pub fn eliminate(mut mechanism: Mechanism) -> Result<Mechanism, Diagnostics> {
 
 /// `r = p₁ − M q̈` in all coordinates.
 fn reactions(mechanism: &mut Mechanism) -> Option<Vec<ExprId>> {
-    let Motion { mass, force, .. } = motion(mechanism)?;
+    let Motion { mass, force, .. } = motion(mechanism, Sweep::Forward)?;
     let graph = &mut mechanism.graph;
     let mut reactions = Vec::new();
     for (force, masses) in force.into_iter().zip(mass) {

@@ -1,7 +1,7 @@
 //! Forces: `C q̇` from `T`, `h` from `Π`, `Q` from applied forces and dissipation,
 //! and their sum `p₁` [PH 2.2, 2.4].
 
-use super::gradient::{coordinates, gradient, rates, velocities};
+use super::gradient::{Sweep, coordinates, gradient, rates, velocities};
 use crate::expr::{ExprId, Graph, Number};
 use crate::model::Force;
 
@@ -12,10 +12,11 @@ pub(super) fn coriolis_product(
     graph: &mut Graph,
     kinetic: ExprId,
     momenta: &[ExprId],
+    by: Sweep,
 ) -> Vec<ExprId> {
     let n = momenta.len();
     let carried = rates(graph, momenta, n);
-    let slope = gradient(graph, kinetic, coordinates(n));
+    let slope = by.gradient(graph, kinetic, coordinates(n));
     carried
         .into_iter()
         .zip(slope)
@@ -24,8 +25,13 @@ pub(super) fn coriolis_product(
 }
 
 /// `h = ∂Π/∂q`.
-pub(super) fn potential_force(graph: &mut Graph, potential: ExprId, n: usize) -> Vec<ExprId> {
-    gradient(graph, potential, coordinates(n))
+pub(super) fn potential_force(
+    graph: &mut Graph,
+    potential: ExprId,
+    n: usize,
+    by: Sweep,
+) -> Vec<ExprId> {
+    by.gradient(graph, potential, coordinates(n))
 }
 
 /// `Q_i = Σ F·∂x/∂q_i − ∂R/∂q̇_i`: virtual work of the applied forces, less

@@ -26,6 +26,34 @@ pub(super) fn gradient(
     symbols.map(&mut by).collect()
 }
 
+/// How derivatives by all coordinates or velocities are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sweep {
+    /// One symbol after the other: the shortest formulas of few bodies.
+    Forward,
+    /// All at once, from the expression back: formulas that grow no faster than the
+    /// expression.
+    Back,
+}
+
+impl Sweep {
+    /// `∂e/∂symbol` for each symbol, in order.
+    pub(super) fn gradient(
+        self,
+        graph: &mut Graph,
+        e: ExprId,
+        symbols: impl Iterator<Item = Symbol>,
+    ) -> Vec<ExprId> {
+        if self == Sweep::Forward {
+            return gradient(graph, e, symbols);
+        }
+        let found = graph.adjoints(e);
+        let zero = graph.integer(0);
+        let entry = |symbol| found.get(&symbol).copied().unwrap_or(zero);
+        symbols.map(entry).collect()
+    }
+}
+
 /// The derivatives in time, at frozen velocities, of several expressions.
 pub(super) fn rates(graph: &mut Graph, expressions: &[ExprId], n: usize) -> Vec<ExprId> {
     let symbols = coordinates(n).chain([Symbol::Time]);

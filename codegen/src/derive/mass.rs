@@ -1,12 +1,12 @@
 //! Generalized momenta `∂T/∂q̇` and the mass matrix `M = ∂²T/∂q̇²` [PH 2.1].
 
 use super::equations::Matrix;
-use super::gradient::{gradient, velocities};
+use super::gradient::{Sweep, gradient, velocities};
 use crate::expr::{ExprId, Graph};
 
 /// `∂T/∂q̇_i`, `N`.
-pub(super) fn momenta(graph: &mut Graph, kinetic: ExprId, n: usize) -> Vec<ExprId> {
-    gradient(graph, kinetic, velocities(n))
+pub(super) fn momenta(graph: &mut Graph, kinetic: ExprId, n: usize, by: Sweep) -> Vec<ExprId> {
+    by.gradient(graph, kinetic, velocities(n))
 }
 
 /// `M_ij = ∂²T/∂q̇_i ∂q̇_j`, `N × N`; the lower triangle is derived, the upper is

@@ -20,6 +20,7 @@ mod linearised;
 mod mass;
 mod motion;
 mod properties;
+mod shared;
 mod swell;
 mod switch;
 mod weighed;
@@ -28,10 +29,12 @@ pub use christoffel::coriolis_matrix;
 pub use eliminate::eliminate;
 pub use equations::{Energies, Equations, Matrix, StartRows};
 pub use linearised::{Linearised, Partials, differentiate, linearise};
+pub use shared::{Shared, shared};
 pub use swell::{EXPRESSIONS_MAX, SWELL, swell};
 
 use crate::diagnostic::Diagnostics;
 use crate::model::Mechanism;
+use gradient::Sweep;
 use motion::{Motion, motion};
 use swell::within_bounds;
 
@@ -43,11 +46,24 @@ use swell::within_bounds;
 /// from; more conditions than a run has room for.
 pub fn derive(mechanism: &mut Mechanism) -> Result<Equations, Diagnostics> {
     switch::hold(mechanism)?;
-    equations(mechanism).ok_or_else(|| swell::refusal(mechanism))
+    let begun = mechanism.clone();
+    let forward = equations(mechanism, Sweep::Forward);
+    let size = |mechanism: &Mechanism, equations: &Equations| swell::size(mechanism, equations);
+    let longest = forward.as_ref().map(|equations| size(mechanism, equations));
+    if longest.is_none_or(|longest| longest > SWELL) {
+        let mut other = begun;
+        let back = equations(&mut other, Sweep::Back);
+        let shorter = back.filter(|back| longest.is_none_or(|most| size(&other, back) < most));
+        if let Some(back) = shorter {
+            *mechanism = other;
+            return Ok(back);
+        }
+    }
+    forward.ok_or_else(|| swell::refusal(mechanism))
 }
 
 /// The equations, or nothing as soon as they are too long.
-fn equations(mechanism: &mut Mechanism) -> Option<Equations> {
+fn equations(mechanism: &mut Mechanism, by: Sweep) -> Option<Equations> {
     let (n, freedoms) = (mechanism.coordinates.len(), mechanism.freedoms());
     let Motion {
         kinetic,
@@ -58,7 +74,7 @@ fn equations(mechanism: &mut Mechanism) -> Option<Equations> {
         gravity,
         applied,
         force,
-    } = motion(mechanism)?;
+    } = motion(mechanism, by)?;
     let graph = &mut mechanism.graph;
 
     within_bounds(graph)?;

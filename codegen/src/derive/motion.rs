@@ -1,6 +1,7 @@
 //! What comes of energies and forces: `M` and `p₁` with its parts.
 
 use super::equations::Matrix;
+use super::gradient::Sweep;
 use super::swell::within_bounds;
 use super::{force, mass};
 use crate::expr::ExprId;
@@ -19,22 +20,22 @@ pub(super) struct Motion {
 }
 
 /// `M` and `p₁` with its parts, or nothing as soon as they are too long.
-pub(super) fn motion(mechanism: &mut Mechanism) -> Option<Motion> {
+pub(super) fn motion(mechanism: &mut Mechanism, by: Sweep) -> Option<Motion> {
     let (n, freedoms) = (mechanism.coordinates.len(), mechanism.freedoms());
     let graph = &mut mechanism.graph;
     let kinetic = graph.sum(mechanism.kinetic.iter().map(|summand| summand.value));
     let potential = graph.sum(mechanism.potential.iter().map(|summand| summand.value));
     let dissipation = graph.sum(mechanism.dissipation.iter().map(|summand| summand.value));
 
-    let momenta = mass::momenta(graph, kinetic, n);
+    let momenta = mass::momenta(graph, kinetic, n, by);
     within_bounds(graph)?;
     let mut mass = mass::mass_matrix(graph, &momenta);
     for (i, row) in mass.iter_mut().enumerate().skip(freedoms) {
         row[i] = graph.integer(1);
     }
     within_bounds(graph)?;
-    let coriolis = force::coriolis_product(graph, kinetic, &momenta);
-    let gravity = force::potential_force(graph, potential, n);
+    let coriolis = force::coriolis_product(graph, kinetic, &momenta, by);
+    let gravity = force::potential_force(graph, potential, n, by);
     let applied = force::applied(graph, &mechanism.forces, dissipation, (n, freedoms));
     let force = force::total(graph, &applied, &coriolis, &gravity);
     Some(Motion {

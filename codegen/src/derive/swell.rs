@@ -23,7 +23,8 @@ pub const EXPRESSIONS_MAX: usize = 150_000;
 const NAMED: usize = 3;
 
 const HELP: &str = "energies written with the velocities of the body itself, from body to \
-                    body, stay much shorter than with positions in the world";
+                    body, stay much shorter than with positions in the world, and in a plane \
+                    chain angles from a fixed axis than angles between bodies";
 
 /// Nothing once there are more than [`EXPRESSIONS_MAX`] expressions.
 pub(super) fn within_bounds(graph: &Graph) -> Option<()> {
@@ -45,7 +46,7 @@ pub(super) fn refusal(mechanism: &Mechanism) -> Diagnostics {
 
 /// A warning if the equations of motion have more than [`SWELL`] expressions.
 pub fn swell(mechanism: &Mechanism, equations: &Equations) -> Option<Diagnostic> {
-    let size = mechanism.graph.reachable(&roots(equations)).len();
+    let size = size(mechanism, equations);
     if size <= SWELL {
         return None;
     }
@@ -54,6 +55,11 @@ pub fn swell(mechanism: &Mechanism, equations: &Equations) -> Option<Diagnostic>
     let message = format!("the equations of motion have {size} expressions");
     let help = format!("the generated code is long and takes long to compile; {HELP}");
     Some(with_shares(Diagnostic::warning(first, message), &shares).help(help))
+}
+
+/// How many distinct expressions the equations of motion have.
+pub(super) fn size(mechanism: &Mechanism, equations: &Equations) -> usize {
+    mechanism.graph.reachable(&roots(equations)).len()
 }
 
 /// Names the largest contributors at their places.

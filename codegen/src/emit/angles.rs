@@ -44,7 +44,7 @@ impl Writer<'_> {
             angles.iter().map(|angle| self.pair_names(*angle)).collect();
         let sines = names.iter().map(|(sin, _)| pattern(sin));
         let cosines = names.iter().map(|(_, cos)| pattern(cos));
-        self.statements.extend(quote! {
+        self.statements.push(quote! {
             let ([#(#sines),*], [#(#cosines),*]) = T::sin_cos_all(&#arguments);
         });
         self.angles.extend(angles.into_iter().zip(names));
@@ -116,7 +116,7 @@ impl Writer<'_> {
         let mut bound = self.symbols_read();
         bound.retain(|symbol| kinds.contains(&discriminant(symbol)));
         let prelude = self.symbols.prelude(&bound);
-        self.statements.extend(prelude);
+        self.statements.push(prelude);
         bound
     }
 
@@ -136,7 +136,7 @@ impl Writer<'_> {
         let names = self.pair_names(x);
         let (sin, cos) = (pattern(&names.0), pattern(&names.1));
         self.statements
-            .extend(quote!(let (#sin, #cos) = #angle.sin_cos();));
+            .push(quote!(let (#sin, #cos) = #angle.sin_cos();));
         self.angles.insert(x, names.clone());
         names
     }

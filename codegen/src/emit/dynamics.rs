@@ -36,6 +36,10 @@ const SADDLE: &str = "The acceleration where the constraints are regular: `[M A�
 each multiplier after the coordinates of its row. The pivots of rows are bounds of those of
 `A M⁻¹ Aᵀ` from below.";
 
+/// What is said of one in which bodies share velocities.
+const SHARED: &str = "The acceleration by one elimination in which the velocities of points that
+bodies have in common are unknowns beside those of the coordinates: from body to body.";
+
 const CORRECTION: &str =
     "The least corrections of position and velocity in the kinetic metric, where
 the constraints are regular.";
@@ -49,6 +53,7 @@ pub(super) fn mechanism(subject: &Subject) -> TokenStream {
         let docs = match solved.way {
             Way::Schur => SCHUR,
             Way::Saddle => SADDLE,
+            Way::Shared => SHARED,
         };
         solution(subject, ["regular", "Regular", docs], solved)
     });

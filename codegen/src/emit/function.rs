@@ -1,13 +1,14 @@
 //! A program to the body of a function.
 //!
 //! In:  a [`Program`] and names for its symbols.
-//! Out: `let` statements, assignments of those outputs that have a place, directly after
+//! Out: named values, assignments of those outputs that have a place, directly after
 //!      what they need, and an expression for each of the others. A value that is read
 //!      once is written where it is read, as long as the line stays short; the
 //!      others get a name. Nothing is computed here.
 
 use super::literal;
 use super::name::{Names, table_name};
+use super::statements::Statements;
 use crate::expr::{Comparison, Entry, Function, Function2, Lookup, Side, Symbol, Test};
 use crate::optimise::{Operation, Program, Slot, Value};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
@@ -94,12 +95,12 @@ impl Body {
             pieces: vec![None; program.len()],
             nothing: atom(quote!(T::zero())),
             angles: FxHashMap::default(),
-            statements: TokenStream::new(),
+            statements: Statements::default(),
         };
         let bound = writer.place_angles();
         // Bound after the call for the angles, symbols need not be kept during it.
         let rest = &writer.symbols_read() - &bound;
-        writer.statements.extend(symbols.prelude(&rest));
+        writer.statements.push(symbols.prelude(&rest));
         let mut slots: Vec<Vec<Slot>> = vec![Vec::new(); program.len()];
         for (slot, value) in &program.outputs {
             slots[value.index()].push(*slot);
@@ -110,13 +111,13 @@ impl Body {
             for slot in &slots[value.index()] {
                 let tokens = writer.piece(value).tokens.clone();
                 if let Some(place) = place(slot) {
-                    writer.statements.extend(quote!(#place = #tokens;));
+                    writer.statements.push(quote!(#place = #tokens;));
                 }
                 outputs.insert(*slot, tokens);
             }
         }
         Body {
-            statements: writer.statements,
+            statements: writer.statements.into_tokens(),
             outputs,
         }
     }
@@ -132,7 +133,7 @@ pub(super) struct Writer<'a> {
     nothing: Piece,
     /// The names of the sines and cosines of the angles that have them already.
     pub(super) angles: FxHashMap<Value, (Ident, Ident)>,
-    pub(super) statements: TokenStream,
+    pub(super) statements: Statements,
 }
 
 impl Writer<'_> {
@@ -195,8 +196,9 @@ impl Writer<'_> {
     /// Gives an expression a name close to a wish.
     fn named(&mut self, wish: &str, tokens: TokenStream) -> Piece {
         let name = self.names.unique(wish);
-        self.statements.extend(quote!(let #name = #tokens;));
-        atom(quote!(#name))
+        let piece = atom(quote!(#name));
+        self.statements.name(name, tokens);
+        piece
     }
 
     /// The name that a value would like: its factors if they are few and plain.

@@ -23,6 +23,7 @@ mod outputs;
 mod partials;
 mod quantity;
 mod start;
+mod statements;
 mod structure;
 mod subject;
 mod switches;

@@ -22,6 +22,14 @@ impl Direction {
             memo: Memo::default(),
         }
     }
+
+    /// The direction in which these expressions change at the rates beside them.
+    pub(super) fn knowing(rates: impl Iterator<Item = (ExprId, ExprId)>) -> Self {
+        Self {
+            seeds: Vec::new(),
+            memo: rates.collect(),
+        }
+    }
 }
 
 impl Graph {

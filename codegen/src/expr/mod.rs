@@ -4,6 +4,7 @@
 //! expressions have equal ids, ids are given in order of creation, and nothing
 //! depends on the order of a hash map.
 
+mod adjoint;
 mod bits;
 mod diff;
 mod eval;

@@ -134,6 +134,17 @@ pub fn regular_correction(
     solve::with_correction(terms, sizes, weighed).map(checked_solution)
 }
 
+/// The program for the accelerations of so many coordinates, from the program for `mass` and
+/// `jacobian` with so many shared velocities in front of them, and `force`; `None` where
+/// there is none that divides by nothing but what it hands out.
+///
+/// # Panics
+///
+/// As [`optimise`].
+pub fn shared_acceleration(terms: &Program, sizes: (usize, usize)) -> Option<Solved> {
+    solve::with_shared(terms, sizes).map(checked_solution)
+}
+
 fn checked_solution(solved: Solved) -> Solved {
     let program = checked(solved.program);
     Solved { program, ..solved }

@@ -8,13 +8,14 @@
 //! to be wanted, after the programs that every module has: terms stand in the order in which
 //! their expressions were made, so that what is asked for besides changes no other function.
 
-use super::wanted::{Wanted, matrix, vector};
+use super::wanted::{Wanted, matrix, sparse, vector};
 use super::{
     Cost, Polynomials, Program, Slot, Solved, cost, derived_cost, optimise_among, plain,
-    regular_acceleration, regular_correction,
+    regular_acceleration, regular_correction, shared_acceleration,
 };
 use crate::derive::{
-    Equations, Linearised, Partials, StartRows, coriolis_matrix, differentiate, linearise,
+    Equations, Linearised, Partials, Shared, StartRows, coriolis_matrix, differentiate, linearise,
+    shared,
 };
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Mechanism, Shape};
@@ -22,6 +23,9 @@ use crate::model::{Mechanism, Shape};
 /// The most operations of a linearisation: what rustc takes a few seconds for. Beyond
 /// that implicit integrators take differences.
 const LINEARISED_MAX: usize = 10_000;
+
+/// The weight of a solve beyond which another with shared velocities as unknowns is tried.
+const LONG_SOLVE: usize = 2_000;
 
 /// A program and what was saved.
 #[derive(Clone, Debug, Default)]
@@ -221,6 +225,7 @@ pub fn programs(mechanism: &mut Mechanism, equations: &Equations, besides: Besid
     ]
     .map(|(rows, names)| optimiser.start_rows(rows, names));
     let wants_partials = besides.partials && linearised.is_ok();
+    let regular = optimiser.shorter(regular);
     Programs {
         terms,
         regular,
@@ -288,6 +293,34 @@ impl Optimiser<'_> {
         ]));
         let regular = regular_acceleration(&terms.program, self.sizes(), &equations.weighed);
         (terms, regular)
+    }
+
+    /// The solve, or the one with shared velocities as unknowns if that is shorter.
+    fn shorter(&mut self, regular: Option<Solved>) -> Option<Solved> {
+        let weight = |solved: &Solved| cost(&solved.program).weight();
+        let longest = regular.as_ref().map_or(usize::MAX, weight);
+        if longest <= LONG_SOLVE {
+            return regular;
+        }
+        match self.with_shared() {
+            Some(other) if weight(&other) < longest => Some(other),
+            _ => regular,
+        }
+    }
+
+    fn with_shared(&mut self) -> Option<Solved> {
+        let Shared {
+            count,
+            mass,
+            links,
+            force,
+        } = shared(self.mechanism, self.equations)?;
+        let terms = self.program(&merged([
+            sparse("mass", &mass),
+            vector("force", &force),
+            sparse("jacobian", &links),
+        ]));
+        shared_acceleration(&terms, (force.len(), count))
     }
 
     fn projection(&mut self) -> (Option<Optimised>, Option<Solved>) {

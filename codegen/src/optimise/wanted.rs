@@ -23,3 +23,9 @@ pub fn matrix(array: &'static str, rows: &[Vec<ExprId>]) -> Wanted {
     };
     (0..columns).flat_map(entry).collect()
 }
+
+/// The entries of a matrix that differ from zero.
+pub fn sparse(array: &'static str, entries: &[(usize, usize, ExprId)]) -> Wanted {
+    let slot = |&(row, column, e): &(usize, usize, ExprId)| (Slot { array, row, column }, e);
+    entries.iter().map(slot).collect()
+}

@@ -1,22 +1,12 @@
 //! Constants, parameters and inputs of more than one number.
 
-use super::{accept, assert_close, output, refuse_saying, with};
+use super::{accept, assert_close, output, refuse_saying, settings, with};
 use bricard_codegen::internals::analyse;
 use bricard_codegen::{Settings, compile_source};
 
 const LISTS: &str = "const c = [1, 2]; param m[6]: kg = [0, 17.4, 4.8, 0.82, 0.34, 0.09];
     param r = [q0, 5]; const q0 = 3; param I = [[1, 2], [3, 4]]; input u[2] = [t, 7];
     output y = c.x + c.y*r.x + I[1][0] + u[1]; output z: kg = m[5];";
-
-fn settings(constants: &[(&str, f64)], frozen: &[&str]) -> Settings {
-    let constants = constants
-        .iter()
-        .map(|(name, value)| (name.to_string(), *value));
-    let mut settings = Settings::default();
-    settings.constants = constants.collect();
-    settings.frozen = frozen.iter().map(ToString::to_string).collect();
-    settings
-}
 
 #[test]
 fn every_number_of_a_list_has_a_name_and_a_default_of_its_own() {

@@ -38,6 +38,17 @@ fn with(statements: &str) -> String {
     format!("mechanism Test {{ coord q; coord w; kinetic der(q)^2 + der(w)^2; {statements} }}")
 }
 
+/// What a build script sets: numbers for constants, and parameters that it freezes.
+fn settings(constants: &[(&str, f64)], frozen: &[&str]) -> Settings {
+    let constants = constants
+        .iter()
+        .map(|(name, value)| (name.to_string(), *value));
+    let mut settings = Settings::default();
+    settings.constants = constants.collect();
+    settings.frozen = frozen.iter().map(ToString::to_string).collect();
+    settings
+}
+
 /// The mechanism of a description that is right.
 fn accept(source: &str) -> Mechanism {
     match analyse(source, &Settings::default()) {

@@ -1,7 +1,6 @@
 //! Names: what they mean, in which order, and what was probably meant.
 
-use super::{accept, assert_close, output, refuse, refuse_saying, value, warnings, with};
-use bricard_codegen::Settings;
+use super::{accept, assert_close, output, refuse, refuse_saying, settings, value, warnings, with};
 use bricard_codegen::internals::analyse;
 
 #[test]
@@ -141,16 +140,6 @@ fn what_is_never_used_is_a_warning() {
         "{text}"
     );
     assert_eq!(warnings(&with("param a = 1; force a on q;")), "");
-}
-
-fn settings(constants: &[(&str, f64)], frozen: &[&str]) -> Settings {
-    let constants = constants
-        .iter()
-        .map(|(name, value)| (name.to_string(), *value));
-    let mut settings = Settings::default();
-    settings.constants = constants.collect();
-    settings.frozen = frozen.iter().map(ToString::to_string).collect();
-    settings
 }
 
 #[test]

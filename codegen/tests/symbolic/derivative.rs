@@ -111,6 +111,29 @@ proptest! {
     }
 
     #[test]
+    fn one_sweep_back_gives_the_derivatives_by_all_coordinates_and_velocities(
+        recipe in recipe::any(),
+        values in recipe::values(),
+    ) {
+        let mut graph = Graph::new();
+        let e = recipe.build(&mut graph);
+        prop_assume!(recipe::is_finite(&graph, e));
+        let found = graph.adjoints(e);
+        for (by, symbol) in SYMBOLS.iter().enumerate() {
+            let moves = matches!(symbol, Symbol::Coordinate(_) | Symbol::Velocity(_));
+            let Some(&slope) = found.get(symbol) else {
+                prop_assert!(!moves || !graph.depends_on(e, *symbol), "{symbol:?} is left out");
+                continue;
+            };
+            let exact = recipe.jet(&values, by);
+            let slope = evaluated(&graph, slope, &values);
+            if exact.is_sound() {
+                agree(slope.value, exact.slope, slope.value_error + exact.slope_error)?;
+            }
+        }
+    }
+
+    #[test]
     fn a_time_derivative_is_the_sum_of_the_partial_ones_times_their_rates(
         recipe in recipe::trigonometric(),
         values in recipe::values(),

@@ -41,12 +41,12 @@ fn soon(start: Instant) -> bool {
 
 #[test]
 fn a_mechanism_that_swells_is_compiled_with_a_warning_that_names_the_longest_lines() {
-    let source = chain(7);
+    let source = chain(8);
     let start = Instant::now();
     let compiled = compiled(&source);
     let warnings = compiled.warnings.render("test.mech", &source);
     assert!(warnings.contains("expressions"), "{warnings}");
-    assert!(warnings.contains("kinetic norm2(der(p6))"), "{warnings}");
+    assert!(warnings.contains("kinetic norm2(der(p7))"), "{warnings}");
     assert!(!compiled.code.contains("fn linearised"));
     assert!(soon(start), "{:?}", start.elapsed());
 }

@@ -12,6 +12,7 @@ mod print;
 mod program;
 mod recipe;
 mod ring;
+mod shared;
 mod solve;
 mod text;
 mod weighed;

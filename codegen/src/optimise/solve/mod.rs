@@ -2,7 +2,8 @@
 //!
 //! In:  a program whose outputs are entries of `mass`, `jacobian` and right-hand
 //!      sides.
-//! Out: a program that solves instead: [`with_acceleration`], [`with_correction`].
+//! Out: a program that solves instead: [`with_acceleration`], [`with_correction`],
+//!      [`with_shared`].
 //!
 //! There are two ways, and the one that costs less is taken: [`Schur`] and [`Saddle`],
 //! each in a fill-reducing order that is fixed here. No pivoting and no branch: the
@@ -20,6 +21,7 @@ mod factors;
 mod order;
 mod saddle;
 mod schur;
+mod shared;
 
 use super::count::cost;
 use super::dead::ordered;
@@ -28,6 +30,7 @@ use crate::expr::Symbol;
 use algebra::{Algebra, Entry, Signed, Sparse};
 use saddle::Saddle;
 use schur::Schur;
+pub(super) use shared::with_shared;
 use std::collections::BTreeMap;
 
 /// The longest program that a solve is written into: a bound on the work of the
@@ -147,6 +150,9 @@ pub enum Way {
     Schur,
     /// `[M Aᵀ; A 0] = L D Lᵀ`, each multiplier after the coordinates of its row.
     Saddle,
+    /// The same with the velocities of points that bodies have in common as unknowns beside
+    /// the coordinates, and what they are as rows.
+    Shared,
 }
 
 /// A program that solves equations.
@@ -212,7 +218,9 @@ impl System {
         algebra.weigh(&mut mass, &jacobian, given.weighed);
         let factorised = match way {
             Way::Schur => Factorised::Schur(Schur::of(&mut algebra, &mass, &jacobian, n, r)?),
-            Way::Saddle => Factorised::Saddle(Saddle::of(&mut algebra, &mass, &jacobian, n, r)?),
+            Way::Saddle | Way::Shared => {
+                Factorised::Saddle(Saddle::of(&mut algebra, &mass, &jacobian, n, r)?)
+            }
         };
         Some(System {
             algebra,
