@@ -14,6 +14,7 @@
 //! (1973), chapter 4.
 
 use crate::Real;
+use crate::linalg::column;
 
 /// Points of an interval at which a function is sampled, both ends included.
 pub(crate) const NODES: usize = 9;
@@ -64,7 +65,7 @@ enum Shape {
 pub(crate) fn nodes<T: Real>((from, to): (T, T)) -> [T; NODES] {
     let half = T::from_f64(0.5);
     let (centre, radius) = ((from + to) * half, (to - from) * half);
-    core::array::from_fn(|j| match j {
+    column(|j| match j {
         0 => from,
         DEGREE => to,
         _ => centre - radius * T::from_f64(COSINES[j]),
@@ -122,7 +123,7 @@ impl<T: Real> Samples<T> {
 
 /// The coefficients of the Chebyshev expansion of the polynomial through samples.
 fn coefficients<T: Real>(values: &[T; NODES]) -> [T; NODES] {
-    core::array::from_fn(|k| {
+    column(|k| {
         let mut sum = T::zero();
         for (j, value) in values.iter().enumerate() {
             // From the upper end down, as cosines go.

@@ -17,6 +17,7 @@ mod sides;
 mod simulate;
 mod sincos;
 mod singular;
+mod stack;
 mod state;
 mod structure;
 mod system;

@@ -7,7 +7,7 @@
 //! Not here: what to do where rows of `A` are near-dependent
 //! ([`crate::dynamics`], `follow.rs`).
 
-use crate::dynamics::{Solver, Source, Which};
+use crate::dynamics::{Core, Source, Which};
 use crate::singular::Obstacle;
 use crate::tolerance::{contraction, negligible, passes, round_off, window};
 use crate::{DynamicsError, Mechanism, Real, Stabilisation, State};
@@ -16,7 +16,7 @@ use nalgebra::SVector;
 /// Corrections after which a position is given up.
 const MAX_ITERATIONS: usize = 20;
 
-impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Projects the end of a trial step, if the settings say so.
     pub(crate) fn project<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,

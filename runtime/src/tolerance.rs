@@ -5,6 +5,8 @@
 //!      relative to the size they have away from singular configurations, lengths
 //!      relative to that of the coordinates, so that a change of units or of the scale
 //!      of a constraint changes no decision.
+//!
+//! Twelve values are chosen, each for what a test shows; the others follow from them.
 
 use crate::Real;
 
@@ -21,24 +23,6 @@ pub(crate) fn safe_steps<T: Real>() -> T {
     T::from_f64(1.25)
 }
 
-/// What is left of a row, when the rows before it are eliminated, below which it comes
-/// last and its gradient counts as nearly lost.
-pub(crate) fn near_dependent<T: Real>() -> T {
-    T::from_f64(0.05)
-}
-
-/// Spacing of the nodes of an interpolation across a singular configuration, as a change
-/// of the sine.
-pub(crate) fn spacing<T: Real>() -> T {
-    T::from_f64(0.06)
-}
-
-/// How far from the singular configuration a state may be to be interpolated, in
-/// spacings.
-pub(crate) fn hull<T: Real>() -> T {
-    T::from_f64(2.5)
-}
-
 /// Sine that a node must have, in spacings.
 pub(crate) fn clearance<T: Real>() -> T {
     T::from_f64(0.03)
@@ -49,9 +33,6 @@ pub(crate) fn contraction<T: Real>() -> T {
     T::from_f64(0.25)
 }
 
-/// How far (rad) the tangent space may turn in one step.
-pub(crate) const MOST_TURN: f64 = 0.7;
-
 /// Round-off of a position on the constraints.
 pub(crate) fn round_off<T: Real>() -> T {
     T::EPSILON * T::from_f64(2.0)
@@ -61,11 +42,6 @@ pub(crate) fn round_off<T: Real>() -> T {
 /// a crossing.
 pub(crate) fn critical<T: Real>() -> T {
     T::from_f64(50.0)
-}
-
-/// Relative round-off of an acceleration above which no regular solution is accepted.
-pub(crate) fn noisy<T: Real>() -> T {
-    T::EPSILON.sqrt() * T::from_f64(8.0)
 }
 
 /// Error of an interpolation, relative to what is interpolated, that is as good as none
@@ -87,9 +63,10 @@ pub(crate) fn difference<T: Real>() -> T {
 }
 
 /// Singular value above which a row counts as independent where a state is on the
-/// constraints to round-off (1e-6 for `f64`).
+/// constraints to round-off (5e-7 for `f64`): what is divided by it keeps half of its
+/// digits.
 pub(crate) fn regular<T: Real>() -> T {
-    T::EPSILON.sqrt() * T::from_f64(64.0)
+    T::EPSILON.sqrt() * T::from_f64(32.0)
 }
 
 /// Singular value below which a row carries nothing but round-off (1e-9 for `f64`): the
@@ -100,17 +77,43 @@ pub(crate) fn negligible<T: Real>() -> T {
     T::EPSILON.sqrt() / T::from_f64(16.0)
 }
 
-/// Pivot of the mass matrix, relative to its diagonal entry, at or below which the matrix
-/// is not safely positive definite (1e-12 for `f64`).
-pub(crate) fn definite<T: Real>() -> T {
-    T::EPSILON * T::from_f64(4096.0)
-}
-
 /// Length of a coordinate's share in every row, relative to the largest share, below
 /// which the masses alone make rows look near-dependent; and the square of such a share
 /// in a metric that weighs rows by the heaviest masses.
 pub(crate) fn disproportionate<T: Real>() -> T {
     T::from_f64(1e-2)
+}
+
+/// Spacing of the nodes of an interpolation across a singular configuration, as a change
+/// of the sine: the innermost lie outside the window.
+pub(crate) fn spacing<T: Real>() -> T {
+    window::<T>() * T::from_f64(2.0)
+}
+
+/// What is left of a row, when the rows before it are eliminated, below which it comes
+/// last and its gradient counts as nearly lost: a row that leaves the window is still
+/// watched at the innermost nodes.
+pub(crate) fn near_dependent<T: Real>() -> T {
+    spacing()
+}
+
+/// How far from the singular configuration a state may be to be interpolated, in
+/// spacings: as far as half of the nodes of each side.
+pub(crate) fn hull<T: Real>(side: usize) -> T {
+    T::from_f64(side as f64 / 2.0)
+}
+
+/// Relative round-off of an acceleration above which no regular solution is accepted:
+/// half of its digits.
+pub(crate) fn noisy<T: Real>() -> T {
+    regular()
+}
+
+/// Pivot of the mass matrix, relative to its diagonal entry, at or below which the matrix
+/// is not safely positive definite (2e-13 for `f64`): the square of a sine that is just
+/// independent.
+pub(crate) fn definite<T: Real>() -> T {
+    regular::<T>() * regular()
 }
 
 /// Whether the smallest squared sine of the constraint rows is above a bound. NaN is not.
@@ -128,7 +131,7 @@ mod tests {
         // A regular solution at the edge of the window has digits left.
         assert!(T::EPSILON < noisy::<T>() * window() * window());
         // States in the window are well between the nodes, and these are regular.
-        assert!(window::<T>() < spacing::<T>() * hull());
+        assert!(window::<T>() < spacing::<T>() * hull(5));
         assert!(clearance::<T>() * spacing() < near_dependent());
         assert!(negligible::<T>() < regular());
         assert!(regular::<T>() < window());

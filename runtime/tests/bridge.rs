@@ -3,6 +3,7 @@
 //!
 //! `BRICARD_LONG=1` takes forty loops in a row for 20 s instead of ten for 5 s.
 
+use crate::fixtures::system_of;
 use crate::mechanisms::{FourBars, Passing, Reduced, Reduction, SliderCrank};
 use bricard_runtime::{Dop853, Integrator, Rk4, Settings, Solver, State, Tolerance};
 
@@ -16,7 +17,7 @@ where
 {
     let (angle, rate) = mechanism.singular();
     let mut solver: Solver<f64, N, R> = Solver::new(Settings::default());
-    let mut system = solver.on(mechanism);
+    let mut system = system_of(&mut solver, mechanism);
     for away in [0.0, 1e-12, -1e-8, 1e-5, -1e-3, 7e-3] {
         let state = mechanism.state(0.0, angle + away, rate);
         let exact = mechanism.reduction().acceleration(angle + away, rate);
@@ -36,7 +37,7 @@ where
 {
     let (angle, rate) = mechanism.singular();
     let mut solver: Solver<f64, N, R> = Solver::new(Settings::default());
-    let mut system = solver.on(mechanism);
+    let mut system = system_of(&mut solver, mechanism);
     let mut method = Rk4::new();
     let mut state = mechanism.state(0.0, angle - 0.2 * rate.signum(), rate);
     while (state.q[0] - angle) * rate.signum() < 0.2 {
@@ -69,7 +70,7 @@ fn own_error(reduction: Reduction, start: f64, span: f64) -> f64 {
     let (angle, _) = reduction.after(span, (start, 0.0));
     let mechanism = Reduced(reduction);
     let mut solver: Solver<f64, 1, 0> = Solver::new(Settings::default());
-    let mut system = solver.on(&mechanism);
+    let mut system = system_of(&mut solver, &mechanism);
     let mut method = Dop853::adaptive(Tolerance::uniform(1e-12, 1e-12).unwrap());
     let mut state = State::new(0.0, [start].into(), [0.0].into());
     while state.t < span {
@@ -84,7 +85,7 @@ fn follow<const N: usize, const R: usize>(span: f64) {
     let reduction = Passing::<N, R>::reduction(&FourBars);
     let (angle, _) = reduction.after(span, (start.q[0], 0.0));
     let mut solver: Solver<f64, N, R> = Solver::new(Settings::default());
-    let mut system = solver.on(&FourBars);
+    let mut system = system_of(&mut solver, &FourBars);
     let mut method = Dop853::adaptive(Tolerance::uniform(1e-12, 1e-12).unwrap());
     let mut state: State<f64, N> = start;
     while state.t < span {

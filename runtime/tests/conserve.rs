@@ -2,10 +2,10 @@
 //!
 //! `BRICARD_LONG=1` makes a million passages instead of two hundred.
 
-use crate::fixtures::{Framed, Oscillator, PLAIN};
+use crate::fixtures::{Framed, Oscillator, PLAIN, simulate};
 use crate::mechanisms::{FourBars, Passing, SliderCrank};
 use bricard_runtime::nalgebra::SVector;
-use bricard_runtime::{Method, Options, SimulateError, State, StepControl, Structure, simulate};
+use bricard_runtime::{Method, Options, SimulateError, State, StepControl, Structure};
 
 static CONSERVATIVE: Structure = Structure {
     conservative: true,
@@ -23,7 +23,7 @@ where
 {
     let framed = Framed::<P, N>::new(mechanism, &CONSERVATIVE);
     let start = mechanism.state(0.0, angle.to_radians(), 0.0);
-    let summary = simulate::<_, _, N, R>(&framed, &start, options, &mut [])
+    let summary = simulate::<N, R>(&framed, &start, options, &mut [])
         .unwrap_or_else(|failure| panic!("{failure}"));
     let constraints = summary.constraint_error.unwrap();
     assert!(constraints.position < 1e-12, "{constraints:?}");
@@ -96,6 +96,6 @@ fn energy_is_not_kept_where_it_is_not_conserved() {
     let start = State::new(0.0, SVector::from([1.0]), SVector::from([0.0]));
     let mut options = Options::rk4(1.0, 0.1);
     options.keep_energy = true;
-    let failure = simulate::<_, _, 1, 0>(&mechanism, &start, &options, &mut []).unwrap_err();
+    let failure = simulate::<1, 0>(&mechanism, &start, &options, &mut []).unwrap_err();
     assert_eq!(failure.error, SimulateError::NotConservative);
 }

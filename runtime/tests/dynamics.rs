@@ -1,14 +1,14 @@
 //! Accelerations, reactions and projections: the forms against each other, against
 //! exact motions, at singular positions and beside them.
 
-use crate::fixtures::{Framed, PLAIN};
+use crate::fixtures::{Framed, PLAIN, simulate, system_of};
 use crate::mechanisms::{
     COUNT, FourBars, Hung, Massless, Parallelogram, Passing, Side, Sled, SliderCrank, Spring, Twice,
 };
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     ConstrainedSystem, DynamicsError, Form, Integrator, Mechanism, Options, Rk4, Settings, Solver,
-    Stabilisation, State, Structure, Terms, simulate,
+    Stabilisation, State, Structure, Terms,
 };
 
 /// All forms.
@@ -39,7 +39,7 @@ fn solve<M, const N: usize, const R: usize>(
 where
     M: Mechanism<f64, N, R>,
 {
-    Solver::new(settings).on(mechanism).reaction(state)
+    system_of(&mut Solver::new(settings), mechanism).reaction(state)
 }
 
 /// The exact acceleration, by central differences of the exact motion.
@@ -160,7 +160,7 @@ fn the_published_method_passes_with_less_accuracy() {
 fn redundant_constraints_are_cheap_after_a_choice_of_rows() {
     let mechanism = Twice::<_, 4>(FourBars);
     let mut solver: Solver<f64, 5, 8> = Solver::new(Settings::default());
-    let mut system = solver.on(&mechanism);
+    let mut system = system_of(&mut solver, &mechanism);
     let mut state = Passing::<5, 8>::state(&mechanism, 0.0, 80_f64.to_radians(), 0.0);
     let mut method = Rk4::new();
     for i in 1..=800 {
@@ -180,7 +180,7 @@ fn redundant_constraints_are_cheap_after_a_choice_of_rows() {
 #[test]
 fn no_constraints_means_no_work_for_constraints() {
     let mut solver: Solver<f64, 1, 0> = Solver::new(Settings::default());
-    let mut system = solver.on(&Spring);
+    let mut system = system_of(&mut solver, &Spring);
     let mut state = State::new(0.0, [0.3].into(), [0.0].into());
     for _ in 0..10 {
         assert!((system.acceleration(&state).unwrap()[0] + 2.0 * state.q[0]).abs() < 1e-15);
@@ -200,7 +200,7 @@ fn no_constraints_means_no_work_for_constraints() {
 #[test]
 fn a_velocity_constraint_is_kept_without_touching_positions() {
     let mut solver = Solver::new(Settings::default());
-    let mut system = solver.on(&Sled);
+    let mut system = system_of(&mut solver, &Sled);
     let mut state = State::new(0.0, [0.0, 0.0, 0.0].into(), [1.0, 0.0, 0.5].into());
     let mut method = Rk4::new();
     for i in 1..=400 {
@@ -224,7 +224,7 @@ fn baumgarte_pulls_an_opened_loop_back_together() {
         };
         let mut solver = Solver::new(settings);
         let mechanism = SliderCrank::default();
-        let mut system: ConstrainedSystem<'_, _, f64, 3, 2> = solver.on(&mechanism);
+        let mut system: ConstrainedSystem<'_, _, f64, 3, 2> = system_of(&mut solver, &mechanism);
         let mut state = mechanism.state(0.0, 0.3, 0.0);
         state.q[2] += 1e-3;
         let mut method = Rk4::new();
@@ -257,7 +257,9 @@ fn what_is_not_finite_is_an_error_with_its_time_and_never_a_hang() {
                 }
                 let mut solver: Solver<f64, 3, 2> = Solver::new(form(which));
                 let mechanism = SliderCrank::default();
-                let error = solver.on(&mechanism).project(&mut state).unwrap_err();
+                let error = system_of(&mut solver, &mechanism)
+                    .project(&mut state)
+                    .unwrap_err();
                 assert_eq!(error.time(), 1.5);
             }
         }
@@ -268,7 +270,7 @@ fn what_is_not_finite_is_an_error_with_its_time_and_never_a_hang() {
 fn a_loop_that_cannot_close_is_an_error_with_its_row() {
     let mechanism = FourBars;
     let mut solver: Solver<f64, 5, 4> = Solver::new(Settings::default());
-    let mut system = solver.on(&mechanism);
+    let mut system = system_of(&mut solver, &mechanism);
     let mut state = Passing::<5, 4>::state(&mechanism, 0.0, 1.0, 0.0);
     system.acceleration(&state).unwrap();
     // Far from any closure Newton's iteration may go anywhere but not on for ever.
@@ -302,7 +304,7 @@ fn solves_of_its_own_serve_a_mechanism_that_names_the_rows_of_its_metric() {
     let state = SliderCrank::default().state(0.0, 0.6, 2.0);
     let (exact, _) = solve(&Massless::default(), Settings::default(), &state).unwrap();
     let mut solver = Solver::new(Settings::default());
-    let mut system = solver.on(&named);
+    let mut system = system_of(&mut solver, &named);
     let found = system.acceleration(&state).unwrap();
     assert!((found - exact).amax() < ROUND_OFF, "{found} is not {exact}");
     assert_eq!(system.counters().cheap_accelerations, 1);
@@ -317,7 +319,7 @@ fn solves_of_its_own_serve_a_mechanism_that_names_the_rows_of_its_metric() {
     let mut general = off;
     let mut solver = Solver::new(Settings::default());
     let unnamed = Massless::default();
-    let mut system = solver.on(&unnamed);
+    let mut system = system_of(&mut solver, &unnamed);
     system.project(&mut general).unwrap();
     assert!(
         (placed.q - general.q).amax() < 1e-5,
@@ -403,7 +405,7 @@ fn a_mechanism_that_was_declared_regular_ends_at_a_singular_position() {
     let before = State::new(0.0, [0.3, -1.2].into(), [-6.0, 2.0].into());
     let start = Hung::state(&before);
     let options = Options::rk4(0.2, 0.01);
-    let failure = simulate::<_, _, 6, 4>(&hung, &start, &options, &mut []);
+    let failure = simulate::<6, 4>(&hung, &start, &options, &mut []);
     let message = failure.map_or_else(|failure| failure.to_string(), |_| String::new());
     assert!(message.contains("declared to be regular"), "{message}");
 }

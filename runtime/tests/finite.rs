@@ -1,11 +1,11 @@
 //! What is not a number is not swallowed: a run whose energy, power or event functions stop
 //! being numbers says which.
 
-use crate::fixtures::{Framed, Oscillator, PLAIN};
+use crate::fixtures::{Framed, Oscillator, PLAIN, simulate};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Audit, Direction, DynamicsError, Energy, Event, IntegrateError, Mechanism, Method, Options,
-    Settings, SimulateError, State, StepControl, Stepper, Structure, Terms, Watched, simulate,
+    Settings, SimulateError, State, StepControl, Stepper, Structure, Terms, Watched,
 };
 
 static CONSERVATIVE: Structure = Structure {
@@ -85,7 +85,7 @@ fn a_run_ends_where_an_energy_or_the_power_stops_being_a_number() {
     for (spoil, quantity, said) in spoilers {
         let mechanism = Framed::new(Spoiled(spoil), &PLAIN);
         let options = Options::rk4(3.0, 0.125);
-        let failure = simulate::<_, _, 1, 0>(&mechanism, &start(1.0), &options, &mut [])
+        let failure = simulate::<1, 0>(&mechanism, &start(1.0), &options, &mut [])
             .expect_err("the energy is spoiled");
         let (t, found) = complaint(failure.error);
         assert_eq!(found, quantity);
@@ -93,7 +93,7 @@ fn a_run_ends_where_an_energy_or_the_power_stops_being_a_number() {
         assert!((1.047..=1.13).contains(&t), "{t}");
         assert!(failure.error.to_string().contains(said), "{failure}");
         assert!(failure.summary.end.t < t, "the last good state is kept");
-        let early = simulate::<_, _, 1, 0>(&mechanism, &start(0.25), &options, &mut []);
+        let early = simulate::<1, 0>(&mechanism, &start(0.25), &options, &mut []);
         assert!(early.is_err(), "{quantity:?} at the start");
     }
 }
@@ -106,7 +106,7 @@ fn energy_that_is_not_a_number_cannot_be_kept() {
     options.keep_energy = true;
     options.audit = Audit::NONE;
     for (q, early) in [(1.0, false), (0.25, true)] {
-        let failure = simulate::<_, _, 1, 0>(&mechanism, &start(q), &options, &mut [])
+        let failure = simulate::<1, 0>(&mechanism, &start(q), &options, &mut [])
             .expect_err("the energy is spoiled");
         let SimulateError::Integrate(IntegrateError::Dynamics(DynamicsError::WatchedNotFinite {
             t,
@@ -125,7 +125,7 @@ fn an_event_function_that_is_not_a_number_is_named() {
     let mut mechanism = Framed::new(Oscillator::default(), &WITH_EVENT);
     mechanism.events = |state, values| values[0] = (state.q[0] - 0.5).sqrt() - 0.1;
     let options = Options::dp5(3.0, 1e-6);
-    let failure = simulate::<_, _, 1, 0>(&mechanism, &start(1.0), &options, &mut [])
+    let failure = simulate::<1, 0>(&mechanism, &start(1.0), &options, &mut [])
         .expect_err("a root of a negative number");
     let (t, quantity) = complaint(failure.error);
     assert_eq!(quantity, Watched::Event("halved"));
@@ -165,7 +165,7 @@ fn a_step_of_fixed_length_that_overflows_is_refused() {
         let step_control = StepControl::Fixed { step: 4.0 };
         let mut options = Options::new(4.0, method, step_control);
         options.audit = Audit::NONE;
-        let failure = simulate::<_, _, 1, 0>(&mechanism, &start(0.0), &options, &mut []);
+        let failure = simulate::<1, 0>(&mechanism, &start(0.0), &options, &mut []);
         refused(failure.expect_err("beyond the largest number").error);
         let mut stepper = Stepper::<f64, 1, 0>::new(method, step_control, Settings::default())
             .expect("the step is positive");

@@ -1,6 +1,7 @@
 //! A start exactly in a singular position: the velocity chooses the branch, and the
 //! motion stays on it with the accuracy of a regular start.
 
+use crate::fixtures::system_of;
 use crate::mechanisms::{FourBars, Parallelogram, Passing, Reduction, SliderCrank};
 use bricard_runtime::{
     ConstraintError, DynamicsError, Integrator, Mechanism, Rk4, Settings, Solver, State,
@@ -23,7 +24,7 @@ where
     M: Mechanism<f64, N, R>,
 {
     let mut solver = Solver::new(Settings::default());
-    let mut system = solver.on(mechanism);
+    let mut system = system_of(&mut solver, mechanism);
     let mut method = Rk4::new();
     let mut state = *start;
     for i in 1..=steps {
@@ -114,7 +115,7 @@ fn rest_in_a_singular_position_is_seen_and_does_no_harm() -> Result<(), Dynamics
     let start = Passing::<3, 2>::state(&SliderCrank::default(), 0.0, down, 0.0);
     let mut solver: Solver<f64, 3, 2> = Solver::new(Settings::default());
     let mechanism = SliderCrank::default();
-    let mut system = solver.on(&mechanism);
+    let mut system = system_of(&mut solver, &mechanism);
     let acceleration = system.acceleration(&start)?;
     assert!(acceleration.amax() < 1e-12, "{acceleration}");
     assert!(system.counters().undetermined > 0);

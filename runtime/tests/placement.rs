@@ -1,44 +1,21 @@
 //! The passage through a singular configuration costs no accuracy, wherever the stages
 //! of a step are placed.
 //!
-//! A step begins on the exact motion so that one of its stages lies at a distance
-//! `d` from the singular position, `d = ±{1, 3.3}·10⁻ᵏ`, `k = 1…16`; the motion is
-//! followed for 0.4 s and compared with the exact one. No placement may be much worse
-//! than the median of all.
+//! Beside exact reductions, for each method, with constraints written twice, too.
 //!
 //! Every day some of the distances are tried; with `BRICARD_LONG` set, all of them.
 
+use crate::fixtures::system_of;
 use crate::mechanisms::{
     FourBars, Hung, HungReduced, Parallelogram, Passage, Passing, Reduced, SliderCrank, Twice,
 };
 use bricard_runtime::{Dop853, Dp5, Integrator, Mechanism, Method, Rk4, Settings, Solver, State};
+use bricard_testkit::placement::{
+    Placements, SPAN, STEPS, complaints, distances, some_distances, stages,
+};
 
-/// How long a motion is followed (s).
-const SPAN: f64 = 0.4;
-
-/// How much worse than the median the worst placement may be.
-const SPREAD: f64 = 2.0;
-
-/// A median that is round-off, and the worst placement beside it.
-const FLOOR: f64 = 1e-12;
-const PLACED: f64 = 1e-11;
-
-/// The abscissae of a method, each once.
-fn abscissae(method: Method) -> Vec<f64> {
-    let mut all: Vec<f64> = method.abscissae().collect();
-    all.dedup();
-    all
-}
-
-/// Errors of all placements.
-#[derive(Clone, Copy, Debug)]
-struct Placements {
-    median: f64,
-    /// The worst of those near the singular position.
-    worst: f64,
-    /// The worst of those so far away that nothing of it is to be seen.
-    regular: f64,
-}
+/// The errors of all placements, by the distance of the stage.
+type Placed = Placements<f64>;
 
 /// A distance that is far away from a singular position (rad).
 const FAR: f64 = 0.09;
@@ -56,7 +33,7 @@ where
     I: Integrator<f64, N>,
 {
     let mut solver = Solver::new(Settings::default());
-    let mut system = solver.on(mechanism);
+    let mut system = system_of(&mut solver, mechanism);
     let mut state = start;
     for i in 1..=steps {
         let bound = start.t + SPAN * f64::from(i) / f64::from(steps);
@@ -67,34 +44,34 @@ where
     (state.q - exact.q).amax()
 }
 
-/// The distances from the singular position of the stages.
-fn distances() -> Vec<f64> {
-    let long = std::env::var_os("BRICARD_LONG").is_some();
-    let exponents: &[i32] = match long {
-        true => &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16],
-        false => &[1, 2, 3, 4, 6, 9, 16],
+/// When steps begin of which a stage lies beside the singular position, that is passed at
+/// time zero, and at which distance it lies.
+fn starts(method: Method, rate: f64, steps: u32) -> Vec<(f64, f64)> {
+    let distances = match std::env::var_os("BRICARD_LONG") {
+        Some(_) => distances(),
+        None => some_distances(),
     };
-    let sizes: &[f64] = if long {
-        &[1.0, -1.0, 3.3, -3.3]
-    } else {
-        &[1.0, -3.3]
-    };
-    let scaled = |k: &i32| {
-        sizes
-            .iter()
-            .map(|size| size * 10.0_f64.powi(-k))
-            .collect::<Vec<_>>()
-    };
-    exponents.iter().flat_map(scaled).collect()
+    let start = |stage: f64, d: f64| d / rate.abs() - stage * SPAN / f64::from(steps);
+    let placed = |stage| distances.iter().map(move |&d| (start(stage, d), d));
+    stages(method.abscissae())
+        .into_iter()
+        .flat_map(placed)
+        .collect()
+}
+
+/// The errors of the runs from some starts.
+fn placed(starts: Vec<(f64, f64)>, error: impl Fn(f64) -> f64) -> Placed {
+    let errors = starts.into_iter().map(|(t, distance)| (error(t), distance));
+    Placements::of(errors.collect()).expect("some placements")
 }
 
 /// All placements of a mechanism with one method and step size.
 fn placements<P, I, const N: usize, const R: usize>(
     method: impl Fn() -> I,
-    stages: Method,
+    name: Method,
     mechanism: &P,
     steps: u32,
-) -> Placements
+) -> Placed
 where
     P: Passing<N, R>,
     I: Integrator<f64, N>,
@@ -105,77 +82,31 @@ where
         let (angle, rate) = passage.at(t);
         mechanism.state(t, angle, rate)
     };
-    let mut errors = Vec::new();
-    for stage in abscissae(stages) {
-        for distance in distances() {
-            let t = distance / rate.abs() - stage * SPAN / f64::from(steps);
-            errors.push((
-                distance,
-                error(method(), mechanism, state(t), steps, &state(t + SPAN)),
-            ));
-        }
-    }
-    Placements::of(errors)
+    placed(starts(name, rate, steps), |t| {
+        error(method(), mechanism, state(t), steps, &state(t + SPAN))
+    })
 }
 
 /// The same placements of the exact reduction of a mechanism.
 fn reduced_placements<I: Integrator<f64, 1>>(
     method: impl Fn() -> I,
-    stages: Method,
+    name: Method,
     (reduced, (angle, rate)): (&Reduced, (f64, f64)),
     steps: u32,
-) -> Placements {
-    let mut errors = Vec::new();
-    for stage in abscissae(stages) {
-        for distance in distances() {
-            let t = distance / rate.abs() - stage * SPAN / f64::from(steps);
-            let state = |t: f64| {
-                let (angle, rate) = reduced.0.after(t, (angle, rate));
-                State::new(t, [angle].into(), [rate].into())
-            };
-            let end = state(t + SPAN);
-            errors.push((
-                distance,
-                error::<_, _, 1, 0>(method(), reduced, state(t), steps, &end),
-            ));
-        }
-    }
-    Placements::of(errors)
-}
-
-impl Placements {
-    /// Of distances and errors.
-    fn of(mut errors: Vec<(f64, f64)>) -> Self {
-        errors.sort_by(|a, b| f64::total_cmp(&a.1, &b.1));
-        let worst = |far: bool| {
-            let errors = errors.iter().rev();
-            let kind = errors.filter(|(distance, _)| (distance.abs() > FAR) == far);
-            kind.map(|(_, error)| *error).next().unwrap_or(0.0)
+) -> Placed {
+    placed(starts(name, rate, steps), |t| {
+        let state = |t: f64| {
+            let (angle, rate) = reduced.0.after(t, (angle, rate));
+            State::new(t, [angle].into(), [rate].into())
         };
-        Self {
-            median: errors[errors.len() / 2].1,
-            worst: worst(false),
-            regular: worst(true),
-        }
-    }
+        error::<_, _, 1, 0>(method(), reduced, state(t), steps, &state(t + SPAN))
+    })
 }
 
 /// RK4 keeps its order and no placement is much worse than the median.
-fn judge_rk4(placements: impl Fn(u32) -> Placements) {
-    let mut before: Option<f64> = None;
-    for steps in [20, 40, 80, 160] {
-        let found = placements(steps);
-        println!("RK4, {steps} steps: {found:?}");
-        assert!(
-            found.worst.max(found.regular) <= SPREAD * found.median,
-            "{steps} steps: {found:?}"
-        );
-        if let Some(before) = before {
-            let order = (before / found.median).log2();
-            assert!(order > 3.7, "{steps} steps: order {order}");
-        }
-        before = Some(found.median);
-    }
+fn judge_rk4(placements: impl Fn(u32) -> Placed) {
+    let complaints = complaints(3.7, placements);
+    assert!(complaints.is_empty(), "RK4:\n{}", complaints.join("\n"));
 }
 
 /// No placement of a method of high order is much worse than the median, at the steps
@@ -185,14 +116,18 @@ fn judge_rk4(placements: impl Fn(u32) -> Placements) {
 /// high order may differ from one to the next. So the worst may also be as bad as that
 /// of a start far away, or as the same method makes it on the exact reduction, which
 /// has no singular position.
-fn judge_high(name: &str, placements: impl Fn(u32) -> [Placements; 2]) {
-    for steps in [20, 40, 80, 160] {
+fn judge_high(name: &str, placements: impl Fn(u32) -> [Placed; 2]) {
+    let is_far = |distance: f64| distance.abs() > FAR;
+    let is_near = |distance: f64| !is_far(distance);
+    for steps in STEPS {
         let [found, reduced] = placements(steps);
-        println!("{name}, {steps} steps: {found:?}, reduced {reduced:?}");
-        let floor = if found.median <= FLOOR { PLACED } else { 0.0 };
-        let usual = found.median.max(found.regular).max(reduced.worst);
-        let bound = floor.max(SPREAD * usual);
-        assert!(found.worst <= bound, "{name}, {steps} steps: {found:?}");
+        let alone = reduced.worst_of(is_near);
+        let usual = found.median().max(found.worst_of(is_far)).max(alone);
+        let (worst, bound) = (found.worst_of(is_near), found.bound(usual));
+        assert!(
+            worst <= bound,
+            "{name}, {steps} steps: {worst:e}, {found:?}"
+        );
     }
 }
 
@@ -264,7 +199,7 @@ fn no_placement_of_a_method_of_high_order_is_worse_than_another() {
 /// steps so short that only round-off remains.
 fn after(span: f64, start: &State<f64, 2>) -> State<f64, 2> {
     let mut solver: Solver<f64, 2, 0> = Solver::new(Settings::default());
-    let mut system = solver.on(&HungReduced);
+    let mut system = system_of(&mut solver, &HungReduced);
     let mut method = Dop853::fixed();
     // A motion without damping runs backwards with its velocities turned round.
     let sign = span.signum();
@@ -281,27 +216,21 @@ fn after(span: f64, start: &State<f64, 2>) -> State<f64, 2> {
 /// makes a state of it from one of the reduction.
 fn hung_placements<M, I, const N: usize, const R: usize>(
     method: impl Fn() -> I,
-    stages: Method,
+    name: Method,
     (mechanism, full): (&M, impl Fn(&State<f64, 2>) -> State<f64, N>),
     steps: u32,
-) -> Placements
+) -> Placed
 where
     M: Mechanism<f64, N, R>,
     I: Integrator<f64, N>,
 {
     let rate: f64 = -6.0;
     let singular = State::new(0.0, [0.0, -1.2].into(), [rate, 2.0].into());
-    let mut errors = Vec::new();
-    for stage in abscissae(stages) {
-        for distance in distances() {
-            let t = distance / rate.abs() - stage * SPAN / f64::from(steps);
-            let start = after(t, &singular);
-            let end = full(&after(SPAN, &start));
-            let error = error(method(), mechanism, full(&start), steps, &end);
-            errors.push((distance, error));
-        }
-    }
-    Placements::of(errors)
+    placed(starts(name, rate, steps), |t| {
+        let start = after(t, &singular);
+        let end = full(&after(SPAN, &start));
+        error(method(), mechanism, full(&start), steps, &end)
+    })
 }
 
 #[test]

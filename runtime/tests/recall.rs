@@ -2,6 +2,7 @@
 //! sheet is a curve that stays where it is; what they come to is what nodes of their own
 //! would say.
 
+use crate::fixtures::system_of;
 use crate::mechanisms::{FourBars, Passing, SliderCrank};
 use bricard_runtime::{
     Correction, Energy, Integrator, Mechanism, Position, Regular, Rk4, Settings, Solver, State,
@@ -62,7 +63,7 @@ where
     };
     let (angle, rate) = mechanism.singular();
     let mut solver: Solver<f64, N, R> = Solver::new(Settings::default());
-    let mut system = solver.on(&counted);
+    let mut system = system_of(&mut solver, &counted);
     let mut method = Rk4::new();
     let mut state = mechanism.state(0.0, angle - 0.2 * rate.signum(), rate);
     while (state.q[0] - angle) * rate.signum() < 0.2 {

@@ -3,9 +3,9 @@
 //!
 //! `BRICARD_LONG=1` takes 200 starts instead of 12.
 
-use crate::fixtures::{Framed, PLAIN};
+use crate::fixtures::{Framed, PLAIN, simulate};
 use crate::mechanisms::{FourBars, Passing, Reduced, SliderCrank};
-use bricard_runtime::{Audit, Mechanism, Options, State, Structure, simulate};
+use bricard_runtime::{Audit, Mechanism, Options, State, Structure};
 use core::fmt::{Display, Formatter, Result};
 
 static CONSERVATIVE: Structure = Structure {
@@ -97,7 +97,7 @@ where
     M: Mechanism<f64, N, R>,
 {
     let framed = Framed::<M, N>::new(mechanism, &CONSERVATIVE);
-    let summary = simulate::<_, _, N, R>(&framed, start, options, &mut [])
+    let summary = simulate::<N, R>(&framed, start, options, &mut [])
         .unwrap_or_else(|failure| panic!("from {}: {failure}", start.q));
     (summary.end, summary.rejected, summary.steps)
 }

@@ -1,10 +1,10 @@
 //! A run in parts, each of which knows where the whole began.
 
-use crate::fixtures::{BEAD, Bead, Framed, Oscillator, PLAIN};
+use crate::fixtures::{BEAD, Bead, Framed, Oscillator, PLAIN, simulate};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     DynamicsError, Interface, Mechanism, Observer, Options, Origin, Probe, Sampler, State, Step,
-    Summary, simulate,
+    Summary,
 };
 use core::ops::ControlFlow;
 
@@ -43,7 +43,7 @@ where
     let energy = mechanism.energy(start).balance;
     loop {
         let options = Options { origin, ..*options };
-        let part = simulate::<_, _, N, R>(mechanism, &state, &options, &mut [&mut Segment(steps)])
+        let part = simulate::<N, R>(mechanism, &state, &options, &mut [&mut Segment(steps)])
             .unwrap_or_else(|failure| panic!("{failure}"));
         parts.push(part);
         if !part.stopped || part.end.t >= options.until {
@@ -69,7 +69,7 @@ fn parts_with_fixed_steps_have_the_bits_of_the_whole() {
     let (mechanism, start) = oscillator();
     for steps in [1, 7, 100] {
         let options = Options::rk4(7.0, 0.013);
-        let whole = simulate::<_, _, 1, 0>(&mechanism, &start, &options, &mut []).unwrap();
+        let whole = simulate::<1, 0>(&mechanism, &start, &options, &mut []).unwrap();
         let parts = in_parts::<_, 1, 0>(&mechanism, &start, &options, steps);
         assert_eq!(
             parts.last().map(|part| part.end),
@@ -130,7 +130,7 @@ fn rows_go_on_where_they_ended() {
     let mut sampler = Sampler::new(0.25, collect).unwrap();
     sampler.go_on(0.0, 3);
     let mut late = Late(sampler);
-    simulate::<_, _, 1, 0>(&mechanism, &start, &options, &mut [&mut late]).unwrap();
+    simulate::<1, 0>(&mechanism, &start, &options, &mut [&mut late]).unwrap();
     assert_eq!(times, [0.75, 1.0, 1.25]);
 }
 

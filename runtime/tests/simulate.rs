@@ -1,12 +1,12 @@
 //! Runs: the paper's figures, options, audits, rows, events, forms, the stepper.
 
-use crate::fixtures::{BEAD, Bead, Framed, MOVING_BEAD, Oscillator, PLAIN, distance};
+use crate::fixtures::{BEAD, Bead, Framed, MOVING_BEAD, Oscillator, PLAIN, distance, simulate};
 use crate::mechanisms::{FourBars, Passing, SliderCrank};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Audit, Direction, DynamicsError, Event, Form, IntegrateError, Method, Observer, Occurrence,
     Options, Passage, Probe, Recorder, Sampler, Settings, SimulateError, State, Step, StepControl,
-    Stepper, Structure, simulate,
+    Stepper, Structure,
 };
 use core::ops::ControlFlow;
 
@@ -81,7 +81,7 @@ fn the_double_four_bar_passes_nine_singular_positions_in_eight_seconds() {
         Options::dop853(8.0, 1e-11),
     ] {
         let mut diary = Diary::default();
-        let summary = simulate::<_, _, 5, 4>(&mechanism, &start, &options, &mut [&mut diary])
+        let summary = simulate::<5, 4>(&mechanism, &start, &options, &mut [&mut diary])
             .unwrap_or_else(|failure| panic!("{failure}"));
         let times: Vec<f64> = diary.passages.iter().map(|passage| passage.t).collect();
         assert_eq!(
@@ -114,10 +114,9 @@ fn observers_and_audits_change_no_bit_of_a_run() {
     let (mechanism, start) = four_bar();
     let mut options = Options::dp5(3.0, 1e-8);
     let mut recorder = Recorder::new(0.01).unwrap();
-    let watched =
-        simulate::<_, _, 5, 4>(&mechanism, &start, &options, &mut [&mut recorder]).unwrap();
+    let watched = simulate::<5, 4>(&mechanism, &start, &options, &mut [&mut recorder]).unwrap();
     options.audit = Audit::NONE;
-    let alone = simulate::<_, _, 5, 4>(&mechanism, &start, &options, &mut []).unwrap();
+    let alone = simulate::<5, 4>(&mechanism, &start, &options, &mut []).unwrap();
     assert_eq!(watched.end, alone.end);
     assert_eq!(
         (watched.steps, watched.rejected),
@@ -134,8 +133,7 @@ fn forms_that_cannot_pass_end_in_a_typed_error_before_they_are_wrong() {
             let mut options = Options::rk4(8.0, step);
             options.settings.form = form;
             options.audit = Audit::NONE;
-            let failure =
-                simulate::<_, _, 5, 4>(&mechanism, &start, &options, &mut []).unwrap_err();
+            let failure = simulate::<5, 4>(&mechanism, &start, &options, &mut []).unwrap_err();
             let SimulateError::Integrate(IntegrateError::Dynamics(
                 DynamicsError::SingularPosition { t, form: named, .. },
             )) = failure.error
@@ -161,7 +159,7 @@ fn fixed_steps_end_at_multiples_of_the_step_and_at_the_end() {
     let (mechanism, start) = oscillator(0.0);
     let mut diary = Diary::default();
     let options = Options::rk4(1.05, 0.1);
-    let summary = simulate::<_, _, 1, 0>(&mechanism, &start, &options, &mut [&mut diary]).unwrap();
+    let summary = simulate::<1, 0>(&mechanism, &start, &options, &mut [&mut diary]).unwrap();
     assert_eq!(summary.steps, 11);
     for (i, t) in diary.ends[..10].iter().enumerate() {
         assert_eq!(*t, (i + 1) as f64 * 0.1);
@@ -179,7 +177,7 @@ fn a_step_that_divides_the_run_leaves_no_sliver() {
         (20.0, 0.7, 29),
     ] {
         let options = Options::rk4(until, step);
-        let summary = simulate::<_, _, 1, 0>(&mechanism, &start, &options, &mut []).unwrap();
+        let summary = simulate::<1, 0>(&mechanism, &start, &options, &mut []).unwrap();
         assert_eq!(summary.steps, steps, "{until} in steps of {step}");
         assert_eq!(summary.end.t, until);
     }
@@ -189,7 +187,7 @@ fn a_step_that_divides_the_run_leaves_no_sliver() {
 fn bad_options_are_typed_errors() {
     let (mechanism, start) = oscillator(0.0);
     let run = |options: Options<f64>, start: &State<f64, 1>| {
-        simulate::<_, _, 1, 0>(&mechanism, start, &options, &mut []).map_err(|f| f.error)
+        simulate::<1, 0>(&mechanism, start, &options, &mut []).map_err(|f| f.error)
     };
     for step in [0.0, -0.01, f64::NAN, f64::INFINITY] {
         let error = run(Options::rk4(1.0, step), &start).unwrap_err();
@@ -244,8 +242,7 @@ fn bad_options_are_typed_errors() {
 #[test]
 fn a_run_of_no_time_is_its_start() {
     let (mechanism, start) = oscillator(0.0);
-    let summary =
-        simulate::<_, _, 1, 0>(&mechanism, &start, &Options::rk4(0.0, 0.1), &mut []).unwrap();
+    let summary = simulate::<1, 0>(&mechanism, &start, &Options::rk4(0.0, 0.1), &mut []).unwrap();
     assert_eq!((summary.steps, summary.end), (0, start));
 }
 
@@ -258,7 +255,7 @@ fn rows_are_at_decimal_multiples_and_on_the_constraints() {
         Options::dop853(2.0, 1e-10),
     ] {
         let mut recorder = Recorder::new(0.01).unwrap();
-        simulate::<_, _, 3, 2>(&mechanism, &start, &options, &mut [&mut recorder]).unwrap();
+        simulate::<3, 2>(&mechanism, &start, &options, &mut [&mut recorder]).unwrap();
         assert_eq!(recorder.rows().len(), 201, "{:?}", options.method);
         for (i, row) in recorder.rows().iter().enumerate() {
             assert_eq!(row.t, i as f64 / 100.0);
@@ -273,7 +270,7 @@ fn rows_agree_between_methods() {
     let (mechanism, start) = slider_crank();
     let rows = |options| {
         let mut recorder = Recorder::new(0.01).unwrap();
-        simulate::<_, _, 3, 2>(&mechanism, &start, &options, &mut [&mut recorder]).unwrap();
+        simulate::<3, 2>(&mechanism, &start, &options, &mut [&mut recorder]).unwrap();
         recorder.into_rows()
     };
     let best = rows(Options::dop853(2.0, 1e-12));
@@ -307,8 +304,7 @@ fn what_was_recorded_before_a_failure_is_kept() {
     let mut options = Options::rk4(8.0, 0.01);
     options.settings.form = Form::Multipliers;
     let mut recorder = Recorder::new(0.1).unwrap();
-    let failure =
-        simulate::<_, _, 5, 4>(&mechanism, &start, &options, &mut [&mut recorder]).unwrap_err();
+    let failure = simulate::<5, 4>(&mechanism, &start, &options, &mut [&mut recorder]).unwrap_err();
     assert!(recorder.rows().len() >= 7, "{} rows", recorder.rows().len());
     assert!(failure.summary.steps > 60, "{:?}", failure.summary);
     assert!(failure.summary.end.is_finite());
@@ -328,8 +324,7 @@ fn a_sink_that_breaks_off_ends_the_run_at_the_step() {
     })
     .unwrap();
     let options = Options::rk4(10.0, 0.1);
-    let summary =
-        simulate::<_, _, 1, 0>(&mechanism, &start, &options, &mut [&mut sampler]).unwrap();
+    let summary = simulate::<1, 0>(&mechanism, &start, &options, &mut [&mut sampler]).unwrap();
     assert!(summary.stopped);
     assert_eq!((rows, summary.steps), (5, 4));
 }
@@ -374,8 +369,7 @@ fn events_are_located_to_round_off_in_each_direction() {
         (Options::dop853(10.0, 1e-12), 1e-10),
     ] {
         let mut diary = Diary::default();
-        let summary =
-            simulate::<_, _, 1, 0>(&mechanism, &start, &options, &mut [&mut diary]).unwrap();
+        let summary = simulate::<1, 0>(&mechanism, &start, &options, &mut [&mut diary]).unwrap();
         // cos t falls at π/2 and 5π/2, rises at 3π/2.
         let at = |index: usize| -> Vec<f64> {
             let times = diary.events.iter().filter(|event| event.index == index);
@@ -411,7 +405,7 @@ fn breaking_off_at_an_event_ends_the_run_there() {
         ..Diary::default()
     };
     let mut recorder = Recorder::new(0.5).unwrap();
-    let summary = simulate::<_, _, 1, 0>(
+    let summary = simulate::<1, 0>(
         &mechanism,
         &start,
         &Options::dop853(10.0, 1e-10),
@@ -437,7 +431,7 @@ fn the_energy_of_a_damped_motion_falls_by_what_the_damping_takes() {
         (Options::dp5(20.0, 1e-9), 1e-8),
         (Options::dop853(20.0, 1e-11), 1e-10),
     ] {
-        let summary = simulate::<_, _, 1, 0>(&mechanism, &start, &options, &mut []).unwrap();
+        let summary = simulate::<1, 0>(&mechanism, &start, &options, &mut []).unwrap();
         let error = summary.energy_error.unwrap();
         assert!(error < bound, "{:?}: {error:e}", options.method);
     }
@@ -453,8 +447,7 @@ fn a_moving_constraint_supplies_the_work_it_does() {
     };
     let mechanism = Framed::new(bead, &MOVING_BEAD);
     let start = State::new(0.0, SVector::from([0.0, 0.0]), SVector::from([1.0, 3.0]));
-    let summary =
-        simulate::<_, _, 2, 1>(&mechanism, &start, &Options::rk4(5.0, 0.01), &mut []).unwrap();
+    let summary = simulate::<2, 1>(&mechanism, &start, &Options::rk4(5.0, 0.01), &mut []).unwrap();
     assert!((summary.end.q[1] - 15.0).abs() < 1e-12, "{:?}", summary.end);
     let error = summary.energy_error.unwrap();
     assert!(error < 1e-11, "{error:e} of 30 J");
@@ -470,7 +463,7 @@ fn a_bead_on_a_circle_stays_there() {
     let mechanism = Framed::new(bead, &BEAD);
     let start = State::new(0.0, SVector::from([2.0, 0.0]), SVector::from([0.0, 0.0]));
     let summary =
-        simulate::<_, _, 2, 1>(&mechanism, &start, &Options::dop853(50.0, 1e-11), &mut []).unwrap();
+        simulate::<2, 1>(&mechanism, &start, &Options::dop853(50.0, 1e-11), &mut []).unwrap();
     assert!(
         summary.constraint_error.unwrap().position < 1e-14,
         "{summary:?}"
@@ -520,7 +513,7 @@ fn a_stepper_and_a_run_agree() {
             stepper.step(&mechanism, &mut state, 0.1).unwrap();
         }
         let options = Options::new(2.0, method, step_control);
-        let run = simulate::<_, _, 5, 4>(&mechanism, &start, &options, &mut []).unwrap();
+        let run = simulate::<5, 4>(&mechanism, &start, &options, &mut []).unwrap();
         let error = distance(&state, &run.end);
         assert!(error < 1e-7, "{method}: {error:e}");
     }

@@ -1,12 +1,13 @@
 //! The implicit method: order, stiffness, singular positions.
 
-use crate::fixtures::{Framed, Free, PLAIN, distance, kepler, kepler_exact, kepler_start};
+use crate::fixtures::{
+    Framed, Free, PLAIN, distance, kepler, kepler_exact, kepler_start, simulate,
+};
 use crate::integrator::inside_order;
 use crate::mechanisms::{FourBars, Passing};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Dp5, Integrator, Method, Options, Radau5, Radau9, State, StepControl, Structure, Tolerance,
-    simulate,
 };
 
 /// Eccentricity and end of the orbits in these tests.
@@ -174,7 +175,7 @@ fn implicit_methods_pass_singular_positions() {
         (Method::Radau9, adaptive, 4e-6),
     ] {
         let options = Options::new(8.0, method, step_control);
-        let summary = simulate::<_, _, 5, 4>(&mechanism, &start, &options, &mut [])
+        let summary = simulate::<5, 4>(&mechanism, &start, &options, &mut [])
             .unwrap_or_else(|failure| panic!("{failure}"));
         assert_eq!(summary.passages, Some(9));
         let error = distance(&summary.end, &exact);

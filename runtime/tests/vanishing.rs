@@ -1,12 +1,12 @@
 //! Constraints whose gradient vanishes wherever they hold restrict no motion, and are
 //! refused; those whose gradient vanishes at one place are passed.
 
-use crate::fixtures::{Framed, PLAIN};
+use crate::fixtures::{Framed, PLAIN, simulate};
 use bricard_runtime::nalgebra::{SMatrix, SVector};
 use bricard_runtime::{
     AssemblyError, ConstraintRow, DynamicsError, Energy, Initial, IntegrateError, Mechanism,
     Options, Position, Quantity, SimulateError, Singularity, Start, State, Structure, Terms,
-    assemble, simulate,
+    assemble,
 };
 
 /// Two coordinates without units, so that they may be angles and the usual size of the
@@ -78,12 +78,7 @@ impl Mechanism<f64, 2, 1> for Power {
 
     fn energy(&self, state: &State<f64, 2>) -> Energy<f64> {
         let (kinetic, potential) = (0.5 * state.v.norm_squared(), 9.81 * state.q[1]);
-        Energy {
-            kinetic,
-            potential,
-            balance: kinetic + potential,
-            power: 0.0,
-        }
+        crate::mechanisms::supplied(kinetic, potential, 0.0)
     }
 }
 
@@ -137,7 +132,7 @@ fn a_gradient_that_vanishes_wherever_the_constraint_holds_is_refused_at_the_star
     ] {
         for options in [Options::rk4(2.0, 0.01), Options::dp5(2.0, 1e-8)] {
             let mechanism = Framed::new(mechanism, &LOOSE);
-            let failure = simulate::<_, _, 2, 1>(&mechanism, &start, &options, &mut [])
+            let failure = simulate::<2, 1>(&mechanism, &start, &options, &mut [])
                 .expect_err("it restricts nothing");
             let SimulateError::Integrate(IntegrateError::Dynamics(
                 DynamicsError::SingularConfiguration { t, kind, row, .. },
@@ -167,7 +162,7 @@ fn the_same_constraint_is_obeyed_where_its_gradient_does_not_vanish() {
     );
     let start = state([1.5_f64.sqrt(), 0.0], [0.0, 0.0]);
     let options = Options::dop853(2.0, 1e-11);
-    let summary = simulate::<_, _, 2, 1>(&mechanism, &start, &options, &mut [])
+    let summary = simulate::<2, 1>(&mechanism, &start, &options, &mut [])
         .unwrap_or_else(|failure| panic!("{failure}"));
     assert!((summary.end.q.norm_squared() - 1.5).abs() < 1e-13);
 }
@@ -184,7 +179,7 @@ fn a_start_where_two_lines_cross_is_not_refused() {
     );
     let options = Options::dop853(1.0, 1e-11);
     let start = state([1.0, 1.0], [1.0, 0.0]);
-    let summary = simulate::<_, _, 2, 1>(&mechanism, &start, &options, &mut [])
+    let summary = simulate::<2, 1>(&mechanism, &start, &options, &mut [])
         .unwrap_or_else(|failure| panic!("{failure}"));
     assert!(
         (summary.end.q - SVector::from([2.0, 1.0])).norm() < 1e-9,
@@ -204,7 +199,7 @@ fn parabolas_that_touch_are_not_taken_for_a_square() {
         &LOOSE,
     );
     let start = state([1.0, 1.0], [1.0, 0.0]);
-    let failure = simulate::<_, _, 2, 1>(&mechanism, &start, &Options::rk4(1.0, 0.01), &mut [])
+    let failure = simulate::<2, 1>(&mechanism, &start, &Options::rk4(1.0, 0.01), &mut [])
         .expect_err("nothing tells which one is meant");
     let vanishing = format!("{:?}", failure.error).contains("Vanishing");
     assert!(!vanishing, "{failure}");
@@ -253,5 +248,62 @@ fn a_guess_that_leads_to_where_the_gradient_vanishes_is_refused_if_nothing_cross
         for guess in [[1.3, 1.3], [2.3, 1.4], [0.4, 1.0]] {
             assembled(mechanism, guess).unwrap_or_else(|error| panic!("{guess:?}: {error}"));
         }
+    }
+}
+
+/// A circle through the origin whose equation does not vanish there to the last bit.
+fn wheel(q: &SVector<f64, 2>) -> Jet {
+    let (x, y) = (q[0] - 0.7, q[1] - 0.1);
+    let value = x * x + y * y - 0.5;
+    (value, [2.0 * x, 2.0 * y].into(), SMatrix::identity() * 2.0)
+}
+
+/// Two lines that cross at the origin.
+fn lines(q: &SVector<f64, 2>) -> Jet {
+    (
+        q[0] * q[1],
+        [q[1], q[0]].into(),
+        [[0.0, 1.0], [1.0, 0.0]].into(),
+    )
+}
+
+/// Runs from a start where all coordinates are lengths that are zero.
+fn from_nowhere(u: fn(&SVector<f64, 2>) -> Jet, v: [f64; 2]) -> Result<State<f64, 2>, String> {
+    let mechanism = Framed::new(
+        Power {
+            u,
+            n: 1,
+            excess: 0.0,
+        },
+        &LENGTHS,
+    );
+    let options = Options::dop853(1.0, 1e-10);
+    let ran = simulate::<2, 1>(&mechanism, &state([0.0; 2], v), &options, &mut []);
+    ran.map(|summary| summary.end)
+        .map_err(|failure| failure.error.to_string())
+}
+
+#[test]
+fn a_start_where_all_coordinates_are_lengths_of_zero_has_a_scale() {
+    for speed in [1e-3, 1.0, 1e3] {
+        let end = from_nowhere(wheel, [speed, -7.0 * speed]).expect("the circle is smooth");
+        let (residual, ..) = wheel(&end.q);
+        let gained = 0.5 * (end.v.norm_squared() - 50.0 * speed * speed) + 9.81 * end.q[1];
+        assert!(residual.abs() < 1e-15, "{end:?}");
+        assert!(
+            gained.abs() < 1e-8 * (1.0 + 50.0 * speed * speed),
+            "{end:?}"
+        );
+    }
+}
+
+#[test]
+fn a_start_where_lines_of_lengths_cross_at_zero_is_refused() {
+    for v in [[0.0, 0.0], [1.0, 0.0]] {
+        let error = from_nowhere(lines, v).expect_err("nothing tells how long the row is");
+        assert!(
+            error.contains("nothing tells which of the branches"),
+            "{error}"
+        );
     }
 }

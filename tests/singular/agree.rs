@@ -15,7 +15,7 @@ const TIMES: usize = 40;
 
 /// What the reduction of a trial is off by; nothing where it has none.
 pub fn contradiction(trial: &Trial) -> Option<f64> {
-    let Compare::Reduction(reduced) = trial.compare else {
+    let (Compare::Reduction(reduced) | Compare::Turning(reduced)) = trial.compare else {
         return None;
     };
     let time = |i: usize| trial.until * i as f64 / TIMES as f64;

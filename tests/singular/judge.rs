@@ -12,6 +12,8 @@ use crate::trial::{Compare, Trial};
 const INVARIANT: f64 = 1e-5;
 /// What a row may be off by: this multiple of the tolerance.
 const MULTIPLE: f64 = 1e4;
+/// The same where motions turn sharply, and short runs.
+const OF_TURNING: f64 = 300.0;
 /// What the references themselves may be off by.
 const REFERENCE: f64 = 1e-9;
 /// What may move at rest.
@@ -77,6 +79,7 @@ impl Trial {
         let floor = match self.compare {
             Compare::Along => 1e-6,
             Compare::Rest => return REST,
+            Compare::Turning(_) => return larger(OF_TURNING * self.tolerance, 1e-6),
             Compare::Reduction(_) | Compare::Invariants if ended => INVARIANT,
             Compare::Reduction(_) | Compare::Invariants => REFERENCE,
         };
@@ -102,7 +105,7 @@ fn reference(trial: &Trial, track: &Track) -> Option<Exact> {
         None => exact(trial.mechanism, name, &trial.set, n, times),
     };
     match trial.compare {
-        Compare::Reduction(name) => Some(reduced(name)),
+        Compare::Reduction(name) | Compare::Turning(name) => Some(reduced(name)),
         Compare::Along => Some(along::follow(&trial.set, times)),
         Compare::Rest => Some(Exact {
             numbers: track.rows.row(0).repeat(times.len()),
@@ -147,13 +150,15 @@ fn compared(trial: &Trial, track: &Track, moved: Option<&Exact>) -> (f64, f64, f
     let width = 2 * track.rows.n;
     // Along the curve velocities turn within the time in which errors are made; there the
     // energy tells whether they are right.
-    let seen = match trial.compare {
-        Compare::Along => track.rows.n,
-        _ => width,
-    };
     let (mut worst, mut last, mut when) = (0.0, 0.0, 0.0);
     for (i, t) in track.rows.times.iter().enumerate() {
         let right = &exact.numbers[width * i..width * (i + 1)];
+        let is_last = i + 1 == track.rows.times.len() && track.failed.is_none();
+        let seen = match trial.compare {
+            Compare::Along => track.rows.n,
+            Compare::Turning(_) if !is_last => track.rows.n,
+            _ => width,
+        };
         let pairs = track.rows.row(i).iter().zip(right).take(seen);
         last = pairs.fold(0.0, |off, (a, b)| {
             larger(off, (a - b).abs() / (1.0 + b.abs()))

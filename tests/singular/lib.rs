@@ -5,6 +5,9 @@
 //! Descriptions stand in `descriptions/`, each with a reduction to independent
 //! coordinates, without constraints, that the same generator compiles.
 
+// Its simulation of each pair of sizes is shared, where the compiler shares generic code.
+use bricard as _;
+
 mod agree;
 mod along;
 mod exact;

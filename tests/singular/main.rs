@@ -1,8 +1,9 @@
 //! Prints the table of scores.
 //!
 //! `cargo run --release -p bricard-singular -- [--runs N] [--seed S] [--only NAME]
-//! [--index I] [--rtol R]... [--brief]`
+//! [--index I] [--rtol R]... [--method M] [--brief]`
 
+use bricard_runtime::Method;
 use bricard_singular::{SERIES, Series, find, line, print, run_all};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -14,6 +15,7 @@ struct Asked {
     seed: u64,
     only: Vec<String>,
     tolerances: Vec<f64>,
+    method: Option<Method>,
     brief: bool,
 }
 
@@ -37,6 +39,7 @@ fn asked() -> Result<Asked, String> {
         seed: 1,
         only: Vec::new(),
         tolerances: Vec::new(),
+        method: None,
         brief: false,
     };
     let mut arguments = std::env::args().skip(1);
@@ -54,15 +57,25 @@ fn asked() -> Result<Asked, String> {
             "--rtol" => asked
                 .tolerances
                 .push(value.parse().map_err(|_| wrong("a number"))?),
+            "--method" => {
+                let wrong = wrong("dp5, dop853, radau5 or radau9");
+                asked.method = Some(method(&value).ok_or(wrong)?);
+            }
             "--only" => asked.only.push(value),
             _ => {
                 return Err(format!(
-                    "{flag}: --runs N, --index I, --seed S, --only NAME, --rtol R, --brief"
+                    "{flag}: --runs N, --index I, --seed S, --only NAME, --rtol R, --method M, --brief"
                 ));
             }
         }
     }
     Ok(asked)
+}
+
+/// The method of a name that chooses its steps by their error.
+fn method(name: &str) -> Option<Method> {
+    let all = [Method::Dp5, Method::Dop853, Method::Radau5, Method::Radau9];
+    all.into_iter().find(|method| method.to_string() == name)
 }
 
 fn show(asked: &Asked) {
@@ -80,7 +93,13 @@ fn show(asked: &Asked) {
         let begun = Instant::now();
         let first = 0..asked.runs.unwrap_or(series.runs);
         let runs = asked.index.map_or(first, |index| index..index + 1);
-        let ran = run_all(series.trials(asked.seed, runs, &asked.tolerances));
+        let mut trials = series.trials(asked.seed, runs, &asked.tolerances);
+        for trial in &mut trials {
+            if let Some(method) = asked.method {
+                (trial.method, trial.step) = (method, None);
+            }
+        }
+        let ran = run_all(trials);
         eprintln!("{}: {:.1} s", series.name, begun.elapsed().as_secs_f64());
         lines.push((line(series, &ran), ran));
     }

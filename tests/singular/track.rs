@@ -9,7 +9,7 @@
 use crate::trial::Trial;
 use bricard_runtime::{
     Audit, DynamicsError, Interface, Mechanism, Observer, Options, Position, Probe, State, Step,
-    Visitor, Whole, assemble, simulate,
+    StepControl, Visitor, Whole, assemble, simulate,
 };
 use std::ops::ControlFlow;
 
@@ -204,7 +204,14 @@ const MOST_STEPS: u64 = 1_000_000;
 
 /// How a trial is run: what it audits itself is not audited twice.
 fn options(trial: &Trial) -> Options<f64> {
-    let mut options = Options::dop853(trial.until, trial.tolerance);
+    let steps = match trial.step {
+        Some(step) => StepControl::Fixed { step },
+        None => StepControl::Adaptive {
+            relative: trial.tolerance,
+            absolute: trial.tolerance,
+        },
+    };
+    let mut options = Options::new(trial.until, trial.method, steps);
     options.most_steps = Some(MOST_STEPS);
     options.audit = Audit {
         passages: trial.passages.is_some(),

@@ -3,6 +3,7 @@
 //! Out: [`Trial`].
 
 use crate::planting::Planting;
+use bricard_runtime::Method;
 use std::fmt::{Display, Formatter};
 use std::sync::Arc;
 
@@ -17,6 +18,9 @@ pub enum Compare {
     Reduction(&'static str),
     /// Nothing: for chaotic motions, and where no reduction exists.
     Invariants,
+    /// The same where velocities turn within the time in which errors are made: positions,
+    /// and velocities at the end.
+    Turning(&'static str),
     /// The curve of the almost parallelogram, followed by its tangent.
     Along,
     /// The start, from which nothing may move.
@@ -43,6 +47,10 @@ pub struct Trial {
     pub until: f64,
     /// Relative and absolute tolerance.
     pub tolerance: f64,
+    /// The method.
+    pub method: Method,
+    /// The length of its steps (s), if they are not as long as the tolerance allows.
+    pub step: Option<f64>,
     /// What its rows are held against.
     pub compare: Compare,
     /// The reduction whose sign changes are the passages, if they are counted.
@@ -64,6 +72,8 @@ impl Trial {
             set,
             until: 1.0,
             tolerance: 1e-9,
+            method: Method::Dop853,
+            step: None,
             compare: Compare::Reduction(reduced),
             passages: Some(reduced),
             held: &[],
@@ -91,7 +101,15 @@ impl Display for Trial {
             write!(f, " --set {name}={value:?}")?;
         }
         let (series, seed, index) = self.made;
-        write!(f, " --rtol {:e} --until {:?}", self.tolerance, self.until)?;
-        write!(f, "   [--only {series} --seed {seed} --index {index}]")
+        let method = self.method;
+        match self.step {
+            Some(step) => write!(f, " --step {step:?}")?,
+            None => write!(f, " --rtol {:e}", self.tolerance)?,
+        }
+        write!(f, " --until {:?}", self.until)?;
+        write!(
+            f,
+            "   [--only {series} --seed {seed} --index {index} --method {method}]"
+        )
     }
 }

@@ -3,6 +3,9 @@
 //! `docs/stress.md` lists the cases with what they come to. `BRICARD_LONG=1` adds the
 //! longest runs.
 
+// Its simulation of each pair of sizes is shared, where the compiler shares generic code.
+use bricard as _;
+
 mod again;
 mod case;
 mod judge;

@@ -6,7 +6,9 @@
 //! They are further rows of the constraints while positions are assembled, and others while
 //! velocities are: a position that is given says nothing about velocities.
 
+use super::room::Room;
 use super::{AssemblyError, StartFault, position, velocity};
+use crate::stack::with_room;
 use crate::{Energy, Mechanism, Position, Real, Start, State, Structure, Terms};
 use nalgebra::{SMatrix, SVector};
 
@@ -41,7 +43,9 @@ where
     T: Real,
     M: Mechanism<T, N, R> + StartEquations<T, N>,
 {
-    moved::<T, M, N, R, P, V>(mechanism, (structures, Some(R)), start, t)
+    with_room::<T, _, N, P>(|| {
+        moved::<T, M, N, R, P, V>(mechanism, (structures, Some(R)), start, t)
+    })
 }
 
 /// Moves the guesses of a start onto equations that are guesses, of which there are `P`
@@ -59,7 +63,9 @@ where
 {
     let mut moved_to = *start;
     let plan = ([structure, structure], None);
-    let met = moved::<T, M, N, R, P, V>(mechanism, plan, &mut moved_to, t).is_ok();
+    let met = with_room::<T, _, N, P>(|| {
+        moved::<T, M, N, R, P, V>(mechanism, plan, &mut moved_to, t).is_ok()
+    });
     let turns = T::from_f64(core::f64::consts::TAU);
     let pairs = moved_to.q.iter().zip(&start.q);
     // Beyond a turn it has lost its way.
@@ -95,7 +101,7 @@ where
             velocities: false,
         };
         let held = start.q.map(|initial| initial.held);
-        position::assemble::<T, _, N, P>(&rows, &mut state, &held)
+        position::assemble::<T, _, N, P>(&rows, &mut state, &mut Room::default(), &held)
             .map_err(|error| fault(error, t, positions))?;
     }
     if V > 0 {
@@ -106,7 +112,7 @@ where
             velocities: true,
         };
         let held = start.v.map(|initial| initial.held);
-        velocity::assemble::<T, _, N, V>(&rows, &mut state, &held)
+        velocity::assemble::<T, _, N, V>(&rows, &mut state, &mut Room::default(), &held)
             .map_err(|error| fault(error, t, velocities))?;
     }
     for i in 0..N {

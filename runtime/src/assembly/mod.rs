@@ -21,6 +21,7 @@ mod error;
 mod fault;
 mod inertia;
 mod position;
+mod room;
 mod scales;
 mod vanishing;
 mod velocity;
@@ -29,6 +30,10 @@ pub use equations::{StartEquations, guess, meet};
 pub use error::AssemblyError;
 pub use fault::StartFault;
 
+use room::Room;
+
+use crate::linalg::Breakdown;
+use crate::stack::with_room;
 use crate::{Mechanism, Position, Real, Start, State, Terms};
 use nalgebra::SVector;
 
@@ -65,20 +70,41 @@ where
     if !state.is_finite() {
         return Err(AssemblyError::NotFinite { t });
     }
-    let mut met = *start;
-    mechanism.begin(&mut met, t).map_err(AssemblyError::Start)?;
-    state.q = SVector::from_fn(|i, _| met.q[i].value);
-    state.v = SVector::from_fn(|i, _| met.v[i].value);
-    if R > 0 {
-        position::assemble(mechanism, &mut state, &start.q.map(|initial| initial.held))?;
-        velocity::assemble(mechanism, &mut state, &start.v.map(|initial| initial.held))?;
-    }
-    check_inertia(mechanism, &state)?;
-    Ok(state)
+    with_room::<T, _, N, R>(|| {
+        let mut met = *start;
+        mechanism.begin(&mut met, t).map_err(AssemblyError::Start)?;
+        state.q = SVector::from_fn(|i, _| met.q[i].value);
+        state.v = SVector::from_fn(|i, _| met.v[i].value);
+        if R > 0 {
+            constrain(mechanism, &mut state, start)?;
+        }
+        check_inertia(mechanism, &state)?;
+        Ok(state)
+    })
+}
+
+/// Moves what is not held onto the constraints. Not inlined, as what comes after it: both
+/// work in large matrices.
+#[inline(never)]
+fn constrain<T, M, const N: usize, const R: usize>(
+    mechanism: &M,
+    state: &mut State<T, N>,
+    start: &Start<T, N>,
+) -> Result<(), AssemblyError<T, N, R>>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    let held = start.q.map(|initial| initial.held);
+    let held_velocities = start.v.map(|initial| initial.held);
+    let mut room = Room::default();
+    position::assemble(mechanism, state, &mut room, &held)?;
+    velocity::assemble(mechanism, state, &mut room, &held_velocities)
 }
 
 /// Refuses a kinetic energy that is negative for some velocities, whether or not the
 /// constraints allow them at this position.
+#[inline(never)]
 fn check_inertia<T, M, const N: usize, const R: usize>(
     mechanism: &M,
     state: &State<T, N>,
@@ -88,24 +114,22 @@ where
     M: Mechanism<T, N, R> + ?Sized,
 {
     // Without constraints there are no projections, and nothing to tell of positions.
-    let mass = if R > 0 {
+    let negative = if R > 0 {
         let mut at = Position::default();
         mechanism.position(state, &mut at);
-        at.mass
+        inertia::negative(&at.mass)
     } else {
         let mut at = Terms::default();
         mechanism.terms(state, &mut at);
-        at.mass
+        inertia::negative(&at.mass)
     };
-    if mass.iter().any(|x| !x.is_finite()) {
-        return Err(AssemblyError::NotFinite { t: state.t });
-    }
-    match inertia::negative(&mass) {
-        Some(coordinate) => Err(AssemblyError::NegativeInertia {
+    match negative {
+        Ok(None) => Ok(()),
+        Ok(Some(coordinate)) => Err(AssemblyError::NegativeInertia {
             t: state.t,
             structure: mechanism.structure(),
             coordinate,
         }),
-        None => Ok(()),
+        Err(Breakdown) => Err(AssemblyError::NotFinite { t: state.t }),
     }
 }

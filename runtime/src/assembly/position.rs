@@ -9,10 +9,13 @@
 
 use super::AssemblyError;
 use super::decomposition::Decomposition;
+use super::room::Room;
 use super::scales::{Scales, disturbed};
 use super::vanishing::vanishing_row;
+use crate::linalg::Breakdown;
 use crate::tolerance::negligible;
 use crate::{Mechanism, Position, Real, State};
+use core::ops::Range;
 use nalgebra::SVector;
 
 /// Constraint errors up to this multiple of the round-off of an equation's terms
@@ -33,10 +36,12 @@ const DOUBLE_ROOT: (f64, f64) = (0.1, 0.4);
 /// Disturbances of the guess, in sizes of the coordinates, tried in turn where
 /// the guess itself leads nowhere.
 const DISTURBANCES: [f64; 5] = [0.0, 1e-3, 1e-2, 0.1, 1.0];
+
 /// Moves the coordinates that are not held onto the constraints.
 pub(super) fn assemble<T, M, const N: usize, const R: usize>(
     mechanism: &M,
     state: &mut State<T, N>,
+    Room { at, matrix }: &mut Room<T, N, R>,
     held: &[bool; N],
 ) -> Result<(), AssemblyError<T, N, R>>
 where
@@ -44,106 +49,117 @@ where
     M: Mechanism<T, N, R> + ?Sized,
 {
     let guess = state.q;
-    let mut measured = Scales::measure(mechanism, state);
+    let mut measured = Scales::measure(mechanism, state, at);
     measured.leave_out_velocities(mechanism.structure().constraints);
     let mut scales = measured.clone();
     scales.hold(held);
-    let mut best: Option<Descent<'_, T, N, R>> = None;
+    let mut best: Option<(T, State<T, N>)> = None;
     for disturbance in DISTURBANCES {
         let distance = SVector::from_fn(|i, _| match held[i] {
             true => T::zero(),
             false => scales.sizes[i] * T::from_f64(disturbance),
         });
         state.q = disturbed(&guess, &distance);
-        let mut descent = Descent::new(mechanism, state, &scales)?;
-        descent.run(mechanism, state)?;
-        if descent.is_satisfied() {
-            return match descent.vanishing_row(mechanism, state, &measured) {
-                Some(row) => Err(AssemblyError::Vanishing {
-                    structure: mechanism.structure(),
-                    row,
-                }),
-                None => Ok(()),
-            };
+        let mut descent = Descent::new(mechanism, state, (at, matrix), &scales)?;
+        descent.run()?;
+        let (merit, reached) = (descent.merit, descent.state);
+        *state = reached;
+        if is_satisfied(&descent.residual, &scales) {
+            return check_gradients(mechanism, state, at, &measured);
         }
-        if best.as_ref().is_none_or(|best| descent.merit < best.merit) {
-            best = Some(descent);
+        if best.as_ref().is_none_or(|(least, _)| merit < *least) {
+            best = Some((merit, reached));
         }
     }
     match best {
-        Some(descent) => Err(descent.report(mechanism, &measured, held)),
+        Some((_, closest)) => {
+            mechanism.position(&closest, at);
+            Err(contradiction(mechanism, at, &measured, held))
+        }
         None => Ok(()),
     }
 }
 
 /// One descent of the constraint error.
-struct Descent<'a, T, const N: usize, const R: usize> {
+struct Descent<'a, M: ?Sized, T, const N: usize, const R: usize> {
+    mechanism: &'a M,
     scales: &'a Scales<T, N, R>,
-    at: Position<T, N, R>,
+    /// Where the descent is.
+    state: State<T, N>,
+    /// The constraint errors there.
+    residual: SVector<T, R>,
     /// Sum of the squares of the scaled constraint errors.
     merit: T,
     damping: T,
+    /// What the mechanism was evaluated into last, here or at a trial.
+    at: &'a mut Position<T, N, R>,
+    matrix: &'a mut Decomposition<T, N, R>,
 }
 
-impl<'a, T: Real, const N: usize, const R: usize> Descent<'a, T, N, R> {
-    fn new<M: Mechanism<T, N, R> + ?Sized>(
-        mechanism: &M,
+impl<'a, M, T, const N: usize, const R: usize> Descent<'a, M, T, N, R>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    fn new(
+        mechanism: &'a M,
         state: &State<T, N>,
+        (at, matrix): (&'a mut Position<T, N, R>, &'a mut Decomposition<T, N, R>),
         scales: &'a Scales<T, N, R>,
     ) -> Result<Self, AssemblyError<T, N, R>> {
-        let mut at = Position::default();
-        mechanism.position(state, &mut at);
-        let merit = merit(&at, scales);
+        mechanism.position(state, at);
+        let merit = merit(at, scales);
         if !merit.is_finite() {
             return Err(AssemblyError::NotFinite { t: state.t });
         }
         Ok(Self {
+            mechanism,
             scales,
-            at,
+            state: *state,
+            residual: at.residual,
             merit,
             damping: T::zero(),
+            at,
+            matrix,
         })
     }
 
     /// Descends until nothing improves.
-    fn run<M: Mechanism<T, N, R> + ?Sized>(
-        &mut self,
-        mechanism: &M,
-        state: &mut State<T, N>,
-    ) -> Result<(), AssemblyError<T, N, R>> {
-        let failure = AssemblyError::NotFinite { t: state.t };
-        for _ in 0..MOST_TRIALS {
-            if self.merit == T::zero() || self.damping > T::from_f64(MOST_DAMPING) {
-                break;
-            }
-            let matrix = Decomposition::new(&self.at.jacobian, self.scales).map_err(|_| failure)?;
-            let target = -self.at.residual.component_mul(&self.scales.rows);
-            let (step, fall) = matrix.solve(&target, negligible(), self.damping);
+    fn run(&mut self) -> Result<(), AssemblyError<T, N, R>> {
+        let mut trials = 0..MOST_TRIALS;
+        while self.merit > T::zero() && self.advances(&mut trials)? {}
+        Ok(())
+    }
+
+    /// Goes one step, the first that improves among those of rising damping; whether there
+    /// was one.
+    fn advances(&mut self, trials: &mut Range<usize>) -> Result<bool, AssemblyError<T, N, R>> {
+        let failure = AssemblyError::NotFinite { t: self.state.t };
+        let decomposed = self.matrix.decompose(&self.at.jacobian, self.scales);
+        decomposed.map_err(|Breakdown| failure)?;
+        let target = -self.residual.component_mul(&self.scales.rows);
+        while self.damping <= T::from_f64(MOST_DAMPING) && trials.next().is_some() {
+            self.matrix.damp(self.damping);
+            let (step, fall) = self.matrix.solve(&target, negligible());
             let step = step.component_mul(&self.scales.columns);
-            if self.improves(mechanism, state, &step, fall) {
-                continue;
+            if self.improves(&step, fall) {
+                return Ok(true);
             }
-            if self.damping == T::zero() && self.is_satisfied() {
-                break;
+            if self.damping == T::zero() && is_satisfied(&self.residual, self.scales) {
+                return Ok(false);
             }
             self.damping = (self.damping * T::from_f64(DAMPING_FACTOR)).max(least_damping());
         }
-        Ok(())
+        Ok(false)
     }
 
     /// Tries a step that promises to reduce the merit by `fall`, and goes there
     /// if the promise is kept.
-    fn improves<M: Mechanism<T, N, R> + ?Sized>(
-        &mut self,
-        mechanism: &M,
-        state: &mut State<T, N>,
-        step: &SVector<T, N>,
-        fall: T,
-    ) -> bool {
+    fn improves(&mut self, step: &SVector<T, N>, fall: T) -> bool {
         let from = self.merit;
-        let mut trial = *state;
+        let mut trial = self.state;
         trial.q += step;
-        let to = self.merit_at(mechanism, &trial);
+        let mut to = self.merit_at(&trial);
         if !(to < from && from - to >= fall * T::from_f64(KEPT_PROMISE)) {
             return false;
         }
@@ -151,13 +167,15 @@ impl<'a, T: Real, const N: usize, const R: usize> Descent<'a, T, N, R> {
         if left > DOUBLE_ROOT.0 && left < DOUBLE_ROOT.1 {
             let mut twice = trial;
             twice.q += step;
-            if self.merit_at(mechanism, &twice) < to {
-                trial = twice;
+            let beyond = self.merit_at(&twice);
+            if beyond < to {
+                (trial, to) = (twice, beyond);
+            } else {
+                self.merit_at(&trial);
             }
         }
-        *state = trial;
-        mechanism.position(state, &mut self.at);
-        self.merit = merit(&self.at, self.scales);
+        (self.state, self.merit) = (trial, to);
+        self.residual = self.at.residual;
         self.damping /= T::from_f64(DAMPING_FACTOR);
         if self.damping < least_damping() {
             self.damping = T::zero();
@@ -165,57 +183,76 @@ impl<'a, T: Real, const N: usize, const R: usize> Descent<'a, T, N, R> {
         true
     }
 
-    /// The merit at another state.
-    fn merit_at<M: Mechanism<T, N, R> + ?Sized>(&self, mechanism: &M, state: &State<T, N>) -> T {
-        let mut at = Position::default();
-        mechanism.position(state, &mut at);
-        merit(&at, self.scales)
+    /// The merit at another state, which the mechanism is evaluated at.
+    fn merit_at(&mut self, state: &State<T, N>) -> T {
+        self.mechanism.position(state, self.at);
+        merit(self.at, self.scales)
     }
+}
 
-    /// Whether every constraint error is down to round-off.
-    fn is_satisfied(&self) -> bool {
-        self.contradictions().iter().all(|x| *x == T::zero())
-    }
-
-    /// A constraint that lost its gradient on the way, and can't be crossed here.
-    fn vanishing_row<M: Mechanism<T, N, R> + ?Sized>(
-        &self,
-        mechanism: &M,
-        state: &State<T, N>,
-        measured: &Scales<T, N, R>,
-    ) -> Option<usize> {
-        let round_off = T::EPSILON * T::from_f64(CONTRADICTION);
-        vanishing_row(mechanism, state, &self.at.jacobian, measured, round_off)
-    }
-
-    /// Constraint errors that are more than round-off; zero for the others.
-    fn contradictions(&self) -> SVector<T, R> {
-        let round_off = T::EPSILON * T::from_f64(CONTRADICTION);
-        self.at
-            .residual
-            .zip_map(&self.scales.reach, |error, reach| {
-                if error.abs() <= round_off * reach {
-                    T::zero()
-                } else {
-                    error
-                }
-            })
-    }
-
-    /// The error that tells which constraints and which held values contradict.
-    fn report<M: Mechanism<T, N, R> + ?Sized>(
-        &self,
-        mechanism: &M,
-        measured: &Scales<T, N, R>,
-        held: &[bool; N],
-    ) -> AssemblyError<T, N, R> {
-        let residual = self.contradictions();
-        let conflicting = measured.influential(&self.at.jacobian, &residual, held);
-        AssemblyError::Positions {
+/// Refuses a constraint that lost its gradient on the way and can't be crossed here.
+fn check_gradients<T, M, const N: usize, const R: usize>(
+    mechanism: &M,
+    state: &State<T, N>,
+    at: &mut Position<T, N, R>,
+    measured: &Scales<T, N, R>,
+) -> Result<(), AssemblyError<T, N, R>>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    let round_off = T::EPSILON * T::from_f64(CONTRADICTION);
+    mechanism.position(state, at);
+    match vanishing_row(mechanism, state, at, measured, round_off) {
+        Some(row) => Err(AssemblyError::Vanishing {
             structure: mechanism.structure(),
-            residual,
-            conflicting,
+            row,
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Whether every constraint error is down to round-off.
+fn is_satisfied<T: Real, const N: usize, const R: usize>(
+    residual: &SVector<T, R>,
+    scales: &Scales<T, N, R>,
+) -> bool {
+    let left = contradictions(residual, scales);
+    left.iter().all(|x| *x == T::zero())
+}
+
+/// Constraint errors that are more than round-off; zero for the others.
+fn contradictions<T: Real, const N: usize, const R: usize>(
+    residual: &SVector<T, R>,
+    scales: &Scales<T, N, R>,
+) -> SVector<T, R> {
+    let round_off = T::EPSILON * T::from_f64(CONTRADICTION);
+    residual.zip_map(&scales.reach, |error, reach| {
+        if error.abs() <= round_off * reach {
+            T::zero()
+        } else {
+            error
         }
+    })
+}
+
+/// The error that tells which constraints and which held values contradict.
+fn contradiction<T, M, const N: usize, const R: usize>(
+    mechanism: &M,
+    at: &Position<T, N, R>,
+    measured: &Scales<T, N, R>,
+    held: &[bool; N],
+) -> AssemblyError<T, N, R>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    let residual = contradictions(&at.residual, measured);
+    let conflicting = measured.influential(&at.jacobian, &residual, held);
+    AssemblyError::Positions {
+        structure: mechanism.structure(),
+        residual,
+        conflicting,
     }
 }
 

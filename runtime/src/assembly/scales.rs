@@ -36,14 +36,15 @@ pub(super) struct Scales<T, const N: usize, const R: usize> {
 }
 
 impl<T: Real, const N: usize, const R: usize> Scales<T, N, R> {
-    /// Measures the mechanism around a state.
+    /// Measures the mechanism around a state; `at` is a buffer.
+    #[inline(never)]
     pub(super) fn measure<M: Mechanism<T, N, R> + ?Sized>(
         mechanism: &M,
         state: &State<T, N>,
+        at: &mut Position<T, N, R>,
     ) -> Self {
         let sizes = sizes(mechanism.structure().coordinates, &state.q);
-        let mut at = Position::default();
-        mechanism.position(state, &mut at);
+        mechanism.position(state, at);
         let columns = SVector::from_fn(|i, _| {
             let inertia: T = at.mass[(i, i)];
             if inertia > T::zero() {
@@ -56,7 +57,7 @@ impl<T: Real, const N: usize, const R: usize> Scales<T, N, R> {
         for distance in NEIGHBOURHOOD {
             let mut near = *state;
             near.q = disturbed(&state.q, &(sizes * T::from_f64(distance)));
-            mechanism.position(&near, &mut at);
+            mechanism.position(&near, at);
             for k in 0..R {
                 let row = |j: usize, scale: &SVector<T, N>| at.jacobian[(k, j)].abs() * scale[j];
                 let square = (0..N).fold(T::zero(), |sum, j| {

@@ -10,7 +10,6 @@
 use super::scales::Scales;
 use crate::tolerance::regular;
 use crate::{Mechanism, Position, Real, State};
-use nalgebra::SMatrix;
 
 /// How far around a position the sign of a constraint is looked at, in sizes of the
 /// coordinates.
@@ -18,12 +17,12 @@ const AROUND: f64 = 1e-2;
 
 /// A constraint equation whose gradient is as good as none at a position, compared with
 /// what it was around the guess, and whose error has one sign wherever it is looked at
-/// around the position; `jacobian` is that at the position, `round_off` what errors of one
+/// around the position; `at` is that position, and used up, `round_off` what errors of one
 /// unit of [`Scales::reach`] have.
 pub(super) fn vanishing_row<T, M, const N: usize, const R: usize>(
     mechanism: &M,
     state: &State<T, N>,
-    jacobian: &SMatrix<T, R, N>,
+    at: &mut Position<T, N, R>,
     scales: &Scales<T, N, R>,
     round_off: T,
 ) -> Option<usize>
@@ -31,29 +30,24 @@ where
     T: Real,
     M: Mechanism<T, N, R> + ?Sized,
 {
-    let size = |row: usize| {
-        let entries = jacobian.row(row);
+    let lost: [bool; R] = core::array::from_fn(|row| {
+        let entries = at.jacobian.row(row);
         let lengths = entries.iter().zip(scales.columns.iter());
         let square = lengths.fold(T::zero(), |sum, (a, c)| sum + *a * *a * *c * *c);
-        square.sqrt() * scales.rows[row]
-    };
-    let lost = |row: &usize| scales.rows[*row] > T::zero() && size(*row) <= regular();
-    (0..R).filter(lost).find(|row| {
-        has_one_sign(
-            mechanism,
-            state,
-            scales,
-            *row,
-            round_off * scales.reach[*row],
-        )
+        let size = square.sqrt() * scales.rows[row];
+        scales.rows[row] > T::zero() && size <= regular()
+    });
+    (0..R).filter(|row| lost[*row]).find(|row| {
+        let noise = round_off * scales.reach[*row];
+        has_one_sign(mechanism, (state, at), scales, *row, noise)
     })
 }
 
 /// Whether the error of a constraint is nowhere positive or nowhere negative around a
-/// position, along each coordinate and between each two.
+/// position, along each coordinate and between each two; `at` is a buffer.
 fn has_one_sign<T, M, const N: usize, const R: usize>(
     mechanism: &M,
-    state: &State<T, N>,
+    (state, at): (&State<T, N>, &mut Position<T, N, R>),
     scales: &Scales<T, N, R>,
     row: usize,
     noise: T,
@@ -62,10 +56,9 @@ where
     T: Real,
     M: Mechanism<T, N, R> + ?Sized,
 {
-    let mut at = Position::default();
     let (mut above, mut below) = (false, false);
     let mut look = |moved: &State<T, N>| {
-        mechanism.position(moved, &mut at);
+        mechanism.position(moved, at);
         above |= at.residual[row] > noise;
         below |= at.residual[row] < -noise;
     };

@@ -10,6 +10,7 @@
 
 use super::AssemblyError;
 use super::decomposition::Decomposition;
+use super::room::Room;
 use super::scales::Scales;
 use crate::linalg::{Breakdown, norm};
 use crate::tolerance::regular;
@@ -32,6 +33,7 @@ const EFFECTIVE: f64 = 1e-6;
 pub(super) fn assemble<T, M, const N: usize, const R: usize>(
     mechanism: &M,
     state: &mut State<T, N>,
+    Room { at, matrix }: &mut Room<T, N, R>,
     held: &[bool; N],
 ) -> Result<(), AssemblyError<T, N, R>>
 where
@@ -39,43 +41,64 @@ where
     M: Mechanism<T, N, R> + ?Sized,
 {
     let failure = AssemblyError::NotFinite { t: state.t };
-    let mut at = Position::default();
-    mechanism.position(state, &mut at);
-    let measured = Scales::measure(mechanism, state);
+    let broken = |Breakdown| failure;
+    let measured = Scales::measure(mechanism, state, at);
+    mechanism.position(state, at);
     let mut scales = measured.clone();
     scales.hold(held);
-    let free = Decomposition::new(&at.jacobian, &scales).map_err(|_| failure)?;
     let guessed = speed(&state.v, &measured);
-    correct(state, &at, &scales, &free);
+    matrix.decompose(&at.jacobian, &scales).map_err(broken)?;
+    correct(state, at, &scales, matrix);
     if !state.is_finite() {
         return Err(failure);
     }
     // The corrections are as good as the velocities are that they begin with, which may be
     // far larger than those that they end with.
     let speed = guessed.max(speed(&state.v, &measured));
-    check(mechanism, (state, speed), &at, &measured, held)?;
-    let whole = Decomposition::new(&at.jacobian, &measured).map_err(|_| failure)?;
-    if whole.rank(regular()) == R {
+    check(mechanism, (state, speed), at, &measured, held)?;
+    matrix.decompose(&at.jacobian, &measured).map_err(broken)?;
+    if matrix.rank(regular()) == R {
         return Ok(());
     }
-    let branch = Branches {
-        mechanism,
-        measured: &measured,
-        scales: &scales,
-        free,
-        whole,
-    };
-    match branch.choose(state) {
-        Ok(true) => {
-            correct(state, &at, &scales, &branch.free);
-            Ok(())
-        }
-        Ok(false) => Err(AssemblyError::NoBranch {
+    let followed = follow_branch(mechanism, state, (at, matrix), [&measured, &scales]);
+    match followed.map_err(broken)? {
+        true => Ok(()),
+        false => Err(AssemblyError::NoBranch {
             structure: mechanism.structure(),
             held: *held,
         }),
-        Err(Breakdown) => Err(failure),
     }
+}
+
+/// Moves the free velocities at a singular position to those of the nearest branch, if there
+/// is one; with the decomposition of all rows. Apart from what a regular position takes,
+/// because its matrices are large.
+#[cold]
+#[inline(never)]
+fn follow_branch<T, M, const N: usize, const R: usize>(
+    mechanism: &M,
+    state: &mut State<T, N>,
+    (at, whole): (&Position<T, N, R>, &Decomposition<T, N, R>),
+    [measured, scales]: [&Scales<T, N, R>; 2],
+) -> Result<bool, Breakdown>
+where
+    T: Real,
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    let mut free = Decomposition::default();
+    free.decompose(&at.jacobian, scales)?;
+    let branches = Branches {
+        mechanism,
+        measured,
+        scales,
+        free: &free,
+        whole,
+    };
+    let found = branches.choose(state)?;
+    if found {
+        correct(state, at, scales, &free);
+    }
+    Ok(found)
 }
 
 /// Moves the free velocities to `A q̇ + b = 0`, as little as they can. Twice: the
@@ -87,10 +110,20 @@ fn correct<T: Real, const N: usize, const R: usize>(
     free: &Decomposition<T, N, R>,
 ) {
     for _ in 0..2 {
-        let error = (at.jacobian * state.v + at.drift).component_mul(&scales.rows);
-        let (step, _) = free.solve(&-error, regular(), T::zero());
+        let error = opening(at, &state.v).component_mul(&scales.rows);
+        let (step, _) = free.solve(&-error, regular());
         state.v += step.component_mul(&scales.columns);
     }
+}
+
+/// `A q̇ + b`; `A` is not copied, as `*` does.
+fn opening<T: Real, const N: usize, const R: usize>(
+    at: &Position<T, N, R>,
+    v: &SVector<T, N>,
+) -> SVector<T, R> {
+    let mut opening = at.drift;
+    opening.gemv(T::one(), &at.jacobian, v, T::one());
+    opening
 }
 
 /// The size of velocities in the kinetic metric, where a row of norm one turns a speed of
@@ -119,7 +152,7 @@ where
     T: Real,
     M: Mechanism<T, N, R> + ?Sized,
 {
-    let error = at.jacobian * state.v + at.drift;
+    let error = opening(at, &state.v);
     // Rows that count as dependent may be off by what they are.
     let slack = T::EPSILON * T::from_f64(CONTRADICTION) + regular();
     let residual = SVector::<T, R>::from_fn(|k, _| {
@@ -148,9 +181,9 @@ struct Branches<'a, M: ?Sized, T, const N: usize, const R: usize> {
     /// The same, with what is held taken out.
     scales: &'a Scales<T, N, R>,
     /// What the velocities that aren't held can do.
-    free: Decomposition<T, N, R>,
+    free: &'a Decomposition<T, N, R>,
     /// What all velocities can do.
-    whole: Decomposition<T, N, R>,
+    whole: &'a Decomposition<T, N, R>,
 }
 
 impl<M, T, const N: usize, const R: usize> Branches<'_, M, T, N, R>
@@ -217,21 +250,31 @@ where
         slopes: &SMatrix<T, R, N>,
         rest: &SVector<T, R>,
     ) -> Result<SVector<T, N>, Breakdown> {
-        let mut basis = self.free.null_space(regular());
-        for (j, scale) in self.scales.columns.iter().enumerate() {
-            if *scale == T::zero() {
-                // Held: free of the constraints, but not free.
-                basis.row_mut(j).fill(T::zero());
-            }
+        let mut along = slopes.transpose();
+        for column in along.data.0.iter_mut() {
+            *column = self.along_free(&SVector::from(*column)).data.0[0];
         }
-        let mut along = slopes * basis;
+        let mut along = along.transpose();
         for column in along.data.0.iter_mut() {
             let reached = SVector::from(*column);
             *column = self.whole.unreachable(&reached, regular()).data.0[0];
         }
-        let towards = Decomposition::of(along)?;
+        let mut towards = Decomposition::<T, N, R>::default();
+        towards.decompose_scaled(|k, j| along[(k, j)])?;
         let cut = towards.largest() * T::from_f64(EFFECTIVE);
-        let (step, _) = towards.solve(&-rest, cut, T::zero());
-        Ok(basis * step)
+        let (step, _) = towards.solve(&-rest, cut);
+        Ok(self.along_free(&step))
+    }
+
+    /// The part of a scaled velocity that the constraints leave free and nobody holds.
+    fn along_free(&self, velocity: &SVector<T, N>) -> SVector<T, N> {
+        let mut along = self.free.ineffective(velocity, regular());
+        for (entry, scale) in along.iter_mut().zip(self.scales.columns.iter()) {
+            if *scale == T::zero() {
+                // Held: free of the constraints, but not free.
+                *entry = T::zero();
+            }
+        }
+        along
     }
 }

@@ -5,13 +5,14 @@
 //!
 //! Not here: the forms, which have a file each.
 
-use super::{Solver, Source};
+use super::{Core, Source};
+use crate::linalg::column;
 use crate::state::all_finite;
 use crate::tolerance::{passes, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
 use nalgebra::SVector;
 
-impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The acceleration in the form of the settings.
     #[inline(always)]
     pub(crate) fn acceleration<M: Mechanism<T, N, R> + ?Sized>(
@@ -73,6 +74,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// `M q̈ = p₁`, for a mechanism without constraints.
+    #[inline(never)]
     fn unconstrained<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -122,7 +124,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// The right-hand sides of rows scaled to size one.
     pub(crate) fn scaled(&self, right: &SVector<T, R>) -> [T; R] {
-        core::array::from_fn(|row| self.rows.scale(row) * right[row])
+        column(|row| self.rows.scale(row) * right[row])
     }
 
     /// Whether the general factors at hand belong to this position.

@@ -6,14 +6,15 @@
 //!
 //! Not here: what is done near singular positions, where `A M⁻¹ Aᵀ` has no factors.
 
-use super::Solver;
+use super::Core;
 use crate::tolerance::{passes, window};
 use crate::{AccelerationJacobian, Linearised, Mechanism, Real, Stabilisation, State};
 use nalgebra::{SMatrix, SVector};
 
-impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The derivatives of the acceleration where the constraints are regular; `None`
     /// near singular positions, and where constraint errors take part in it.
+    #[inline(never)]
     pub(crate) fn acceleration_jacobian<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,

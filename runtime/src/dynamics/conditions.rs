@@ -36,6 +36,8 @@ pub(crate) struct Conditions<T, const N: usize> {
     pub(super) turned: T,
     /// Changes in a row that hardly got any further.
     pub(super) turns: usize,
+    /// When the changes that are counted together began (s), and how many there were.
+    pub(super) burst: (T, usize),
     /// The longest attempt at the step at hand (s).
     pub(super) attempt: T,
 }
@@ -53,6 +55,7 @@ impl<T: Real, const N: usize> Conditions<T, N> {
             aim: None,
             turned: T::zero(),
             turns: 0,
+            burst: (T::zero(), 0),
             attempt: T::zero(),
         }
     }

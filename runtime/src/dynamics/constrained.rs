@@ -3,8 +3,10 @@
 //! In:  states.
 //! Out: accelerations, reactions, projections, rank, constraint errors.
 
-use super::{Solver, Source, Which};
+use super::{Core, Source, Which};
+use crate::linalg::count_above;
 use crate::singular::Found;
+use crate::stack::with_room;
 use crate::system::escalating;
 use crate::tolerance::{passes, regular, window};
 use crate::{
@@ -12,11 +14,11 @@ use crate::{
 };
 use nalgebra::{SMatrix, SVector};
 
-/// A mechanism bound to the solver of its equations, by [`Solver::on`].
+/// A mechanism bound to the solver of its equations, by [`Solver::on`](crate::Solver::on).
 #[derive(Debug)]
 pub struct ConstrainedSystem<'a, M: ?Sized, T, const N: usize, const R: usize> {
     pub(super) mechanism: &'a M,
-    pub(super) solver: &'a mut Solver<T, N, R>,
+    pub(super) solver: &'a mut Core<T, N, R>,
 }
 
 /// Rank of the constraints at a position, and how far it is from falling.
@@ -41,10 +43,10 @@ pub struct ConstraintError<T> {
     pub velocity: T,
 }
 
-impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The system that an integrator sees, for as long as the mechanism does not
     /// change.
-    pub fn on<'a, M>(&'a mut self, mechanism: &'a M) -> ConstrainedSystem<'a, M, T, N, R>
+    pub(crate) fn on<'a, M>(&'a mut self, mechanism: &'a M) -> ConstrainedSystem<'a, M, T, N, R>
     where
         M: Mechanism<T, N, R> + ?Sized,
     {
@@ -86,15 +88,18 @@ where
     /// As [`System::acceleration`]; in a singular configuration also where nothing tells
     /// which sheet of the constraint set is meant.
     pub fn acceleration(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>> {
-        self.solver.begin_step(state);
-        self.solver.release();
-        escalating(self, |system| {
-            system.solver.acceleration(system.mechanism, state)
+        with_room::<T, _, N, R>(|| {
+            self.solver.begin_step(state);
+            self.solver.release();
+            escalating(self, |system| {
+                system.solver.acceleration(system.mechanism, state)
+            })
         })
     }
 
     /// Begins at a state, which is moved onto the constraints if it is not on them to
     /// round-off.
+    #[inline(never)]
     pub(crate) fn start(
         &mut self,
         state: &mut State<T, N>,
@@ -119,8 +124,10 @@ where
     /// As [`System::project`]; in a singular configuration also where nothing tells which
     /// sheet of the constraint set is meant.
     pub fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
-        self.solver.begin_step(state);
-        self.project_within(state)
+        with_room::<T, _, N, R>(|| {
+            self.solver.begin_step(state);
+            self.project_within(state)
+        })
     }
 
     /// Brings a state within a step back onto the constraints.
@@ -147,6 +154,11 @@ where
     /// A [`DynamicsError`] if the mass matrix is singular or something is not
     /// finite.
     pub fn rank(&mut self, state: &State<T, N>) -> Result<Rank<T>, DynamicsError<T>> {
+        with_room::<T, _, N, R>(|| self.decided_rank(state))
+    }
+
+    #[inline(never)]
+    fn decided_rank(&mut self, state: &State<T, N>) -> Result<Rank<T>, DynamicsError<T>> {
         let solver = &mut *self.solver;
         if R == 0 {
             return Ok(Rank {
@@ -171,7 +183,7 @@ where
         let combined = solver.combine(Source::Position, Which::All, state.t)?;
         let values = &combined.values[..full];
         Ok(Rank {
-            rank: values.iter().filter(|value| **value > regular()).count(),
+            rank: count_above(values, regular()),
             regular: full,
             sine: values
                 .iter()
@@ -191,6 +203,7 @@ where
 
     /// Takes over what another solver of the same mechanism knows about its last
     /// accepted state.
+    #[inline(never)]
     pub(crate) fn follow(&mut self, other: &Self) {
         let (here, there) = (&mut *self.solver, &*other.solver);
         here.conditions.adopt(&there.conditions);
@@ -211,8 +224,10 @@ where
         &mut self,
         state: &State<T, N>,
     ) -> Option<(AccelerationJacobian<T, N>, SMatrix<T, N, N>)> {
-        let jacobian = self.solver.acceleration_jacobian(self.mechanism, state)?;
-        Some((jacobian, self.solver.compliance()))
+        with_room::<T, _, N, R>(|| {
+            let jacobian = self.solver.acceleration_jacobian(self.mechanism, state)?;
+            Some((jacobian, self.solver.compliance()))
+        })
     }
 
     /// How far a state is off the constraints.
@@ -225,8 +240,10 @@ where
             return error;
         }
         let position = &mut self.solver.position;
-        self.mechanism.position(state, position);
-        let velocity = position.jacobian * state.v + position.drift;
+        with_room::<T, _, N, R>(|| self.mechanism.position(state, position));
+        // `A` is not copied, as `*` does.
+        let mut velocity = position.drift;
+        velocity.gemv(T::one(), &position.jacobian, &state.v, T::one());
         for row in 0..R {
             error.position = error.position.max(position.residual[row].abs());
             error.velocity = error.velocity.max(velocity[row].abs());
@@ -247,11 +264,11 @@ where
 
     #[inline]
     fn acceleration(&mut self, state: &State<T, N>) -> Result<SVector<T, N>, DynamicsError<T>> {
-        self.solver.held_acceleration(self.mechanism, state)
+        with_room::<T, _, N, R>(|| self.solver.held_acceleration(self.mechanism, state))
     }
 
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
-        self.solver.project(self.mechanism, state)
+        with_room::<T, _, N, R>(|| self.solver.project(self.mechanism, state))
     }
 
     fn escalate(&mut self) -> Result<bool, DynamicsError<T>> {
@@ -271,6 +288,6 @@ where
     }
 
     fn acceleration_jacobian(&mut self, state: &State<T, N>) -> Option<AccelerationJacobian<T, N>> {
-        self.solver.acceleration_jacobian(self.mechanism, state)
+        with_room::<T, _, N, R>(|| self.solver.acceleration_jacobian(self.mechanism, state))
     }
 }

@@ -8,7 +8,7 @@
 //! Not here: what happens elsewhere, and for mechanisms whose rows are redundant
 //! everywhere, whose pivots are never safe.
 
-use super::{Rows, Solver};
+use super::{Core, Rows};
 use crate::state::all_finite;
 use crate::tolerance::{definite, negligible, passes, window};
 use crate::{Form, Mechanism, Pivots, Real, Regular, Stabilisation, State};
@@ -31,7 +31,7 @@ enum Correcting<T> {
     Lost,
 }
 
-impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Whether emitted code may be asked for accelerations and projections.
     fn asks_emitted(&self) -> bool {
         self.emitted
@@ -90,13 +90,12 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             return T::zero();
         }
         let mut squared = squared_sine(&regular.pivots, &self.rows);
-        if squared < self.session.trial.lowest {
-            self.session.trial.lowest = squared;
-        }
-        if !all_finite(&regular.acceleration) {
+        let is_finite = all_finite(&regular.acceleration);
+        *acceleration = regular.acceleration;
+        self.session.observe(state, squared);
+        if !is_finite {
             squared = T::zero();
         }
-        *acceleration = regular.acceleration;
         squared
     }
 

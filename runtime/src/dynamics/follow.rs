@@ -6,8 +6,8 @@
 //! Far from singular configurations nothing of this is needed. A step that turns out to
 //! come near one is taken again with a chart.
 
-use super::{Solver, Source, Which};
-use crate::linalg::project_onto;
+use super::{Core, Source, Which};
+use crate::linalg::{count_above, project_onto};
 use crate::singular::{Obstacle, Placed, Placement, Point, Start};
 use crate::state::all_finite;
 use crate::tolerance::{regular, resolvable, round_off, window};
@@ -18,7 +18,7 @@ use nalgebra::SVector;
 /// what it is to the last bit.
 const MOST_ROUND_OFF: f64 = 8.0;
 
-impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Begins a step at a state: goes on if it is the last accepted one.
     #[inline]
     pub(crate) fn begin_step(&mut self, state: &State<T, N>) {
@@ -50,6 +50,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// Begins at a state, or at where it was put onto the constraints if it is not on them
     /// to round-off.
+    #[inline(never)]
     pub(crate) fn start<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -92,6 +93,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// Makes a chart at the last accepted state if the trial step wanted one; whether it
     /// did.
+    #[inline(never)]
     pub(crate) fn escalate<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -129,6 +131,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// The error of constraints that were declared to be regular and are not.
+    #[inline(never)]
     pub(super) fn not_regular<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -139,17 +142,14 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let combined = self.combine(Source::Position, Which::All, state.t)?;
         Ok(DynamicsError::NotRegular {
             t: state.t,
-            rank: combined
-                .values
-                .iter()
-                .filter(|value| **value > window())
-                .count(),
+            rank: count_above(&combined.values, window()),
             structure: mechanism.structure(),
         })
     }
 
     /// The acceleration on the sheet, at the state that a state of a trial step stands
     /// for.
+    #[inline(never)]
     pub(super) fn acceleration_on_sheet<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -243,12 +243,16 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let along = project_onto(&self.terms.mass, &point.tangent, freedoms, &force);
         match along {
             Ok(along) if all_finite(&along) => Ok(point.particular + along),
-            Ok(_) => Err(DynamicsError::NotFinite { t }),
-            Err(_) => Err(self.refusal(mechanism, Obstacle::MassSingular, t)),
+            // The metric is definite, and so is the mass along what is a tangent space.
+            Err(_) if self.terms.mass.iter().all(|entry| entry.is_finite()) => {
+                Err(self.refusal(mechanism, Obstacle::NotContracting, t))
+            }
+            _ => Err(DynamicsError::NotFinite { t }),
         }
     }
 
     /// The least acceleration at rest in a singular configuration: zero if it stays.
+    #[inline(never)]
     pub(super) fn acceleration_at_rest<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -272,6 +276,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// Puts the end of a trial step onto the sheet.
+    #[inline(never)]
     pub(crate) fn project_onto_sheet<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -298,6 +303,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// Finds the passages of an accepted step, if anyone wants them, and puts its chart
     /// aside.
+    #[inline(never)]
     fn look_back<M: Mechanism<T, N, R> + ?Sized>(&mut self, mechanism: &M, step: &Step<T, N>) {
         let Some(chart) = self.session.chart.take() else {
             return;
@@ -324,6 +330,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.observe_reach(mechanism, &step.end);
         self.session.sine = Some(self.session.trial.end.sqrt());
         self.session.near = self.session.trial.near;
+        self.session.rate = self.session.trial.rate;
         if self.session.used.is_some() {
             self.session.used = None;
             self.session.passages.clear();

@@ -9,14 +9,15 @@
 //! condition number. Accelerations and forces are scaled by the diagonal of the
 //! mass matrix, so that the result does not depend on units.
 
-use super::Solver;
-use crate::linalg::Triangle;
+use super::Core;
+use crate::linalg::{Triangle, column};
 use crate::singular::Point;
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
 
-impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The acceleration by least squares.
+    #[inline(never)]
     pub(super) fn full<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -43,21 +44,23 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// What one unit of each scaled acceleration is worth: `1/√mⱼⱼ`, or one for a
     /// coordinate without inertia.
-    fn units(&self) -> SVector<T, N> {
-        SVector::from_fn(|j, _| {
+    pub(super) fn units(&self) -> SVector<T, N> {
+        let unit = |j: usize| {
             let mass = self.terms.mass[(j, j)];
             if mass > T::zero() {
                 T::one() / mass.sqrt()
             } else {
                 T::one()
             }
-        })
+        };
+        SVector::from(column(unit))
     }
 
     /// `M q̈ + r = p₁`.
+    #[inline(never)]
     fn insert_motion(&self, triangle: &mut Triangle<T, N>, unit: &SVector<T, N>) {
         for i in 0..N {
-            let row = core::array::from_fn(|j| unit[i] * self.terms.mass[(i, j)] * unit[j]);
+            let row = column(|j| unit[i] * self.terms.mass[(i, j)] * unit[j]);
             let mut identity = [T::zero(); N];
             identity[i] = T::one();
             triangle.insert(row, identity, unit[i] * self.terms.force[i]);
@@ -66,6 +69,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// What the constraints decide: `q̈ − aₚ` lies in the tangent space. The projection
     /// `1 − D̃D*` onto the complement has as many rows as there are coordinates.
+    #[inline(never)]
     fn insert_decided(
         &self,
         triangle: &mut Triangle<T, N>,
@@ -94,6 +98,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// `D̃ᵀr = 0`: ideal constraints do no work in the free directions.
+    #[inline(never)]
     fn insert_ideality(
         &self,
         triangle: &mut Triangle<T, N>,
@@ -101,7 +106,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         point: &Point<T, N>,
     ) {
         for k in 0..self.freedoms() {
-            let row = core::array::from_fn(|j| point.tangent[(j, k)] / unit[j]);
+            let row = column(|j| point.tangent[(j, k)] / unit[j]);
             triangle.insert([T::zero(); N], row, T::zero());
         }
     }

@@ -57,17 +57,15 @@ impl<T: Real, const N: usize> Default for Metric<T, N> {
 }
 
 impl<T: Real, const N: usize> Metric<T, N> {
-    /// A metric in which the named rows take part.
-    pub(crate) fn with(named: &'static [usize]) -> Self {
-        let takes = match named {
+    /// Begins anew, with the named rows in it.
+    pub(crate) fn begin(&mut self, named: &'static [usize]) {
+        self.takes = match named {
             [] => Takes::None,
             _ => Takes::Named,
         };
-        Self {
-            takes,
-            named,
-            ..Self::default()
-        }
+        self.named = named;
+        self.current = false;
+        self.inertia = [T::zero(); N];
     }
 
     /// Lets all constraints take part from now on.
@@ -143,6 +141,7 @@ impl<T: Real, const N: usize> Metric<T, N> {
     }
 
     /// `M + AᵀWA` of the rows that take part.
+    #[inline(never)]
     fn sum<const R: usize>(
         &self,
         mass: &SMatrix<T, N, N>,

@@ -17,6 +17,7 @@ mod constrained;
 mod emitted;
 mod follow;
 mod full;
+mod held;
 mod lifted;
 mod metric;
 mod multipliers;
@@ -33,8 +34,9 @@ mod switching;
 mod verify;
 
 pub use constrained::{ConstrainedSystem, ConstraintError, Rank};
+pub use held::Solver;
 pub use settings::{Counters, Form, Settings, Stabilisation};
-pub use solver::Solver;
+pub(crate) use solver::Core;
 
 pub(crate) use lifted::Lifted;
 pub(crate) use metric::Metric;

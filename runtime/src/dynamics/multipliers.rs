@@ -6,13 +6,15 @@
 //! Source: Phong & Hoang (2012), eq. 2.10. The matrix is singular where rows of
 //! `A` are dependent; a Schur complement of all rows shows how near that is.
 
-use super::{Solver, Source, Which};
+use super::{Core, Source, Which};
+use crate::linalg::{column, count_above};
 use crate::tolerance::{passes, window};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
 
-impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The acceleration, by elimination of `q̈` and then of the multipliers.
+    #[inline(never)]
     pub(super) fn multipliers<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -29,6 +31,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// Factorises all rows; an error with the rank if they are not safely
     /// independent. For the forms that need them to be.
+    #[inline(never)]
     pub(super) fn require_independent_rows<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -37,7 +40,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.safe = None;
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
         self.counters.constraint_factorisations += 1;
-        let every_row = (core::array::from_fn(|row| row), R);
+        let every_row = (column(|row| row), R);
         let jacobian = &self.terms.jacobian;
         let squared = self
             .lifted
@@ -46,15 +49,10 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             return Ok(());
         }
         let combined = self.combine(Source::Terms, Which::All, state.t)?;
-        let rank = combined
-            .values
-            .iter()
-            .filter(|value| **value > window())
-            .count();
         Err(DynamicsError::SingularPosition {
             t: state.t,
             form: self.settings.form,
-            rank,
+            rank: count_above(&combined.values, window()),
             structure: mechanism.structure(),
         })
     }

@@ -8,13 +8,14 @@
 //! dependent coordinates are chosen by pivoting, anew at every state, so that
 //! `A_d` is as well conditioned as the position allows.
 
-use super::Solver;
+use super::Core;
 use crate::linalg::{Elimination, project_onto};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::{SMatrix, SVector};
 
-impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The acceleration, by elimination of the dependent coordinates.
+    #[inline(never)]
     pub(super) fn partitioning<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -24,14 +25,6 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let bias = self.stabilised_bias(mechanism, state);
         self.require_independent_rows(mechanism, state)?;
         self.counters.cheap_accelerations += 1;
-        let weight = SVector::from_fn(|j, _| {
-            let mass = self.terms.mass[(j, j)];
-            if mass > T::zero() {
-                T::one() / mass.sqrt()
-            } else {
-                T::one()
-            }
-        });
         let mut jacobian = self.terms.jacobian;
         for row in 0..R {
             jacobian
@@ -40,7 +33,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 .for_each(|x| *x *= self.rows.scale(row));
         }
         let right = SVector::from(self.scaled(&bias));
-        let eliminated = Elimination::new(&jacobian, &right, &weight);
+        let eliminated = Elimination::new(&jacobian, &right, &self.units());
         let particular = particular(&eliminated);
         let (null_space, free) = null_space(&eliminated);
         let force = self.terms.force - self.terms.mass * particular;
@@ -77,6 +70,7 @@ fn independent<T: Real, const N: usize, const R: usize>(
 }
 
 /// The columns of `D`, and how many there are.
+#[inline(never)]
 fn null_space<T: Real, const N: usize, const R: usize>(
     eliminated: &Elimination<T, N, R>,
 ) -> (SMatrix<T, N, N>, usize) {

@@ -4,9 +4,10 @@
 //! Out: its rank at regular configurations, an independent subset of its rows, its
 //!      singular values; the null-space form by a rank decision alone.
 
-use super::{Solver, Source, Which};
+use super::{Core, Source, Which};
 use crate::linalg::{
-    Breakdown, add_scaled, dot, eigen, norm, orthogonalise, orthonormal, remove, scaled,
+    Breakdown, Products, add_scaled, count_above, dot, eigen, norm, orthogonalise, orthonormal,
+    remove, scaled,
 };
 use crate::tolerance::{difference, negligible, regular};
 use crate::{DynamicsError, Mechanism, Real, Singularity, State};
@@ -35,8 +36,9 @@ pub(crate) struct Combined<T, const N: usize, const R: usize> {
     pub(crate) values: [T; R],
 }
 
-impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The rows of a Jacobian in the metric at hand, scaled to size one.
+    #[inline(never)]
     fn lift_rows(&self, source: Source, which: Which) -> SMatrix<T, N, R> {
         let jacobian = match source {
             Source::Terms => &self.terms.jacobian,
@@ -53,6 +55,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// Combines the rows of a Jacobian in the metric at hand.
+    #[inline(never)]
     pub(crate) fn combine(
         &mut self,
         source: Source,
@@ -83,11 +86,18 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     ///
     /// Where the state itself may be singular, its neighbours tell: along the velocity, or
     /// in the directions that its constraints leave free.
+    #[inline(never)]
     pub(crate) fn learn_rank<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
+        if self.is_safely_regular() {
+            for which in [Which::Holonomic, Which::All] {
+                self.rows.observe_rank(self.rows.count(which), which);
+            }
+            return Ok(());
+        }
         let mut regular_at = state.q;
         for which in [Which::Holonomic, Which::All] {
             let (rank, q) = self.rank_nearby(mechanism, state, which)?;
@@ -105,7 +115,23 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.factorise_metric(mechanism, Source::Position, state.t)
     }
 
+    /// Whether all rows are safely independent at the position in the buffer. It takes one
+    /// factorisation of the products of the rows, which have few entries in large
+    /// mechanisms, where singular values take many sweeps over all columns.
+    #[inline(never)]
+    fn is_safely_regular(&self) -> bool {
+        let rows = self.lift_rows(Source::Position, Which::All);
+        let mut products = Products::<T, R>::default();
+        let judged = products.compute(N, |j, entries| {
+            for (row, entry) in entries.iter_mut().enumerate() {
+                *entry = rows[(j, row)];
+            }
+        });
+        judged.is_ok() && (0..R).all(|row| products.is_safe(row))
+    }
+
     /// The rank at a state, or next to it if it is higher there, and where.
+    #[inline(never)]
     fn rank_nearby<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -156,6 +182,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// that vanishes along a line, or a sum of squares that vanishes at a point: its second
     /// derivatives have one sign but for directions along which it is flat, and there it
     /// does not become negative.
+    #[inline(never)]
     fn is_square<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -198,6 +225,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// Whether a rank next to a state is still there where the constraints hold.
+    #[inline(never)]
     fn stays<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -224,6 +252,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// A row whose gradient vanishes at the position in the buffer, if there is one.
+    #[inline(never)]
     fn vanishing_row(&self, which: Which) -> Option<usize> {
         let rows = self.lift_rows(Source::Position, which);
         let vanishes = |row: &usize| norm(&rows.data.0[*row]) <= regular();
@@ -238,12 +267,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         t: T,
     ) -> Result<(usize, Combined<T, N, R>), DynamicsError<T>> {
         let combined = self.combine(Source::Position, which, t)?;
-        let rank = combined
-            .values
-            .iter()
-            .filter(|value| **value > least)
-            .count();
-        Ok((rank, combined))
+        Ok((count_above(&combined.values, least), combined))
     }
 
     /// The position next to a state along its velocity, if it moves.
@@ -254,6 +278,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// Positions next to a state, wherever the constraints let it go.
+    #[inline(never)]
     fn neighbours(
         &self,
         state: &State<T, N>,
@@ -280,6 +305,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// Chooses an independent subset of the rows at the position in the buffer.
+    #[inline(never)]
     pub(crate) fn choose_rows(&mut self) {
         if self.rows.regular(Which::All) < R {
             self.counters.row_choices += 1;
@@ -288,18 +314,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         }
     }
 
-    /// Takes note of the sizes of the rows at an accepted state, whose position terms are
-    /// in the buffer and factorised.
-    pub(crate) fn learn_rows(&mut self) {
-        for row in 0..R {
-            let vector = self.metric.lift(&self.position.jacobian, row);
-            let alone = || self.position.row_alone(row);
-            self.rows.observe(row, dot(&vector, &vector), alone);
-        }
-    }
-
     /// The acceleration by the null space of the rows that are not zero to round-off: the
     /// form as it was published. Source: Phong & Hoang (2012), section 3.
+    #[inline(never)]
     pub(super) fn published<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,

@@ -4,8 +4,9 @@
 //! Out: the generalized reaction forces `r = p₁ − M q̈`, the multipliers `λ` of
 //!      `r = Aᵀλ`, as far as they are determined.
 
-use super::{ConstrainedSystem, Solver, Source, Which};
-use crate::linalg::dot;
+use super::{ConstrainedSystem, Core, Source, Which};
+use crate::linalg::{column, dot};
+use crate::stack::with_room;
 use crate::system::escalating;
 use crate::tolerance::regular;
 use crate::{DynamicsError, Mechanism, Real, State};
@@ -29,9 +30,12 @@ where
         state: &State<T, N>,
     ) -> Result<(SVector<T, N>, SVector<T, N>), DynamicsError<T>> {
         let acceleration = self.acceleration(state)?;
-        self.mechanism.terms(state, &mut self.solver.terms);
+        with_room::<T, _, N, R>(|| self.mechanism.terms(state, &mut self.solver.terms));
         let terms = &self.solver.terms;
-        Ok((acceleration, terms.force - terms.mass * acceleration))
+        // `M` is not copied, as `*` does.
+        let mut reaction = terms.force;
+        reaction.gemv(-T::one(), &terms.mass, &acceleration, T::one());
+        Ok((acceleration, reaction))
     }
 
     /// The multipliers `λ` of the constraints, `r = Aᵀλ`, in their order; none where the
@@ -42,8 +46,10 @@ where
     ///
     /// As [`acceleration`](Self::acceleration).
     pub fn multipliers(&mut self, state: &State<T, N>) -> Result<[Option<T>; R], DynamicsError<T>> {
-        let (_, reaction) = self.reaction(state)?;
-        self.solver.shares_of(self.mechanism, state.t, &reaction)
+        with_room::<T, _, N, R>(|| {
+            let (_, reaction) = self.reaction(state)?;
+            self.solver.shares_of(self.mechanism, state.t, &reaction)
+        })
     }
 
     /// The acceleration at a state within a step from the last accepted one, with the
@@ -90,8 +96,9 @@ where
     }
 }
 
-impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// `p₁ − M q̈`, of a motion that slides with the shares of its forces.
+    #[inline(never)]
     fn held_reaction<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -117,10 +124,13 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.terms.sides = below;
         mechanism.terms(state, &mut self.terms);
         self.terms.sides = sides;
-        force + self.terms.force - self.terms.mass * acceleration
+        let mut reaction = force + self.terms.force;
+        reaction.gemv(-T::one(), &self.terms.mass, acceleration, T::one());
+        reaction
     }
 
     /// The `λ` of `Aᵀλ = r` at the state whose terms are in the buffer.
+    #[inline(never)]
     fn shares_of<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -147,7 +157,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 }
             }
         }
-        Ok(core::array::from_fn(|row| {
+        Ok(column(|row| {
             (!shared[row]).then_some(multipliers[row] * self.rows.scale(row))
         }))
     }

@@ -8,13 +8,13 @@
 //! `U⁻¹p₁`. Where the rows of `A` are safely independent a Schur complement gives
 //! that directly; elsewhere the tangent space of the sheet does ([`super::follow`]).
 
-use super::{Solver, Source, Which};
+use super::{Core, Source, Which};
 use crate::singular::Obstacle;
 use crate::tolerance::{passes, window};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
 
-impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The acceleration.
     pub(super) fn reduced<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
@@ -60,7 +60,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.safe = None;
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
         let squared = self.factorise_constraints(Source::Terms, Which::All);
-        self.session.trial.lowest = self.session.trial.lowest.min(squared);
+        self.session.observe(state, squared);
         Ok(squared)
     }
 

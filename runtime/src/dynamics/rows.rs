@@ -10,7 +10,7 @@
 //! It is compared with the largest size it had so far.
 
 use crate::Real;
-use crate::linalg::independent_rows;
+use crate::linalg::{column, independent_rows};
 use crate::tolerance::{disproportionate, negligible};
 use nalgebra::SMatrix;
 
@@ -48,8 +48,8 @@ impl<T: Real, const R: usize> Rows<T, R> {
             scale: [T::zero(); R],
             weight: [T::zero(); R],
             uneven: false,
-            holonomic: core::array::from_fn(holonomic),
-            active: core::array::from_fn(|row| row),
+            holonomic: column(holonomic),
+            active: column(|row| row),
             active_count: 0,
             holonomic_count: 0,
             regular: 0,
@@ -153,16 +153,23 @@ impl<T: Real, const R: usize> Rows<T, R> {
     }
 
     /// Takes note that this many rows are independent.
+    #[inline(never)]
     pub(crate) fn observe_rank(&mut self, rank: usize, which: Which) {
         match which {
             Which::All => self.regular = rank,
             Which::Holonomic => self.holonomic_regular = rank,
         }
         if self.regular == R {
-            self.active = core::array::from_fn(|row| row);
-            self.active
-                .sort_unstable_by_key(|&row| !self.holonomic[row]);
-            self.active_count = R;
+            // Holonomic rows come first.
+            self.active_count = 0;
+            for holonomic in [true, false] {
+                for row in 0..R {
+                    if self.holonomic[row] == holonomic {
+                        self.active[self.active_count] = row;
+                        self.active_count += 1;
+                    }
+                }
+            }
             self.count_holonomic();
         }
     }
@@ -170,11 +177,18 @@ impl<T: Real, const R: usize> Rows<T, R> {
     /// Chooses the active subset from `vectors`, the rows in the metric and scaled
     /// to size one, at a regular position. Holonomic rows come first, so that the
     /// first of the active rows span the holonomic ones.
+    #[inline(never)]
     pub(crate) fn choose<const N: usize>(&mut self, mut vectors: SMatrix<T, N, R>) {
         let holonomic = self.holonomic;
         let mut chosen = [0; R];
         let first = |row: usize| holonomic[row];
-        let count = independent_rows(&mut vectors, self.regular, first, negligible(), &mut chosen);
+        let count = independent_rows(
+            &mut vectors,
+            self.regular,
+            &first,
+            negligible(),
+            &mut chosen,
+        );
         // In a singular configuration there are too few; those of before serve on.
         if count == self.regular {
             (self.active, self.active_count) = (chosen, count);
@@ -202,6 +216,7 @@ impl<T: Real, const R: usize> Rows<T, R> {
     /// Gives rows the weights of the heaviest masses, if the masses differ so much that
     /// rows look dependent which are not. From the squares of the entries of `A` and the
     /// inertia of the coordinates.
+    #[inline(never)]
     pub(crate) fn weigh_unevenly<const N: usize>(
         &mut self,
         levers: &SMatrix<T, R, N>,
@@ -209,7 +224,7 @@ impl<T: Real, const R: usize> Rows<T, R> {
     ) -> bool {
         let share = |row: usize, j: usize| levers[(row, j)] / inertia[j];
         let most = |row: usize| (0..N).fold(T::zero(), |most: T, j| most.max(share(row, j)));
-        let largest: [T; R] = core::array::from_fn(most);
+        let largest: [T; R] = column(most);
         let mut least = T::one();
         for j in 0..N {
             // Next to others a lever may be short, so the row counts in which it matters.
@@ -225,17 +240,24 @@ impl<T: Real, const R: usize> Rows<T, R> {
         self.uneven = least < disproportionate::<T>() * disproportionate();
         if self.uneven {
             let least = least.max(T::EPSILON.sqrt());
-            self.weight = largest.map(|most| match most > T::zero() {
-                true => disproportionate::<T>() / (least * most),
+            self.weight = column(|row| match largest[row] > T::zero() {
+                true => disproportionate::<T>() / (least * largest[row]),
                 false => T::zero(),
             });
         }
         self.uneven
     }
 
+    /// Forgets the weights of the heaviest masses.
+    pub(crate) fn weigh_evenly(&mut self) {
+        self.uneven = false;
+        self.weight = [T::zero(); R];
+    }
+
     /// Takes note of weights: `1 / Σ aⱼ²/mⱼⱼ` over the coordinates with inertia, so
     /// that the row weighs as much as the masses it connects. Where a row vanishes
     /// the weight stays what it was.
+    #[inline(never)]
     pub(crate) fn weigh<const N: usize>(&mut self, inertia: &[T; N], jacobian: &SMatrix<T, R, N>) {
         if self.uneven {
             return;

@@ -9,12 +9,11 @@
 //! known by their unit. A coordinate whose unit is not given may be an angle; then
 //! its turning is evidence only for rows that vanish at the first state.
 
+use super::Core;
 use super::solver::Source;
-use super::{Metric, Solver};
-use crate::linalg::{dot, is_definite};
-use crate::tolerance::regular;
+use crate::linalg::{column, dot, independent_rows, is_definite, norm, scaled};
+use crate::tolerance::{hull, regular, spacing};
 use crate::{Mechanism, Position, Quantity, Real, State};
-use core::cmp::Ordering;
 use nalgebra::SMatrix;
 
 /// How many times the angles are turned.
@@ -48,8 +47,9 @@ impl<T: Real> RowSize<T> {
     }
 }
 
-impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Takes note of the mean sizes of the rows over some turned positions.
+    #[inline(never)]
     pub(super) fn sample_sizes<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -59,13 +59,14 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let sure = coordinates.iter().all(|c| !c.unit.is_empty());
         self.sample_mass(mechanism, state);
         let here = self.sizes(mechanism, state);
-        let samples: [[RowSize<T>; R]; SAMPLES] = core::array::from_fn(|sample| {
-            self.sizes(mechanism, &turned(state, coordinates, sample + 1))
-        });
+        let mut samples = [[RowSize::default(); R]; SAMPLES];
+        for (sample, sizes) in samples.iter_mut().enumerate() {
+            *sizes = self.sizes(mechanism, &turned(state, coordinates, sample + 1));
+        }
         self.metric.forget();
         for row in 0..R {
-            let of_row = samples.map(|sizes| sizes[row]);
-            let coupling = median(of_row.map(RowSize::coupling));
+            let of_row: [RowSize<T>; SAMPLES] = column(|sample| samples[sample][row]);
+            let coupling = median(column(|sample| of_row[sample].coupling()));
             self.rows
                 .expect_coupling(row, coupling * T::from_f64(UNUSUAL));
             let mean = |part: fn(&RowSize<T>) -> T| {
@@ -83,10 +84,11 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// Finds out whether the mass matrix is a metric at any turned position, and one in
     /// which the rows can be told apart.
+    #[inline(never)]
     fn sample_mass<M: Mechanism<T, N, R> + ?Sized>(&mut self, mechanism: &M, state: &State<T, N>) {
         let coordinates = mechanism.structure().coordinates;
         let named = mechanism.structure().weighed;
-        self.metric = Metric::with(named);
+        self.metric.begin(named);
         let mut definite = !named.is_empty();
         let mut levers = SMatrix::<T, R, N>::zeros();
         for sample in 1..=SAMPLES {
@@ -94,22 +96,52 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             mechanism.position(&turned, &mut self.position);
             self.metric.observe(&self.position.mass);
             definite |= is_definite(&self.position.mass);
-            let squares = self.position.jacobian.map(|entry| entry * entry);
-            levers = levers.zip_map(&squares, |most, square| {
-                if square > most && square.is_finite() {
-                    square
-                } else {
-                    most
+            for (most, entry) in levers.iter_mut().zip(&self.position.jacobian) {
+                let square = *entry * *entry;
+                if square > *most && square.is_finite() {
+                    *most = square;
                 }
-            });
+            }
         }
-        if !definite || self.rows.weigh_unevenly(&levers, self.metric.inertia()) {
+        let mut uneven = self.rows.weigh_unevenly(&levers, self.metric.inertia());
+        let mut apart = |sample| {
+            mechanism.position(&turned(state, coordinates, sample), &mut self.position);
+            self.rows_are_apart()
+        };
+        if uneven && (1..=SAMPLES).all(&mut apart) {
+            self.rows.weigh_evenly();
+            uneven = false;
+        }
+        if !definite || uneven {
             self.metric.augment();
         }
     }
 
+    /// Whether the masses let all rows at the position in the buffer be told apart: by sines
+    /// as they are beyond the reach of any singular configuration.
+    #[inline(never)]
+    fn rows_are_apart(&mut self) -> bool {
+        let Position { mass, jacobian, .. } = &self.position;
+        if self.metric.factor.factorise(mass).is_err() {
+            return false;
+        }
+        let mut vectors: SMatrix<T, N, R> = SMatrix::zeros();
+        for (row, vector) in vectors.data.0.iter_mut().enumerate() {
+            let lifted = self.metric.lift(jacobian, row);
+            *vector = scaled(T::one() / norm(&lifted), &lifted);
+        }
+        independent_rows(
+            &mut vectors,
+            R,
+            &|_| true,
+            spacing::<T>() * hull(5),
+            &mut [0; R],
+        ) == R
+    }
+
     /// The sizes of all rows at a position; zero where they are not finite or have no
     /// metric.
+    #[inline(never)]
     fn sizes<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -169,18 +201,20 @@ fn turned<T: Real, const N: usize>(
 }
 
 /// The median of the numbers that are finite; infinite if there is none.
-fn median<T: Real>(mut numbers: [T; SAMPLES]) -> T {
+#[inline(never)]
+fn median<T: Real>(numbers: [T; SAMPLES]) -> T {
+    let mut sorted = [T::from_f64(f64::INFINITY); SAMPLES];
     let mut count = 0;
-    for place in 0..SAMPLES {
-        if numbers[place].is_finite() {
-            numbers.swap(count, place);
+    for number in numbers {
+        if number.is_finite() {
+            let mut place = count;
+            while place > 0 && sorted[place - 1] > number {
+                sorted[place] = sorted[place - 1];
+                place -= 1;
+            }
+            sorted[place] = number;
             count += 1;
         }
     }
-    let finite = &mut numbers[..count];
-    finite.sort_unstable_by(|a, b| a.partial_cmp(b).unwrap_or(Ordering::Equal));
-    finite
-        .get(count / 2)
-        .copied()
-        .unwrap_or(T::from_f64(f64::INFINITY))
+    sorted[count / 2]
 }

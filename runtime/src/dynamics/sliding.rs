@@ -11,16 +11,17 @@
 //! Source: Filippov, Differential Equations with Discontinuous Righthand Sides (1988),
 //! section 4.
 
-use super::Solver;
+use super::Core;
 use super::switching::{earliest, values};
 use crate::crossing::{NODES, nodes};
+use crate::linalg::column;
 use crate::{DynamicsError, Mechanism, Real, Sides, State, Step};
 use nalgebra::SVector;
 
 /// Conditions that a motion may slide along at a time.
 const ROOM: usize = 16;
 
-impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The acceleration with the conditions held, also where the motion slides along some.
     #[inline(always)]
     pub(super) fn held_acceleration<M: Mechanism<T, N, R> + ?Sized>(
@@ -78,6 +79,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// The conditions that the motion slides along.
+    #[inline(never)]
     fn sliding_list(
         &self,
         state: &State<T, N>,
@@ -100,6 +102,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// When one side no longer pushes back within a step that slides along a condition.
+    #[inline(never)]
     pub(super) fn end_of_sliding<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -136,6 +139,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
 /// Solves `count` equations by elimination with the largest pivot of each column.
 /// Conditions that make no difference of their own have no share.
+#[inline(never)]
 fn solve<T: Real>(table: &mut [[T; ROOM + 1]; ROOM], count: usize) -> [T; ROOM] {
     for k in 0..count {
         let size = |row: usize| table[row][k].abs();
@@ -157,7 +161,7 @@ fn solve<T: Real>(table: &mut [[T; ROOM + 1]; ROOM], count: usize) -> [T; ROOM] 
             }
         }
     }
-    core::array::from_fn(|k| match k < count && table[k][k] != T::zero() {
+    column(|k| match k < count && table[k][k] != T::zero() {
         true => table[k][count] / table[k][k],
         false => T::zero(),
     })

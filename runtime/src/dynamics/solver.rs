@@ -1,10 +1,12 @@
 //! The solver of one mechanism's equations: buffers, what it learned, counts.
 //!
 //! In:  a mechanism and [`Settings`].
-//! Out: a [`ConstrainedSystem`], by [`Solver::on`].
+//! Out: a [`ConstrainedSystem`](super::ConstrainedSystem), by [`Core::on`].
 //!
 //! Nothing allocates: all buffers have the sizes of the mechanism and live here
 //! or on the stack.
+//!
+//! Not here: where it lives itself ([`super::held`]).
 
 use super::conditions::Conditions;
 use super::{Lifted, Metric, Rows, Which};
@@ -24,12 +26,11 @@ const REACH_STEP: f64 = 1.125;
 /// constraint equations.
 ///
 /// It owns the buffers and remembers what accepted states taught about the constraints,
-/// but not the mechanism: a program may change inputs and parameters between steps and
-/// bind it again with [`on`](Self::on).
+/// but not the mechanism: a program may change inputs and parameters between steps.
 #[derive(Clone, Debug)]
-pub struct Solver<T, const N: usize, const R: usize> {
+pub(crate) struct Core<T, const N: usize, const R: usize> {
     /// The form of the equations and how the constraints are kept.
-    pub settings: Settings<T>,
+    pub(crate) settings: Settings<T>,
     pub(crate) counters: Counters,
     pub(crate) terms: Terms<T, N, R>,
     pub(crate) position: Position<T, N, R>,
@@ -66,9 +67,10 @@ pub(crate) enum Source {
     Position,
 }
 
-impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
-    /// A solver that knows nothing yet.
-    pub fn new(settings: Settings<T>) -> Self {
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
+    /// One that knows nothing yet.
+    #[inline(never)]
+    pub(crate) fn new(settings: Settings<T>) -> Self {
         Self {
             settings,
             counters: Counters::default(),
@@ -94,7 +96,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// What was done so far.
-    pub fn counters(&self) -> Counters {
+    pub(crate) fn counters(&self) -> Counters {
         self.counters
     }
 
@@ -112,6 +114,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// Factorises the metric at the state whose terms are in a buffer.
+    #[inline(never)]
     pub(crate) fn factorise_metric<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -144,6 +147,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// Factorises independent constraints in the metric and returns the smallest
     /// squared sine of a row; zero if none are known to be independent.
+    #[inline(never)]
     pub(crate) fn factorise_constraints(&mut self, source: Source, which: Which) -> T {
         let Some(list) = self.rows.active(which) else {
             return T::zero();
@@ -214,6 +218,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 *size = size.max(T::one());
             }
         }
+        let moved = self.weights.iter().any(|weight| *weight > T::zero());
         let known = self.sizes.iter_mut().zip(&mut self.weights);
         for ((known, weight), size) in known.zip(&sizes) {
             *known = known.max(*size * T::from_f64(REACH_STEP));
@@ -221,11 +226,19 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
                 *weight = T::one() / (*known * *known);
             }
         }
-        let reach = self.metric.factor.length(&sizes.data.0[0]);
-        self.reach = self.reach.max(reach);
+        let mut reach = self.metric.factor.length(&sizes.data.0[0]);
+        if reach == T::zero() {
+            // Where all are lengths of zero, one unit stands for them until they move.
+            reach = self.metric.factor.length(&[T::one(); N]);
+        }
+        self.reach = match moved {
+            true => self.reach.max(reach),
+            false => reach,
+        };
     }
 
     /// What a run is told of an obstacle.
+    #[inline(never)]
     pub(crate) fn refusal<M: Mechanism<T, N, R> + ?Sized>(
         &self,
         mechanism: &M,
@@ -235,17 +248,8 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let structure = mechanism.structure();
         let kind = match obstacle {
             Obstacle::NotFinite => return DynamicsError::NotFinite { t },
-            Obstacle::MassSingular => {
-                return DynamicsError::MassSingular {
-                    t,
-                    coordinate: 0,
-                    structure,
-                };
-            }
             Obstacle::NotRegular | Obstacle::Unresolved => Singularity::Unresolved,
-            Obstacle::Turned | Obstacle::NotContracting | Obstacle::LeftSheet => {
-                Singularity::Turning
-            }
+            Obstacle::NotContracting | Obstacle::LeftSheet => Singularity::Turning,
             Obstacle::Touching => Singularity::Touching,
             Obstacle::Undetermined => Singularity::Undetermined,
         };

@@ -12,7 +12,7 @@
 //! Source: Park & Barton, ACM Transactions on Modeling and Computer Simulation 6 (1996)
 //! 137–165 (discontinuity locking).
 
-use super::Solver;
+use super::Core;
 use super::conditions::Aim;
 use crate::crossing::{Left, NODES, Samples, first_crossing, nodes, zero};
 use crate::{DynamicsError, Mechanism, Real, Sides, State, Step, Switch, Switching, Watched};
@@ -32,11 +32,14 @@ const NOISE_OF_FIXED: f64 = 4096.0;
 const HARDLY_LATER: f64 = 1e-6;
 /// Changes in a row that get nowhere, besides some for each condition there is.
 const MOST_TURNS: usize = 100;
+/// Changes within the length of one attempt: what rests where it is pushed from both sides
+/// trembles by as much as noise lets it, and a run would never end.
+const MOST_AT_ONCE: usize = 10_000;
 
 /// The values of all switching functions at a state.
 pub(super) type Values<T> = [Switch<T>; Sides::ROOM];
 
-impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Hands the sides to everything that evaluates forces.
     pub(super) fn decide(&mut self, sides: Sides) {
         self.terms.sides = sides;
@@ -69,6 +72,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             }
             (conditions.sliding, conditions.turns) = (0, 0);
             (conditions.turned, conditions.attempt) = (state.t, T::zero());
+            conditions.burst = (state.t, 0);
             conditions.aim = None;
             conditions.at = Some(*state);
         }
@@ -147,6 +151,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// A better time for a function to pass zero, by Newton's method from the end of an
     /// attempt; none if that was good enough.
+    #[inline(never)]
     fn refined<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -167,6 +172,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// Changes a condition at a state: to its other side, or to sliding if the motion is
     /// pushed back from there; off that again where one side no longer pushes.
+    #[inline(never)]
     fn turn<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -203,7 +209,13 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let later = t - conditions.turned > conditions.attempt * T::from_f64(HARDLY_LATER);
         conditions.turned = t;
         conditions.turns = if later { 0 } else { conditions.turns + 1 };
-        if conditions.turns > MOST_TURNS + 2 * conditions.list.len() {
+        let (since, count) = conditions.burst;
+        conditions.burst = match t - since > conditions.attempt {
+            true => (t, 0),
+            false => (since, count + 1),
+        };
+        let most = MOST_TURNS + 2 * conditions.list.len();
+        if conditions.turns > most || conditions.burst.1 > MOST_AT_ONCE {
             let condition = &conditions.list[index];
             return Err(DynamicsError::Sticks { t, condition });
         }
@@ -211,6 +223,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// The first condition that changes within a step, and when.
+    #[inline(never)]
     fn first_change<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -284,6 +297,7 @@ pub(super) fn earliest<T: Real>(
 }
 
 /// Samples some switching functions of a step, from one on.
+#[inline(never)]
 fn sample<T, M, const N: usize, const R: usize>(
     mechanism: &M,
     step: &Step<T, N>,

@@ -4,18 +4,15 @@
 //! Out: the chart at its end, or a refusal: the step leapt over a singular configuration
 //!      that was not seen, left its sheet, or lost energy.
 
-use super::{Solver, Source, Which};
+use super::{Core, Source, Which};
+use crate::linalg::is_zero;
 use crate::singular::{Chart, Obstacle, Placed, Placement, Point, Reference, Start};
 use crate::tolerance::{negligible, safe_steps, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
 
 /// A sine that falls below this part of what it is at both ends of a step may have been
 /// zero between.
-const DIP: f64 = 0.5;
-/// A sine that falls below this part is looked after.
 const FALL: f64 = 0.9;
-/// Sines above this are far from singular configurations.
-const FAR: f64 = 0.5;
 /// Looks into a step without a chart that came nearer to a singular configuration: it may
 /// have crossed two.
 const LOOKS: usize = 4;
@@ -24,9 +21,9 @@ const BISECTIONS: usize = 20;
 /// Energy that a step may lose, in units of its accepted error.
 const ENERGY: f64 = 1e3;
 /// Energy that a step of fixed length may lose, relative to the kinetic energy.
-const ENERGY_OF_FIXED: f64 = 0.05;
+const ENERGY_OF_FIXED: f64 = 1e-4;
 
-impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Verifies a trial step before it is accepted.
     pub(crate) fn verify<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
@@ -36,6 +33,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     ) -> Result<(), DynamicsError<T>> {
         if !self.follows() || self.session.rests {
             return Ok(());
+        }
+        if self.session.sine.is_none() {
+            self.session.sine = Some(self.sine_at(mechanism, start)?);
         }
         // A chart is large, so that even taking none costs something.
         if self.session.chart.is_none() {
@@ -52,6 +52,20 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         }
     }
 
+    /// The sine of the constraints where nothing is known of it yet.
+    #[inline(never)]
+    fn sine_at<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<T, DynamicsError<T>> {
+        mechanism.position(state, &mut self.position);
+        self.safe = None;
+        self.factorise_metric(mechanism, Source::Position, state.t)?;
+        let squared = self.factorise_constraints(Source::Position, Which::All);
+        Ok(squared.sqrt())
+    }
+
     /// A step without a chart: was it far from singular configurations all the way?
     fn verify_far<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
@@ -65,13 +79,13 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let after = self.session.trial.end.sqrt();
         let lowest = self.session.trial.lowest.sqrt().min(after);
         let before = self.session.sine.unwrap_or(after);
-        let least = before.min(after);
-        let falls = lowest < T::from_f64(FAR) && lowest < least * T::from_f64(FALL);
-        if falls && lowest < least * T::from_f64(DIP) {
-            return self.want_chart(mechanism, end.t);
-        }
-        let comes_near = self.needs_chart(before, after, lowest);
-        if !falls && !comes_near {
+        let falls = lowest < before.min(after) * T::from_f64(FALL);
+        let length = end.t - start.t;
+        let comes_near = self.needs_chart((before, after, lowest), length);
+        // A step may be longer than the one before it, and the sine may change faster.
+        let change = self.session.rate.max(self.session.trial.rate) * length;
+        let leaps = before < window::<T>() + safe_steps::<T>() * change;
+        if !falls && !leaps && !comes_near {
             return Ok(());
         }
         if after <= window() {
@@ -96,8 +110,9 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// Whether the next step needs a chart: it may come near a singular configuration, or
     /// the form always uses one.
-    fn needs_chart(&mut self, before: T, after: T, lowest: T) -> bool {
+    fn needs_chart(&mut self, (before, after, lowest): (T, T, T), length: T) -> bool {
         let change = before.max(after) - lowest;
+        self.session.trial.rate = change / length;
         self.session.trial.near = after < window::<T>() + safe_steps::<T>() * change;
         self.settings.form != Form::Reduced || self.session.trial.near
     }
@@ -112,6 +127,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// A step with a chart: is its end on the same sheet?
+    #[inline(never)]
     fn verify_near<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -147,15 +163,13 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         };
         let before = self.session.sine.unwrap_or(placed.sine);
         let lowest = self.session.trial.lowest.sqrt().min(placed.sine);
-        if !placed.gap && !self.needs_chart(before, placed.sine, lowest) {
+        let sines = (before, placed.sine, lowest);
+        if !self.needs_chart(sines, end.t - start.t) && !placed.gap {
             return Ok(());
         }
         mechanism.position(end, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, end.t)?;
         self.verify_residual(mechanism, end)?;
-        if placed.sine > window() {
-            self.learn_rows();
-        }
         let next = self.chart_after(chart, end, placed);
         if next.is_none() {
             return Err(self.refusal(mechanism, Obstacle::NotRegular, end.t));
@@ -165,6 +179,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// The chart that a step ends with, where its end was placed; none if that is not regular.
+    #[inline(never)]
     fn chart_after(
         &self,
         chart: &Chart<T, N, R>,
@@ -188,6 +203,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// A step on which signs changed, none of whose states is next to a singular
     /// configuration: is there one where sheets cross, or did it leap over a gap?
+    #[inline(never)]
     fn verify_crossing<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -231,6 +247,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// The energy must not have changed by more than the power that was supplied and the
     /// accepted error explain. Constraints that move do work of their own, and are not
     /// judged.
+    #[inline(never)]
     fn verify_energy<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -238,7 +255,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         mechanism.position(end, &mut self.position);
-        if self.position.drift.iter().any(|b| *b != T::zero()) {
+        if !is_zero(self.position.drift.as_slice()) {
             return Ok(());
         }
         let (before, after) = (mechanism.energy(start), mechanism.energy(end));
@@ -248,8 +265,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let doubt = half * (after.power - before.power).abs();
         let kinetic = before.kinetic.max(after.kinetic);
         let potential = (after.potential - before.potential).abs();
-        self.session.liveliest = self.session.liveliest.max(before.kinetic);
-        let size = kinetic.max(potential).max(self.session.liveliest);
+        let size = kinetic.max(potential);
         let part = match self.session.tolerance {
             Some(tolerance) => tolerance * T::from_f64(ENERGY),
             None => T::from_f64(ENERGY_OF_FIXED),

@@ -15,6 +15,7 @@ use super::step::Step;
 use super::step_control::{Inside, in_parts};
 use super::{IntegrateError, Integrator};
 use crate::linalg::add_scaled;
+use crate::stack::with_room;
 use crate::system::escalating;
 use crate::{DynamicsError, Real, State, Switching, System};
 use nalgebra::SVector;
@@ -130,6 +131,20 @@ impl<T: Real, const N: usize> Integrator<T, N> for Rk4<T, N> {
         state: &State<T, N>,
         bound: T,
     ) -> Result<&Step<T, N>, IntegrateError<T>> {
+        with_room::<T, _, N, N>(|| self.step_towards(system, state, bound))?;
+        Ok(&self.step)
+    }
+}
+
+impl<T: Real, const N: usize> Rk4<T, N> {
+    /// Makes one step.
+    #[inline(always)]
+    fn step_towards<Y: System<T, N> + ?Sized>(
+        &mut self,
+        system: &mut Y,
+        state: &State<T, N>,
+        bound: T,
+    ) -> Result<(), IntegrateError<T>> {
         check_bound(state.t, bound)?;
         let known = self.last.take().filter(|_| self.step.end == *state);
         self.step.evaluations = STAGES + u32::from(known.is_none());
@@ -139,7 +154,7 @@ impl<T: Real, const N: usize> Integrator<T, N> for Rk4<T, N> {
             self.switch(system, state)?;
         }
         system.commit(&self.step)?;
-        Ok(&self.step)
+        Ok(())
     }
 }
 

@@ -1,6 +1,6 @@
 //! Coefficients of the implicit methods: Radau IIA with three or five stages.
 //!
-//! In:  the number of stages.
+//! In:  the first digits of the method.
 //! Out: nodes, matrix, and its eigenvalues with left and right eigenvectors, in
 //!      the precision of the scalar.
 //!
@@ -11,11 +11,14 @@
 //! Source: Hairer & Wanner, Solving Ordinary Differential Equations II (1996),
 //! sections IV.5 and IV.8.
 
-use super::lu::Lu;
+use super::lu::{factorise, solve};
 use crate::Real;
+use crate::linalg::column;
 use nalgebra::Complex;
 
-/// Pairs of complex eigenvalues that the largest method has.
+/// Stages that the largest method has.
+pub(super) const MOST_STAGES: usize = 5;
+/// Pairs of complex eigenvalues that it has.
 pub(super) const MOST_PAIRS: usize = 2;
 
 /// Corrections of a root that has 16 digits: enough for 106 bits and one to spare.
@@ -49,63 +52,73 @@ pub(super) const FIVE: Digits = Digits {
     ],
 };
 
-/// Radau IIA with `S` stages, of order `2S − 1`; `S` is three or five.
+/// Radau IIA of order `2s − 1` with `s` stages, three or five; of lists with room for
+/// more, the first `s` entries are in use.
 #[derive(Clone, Debug)]
-pub(super) struct Collocation<T, const S: usize> {
+pub(super) struct Collocation<T> {
+    /// `s`.
+    pub(super) stages: usize,
     /// `c_i`.
-    pub(super) nodes: [T; S],
+    pub(super) nodes: [T; MOST_STAGES],
     /// `A`, as rows.
-    pub(super) matrix: [[T; S]; S],
+    pub(super) matrix: [[T; MOST_STAGES]; MOST_STAGES],
     /// `A²`, as rows.
-    pub(super) square: [[T; S]; S],
+    pub(super) square: [[T; MOST_STAGES]; MOST_STAGES],
     /// What the polynomial through values at the nodes has at the start of the step,
     /// as weights of the values.
-    pub(super) start: [T; S],
+    pub(super) start: [T; MOST_STAGES],
     /// The real eigenvalue of `A`.
-    pub(super) real: Eigen<T, S>,
+    pub(super) real: Eigen<T>,
     /// One eigenvalue of each complex pair; of the entries, `pairs` are in use.
-    pub(super) complex: [Eigen<Complex<T>, S>; MOST_PAIRS],
+    pub(super) complex: [Eigen<Complex<T>>; MOST_PAIRS],
     /// Number of complex pairs.
     pub(super) pairs: usize,
 }
 
 /// An eigenvalue with its vectors, `left · right = 1`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Eigen<F, const S: usize> {
+pub(super) struct Eigen<F> {
     pub(super) value: F,
-    pub(super) left: [F; S],
-    pub(super) right: [F; S],
+    pub(super) left: [F; MOST_STAGES],
+    pub(super) right: [F; MOST_STAGES],
 }
 
-impl<T: Real, const S: usize> Collocation<T, S> {
-    pub(super) fn new() -> Self {
-        let digits = if S == 3 { &THREE } else { &FIVE };
-        let nodes = core::array::from_fn(|i| digits.nodes.get(i).map_or(T::one(), |x| node(*x, S)));
-        let weights: [T; S] = nodes.map(|c| {
-            // The quadrature of the method (Radau's, of degree 2S − 2).
-            let n = T::from_f64(S as f64);
-            let (_, value) = legendre(c, S);
-            c / (n * n * value * value)
-        });
-        let matrix: [[T; S]; S] = core::array::from_fn(|i| {
-            core::array::from_fn(|j| {
-                (0..S).fold(T::zero(), |sum, k| {
-                    let inside = cardinal(&nodes, j, nodes[i] * nodes[k]);
-                    sum + nodes[i] * weights[k] * inside
-                })
-            })
-        });
-        let square = core::array::from_fn(|i| {
-            core::array::from_fn(|j| {
-                (0..S).fold(T::zero(), |sum, k| sum + matrix[i][k] * matrix[k][j])
-            })
-        });
-        let (real, complex) = eigen(&nodes, digits);
+impl<T: Real> Collocation<T> {
+    #[inline(never)]
+    pub(super) fn new(digits: &Digits) -> Self {
+        let stages = digits.nodes.len() + 1;
+        let zero = [T::zero(); MOST_STAGES];
+        let mut nodes = [T::one(); MOST_STAGES];
+        for (place, first) in nodes.iter_mut().zip(digits.nodes) {
+            *place = node(*first, stages);
+        }
+        let mut start = zero;
+        let mut matrix = [zero; MOST_STAGES];
+        let used = &nodes[..stages];
+        for j in 0..stages {
+            start[j] = cardinal(used, j, T::zero());
+            for (row, node) in matrix.iter_mut().zip(used) {
+                for other in used {
+                    let inside = cardinal(used, j, *node * *other);
+                    row[j] += *node * weight(*other, stages) * inside;
+                }
+            }
+        }
+        let mut square = [zero; MOST_STAGES];
+        for (square, row) in square.iter_mut().zip(&matrix) {
+            for (share, other) in row.iter().zip(&matrix) {
+                for (entry, other) in square.iter_mut().zip(other) {
+                    *entry += *share * *other;
+                }
+            }
+        }
+        let (real, complex) = eigen(used, digits);
         Self {
-            start: core::array::from_fn(|i| cardinal(&nodes, i, T::zero())),
+            stages,
             nodes,
             matrix,
             square,
+            start,
             real,
             complex,
             pairs: digits.pairs.len(),
@@ -114,14 +127,26 @@ impl<T: Real, const S: usize> Collocation<T, S> {
 }
 
 /// The polynomial that is one at node `j` and zero at the others, at `x`.
+#[inline(never)]
 pub(super) fn cardinal<T: Real>(nodes: &[T], j: usize, x: T) -> T {
-    let others = nodes.iter().enumerate().filter(|(k, _)| *k != j);
-    others.fold(T::one(), |product, (_, node)| {
-        product * (x - *node) / (nodes[j] - *node)
-    })
+    let mut product = T::one();
+    for k in 0..nodes.len() {
+        if k != j {
+            product = product * (x - nodes[k]) / (nodes[j] - nodes[k]);
+        }
+    }
+    product
+}
+
+/// The weight of a node in the quadrature of the method (Radau's, of degree 2s − 2).
+fn weight<T: Real>(c: T, s: usize) -> T {
+    let n = T::from_f64(s as f64);
+    let (_, value) = legendre(c, s);
+    c / (n * n * value * value)
 }
 
 /// Legendre's polynomials of degrees `s` and `s − 1`, moved to 0 … 1, at `c`.
+#[inline(never)]
 fn legendre<T: Real>(c: T, s: usize) -> (T, T) {
     let x = c + c - T::one();
     let (mut value, mut before) = (T::one(), T::zero());
@@ -152,95 +177,103 @@ fn node<T: Real>(digits: f64, s: usize) -> T {
 
 /// The eigenvalues of `A` and their vectors.
 ///
-/// `A` integrates polynomials of degree `S − 1` from zero. With `M(x) = Π(x − c_i)` of
+/// `A` integrates polynomials of degree `s − 1` from zero. With `M(x) = Π(x − c_i)` of
 /// coefficients `m_k`, an eigenvector is a polynomial with `λp − ∫p = M` times a
 /// constant, which it is if `Σ k! m_k λᵏ = 0`; its coefficients follow downwards.
-fn eigen<T: Real, const S: usize>(
-    nodes: &[T; S],
-    digits: &Digits,
-) -> (Eigen<T, S>, [Eigen<Complex<T>, S>; MOST_PAIRS]) {
-    let (lowest, scaled) = characteristic(nodes);
-    let complex = |re: f64, im: f64| Complex::new(T::from_f64(re), T::from_f64(im));
-    let mut values = [complex(digits.real, 0.0); S];
+#[inline(never)]
+fn eigen<T: Real>(nodes: &[T], digits: &Digits) -> (Eigen<T>, [Eigen<Complex<T>>; MOST_PAIRS]) {
+    let s = nodes.len();
+    let scaled = &characteristic(nodes)[..=s];
+    let number = |re: f64, im: f64| Complex::new(T::from_f64(re), T::from_f64(im));
+    let mut values = [number(digits.real, 0.0); MOST_STAGES];
     for (i, (re, im)) in digits.pairs.iter().enumerate() {
-        (values[2 * i + 1], values[2 * i + 2]) = (complex(*re, *im), complex(*re, -*im));
+        (values[2 * i + 1], values[2 * i + 2]) = (number(*re, *im), number(*re, -*im));
     }
-    let values = values.map(|value| root(lowest, &scaled, value));
-    let vectors = values.map(|value| vector(nodes, &scaled, value));
-    let left = |k: usize| {
-        let one = |i| if i == k { T::one() } else { T::zero() };
-        let unit = core::array::from_fn(|i| Complex::new(one(i), T::zero()));
-        // Eigenvectors to different eigenvalues are independent.
-        Lu::new::<T>(vectors).map_or(unit, |lu| lu.solve::<T>(&unit))
+    let mut vectors = [number(0.0, 0.0); MOST_STAGES * MOST_STAGES];
+    let vectors = &mut vectors[..s * s];
+    for (value, vector) in values.iter_mut().zip(vectors.chunks_exact_mut(s)) {
+        *value = root(scaled, *value);
+        eigenvector(nodes, scaled, *value, vector);
+    }
+    let mut factors = [number(0.0, 0.0); MOST_STAGES * MOST_STAGES];
+    let factors = &mut factors[..s * s];
+    factors.copy_from_slice(vectors);
+    let (mut order, mut sizes) = ([0; MOST_STAGES], [T::zero(); MOST_STAGES]);
+    let order = &mut order[..s];
+    // Eigenvectors to different eigenvalues are independent.
+    let _regular = factorise(factors, order, &mut sizes[..s]);
+    let of_value = |k: usize| {
+        let mut unit = [number(0.0, 0.0); MOST_STAGES];
+        unit[k] = number(1.0, 0.0);
+        let (mut left, mut right) = (unit, unit);
+        solve::<T, _>(factors, order, &unit[..s], &mut left[..s]);
+        right[..s].copy_from_slice(&vectors[k * s..(k + 1) * s]);
+        Eigen {
+            value: values[k],
+            left,
+            right,
+        }
     };
-    let pair = |k: usize| Eigen {
-        value: values[k],
-        left: left(k),
-        right: vectors[k],
-    };
+    let real = of_value(0);
     let real = Eigen {
-        value: values[0].re,
-        left: left(0).map(|x| x.re),
-        right: vectors[0].map(|x| x.re),
+        value: real.value.re,
+        left: column(|i| real.left[i].re),
+        right: column(|i| real.right[i].re),
     };
-    (real, core::array::from_fn(|i| pair((2 * i + 1).min(S - 1))))
+    // There are no more than `s` values; what is not in use may be any of them.
+    (real, [of_value(1), of_value(3.min(s - 1))])
 }
 
-/// `k! m_k` for k = 0, and for k = 1 … S.
-fn characteristic<T: Real, const S: usize>(nodes: &[T; S]) -> (T, [T; S]) {
-    let (mut lowest, mut others) = (T::one(), [T::zero(); S]);
+/// `k! m_k` for k = 0 … s.
+fn characteristic<T: Real>(nodes: &[T]) -> [T; MOST_STAGES + 1] {
+    let mut coefficients = [T::zero(); MOST_STAGES + 1];
+    coefficients[0] = T::one();
     for (degree, node) in nodes.iter().enumerate() {
         // Times x − node: every coefficient moves up by one.
         for k in (0..=degree).rev() {
-            let below = if k == 0 { lowest } else { others[k - 1] };
-            others[k] = below - *node * others[k];
+            coefficients[k + 1] = coefficients[k] - *node * coefficients[k + 1];
         }
-        lowest = -(*node * lowest);
+        coefficients[0] = -(*node * coefficients[0]);
     }
     let mut factorial = T::one();
-    for (k, entry) in others.iter_mut().enumerate() {
-        factorial *= T::from_f64((k + 1) as f64);
+    for (k, entry) in coefficients.iter_mut().enumerate().skip(1) {
+        factorial *= T::from_f64(k as f64);
         *entry *= factorial;
     }
-    (lowest, others)
+    coefficients
 }
 
 /// A root of the polynomial with these coefficients.
-fn root<T: Real, const S: usize>(lowest: T, others: &[T; S], digits: Complex<T>) -> Complex<T> {
+#[inline(never)]
+fn root<T: Real>(coefficients: &[T], digits: Complex<T>) -> Complex<T> {
     let mut x = digits;
     for _ in 0..CORRECTIONS {
-        let (mut value, mut slope) = (
-            Complex::new(T::zero(), T::zero()),
-            Complex::new(T::zero(), T::zero()),
-        );
-        for entry in others.iter().rev() {
+        let zero = Complex::new(T::zero(), T::zero());
+        let (mut value, mut slope) = (zero, zero);
+        for entry in coefficients.iter().rev() {
             slope = slope * x + value;
             value = value * x + Complex::new(*entry, T::zero());
         }
-        slope = slope * x + value;
-        value = value * x + Complex::new(lowest, T::zero());
         x -= value / slope;
     }
     x
 }
 
 /// The right eigenvector: values of the polynomial at the nodes.
-fn vector<T: Real, const S: usize>(
-    nodes: &[T; S],
-    scaled: &[T; S],
-    value: Complex<T>,
-) -> [Complex<T>; S] {
+#[inline(never)]
+fn eigenvector<T: Real>(nodes: &[T], scaled: &[T], value: Complex<T>, out: &mut [Complex<T>]) {
+    let s = nodes.len();
     // k! p_k, from the highest down.
-    let mut above = Complex::new(-scaled[S - 1], T::zero());
-    let mut coefficients = [above; S];
-    for k in (0..S - 1).rev() {
-        above = value * above - Complex::new(scaled[k], T::zero());
+    let mut above = Complex::new(-scaled[s], T::zero());
+    let mut coefficients = [above; MOST_STAGES];
+    for k in (0..s - 1).rev() {
+        above = value * above - Complex::new(scaled[k + 1], T::zero());
         coefficients[k] = above;
     }
-    nodes.map(|node| {
-        let zero = Complex::new(T::zero(), T::zero());
-        (0..S).rev().fold(zero, |sum, k| {
-            sum * node / T::from_f64((k + 1) as f64) + coefficients[k]
-        })
-    })
+    for (entry, node) in out.iter_mut().zip(nodes) {
+        *entry = Complex::new(T::zero(), T::zero());
+        for k in (0..s).rev() {
+            *entry = *entry * *node / T::from_f64((k + 1) as f64) + coefficients[k];
+        }
+    }
 }

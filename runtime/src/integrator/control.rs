@@ -54,6 +54,7 @@ impl<T: Real, const N: usize> Tolerance<T, N> {
     /// # Errors
     ///
     /// As [`uniform`](Self::uniform).
+    #[inline(never)]
     pub fn per_component(
         relative: T,
         q: SVector<T, N>,

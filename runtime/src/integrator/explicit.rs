@@ -25,37 +25,38 @@ use nalgebra::SVector;
 /// fifth-order one where that is accidentally small.
 const THIRD_ORDER_WEIGHT: f64 = 0.01;
 
-/// A method at work, with `S` slots for derivatives.
+/// Slots for derivatives: twelve stages of DOP853, the derivative at the end, three extra
+/// stages.
+const SLOTS: usize = 16;
+
+/// A method at work.
 #[derive(Clone, Debug)]
-pub(super) struct Explicit<T, const N: usize, const S: usize> {
+pub(crate) struct Explicit<T, const N: usize> {
     tableau: &'static Tableau,
-    inside: Inside,
-    step: Step<T, N>,
-    stages: Stages<T, N, S>,
+    stages: Stages<T, N, SLOTS>,
     /// Whether the slot after the stages holds the derivative at the step's end.
     end_known: bool,
 }
 
-impl<T: Real, const N: usize, const S: usize> Explicit<T, N, S> {
+impl<T: Real, const N: usize> Explicit<T, N> {
     pub(super) fn new(tableau: &'static Tableau) -> Self {
         Self {
             tableau,
-            inside: Inside::Full,
-            step: Step::new(),
             stages: Stages::new(),
             end_known: false,
         }
     }
 
-    /// Computes the derivative at a state into a slot.
+    /// Computes the derivative at a state of a step into a slot.
     #[inline]
     fn evaluate<Y: System<T, N> + ?Sized>(
         &mut self,
         system: &mut Y,
+        step: &mut Step<T, N>,
         slot: usize,
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        self.step.evaluations += 1;
+        step.evaluations += 1;
         let acceleration = system.acceleration(state)?;
         self.stages.set(slot, &state.v, &acceleration);
         Ok(())
@@ -63,9 +64,8 @@ impl<T: Real, const N: usize, const S: usize> Explicit<T, N, S> {
 
     /// The state at the fraction `node` of a step of length `h`.
     #[inline(always)]
-    fn stage(&self, h: T, node: T, row: &[Term]) -> State<T, N> {
+    fn stage(&self, start: &State<T, N>, h: T, node: T, row: &[Term]) -> State<T, N> {
         let (q, v) = self.stages.combine(row);
-        let start = &self.step.start;
         State {
             t: start.t + h * node,
             q: start.q + q * h,
@@ -77,95 +77,85 @@ impl<T: Real, const N: usize, const S: usize> Explicit<T, N, S> {
     fn know_end<Y: System<T, N> + ?Sized>(
         &mut self,
         system: &mut Y,
+        step: &mut Step<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         if !self.end_known {
-            let end = self.step.end;
-            self.evaluate(system, self.tableau.stages(), &end)?;
+            let end = step.end;
+            self.evaluate(system, step, self.tableau.stages(), &end)?;
             self.end_known = true;
         }
         Ok(())
     }
 
     /// The extra stages of the method's interpolant, and its coefficients.
+    #[inline(never)]
     fn complete_dense<Y: System<T, N> + ?Sized>(
         &mut self,
         system: &mut Y,
+        step: &mut Step<T, N>,
         h: T,
     ) -> Result<(), DynamicsError<T>> {
         let tableau = self.tableau;
         let rows = tableau.extra_nodes.iter().zip(tableau.extra_rows);
         for (slot, (&node, row)) in (tableau.stages() + 1..).zip(rows) {
-            let state = self.stage(h, Tableau::node(node), row);
-            self.evaluate(system, slot, &state)?;
+            let state = self.stage(&step.start, h, Tableau::node(node), row);
+            self.evaluate(system, step, slot, &state)?;
         }
         for row in tableau.dense {
             let (q, v) = self.stages.combine(row);
-            self.step.interpolant.push(q * h, v * h);
+            step.interpolant.push(q * h, v * h);
         }
         Ok(())
     }
 }
 
-impl<T: Real, const N: usize, const S: usize> Trial<T, N> for Explicit<T, N, S> {
-    fn tableau(&self) -> &'static Tableau {
-        self.tableau
-    }
-
-    fn step(&mut self) -> &mut Step<T, N> {
-        &mut self.step
-    }
-
-    fn keep(&mut self, inside: Inside) {
-        self.inside = inside;
-    }
-
-    fn forget(&mut self) {
-        self.end_known = false;
-    }
-
-    fn begin<Y: System<T, N> + ?Sized>(
+impl<T: Real, const N: usize, Y: System<T, N> + ?Sized> Trial<T, N, Y> for Explicit<T, N> {
+    fn begin(
         &mut self,
         system: &mut Y,
-        state: &State<T, N>,
+        step: &mut Step<T, N>,
+        goes_on: bool,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        self.step.rejected = 0;
-        self.step.evaluations = 0;
-        if self.end_known && self.step.end == *state {
+        if self.end_known && goes_on {
             self.stages.copy(self.tableau.stages(), 0);
         } else {
-            self.evaluate(system, 0, state)?;
+            let start = step.start;
+            self.evaluate(system, step, 0, &start)?;
         }
         self.end_known = false;
-        self.step.start = *state;
         Ok(self.stages.acceleration(0))
     }
 
-    fn attempt<Y: System<T, N> + ?Sized>(
+    fn attempt(
         &mut self,
         system: &mut Y,
+        step: &mut Step<T, N>,
         end: T,
     ) -> Result<(), IntegrateError<T>> {
         let tableau = self.tableau;
         let stages = tableau.stages();
-        let h = end - self.step.start.t;
+        let h = end - step.start.t;
         self.end_known = false;
         for i in 1..stages {
-            let state = self.stage(h, Tableau::node(tableau.nodes[i]), tableau.rows[i]);
-            self.evaluate(system, i, &state)?;
+            let node = Tableau::node(tableau.nodes[i]);
+            let state = self.stage(&step.start, h, node, tableau.rows[i]);
+            step.evaluations += 1;
+            let acceleration = system.acceleration(&state)?;
+            self.stages.set(i, &state.v, &acceleration);
         }
-        let mut last = self.stage(h, T::one(), tableau.weights);
+        let mut last = self.stage(&step.start, h, T::one(), tableau.weights);
         last.t = end;
         system.project(&mut last)?;
-        self.step.end = last;
+        step.end = last;
         let wanted = |row: &&[Term]| row.iter().any(|term| term.0 == stages);
         if tableau.errors.iter().any(wanted) {
-            self.know_end(system)?;
+            self.know_end(system, step)?;
         }
         Ok(())
     }
 
-    fn error(&self, tolerance: &Tolerance<T, N>) -> T {
-        let Step { start, end, .. } = &self.step;
+    fn error(&self, step: &Step<T, N>, tolerance: &Tolerance<T, N>) -> T {
+        let Step { start, end, .. } = step;
         let h = (end.t - start.t).abs();
         let norm = |row: &[Term]| {
             let (q, v) = self.stages.combine(row);
@@ -187,27 +177,24 @@ impl<T: Real, const N: usize, const S: usize> Trial<T, N> for Explicit<T, N, S> 
         }
     }
 
-    fn kept(&self) -> Inside {
-        self.inside
-    }
-
-    fn accept<Y: System<T, N> + ?Sized>(
+    fn accept(
         &mut self,
         system: &mut Y,
+        step: &mut Step<T, N>,
         inside: Inside,
     ) -> Result<(), DynamicsError<T>> {
         if inside == Inside::Nothing {
-            self.step.span = T::zero();
+            step.span = T::zero();
             return Ok(());
         }
-        self.know_end(system)?;
-        let last = self.tableau.stages();
-        let (first, last) = [0, last].map(|slot| self.stages.acceleration(slot)).into();
-        let h = self.step.set_ends(&first, &last);
+        self.know_end(system, step)?;
+        let first = self.stages.acceleration(0);
+        let last = self.stages.acceleration(self.tableau.stages());
+        let h = step.set_ends(&first, &last);
         if inside == Inside::Hermite || self.tableau.dense.is_empty() {
-            self.step.interpolant.complete_hermite(h, &first, &last);
+            step.interpolant.complete_hermite(h, &first, &last);
             return Ok(());
         }
-        self.complete_dense(system, h)
+        self.complete_dense(system, step, h)
     }
 }

@@ -14,6 +14,7 @@
 //! (1993), section II.6.
 
 use super::collocation::cardinal;
+use crate::linalg::add_scaled;
 use crate::{Real, State};
 use nalgebra::SVector;
 
@@ -62,6 +63,7 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
 
     /// The polynomials through both ends and up to [`MOST_BETWEEN`] states between, at
     /// fractions of the step.
+    #[inline(never)]
     pub(crate) fn set_stages(
         &mut self,
         (start, end): (&State<T, N>, &State<T, N>),
@@ -135,7 +137,8 @@ fn set_through<T: Real, const N: usize>(
         let place = if at_end { T::one() } else { T::zero() };
         out[k + 2] = SVector::zeros();
         for (j, value) in values[..nodes.len()].iter().enumerate() {
-            out[k + 2].axpy(cardinal(nodes, j, place), value, T::one());
+            let share = cardinal(nodes, j, place);
+            add_scaled(out[k + 2].as_mut_slice(), share, value.as_slice());
         }
         for (value, theta) in values.iter_mut().zip(nodes) {
             let over = if at_end { T::one() - *theta } else { *theta };

@@ -32,6 +32,7 @@ fn is_finite<T: Real, const N: usize>(jacobian: &AccelerationJacobian<T, N>) -> 
 }
 
 /// One-sided differences.
+#[inline(never)]
 fn differences<T: Real, const N: usize, Y: System<T, N> + ?Sized>(
     system: &mut Y,
     state: &State<T, N>,

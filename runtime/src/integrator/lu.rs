@@ -1,6 +1,6 @@
 //! Square linear systems, real or complex, by Gaussian elimination.
 //!
-//! In:  an `N × N` matrix as rows.
+//! In:  a square matrix as rows, one after the other.
 //! Out: its factors, and solutions.
 //!
 //! Rows are compared after division by their largest entry, so that the choice
@@ -43,65 +43,81 @@ impl<F, const N: usize> Lu<F, N> {
     where
         F: Entry<T>,
     {
-        let mut sizes =
-            matrix.map(|row| row.iter().fold(T::zero(), |most: T, x| most.max(x.size())));
         let mut this = Self {
             factors: matrix,
-            order: core::array::from_fn(|i| i),
+            order: [0; N],
         };
-        for k in 0..N {
-            let mut pivot = k;
-            for i in k + 1..N {
-                let relative = |i: usize| this.factors[i][k].size() / sizes[i];
-                if relative(i) > relative(pivot) {
-                    pivot = i;
-                }
-            }
-            let size = this.factors[pivot][k].size();
-            if !size.is_finite() || size == T::zero() {
-                return None;
-            }
-            this.factors.swap(k, pivot);
-            this.order.swap(k, pivot);
-            sizes.swap(k, pivot);
-            this.eliminate(k);
-        }
-        Some(this)
-    }
-
-    /// Subtracts row `k` from the rows below, so that column `k` is zero there,
-    /// and keeps the factors in its place.
-    fn eliminate<T>(&mut self, k: usize)
-    where
-        F: Entry<T>,
-    {
-        let pivot = self.factors[k];
-        for row in self.factors.iter_mut().skip(k + 1) {
-            let factor = row[k] / pivot[k];
-            row[k] = factor;
-            for j in k + 1..N {
-                row[j] = row[j] - factor * pivot[j];
-            }
-        }
+        let mut sizes = [T::zero(); N];
+        let factors = this.factors.as_flattened_mut();
+        factorise(factors, &mut this.order, &mut sizes).then_some(this)
     }
 
     /// `A⁻¹ y`.
-    pub(super) fn solve<T>(&self, y: &[F; N]) -> [F; N]
+    pub(super) fn solve<T: Real>(&self, y: &[F; N]) -> [F; N]
     where
         F: Entry<T>,
     {
-        let mut x = self.order.map(|i| y[i]);
-        for i in 0..N {
-            for j in 0..i {
-                x[i] = x[i] - self.factors[i][j] * x[j];
-            }
-        }
-        for i in (0..N).rev() {
-            for j in i + 1..N {
-                x[i] = x[i] - self.factors[i][j] * x[j];
-            }
-            x[i] = x[i] / self.factors[i][i];
-        }
+        let mut x = *y;
+        solve(self.factors.as_flattened(), &self.order, y, &mut x);
         x
+    }
+}
+
+/// Factorises a matrix in its place, with room for the order of its rows and their sizes;
+/// whether it is regular and finite.
+pub(super) fn factorise<T: Real, F: Entry<T>>(
+    matrix: &mut [F],
+    order: &mut [usize],
+    sizes: &mut [T],
+) -> bool {
+    let n = order.len();
+    for i in 0..n {
+        order[i] = i;
+        sizes[i] = T::zero();
+        for entry in &matrix[i * n..(i + 1) * n] {
+            sizes[i] = sizes[i].max(entry.size());
+        }
+    }
+    for k in 0..n {
+        let mut pivot = k;
+        for i in k + 1..n {
+            if matrix[i * n + k].size() / sizes[i] > matrix[pivot * n + k].size() / sizes[pivot] {
+                pivot = i;
+            }
+        }
+        let size = matrix[pivot * n + k].size();
+        if !size.is_finite() || size == T::zero() {
+            return false;
+        }
+        order.swap(k, pivot);
+        sizes.swap(k, pivot);
+        for j in 0..n {
+            matrix.swap(k * n + j, pivot * n + j);
+        }
+        for i in k + 1..n {
+            let factor = matrix[i * n + k] / matrix[k * n + k];
+            matrix[i * n + k] = factor;
+            for j in k + 1..n {
+                matrix[i * n + j] = matrix[i * n + j] - factor * matrix[k * n + j];
+            }
+        }
+    }
+    true
+}
+
+/// `x = A⁻¹ y` with the factors and the order of the rows.
+pub(super) fn solve<T: Real, F: Entry<T>>(factors: &[F], order: &[usize], y: &[F], x: &mut [F]) {
+    let n = order.len();
+    for i in 0..n {
+        x[i] = y[order[i]];
+        for j in 0..i {
+            x[i] = x[i] - factors[i * n + j] * x[j];
+        }
+    }
+    for i in (0..n).rev() {
+        for j in i + 1..n {
+            x[i] = x[i] - factors[i * n + j] * x[j];
+        }
+        x[i] = x[i] / factors[i * n + i];
     }
 }

@@ -3,34 +3,59 @@
 //! In:  a [`Tolerance`], if the steps follow one.
 //! Out: [`Dp5`], [`Dop853`], [`Radau5`], [`Radau9`].
 
+use super::collocation::{FIVE, THREE};
 use super::explicit::Explicit;
 use super::radau::Radau;
 use super::step::Step;
-use super::step_control::{Controlled, Inside, Trial};
+use super::step_control::Controlled;
 use super::tableau::{DOP853, DP5, RADAU5, RADAU9};
 use super::{IntegrateError, Integrator, Tolerance};
+use crate::stack::{Held, held, with_room};
 use crate::{Real, State, System};
 
-/// Slots of DP5: six stages and the derivative at the end.
-const SLOTS_DP5: usize = 7;
-/// Slots of DOP853: twelve stages, the derivative at the end, three extra stages.
-const SLOTS_DOP853: usize = 16;
-
 macro_rules! method {
-    ($(#[$docs:meta])* $name:ident, $method:ty) => {
+    ($(#[$docs:meta])* $name:ident, $make:ident, $method:ident, $tableau:ident, $new:expr) => {
         $(#[$docs])*
-        #[derive(Clone, Debug)]
-        pub struct $name<T, const N: usize>(Controlled<$method, T, N>);
+        #[derive(Debug)]
+        pub struct $name<T, const N: usize>(Held<Controlled<$method<T, N>, T, N>>);
+
+        /// The method by itself, wherever it will live.
+        pub(crate) fn $make<T: Real, const N: usize>(
+            tolerance: Option<Tolerance<T, N>>,
+        ) -> Controlled<$method<T, N>, T, N> {
+            Controlled::new($new(tolerance), &$tableau, tolerance)
+        }
+
+        impl<T: Clone, const N: usize> Clone for $name<T, N> {
+            fn clone(&self) -> Self {
+                with_room::<T, _, N, N>(|| Self(self.0.clone()))
+            }
+
+            /// Without allocating.
+            fn clone_from(&mut self, other: &Self) {
+                with_room::<T, _, N, N>(|| self.0.clone_from(&other.0));
+            }
+        }
 
         impl<T: Real, const N: usize> $name<T, N> {
+            /// The method with fixed steps: each goes to its bound at once.
+            pub fn fixed() -> Self {
+                Self::with(None)
+            }
+
+            /// The method with steps that follow a tolerance.
+            pub fn adaptive(tolerance: Tolerance<T, N>) -> Self {
+                Self::with(Some(tolerance))
+            }
+
+            fn with(tolerance: Option<Tolerance<T, N>>) -> Self {
+                with_room::<T, _, N, N>(|| Self(held($make(tolerance))))
+            }
+
             /// Forgets the derivative at the last step's end, because the system has
             /// changed since; adaptive step control keeps its step size.
             pub fn forget(&mut self) {
-                self.0.method.forget();
-            }
-
-            pub(crate) fn keep(&mut self, inside: Inside) {
-                self.0.method.keep(inside);
+                self.0.forget();
             }
         }
 
@@ -47,68 +72,28 @@ macro_rules! method {
     };
 }
 
-macro_rules! adaptive {
-    ($name:ident, $method:expr) => {
-        impl<T: Real, const N: usize> $name<T, N> {
-            /// The method with fixed steps: each goes to its bound at once.
-            pub fn fixed() -> Self {
-                Self(Controlled::fixed($method))
-            }
-
-            /// The method with steps that follow a tolerance.
-            pub fn adaptive(tolerance: Tolerance<T, N>) -> Self {
-                Self(Controlled::adaptive($method, tolerance))
-            }
-        }
-    };
-}
-
 method!(
     /// The pair of orders 5 and 4 of Dormand and Prince: six accelerations a
     /// step, interpolant of order 4.
-    Dp5, Explicit<T, N, SLOTS_DP5>
+    Dp5, dp5, Explicit, DP5, |_| Explicit::new(&DP5)
 );
 method!(
     /// The method of order 8 of Dormand and Prince with Hairer's error estimate:
     /// twelve accelerations a step, three more for the interpolant of order 7.
-    Dop853, Explicit<T, N, SLOTS_DOP853>
+    Dop853, dop853, Explicit, DOP853, |_| Explicit::new(&DOP853)
 );
-
-adaptive!(Dp5, Explicit::new(&DP5));
-adaptive!(Dop853, Explicit::new(&DOP853));
-
 method!(
     /// The implicit method Radau IIA of order 5, L-stable: for stiff mechanisms,
     /// such as those with hard springs and strong dampers. Each step solves for
     /// three stages at once.
     ///
     /// Between the ends, the cubic polynomials through the stages.
-    Radau5, Radau<T, N, 3>
+    Radau5, radau5, Radau, RADAU5, |tolerance| Radau::new(&THREE, tolerance)
 );
 method!(
     /// The implicit method Radau IIA of order 9, L-stable: for stiff mechanisms whose
     /// motion is wanted to many digits. Each step solves for five stages at once.
     ///
     /// Between the ends, the quintic polynomials through the stages.
-    Radau9, Radau<T, N, 5>
+    Radau9, radau9, Radau, RADAU9, |tolerance| Radau::new(&FIVE, tolerance)
 );
-
-macro_rules! implicit {
-    ($name:ident, $tableau:ident) => {
-        impl<T: Real, const N: usize> $name<T, N> {
-            /// The method with fixed steps: each goes to its bound at once.
-            pub fn fixed() -> Self {
-                Self(Controlled::fixed(Radau::new(&$tableau, None)))
-            }
-
-            /// The method with steps that follow a tolerance.
-            pub fn adaptive(tolerance: Tolerance<T, N>) -> Self {
-                let method = Radau::new(&$tableau, Some(tolerance));
-                Self(Controlled::adaptive(method, tolerance))
-            }
-        }
-    };
-}
-
-implicit!(Radau5, RADAU5);
-implicit!(Radau9, RADAU9);

@@ -34,10 +34,13 @@ mod tableau;
 pub use classical::Rk4;
 pub use control::Tolerance;
 pub use error::IntegrateError;
+pub(crate) use explicit::Explicit;
 pub use method::Method;
 pub use methods::{Dop853, Dp5, Radau5, Radau9};
+pub(crate) use methods::{dop853, dp5, radau5, radau9};
+pub(crate) use radau::Radau;
 pub use step::Step;
-pub(crate) use step_control::Inside;
+pub(crate) use step_control::{Controlled, Inside};
 
 use crate::{Real, State, System};
 

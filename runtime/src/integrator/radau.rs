@@ -15,13 +15,13 @@
 //! section IV.8.
 
 use super::IntegrateError;
-use super::collocation::{Collocation, cardinal};
+use super::collocation::{Collocation, Digits, MOST_STAGES, cardinal};
 use super::control::Tolerance;
 use super::factors::{Factors, StageVectors};
 use super::jacobian::acceleration_jacobian;
 use super::step::Step;
 use super::step_control::{Inside, Trial};
-use super::tableau::Tableau;
+use crate::linalg::add_scaled;
 use crate::{AccelerationJacobian, DynamicsError, Real, State, System};
 use nalgebra::SVector;
 
@@ -48,11 +48,8 @@ const FIXED_PACE: f64 = 1e3;
 
 /// The method at work.
 #[derive(Clone, Debug)]
-pub(super) struct Radau<T, const N: usize, const S: usize> {
-    tableau: &'static Tableau,
-    coefficients: Collocation<T, S>,
-    inside: Inside,
-    step: Step<T, N>,
+pub(crate) struct Radau<T, const N: usize> {
+    coefficients: Collocation<T>,
     tolerance: Tolerance<T, N>,
     /// What may be left of Newton's iteration, in units of the tolerance.
     enough: T,
@@ -63,19 +60,20 @@ pub(super) struct Radau<T, const N: usize, const S: usize> {
     /// Acceleration at the start of the step.
     first: SVector<T, N>,
     /// Accelerations of the stages of the trial step.
-    a: StageVectors<T, N, S>,
+    a: StageVectors<T, N>,
     /// Those of the last accepted step, and its length; zero if there is none.
-    before: (StageVectors<T, N, S>, T),
+    before: (StageVectors<T, N>, T),
     /// Error estimate of the trial step.
     estimate: (SVector<T, N>, SVector<T, N>),
     /// The worst rate of convergence in the last trial.
     rate: T,
 }
 
-impl<T: Real, const N: usize, const S: usize> Radau<T, N, S> {
+impl<T: Real, const N: usize> Radau<T, N> {
     /// The method; `tolerance` tells Newton's iteration when to end, which at a
     /// fixed steps is near round-off.
-    pub(super) fn new(tableau: &'static Tableau, tolerance: Option<Tolerance<T, N>>) -> Self {
+    #[inline(never)]
+    pub(super) fn new(digits: &Digits, tolerance: Option<Tolerance<T, N>>) -> Self {
         let zero = SVector::zeros();
         let (tolerance, tolerable) = match tolerance {
             Some(tolerance) => (tolerance, T::from_f64(TOLERABLE_PART)),
@@ -85,82 +83,84 @@ impl<T: Real, const N: usize, const S: usize> Radau<T, N, S> {
             }
         };
         Self {
-            tableau,
-            coefficients: Collocation::new(),
-            inside: Inside::Full,
-            step: Step::new(),
+            coefficients: Collocation::new(digits),
             enough: tolerance.part(NEWTON_PART),
             tolerable,
             tolerance,
             jacobian: None,
             factors: None,
             first: zero,
-            a: [zero; S],
-            before: ([zero; S], T::zero()),
+            a: [zero; MOST_STAGES],
+            before: ([zero; MOST_STAGES], T::zero()),
             estimate: (zero, zero),
             rate: T::from_f64(UNKNOWN_RATE),
         }
     }
 
-    /// Computes the acceleration at a state.
-    fn evaluate<Y: System<T, N> + ?Sized>(
-        &mut self,
-        system: &mut Y,
-        state: &State<T, N>,
-    ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        self.step.evaluations += 1;
-        system.acceleration(state)
+    /// How many stages there are.
+    fn stages(&self) -> usize {
+        self.coefficients.stages
     }
 
-    /// The state of a stage of a step of length `h`.
-    fn stage(&self, a: &StageVectors<T, N, S>, h: T, i: usize) -> State<T, N> {
+    /// The states of the stages of a step of length `h`.
+    #[inline(never)]
+    fn states(
+        &self,
+        start: &State<T, N>,
+        a: &StageVectors<T, N>,
+        h: T,
+    ) -> [State<T, N>; MOST_STAGES] {
         let Collocation {
             nodes,
             matrix,
             square,
             ..
         } = &self.coefficients;
-        let start = &self.step.start;
-        let (mut q, mut v) = (start.v * nodes[i], SVector::<T, N>::zeros());
-        for (j, a) in a.iter().enumerate() {
-            q.axpy(h * square[i][j], a, T::one());
-            v.axpy(matrix[i][j], a, T::one());
+        let mut states = [*start; MOST_STAGES];
+        for (i, state) in states.iter_mut().enumerate().take(self.stages()) {
+            let (mut q, mut v) = (start.v * nodes[i], SVector::<T, N>::zeros());
+            for (j, a) in a.iter().enumerate().take(self.stages()) {
+                add_scaled(q.as_mut_slice(), h * square[i][j], a.as_slice());
+                add_scaled(v.as_mut_slice(), matrix[i][j], a.as_slice());
+            }
+            state.t = start.t + h * nodes[i];
+            state.q += q * h;
+            state.v += v * h;
         }
-        State {
-            t: start.t + h * nodes[i],
-            q: start.q + q * h,
-            v: start.v + v * h,
-        }
+        states
     }
 
     /// Accelerations to begin the iteration with: those of the last step's
     /// stages, extrapolated.
-    fn guess(&self, h: T) -> StageVectors<T, N, S> {
+    #[inline(never)]
+    fn guess(&self, h: T) -> StageVectors<T, N> {
         let (before, length) = &self.before;
         if *length <= T::zero() {
-            return [self.first; S];
+            return [self.first; MOST_STAGES];
         }
-        let nodes = &self.coefficients.nodes;
-        core::array::from_fn(|i| {
-            let x = T::one() + nodes[i] * h / *length;
-            let mut guess = SVector::<T, N>::zeros();
-            for (j, a) in before.iter().enumerate() {
-                guess.axpy(cardinal(nodes, j, x), a, T::one());
+        let nodes = &self.coefficients.nodes[..self.stages()];
+        let mut guess = [SVector::<T, N>::zeros(); MOST_STAGES];
+        for (guess, node) in guess.iter_mut().zip(nodes) {
+            let x = T::one() + *node * h / *length;
+            for (j, a) in before.iter().enumerate().take(nodes.len()) {
+                add_scaled(guess.as_mut_slice(), cardinal(nodes, j, x), a.as_slice());
             }
-            guess
-        })
+        }
+        guess
     }
 
     /// Makes derivatives and factors fit the step length `h`.
+    #[inline(never)]
     fn prepare<Y: System<T, N> + ?Sized>(
         &mut self,
         system: &mut Y,
+        step: &mut Step<T, N>,
         h: T,
     ) -> Result<(), IntegrateError<T>> {
-        let start = self.step.start;
+        let start = step.start;
         if self.jacobian.is_none() {
             let (jacobian, evaluations) = acceleration_jacobian(system, &start, &self.first)?;
-            self.step.evaluations += evaluations;
+            step.evaluations += evaluations;
             self.jacobian = Some(jacobian);
             self.factors = None;
         }
@@ -176,16 +176,15 @@ impl<T: Real, const N: usize, const S: usize> Radau<T, N, S> {
     }
 
     /// Newton's iteration for all stages of a step of length `h`.
+    #[inline(never)]
     fn solve<Y: System<T, N> + ?Sized>(
         &mut self,
         system: &mut Y,
+        step: &mut Step<T, N>,
         h: T,
     ) -> Result<(), IntegrateError<T>> {
-        self.prepare(system, h)?;
-        let failure = IntegrateError::NewtonDiverged {
-            t: self.step.start.t,
-            h,
-        };
+        self.prepare(system, step, h)?;
+        let failure = IntegrateError::NewtonDiverged { t: step.start.t, h };
         // The rate of the last step until this one has shown its own.
         let expected = self
             .rate
@@ -195,7 +194,7 @@ impl<T: Real, const N: usize, const S: usize> Radau<T, N, S> {
         let mut a = self.guess(h);
         let mut before: Option<T> = None;
         for _ in 0..MOST_ITERATIONS {
-            let size = self.iterate(system, h, &mut a)?;
+            let size = self.iterate(system, step, h, &mut a)?;
             let rate = before.map_or(expected, |before| size / before);
             if before.is_some() {
                 self.rate = self.rate.max(rate);
@@ -214,40 +213,51 @@ impl<T: Real, const N: usize, const S: usize> Radau<T, N, S> {
     }
 
     /// One iteration; the size of the change in units of the tolerance.
+    #[inline(never)]
     fn iterate<Y: System<T, N> + ?Sized>(
         &mut self,
         system: &mut Y,
+        step: &mut Step<T, N>,
         h: T,
-        a: &mut StageVectors<T, N, S>,
+        a: &mut StageVectors<T, N>,
     ) -> Result<T, IntegrateError<T>> {
+        let stages = self.stages();
+        let start = step.start;
+        let before = self.states(&start, a, h);
         let mut rest = *a;
-        for (i, rest) in rest.iter_mut().enumerate() {
-            let state = self.stage(a, h, i);
-            *rest = self.evaluate(system, &state)? - *rest;
+        for (rest, state) in rest.iter_mut().zip(&before[..stages]) {
+            step.evaluations += 1;
+            *rest = system.acceleration(state)? - *rest;
         }
-        let start = self.step.start;
         let failure = IntegrateError::NewtonDiverged { t: start.t, h };
         let factors = self.factors.as_ref().ok_or(failure)?;
         let change = factors.solve(&rest, &self.coefficients);
-        let before: [_; S] = core::array::from_fn(|i| self.stage(a, h, i));
-        for (a, change) in a.iter_mut().zip(&change) {
+        for (a, change) in a.iter_mut().zip(&change[..stages]) {
             *a += change;
         }
+        let after = self.states(&start, a, h);
         let mut sum = T::zero();
-        for (i, before) in before.iter().enumerate() {
-            let after = self.stage(a, h, i);
+        for (after, before) in after.iter().zip(&before[..stages]) {
             let (dq, dv) = (after.q - before.q, after.v - before.v);
-            let size = self.tolerance.norm((&dq, &dv), &start, &after);
+            let size = self.tolerance.norm((&dq, &dv), &start, after);
             sum += size * size;
         }
-        Ok((sum / T::from_f64(S as f64)).sqrt())
+        Ok((sum / T::from_f64(stages as f64)).sqrt())
+    }
+
+    /// The size of the estimate in units of a tolerance.
+    fn size(&self, step: &Step<T, N>, tolerance: &Tolerance<T, N>) -> T {
+        let (q, v) = &self.estimate;
+        tolerance.norm((q, v), &step.start, &step.end)
     }
 
     /// The error estimate of a step (IV.8.19), with the derivatives at the start, or
     /// near it for a second look (IV.8.20): the derivatives are compared with those that
     /// the stages lead back to.
+    #[inline(never)]
     fn estimate(
         &self,
+        states: &[State<T, N>],
         h: T,
         (v, a): (&SVector<T, N>, &SVector<T, N>),
     ) -> (SVector<T, N>, SVector<T, N>) {
@@ -256,9 +266,9 @@ impl<T: Real, const N: usize, const S: usize> Radau<T, N, S> {
         };
         let factor = self.coefficients.real.value * h;
         let (mut dq, mut dv) = (v * factor, a * factor);
-        for (i, weight) in self.coefficients.start.iter().enumerate() {
-            let weight = *weight * factor;
-            dq -= self.stage(&self.a, h, i).v * weight;
+        for (i, state) in states.iter().enumerate() {
+            let weight = self.coefficients.start[i] * factor;
+            dq -= state.v * weight;
             dv -= self.a[i] * weight;
         }
         // Filtered, so that it stays small where stiff parts have died out.
@@ -268,59 +278,47 @@ impl<T: Real, const N: usize, const S: usize> Radau<T, N, S> {
     }
 }
 
-impl<T: Real, const N: usize, const S: usize> Trial<T, N> for Radau<T, N, S> {
-    fn tableau(&self) -> &'static Tableau {
-        self.tableau
-    }
-
-    fn step(&mut self) -> &mut Step<T, N> {
-        &mut self.step
-    }
-
-    fn keep(&mut self, inside: Inside) {
-        self.inside = inside;
-    }
-
-    fn forget(&mut self) {
-        self.jacobian = None;
-        self.before.1 = T::zero();
-    }
-
-    fn begin<Y: System<T, N> + ?Sized>(
+impl<T: Real, const N: usize, Y: System<T, N> + ?Sized> Trial<T, N, Y> for Radau<T, N> {
+    fn begin(
         &mut self,
         system: &mut Y,
-        state: &State<T, N>,
+        step: &mut Step<T, N>,
+        goes_on: bool,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        self.step.rejected = 0;
-        self.step.evaluations = 0;
-        if self.step.end != *state {
-            self.forget();
+        if !goes_on {
+            self.jacobian = None;
+            self.before.1 = T::zero();
         }
-        self.step.start = *state;
-        self.first = self.evaluate(system, state)?;
+        step.evaluations += 1;
+        self.first = system.acceleration(&step.start)?;
         Ok(self.first)
     }
 
-    fn attempt<Y: System<T, N> + ?Sized>(
+    fn attempt(
         &mut self,
         system: &mut Y,
+        step: &mut Step<T, N>,
         end: T,
     ) -> Result<(), IntegrateError<T>> {
-        let start = self.step.start;
+        let start = step.start;
         let h = end - start.t;
         let fresh = self.jacobian.is_none();
-        let mut result = self.solve(system, h);
+        let mut result = self.solve(system, step, h);
         if result.is_err() && !fresh {
             self.jacobian = None;
-            result = self.solve(system, h);
+            result = self.solve(system, step, h);
         }
         result?;
-        let mut last = self.stage(&self.a, h, S - 1);
-        last.t = end;
-        self.step.end = last;
-        self.estimate = self.estimate(h, (&start.v, &self.first));
+        let states = self.states(&start, &self.a, h);
+        let states = &states[..self.stages()];
+        let mut last = State {
+            t: end,
+            ..states[self.stages() - 1]
+        };
+        step.end = last;
+        self.estimate = self.estimate(states, h, (&start.v, &self.first));
         let first = self.before.1 <= T::zero();
-        if (first || self.step.rejected > 0) && self.error(&self.tolerance) >= T::one() {
+        if (first || step.rejected > 0) && self.size(step, &self.tolerance) >= T::one() {
             // Stiff parts that are not in balance yet look like errors.
             let (q, v) = self.estimate;
             let near = State {
@@ -328,34 +326,30 @@ impl<T: Real, const N: usize, const S: usize> Trial<T, N> for Radau<T, N, S> {
                 q: start.q + q,
                 v: start.v + v,
             };
-            let a = self.evaluate(system, &near)?;
-            self.estimate = self.estimate(h, (&near.v, &a));
+            step.evaluations += 1;
+            let a = system.acceleration(&near)?;
+            self.estimate = self.estimate(states, h, (&near.v, &a));
         }
         system.project(&mut last)?;
-        self.step.end = last;
+        step.end = last;
         Ok(())
     }
 
-    fn error(&self, tolerance: &Tolerance<T, N>) -> T {
-        let (q, v) = &self.estimate;
-        tolerance.norm((q, v), &self.step.start, &self.step.end)
+    fn error(&self, step: &Step<T, N>, tolerance: &Tolerance<T, N>) -> T {
+        self.size(step, tolerance)
     }
 
-    fn kept(&self) -> Inside {
-        self.inside
-    }
-
-    fn accept<Y: System<T, N> + ?Sized>(
+    fn accept(
         &mut self,
         _: &mut Y,
+        step: &mut Step<T, N>,
         inside: Inside,
     ) -> Result<(), DynamicsError<T>> {
-        let h = self.step.length();
+        let h = step.length();
         if inside != Inside::Nothing {
-            let states: [_; S] = core::array::from_fn(|i| self.stage(&self.a, h, i));
-            let inner = S - 1;
-            self.step
-                .set_stages(&self.coefficients.nodes[..inner], &states[..inner]);
+            let states = self.states(&step.start, &self.a, h);
+            let inner = self.stages() - 1;
+            step.set_stages(&self.coefficients.nodes[..inner], &states[..inner]);
         }
         self.before = (self.a, h);
         if self.rate > T::from_f64(GOOD_RATE) {

@@ -14,6 +14,7 @@ use super::IntegrateError;
 use super::control::{Control, Tolerance, check_bound};
 use super::step::Step;
 use super::tableau::Tableau;
+use crate::stack::with_room;
 use crate::system::escalating;
 use crate::{DynamicsError, Real, State, Switching, System};
 use nalgebra::SVector;
@@ -34,47 +35,35 @@ pub(crate) enum Inside {
     Full,
 }
 
-/// A method that makes trial steps.
-pub(super) trait Trial<T: Real, const N: usize> {
-    /// Its coefficients.
-    fn tableau(&self) -> &'static Tableau;
-
-    /// The step that is being made.
-    fn step(&mut self) -> &mut Step<T, N>;
-
-    /// Chooses what is kept of the inside of steps.
-    fn keep(&mut self, inside: Inside);
-
-    /// Forgets the derivative at the end of the last step.
-    fn forget(&mut self);
-
-    /// Makes `state` the start of the next step and gives the acceleration
-    /// there, evaluated unless the last step ended in this very state.
-    fn begin<Y: System<T, N> + ?Sized>(
+/// A method that makes trial steps with a system.
+pub(crate) trait Trial<T: Real, const N: usize, Y: System<T, N> + ?Sized> {
+    /// The acceleration at the start of the next step, known already if that `goes_on`
+    /// where the last one ended.
+    fn begin(
         &mut self,
         system: &mut Y,
-        state: &State<T, N>,
+        step: &mut Step<T, N>,
+        goes_on: bool,
     ) -> Result<SVector<T, N>, DynamicsError<T>>;
 
     /// Makes a trial step to the time `end`, whose end is projected.
-    fn attempt<Y: System<T, N> + ?Sized>(
+    fn attempt(
         &mut self,
         system: &mut Y,
+        step: &mut Step<T, N>,
         end: T,
     ) -> Result<(), IntegrateError<T>>;
 
     /// The error of the trial step in units of the tolerance.
-    fn error(&self, tolerance: &Tolerance<T, N>) -> T;
+    fn error(&self, step: &Step<T, N>, tolerance: &Tolerance<T, N>) -> T;
 
     /// Completes an accepted step: the derivative at its end, and so much of its inside.
-    fn accept<Y: System<T, N> + ?Sized>(
+    fn accept(
         &mut self,
         system: &mut Y,
+        step: &mut Step<T, N>,
         inside: Inside,
     ) -> Result<(), DynamicsError<T>>;
-
-    /// What is kept of the inside of steps.
-    fn kept(&self) -> Inside;
 }
 
 /// What decides how long a step is.
@@ -82,101 +71,173 @@ pub(super) trait Trial<T: Real, const N: usize> {
 struct Adaptive<T, const N: usize> {
     tolerance: Tolerance<T, N>,
     control: Control<T>,
+    /// Order of the method.
+    order: u8,
 }
 
-/// A method and its step control: fixed steps without an [`Adaptive`].
+/// A method and its step control.
 #[derive(Clone, Debug)]
-pub(super) struct Controlled<K, T, const N: usize> {
-    pub(super) method: K,
-    adaptive: Option<Adaptive<T, N>>,
+pub(crate) struct Controlled<K, T, const N: usize> {
+    method: K,
+    steps: Steps<T, N>,
 }
 
-impl<K: Trial<T, N>, T: Real, const N: usize> Controlled<K, T, N> {
-    /// Goes to each bound at once.
-    pub(super) fn fixed(method: K) -> Self {
-        Self {
-            method,
-            adaptive: None,
-        }
+/// The steps of a method, whichever it is: fixed without an [`Adaptive`].
+#[derive(Clone, Debug)]
+struct Steps<T, const N: usize> {
+    /// The step that is being made.
+    step: Step<T, N>,
+    adaptive: Option<Adaptive<T, N>>,
+    /// What is kept of the inside of steps.
+    inside: Inside,
+    /// Whether what the method knows of the last step's end is still true.
+    fresh: bool,
+}
+
+impl<K, T: Real, const N: usize> Controlled<K, T, N> {
+    /// Steps that follow a tolerance, or go to each bound at once.
+    pub(super) fn new(method: K, tableau: &Tableau, tolerance: Option<Tolerance<T, N>>) -> Self {
+        let adaptive = tolerance.map(|tolerance| Adaptive {
+            tolerance,
+            control: Control::new(tableau.error_order, tableau.gains, tableau.jumps),
+            order: tableau.order,
+        });
+        let steps = Steps {
+            step: Step::new(),
+            adaptive,
+            inside: Inside::Full,
+            fresh: false,
+        };
+        Self { method, steps }
     }
 
-    /// Goes as far as the tolerance allows.
-    pub(super) fn adaptive(method: K, tolerance: Tolerance<T, N>) -> Self {
-        let tableau = method.tableau();
-        let control = Control::new(tableau.error_order, tableau.gains, tableau.jumps);
-        Self {
-            method,
-            adaptive: Some(Adaptive { tolerance, control }),
-        }
+    /// Forgets what is known of the last step's end.
+    pub(crate) fn forget(&mut self) {
+        self.steps.fresh = false;
+    }
+
+    /// Chooses what is kept of the inside of steps.
+    pub(crate) fn keep(&mut self, inside: Inside) {
+        self.steps.inside = inside;
     }
 
     /// Makes one accepted step.
-    pub(super) fn step<Y: System<T, N> + ?Sized>(
+    pub(crate) fn step<Y: System<T, N> + ?Sized>(
         &mut self,
         system: &mut Y,
         state: &State<T, N>,
         bound: T,
-    ) -> Result<&Step<T, N>, IntegrateError<T>> {
+    ) -> Result<&Step<T, N>, IntegrateError<T>>
+    where
+        K: Trial<T, N, Y>,
+    {
+        // Whichever method it is, the control exists once.
+        with_room::<T, _, N, N>(|| self.steps.make(&mut self.method, system, state, bound))?;
+        Ok(&self.steps.step)
+    }
+}
+
+impl<T: Real, const N: usize> Steps<T, N> {
+    /// Makes one accepted step.
+    fn make<Y: System<T, N> + ?Sized>(
+        &mut self,
+        method: &mut dyn Trial<T, N, Y>,
+        system: &mut Y,
+        state: &State<T, N>,
+        bound: T,
+    ) -> Result<(), IntegrateError<T>> {
         check_bound(state.t, bound)?;
-        let switches = system.begin(state);
-        let inside = match switches {
+        let inside = match system.begin(state) {
             true => Inside::Full,
-            false => self.method.kept(),
+            false => self.inside,
         };
-        let mut acceleration = self.begin(system, state)?;
+        let mut acceleration = self.begin(method, system, state)?;
         let mut bound = bound;
         loop {
-            self.advance(system, &acceleration, bound, inside)?;
-            match system.switch(self.method.step())? {
+            self.advance(method, system, &acceleration, (bound, inside))?;
+            match system.switch(&self.step)? {
                 Switching::Nowhere => break,
                 Switching::AtEnd => {
-                    self.method.forget();
+                    self.fresh = false;
                     break;
                 }
                 Switching::Within(t) => bound = t,
                 Switching::AtStart => {
-                    self.method.forget();
-                    acceleration = self.begin(system, state)?;
+                    self.fresh = false;
+                    acceleration = self.begin(method, system, state)?;
                 }
             }
-            self.method.step().rejected += 1;
+            self.step.rejected += 1;
         }
-        let step = self.method.step();
-        system.commit(step)?;
-        Ok(step)
+        system.commit(&self.step)?;
+        Ok(())
     }
 
     /// The acceleration at the start of a step.
     fn begin<Y: System<T, N> + ?Sized>(
         &mut self,
+        method: &mut dyn Trial<T, N, Y>,
         system: &mut Y,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, IntegrateError<T>> {
-        Ok(escalating(system, |system| {
-            self.method.begin(system, state)
-        })?)
+        let step = &mut self.step;
+        let goes_on = self.fresh && step.end == *state;
+        (step.rejected, step.evaluations) = (0, 0);
+        step.start = *state;
+        let acceleration = escalating(system, |system| method.begin(system, step, goes_on))?;
+        self.fresh = true;
+        Ok(acceleration)
     }
 
     /// Makes attempts at a step until one is accepted.
     fn advance<Y: System<T, N> + ?Sized>(
         &mut self,
+        method: &mut dyn Trial<T, N, Y>,
         system: &mut Y,
         acceleration: &SVector<T, N>,
-        bound: T,
-        inside: Inside,
+        (bound, inside): (T, Inside),
     ) -> Result<(), IntegrateError<T>> {
-        match &mut self.adaptive {
-            None => in_parts(self.method.step().start.t, bound, |end| {
-                attempt(&mut self.method, system, end)?;
-                if !complete(&mut self.method, system, inside)? {
-                    attempt(&mut self.method, system, end)?;
-                    complete(&mut self.method, system, inside)?;
+        let step = &mut self.step;
+        let Some(adaptive) = &mut self.adaptive else {
+            return in_parts(step.start.t, bound, |end| {
+                attempt(method, system, step, end)?;
+                if !complete(method, system, step, inside)? {
+                    attempt(method, system, step, end)?;
+                    complete(method, system, step, inside)?;
                 }
                 Ok::<_, IntegrateError<T>>(())
-            }),
-            Some(adaptive) => {
-                adaptive.advance(&mut self.method, system, acceleration, (bound, inside))
+            });
+        };
+        let t = step.start.t;
+        if adaptive.control.h <= T::zero() {
+            adaptive.control.h = adaptive.first_step(system, step, acceleration, bound);
+        }
+        // What stood in the way of the last trial, to be reported if no step is
+        // short enough to avoid it.
+        let mut obstacle = None;
+        loop {
+            let end = match adaptive.control.end(t, bound) {
+                Ok(end) => end,
+                Err(underflow) => return Err(obstacle.unwrap_or(underflow)),
+            };
+            let error = match adaptive.trial(method, system, step, (end, inside)) {
+                Ok(Some(error)) => error,
+                Ok(None) => continue,
+                Err(failure) if is_final(&failure) => return Err(failure),
+                Err(failure) => {
+                    obstacle = Some(failure);
+                    T::from_f64(f64::NAN)
+                }
+            };
+            if adaptive.control.judge(end - t, error) {
+                return Ok(());
             }
+            if error.is_finite() {
+                obstacle = None;
+            } else if obstacle.is_none() {
+                obstacle = Some(IntegrateError::NotFinite { t });
+            }
+            step.rejected += 1;
         }
     }
 }
@@ -213,30 +274,29 @@ pub(super) fn in_parts<T: Real, V, E: Copy + Into<IntegrateError<T>>>(
 
 /// Makes a trial step and has it verified; once more from its start if the system wants
 /// to look at it more closely.
-fn attempt<K: Trial<T, N>, T: Real, Y: System<T, N> + ?Sized, const N: usize>(
-    method: &mut K,
+fn attempt<T: Real, Y: System<T, N> + ?Sized, const N: usize>(
+    method: &mut dyn Trial<T, N, Y>,
     system: &mut Y,
+    step: &mut Step<T, N>,
     end: T,
 ) -> Result<(), IntegrateError<T>> {
     escalating(system, |system| {
-        system.begin(&method.step().start);
-        method.attempt(system, end)
+        system.begin(&step.start);
+        method.attempt(system, step, end)
     })
 }
 
 /// Completes a trial step that is about to be accepted and has it verified; `false` if it
 /// is to be made once more from its start.
-fn complete<K: Trial<T, N>, T: Real, Y: System<T, N> + ?Sized, const N: usize>(
-    method: &mut K,
+fn complete<T: Real, Y: System<T, N> + ?Sized, const N: usize>(
+    method: &mut dyn Trial<T, N, Y>,
     system: &mut Y,
+    step: &mut Step<T, N>,
     inside: Inside,
 ) -> Result<bool, IntegrateError<T>> {
-    let mut once = || {
-        method.accept(system, inside)?;
-        let Step { start, end, .. } = *method.step();
-        system.verify(&start, &end)
-    };
-    match once() {
+    let made = method.accept(system, step, inside);
+    let verified = made.and_then(|()| system.verify(&step.start, &step.end));
+    match verified {
         Ok(()) => Ok(true),
         Err(error) => match system.escalate()? {
             true => Ok(false),
@@ -246,57 +306,17 @@ fn complete<K: Trial<T, N>, T: Real, Y: System<T, N> + ?Sized, const N: usize>(
 }
 
 impl<T: Real, const N: usize> Adaptive<T, N> {
-    /// Makes trial steps until one is accepted.
-    fn advance<K: Trial<T, N>, Y: System<T, N> + ?Sized>(
-        &mut self,
-        method: &mut K,
-        system: &mut Y,
-        acceleration: &SVector<T, N>,
-        (bound, inside): (T, Inside),
-    ) -> Result<(), IntegrateError<T>> {
-        let t = method.step().start.t;
-        if self.control.h <= T::zero() {
-            self.control.h = self.first_step(method, system, acceleration, bound);
-        }
-        // What stood in the way of the last trial, to be reported if no step is
-        // short enough to avoid it.
-        let mut obstacle = None;
-        loop {
-            let end = match self.control.end(t, bound) {
-                Ok(end) => end,
-                Err(underflow) => return Err(obstacle.unwrap_or(underflow)),
-            };
-            let error = match self.trial(method, system, (end, inside)) {
-                Ok(Some(error)) => error,
-                Ok(None) => continue,
-                Err(failure) if is_final(&failure) => return Err(failure),
-                Err(failure) => {
-                    obstacle = Some(failure);
-                    T::from_f64(f64::NAN)
-                }
-            };
-            if self.control.judge(end - t, error) {
-                return Ok(());
-            }
-            if error.is_finite() {
-                obstacle = None;
-            } else if obstacle.is_none() {
-                obstacle = Some(IntegrateError::NotFinite { t });
-            }
-            method.step().rejected += 1;
-        }
-    }
-
     /// One trial step and its error; none if it is to be made once more.
-    fn trial<K: Trial<T, N>, Y: System<T, N> + ?Sized>(
+    fn trial<Y: System<T, N> + ?Sized>(
         &self,
-        method: &mut K,
+        method: &mut dyn Trial<T, N, Y>,
         system: &mut Y,
+        step: &mut Step<T, N>,
         (end, inside): (T, Inside),
     ) -> Result<Option<T>, IntegrateError<T>> {
-        attempt(method, system, end)?;
-        let error = method.error(&self.tolerance);
-        if error <= T::one() && !complete(method, system, inside)? {
+        attempt(method, system, step, end)?;
+        let error = method.error(step, &self.tolerance);
+        if error <= T::one() && !complete(method, system, step, inside)? {
             return Ok(None);
         }
         Ok(Some(error))
@@ -304,14 +324,15 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 
     /// Hairer's guess of the first step: the derivative and an explicit Euler step
     /// tell how fast things change (II.4, "Starting Step Size").
-    fn first_step<K: Trial<T, N>, Y: System<T, N> + ?Sized>(
+    #[inline(never)]
+    fn first_step<Y: System<T, N> + ?Sized>(
         &self,
-        method: &mut K,
         system: &mut Y,
+        step: &mut Step<T, N>,
         a: &SVector<T, N>,
         bound: T,
     ) -> T {
-        let start = method.step().start;
+        let start = step.start;
         let span = bound - start.t;
         let size = self.tolerance.norm((&start.q, &start.v), &start, &start);
         let rate = self.tolerance.norm((&start.v, a), &start, &start);
@@ -323,10 +344,11 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
             T::from_f64(FIRST_STEP) * size / rate
         };
         let guess = if guess < span { guess } else { span };
-        let curvature = self.curvature(method, system, a, guess);
+        step.evaluations += 1;
+        let curvature = self.curvature(system, &start, a, guess);
         let change = rate.max(curvature);
         let better = if change.is_finite() && change > T::from_f64(1e-15) {
-            let order = f64::from(method.tableau().order);
+            let order = f64::from(self.order);
             (T::from_f64(FIRST_STEP) / change).powf(T::from_f64(1.0 / order))
         } else {
             tiny.max(guess * T::from_f64(1e-3))
@@ -336,15 +358,13 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 
     /// How fast the derivative changes over an Euler step of length `h`; infinite
     /// where the mechanics fail on the way.
-    fn curvature<K: Trial<T, N>, Y: System<T, N> + ?Sized>(
+    fn curvature<Y: System<T, N> + ?Sized>(
         &self,
-        method: &mut K,
         system: &mut Y,
+        start: &State<T, N>,
         a: &SVector<T, N>,
         h: T,
     ) -> T {
-        let start = method.step().start;
-        method.step().evaluations += 1;
         let state = State {
             t: start.t + h,
             q: start.q + start.v * h,
@@ -353,7 +373,7 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
         match system.acceleration(&state) {
             Ok(end) => {
                 let change = (state.v - start.v, end - a);
-                self.tolerance.norm((&change.0, &change.1), &start, &start) / h
+                self.tolerance.norm((&change.0, &change.1), start, start) / h
             }
             Err(_) => T::from_f64(f64::INFINITY),
         }

@@ -11,6 +11,7 @@ use crate::Real;
 use nalgebra::{SMatrix, SVector};
 
 /// `D z`, or the column at which `DᵀMD` is not definite.
+#[inline(never)]
 pub(crate) fn project_onto<T: Real, const N: usize>(
     mass: &SMatrix<T, N, N>,
     columns: &SMatrix<T, N, N>,
@@ -20,7 +21,7 @@ pub(crate) fn project_onto<T: Real, const N: usize>(
     let mut directions = *columns;
     let mut sum = SVector::zeros();
     for k in 0..count {
-        let mut direction: SVector<T, N> = directions.column(k).into_owned();
+        let mut direction = SVector::from(directions.data.0[k]);
         let image = mass * direction;
         let square = direction.dot(&image);
         if square <= T::zero() {

@@ -40,6 +40,19 @@ impl<T: Real, const R: usize> Block<T, R> {
         }
     }
 
+    /// Becomes a sum of other blocks of one size, each times a factor.
+    pub(crate) fn set_combination(&mut self, factors: &[T], blocks: &[Self]) {
+        self.size = blocks.first().map_or(0, |first| first.size);
+        for i in 0..self.size {
+            for j in 0..self.size {
+                let terms = factors.iter().zip(blocks);
+                self.entries[i][j] = terms.fold(T::zero(), |sum, (factor, block)| {
+                    factor.mul_add(block.entries[i][j], sum)
+                });
+            }
+        }
+    }
+
     /// The smallest pivot of an elimination with complete pivoting: about the smallest
     /// singular value; one for an empty block. The elimination takes its place.
     ///
@@ -115,16 +128,21 @@ impl<T: Real, const R: usize> Block<T, R> {
             };
             there.swap(step, row, column);
             here.swap(step, row, column);
+            let size = here.size;
             let pivot = there.entries[step];
             let above = here.entries[step];
-            for later in step + 1..here.size {
+            for later in step + 1..size {
                 let share = -there.entries[later][step] / pivot[step];
-                add_scaled(&mut here.entries[later], share, &above);
-                add_scaled(&mut there.entries[later], share, &pivot);
+                if share == T::zero() {
+                    continue;
+                }
+                add_scaled(&mut here.entries[later][..size], share, &above[..size]);
+                add_scaled(&mut there.entries[later][..size], share, &pivot[..size]);
             }
-            for row in &mut here.entries[..here.size] {
-                for later in step + 1..here.size {
-                    row[later] -= row[step] * pivot[later] / pivot[step];
+            for row in &mut here.entries[..size] {
+                let share = row[step] / pivot[step];
+                for (entry, pivot) in row[step + 1..size].iter_mut().zip(&pivot[step + 1..]) {
+                    *entry -= share * *pivot;
                 }
                 if pivot[step] < T::zero() {
                     row[step] = -row[step];
@@ -189,7 +207,7 @@ impl<T: Real, const R: usize> Block<T, R> {
 
     fn swap(&mut self, step: usize, row: usize, column: usize) {
         self.entries.swap(step, row);
-        for entries in &mut self.entries {
+        for entries in &mut self.entries[..self.size] {
             entries.swap(step, column);
         }
     }
@@ -197,7 +215,8 @@ impl<T: Real, const R: usize> Block<T, R> {
     fn eliminate(&mut self, step: usize) {
         let pivot = self.entries[step];
         for row in &mut self.entries[step + 1..self.size] {
-            add_scaled(row, -row[step] / pivot[step], &pivot);
+            let share = -row[step] / pivot[step];
+            add_scaled(row, share, &pivot);
         }
     }
 }

@@ -23,6 +23,7 @@ use nalgebra::SMatrix;
 /// [`Cholesky::factorise`] takes the rows as they come. Of a semi-definite matrix with
 /// a tiny diagonal entry it divides round-off by that entry, and sees no pivot vanish.
 /// Here the largest pivot, relative to its diagonal entry, goes first.
+#[inline(never)]
 pub(crate) fn is_definite<T: Real, const N: usize>(matrix: &SMatrix<T, N, N>) -> bool {
     let mut rest = *matrix;
     let mut done = [false; N];
@@ -45,6 +46,9 @@ pub(crate) fn is_definite<T: Real, const N: usize>(matrix: &SMatrix<T, N, N>) ->
         done[next] = true;
         for j in (0..N).filter(|&j| !done[j]) {
             let share = rest[(next, j)] / pivot;
+            if is_skipped::<T, N>(share) {
+                continue;
+            }
             for i in (0..N).filter(|&i| !done[i]) {
                 let change = share * rest[(next, i)];
                 rest[(i, j)] -= change;

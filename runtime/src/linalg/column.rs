@@ -1,7 +1,10 @@
-//! What the factorisations do to columns, which nalgebra stores as arrays.
+//! What the factorisations do to columns.
 //!
-//! In:  arrays of one length.
-//! Out: products and norms, without bounds checks since the length is a type.
+//! In:  slices of one length.
+//! Out: products and norms.
+//!
+//! Slices, not arrays, so that what is not in a hurry is compiled once, whatever its
+//! length; where the length of a short one is known, the compiler makes use of it.
 
 use crate::Real;
 
@@ -9,15 +12,22 @@ use crate::Real;
 const LANES: usize = 8;
 
 /// `aᵀb`.
-#[inline(always)]
-pub(crate) fn dot<T: Real, const L: usize>(a: &[T; L], b: &[T; L]) -> T {
+#[inline]
+pub(crate) fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     let mut sum = T::zero();
-    if L < 2 * LANES {
-        for i in 0..L {
-            sum += a[i] * b[i];
+    if a.len() < 2 * LANES {
+        for (a, b) in a.iter().zip(b) {
+            sum += *a * *b;
         }
         return sum;
     }
+    long_dot(a, b)
+}
+
+/// The same for long columns.
+#[inline(never)]
+fn long_dot<T: Real>(a: &[T], b: &[T]) -> T {
+    let mut sum = T::zero();
     let mut sums = [T::zero(); LANES];
     let (a, a_rest) = a.as_chunks::<LANES>();
     let (b, b_rest) = b.as_chunks::<LANES>();
@@ -35,31 +45,59 @@ pub(crate) fn dot<T: Real, const L: usize>(a: &[T; L], b: &[T; L]) -> T {
     sum
 }
 
+/// Whether all entries are zero.
+#[inline(never)]
+pub(crate) fn is_zero<T: Real>(entries: &[T]) -> bool {
+    entries.iter().all(|entry| *entry == T::zero())
+}
+
+/// How many entries are above a bound.
+#[inline(never)]
+pub(crate) fn count_above<T: Real>(entries: &[T], least: T) -> usize {
+    entries.iter().filter(|entry| **entry > least).count()
+}
+
 /// `√(aᵀa)`.
-pub(crate) fn norm<T: Real, const L: usize>(a: &[T; L]) -> T {
+pub(crate) fn norm<T: Real>(a: &[T]) -> T {
     dot(a, a).sqrt()
 }
 
 /// `target += factor · column`.
-#[inline(always)]
-pub(crate) fn add_scaled<T: Real, const L: usize>(target: &mut [T; L], factor: T, column: &[T; L]) {
-    for i in 0..L {
-        target[i] = factor.mul_add(column[i], target[i]);
+#[inline]
+pub(crate) fn add_scaled<T: Real>(target: &mut [T], factor: T, column: &[T]) {
+    for (target, entry) in target.iter_mut().zip(column) {
+        *target = factor.mul_add(*entry, *target);
     }
+}
+
+/// Two of some columns of one length, to be changed.
+pub(super) fn pair<T>(columns: &mut [T], length: usize, i: usize, j: usize) -> [&mut [T]; 2] {
+    let (low, high) = (i.min(j), i.max(j));
+    let (before, rest) = columns.split_at_mut(high * length);
+    let low = &mut before[low * length..(low + 1) * length];
+    let high = &mut rest[..length];
+    if i < j { [low, high] } else { [high, low] }
+}
+
+/// A column by its entries. For the compiler this is a tenth of
+/// [`from_fn`](core::array::from_fn), which has to go back where an entry panics.
+#[inline(always)]
+pub(crate) fn column<E: Copy + Default, const L: usize>(
+    mut entry: impl FnMut(usize) -> E,
+) -> [E; L] {
+    let mut column = [E::default(); L];
+    for (i, place) in column.iter_mut().enumerate() {
+        *place = entry(i);
+    }
+    column
 }
 
 /// `factor · column`.
-#[inline(always)]
+#[inline]
 pub(crate) fn scaled<T: Real, const L: usize>(factor: T, column: &[T; L]) -> [T; L] {
-    column.map(|entry| factor * entry)
-}
-
-/// Turns two columns about each other: `(c a − s b, s a + c b)`.
-#[inline(always)]
-pub(super) fn turn<T: Real, const L: usize>(a: &mut [T; L], b: &mut [T; L], c: T, s: T) {
-    for i in 0..L {
-        let (x, y) = (a[i], b[i]);
-        a[i] = c * x - s * y;
-        b[i] = s * x + c * y;
+    let mut scaled = *column;
+    for entry in &mut scaled {
+        *entry = factor * *entry;
     }
+    scaled
 }

@@ -20,17 +20,25 @@ pub(crate) fn orthonormal<T: Real, const N: usize>(
         remove(axis);
         remove(axis);
     }
+    basis(axes, count)
+}
+
+/// An orthonormal basis, in the first columns, of what some vectors span.
+#[inline(never)]
+fn basis<T: Real, const N: usize>(mut vectors: SMatrix<T, N, N>, count: usize) -> SMatrix<T, N, N> {
     let mut chosen = [0; N];
-    let found = independent_rows(&mut axes, count, |_| false, T::zero(), &mut chosen);
-    let mut free = SMatrix::zeros();
-    for (column, &j) in free.data.0.iter_mut().zip(&chosen[..found]) {
-        let axis = &axes.data.0[j];
-        *column = scaled(T::one() / norm(axis), axis);
+    let first = |_| false;
+    let found = independent_rows(&mut vectors, count, &first, T::zero(), &mut chosen);
+    let mut basis = SMatrix::zeros();
+    for (column, &j) in basis.data.0.iter_mut().zip(&chosen[..found]) {
+        let vector = &vectors.data.0[j];
+        *column = scaled(T::one() / norm(vector), vector);
     }
-    free
+    basis
 }
 
 /// Subtracts from a vector its parts along orthonormal directions.
+#[inline(never)]
 pub(crate) fn remove<T: Real, const N: usize>(x: &mut [T; N], directions: &[[T; N]]) {
     for direction in directions {
         let share = dot(direction, x);

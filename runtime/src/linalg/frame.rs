@@ -93,13 +93,14 @@ impl<T: Real, const N: usize, const R: usize> Frame<T, N, R> {
             self.take(step, row, column)?;
         }
         let mut late = [(0, 0); R];
-        let rows = &other.rows[other.independent..];
-        for (place, row) in late.iter_mut().zip(rows) {
-            place.0 = *row;
+        let mut waiting = 0;
+        for row in 0..N {
+            if other.rows[other.independent..].contains(&row) {
+                late[waiting] = (row, 0);
+                waiting += 1;
+            }
         }
-        let late = &mut late[..rows.len()];
-        late.sort_unstable();
-        self.take_late(late)
+        self.take_late(&late[..waiting])
     }
 
     /// Subtracts from a row what makes its entries in some pivot columns vanish.
@@ -168,6 +169,7 @@ impl<T: Real, const N: usize, const R: usize> Frame<T, N, R> {
     }
 
     /// Eliminates the near-dependent rows, the largest entry first.
+    #[inline(never)]
     fn eliminate_late(&mut self) -> Result<(), NotRegular> {
         let mut peaks = [(0, T::zero()); N];
         for &row in &self.rows[self.independent..] {
@@ -284,16 +286,6 @@ impl<T: Real, const N: usize, const R: usize> Frame<T, N, R> {
             x[column] = (y[step] - dot(upper, &x)) / upper[column];
         }
         x
-    }
-
-    /// The vector along which the last of the near-dependent rows alone changes, by its
-    /// pivot.
-    pub(crate) fn weakest_direction(&self) -> [T; N] {
-        let mut y = [T::zero(); N];
-        if let Some(last) = y.last_mut() {
-            *last = self.smallest;
-        }
-        self.backward(&y)
     }
 
     fn forward(&self, right: &[T; N], steps: usize) -> [T; N] {

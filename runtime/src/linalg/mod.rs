@@ -6,6 +6,8 @@
 //!      Nothing allocates, panics or runs without a bound; what is not finite is
 //!      reported.
 //!
+//! What is not in a hurry works on slices inside, so that it exists once in a crate.
+//!
 //! Not here: mechanics, and tolerances ([`crate::tolerance`]). No routine knows what its
 //! matrix stands for.
 
@@ -18,6 +20,7 @@ mod elimination;
 mod frame;
 mod gram;
 mod jacobi;
+mod products;
 mod subset;
 mod symmetric;
 #[cfg(test)]
@@ -25,14 +28,15 @@ mod tests;
 mod triangle;
 
 pub(crate) use along::project_onto;
-pub(crate) use block::{Block, largest_of};
+pub(crate) use block::Block;
 pub(crate) use cholesky::{Cholesky, NotDefinite, is_definite};
-pub(crate) use column::{add_scaled, dot, norm, scaled};
+pub(crate) use column::{add_scaled, column, count_above, dot, is_zero, norm, scaled};
 pub(crate) use complement::{orthonormal, remove};
 pub(crate) use elimination::Elimination;
 pub(crate) use frame::Frame;
 pub(crate) use gram::Gram;
 pub(crate) use jacobi::{Breakdown, orthogonalise};
+pub(crate) use products::Products;
 pub(crate) use subset::independent_rows;
 pub(crate) use symmetric::eigen;
 pub(crate) use triangle::Triangle;

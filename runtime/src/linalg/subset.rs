@@ -5,6 +5,7 @@
 //!
 //! Not here: how many are independent. That needs singular values.
 
+use super::column::pair;
 use super::{add_scaled, dot};
 use crate::Real;
 use nalgebra::SMatrix;
@@ -18,48 +19,61 @@ use nalgebra::SMatrix;
 pub(crate) fn independent_rows<T: Real, const N: usize, const R: usize>(
     vectors: &mut SMatrix<T, N, R>,
     count: usize,
-    first: impl Fn(usize) -> bool,
+    first: &dyn Fn(usize) -> bool,
     threshold: T,
     chosen: &mut [usize; R],
 ) -> usize {
-    let x = &mut vectors.data.0;
-    let mut found = 0;
-    while found < count.min(R) {
-        let free = |i: &usize| !chosen[..found].contains(i);
-        let distance = |i: usize| dot(&x[i], &x[i]);
-        let farthest = |best: Option<usize>, i: usize| match best {
-            Some(b) if distance(b) >= distance(i) => Some(b),
-            _ => Some(i),
+    let chosen = &mut chosen[..count.min(R)];
+    choose(vectors.as_mut_slice(), N, first, threshold, chosen)
+}
+
+/// The same among columns of length `n`, as many as there is room for.
+fn choose<T: Real>(
+    x: &mut [T],
+    n: usize,
+    first: &dyn Fn(usize) -> bool,
+    threshold: T,
+    chosen: &mut [usize],
+) -> usize {
+    let least = threshold * threshold;
+    for found in 0..chosen.len() {
+        // The index of the farthest, whether it comes first, and how far it is.
+        let mut best = None;
+        for (i, column) in x.chunks_exact(n).enumerate() {
+            if chosen[..found].contains(&i) {
+                continue;
+            }
+            let size = dot(column, column);
+            let farther = (first(i) && size > least, size);
+            let stays = |(_, known): (usize, (bool, T))| match known.0 == farther.0 {
+                true => known.1 >= farther.1,
+                false => known.0,
+            };
+            if !best.is_some_and(stays) {
+                best = Some((i, farther));
+            }
+        }
+        let Some((next, (_, size))) = best else {
+            return found;
         };
-        let next = (0..R)
-            .filter(free)
-            .filter(|&i| first(i) && distance(i) > threshold * threshold)
-            .fold(None, farthest)
-            .or_else(|| (0..R).filter(free).fold(None, farthest));
-        let Some(next) = next else { break };
-        let size = distance(next);
-        let enough = size > threshold * threshold;
+        // False for NaN, too.
+        let enough = size > least;
         if !enough {
-            break;
+            return found;
         }
         chosen[found] = next;
-        found += 1;
-        remove_direction(x, next, size);
+        remove_direction(x, n, next, size);
     }
-    found
+    chosen.len()
 }
 
 /// Subtracts from every column its part along column `pivot`, which is kept.
-fn remove_direction<T: Real, const N: usize, const R: usize>(
-    x: &mut [[T; N]; R],
-    pivot: usize,
-    size: T,
-) {
-    let direction = x[pivot];
-    for (i, column) in x.iter_mut().enumerate() {
+fn remove_direction<T: Real>(x: &mut [T], n: usize, pivot: usize, size: T) {
+    for i in 0..x.len() / n {
         if i != pivot {
-            let share = dot(&direction, column) / size;
-            add_scaled(column, -share, &direction);
+            let [column, direction] = pair(x, n, i, pivot);
+            let share = dot(direction, column) / size;
+            add_scaled(column, -share, direction);
         }
     }
 }

@@ -115,7 +115,7 @@ fn check_rotations<const K: usize, const N: usize>(matrix: SMatrix<f64, K, N>) -
             assert!(gram[(i, j)].abs() <= 1e-14 * largest, "columns {i}, {j}");
         }
     }
-    images.data.0.iter().map(norm).collect()
+    images.data.0.iter().map(|column| norm(column)).collect()
 }
 
 #[test]
@@ -181,7 +181,7 @@ fn independent_rows_span_what_all_span() {
     let half: SMatrix<f64, 5, 3> = random.matrix();
     let mix: SMatrix<f64, 3, 6> = random.matrix();
     let mut chosen = [0; 6];
-    let found = independent_rows(&mut (half * mix), 6, |row| row == 4, 1e-9, &mut chosen);
+    let found = independent_rows(&mut (half * mix), 6, &|row| row == 4, 1e-9, &mut chosen);
     assert_eq!(found, 3);
     assert_eq!(chosen[0], 4, "the row that was to come first did not");
     let mut distinct = chosen[..3].to_vec();

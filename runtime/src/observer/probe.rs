@@ -4,6 +4,7 @@
 //! Out: energies, constraint errors, rank, reactions.
 
 use crate::dynamics::ConstrainedSystem;
+use crate::linalg::is_zero;
 use crate::{
     ConstraintError, DynamicsError, Energy, Interface, Mechanism, Position, Rank, Real, State,
     Structure,
@@ -93,7 +94,7 @@ where
         let supplied = self.mechanism().energy(state).power;
         let mut position = Position::<T, N, R>::default();
         self.mechanism().position(state, &mut position);
-        if position.drift.iter().all(|b| *b == T::zero()) {
+        if is_zero(position.drift.as_slice()) {
             // Constraints at rest do no work.
             return Ok(supplied);
         }

@@ -4,6 +4,7 @@
 //! Out: calls of a function, at exact multiples of the interval.
 
 use super::{Observer, Probe};
+use crate::number::Number;
 use crate::{DynamicsError, Real, State, Step};
 use core::fmt::{Display, Formatter};
 use core::ops::ControlFlow;
@@ -24,7 +25,7 @@ impl<T: Real> Display for BadInterval<T> {
         write!(
             f,
             "the interval between rows must be a positive number of seconds, not {}",
-            self.0
+            Number(&self.0)
         )
     }
 }

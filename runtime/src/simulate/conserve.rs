@@ -67,6 +67,7 @@ where
     }
 
     /// Keeps the energy of a state from now on, or a given one.
+    #[inline(never)]
     pub(super) fn keep(
         &mut self,
         state: &State<T, N>,
@@ -78,6 +79,7 @@ where
     }
 
     /// Makes the velocity longer or shorter until the energy is right.
+    #[inline(never)]
     fn restore(&self, state: &mut State<T, N>, energy: T) -> Result<(), DynamicsError<T>> {
         let mechanism = self.system.mechanism();
         let rest = State {

@@ -5,11 +5,8 @@
 
 use super::SimulateError;
 use super::options::StepControl;
-use crate::integrator::Inside;
-use crate::{
-    Dop853, Dp5, IntegrateError, Integrator, Method, Radau5, Radau9, Real, Rk4, State, Step,
-    System, Tolerance,
-};
+use crate::integrator::{Controlled, Explicit, Inside, Radau, dop853, dp5, radau5, radau9};
+use crate::{IntegrateError, Integrator, Method, Real, Rk4, State, Step, System, Tolerance};
 
 /// The chosen method, whichever it is.
 #[derive(Clone, Debug)]
@@ -22,10 +19,8 @@ pub(super) struct Driver<T, const N: usize> {
 #[derive(Clone, Debug)]
 enum AnyMethod<T, const N: usize> {
     Rk4(Rk4<T, N>),
-    Dp5(Dp5<T, N>),
-    Dop853(Dop853<T, N>),
-    Radau5(Radau5<T, N>),
-    Radau9(Radau9<T, N>),
+    Explicit(Controlled<Explicit<T, N>, T, N>),
+    Radau(Controlled<Radau<T, N>, T, N>),
 }
 
 impl<T: Real, const N: usize> Driver<T, N> {
@@ -40,17 +35,15 @@ impl<T: Real, const N: usize> Driver<T, N> {
                 Some(Tolerance::uniform(relative, absolute)?)
             }
         };
-        let method = match (method, tolerance) {
-            (Method::Rk4, None) => AnyMethod::Rk4(Rk4::new()),
-            (Method::Rk4, Some(_)) => return Err(SimulateError::NoErrorEstimate { method }),
-            (Method::Dp5, None) => AnyMethod::Dp5(Dp5::fixed()),
-            (Method::Dp5, Some(tolerance)) => AnyMethod::Dp5(Dp5::adaptive(tolerance)),
-            (Method::Dop853, None) => AnyMethod::Dop853(Dop853::fixed()),
-            (Method::Dop853, Some(tolerance)) => AnyMethod::Dop853(Dop853::adaptive(tolerance)),
-            (Method::Radau5, None) => AnyMethod::Radau5(Radau5::fixed()),
-            (Method::Radau5, Some(tolerance)) => AnyMethod::Radau5(Radau5::adaptive(tolerance)),
-            (Method::Radau9, None) => AnyMethod::Radau9(Radau9::fixed()),
-            (Method::Radau9, Some(tolerance)) => AnyMethod::Radau9(Radau9::adaptive(tolerance)),
+        let method = match method {
+            Method::Rk4 if tolerance.is_some() => {
+                return Err(SimulateError::NoErrorEstimate { method });
+            }
+            Method::Rk4 => AnyMethod::Rk4(Rk4::new()),
+            Method::Dp5 => AnyMethod::Explicit(dp5(tolerance)),
+            Method::Dop853 => AnyMethod::Explicit(dop853(tolerance)),
+            Method::Radau5 => AnyMethod::Radau(radau5(tolerance)),
+            Method::Radau9 => AnyMethod::Radau(radau9(tolerance)),
         };
         let tolerance = match step_control {
             StepControl::Fixed { .. } => None,
@@ -68,10 +61,8 @@ impl<T: Real, const N: usize> Driver<T, N> {
     pub(super) fn keep(&mut self, inside: Inside) {
         match &mut self.method {
             AnyMethod::Rk4(method) => method.keep(inside),
-            AnyMethod::Dp5(method) => method.keep(inside),
-            AnyMethod::Dop853(method) => method.keep(inside),
-            AnyMethod::Radau5(method) => method.keep(inside),
-            AnyMethod::Radau9(method) => method.keep(inside),
+            AnyMethod::Explicit(method) => method.keep(inside),
+            AnyMethod::Radau(method) => method.keep(inside),
         }
     }
 
@@ -79,10 +70,8 @@ impl<T: Real, const N: usize> Driver<T, N> {
     pub(super) fn forget(&mut self) {
         match &mut self.method {
             AnyMethod::Rk4(method) => method.forget(),
-            AnyMethod::Dp5(method) => method.forget(),
-            AnyMethod::Dop853(method) => method.forget(),
-            AnyMethod::Radau5(method) => method.forget(),
-            AnyMethod::Radau9(method) => method.forget(),
+            AnyMethod::Explicit(method) => method.forget(),
+            AnyMethod::Radau(method) => method.forget(),
         }
     }
 }
@@ -96,10 +85,8 @@ impl<T: Real, const N: usize> Integrator<T, N> for Driver<T, N> {
     ) -> Result<&Step<T, N>, IntegrateError<T>> {
         match &mut self.method {
             AnyMethod::Rk4(method) => method.step(system, state, bound),
-            AnyMethod::Dp5(method) => method.step(system, state, bound),
-            AnyMethod::Dop853(method) => method.step(system, state, bound),
-            AnyMethod::Radau5(method) => method.step(system, state, bound),
-            AnyMethod::Radau9(method) => method.step(system, state, bound),
+            AnyMethod::Explicit(method) => method.step(system, state, bound),
+            AnyMethod::Radau(method) => method.step(system, state, bound),
         }
     }
 }

@@ -79,13 +79,11 @@ impl<T: Real> Display for SimulateError<T> {
         match self {
             Self::Integrate(error) => error.fmt(f),
             Self::Observe(error) => error.fmt(f),
-            Self::StepNotPositive { step } => {
-                write!(
-                    f,
-                    "the step must be a positive number of seconds, not {step}",
-                    step = Number(step)
-                )
-            }
+            Self::StepNotPositive { step } => write!(
+                f,
+                "the step must be a positive number of seconds, not {step}",
+                step = Number(step)
+            ),
             Self::StepLost { step, smallest } => write!(
                 f,
                 "a step of {step} s is lost in the round-off of time; the smallest that could be \
@@ -107,11 +105,14 @@ impl<T: Real> Display for SimulateError<T> {
             ),
             Self::StartNotFinite { t } => {
                 let t = Number(t);
-                write!(f, "the initial state at t = {t} s is infinite or NaN")
+                write!(
+                    f,
+                    "the initial state at t = {t} s is infinite or NaN; check what it was made from"
+                )
             }
             Self::NotConservative => f.write_str(
                 "the energy can't be kept: the mechanism has dissipation, applied forces, inputs \
-                 or explicit time",
+                 or explicit time; run it without keeping the energy",
             ),
             Self::TooManySteps { t, steps } => write!(
                 f,
@@ -125,12 +126,10 @@ impl<T: Real> Display for SimulateError<T> {
                  grant more, or take a shorter step",
                 t = Number(t)
             ),
-            Self::TooManyEvents { events, room } => {
-                write!(
-                    f,
-                    "the mechanism has {events} events, and there is room for {room}"
-                )
-            }
+            Self::TooManyEvents { events, room } => write!(
+                f,
+                "the mechanism has {events} events, and there is room for {room}; leave some out"
+            ),
         }
     }
 }

@@ -11,6 +11,7 @@
 
 use super::SimulateError;
 use crate::crossing::{Left, NODES, Samples, first_crossing, nodes, zero};
+use crate::linalg::column;
 use crate::{
     Direction, DynamicsError, Event, Interface, Occurrence, Probe, Real, State, Step, Watched,
 };
@@ -70,7 +71,7 @@ impl<T: Real> Events<T> {
         let values = evaluate(mechanism, events, state).map_err(SimulateError::Observe)?;
         Ok(Self {
             events,
-            sides: values.map(T::sign),
+            sides: column(|index| values[index].sign()),
             next: [None; ROOM],
         })
     }
@@ -80,6 +81,7 @@ impl<T: Real> Events<T> {
     }
 
     /// Looks for the first occurrence of each event in a step.
+    #[inline(never)]
     pub(super) fn look<I, const N: usize>(
         &mut self,
         mechanism: &I,
@@ -93,8 +95,9 @@ impl<T: Real> Events<T> {
         for (values, t) in sampled.iter_mut().zip(times) {
             *values = evaluate(mechanism, self.events, &step.at(t))?;
         }
+        let values_of = |index: usize| column(|node| sampled[node][index]);
         for index in 0..self.events.len() {
-            let values = sampled.map(|values| values[index]);
+            let values = values_of(index);
             let samples = Samples { times, values };
             self.next[index] = self.search(mechanism, step, index, samples)?;
         }
@@ -102,6 +105,7 @@ impl<T: Real> Events<T> {
     }
 
     /// The next occurrence of the step that was looked at, the earliest first.
+    #[inline(never)]
     pub(super) fn next<I, const N: usize>(
         &mut self,
         mechanism: &I,
@@ -140,6 +144,7 @@ impl<T: Real> Events<T> {
     }
 
     /// Where an event happens first within what was sampled of a step.
+    #[inline(never)]
     fn search<I, const N: usize>(
         &mut self,
         mechanism: &I,
@@ -186,6 +191,7 @@ impl<T: Real> Events<T> {
 
     /// The time of an occurrence on states that are back on the constraints, if the
     /// function changes its sign there, too.
+    #[inline(never)]
     fn polished<I, const N: usize>(
         &self,
         mechanism: &I,
@@ -224,6 +230,7 @@ fn rest<T: Real>(
 
 /// The event functions at a state, where all have a value. One that is infinite has a sign,
 /// one that is not a number would never change it.
+#[inline(never)]
 fn evaluate<T, I, const N: usize>(
     mechanism: &I,
     events: &[Event],

@@ -26,9 +26,10 @@ use driver::Driver;
 use grid::Grid;
 use watch::Watchers;
 
+use crate::dynamics::Core;
+use crate::stack::with_room;
 use crate::{
-    ConstrainedSystem, IntegrateError, Integrator, Interface, Mechanism, Observer, Real, Solver,
-    State,
+    ConstrainedSystem, IntegrateError, Integrator, Interface, Mechanism, Observer, Real, State,
 };
 use core::ops::ControlFlow;
 
@@ -55,25 +56,27 @@ where
     T: Real,
     M: Mechanism<T, N, R> + Interface<T, N> + ?Sized,
 {
-    let mut solver = Solver::new(options.settings);
-    let mut inquiry = Solver::new(options.settings);
-    let mut watchers = Watchers::new(options, R, observers);
-    let mut done = Summary::at(*start);
-    let mut run = Run {
-        mechanism,
-        options,
-        system: Conserving::new(solver.on(mechanism)),
-        probe: inquiry.on(mechanism),
-        watchers: &mut watchers,
-        done: &mut done,
-    };
-    let result = run.all();
-    done.counters = solver.counters();
-    let summary = watchers.report(done);
-    match result {
-        Ok(()) => Ok(summary),
-        Err(error) => Err(Failure { error, summary }),
-    }
+    with_room::<T, _, N, R>(|| {
+        let mut solver = Core::new(options.settings);
+        let mut inquiry = Core::new(options.settings);
+        let mut watchers = Watchers::new(options, R, observers);
+        let mut done = Summary::at(*start);
+        let mut run = Run {
+            mechanism,
+            options,
+            system: Conserving::new(solver.on(mechanism)),
+            probe: inquiry.on(mechanism),
+            watchers: &mut watchers,
+            done: &mut done,
+        };
+        let result = run.all();
+        done.counters = solver.counters();
+        let summary = watchers.report(done);
+        match result {
+            Ok(()) => Ok(summary),
+            Err(error) => Err(Failure { error, summary }),
+        }
+    })
 }
 
 /// A run in progress.
@@ -93,6 +96,7 @@ where
     M: Mechanism<T, N, R> + Interface<T, N> + ?Sized,
 {
     /// From the start to the end.
+    #[inline(never)]
     fn all(&mut self) -> Result<(), SimulateError<T>> {
         let Options {
             until,
@@ -105,10 +109,10 @@ where
         if !state.is_finite() {
             return Err(SimulateError::StartNotFinite { t: state.t });
         }
+        let mut driver = Driver::new(method, step_control)?;
         let begun = origin.map_or(state.t, |origin| origin.t);
         let grid = Grid::new(begun, until, step_control)?;
         let first = grid.first_after(state.t);
-        let mut driver = Driver::new(method, step_control)?;
         self.system
             .start(&mut state, driver.tolerance())
             .map_err(IntegrateError::Dynamics)?;
@@ -149,6 +153,7 @@ where
     }
 
     /// One step, shown to everyone who watches.
+    #[inline(never)]
     fn step(
         &mut self,
         driver: &mut Driver<T, N>,

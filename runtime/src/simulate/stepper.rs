@@ -10,17 +10,35 @@ use super::metered::Metered;
 use super::options::StepControl;
 use super::{Grid, SimulateError};
 use crate::integrator::Inside;
+use crate::stack::{Held, held, with_room};
 use crate::{Counters, Integrator, Mechanism, Method, Real, Settings, Solver, State, System};
 
 /// Makes steps on demand and does not hold the mechanism in between, so that a
 /// program can set its inputs.
 ///
-/// Nothing is allocated, ever.
-#[derive(Clone, Debug)]
+/// What it needs is taken when it is made, and nothing after that.
+#[derive(Debug)]
 pub struct Stepper<T, const N: usize, const R: usize> {
     solver: Solver<T, N, R>,
-    driver: Driver<T, N>,
+    driver: Held<Driver<T, N>>,
     step_control: StepControl<T>,
+}
+
+impl<T: Clone, const N: usize, const R: usize> Clone for Stepper<T, N, R> {
+    fn clone(&self) -> Self {
+        with_room::<T, _, N, R>(|| Self {
+            solver: self.solver.clone(),
+            driver: self.driver.clone(),
+            step_control: self.step_control.clone(),
+        })
+    }
+
+    /// Without allocating.
+    fn clone_from(&mut self, other: &Self) {
+        self.solver.clone_from(&other.solver);
+        with_room::<T, _, N, R>(|| self.driver.clone_from(&other.driver));
+        self.step_control.clone_from(&other.step_control);
+    }
 }
 
 impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
@@ -36,12 +54,36 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
         step_control: StepControl<T>,
         settings: Settings<T>,
     ) -> Result<Self, SimulateError<T>> {
-        let mut driver = Driver::new(method, step_control)?;
-        driver.keep(Inside::Nothing);
-        Ok(Self {
-            solver: Solver::new(settings),
-            driver,
-            step_control,
+        with_room::<T, _, N, R>(|| {
+            let mut driver = Driver::new(method, step_control)?;
+            driver.keep(Inside::Nothing);
+            Ok(Self {
+                solver: Solver::new(settings),
+                driver: held(driver),
+                step_control,
+            })
+        })
+    }
+
+    /// Becomes a stepper that has made no step yet, in the memory that it has.
+    ///
+    /// # Errors
+    ///
+    /// As [`new`](Self::new); nothing is changed then.
+    pub fn renew(
+        &mut self,
+        method: Method,
+        step_control: StepControl<T>,
+        settings: Settings<T>,
+    ) -> Result<(), SimulateError<T>> {
+        with_room::<T, _, N, R>(|| {
+            let mut fresh = Driver::new(method, step_control)?;
+            fresh.keep(Inside::Nothing);
+            let driver: &mut Driver<T, N> = &mut self.driver;
+            *driver = fresh;
+            self.solver.renew(settings);
+            self.step_control = step_control;
+            Ok(())
         })
     }
 
@@ -65,10 +107,13 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
         self.driver.forget();
         self.solver.expect_error(self.driver.tolerance());
         let mut system = self.solver.on(mechanism);
-        for i in 1..grid.intervals() {
-            go(&mut self.driver, &mut system, state, grid.time(i))?;
-        }
-        go(&mut self.driver, &mut system, state, until)
+        let driver: &mut Driver<T, N> = &mut self.driver;
+        with_room::<T, _, N, R>(|| {
+            for i in 1..grid.intervals() {
+                go(driver, &mut system, state, grid.time(i))?;
+            }
+            go(driver, &mut system, state, until)
+        })
     }
 
     /// The same within a deadline: moves `state` on by `span` seconds with at most `most`

@@ -42,6 +42,7 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
     }
 
     /// Shows everyone the initial state.
+    #[inline(never)]
     pub(super) fn begin<I: Interface<T, N> + ?Sized>(
         &mut self,
         interface: &I,
@@ -50,14 +51,21 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
     ) -> Result<ControlFlow<()>, SimulateError<T>> {
         self.events = Events::new(interface, probe.structure().events, state)?;
         let mut flow = ControlFlow::Continue(());
-        for watcher in self.all() {
-            if watcher
-                .begin(state, probe)
-                .map_err(SimulateError::Observe)?
-                .is_break()
-            {
+        let mut show = |watcher: &mut dyn Observer<T, N>| {
+            if watcher.begin(state, probe)?.is_break() {
                 flow = ControlFlow::Break(());
             }
+            Ok(())
+        };
+        let observe = SimulateError::Observe;
+        if let Some(audit) = &mut self.constraints {
+            show(audit).map_err(observe)?;
+        }
+        if let Some(audit) = &mut self.energy {
+            show(audit).map_err(observe)?;
+        }
+        for observer in self.observers.iter_mut() {
+            show(*observer).map_err(observe)?;
         }
         Ok(flow)
     }
@@ -67,20 +75,6 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
         if let Some(audit) = &mut self.energy {
             audit.go_on(origin.energy, origin.supplied);
         }
-    }
-
-    /// Audits first, then the observers.
-    fn all(&mut self) -> impl Iterator<Item = &mut dyn Observer<T, N>> {
-        let constraints = self
-            .constraints
-            .iter_mut()
-            .map(|x| x as &mut dyn Observer<T, N>);
-        let energy = self.energy.iter_mut().map(|x| x as &mut dyn Observer<T, N>);
-        let others = self
-            .observers
-            .iter_mut()
-            .map(|x| &mut **x as &mut dyn Observer<T, N>);
-        constraints.chain(energy).chain(others)
     }
 
     /// What must be kept of the inside of steps.
@@ -105,6 +99,7 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
     }
 
     /// Shows everyone a step; `done.end` becomes its end.
+    #[inline(never)]
     pub(super) fn show<I: Interface<T, N> + ?Sized>(
         &mut self,
         interface: &I,
@@ -153,6 +148,7 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
 
     /// Locates the events of a step; the step up to the event at which an
     /// observer broke off, if one did.
+    #[inline(never)]
     fn occurrences<I: Interface<T, N> + ?Sized>(
         &mut self,
         interface: &I,
@@ -181,6 +177,7 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
     }
 
     /// Adds what the audits found.
+    #[inline(never)]
     pub(super) fn report(&self, done: Summary<T, N>) -> Summary<T, N> {
         Summary {
             passages: self.passages,

@@ -10,7 +10,7 @@
 //! step: it changes at accepted states only.
 
 use crate::dynamics::{Metric, Rows, Which};
-use crate::linalg::{add_scaled, dot, norm, scaled};
+use crate::linalg::{add_scaled, column, dot, norm, scaled};
 use crate::{Real, State};
 use nalgebra::{SMatrix, SVector};
 
@@ -47,6 +47,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
     /// A chart at a state from vectors that span the tangent space there; `None` if they
     /// are dependent. Vectors are made orthonormal one after the other, so that the
     /// orientation of charts is carried along.
+    #[inline(never)]
     pub(crate) fn new(
         base: &State<T, N>,
         mut tangent: SMatrix<T, N, N>,
@@ -90,8 +91,8 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             drift: SVector::zeros(),
             speed: T::zero(),
             rows: list,
-            row_scale: core::array::from_fn(|row| rows.scale(row)),
-            column_scale: core::array::from_fn(|j| T::one() / metric.factor.diagonal(j).sqrt()),
+            row_scale: column(|row| rows.scale(row)),
+            column_scale: column(|j| T::one() / metric.factor.diagonal(j).sqrt()),
             reach,
             spacing: T::zero(),
             accepted,

@@ -10,7 +10,7 @@
 use super::kept::SIDE;
 use super::obstacle::Obstacle;
 use super::sheet::Sheet;
-use crate::linalg::{Block, Frame, largest_of, norm};
+use crate::linalg::{Block, Frame, add_scaled, column, norm};
 use crate::tolerance::{difference, hull, spacing, window};
 use crate::{Mechanism, Real, State};
 use nalgebra::SVector;
@@ -18,8 +18,9 @@ use nalgebra::SVector;
 /// Directions that are tried where several loops are nearly singular at once.
 const TRIALS: usize = 64;
 
-/// Spacings by which a direction is judged, each half the one before.
-const LEVELS: usize = 5;
+/// Coordinates of the chart, time among them, up to which the change of the block along
+/// each is kept: what it is along any direction then follows.
+const FEW: usize = 4;
 
 /// Share of the coordinates in a direction, below which nothing but time moves along it.
 const STILL: f64 = 1e-3;
@@ -71,14 +72,43 @@ where
         let mut best = None;
         if like.block().size == 1 {
             let steepest = self.steepest(state, like, dimension, clock)?;
-            self.consider(state, like, &steepest, clock, &mut best)?;
+            let direction = self.line(&steepest, clock);
+            let change = self.change(state, like, &direction)?;
+            self.consider(like.block(), direction, &change, &mut best);
         } else {
-            for trial in 0..if dimension > 1 { TRIALS } else { 1 } {
-                let direction = spread_evenly(trial, dimension);
-                self.consider(state, like, &direction, clock, &mut best)?;
-            }
+            self.try_directions(state, like, (dimension, clock), &mut best)?;
         }
         best.map(|best| best.direction).ok_or(Obstacle::Unresolved)
+    }
+
+    /// Judges directions that are spread evenly.
+    #[inline(never)]
+    fn try_directions(
+        &mut self,
+        state: &State<T, N>,
+        like: &Frame<T, N, R>,
+        (dimension, clock): (usize, Option<T>),
+        best: &mut Option<Best<T, N>>,
+    ) -> Result<(), Obstacle> {
+        let mut kept: [Block<T, R>; FEW] = core::array::from_fn(|_| Block::zeros(0));
+        if dimension <= FEW {
+            for (i, kept) in kept[..dimension].iter_mut().enumerate() {
+                let coordinate = self.line(&column(|k| unit(k == i)), clock);
+                *kept = self.change(state, like, &coordinate)?;
+            }
+        }
+        let mut change = Block::zeros(0);
+        for trial in 0..if dimension > 1 { TRIALS } else { 1 } {
+            let shares = spread_evenly(trial, dimension);
+            let direction = self.line(&shares, clock);
+            if dimension <= FEW {
+                change.set_combination(&shares, &kept[..dimension]);
+            } else {
+                change = self.change(state, like, &direction)?;
+            }
+            self.consider(like.block(), direction, &change, best);
+        }
+        Ok(())
     }
 
     /// The time (s) in which the sheet moves by one unit of length when it is fastest;
@@ -91,18 +121,15 @@ where
     /// A line along some coordinates of the chart, of which time may be the last.
     fn line(&self, shares: &[T; N], clock: Option<T>) -> Direction<T, N> {
         let mut q: SVector<T, N> = SVector::zeros();
-        for (share, column) in shares
-            .iter()
-            .zip(self.chart.tangent.column_iter())
-            .take(self.chart.freedoms)
-        {
-            q.axpy(*share, &column, T::one());
+        let columns = shares.iter().zip(&self.chart.tangent.data.0);
+        for (share, column) in columns.take(self.chart.freedoms) {
+            add_scaled(q.as_mut_slice(), *share, column);
         }
         let t = match (clock, shares.get(self.chart.freedoms)) {
             (Some(unit), Some(share)) => unit * *share,
             _ => T::zero(),
         };
-        q.axpy(t, &self.chart.drift, T::one());
+        add_scaled(q.as_mut_slice(), t, self.chart.drift.as_slice());
         let others = &shares[..self.chart.freedoms.min(N)];
         Direction {
             q,
@@ -115,53 +142,41 @@ where
 
     /// The direction of the first coordinate of the chart.
     pub(super) fn along_chart(&self) -> Direction<T, N> {
-        let mut shares = [T::zero(); N];
-        if let Some(first) = shares.first_mut() {
-            *first = T::one();
-        }
-        self.line(&shares, None)
+        self.line(&column(|k| unit(k == 0)), None)
     }
 
-    /// Judges a direction: how fast the block's singular values change, and whether they
-    /// pass zero near one place.
+    /// Judges a direction along which the block changes: how fast its singular values do,
+    /// and whether they pass zero near one place.
     fn consider(
-        &mut self,
-        state: &State<T, N>,
-        like: &Frame<T, N, R>,
-        shares: &[T; N],
-        clock: Option<T>,
+        &self,
+        here: &Block<T, R>,
+        mut direction: Direction<T, N>,
+        change: &Block<T, R>,
         best: &mut Option<Best<T, N>>,
-    ) -> Result<(), Obstacle> {
-        let mut direction = self.line(shares, clock);
-        let here = like.block();
-        let change = self.change(state, like, &direction)?;
+    ) {
         // Where the block is diagonal, its last entries are those that nearly vanish, and
         // the others are those of rows that only might have.
         let (slopes, values) = change.in_bases_of(here);
         let values = &values[..here.size];
         let weak = values.iter().filter(|value| **value < window()).count();
-        let meets = |count: usize| meeting(&slopes.last(count), &values[here.size - count..]);
-        // A row beside the singular ones may not change at all.
-        let Some((centre, rate)) = meets(weak.max(1)).or_else(|| meets(1)) else {
-            return Ok(());
+        let weak = weak.max(1);
+        let met = meeting(&slopes.last(weak), &values[here.size - weak..]);
+        let Some((centre, rate)) = met else {
+            return;
         };
         (direction.centre, direction.rate) = (centre, rate);
-        let mut step = spacing::<T>() * self.chart.reach.min(T::one() / rate);
-        for _ in 0..LEVELS {
-            if centre.abs() > step * hull() {
-                break;
-            }
+        let step = spacing::<T>() * self.chart.reach.min(T::one() / rate);
+        if centre.abs() <= step * hull(SIDE) {
             let least = best.as_ref().map(|best| best.score);
-            let score = clearance_of(here, &change, (centre, step), least);
+            let score = clearance_of(here, change, (centre, step), least);
             if least.is_none_or(|least| score > least) {
                 *best = Some(Best { direction, score });
             }
-            step *= T::from_f64(0.5);
         }
-        Ok(())
     }
 
     /// The direction in which the one entry of the block changes fastest.
+    #[inline(never)]
     fn steepest(
         &mut self,
         state: &State<T, N>,
@@ -170,17 +185,15 @@ where
         clock: Option<T>,
     ) -> Result<[T; N], Obstacle> {
         let mut gradient = [T::zero(); N];
-        for i in 0..dimension {
-            let mut shares = [T::zero(); N];
-            shares[i] = T::one();
-            let direction = self.line(&shares, clock);
-            gradient[i] = self.change(state, like, &direction)?.entries[0][0];
+        for (i, entry) in gradient.iter_mut().enumerate().take(dimension) {
+            let direction = self.line(&column(|k| unit(k == i)), clock);
+            *entry = self.change(state, like, &direction)?.entries[0][0];
         }
         let size = norm(&gradient);
         // False for NaN, too.
         let changes = size > T::zero();
         match changes {
-            true => Ok(gradient.map(|entry| entry / size)),
+            true => Ok(column(|i| gradient[i] / size)),
             false => Err(Obstacle::Unresolved),
         }
     }
@@ -202,6 +215,7 @@ where
 
 /// Where the nearest of some singular values passes zero, and how fast the slowest of them
 /// changes, to first order; none if one of them stays what it is.
+#[inline(never)]
 fn meeting<T: Real, const R: usize>(slopes: &Block<T, R>, values: &[T]) -> Option<(T, T)> {
     let mut nearest = T::from_f64(f64::INFINITY);
     for (i, value) in values.iter().enumerate() {
@@ -212,10 +226,11 @@ fn meeting<T: Real, const R: usize>(slopes: &Block<T, R>, values: &[T]) -> Optio
         }
     }
     let rate = slopes.clone().smallest();
-    let largest = slopes.entries[..slopes.size].iter();
-    let largest = largest.fold(T::zero(), |most, row| most.max(largest_of(row).1));
-    let changes = rate > difference::<T>() * largest.min(T::one());
-    (changes && nearest.is_finite()).then_some((nearest, rate))
+    (rate > T::zero() && nearest.is_finite()).then_some((nearest, rate))
+}
+
+fn unit<T: Real>(one: bool) -> T {
+    if one { T::one() } else { T::zero() }
 }
 
 fn norm_of<T: Real>(shares: &[T]) -> T {
@@ -230,7 +245,7 @@ fn spread_evenly<T: Real, const N: usize>(trial: usize, dimension: usize) -> [T;
         *entry = T::from_f64(2.0 * ((trial + 1) as f64 * root % 1.0) - 1.0);
     }
     let size = norm(&vector);
-    vector.map(|entry| entry / size)
+    column(|i| vector[i] / size)
 }
 
 /// The smallest sine of nodes on both sides of a place, to first order; of no interest

@@ -22,8 +22,8 @@ pub(crate) struct Nodes<T, const N: usize> {
     pub(super) spacing: T,
     /// How fast the sine changes along the curve.
     pub(super) rate: T,
-    /// The angle between the sheets.
-    pub(super) angle: T,
+    /// How well they resolved the sheet where they were found.
+    pub(super) score: T,
     pub(super) known: bool,
 }
 
@@ -34,7 +34,7 @@ impl<T: Real, const N: usize> Nodes<T, N> {
             noise: [T::zero(); NODES],
             spacing: T::zero(),
             rate: T::zero(),
-            angle: T::zero(),
+            score: T::zero(),
             known: false,
         }
     }

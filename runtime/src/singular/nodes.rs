@@ -15,7 +15,7 @@ use super::direction::Direction;
 use super::kept::{NODES, SIDE};
 use super::obstacle::Obstacle;
 use super::sheet::{Point, Sheet};
-use crate::linalg::{Block, Frame, dot};
+use crate::linalg::{Block, Frame, add_scaled, column, dot};
 use crate::tolerance::clearance;
 use crate::{Mechanism, Real, State};
 use nalgebra::{SMatrix, SVector};
@@ -26,7 +26,7 @@ const PREDICTORS: usize = 5;
 pub(super) const SETS: usize = 3;
 
 /// What is interpolated.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Sum<T, const N: usize> {
     /// From the state that is asked for to the sheet, along the chart's complement.
     pub(super) offset: SVector<T, N>,
@@ -52,12 +52,17 @@ impl<T: Real, const N: usize> Sum<T, N> {
         point: &Point<T, N>,
         columns: usize,
     ) {
-        self.offset.axpy(weight, offset, T::one());
-        self.drift.axpy(weight, &point.drift, T::one());
-        self.particular.axpy(weight, &point.particular, T::one());
-        for i in 0..columns {
-            let column = point.tangent.column(i);
-            self.tangent.column_mut(i).axpy(weight, &column, T::one());
+        let (particular, tangent) = (&mut self.particular, &mut self.tangent.data.0);
+        add_scaled(self.offset.as_mut_slice(), weight, offset.as_slice());
+        add_scaled(self.drift.as_mut_slice(), weight, point.drift.as_slice());
+        add_scaled(
+            particular.as_mut_slice(),
+            weight,
+            point.particular.as_slice(),
+        );
+        let tangents = tangent.iter_mut().zip(&point.tangent.data.0);
+        for (sum, column) in tangents.take(columns) {
+            add_scaled(sum, weight, column);
         }
     }
 }
@@ -105,7 +110,7 @@ pub(super) struct Interpolated<T, const N: usize> {
 impl<T: Real, const N: usize> Interpolated<T, N> {
     pub(super) fn new() -> Self {
         Self {
-            sums: core::array::from_fn(|_| Sum::zeros()),
+            sums: [Sum::zeros(); SETS],
             offsets: [SVector::zeros(); NODES],
             places: [T::zero(); NODES],
             geometry: [[SVector::zeros(); 2]; NODES],
@@ -121,10 +126,10 @@ impl<T: Real, const N: usize> Interpolated<T, N> {
 
     /// The offset of the sheet at another place of the line.
     pub(super) fn offset_at(&self, place: T) -> SVector<T, N> {
-        let weights = weights(&self.places, |_| true, place);
+        let weights = weights(&self.places, &[true; NODES], place);
         let mut offset: SVector<T, N> = SVector::zeros();
         for (node, weight) in self.offsets.iter().zip(weights) {
-            offset.axpy(weight, node, T::one());
+            add_scaled(offset.as_mut_slice(), weight, node.as_slice());
         }
         offset
     }
@@ -137,19 +142,37 @@ pub(super) const ORDER: [f64; NODES] = [1.0, 2.0, 3.0, -1.0, 4.0, -2.0, 5.0, -3.
 pub(super) const BEYOND: usize = 3;
 
 /// Lagrange's weights, at a place, of the places that are wanted; the others are zero.
-pub(super) fn weights<T: Real, const K: usize>(
-    places: &[T; K],
-    wanted: impl Fn(usize) -> bool,
-    at: T,
-) -> [T; K] {
+fn weights<T: Real, const K: usize>(places: &[T; K], wanted: &[bool; K], at: T) -> [T; K] {
     let mut weights = [T::zero(); K];
-    for i in (0..K).filter(|i| wanted(*i)) {
-        weights[i] = T::one();
-        for j in (0..K).filter(|j| wanted(*j) && *j != i) {
-            weights[i] *= (at - places[j]) / (places[i] - places[j]);
-        }
-    }
+    weigh(places, wanted, at, &mut weights);
     weights
+}
+
+/// The same for any number of places.
+#[inline(never)]
+fn weigh<T: Real>(places: &[T], wanted: &[bool], at: T, weights: &mut [T]) {
+    for (i, own) in places.iter().enumerate() {
+        if !wanted[i] {
+            continue;
+        }
+        let mut weight = T::one();
+        for (j, (place, wanted)) in places.iter().zip(wanted).enumerate() {
+            if *wanted && j != i {
+                weight *= (at - *place) / (*own - *place);
+            }
+        }
+        weights[i] = weight;
+    }
+}
+
+/// The weights, at a place, of each of the interpolations that are compared.
+pub(super) fn weights_of_sets<T: Real>(places: &[T; NODES], at: T) -> [[T; NODES]; SETS] {
+    let mut sets = [[T::zero(); NODES]; SETS];
+    for (k, set) in sets.iter_mut().enumerate() {
+        let wanted = column(|node| ORDER[node].abs() <= (SIDE - k) as f64);
+        *set = weights(places, &wanted, at);
+    }
+    sets
 }
 
 impl<M, T: Real, const N: usize, const R: usize> Sheet<'_, M, T, N, R>
@@ -157,6 +180,7 @@ where
     M: Mechanism<T, N, R> + ?Sized,
 {
     /// Finds the nodes along a direction and what they say of the sheet at the state.
+    #[inline(never)]
     pub(super) fn interpolate(
         &mut self,
         state: &State<T, N>,
@@ -167,15 +191,12 @@ where
     ) -> Result<(), Obstacle> {
         let step = spacing / direction.rate;
         let here = -direction.centre / step;
-        found.places = ORDER.map(|place| match here < T::zero() {
-            true => -T::from_f64(place),
-            false => T::from_f64(place),
+        found.places = column(|node| match here < T::zero() {
+            true => -T::from_f64(ORDER[node]),
+            false => T::from_f64(ORDER[node]),
         });
-        let sets: [[T; NODES]; SETS] = core::array::from_fn(|k| {
-            let wanted = |node: usize| ORDER[node].abs() <= (SIDE - k) as f64;
-            weights(&found.places, wanted, here)
-        });
-        found.sums = core::array::from_fn(|_| Sum::zeros());
+        let sets = weights_of_sets(&found.places, here);
+        found.sums = [Sum::zeros(); SETS];
         found.bend = self.bend(state, &direction.moved(&State::default(), step).q);
         found.noise = T::zero();
         let along = self.chart.coordinates(&state.v);
@@ -205,7 +226,7 @@ where
                     );
                 }
             }
-            found.geometry[node] = [point.tangent.column(0).into(), point.particular];
+            found.geometry[node] = [SVector::from(point.tangent.data.0[0]), point.particular];
             found.noises[node] = T::one() / (sine * sine);
             found.noise += sets[0][node].abs() * found.noises[node];
             if ORDER[node].abs() == 1.0 {
@@ -221,6 +242,7 @@ where
     M: Mechanism<T, N, R> + ?Sized,
 {
     /// How the sheet bends along steps of a line.
+    #[inline(never)]
     fn bend(&self, state: &State<T, N>, step: &SVector<T, N>) -> Bend<T, N> {
         let base = &self.chart.base;
         let moved = state.q - base.q - self.chart.drift * (state.t - base.t);
@@ -228,8 +250,8 @@ where
         let distance = dot(&along, &along);
         let share = dot(&along, &self.chart.coordinates(step)) / distance;
         let mut whole = moved;
-        for (along, column) in along.iter().zip(self.chart.tangent.column_iter()) {
-            whole.axpy(-*along, &column, T::one());
+        for (along, column) in along.iter().zip(&self.chart.tangent.data.0) {
+            add_scaled(whole.as_mut_slice(), -*along, column);
         }
         // False for NaN, too: where the state is the accepted one.
         let known = share.abs() < T::one();
@@ -261,6 +283,7 @@ impl<T: Real, const N: usize> Interpolated<T, N> {
 
     /// Where a node is to be looked for, by those before it and by the state itself, which
     /// is on the sheet but for the error of a step.
+    #[inline(never)]
     fn predict(&self, node: usize, place: T, here: T) -> SVector<T, N> {
         let first = node.saturating_sub(PREDICTORS - 1);
         let mut places = [here; PREDICTORS];
@@ -270,12 +293,12 @@ impl<T: Real, const N: usize> Interpolated<T, N> {
         let state = places[..count]
             .iter()
             .all(|other| (*other - here).abs() > T::from_f64(0.3));
-        let known = |k: usize| k < count || k == count && state;
-        let weights = weights(&places, known, place);
+        let known = column(|k| k < count || k == count && state);
+        let weights = weights(&places, &known, place);
         let mut guess = self.bend.at(place - here);
         for (k, weight) in (first..node).zip(weights) {
             let rest = self.offsets[k] - self.bend.at(self.places[k] - here);
-            guess.axpy(weight, &rest, T::one());
+            add_scaled(guess.as_mut_slice(), weight, rest.as_slice());
         }
         guess
     }

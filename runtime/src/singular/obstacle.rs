@@ -12,16 +12,12 @@ pub(crate) enum Obstacle {
     /// Newton's iteration does not contract: the sheet turns away, or there is another
     /// one next to it.
     NotContracting,
-    /// The tangent space has turned too far from that of the last accepted state.
-    Turned,
     /// The motion left its sheet: energy was lost.
     LeftSheet,
     /// The sheet cannot be told from another one, whatever the spacing of the nodes.
     Unresolved,
     /// Sheets touch without crossing.
     Touching,
-    /// The mass matrix is singular along the sheet.
-    MassSingular,
     /// The state is in or next to a singular configuration, and nothing tells which of
     /// the sheets that cross there is meant.
     Undetermined,

@@ -12,8 +12,8 @@ use crate::{Mechanism, Real, State};
 const ROOM: usize = 8;
 /// Steps of the search for the time of a passage.
 const MOST_STEPS: usize = 60;
-/// Looks into a step.
-const LOOKS: usize = 4;
+/// Looks into a step, equally far apart, its start among them.
+const LOOKS: usize = 5;
 /// The determinant is taken once more at this part of the step beside a look, to see how
 /// fast it changes.
 const MOMENT: f64 = 1e-4;
@@ -153,6 +153,7 @@ where
     }
 
     /// The passages of a step whose states are `at`, by its chart.
+    #[inline(never)]
     pub(crate) fn passages(
         &mut self,
         (start, end): (&State<T, N>, &State<T, N>),
@@ -170,25 +171,32 @@ where
             length: end.t - start.t,
             regular,
         };
-        let mut before: Option<(Look<T, R>, T)> = None;
-        for k in 0..=LOOKS {
-            let t = match k {
-                LOOKS => end.t,
-                _ => start.t + view.length * T::from_f64(k as f64 / LOOKS as f64),
-            };
-            let Some(here) = self.look(&view, t) else {
+        let first = Look {
+            t: start.t,
+            signs: reference.signs,
+        };
+        let part = view.length / T::from_f64((LOOKS - 1) as f64);
+        let looks: [_; LOOKS] = core::array::from_fn(|k| match k {
+            0 => Some(first.clone()),
+            _ if k + 1 == LOOKS => self.look(&view, end.t),
+            _ => self.look(&view, start.t + part * T::from_f64(k as f64)),
+        });
+        let rates = rates(&looks, part);
+        let mut before: Option<(&Look<T, R>, T)> = None;
+        for (look, rate) in looks.iter().zip(rates) {
+            let Some(here) = look else {
                 continue;
             };
-            let Some(rate) = self.rate(&view, &here) else {
+            let Some(rate) = rate.or_else(|| self.rate(&view, here)) else {
                 continue;
             };
-            if let Some((before, rate_before)) = &before {
-                match self.beyond(&view, (before, &here), [*rate_before, rate]) {
+            if let Some((before, rate_before)) = before {
+                match self.beyond(&view, (before, here), [rate_before, rate]) {
                     Some(middle) => {
-                        self.between(&view, before, &middle, &mut found);
-                        self.between(&view, &middle, &here, &mut found);
+                        self.between(&view, (before, &middle), false, &mut found);
+                        self.between(&view, (&middle, here), false, &mut found);
                     }
-                    None => self.between(&view, before, &here, &mut found),
+                    None => self.between(&view, (before, here), false, &mut found),
                 }
             }
             before = Some((here, rate));
@@ -215,28 +223,31 @@ where
     }
 
     /// Passages between two looks: one for each loop that becomes singular, unless several
-    /// do so at once.
+    /// do so at once. What lies between is looked at in the middle if `halve` says so.
     fn between(
         &mut self,
         view: &View<T, N, R>,
-        from: &Look<T, R>,
-        to: &Look<T, R>,
+        (from, to): (&Look<T, R>, &Look<T, R>),
+        halve: bool,
         found: &mut Found<T>,
     ) {
         let changes = to.signs.changes_from(&from.signs);
-        let at_once = to.t - from.t <= view.length * T::from_f64(AT_ONCE);
+        let (width, half) = (to.t - from.t, T::from_f64(0.5));
+        let at_once = view.length * T::from_f64(AT_ONCE);
         let middle = match changes {
             0 => return,
             1 => None,
-            _ if at_once => None,
-            _ => self.look(view, (from.t + to.t) * T::from_f64(0.5)),
+            _ if width <= at_once => None,
+            _ if halve => self.look(view, (from.t + to.t) * half),
+            _ => self.look(view, beside(from, to, changes, at_once)),
         };
-        match middle {
-            Some(middle) => {
-                self.between(view, from, &middle, found);
-                self.between(view, &middle, to, found);
-            }
-            None => self.pass(view, (from, to), changes, found),
+        let Some(middle) = middle else {
+            self.pass(view, (from, to), changes, found);
+            return;
+        };
+        for (from, to) in [(from, &middle), (&middle, to)] {
+            let slow = to.t - from.t > width * half;
+            self.between(view, (from, to), slow, found);
         }
     }
 
@@ -267,6 +278,7 @@ where
     /// A look between two others, of equal signs, that is beyond a singular configuration,
     /// if there is one: by the cubic polynomial through the determinants and their rates,
     /// and then by bisection.
+    #[inline(never)]
     fn beyond(
         &mut self,
         view: &View<T, N, R>,
@@ -309,6 +321,7 @@ where
 
     /// The time at which the determinant changes its sign, by the method of false position
     /// in its Illinois form.
+    #[inline(never)]
     fn locate(&mut self, view: &View<T, N, R>, from: &Look<T, R>, to: &Look<T, R>) -> T {
         let (mut a, mut fa) = (from.t, from.signs.determinant);
         let (mut b, mut fb) = (to.t, to.signs.determinant);
@@ -335,6 +348,55 @@ where
         }
         b
     }
+}
+
+/// A time close to where so many loops become singular, if they do so at once: there the
+/// determinant vanishes like that power of the time. It is put a little away from the
+/// nearer end, so that the shorter part holds what is looked for.
+fn beside<T: Real, const R: usize>(
+    from: &Look<T, R>,
+    to: &Look<T, R>,
+    loops: usize,
+    at_once: T,
+) -> T {
+    let root = |look: &Look<T, R>| {
+        let power = T::one() / T::from_f64(loops as f64);
+        look.signs.determinant.abs().powf(power)
+    };
+    let (start, end) = (root(from), root(to));
+    let (width, little) = (to.t - from.t, at_once * T::from_f64(0.25));
+    match start + end > T::zero() {
+        true if end >= start => from.t + width * start / (start + end) + little,
+        true => to.t - width * end / (start + end) - little,
+        false => from.t + width * T::from_f64(0.5),
+    }
+}
+
+/// How fast the determinant changes (1/s) at looks that are `part` apart, by the polynomial
+/// through all of them; `None` where one is missing.
+fn rates<T: Real, const R: usize>(
+    looks: &[Option<Look<T, R>>; LOOKS],
+    part: T,
+) -> [Option<T>; LOOKS] {
+    let [Some(a), Some(b), Some(c), Some(d), Some(e)] = looks else {
+        return [None; LOOKS];
+    };
+    let values = [a, b, c, d, e].map(|look| look.signs.determinant);
+    // Numerical differentiation of order four by equidistant values.
+    const WEIGHTS: [[f64; LOOKS]; LOOKS] = [
+        [-25.0, 48.0, -36.0, 16.0, -3.0],
+        [-3.0, -10.0, 18.0, -6.0, 1.0],
+        [1.0, -8.0, 0.0, 8.0, -1.0],
+        [-1.0, 6.0, -18.0, 10.0, 3.0],
+        [3.0, -16.0, 36.0, -48.0, 25.0],
+    ];
+    WEIGHTS.map(|weights| {
+        let terms = weights
+            .iter()
+            .zip(values)
+            .map(|(weight, value)| T::from_f64(*weight) * value);
+        Some(terms.fold(T::zero(), |sum, term| sum + term) / (part * T::from_f64(12.0)))
+    })
 }
 
 /// Where a cubic polynomial on [0, 1] with these values and rates at the ends is lowest,

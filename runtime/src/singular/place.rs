@@ -8,15 +8,13 @@
 //! more room where the sheet turns or other singular configurations are near.
 
 use super::direction::Direction;
+use super::kept::SIDE;
 use super::nodes::Interpolated;
 use super::obstacle::Obstacle;
 use super::sheet::{Point, Sheet};
 use crate::linalg::Frame;
-use crate::tolerance::{
-    MOST_TURN, critical, difference, hull, negligible, noisy, resolved, round_off, spacing, window,
-};
+use crate::tolerance::{critical, hull, negligible, noisy, resolved, round_off, spacing, window};
 use crate::{Mechanism, Real, State};
-use nalgebra::SVector;
 
 /// How much larger than the round-off of one node, magnified by the weights, the
 /// difference of two interpolations may be for that reason.
@@ -68,7 +66,7 @@ where
             match self.place_between(state, &like, point) {
                 Ok(Placement::Regular) => {}
                 Ok(Placement::Gap) => placement = Placement::Gap,
-                Ok(crossing) => return self.checked(point, crossing),
+                Ok(crossing) => return Ok(crossing),
                 Err(obstacle) => why = obstacle,
             }
             self.eliminate(state, None)?;
@@ -81,27 +79,12 @@ where
             return Err(why);
         }
         self.place_regular(state, point)?;
-        self.checked(point, placement)
-    }
-
-    /// Refuses a tangent space that has turned too far.
-    fn checked(
-        &self,
-        point: &Point<T, N>,
-        placement: Placement<T>,
-    ) -> Result<Placement<T>, Obstacle> {
-        let turn = point.turn(self.chart);
-        // False for NaN, too.
-        let near = turn <= T::from_f64(MOST_TURN);
-        if near {
-            Ok(placement)
-        } else {
-            Err(Obstacle::Turned)
-        }
+        Ok(placement)
     }
 
     /// Interpolates where the state is well between the nodes; `Regular` where it is
     /// not.
+    #[inline(never)]
     fn place_between(
         &mut self,
         state: &State<T, N>,
@@ -130,25 +113,26 @@ where
     }
 
     /// Finds nodes for a state, or that it is not well between any.
+    #[inline(never)]
     fn find_nodes(
         &mut self,
         state: &State<T, N>,
         like: &Frame<T, N, R>,
     ) -> Result<Result<Best<T, N>, Placement<T>>, Obstacle> {
         let direction = self.direction(state, like)?;
-        let angle = self.angle(state, like, &direction)?;
-        let Some(best) = self.search(state, like, &direction, angle)? else {
+        let Some(best) = self.search(state, like, &direction)? else {
             return Ok(Err(Placement::Regular));
         };
         if !self.is_crossing(state, like, &direction, &best) {
             return Ok(Err(Placement::Gap));
         }
-        let noise = T::from_f64(NOISE) * T::EPSILON * best.found.noise;
-        let scale = T::one().max(self.chart.reach * direction.rate);
-        if best.error > self.chart.accepted.max(noise * scale) {
+        // Rows are no more exact than the coordinates, whose round-off grows with their size.
+        let magnified = best.found.noise * (direction.rate * self.chart.reach).max(T::one());
+        let noise = T::from_f64(NOISE) * T::EPSILON * magnified;
+        if best.error > self.chart.accepted.max(noise) {
             return Err(Obstacle::Unresolved);
         }
-        self.remember(state, &direction, angle, &best);
+        self.remember(state, &direction, &best);
         Ok(Ok(best))
     }
 
@@ -159,14 +143,13 @@ where
         state: &State<T, N>,
         like: &Frame<T, N, R>,
         direction: &Direction<T, N>,
-        angle: T,
     ) -> Result<Option<Best<T, N>>, Obstacle> {
         let known = self.chart.spacing;
         let mut width = (spacing::<T>() * self.chart.reach * direction.rate).min(spacing());
         let mut tried = None;
         if known > T::zero() {
             // Mostly the last spacing serves again.
-            let last = self.between_nodes(state, like, direction, (known, angle));
+            let last = self.between_nodes(state, like, direction, known);
             if matches!(&last, Ok(Some(last)) if last.score <= resolved()) {
                 return last;
             }
@@ -178,7 +161,7 @@ where
         for _ in 0..LEVELS {
             let found = match tried.take_if(|_| width == known) {
                 Some(found) => found,
-                None => self.between_nodes(state, like, direction, (width, angle)),
+                None => self.between_nodes(state, like, direction, width),
             };
             match found {
                 Ok(None) => break,
@@ -204,21 +187,19 @@ where
     }
 
     /// Interpolates between nodes of a spacing; `None` if the state is outside.
+    #[inline(never)]
     fn between_nodes(
         &mut self,
         state: &State<T, N>,
         like: &Frame<T, N, R>,
         direction: &Direction<T, N>,
-        (width, angle): (T, T),
+        width: T,
     ) -> Result<Option<Best<T, N>>, Obstacle> {
-        if direction.centre.abs() * direction.rate > hull::<T>() * width {
+        if direction.centre.abs() * direction.rate > hull::<T>(SIDE) * width {
             return Ok(None);
         }
         let mut found = Interpolated::new();
         self.interpolate(state, direction, width, like, &mut found)?;
-        if !self.is_on_sheet(direction, width, angle, &found) {
-            return Err(Obstacle::NotContracting);
-        }
         let error = self.error(state, direction.rate, &found);
         let score = error + found.noise * T::EPSILON;
         Ok(Some(Best {
@@ -229,62 +210,10 @@ where
         }))
     }
 
-    /// The angle between the sheets that cross, in the plane of the direction; about one
-    /// where several loops are weak at once.
-    fn angle(
-        &mut self,
-        state: &State<T, N>,
-        like: &Frame<T, N, R>,
-        direction: &Direction<T, N>,
-    ) -> Result<T, Obstacle> {
-        if like.block().size != 1 || !self.holonomic {
-            return Ok(T::one());
-        }
-        let mut across = SVector::from(like.weakest_direction());
-        for (x, scale) in across.iter_mut().zip(&self.chart.column_scale) {
-            *x *= *scale;
-        }
-        let size = self.chart.length(&across);
-        // False for NaN, too.
-        let leads = size > T::zero();
-        if !leads {
-            return Ok(T::one());
-        }
-        let distance = difference::<T>() * self.chart.reach;
-        let moved = State::new(state.t, state.q + across * (distance / size), state.v);
-        self.eliminate(&moved, Some(like))?;
-        let change = self.frame.block().entries[0][0] - like.block().entries[0][0];
-        let rate = (change / distance).abs();
-        Ok((direction.rate + direction.rate) / rate.max(direction.rate))
-    }
-
-    /// Whether nodes are on the sheet of the last accepted state and not on another one
-    /// that crosses it.
-    pub(super) fn is_on_sheet(
-        &self,
-        direction: &Direction<T, N>,
-        width: T,
-        angle: T,
-        found: &Interpolated<T, N>,
-    ) -> bool {
-        let [sum, ..] = &found.sums;
-        let quarter = T::from_f64(0.25);
-        let along = self
-            .chart
-            .coordinates(&direction.moved(&State::default(), T::one()).q);
-        let mut turned: SVector<T, N> = SVector::zeros();
-        for (i, along) in along.iter().enumerate().take(self.chart.freedoms) {
-            let turn = sum.tangent.column(i) - self.chart.tangent.column(i);
-            turned.axpy(*along, &turn, T::one());
-        }
-        let step = width / direction.rate;
-        let offset = self.chart.length(&sum.offset);
-        self.chart.length(&turned) <= angle * quarter && offset <= angle * quarter * step
-    }
-
     /// By how much the interpolation is off, relative to what is interpolated: the
     /// difference that one pair of nodes makes, made smaller by as much as it is smaller
     /// than that of the pair before.
+    #[inline(never)]
     pub(super) fn error(&self, state: &State<T, N>, rate: T, found: &Interpolated<T, N>) -> T {
         let [all, fewer, fewest] = &found.sums;
         let speed = self.chart.length(&state.v);
@@ -298,9 +227,7 @@ where
             };
             let mut turn = T::zero();
             for i in 0..self.chart.freedoms {
-                turn += self
-                    .chart
-                    .length(&(a.tangent.column(i) - b.tangent.column(i)));
+                turn += self.chart.apart(&a.tangent, &b.tangent, i);
             }
             *difference = offset + particular + turn;
         }
@@ -317,6 +244,7 @@ where
 
     /// Whether the constraints vanish, to round-off, where the sheet meets the singular
     /// set: two sheets then cross there. Otherwise a gap keeps them apart.
+    #[inline(never)]
     fn is_crossing(
         &mut self,
         state: &State<T, N>,

@@ -10,10 +10,11 @@
 //! `D* D̃ = 1`, and `D* aₚ = 0`.
 
 use super::direction::Direction;
-use super::kept::{NODES, SIDE};
-use super::nodes::{BEYOND, Interpolated, ORDER, SETS, weights};
+use super::kept::SIDE;
+use super::nodes::{BEYOND, Interpolated, weights_of_sets};
 use super::place::Best;
 use super::sheet::{Point, Sheet};
+use crate::linalg::column;
 use crate::tolerance::{hull, resolved};
 use crate::{Mechanism, Real, State};
 use nalgebra::SVector;
@@ -33,11 +34,11 @@ where
     }
 
     /// Keeps the nodes between which a state was interpolated.
+    #[inline(never)]
     pub(super) fn remember(
         &mut self,
         state: &State<T, N>,
         direction: &Direction<T, N>,
-        angle: T,
         best: &Best<T, N>,
     ) {
         self.nodes.known = false;
@@ -58,35 +59,32 @@ where
         self.nodes.noise = best.found.noises;
         self.nodes.spacing = best.spacing;
         self.nodes.rate = direction.rate;
-        self.nodes.angle = angle;
+        self.nodes.score = best.score;
         self.nodes.known = true;
     }
 
     /// Interpolates between the nodes that are kept, if the state is well between them and
-    /// they resolve the sheet there as well as any would.
+    /// they resolve the sheet there as well as where they were found.
+    #[inline(never)]
     pub(super) fn recall(&self, state: &State<T, N>) -> Option<Best<T, N>> {
         if !self.nodes.known || !self.is_curve() {
             return None;
         }
         let nodes = &*self.nodes;
         let mut found = Interpolated::new();
-        let chart = self.chart.tangent.column(0);
-        let places = nodes.points.each_ref();
-        let places = places.map(|[q, ..]| self.along(&(q - state.q)));
+        let chart = SVector::from(self.chart.tangent.data.0[0]);
+        let places = column(|node| self.along(&(nodes.points[node][0] - state.q)));
         let half = T::from_f64(0.5);
         let (ahead, behind) = (places[0], places[BEYOND]);
         let mut direction = self.along_chart();
         direction.centre = (ahead + behind) * half;
         direction.rate = nodes.rate;
         // False for NaN, too.
-        let inside = direction.centre.abs() <= hull::<T>() * ((ahead - behind) * half).abs();
+        let inside = direction.centre.abs() <= hull::<T>(SIDE) * ((ahead - behind) * half).abs();
         if !inside {
             return None;
         }
-        let sets: [[T; NODES]; SETS] = core::array::from_fn(|k| {
-            let wanted = |node: usize| ORDER[node].abs() <= (SIDE - k) as f64;
-            weights(&places, wanted, T::zero())
-        });
+        let sets = weights_of_sets(&places, T::zero());
         let speed = self.along(&state.v);
         let mut point = Point::zeros();
         for (node, [q, tangent, demanded]) in nodes.points.iter().enumerate() {
@@ -103,9 +101,8 @@ where
         }
         let error = self.error(state, direction.rate, &found);
         let score = error + found.noise * T::EPSILON;
-        let resolves = score <= resolved();
-        let on_sheet = self.is_on_sheet(&direction, nodes.spacing, nodes.angle, &found);
-        (resolves && on_sheet).then_some(Best {
+        let resolves = score <= nodes.score.max(resolved());
+        resolves.then_some(Best {
             found,
             score,
             error,

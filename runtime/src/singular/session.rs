@@ -9,6 +9,7 @@
 use super::chart::Chart;
 use super::kept::Nodes;
 use super::passage::Found;
+use crate::tolerance::{passes, window};
 use crate::{Real, State};
 use nalgebra::SVector;
 
@@ -28,14 +29,14 @@ pub(crate) struct Session<T, const N: usize, const R: usize> {
     pub(crate) near: bool,
     /// The sine of the constraints at the last accepted state.
     pub(crate) sine: Option<T>,
+    /// By how much it fell or grew in the last step (1/s).
+    pub(crate) rate: T,
     /// What the trial step at hand came to.
     pub(crate) trial: Trial<T, N, R>,
     /// The nodes of the last interpolation.
     pub(crate) nodes: Nodes<T, N>,
     /// Passages of the last accepted step.
     pub(crate) passages: Found<T>,
-    /// The largest kinetic energy (J) so far.
-    pub(crate) liveliest: T,
     /// Accepted error of a step, relative; none for fixed steps.
     pub(crate) tolerance: Option<T>,
 }
@@ -49,6 +50,8 @@ pub(crate) struct Trial<T, const N: usize, const R: usize> {
     pub(crate) end: T,
     /// The step after it may come near a singular configuration.
     pub(crate) near: bool,
+    /// By how much the sine fell or grew in it (1/s).
+    pub(crate) rate: T,
     /// A state came so near to a singular configuration that a chart is needed.
     pub(crate) wants_chart: bool,
     /// The chart at its end.
@@ -77,6 +80,7 @@ impl<T: Real, const N: usize, const R: usize> Trial<T, N, R> {
             lowest: T::one(),
             end: T::one(),
             near: false,
+            rate: T::zero(),
             wants_chart: false,
             chart: None,
             placed: None,
@@ -89,6 +93,7 @@ impl<T: Real, const N: usize, const R: usize> Trial<T, N, R> {
         self.lowest = T::one();
         self.end = T::one();
         self.near = false;
+        self.rate = T::zero();
         self.wants_chart = false;
         self.chart = None;
         self.placed = None;
@@ -106,10 +111,10 @@ impl<T: Real, const N: usize, const R: usize> Session<T, N, R> {
             rests: false,
             near: false,
             sine: None,
+            rate: T::zero(),
             trial: Trial::new(),
             nodes: Nodes::new(),
             passages: Found::new(),
-            liveliest: T::zero(),
             tolerance: None,
         }
     }
@@ -124,9 +129,29 @@ impl<T: Real, const N: usize, const R: usize> Session<T, N, R> {
         self.rests = false;
         self.near = false;
         self.sine = None;
+        self.rate = T::zero();
         self.trial.forget();
         self.nodes.forget();
         self.passages.clear();
-        self.liveliest = T::zero();
+    }
+
+    /// Takes note of the squared sine of the constraints at a state of the trial step.
+    #[inline]
+    pub(crate) fn observe(&mut self, state: &State<T, N>, squared: T) {
+        if squared <= self.trial.lowest {
+            self.trial.lowest = squared;
+            if self.sine.is_none() {
+                self.observe_start(state, squared);
+            }
+        }
+    }
+
+    /// The sine at the start of a motion is what the first stage of its first step shows.
+    #[cold]
+    fn observe_start(&mut self, state: &State<T, N>, squared: T) {
+        let is_start = |base: &State<T, N>| base.t == state.t && base.q.data.0 == state.q.data.0;
+        if self.base.as_ref().is_some_and(is_start) && passes(squared, window()) {
+            self.sine = Some(squared.sqrt());
+        }
     }
 }

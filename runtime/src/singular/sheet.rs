@@ -12,7 +12,7 @@
 use super::chart::Chart;
 use super::kept::Nodes;
 use super::obstacle::Obstacle;
-use crate::linalg::{Frame, dot};
+use crate::linalg::{Frame, add_scaled, dot, is_zero};
 use crate::tolerance::{contraction, critical, near_dependent, round_off};
 use crate::{Mechanism, Position, Real, State, Terms};
 use nalgebra::{SMatrix, SVector};
@@ -53,22 +53,18 @@ impl<T: Real, const N: usize> Point<T, N> {
     /// Gives the state the velocity of these coordinates in the chart.
     pub(super) fn move_along(&mut self, along: &[T; N], freedoms: usize) {
         self.state.v = self.drift;
-        for (tangent, along) in self.tangent.column_iter().zip(along).take(freedoms) {
-            self.state.v.axpy(*along, &tangent, T::one());
+        for (tangent, along) in self.tangent.data.0.iter().zip(along).take(freedoms) {
+            add_scaled(self.state.v.as_mut_slice(), *along, tangent);
         }
-    }
-
-    /// How far the tangent space is turned away from that of the chart.
-    pub(crate) fn turn<const R: usize>(&self, chart: &Chart<T, N, R>) -> T {
-        let columns = 0..chart.freedoms;
-        columns.fold(T::zero(), |most, i| {
-            let turn = self.tangent.column(i) - chart.tangent.column(i);
-            most.max(chart.length(&turn))
-        })
     }
 }
 
 impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
+    /// The length of what two columns of matrices differ by.
+    pub(crate) fn apart(&self, a: &SMatrix<T, N, N>, b: &SMatrix<T, N, N>, column: usize) -> T {
+        self.length(&(SVector::from(a.data.0[column]) - SVector::from(b.data.0[column])))
+    }
+
     /// The length of a vector in the diagonal of the metric.
     pub(crate) fn length(&self, x: &SVector<T, N>) -> T {
         let scaled = x.iter().zip(&self.column_scale);
@@ -258,10 +254,10 @@ where
             unit[i] = T::one();
             point.tangent.data.0[i] = self.solve(&zero, &unit).data.0[0];
         }
-        let moving = self.position.drift.iter().any(|b| *b != T::zero());
-        point.drift = match moving {
-            true => self.solve(&-self.position.drift, &[T::zero(); N]),
-            false => SVector::zeros(),
+        let still = is_zero(self.position.drift.as_slice());
+        point.drift = match still {
+            false => self.solve(&-self.position.drift, &[T::zero(); N]),
+            true => SVector::zeros(),
         };
         if let Some(along) = along {
             point.move_along(along, self.chart.freedoms);

@@ -13,8 +13,10 @@
 use super::chart::Chart;
 use super::place::Placement;
 use super::sheet::{Point, Sheet};
-use crate::dynamics::{Combined, Solver, Source, Which};
-use crate::linalg::{add_scaled, dot, eigen, norm, orthonormal, remove, scaled};
+use crate::dynamics::{Combined, Core, Source, Which};
+use crate::linalg::{
+    add_scaled, column, count_above, dot, eigen, is_zero, norm, orthonormal, remove, scaled,
+};
 use crate::tolerance::{critical, difference, passes, regular, round_off, window};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::{SMatrix, SVector};
@@ -36,7 +38,7 @@ pub(crate) enum Start<T, const N: usize, const R: usize> {
     Undetermined,
 }
 
-impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The chart of the sheet that a motion begins on.
     pub(crate) fn start_at<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
@@ -85,7 +87,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
             (self.reach, self.accepted()),
         )?;
         mechanism.position(state, &mut self.position);
-        if self.position.drift.iter().any(|b| *b != T::zero()) {
+        if !is_zero(self.position.drift.as_slice()) {
             let mut point = Point::zeros();
             let placed = self.sheet(mechanism, &chart).place(state, &mut point);
             if placed.is_ok() {
@@ -128,6 +130,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// The tangent space in a singular configuration or next to one.
+    #[inline(never)]
     fn singular_tangent<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -136,14 +139,11 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     ) -> Result<Option<SMatrix<T, N, N>>, DynamicsError<T>> {
         let combined = self.combine(Source::Position, Which::All, state.t)?;
         let count = N - freedoms;
-        if combined.values[..count]
-            .iter()
-            .all(|value| *value > regular())
-        {
+        if count_above(&combined.values[..count], regular()) == count {
             let decided = &combined.directions.data.0[..count];
             return Ok(Some(self.free(freedoms, |axis| remove(axis, decided))));
         }
-        let still = self.position.drift.iter().all(|b| *b == T::zero());
+        let still = is_zero(self.position.drift.as_slice());
         let along = self.tangent_along(mechanism, state, freedoms)?;
         if along.is_some() {
             return Ok(along);
@@ -160,6 +160,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// The tangent space of the sheet that the velocity leads along: on it, the gradient
     /// that is lost returns in the direction of the sheet's normal. `None` where the
     /// velocity leads along the singular set, or is zero.
+    #[inline(never)]
     fn tangent_along<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -195,6 +196,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// The tangent space of one of two sheets that cross.
+    #[inline(never)]
     fn one_of_two<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -243,6 +245,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     }
 
     /// How far a state is off two sheets; `None` where that can't be told.
+    #[inline(never)]
     fn distances<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -269,6 +272,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// The second derivatives, along some directions, of the combination of rows that
     /// loses its gradient.
+    #[inline(never)]
     pub(crate) fn second_derivatives<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
@@ -286,26 +290,34 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         let mut second = [[T::zero(); N]; N];
         for (i, second) in second.iter_mut().enumerate().take(count) {
             for sign in [T::one(), -T::one()] {
-                let moved = state.q + lowered.column(i) * (sign * distance);
+                let moved = state.q + SVector::from(lowered.data.0[i]) * (sign * distance);
                 let moved = State::new(state.t, moved, state.v);
                 mechanism.position(&moved, &mut self.position);
                 for row in 0..R {
                     let share = combined.left[(row, weakest)] * self.rows.scale(row) * sign;
-                    let along = self.position.jacobian.row(row) * lowered;
-                    for (entry, along) in second.iter_mut().zip(along.iter()).take(count) {
-                        *entry += share * *along / (distance + distance);
+                    for (entry, column) in second.iter_mut().zip(&lowered.data.0[..count]) {
+                        let mut along = T::zero();
+                        for (j, lever) in column.iter().enumerate() {
+                            along += self.position.jacobian[(row, j)] * *lever;
+                        }
+                        *entry += share * along / (distance + distance);
                     }
                 }
             }
         }
         mechanism.position(state, &mut self.position);
         let half = T::from_f64(0.5);
-        core::array::from_fn(|i| core::array::from_fn(|j| (second[i][j] + second[j][i]) * half))
+        let mut symmetric = second;
+        for (i, row) in symmetric.iter_mut().enumerate() {
+            *row = column(|j| (second[i][j] + second[j][i]) * half);
+        }
+        symmetric
     }
 }
 
 /// The normals of two sheets from the second derivatives; none where these are not of
 /// that kind.
+#[inline(never)]
 fn normals<T: Real, const N: usize>(second: &[[T; N]; N], count: usize) -> Option<[[T; N]; 2]> {
     let (values, vectors) = eigen(*second, count);
     let (mut up, mut down) = (0, 0);

@@ -101,12 +101,7 @@ impl<const N: usize, const R: usize> Mechanism<f64, N, R> for FourBars {
             GRAVITY * weight * state.q[i].sin()
         };
         let potential = (0..N).map(height).sum();
-        Energy {
-            kinetic,
-            potential,
-            balance: kinetic + potential,
-            power: 0.0,
-        }
+        super::supplied(kinetic, potential, 0.0)
     }
 }
 

@@ -5,10 +5,12 @@
 //! one-degree-of-freedom reductions of its examples.
 
 mod four_bars;
+mod hanging;
 mod hung;
 mod massless;
 mod parallelogram;
 mod reference;
+mod row;
 mod side;
 mod slider_crank;
 mod small;
@@ -16,19 +18,32 @@ mod twice;
 
 pub use bricard_testkit::Reduction;
 pub use four_bars::FourBars;
+pub use hanging::{Hanging, RODS, place};
 pub use hung::{Hung, HungReduced};
 pub use massless::Massless;
 pub use parallelogram::Parallelogram;
 pub use reference::{Passage, Reduced};
+pub use row::{Row, sizes};
 pub use side::{COUNT, Side};
 pub use slider_crank::SliderCrank;
 pub use small::{Sled, Spring};
 pub use twice::Twice;
 
-use bricard_runtime::{ConstraintRow, Mechanism, Quantity, State, Structure};
+use bricard_runtime::{ConstraintRow, Energy, Mechanism, Quantity, State, Structure};
 
 /// Gravitational acceleration (m/s²).
 pub const GRAVITY: f64 = 9.81;
+
+/// The energies (J) of a mechanism to which nothing but forces of so much power (W) supplies
+/// energy.
+pub fn supplied(kinetic: f64, potential: f64, power: f64) -> Energy<f64> {
+    Energy {
+        kinetic,
+        potential,
+        balance: kinetic + potential,
+        power,
+    }
+}
 
 /// A mechanism of one degree of freedom that passes a singular position, and the
 /// exact motion to compare with.

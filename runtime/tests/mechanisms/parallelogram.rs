@@ -80,12 +80,7 @@ impl Mechanism<f64, 6, 6> for Parallelogram {
         let kinetic = 0.5 * state.v.dot(&(Self::mass() * state.v));
         let cranks = q[0].sin() + q[1].sin() + q[2].sin();
         let potential = GRAVITY * (CRANK_MOMENT * cranks + BAR_MASS * q[4]);
-        Energy {
-            kinetic,
-            potential,
-            balance: kinetic + potential,
-            power: 0.0,
-        }
+        super::supplied(kinetic, potential, 0.0)
     }
 }
 

@@ -87,12 +87,11 @@ impl Mechanism<f64, 3, 2> for SliderCrank {
         let (q, v) = (&state.q, &state.v);
         let kinetic = 0.5 * v.dot(&(Self::mass(q) * v));
         let potential = GRAVITY * ((M1 * E + M2 * L) * q[0].sin() - M2 * E * q[1].sin());
-        Energy {
+        super::supplied(
             kinetic,
             potential,
-            balance: kinetic + potential,
-            power: (self.drive - self.damping * v[0]) * v[0],
-        }
+            (self.drive - self.damping * v[0]) * v[0],
+        )
     }
 }
 

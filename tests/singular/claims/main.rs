@@ -4,11 +4,13 @@
 //! command of this package prints the same as a table.
 
 mod accuracy;
+mod corners;
 mod known;
 mod passages;
 mod references;
 mod scalar;
 mod scores;
+mod tolerances;
 
 /// The seed of all random trials.
 const SEED: u64 = 12;

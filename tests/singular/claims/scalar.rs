@@ -2,7 +2,9 @@
 
 use crate::{SEED, is_long};
 use bricard_runtime::{Interface, Mechanism, Options, Whole, assemble, simulate};
-use bricard_singular::descriptions::{curves, equal_slider_crank, parallelogram_pendulum};
+use bricard_singular::descriptions::{
+    curves, equal_slider_crank, four_bar, parallelogram_pendulum,
+};
 use bricard_singular::{Set, exact};
 use bricard_testkit::Random;
 
@@ -128,4 +130,47 @@ fn a_slider_crank_passes_in_single_precision() {
         start,
         run,
     );
+}
+
+/// What the end may be off by that of the same run in double precision, in units of the
+/// round-off of single precision, relative to the coordinate.
+const ROUND_OFFS: f64 = 1000.0;
+
+/// Runs through several singular positions in both precisions.
+fn agree<const N: usize, const R: usize>(
+    single: &dyn Whole<f32, N, R>,
+    double: &dyn Whole<f64, N, R>,
+    until: f32,
+) {
+    let start = assemble(single, &single.start(), 0.0).expect("it can be assembled");
+    let options = Options::dop853(until, 2e-6);
+    let found = simulate(single, &start, &options, &mut []).unwrap_or_else(|why| panic!("{why}"));
+    let start = assemble(double, &double.start(), 0.0).expect("it can be assembled");
+    let options = Options::dop853(f64::from(until), 1e-11);
+    let wanted = simulate(double, &start, &options, &mut []).unwrap_or_else(|why| panic!("{why}"));
+    let several = wanted.passages.is_some_and(|passages| passages >= 4);
+    assert!(several, "{:?} passages", wanted.passages);
+    assert_eq!(found.passages, wanted.passages);
+    let numbers = found.end.q.iter().chain(found.end.v.iter());
+    for (a, b) in numbers.zip(wanted.end.q.iter().chain(wanted.end.v.iter())) {
+        let off = (f64::from(*a) - b).abs() / (1.0 + b.abs());
+        let off = off / f64::from(f32::EPSILON);
+        assert!(off <= ROUND_OFFS, "{a} is off {b} by {off} round-offs");
+    }
+}
+
+#[test]
+fn several_passages_of_a_slider_crank_keep_the_digits_of_single_precision() {
+    let (mut single, mut double) = (
+        equal_slider_crank::EqualSliderCrank::<f32>::default(),
+        equal_slider_crank::EqualSliderCrank::<f64>::default(),
+    );
+    (single.parameters.w0, double.parameters.w0) = (9.0, 9.0);
+    agree::<2, 1>(&single, &double, 3.0);
+}
+
+#[test]
+fn several_passages_of_a_four_bar_linkage_keep_the_digits_of_single_precision() {
+    let single = four_bar::FourBar::<f32>::default();
+    agree::<3, 2>(&single, &four_bar::FourBar::<f64>::default(), 2.0);
 }

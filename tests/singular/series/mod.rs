@@ -3,6 +3,7 @@
 //! In:  a seed, how many, tolerances.
 //! Out: [`Trial`]s.
 
+mod avoided;
 mod backwards;
 mod linkages;
 mod parallelograms;
@@ -63,6 +64,15 @@ pub const SERIES: &[Series] = &[
     series("instant", 12, 120, USUAL, particles::instant),
     series("four_bar", 30, 300, USUAL, linkages::four_bar),
     ended("gaps", 72, 72, &[], linkages::gaps),
+    ended("hyperbola", 100, 3000, &[], avoided::hyperbola),
+    ended("hyperboloid", 100, 3000, &[], avoided::hyperboloid),
+    ended(
+        "almost_parallelogram",
+        100,
+        3000,
+        &[],
+        avoided::almost_parallelogram,
+    ),
     series("gaps_wide", 42, 42, &[], linkages::gaps_wide),
     series("slider", 30, 300, USUAL, linkages::slider),
     series("driven", 60, 1000, USUAL, linkages::driven),

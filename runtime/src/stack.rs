@@ -1,0 +1,155 @@
+//! Room on the stack for the matrices of large mechanisms.
+//!
+//! In:  something to do.
+//! Out: the same done, on a stack that is large enough for the sizes of the mechanism.
+//!
+//! Matrices of fixed size are values, which Rust moves and returns through the stack; those
+//! of fifty bodies take megabytes each, and a thread has 2 MB. What works on large ones does
+//! so on a stack of its own, taken from the system once and kept by the thread. Small
+//! mechanisms, and programs without the standard library, have no code for this.
+
+/// A large part of something: on the heap, so that its owner fits onto any stack.
+#[cfg(feature = "std")]
+pub(crate) type Held<V> = Box<V>;
+/// A large part of something: inside of it, where there is no heap.
+#[cfg(not(feature = "std"))]
+pub(crate) type Held<V> = V;
+
+/// Puts a part where it is held.
+#[cfg(feature = "std")]
+pub(crate) fn held<V>(part: V) -> Held<V> {
+    Box::new(part)
+}
+/// Puts a part where it is held.
+#[cfg(not(feature = "std"))]
+pub(crate) fn held<V>(part: V) -> Held<V> {
+    part
+}
+
+/// Mechanisms whose matrices of all coordinates and constraint equations are larger than
+/// this work on a stack of their own, in bytes.
+const SMALL: usize = 16 << 10;
+/// How many such matrices are on the stack at once, at most, also without optimisation.
+const MATRICES: usize = 64;
+/// What else there is room for, observers among it, in bytes: as much as a program begins
+/// with. A page that is never touched costs nothing.
+const REST: usize = 8 << 20;
+
+/// Does something where there is room for the matrices of a mechanism with `N` coordinates
+/// and `R` constraint equations.
+#[inline(always)]
+pub(crate) fn with_room<T, V, const N: usize, const R: usize>(work: impl FnOnce() -> V) -> V {
+    if const { matrix::<T>(N + R) <= SMALL } {
+        return work();
+    }
+    room::within(const { REST + MATRICES * matrix::<T>(N + R) }, work)
+}
+
+/// The size of a square matrix, in bytes.
+const fn matrix<T>(n: usize) -> usize {
+    n * n * size_of::<T>()
+}
+
+#[cfg(all(
+    feature = "std",
+    any(unix, windows),
+    any(
+        target_arch = "x86",
+        target_arch = "x86_64",
+        target_arch = "aarch64",
+        target_arch = "arm",
+        target_arch = "riscv64",
+        target_arch = "loongarch64"
+    )
+))]
+mod room {
+    use core::cell::Cell;
+    use corosensei::{on_stack, stack::DefaultStack};
+
+    /// A stack, and its size in bytes.
+    type Sized = (DefaultStack, usize);
+
+    /// Where the thread is.
+    #[derive(Clone, Copy)]
+    struct Place {
+        /// About the address at which the stack begins that it is on now.
+        base: usize,
+        /// The size of that stack; zero for its own.
+        size: usize,
+    }
+
+    std::thread_local! {
+        static PLACE: Cell<Place> = const { Cell::new(Place { base: 0, size: 0 }) };
+        static KEPT: Cell<Option<Sized>> = const { Cell::new(None) };
+    }
+
+    /// Says that the thread is back when it is, also by a panic.
+    struct Back(Place);
+
+    impl Drop for Back {
+        fn drop(&mut self) {
+            PLACE.set(self.0);
+        }
+    }
+
+    /// About the address at which the stack ends.
+    #[inline(always)]
+    fn here() -> usize {
+        let mark = 0_u8;
+        core::hint::black_box(core::ptr::from_ref(&mark)).addr()
+    }
+
+    /// Does something on a stack of this size, of which a quarter may be in use already.
+    #[inline(always)]
+    pub(super) fn within<V>(size: usize, work: impl FnOnce() -> V) -> V {
+        let Place { base, size: whole } = PLACE.get();
+        if whole.saturating_sub(base.wrapping_sub(here())) >= size - size / 4 {
+            return apart(work);
+        }
+        switched(size, work)
+    }
+
+    /// What is done may need most of the stack, so that it is no part of whoever asks.
+    #[inline(never)]
+    fn apart<V>(work: impl FnOnce() -> V) -> V {
+        work()
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn switched<V>(size: usize, work: impl FnOnce() -> V) -> V {
+        let kept = KEPT.take().filter(|(_, kept)| *kept >= size);
+        let taken = kept.or_else(|| Some((DefaultStack::new(size).ok()?, size)));
+        let Some((mut stack, size)) = taken else {
+            // The system has no more memory to give: perhaps this stack does.
+            return apart(work);
+        };
+        let done = on_stack(&mut stack, || {
+            let base = here();
+            let _back = Back(PLACE.replace(Place { base, size }));
+            work()
+        });
+        KEPT.set(Some((stack, size)));
+        done
+    }
+}
+
+#[cfg(not(all(
+    feature = "std",
+    any(unix, windows),
+    any(
+        target_arch = "x86",
+        target_arch = "x86_64",
+        target_arch = "aarch64",
+        target_arch = "arm",
+        target_arch = "riscv64",
+        target_arch = "loongarch64"
+    )
+)))]
+mod room {
+    /// Does something on the stack that there is.
+    #[inline(always)]
+    pub(super) fn within<V>(_size: usize, work: impl FnOnce() -> V) -> V {
+        work()
+    }
+}

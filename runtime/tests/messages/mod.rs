@@ -1,0 +1,168 @@
+//! Every error of the runtime can be provoked, and says when, what and what to try.
+//!
+//! The tables have whole messages, with `…` for a number that depends on steps. An error
+//! without a case does not compile (`variants!`), or has no line in a table.
+
+mod point;
+mod runs;
+mod starts;
+
+use bricard_runtime::{
+    AssemblyError, BadInterval, DynamicsError, IntegrateError, SimulateError, Singularity, Watched,
+};
+
+/// What is provoked, how, and what is said then.
+type Case = (&'static str, fn() -> Said, &'static str);
+
+/// An error that was provoked: the names of its variant and of those within it.
+struct Said {
+    variants: Vec<&'static str>,
+    text: String,
+}
+
+impl Said {
+    fn of<V, E: Variants + std::error::Error>(result: Result<V, E>) -> Self {
+        match result {
+            Ok(_) => Self {
+                variants: Vec::new(),
+                text: "nothing".to_string(),
+            },
+            Err(error) => Self {
+                variants: all_of(&error),
+                text: error.to_string(),
+            },
+        }
+    }
+}
+
+/// An error of several kinds.
+trait Variants {
+    const ALL: &'static [&'static str];
+    fn name(&self) -> &'static str;
+    /// The names of the errors in this one.
+    fn within(&self) -> Vec<&'static str>;
+}
+
+/// Lists the variants of an error, which has to name each of them, and what is within some.
+macro_rules! variants {
+    ($error:ident $(<$($of:tt),+>)?: $($variant:ident),+; $($holds:pat => $inner:expr),*) => {
+        impl Variants for $error $(<$($of),+>)? {
+            const ALL: &'static [&'static str] =
+                &[$(concat!(stringify!($error), "::", stringify!($variant))),+];
+
+            fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$variant { .. } => {
+                        concat!(stringify!($error), "::", stringify!($variant))
+                    })+
+                }
+            }
+
+            fn within(&self) -> Vec<&'static str> {
+                match self {
+                    $($holds => all_of($inner),)*
+                    _ => Vec::new(),
+                }
+            }
+        }
+    };
+}
+
+fn all_of<E: Variants>(error: &E) -> Vec<&'static str> {
+    let mut all = vec![error.name()];
+    all.extend(error.within());
+    all
+}
+
+variants!(Singularity: Unresolved, Turning, Touching, Undetermined, Vanishing;);
+variants!(
+    Watched: KineticEnergy, PotentialEnergy, Power, ConstraintError, Event, Condition;
+);
+variants!(
+    DynamicsError<f64>:
+    NotFinite, WatchedNotFinite, SingularPosition, SingularConfiguration, NotRegular,
+    MassSingular, SharedReaction, Sticks, ProjectionFailed;
+    Self::WatchedNotFinite { quantity, .. } => quantity,
+    Self::SingularConfiguration { kind, .. } => kind
+);
+variants!(
+    IntegrateError<f64>:
+    Dynamics, StepUnderflow, NotFinite, NewtonDiverged, ToleranceNotPositive,
+    ToleranceTooSmall, BadBound;
+    Self::Dynamics(error) => error
+);
+variants!(
+    SimulateError<f64>:
+    Integrate, Observe, StepNotPositive, StepLost, NoErrorEstimate, BadEnd, StartNotFinite,
+    NotConservative, TooManySteps, TooMuchWork, TooManyEvents;
+    Self::Integrate(error) => error,
+    Self::Observe(error) => error
+);
+variants!(
+    AssemblyError<f64, 2, 1>:
+    NotFinite, Positions, Velocities, NoBranch, Vanishing, Start, NegativeInertia;
+);
+
+impl Variants for BadInterval<f64> {
+    const ALL: &'static [&'static str] = &["BadInterval"];
+
+    fn name(&self) -> &'static str {
+        "BadInterval"
+    }
+
+    fn within(&self) -> Vec<&'static str> {
+        Vec::new()
+    }
+}
+
+fn cases() -> impl Iterator<Item = Case> {
+    let tables = [runs::MOTIONS, runs::STEPS, runs::ASKED, starts::STARTS];
+    tables.into_iter().flatten().copied()
+}
+
+/// Whether a text is as expected, whatever stands for `…`.
+fn agrees(text: &str, expected: &str) -> bool {
+    let (first, rest) = expected.split_once('…').unwrap_or((expected, ""));
+    if first.len() == expected.len() {
+        return text == expected;
+    }
+    let Some(text) = text.strip_prefix(first) else {
+        return false;
+    };
+    let ends = text.char_indices().map(|(at, _)| at);
+    ends.chain([text.len()]).any(|at| {
+        let number = text[..at].parse::<f64>();
+        number.is_ok() && agrees(&text[at..], rest)
+    })
+}
+
+#[test]
+fn every_case_provokes_its_error_which_says_what_the_table_says() {
+    let mut wrong = String::new();
+    for (variant, provoke, expected) in cases() {
+        let Said { variants, text } = provoke();
+        if !variants.contains(&variant) || !agrees(&text, expected) {
+            wrong += &format!("{variant}: {variants:?} says\n  {text}\nand not\n  {expected}\n");
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+#[test]
+fn every_error_is_provoked() {
+    let provoked: Vec<&str> = cases()
+        .flat_map(|(_, provoke, _)| provoke().variants)
+        .collect();
+    let all = [
+        Singularity::ALL,
+        Watched::ALL,
+        DynamicsError::ALL,
+        IntegrateError::ALL,
+        SimulateError::ALL,
+        AssemblyError::<f64, 2, 1>::ALL,
+        BadInterval::ALL,
+    ];
+    let all = all.into_iter().flatten();
+    let silent: Vec<&&str> = all.filter(|name| !provoked.contains(name)).collect();
+    assert!(silent.is_empty(), "no case provokes {silent:?}");
+}
