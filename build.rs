@@ -1,7 +1,5 @@
-//! Compiles every description in `mechanisms/`, and collects the sources that a compiled
-//! description needs, for the command to carry along.
+//! Collects the sources that a compiled description needs, for the command to carry along.
 
-use bricard_codegen::Builder;
 use std::error::Error;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
@@ -27,16 +25,9 @@ const SHARED: [&str; 13] = [
 /// What makes a program of it.
 const MAKERS: [&str; 3] = ["codegen/Cargo.toml", "codegen/src", "cli/compiled"];
 
-fn main() -> Result<(), Box<dyn Error>> {
-    Builder::new()
-        .coriolis_matrix(true)
-        .compile_dir("mechanisms")?;
-    embed()
-}
-
 /// Writes `OUT_DIR/sources.rs`: a key, which changes with the sources and with what makes a
 /// program of them, and pairs of paths and texts, in alphabetical order.
-fn embed() -> Result<(), Box<dyn Error>> {
+fn main() -> Result<(), Box<dyn Error>> {
     let (shared, makers) = (below(&SHARED)?, below(&MAKERS)?);
     let mut key = DefaultHasher::new();
     for file in shared.iter().chain(&makers) {

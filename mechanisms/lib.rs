@@ -10,10 +10,15 @@ pub use bricard_runtime as runtime;
 
 include!(concat!(env!("OUT_DIR"), "/mechanisms.rs"));
 
-/// A mechanism of the library by its name, with its type and sizes forgotten.
+/// What the build script made of the descriptions, as text.
+#[doc(hidden)]
+pub const COMPILED: &str = include_str!(concat!(env!("OUT_DIR"), "/mechanisms.rs"));
+
+/// A mechanism of the library, or a benchmark problem, by its name, with its type and sizes
+/// forgotten.
 ///
-/// Whoever runs mechanisms of the library through this shares one compiled simulation for
-/// each pair of sizes.
+/// Whoever runs mechanisms through this shares one compiled simulation for each pair of
+/// sizes.
 pub fn any(name: &str) -> Option<Box<dyn AnyMechanism>> {
-    visit(name, EraseType)
+    visit(name, EraseType).or_else(|| bricard_benchmarks::visit(name, EraseType))
 }

@@ -366,9 +366,8 @@ where
             ..
         } = self.options;
         // The options were checked when they were set.
-        if let Ok(stepper) = Stepper::new(method, step_control, settings) {
-            self.stepper = stepper;
-        }
+        let renewed = self.stepper.renew(method, step_control, settings);
+        debug_assert!(renewed.is_ok(), "{renewed:?}");
     }
 
     /// How it is integrated.
@@ -382,15 +381,18 @@ where
     ///
     /// [`Status::Argument`]; nothing is changed then.
     pub fn set_options(&mut self, options: Options<f64>) -> Outcome {
-        match Stepper::new(options.method, options.step_control, options.settings) {
-            Ok(stepper) => {
-                self.stepper = stepper;
-                self.inquiry = Solver::new(options.settings);
-                self.options = options;
-                Ok(())
-            }
-            Err(error) => self.refuse(Status::Argument, &error),
+        let Options {
+            method,
+            step_control,
+            settings,
+            ..
+        } = options;
+        if let Err(error) = self.stepper.renew(method, step_control, settings) {
+            return self.refuse(Status::Argument, &error);
         }
+        self.inquiry.renew(settings);
+        self.options = options;
+        Ok(())
     }
 }
 
