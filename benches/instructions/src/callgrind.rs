@@ -6,7 +6,7 @@
 //! The program runs itself under callgrind twice, with different numbers of rounds: the
 //! difference is free of everything that is done once.
 
-use crate::kernel;
+use crate::kernels;
 use std::error::Error;
 use std::process::Command;
 
@@ -28,7 +28,7 @@ pub fn is_there() -> bool {
 ///
 /// A kernel that fails, valgrind without a count.
 pub fn instructions(name: &str) -> Result<Option<f64>, Box<dyn Error>> {
-    let around = match kernel::calls(name) {
+    let around = match kernels::calls(name) {
         1 => Some(0.0),
         _ => per_call("slider_crank/call")?,
     };
@@ -38,12 +38,12 @@ pub fn instructions(name: &str) -> Result<Option<f64>, Box<dyn Error>> {
 }
 
 fn per_call(name: &str) -> Result<Option<f64>, Box<dyn Error>> {
-    let [few, many] = if kernel::calls(name) == 1 {
+    let [few, many] = if kernels::calls(name) == 1 {
         [1, 2]
     } else {
         ROUNDS
     };
-    let calls = ((many - few) * kernel::calls(name)) as f64;
+    let calls = ((many - few) * kernels::calls(name)) as f64;
     let collected = |rounds: u64| counting::collected(&["kernel", name, &rounds.to_string()]);
     let counted = collected(many)?.zip(collected(few)?);
     Ok(counted.map(|(more, less)| (more - less) / calls))

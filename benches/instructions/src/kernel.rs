@@ -6,9 +6,10 @@
 //! Calls go through functions that are not inlined, so that what surrounds them is the
 //! same for all; the kernel `call` is that surrounding alone.
 
+use crate::kernels::ROUND;
 use bricard_runtime::{
-    Correction, Interface, Mechanism, Method, Regular, Settings, Solver, State, StepControl,
-    Stepper, Terms, assemble,
+    Audit, Correction, Interface, Mechanism, Method, Options, Regular, Settings, Solver, State,
+    StepControl, Stepper, Terms, assemble, simulate,
 };
 use instructions::hand::{self, ByHand};
 use instructions::mechanism as generated;
@@ -16,10 +17,10 @@ use std::error::Error;
 use std::f64::consts::FRAC_PI_2;
 use std::hint::black_box;
 
-/// Calls in a round.
-pub const ROUND: u64 = 16;
 /// Length of a step (s).
 const STEP: f64 = 0.01;
+/// Length of a run (s).
+const SPAN: f64 = 8.0;
 /// How far rods are from lying in one line (rad), at least.
 const NEAR: f64 = 1e-4;
 /// Distance of the states from which steps begin (s).
@@ -40,103 +41,10 @@ enum Work {
     Robust,
     /// The same near the position where the rods of one swing of many do.
     Turning,
+    /// Eight seconds.
     Run(Method),
-}
-
-/// Every kernel of the short form, by name.
-pub const SHORT: &[&str] = &[
-    "slider_crank/terms",
-    "slider_crank/regular",
-    "slider_crank/correction",
-    "slider_crank/step",
-    "slider_crank_open/terms",
-    "slider_crank_open/regular",
-    "slider_crank_open/step",
-    "slider_crank_hand/terms",
-    "slider_crank_hand/regular",
-    "slider_crank_hand/correction",
-    "slider_crank_hand/step",
-    "slider_crank_eliminated/terms",
-    "slider_crank_eliminated/regular",
-    "slider_crank_eliminated/correction",
-    "slider_crank_eliminated/step",
-    "double_four_bar/terms",
-    "double_four_bar/regular",
-    "double_four_bar/correction",
-    "double_four_bar/step",
-    "double_four_bar_open/terms",
-    "double_four_bar_open/regular",
-    "double_four_bar_open/step",
-    "double_four_bar_hand/terms",
-    "double_four_bar_hand/regular",
-    "double_four_bar_hand/correction",
-    "double_four_bar_hand/step",
-    "andrews/terms",
-    "andrews/regular",
-    "pendulum/terms",
-    "pendulum/regular",
-    "chain/terms",
-    "chain/regular",
-    "row_10/terms",
-    "row_10/regular",
-    "row_10/step",
-    "row_10/robust",
-    "row_40/terms",
-    "row_40/regular",
-    "row_40/step",
-    "row_40/robust",
-    "swings_10/turning",
-    "hung_10/robust",
-];
-
-/// What the long form counts besides.
-pub const LONG: &[&str] = &[
-    "row_2/terms",
-    "row_2/regular",
-    "row_2/step",
-    "row_2/robust",
-    "row_5/terms",
-    "row_5/regular",
-    "row_5/step",
-    "row_5/robust",
-    "row_20/terms",
-    "row_20/regular",
-    "row_20/step",
-    "row_20/robust",
-    "row_80/terms",
-    "row_80/regular",
-    "row_80/step",
-    "row_80/robust",
-    "swings_20/turning",
-    "swings_40/turning",
-    "hung_20/robust",
-    "hung_40/robust",
-    "scotch_yoke/terms",
-    "scotch_yoke/regular",
-    "scotch_yoke/correction",
-    "scotch_yoke/step",
-    "scotch_yoke_eliminated/terms",
-    "scotch_yoke_eliminated/regular",
-    "scotch_yoke_eliminated/correction",
-    "scotch_yoke_eliminated/step",
-    "quick_return/terms",
-    "quick_return/regular",
-    "quick_return/correction",
-    "quick_return/step",
-    "quick_return_eliminated/terms",
-    "quick_return_eliminated/regular",
-    "quick_return_eliminated/correction",
-    "quick_return_eliminated/step",
-    "slider_crank/run_rk4",
-    "slider_crank/run_dop853",
-    "double_four_bar/run_rk4",
-    "double_four_bar/run_dop853",
-];
-
-/// Calls of a kernel in a round.
-pub fn calls(name: &str) -> u64 {
-    let is_long = name.contains("/run_") || name.contains("/robust") || name.contains("/turning");
-    if is_long { 1 } else { ROUND }
+    /// The same by `simulate`.
+    Simulated(Method, Audit),
 }
 
 /// Runs a kernel.
@@ -156,6 +64,10 @@ pub fn run(name: &str, rounds: u64) -> Result<(), Failed> {
         "turning" => Work::Turning,
         "run_rk4" => Work::Run(Method::Rk4),
         "run_dop853" => Work::Run(Method::Dop853),
+        "simulated_rk4" => Work::Simulated(Method::Rk4, Audit::NONE),
+        "simulated_dop853" => Work::Simulated(Method::Dop853, Audit::NONE),
+        "audited_rk4" => Work::Simulated(Method::Rk4, Audit::ALL),
+        "audited_dop853" => Work::Simulated(Method::Dop853, Audit::ALL),
         _ => return Err(format!("there is no kernel `{work}`").into()),
     };
     let job = (work, rounds);
@@ -302,19 +214,30 @@ fn one_in_line<const N: usize>(k: u64) -> State<f64, N> {
 }
 
 /// Steps of 0.01 s, or as long as an error of 1e-9 allows.
-fn stepper<const N: usize, const R: usize>(
-    method: Method,
-) -> Result<Box<Stepper<f64, N, R>>, Failed> {
-    let step_control = match method {
+fn step_control(method: Method) -> StepControl<f64> {
+    match method {
         Method::Rk4 => StepControl::Fixed { step: STEP },
         _ => StepControl::Adaptive {
             relative: 1e-9,
             absolute: 1e-9,
         },
-    };
+    }
+}
+
+fn options(method: Method, audit: Audit) -> Options<f64> {
+    let mut options = Options::rk4(SPAN, STEP);
+    (options.method, options.step_control) = (method, step_control(method));
+    options.audit = audit;
+    options
+}
+
+fn stepper<const N: usize, const R: usize>(
+    method: Method,
+) -> Result<Box<Stepper<f64, N, R>>, Failed> {
+    let control = step_control(method);
     Ok(Box::new(Stepper::new(
         method,
-        step_control,
+        control,
         Settings::default(),
     )?))
 }
@@ -362,14 +285,36 @@ where
         }
         Work::Robust => weak(mechanism, rounds, in_line::<N, R>)?,
         Work::Turning => weak(mechanism, rounds, one_in_line::<N>)?,
-        Work::Run(method) => {
-            for _ in 0..rounds {
-                let mut state = assemble(mechanism, &mechanism.start(), 0.0)
-                    .map_err(|error| error.to_string())?;
-                stepper::<N, R>(method)?.step(mechanism, &mut state, 8.0)?;
-                black_box(&state);
-            }
+        Work::Run(method) => runs(mechanism, rounds, |start| {
+            let mut state = *start;
+            stepper::<N, R>(method)?.step(mechanism, &mut state, SPAN)?;
+            black_box(&state);
+            Ok(())
+        })?,
+        Work::Simulated(method, audit) => {
+            let options = options(method, audit);
+            runs(mechanism, rounds, |start| {
+                black_box(simulate(mechanism, start, &options, &mut [])?);
+                Ok(())
+            })?;
         }
+    }
+    Ok(())
+}
+
+/// Runs from the start.
+fn runs<M, const N: usize, const R: usize>(
+    mechanism: &M,
+    rounds: u64,
+    run: impl Fn(&State<f64, N>) -> Result<(), Failed>,
+) -> Result<(), Failed>
+where
+    M: Mechanism<f64, N, R> + Interface<f64, N>,
+{
+    for _ in 0..rounds {
+        let start =
+            assemble(mechanism, &mechanism.start(), 0.0).map_err(|error| error.to_string())?;
+        run(&start)?;
     }
     Ok(())
 }
@@ -432,7 +377,7 @@ where
             &mut State::default(),
             hand_step::<H, N, R>,
         ),
-        Work::Call | Work::Robust | Work::Turning | Work::Run(_) => {
+        Work::Call | Work::Robust | Work::Turning | Work::Run(_) | Work::Simulated(..) => {
             return Err("not written by hand".into());
         }
     }

@@ -6,6 +6,7 @@
 
 mod callgrind;
 mod kernel;
+mod kernels;
 mod page;
 mod peers;
 mod recorded;
@@ -33,11 +34,11 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
             print!("{}", size::table()?);
             Ok(ExitCode::SUCCESS)
         }
-        [] | ["short"] => measure(kernel::SHORT.to_vec(), false),
-        ["short", "--record"] => measure(kernel::SHORT.to_vec(), true),
+        [] | ["short"] => measure(kernels::SHORT.to_vec(), false),
+        ["short", "--record"] => measure(kernels::SHORT.to_vec(), true),
         ["long", ..] if !cfg!(feature = "long") => Err("build it with `--features long`".into()),
-        ["long"] => measure([kernel::SHORT, kernel::LONG].concat(), false),
-        ["long", "--record"] => measure([kernel::SHORT, kernel::LONG].concat(), true),
+        ["long"] => measure([kernels::SHORT, kernels::LONG].concat(), false),
+        ["long", "--record"] => measure([kernels::SHORT, kernels::LONG].concat(), true),
         ["table"] => {
             page::write(&Recorded::read()?)?;
             Ok(ExitCode::SUCCESS)

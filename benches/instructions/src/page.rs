@@ -44,6 +44,13 @@ coordinate took goes into the other entries; the solves are smaller. It stays an
 all the same: by default the state has every coordinate that the description declares.
 ";
 
+const AUDITED: &str = "## Audits
+
+`simulate` looks at the energy and the constraint errors after each step and finds passages
+through singular positions, unless it is told not to. Runs of 8 s through singular positions,
+their assembly among it; `ratio` is that of `simulate` with all audits to without any.
+";
+
 const STRAIGHT: &str = "## Straight lines or loops
 
 Functions are straight lines; `for` in a description is unrolled. Measured once (AMD EPYC,
@@ -73,9 +80,10 @@ fn path() -> PathBuf {
 fn text(recorded: &Recorded) -> String {
     let counts = recorded.counts();
     format!(
-        "{HEAD}{}\n{ELIMINATED}{}\n{STRAIGHT}\n## Every kernel\n\n{}",
+        "{HEAD}{}\n{ELIMINATED}{}\n{AUDITED}{}\n{STRAIGHT}\n## Every kernel\n\n{}",
         report::peers(&counts) + &report::growth(&counts),
         report::eliminated(&counts),
+        report::audited(&counts),
         report::counts(&counts, None)
     )
 }

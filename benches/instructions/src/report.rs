@@ -100,6 +100,29 @@ pub fn growth(counts: &Counts) -> String {
     text
 }
 
+/// What audits cost.
+pub fn audited(counts: &Counts) -> String {
+    let mut text = String::from(
+        "\n| 8 s | method | stepper | simulate | with all audits | ratio |\n|---|---|--:|--:|--:|--:|\n",
+    );
+    for (name, subject) in [
+        ("slider–crank", "slider_crank"),
+        ("double four-bar", "double_four_bar"),
+    ] {
+        for (title, method) in [("RK4, h = 0.01 s", "rk4"), ("DOP853, 1e-9", "dop853")] {
+            let [stepper, without, with] = ["run", "simulated", "audited"]
+                .map(|work| counts.get(&format!("{subject}/{work}_{method}")).copied());
+            let ratio = without.zip(with).map(|(without, with)| with / without);
+            let cells =
+                [(stepper, 0), (without, 0), (with, 0), (ratio, 2)].map(|(number, digits)| {
+                    number.map_or("–".to_string(), |number| format!("{number:.digits$}"))
+                });
+            let _infallible = writeln!(text, "| {name} | {title} | {} |", cells.join(" | "));
+        }
+    }
+    text
+}
+
 /// What leaving out the coordinates that constraints give saves.
 pub fn eliminated(counts: &Counts) -> String {
     let mut text =

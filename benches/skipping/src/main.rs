@@ -59,6 +59,7 @@ runs! {
     "constraints": constraints_with, constraints_without;
     "clock": clock_with, clock_without;
     "zeros": zeros_with, zeros_without;
+    "ties": ties_with, ties_without;
     "parameters": parameters_with, parameters_without;
     "conditions": conditions_with, conditions_without;
     "passage": passage_with, passage_without;

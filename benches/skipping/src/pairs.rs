@@ -83,6 +83,19 @@ pub const PAIRS: &[Pair] = &[
         ],
     },
     Pair {
+        name: "ties",
+        what: "a tie between two parts",
+        left_out: "entries of one part for the other",
+        common: "const m: kg = 1; const l: m = 1; const g: m/s^2 = 9.81;
+            coord x: m; coord y: m; coord u: m; coord v: m;
+            constraint x^2 + y^2 = l^2; constraint u^2 + v^2 = l^2;
+            start { x = 0.6; y ~ -0.8; u = 0.8; v ~ -0.6; }",
+        adds: [
+            "const k: N/m = 5; kinetic 1/2*m*(der(x)^2 + der(y)^2 + der(u)^2 + der(v)^2) + 1/4*m*(der(x) + der(u))^2; potential m*g*(y + v) + 1/2*k*((x - u)^2 + (y - v)^2);",
+            "kinetic 1/2*m*(der(x)^2 + der(y)^2 + der(u)^2 + der(v)^2); potential m*g*(y + v);",
+        ],
+    },
+    Pair {
         name: "parameters",
         what: "parameters that can be set",
         left_out: "what can be computed when the code is generated",

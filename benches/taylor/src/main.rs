@@ -6,9 +6,8 @@
 
 mod series;
 
-use bricard_runtime::{
-    Energy, Mechanism, Method, Regular, Settings, State, StepControl, Stepper, Structure, Terms,
-};
+use beside::Reduced;
+use bricard_runtime::{Method, StepControl};
 use bricard_testkit::Reduction;
 use std::error::Error;
 use std::f64::consts::FRAC_PI_4;
@@ -54,34 +53,6 @@ const PROBLEMS: [Problem; 3] = [
     },
 ];
 
-/// The reduction as a mechanism with an emitted solve, as generated code has.
-struct Reduced(Reduction);
-
-static REDUCED: Structure = Structure {
-    name: "Reduced",
-    ..Structure::PLAIN
-};
-
-impl Mechanism<f64, 1, 0> for Reduced {
-    fn structure(&self) -> &'static Structure {
-        &REDUCED
-    }
-
-    fn terms(&self, state: &State<f64, 1>, out: &mut Terms<f64, 1, 0>) {
-        out.mass[(0, 0)] = self.0.mass(state.q[0]);
-        out.force[0] = out.mass[(0, 0)] * self.0.acceleration(state.q[0], state.v[0]);
-    }
-
-    fn regular(&self, state: &State<f64, 1>, out: &mut Regular<f64, 1, 0>) -> bool {
-        out.acceleration[0] = self.0.acceleration(state.q[0], state.v[0]);
-        true
-    }
-
-    fn energy(&self, _state: &State<f64, 1>) -> Energy<f64> {
-        Energy::default()
-    }
-}
-
 /// How a motion is computed.
 #[derive(Clone, Copy, Debug)]
 struct Setting {
@@ -102,10 +73,7 @@ fn end(problem: &Problem, setting: Setting) -> Result<f64, Failed> {
         relative: tolerance,
         absolute: tolerance,
     };
-    let mut stepper = Stepper::<f64, 1, 0>::new(Method::Dop853, control, Settings::default())?;
-    let mut state = State::new(0.0, [problem.start].into(), [0.0].into());
-    stepper.step(&Reduced(problem.reduction), &mut state, problem.span)?;
-    Ok(state.q[0])
+    Reduced(problem.reduction).after(problem.span, problem.start, (Method::Dop853, control))
 }
 
 fn collected(index: usize, setting: Setting, rounds: u32) -> Result<f64, Failed> {

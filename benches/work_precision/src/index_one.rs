@@ -5,13 +5,10 @@
 //! positions.
 
 use crate::problem::{End, Failed, Problem};
+use beside::tsit45;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{State, Terms};
-use diffsol::{NalgebraMat, OdeBuilder, OdeSolverMethod, OdeSolverStopReason};
 use instructions::hand::{ByHand, DoubleFourBar, SliderCrank};
-
-/// Steps after which a run is given up.
-const MOST_STEPS: u32 = 1_000_000;
 
 /// Runs a problem from a start angle at rest.
 ///
@@ -40,37 +37,10 @@ fn solve<const N: usize>(
     tolerance: f64,
     acceleration: impl Fn(SVector<f64, N>, SVector<f64, N>) -> [f64; N],
 ) -> Result<End, Failed> {
-    let problem = OdeBuilder::<NalgebraMat<f64>>::new()
-        .rtol(tolerance)
-        .atol([tolerance])
-        .rhs(move |x, _p, _t, y| {
-            let q = SVector::<f64, N>::from_fn(|i, _| x[i]);
-            let v = SVector::<f64, N>::from_fn(|i, _| x[N + i]);
-            let a = acceleration(q, v);
-            for i in 0..N {
-                y[i] = v[i];
-                y[N + i] = a[i];
-            }
-        })
-        .init(
-            move |_p, _t, y| {
-                for i in 0..N {
-                    y[i] = start[i];
-                    y[N + i] = 0.0;
-                }
-            },
-            2 * N,
-        )
-        .build()?;
-    let mut solver = problem.tsit45()?;
-    solver.set_stop_time(until)?;
-    for _ in 0..MOST_STEPS {
-        if let OdeSolverStopReason::TstopReached = solver.step()? {
-            let y = solver.state().y;
-            return Ok((0..N).map(|i| y[i]).collect());
-        }
-    }
-    Err("too many steps".into())
+    tsit45(start, until, tolerance, |q, v, a| {
+        let [q, v] = [q, v].map(SVector::from_column_slice);
+        a.copy_from_slice(&acceleration(q, v));
+    })
 }
 
 /// `q̈`; `K = N + R`.

@@ -3,13 +3,15 @@
 //!
 //! `work_precision [OUT [ANGLES]]` prints Markdown and draws a diagram for each
 //! mechanism into the folder OUT (`target/work_precision`), with ANGLES (200) start
-//! angles around the paper's. Forty loops in a row follow, by the change of energy.
+//! angles around the paper's. What the loops cost beside the motion in one coordinate follows,
+//! and forty loops in a row, by the change of energy.
 
 mod index_one;
 mod joints;
 mod ours;
 mod plot;
 mod problem;
+mod reduced;
 mod row;
 mod run;
 mod scan;
@@ -35,6 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         work_table(problem, &out)?;
         scan_table(problem, angles)?;
     }
+    reduced::table()?;
     row::table()
 }
 

@@ -77,13 +77,17 @@ impl Problem {
         }
     }
 
-    /// Where the crank is at the end, to about 1e-11 rad.
-    pub fn exact(self, start: f64) -> f64 {
-        let reduction = match self {
+    /// The motion of the crank without constraints.
+    pub fn reduction(self) -> Reduction {
+        match self {
             Self::Free => Reduction::SLIDER_CRANK,
             Self::Driven => Reduction::SLIDER_CRANK_DRIVEN,
             Self::FourBar => Reduction::DOUBLE_FOUR_BAR,
-        };
-        reduction.after(self.end(), (start, 0.0)).0
+        }
+    }
+
+    /// Where the crank is at the end, to about 1e-11 rad.
+    pub fn exact(self, start: f64) -> f64 {
+        self.reduction().after(self.end(), (start, 0.0)).0
     }
 }
