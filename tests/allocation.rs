@@ -1,13 +1,29 @@
 //! Running a generated mechanism allocates nothing: a counting allocator proves it.
 
-use crate::library::step_scale;
+use crate::library::{Inspect, inspect, step_scale};
 use allocation_counter::measure;
+use bricard::double_four_bar::DoubleFourBar;
+use bricard::heavy_top::HeavyTop;
+use bricard::rolling_disc::RollingDisc;
 use bricard_runtime::{
-    Interface, Mechanism, Method, Options, Settings, State, StepControl, Stepper, Visitor, Whole,
-    assemble, simulate,
+    Method, Options, Settings, State, StepControl, Stepper, Whole, assemble, simulate,
 };
 
-/// Counts the allocations of steps on demand and of a whole run with all audits.
+const ADAPTIVE: StepControl<f64> = StepControl::Adaptive {
+    relative: 1e-8,
+    absolute: 1e-8,
+};
+
+/// Each method, with steps that suit a mechanism of usual speed.
+const METHODS: [(Method, StepControl<f64>); 5] = [
+    (Method::Rk4, StepControl::Fixed { step: 0.01 }),
+    (Method::Dp5, ADAPTIVE),
+    (Method::Dop853, ADAPTIVE),
+    (Method::Radau5, ADAPTIVE),
+    (Method::Radau9, ADAPTIVE),
+];
+
+/// Counts the allocations of a whole run with all audits.
 struct Count {
     method: Method,
     /// As for a mechanism of usual speed.
@@ -15,77 +31,71 @@ struct Count {
     step_scale: f64,
 }
 
-impl Visitor<f64> for Count {
-    /// Allocations while assembling, stepping, and running.
-    type Output = [u64; 3];
+impl Inspect<f64> for Count {
+    /// Allocations while assembling and running.
+    type Output = [u64; 2];
 
-    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
-    where
-        M: Mechanism<f64, N, R> + Interface<f64, N>,
-    {
-        let mechanism: &dyn Whole<f64, N, R> = &mechanism;
-        let Count {
-            method,
-            step_control,
-            step_scale,
-        } = self;
-        let step_control = match step_control {
+    fn inspect<const N: usize, const R: usize>(
+        self,
+        mechanism: &mut dyn Whole<f64, N, R>,
+    ) -> Self::Output {
+        let mechanism = &*mechanism;
+        let step_control = match self.step_control {
             StepControl::Fixed { step } => StepControl::Fixed {
-                step: step * step_scale,
+                step: step * self.step_scale,
             },
             adaptive => adaptive,
         };
-        let mut state = State::default();
+        let mut start = State::default();
         let assembling = measure(|| {
-            state = assemble(mechanism, &mechanism.start(), 0.0).expect("the start assembles");
+            start = assemble(mechanism, &mechanism.start(), 0.0).expect("the start assembles");
         });
-        let start = state;
-        let settings = Settings::default();
-        let mut stepper: Stepper<f64, N, R> =
-            Stepper::new(method, step_control, settings).expect("a step control that fits");
-        let stepping = measure(|| {
-            for _ in 0..100 {
-                stepper
-                    .step(mechanism, &mut state, 0.01 * step_scale)
-                    .expect("a step");
-            }
-        });
-        let options = Options::new(step_scale, method, step_control);
+        let options = Options::new(self.step_scale, self.method, step_control);
         let running = measure(|| {
             let run = simulate(mechanism, &start, &options, &mut []);
             assert!(run.is_ok(), "the run ends well");
         });
-        [assembling, stepping, running].map(|counted| counted.count_total)
+        [assembling, running].map(|counted| counted.count_total)
     }
 }
 
 #[test]
 fn running_a_mechanism_allocates_nothing() {
-    let adaptive = StepControl::Adaptive {
-        relative: 1e-8,
-        absolute: 1e-8,
-    };
-    let fixed = StepControl::Fixed { step: 0.01 };
-    for (method, step_control) in [
-        (Method::Rk4, fixed),
-        (Method::Dp5, adaptive),
-        (Method::Dop853, adaptive),
-        (Method::Radau5, adaptive),
-        (Method::Radau9, adaptive),
-    ] {
+    for (method, step_control) in METHODS {
         for name in bricard::NAMES {
-            let step_scale = step_scale(name);
             let count = Count {
                 method,
                 step_control,
-                step_scale,
+                step_scale: step_scale(name),
             };
-            let counted = bricard::visit::<f64, _>(name, count);
-            assert_eq!(
-                counted,
-                Some([0; 3]),
-                "{name}, {method}: assembling, stepping, running"
-            );
+            let counted = inspect(name, count);
+            assert_eq!(counted, [0; 2], "{name}, {method}: assembling, running");
         }
+    }
+}
+
+/// Allocations of a hundred steps on demand.
+fn stepping<const N: usize, const R: usize>(
+    mechanism: &dyn Whole<f64, N, R>,
+    (method, step_control): (Method, StepControl<f64>),
+) -> u64 {
+    let mut state = assemble(mechanism, &mechanism.start(), 0.0).expect("the start assembles");
+    let mut stepper: Stepper<f64, N, R> =
+        Stepper::new(method, step_control, Settings::default()).expect("a step control that fits");
+    let counted = measure(|| {
+        for _ in 0..100 {
+            let stepped = stepper.step(mechanism, &mut state, 0.01);
+            stepped.expect("a step");
+        }
+    });
+    counted.count_total
+}
+
+#[test]
+fn stepping_on_demand_allocates_nothing() {
+    for method in METHODS {
+        assert_eq!(stepping(&DoubleFourBar::default(), method), 0, "{method:?}");
+        assert_eq!(stepping(&RollingDisc::default(), method), 0, "{method:?}");
+        assert_eq!(stepping(&HeavyTop::default(), method), 0, "{method:?}");
     }
 }

@@ -1,8 +1,8 @@
 //! Motions that can be written down: the heavy top in elliptic functions, the skate on
 //! a slope, a rolling disc on its circle, Bennett's linkage.
 
-use bricard_runtime::{DynamicsError, assemble, simulate};
-use bricard_runtime::{Interface, Mechanism, Observer, Options, Probe, Step};
+use bricard_runtime::{DynamicsError, Whole, assemble, simulate};
+use bricard_runtime::{Observer, Options, Probe, Step};
 use std::ops::ControlFlow;
 
 /// How long (s).
@@ -42,13 +42,11 @@ impl<const N: usize, F: FnMut(f64, &[f64], &[f64]) -> f64> Observer<f64, N> for 
 }
 
 /// Runs a mechanism from its start, some values changed, beside its closed form.
-fn check<M, const N: usize, const R: usize>(
-    mechanism: &M,
+fn check<const N: usize, const R: usize>(
+    mechanism: &dyn Whole<f64, N, R>,
     velocities: &[(usize, f64)],
     off: impl FnMut(f64, &[f64], &[f64]) -> f64,
-) where
-    M: Mechanism<f64, N, R> + Interface<f64, N>,
-{
+) {
     let mut start = mechanism.start();
     for (i, value) in velocities {
         start.v[*i].value = *value;

@@ -1,10 +1,9 @@
 //! What the compiled code of a mechanism says at a state, as plain numbers.
 
-use crate::library::{Derived, Point, visit};
+use crate::library::{Derived, Inspect, Point, inspect};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Canvas, Correction, Interface, Linearised, Mechanism, Pivots, Position, Real, Regular, State,
-    Terms, Visitor,
+    Canvas, Correction, Linearised, Pivots, Position, Real, Regular, State, Terms, Whole,
 };
 use bricard_testkit::Random;
 use std::collections::BTreeMap;
@@ -60,7 +59,7 @@ impl Answers {
 
 /// What the compiled code of a mechanism of the library says.
 pub fn answers<T: Real>(derived: &Derived, point: &Point, held: bool) -> Answers {
-    visit::<T, _>(&derived.name, Ask { point, held })
+    inspect::<T, _>(&derived.name, Ask { point, held })
 }
 
 /// A random point, and the answers there.
@@ -70,13 +69,13 @@ pub fn asked(derived: &Derived, seed: u64, held: bool) -> (Point, Answers) {
     (point, answers)
 }
 
-impl<T: Real> Visitor<T> for Ask<'_> {
+impl<T: Real> Inspect<T> for Ask<'_> {
     type Output = Answers;
 
-    fn visit<M, const N: usize, const R: usize>(self, mut mechanism: M) -> Answers
-    where
-        M: Mechanism<T, N, R> + Interface<T, N>,
-    {
+    fn inspect<const N: usize, const R: usize>(
+        self,
+        mechanism: &mut dyn Whole<T, N, R>,
+    ) -> Answers {
         let Point {
             t,
             q,
@@ -97,22 +96,19 @@ impl<T: Real> Visitor<T> for Ask<'_> {
         let row = |x: &[f64]| SVector::from_fn(|i, _| T::from_f64(x[i]));
         let state = State::new(T::from_f64(*t), vector(q), vector(v));
         let mut answers = Answers::default();
-        equations(&mechanism, &state, &mut answers);
+        equations(mechanism, &state, &mut answers);
         let given = (vector(accelerations), row(multipliers));
-        linearised(&mechanism, &state, given, &mut answers);
-        interface(&mechanism, &state, &mut answers);
+        linearised(mechanism, &state, given, &mut answers);
+        interface(mechanism, &state, &mut answers);
         answers
     }
 }
 
-fn equations<T, M, const N: usize, const R: usize>(
-    mechanism: &M,
+fn equations<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Whole<T, N, R>,
     state: &State<T, N>,
     answers: &mut Answers,
-) where
-    T: Real,
-    M: Mechanism<T, N, R>,
-{
+) {
     let mut terms = Terms::default();
     mechanism.terms(state, &mut terms);
     answers.fill("mass", N, &terms.mass);
@@ -145,15 +141,12 @@ fn equations<T, M, const N: usize, const R: usize>(
     }
 }
 
-fn linearised<T, M, const N: usize, const R: usize>(
-    mechanism: &M,
+fn linearised<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Whole<T, N, R>,
     state: &State<T, N>,
     (acceleration, multiplier): (SVector<T, N>, SVector<T, R>),
     answers: &mut Answers,
-) where
-    T: Real,
-    M: Mechanism<T, N, R>,
-{
+) {
     let mut out = Linearised::default();
     assert!(mechanism.linearised(state, &acceleration, &multiplier, &mut out));
     answers.fill("force by q", N, &out.force_by_position);
@@ -174,11 +167,11 @@ fn smallest<T: Real, const N: usize, const R: usize>(pivots: &Pivots<T, N, R>) -
     masses.chain(rows).map(ratio).fold(1.0, f64::min)
 }
 
-fn interface<T, M, const N: usize>(mechanism: &M, state: &State<T, N>, answers: &mut Answers)
-where
-    T: Real,
-    M: Interface<T, N>,
-{
+fn interface<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Whole<T, N, R>,
+    state: &State<T, N>,
+    answers: &mut Answers,
+) {
     let unwritten = [T::from_f64(f64::NAN); 64];
     let mut fill = |array, values: [T; 64]| {
         let written = values.iter().take_while(|x| x.is_finite()).count();

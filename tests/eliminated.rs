@@ -3,13 +3,13 @@
 //! Each mechanism is compiled twice, with all coordinates and without those that are
 //! given; the second one's `described` must say what the first one's state says.
 
-use crate::passage::{Placements, judged};
+use crate::passage::judged;
 use crate::reduction::Reduction;
 use bricard_fixtures::eliminated as less;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Described, Interface, Mechanism, Method, Options, Recorder, Settings, Solver, State,
-    StepControl, Structure, Visitor, assemble, simulate,
+    Described, Method, Options, Recorder, Settings, Solver, State, StepControl, Structure, Whole,
+    assemble, simulate,
 };
 
 /// The tolerance of the runs, per step.
@@ -44,10 +44,7 @@ struct Row {
 }
 
 /// The motion of a mechanism from its start.
-fn course<M, const N: usize, const R: usize>(mechanism: &M) -> Course
-where
-    M: Mechanism<f64, N, R> + Interface<f64, N>,
-{
+fn course<const N: usize, const R: usize>(mechanism: &dyn Whole<f64, N, R>) -> Course {
     let structure = mechanism.structure();
     let start = assemble(mechanism, &mechanism.start(), 0.0).expect("the start assembles");
     let mut recorder = Recorder::new(EVERY).expect("a positive interval");
@@ -153,14 +150,10 @@ macro_rules! all {
 
 #[test]
 fn a_motion_is_the_same_without_the_coordinates_that_constraints_give() {
-    fn compare<W, L, const N: usize, const R: usize, const K: usize, const S: usize>(
-        whole: &W,
-        less: &L,
-    ) -> Vec<String>
-    where
-        W: Mechanism<f64, N, R> + Interface<f64, N>,
-        L: Mechanism<f64, K, S> + Interface<f64, K>,
-    {
+    fn compare<const N: usize, const R: usize, const K: usize, const S: usize>(
+        whole: &dyn Whole<f64, N, R>,
+        less: &dyn Whole<f64, K, S>,
+    ) -> Vec<String> {
         assert!(K < N && S < R && N - K == R - S, "{N} {R} {K} {S}");
         let (whole, less) = (course(whole), course(less));
         assert_eq!(whole.rows.len(), less.rows.len());
@@ -173,14 +166,10 @@ fn a_motion_is_the_same_without_the_coordinates_that_constraints_give() {
 
 #[test]
 fn what_was_eliminated_comes_back_with_accelerations_and_reactions_to_round_off() {
-    fn compare<W, L, const N: usize, const R: usize, const K: usize, const S: usize>(
-        whole: &W,
-        less: &L,
-    ) -> Vec<String>
-    where
-        W: Mechanism<f64, N, R> + Interface<f64, N>,
-        L: Mechanism<f64, K, S> + Interface<f64, K>,
-    {
+    fn compare<const N: usize, const R: usize, const K: usize, const S: usize>(
+        whole: &dyn Whole<f64, N, R>,
+        less: &dyn Whole<f64, K, S>,
+    ) -> Vec<String> {
         let mut found = Vec::new();
         let start = assemble(less, &less.start(), 0.0).expect("the start assembles");
         let mut solver = Solver::new(Settings::default());
@@ -216,15 +205,11 @@ fn what_was_eliminated_comes_back_with_accelerations_and_reactions_to_round_off(
 
 #[test]
 fn no_placement_is_worse_where_a_coordinate_is_left_out() {
-    let mut failures = judged(Reduction::SliderCrank, -3.0, &|placements: Placements| {
-        placements.visit(less::slider_crank::SliderCrank::default())
+    let mut failures = judged(Reduction::SliderCrank, -3.0, &|passage| {
+        passage.placed(&less::slider_crank::SliderCrank::default())
     });
-    failures.extend(judged(
-        Reduction::SliderCrankDriven,
-        5.0,
-        &|placements: Placements| {
-            placements.visit(less::slider_crank_driven::SliderCrankDriven::default())
-        },
-    ));
+    failures.extend(judged(Reduction::SliderCrankDriven, 5.0, &|passage| {
+        passage.placed(&less::slider_crank_driven::SliderCrankDriven::default())
+    }));
     assert!(failures.is_empty(), "\n{}", failures.join("\n"));
 }

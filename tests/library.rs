@@ -5,14 +5,14 @@ use bricard_codegen::Settings;
 use bricard_codegen::internals::analyse;
 use bricard_codegen::internals::derive::{Equations, Linearised, derive, linearise};
 use bricard_codegen::internals::expr::{ExprId, Symbol};
-use bricard_codegen::internals::model::Mechanism;
-use bricard_runtime::{Real, Visitor};
+use bricard_codegen::internals::model;
+use bricard_runtime::{Interface, Mechanism, Real, Visitor, Whole};
 use bricard_testkit::Random;
 
 /// A description, checked and derived.
 pub struct Derived {
     pub name: String,
-    pub mechanism: Mechanism,
+    pub mechanism: model::Mechanism,
     pub equations: Equations,
     pub linearised: Linearised,
 }
@@ -96,14 +96,40 @@ pub fn everything() -> impl Iterator<Item = Derived> {
     names().map(|name| derived(name, source(name)))
 }
 
-/// Shows a visitor the compiled mechanism of a name, fixtures included.
-pub fn visit<T: Real, V: Visitor<T>>(name: &str, visitor: V) -> V::Output {
-    let visited = if bricard::NAMES.contains(&name) {
-        bricard::visit(name, visitor)
+/// Asks a compiled mechanism whose type is forgotten, so that the test is compiled once for
+/// each pair of sizes, and the simulation not at all where the library has that pair.
+pub trait Inspect<T: Real> {
+    /// What it answers.
+    type Output;
+
+    /// Asks it.
+    fn inspect<const N: usize, const R: usize>(
+        self,
+        mechanism: &mut dyn Whole<T, N, R>,
+    ) -> Self::Output;
+}
+
+struct Erased<I>(I);
+
+impl<T: Real, I: Inspect<T>> Visitor<T> for Erased<I> {
+    type Output = I::Output;
+
+    fn visit<M, const N: usize, const R: usize>(self, mut mechanism: M) -> I::Output
+    where
+        M: Mechanism<T, N, R> + Interface<T, N> + Clone + 'static,
+    {
+        self.0.inspect::<N, R>(&mut mechanism)
+    }
+}
+
+/// Inspects the compiled mechanism of a name, fixtures included.
+pub fn inspect<T: Real, I: Inspect<T>>(name: &str, inspector: I) -> I::Output {
+    let inspected = if bricard::NAMES.contains(&name) {
+        bricard::visit(name, Erased(inspector))
     } else {
-        bricard_fixtures::visit(name, visitor)
+        bricard_fixtures::visit(name, Erased(inspector))
     };
-    visited.unwrap_or_else(|| panic!("{name} is in no catalogue"))
+    inspected.unwrap_or_else(|| panic!("{name} is in no catalogue"))
 }
 
 impl Derived {

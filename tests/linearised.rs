@@ -1,12 +1,13 @@
 //! The linearised equations of motion, against dual numbers and against differences.
 
 use crate::dual::{Dual, evaluate};
-use crate::library::{Derived, Point, everything, has_regular_states, names, step_scale, visit};
+use crate::library::{
+    Derived, Inspect, Point, everything, has_regular_states, inspect, names, step_scale,
+};
 use bricard_codegen::internals::expr::{ExprId, Symbol};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    AccelerationJacobian, Interface, Mechanism, Options, Settings, Solver, State, System, Visitor,
-    Whole, assemble, simulate,
+    AccelerationJacobian, Options, Settings, Solver, State, System, Whole, assemble, simulate,
 };
 use bricard_testkit::Random;
 use num_dual::Dual64;
@@ -130,14 +131,11 @@ struct Compare {
     name: &'static str,
 }
 
-impl Visitor<f64> for Compare {
+impl Inspect<f64> for Compare {
     type Output = bool;
 
-    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> bool
-    where
-        M: Mechanism<f64, N, R> + Interface<f64, N>,
-    {
-        let mechanism: &dyn Whole<f64, N, R> = &mechanism;
+    fn inspect<const N: usize, const R: usize>(self, mechanism: &mut dyn Whole<f64, N, R>) -> bool {
+        let mechanism = &*mechanism;
         let start = assemble(mechanism, &mechanism.start(), 0.0).expect("the start assembles");
         let options = Options::dop853(0.19 * step_scale(self.name), 1e-10);
         let run = simulate(mechanism, &start, &options, &mut []);
@@ -181,7 +179,7 @@ impl Visitor<f64> for Compare {
 fn slopes_of_accelerations_are_the_limits_of_differences() {
     let without: Vec<&str> = names()
         .filter(|name| has_regular_states(name))
-        .filter(|name| !visit(name, Compare { name }))
+        .filter(|name| !inspect(name, Compare { name }))
         .collect();
     assert!(without.is_empty(), "no Jacobian for {without:?}");
 }

@@ -23,6 +23,7 @@ mod layering;
 mod library;
 mod licences;
 mod linearised;
+mod messages;
 mod motion;
 mod order;
 mod pages;

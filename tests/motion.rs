@@ -1,9 +1,9 @@
 //! Runs of the library's mechanisms from their own start, and exact ends of runs.
 
-use crate::library::visit;
+use crate::library::{Inspect, inspect};
 use bricard_runtime::{
-    ConstraintError, Counters, DynamicsError, Interface, Mechanism, Observer, Options, Passage,
-    Probe, SimulateError, Step, Visitor, Whole, assemble, simulate,
+    ConstraintError, Counters, DynamicsError, Observer, Options, Passage, Probe, SimulateError,
+    Step, Whole, assemble, simulate,
 };
 use std::ops::ControlFlow;
 
@@ -58,7 +58,7 @@ pub fn run(name: &str, options: &Options<f64>) -> Outcome {
 
 /// Runs a mechanism, and watches coordinates that should stay equal.
 pub fn run_comparing(name: &str, options: &Options<f64>, equal: &[usize]) -> Outcome {
-    visit::<f64, _>(name, Run { options, equal })
+    inspect(name, Run { options, equal })
 }
 
 struct Run<'a> {
@@ -66,14 +66,14 @@ struct Run<'a> {
     equal: &'a [usize],
 }
 
-impl Visitor<f64> for Run<'_> {
+impl Inspect<f64> for Run<'_> {
     type Output = Outcome;
 
-    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Outcome
-    where
-        M: Mechanism<f64, N, R> + Interface<f64, N>,
-    {
-        let mechanism: &dyn Whole<f64, N, R> = &mechanism;
+    fn inspect<const N: usize, const R: usize>(
+        self,
+        mechanism: &mut dyn Whole<f64, N, R>,
+    ) -> Outcome {
+        let mechanism = &*mechanism;
         let start = assemble(mechanism, &mechanism.start(), 0.0).expect("the start assembles");
         let mut watch = Watch {
             equal: self.equal,

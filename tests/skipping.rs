@@ -141,6 +141,36 @@ fn constants_become_numbers() {
 }
 
 #[test]
+fn parts_that_nothing_ties_are_named() {
+    let apart = "mechanism Two { param m: kg = 1; param l: m = 2; const g: m/s^2 = 9.81;
+        coord x: m; coord a: rad; coord y: m;
+        kinetic 1/2*m*(der(x)^2 + der(y)^2) + 1/2*m*l^2*der(a)^2; potential m*g*(l*cos(a) + y);
+        constraint x^2 + y^2 = l^2; start { a = 1; x = 2; y ~ 0; } }";
+    for tie in [
+        "potential m*g/l*x*a*l;",
+        "kinetic 1/4*m*(der(x) + l*der(a))^2;",
+        "constraint x = l*a;",
+        "force m*g*sin(a) on x;",
+    ] {
+        let tied = apart.replace("constraint x^2", &format!("{tie} constraint x^2"));
+        let line = differs("ties", "tie these parts", [&tied, apart]);
+        assert!(line.contains("{x, y} and {a};"), "{line}");
+    }
+    // Together they cost what each costs by itself.
+    let spent = |source: &str| {
+        let code = code(source);
+        let solve = function(&code, "regular");
+        solve.matches("mul_add").count() + solve.matches(" * ").count()
+    };
+    let hung = "mechanism Hung { param m: kg = 1; param l: m = 2; const g: m/s^2 = 9.81;
+        coord x: m; coord y: m; kinetic 1/2*m*(der(x)^2 + der(y)^2); potential m*g*y;
+        constraint x^2 + y^2 = l^2; start { x = 2; y ~ 0; } }";
+    let pendulum = "mechanism Pendulum { param m: kg = 1; param l: m = 2; const g: m/s^2 = 9.81;
+        coord a: rad; kinetic 1/2*m*l^2*der(a)^2; potential m*g*l*cos(a); start { a = 1; } }";
+    assert!(spent(apart) <= spent(hung) + spent(pendulum));
+}
+
+#[test]
 fn outputs_cost_nothing_until_they_are_asked_for() {
     let watched = CART.replace("start {", "output tip: m = P.x*cos(a); start {");
     let line = differs("asked", "outputs (", [CART, &watched]);

@@ -1,8 +1,7 @@
 //! Stiff mechanisms of the library against published and computed references.
 
-use bricard_runtime::{
-    Interface, Mechanism, Method, Options, StepControl, Summary, Visitor, Whole, assemble, simulate,
-};
+use crate::library::{Inspect, inspect};
+use bricard_runtime::{Method, Options, StepControl, Summary, Whole, assemble, simulate};
 
 /// Height of the sleeve of the flyball governor after 10 s (m): an implicit method of
 /// order 5 at tolerance 1e-12, on the equations in three coordinates.
@@ -25,14 +24,14 @@ struct Run {
     options: Options<f64>,
 }
 
-impl Visitor<f64> for Run {
+impl Inspect<f64> for Run {
     type Output = (Vec<f64>, u64);
 
-    fn visit<M, const N: usize, const R: usize>(self, mechanism: M) -> Self::Output
-    where
-        M: Mechanism<f64, N, R> + Interface<f64, N>,
-    {
-        let mechanism: &dyn Whole<f64, N, R> = &mechanism;
+    fn inspect<const N: usize, const R: usize>(
+        self,
+        mechanism: &mut dyn Whole<f64, N, R>,
+    ) -> Self::Output {
+        let mechanism = &*mechanism;
         let start = assemble(mechanism, &mechanism.start(), 0.0).expect("the start assembles");
         let run = simulate(mechanism, &start, &self.options, &mut []);
         let Summary {
@@ -51,7 +50,7 @@ fn run(name: &str, until: f64, method: Method, tolerance: f64) -> (Vec<f64>, u64
         absolute: tolerance,
     };
     let options = Options::new(until, method, step_control);
-    bricard::visit(name, Run { options }).expect("a name of the catalogue")
+    inspect(name, Run { options })
 }
 
 #[test]

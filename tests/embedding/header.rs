@@ -36,3 +36,30 @@ fn the_header_says_which_version_it_is() {
     let version = format!("#define BRICARD_ABI {}u", bricard_capi::ABI);
     assert!(HEADER.contains(&version));
 }
+
+/// What no call answers: what would be a defect of the library, and what a header of another
+/// version is told.
+const NEVER: [&str; 2] = ["BRICARD_ERROR_PANIC", "BRICARD_ERROR_ABI"];
+
+#[test]
+fn every_status_is_the_answer_to_some_call_of_the_tests() {
+    let status = |line: &str| Some(line.split_once(" = ")?.0.to_string());
+    let all = names(
+        HEADER,
+        "typedef int32_t bricard_status;\nenum {",
+        "};",
+        status,
+    );
+    assert_eq!(all.len(), 16);
+    let calls = [
+        include_str!("c/misuse.c"),
+        include_str!("c/motion.c"),
+        include_str!("c/threads.c"),
+    ];
+    let is_answered = |name: &str| {
+        let mut after = calls.iter().flat_map(|text| text.split(name).skip(1));
+        after.any(|rest| !rest.starts_with('_'))
+    };
+    let silent: Vec<&String> = all.iter().filter(|name| !is_answered(name)).collect();
+    assert_eq!(silent, NEVER);
+}

@@ -1,5 +1,8 @@
 //! Forces that jump and kink, and events, against closed forms.
 
+// Its simulation of each pair of sizes is shared, where the compiler shares generic code.
+use bricard as _;
+
 mod events;
 mod jumps;
 mod measured;

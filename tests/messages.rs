@@ -1,0 +1,237 @@
+//! Every reason for which the command may refuse can be brought about, and is told with
+//! what to do.
+//!
+//! The reasons are read from the command's sources, so that a new one needs a case here.
+
+use crate::command::{folder, read};
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// A reason, the words of a command line, the exit status, and what is said, with `…` for
+/// what depends on the machine.
+type Case = (&'static str, &'static str, i32, &'static str);
+
+/// Nothing here is compiled.
+const CASES: &[Case] = &[
+    (
+        "UnknownName",
+        "show slider_cranc",
+        2,
+        "there is no mechanism `slider_cranc`; did you mean `slider_crank`?\nthere are: …",
+    ),
+    (
+        "NoColumn",
+        "simulate slider_crank --columns L1",
+        2,
+        "`L1` is a parameter, which stays as it is",
+    ),
+    (
+        "OutOfRange",
+        "simulate slider_crank --step 0",
+        2,
+        "--step must be a positive number, not 0",
+    ),
+    (
+        "Twice",
+        "simulate slider_crank --set m1=2 --set m1=3",
+        2,
+        "--set gives `m1` two values; leave one out",
+    ),
+    (
+        "Law",
+        "simulate slider_crank --set m1=sin(t)",
+        2,
+        "`--set m1=…`: …; a parameter is a number",
+    ),
+    (
+        "TwoLists",
+        "simulate slider_crank --set L1=0.4,0.5 --set L2=1,2",
+        2,
+        "`--set L1` and `--set L2` have several values each, and runs are compared by one of \
+         them; give the other a single value",
+    ),
+    (
+        "Runs",
+        "simulate slider_crank --set L1=0.4,0.5 --film x.gif",
+        2,
+        "--film shows one run, and `--set L1` asks for 2; give it one value",
+    ),
+    (
+        "SameFile",
+        "simulate slider_crank --out x.svg --plot x.svg",
+        2,
+        "--out and --plot can't both be written to x.svg; give them different names",
+    ),
+    (
+        "UselessOption",
+        "simulate slider_crank --method rk4 --rtol 1e-6",
+        2,
+        "rk4 has no use for --rtol; …--method dp5",
+    ),
+    (
+        "FileKind",
+        "simulate slider_crank --film run.mp4",
+        2,
+        "run.mp4 can't be written: …--film run.gif",
+    ),
+    (
+        "Read",
+        "check brocken.mech",
+        1,
+        "could not read brocken.mech: …; did you mean `broken.mech`?",
+    ),
+    (
+        "Write",
+        "simulate slider_crank --out missing/run.csv",
+        1,
+        "could not write missing/run.csv: …",
+    ),
+    (
+        "Description",
+        "check broken.mech",
+        1,
+        "the description is wrong\n\n…broken.mech:1:…",
+    ),
+    (
+        "Run",
+        "simulate slider_crank --form multipliers --until 2 --out run.csv",
+        1,
+        "at t = 0.… s only 1 of the 2 constraint equations is independent: …; use the form \
+         `reduced` or `full`…rows computed before…",
+    ),
+    (
+        "Checkpoint",
+        "simulate slider_crank --resume broken.mech",
+        2,
+        "can't go on from broken.mech: …",
+    ),
+    (
+        "NoFile",
+        "check slider_crank",
+        2,
+        "`slider_crank` is a name, and this takes the file of a description, such as \
+         `./slider_crank.mech`",
+    ),
+    (
+        "Watch",
+        "watch missing/x.mech",
+        1,
+        "can't watch missing/x.mech: there is no folder missing",
+    ),
+    (
+        "Compile",
+        "cache",
+        1,
+        "there is no folder for compiled descriptions; name one with XDG_CACHE_HOME",
+    ),
+    (
+        "Exists",
+        "new crane",
+        1,
+        "crane is there already, and nothing in it was changed; choose another name",
+    ),
+    (
+        "Name",
+        "new Crane",
+        2,
+        "a crate can't be called `Crane`: it begins with a lower-case letter and goes on with these, \
+         digits, `-` and `_`",
+    ),
+    ("Said", "check --json broken.mech", 1, ""),
+];
+
+/// Reasons that no command line alone brings about: the test that does, or why none can.
+const ELSEWHERE: [(&str, &str); 6] = [
+    ("Interrupted", "command.rs"),
+    ("NobodyReads", "command.rs"),
+    ("WriteRows", "command.rs: some systems have no full disk"),
+    ("Cache", "here: its folder has to be spoilt"),
+    ("Draw", "none: a library that draws has failed"),
+    ("OutOfBounds", "none: this program has failed"),
+];
+
+/// The variants of the command's error, as its source declares them.
+fn reasons() -> BTreeSet<String> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cli/error.rs");
+    let source = fs::read_to_string(path).expect("a source");
+    let file = syn::parse_file(&source).expect("it is Rust");
+    let variants = file.items.into_iter().find_map(|item| match item {
+        syn::Item::Enum(item) if item.ident == "CommandError" => Some(item.variants),
+        _ => None,
+    });
+    let variants = variants.expect("the error is declared there").into_iter();
+    variants.map(|variant| variant.ident.to_string()).collect()
+}
+
+/// A folder with a wrong description and something in the way.
+fn place(test: &str) -> std::path::PathBuf {
+    let folder = folder(test);
+    let wrong = "mechanism Broken { coord q: rad; kinetic L9*der(q)^2; }";
+    fs::write(folder.join("broken.mech"), wrong).expect("the folder is ours");
+    fs::create_dir(folder.join("crane")).expect("the folder is ours");
+    folder
+}
+
+/// The command in a folder, where nothing says where a cache may be.
+fn command(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_bricard"));
+    command.current_dir(folder);
+    for name in ["XDG_CACHE_HOME", "HOME", "LOCALAPPDATA"] {
+        command.env_remove(name);
+    }
+    command
+}
+
+/// Whether a text contains the parts between `…` one after the other.
+fn says(text: &str, expected: &str) -> bool {
+    let mut rest = text;
+    expected.split('…').all(|part| match rest.split_once(part) {
+        Some((_, after)) => {
+            rest = after;
+            true
+        }
+        None => false,
+    })
+}
+
+#[test]
+fn every_refusal_says_what_is_wrong_and_what_to_do() {
+    let folder = place("messages");
+    let mut wrong = String::new();
+    for (reason, line, status, expected) in CASES {
+        let output = command(&folder).args(line.split_whitespace()).output();
+        let ran = read(output.expect("the command starts"));
+        let silent = expected.is_empty() && !ran.err.is_empty();
+        if ran.status != Some(*status) || silent || !says(&ran.err, expected) {
+            let (code, err) = (ran.status, ran.err);
+            wrong += &format!("{reason}: {line}: {code:?}\n{err}\nand not\n{expected}\n\n");
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+}
+
+#[test]
+fn a_cache_that_cannot_be_kept_is_told_with_how_to_move_it() {
+    let folder = folder("spoilt_cache");
+    fs::create_dir_all(folder.join("bricard/CACHEDIR.TAG")).expect("the folder is ours");
+    let mut command = command(&folder);
+    command
+        .env("XDG_CACHE_HOME", &folder)
+        .args(["cache", "--clear"]);
+    let ran = read(command.output().expect("the command starts"));
+    assert_eq!(ran.status, Some(1), "{}", ran.err);
+    let expected = "could not keep what was compiled in …CACHEDIR.TAG: …; make room there \
+                    (`bricard cache --clear` does), or name another folder with XDG_CACHE_HOME";
+    assert!(says(&ran.err, expected), "{}", ran.err);
+}
+
+#[test]
+fn every_reason_has_a_case() {
+    let cases = CASES.iter().map(|(reason, ..)| *reason);
+    let others = ELSEWHERE.iter().map(|(reason, _)| *reason);
+    let told: BTreeSet<String> = cases.chain(others).map(String::from).collect();
+    assert_eq!(told, reasons());
+    assert_eq!(told.len(), CASES.len() + ELSEWHERE.len(), "told twice");
+}
