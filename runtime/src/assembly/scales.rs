@@ -33,27 +33,43 @@ pub(super) struct Scales<T, const N: usize, const R: usize> {
     pub(super) sizes: SVector<T, N>,
     /// How much each equation changes when the coordinates change by their sizes.
     pub(super) reach: SVector<T, R>,
+    /// How fast each equation changes at the speeds of the state, whatever their signs.
+    pub(super) speeds: SVector<T, R>,
 }
 
 impl<T: Real, const N: usize, const R: usize> Scales<T, N, R> {
     /// Measures the mechanism around a state; `at` is a buffer.
-    #[inline(never)]
     pub(super) fn measure<M: Mechanism<T, N, R> + ?Sized>(
         mechanism: &M,
         state: &State<T, N>,
+        at: &mut Position<T, N, R>,
+    ) -> Self {
+        Self::measure_free(mechanism, state, &[false; N], at)
+    }
+
+    /// The same for the coordinates that are not held: rows are measured by what these can
+    /// do. Of masses that are unlike each other, those that are held may be the lightest.
+    #[inline(never)]
+    pub(super) fn measure_free<M: Mechanism<T, N, R> + ?Sized>(
+        mechanism: &M,
+        state: &State<T, N>,
+        held: &[bool; N],
         at: &mut Position<T, N, R>,
     ) -> Self {
         let sizes = sizes(mechanism.structure().coordinates, &state.q);
         mechanism.position(state, at);
         let columns = SVector::from_fn(|i, _| {
             let inertia: T = at.mass[(i, i)];
-            if inertia > T::zero() {
+            if held[i] {
+                T::zero()
+            } else if inertia > T::zero() {
                 T::one() / inertia.sqrt()
             } else {
                 T::one()
             }
         });
-        let (mut norms, mut reach) = (SVector::<T, R>::zeros(), SVector::<T, R>::zeros());
+        let mut norms = SVector::<T, R>::zeros();
+        let (mut reach, mut speeds) = (norms, norms);
         for distance in NEIGHBOURHOOD {
             let mut near = *state;
             near.q = disturbed(&state.q, &(sizes * T::from_f64(distance)));
@@ -65,10 +81,12 @@ impl<T: Real, const N: usize, const R: usize> Scales<T, N, R> {
                     sum + entry * entry
                 });
                 let length = (0..N).fold(T::zero(), |sum, j| sum + row(j, &sizes));
+                let speed = (0..N).fold(T::zero(), |sum, j| sum + row(j, &state.v).abs());
                 // A neighbour outside the domain of a root tells nothing.
                 if square.is_finite() && length.is_finite() {
                     norms[k] = norms[k].max(square.sqrt());
                     reach[k] = reach[k].max(length);
+                    speeds[k] = speeds[k].max(speed);
                 }
             }
         }
@@ -84,6 +102,7 @@ impl<T: Real, const N: usize, const R: usize> Scales<T, N, R> {
             rows: norms.map(inverse),
             sizes,
             reach,
+            speeds,
         }
     }
 

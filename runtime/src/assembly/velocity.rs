@@ -43,19 +43,14 @@ where
     let failure = AssemblyError::NotFinite { t: state.t };
     let broken = |Breakdown| failure;
     let measured = Scales::measure(mechanism, state, at);
+    let scales = Scales::measure_free(mechanism, state, held, at);
     mechanism.position(state, at);
-    let mut scales = measured.clone();
-    scales.hold(held);
-    let guessed = speed(&state.v, &measured);
     matrix.decompose(&at.jacobian, &scales).map_err(broken)?;
     correct(state, at, &scales, matrix);
     if !state.is_finite() {
         return Err(failure);
     }
-    // The corrections are as good as the velocities are that they begin with, which may be
-    // far larger than those that they end with.
-    let speed = guessed.max(speed(&state.v, &measured));
-    check(mechanism, (state, speed), at, &measured, held)?;
+    check(mechanism, state, at, &measured, held)?;
     matrix.decompose(&at.jacobian, &measured).map_err(broken)?;
     if matrix.rank(regular()) == R {
         return Ok(());
@@ -126,24 +121,11 @@ fn opening<T: Real, const N: usize, const R: usize>(
     opening
 }
 
-/// The size of velocities in the kinetic metric, where a row of norm one turns a speed of
-/// one into an error of one.
-fn speed<T: Real, const N: usize, const R: usize>(
-    v: &SVector<T, N>,
-    measured: &Scales<T, N, R>,
-) -> T {
-    let squares = (0..N).fold(T::zero(), |sum, j| {
-        let x = v[j] / measured.columns[j];
-        sum + x * x
-    });
-    squares.sqrt()
-}
-
-/// Refuses velocities that contradict the constraints. The speed is the largest that took
-/// part in finding them.
+/// Refuses velocities that contradict the constraints. Corrections are as good as the
+/// velocities are that they begin with, which may be far larger than those that they end with.
 fn check<T, M, const N: usize, const R: usize>(
     mechanism: &M,
-    (state, speed): (&State<T, N>, T),
+    state: &State<T, N>,
     at: &Position<T, N, R>,
     measured: &Scales<T, N, R>,
     held: &[bool; N],
@@ -156,7 +138,10 @@ where
     // Rows that count as dependent may be off by what they are.
     let slack = T::EPSILON * T::from_f64(CONTRADICTION) + regular();
     let residual = SVector::<T, R>::from_fn(|k, _| {
-        let most = slack * (speed / measured.rows[k] + at.drift[k].abs());
+        let terms = (0..N).fold(at.drift[k].abs(), |sum, j| {
+            sum + (at.jacobian[(k, j)] * state.v[j]).abs()
+        });
+        let most = slack * measured.speeds[k].max(terms);
         if error[k].abs() <= most {
             T::zero()
         } else {

@@ -54,7 +54,7 @@ pub(crate) struct Core<T, const N: usize, const R: usize> {
     /// round-off is measured by.
     pub(crate) reach: T,
     /// The sizes of the coordinates up to which that is not measured again.
-    sizes: [T; N],
+    pub(crate) sizes: [T; N],
     /// The inverse squares of those sizes; zero where a coordinate has only been zero.
     pub(crate) weights: [T; N],
     prepared: bool,

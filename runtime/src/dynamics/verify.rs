@@ -193,7 +193,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             chart.freedoms,
             metric,
             rows,
-            (self.reach, self.accepted()),
+            (self.reach, &self.sizes, self.accepted()),
         )?;
         next.set_drift(placed.drift, chart.speed);
         next.spacing = placed.spacing;

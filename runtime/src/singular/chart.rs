@@ -35,6 +35,8 @@ pub(crate) struct Chart<T, const N: usize, const R: usize> {
     pub(crate) column_scale: [T; N],
     /// The length of the coordinates in the metric.
     pub(crate) reach: T,
+    /// How large each of them is.
+    pub(crate) sizes: [T; N],
     /// The spacing of the nodes that served last, as a change of the sine.
     pub(crate) spacing: T,
     /// Error of an interpolation, relative, that is accepted.
@@ -54,7 +56,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
         freedoms: usize,
         metric: &Metric<T, N>,
         rows: &Rows<T, R>,
-        (reach, accepted): (T, T),
+        (reach, sizes, accepted): (T, &[T; N], T),
     ) -> Option<Self> {
         let mut dual = SMatrix::zeros();
         for i in 0..freedoms {
@@ -94,6 +96,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             row_scale: column(|row| rows.scale(row)),
             column_scale: column(|j| T::one() / metric.factor.diagonal(j).sqrt()),
             reach,
+            sizes: *sizes,
             spacing: T::zero(),
             accepted,
             gap: false,

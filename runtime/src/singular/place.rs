@@ -12,7 +12,7 @@ use super::kept::SIDE;
 use super::nodes::Interpolated;
 use super::obstacle::Obstacle;
 use super::sheet::{Point, Sheet};
-use crate::linalg::Frame;
+use crate::linalg::{Frame, norm};
 use crate::tolerance::{critical, hull, negligible, noisy, resolved, round_off, spacing, window};
 use crate::{Mechanism, Real, State};
 
@@ -256,6 +256,7 @@ where
             return true;
         }
         let step = best.spacing / direction.rate;
+        let reach = self.reach_of_rows(state, direction, best);
         let mut place = T::zero();
         for _ in 0..CENTRINGS {
             let mut at = direction.moved(state, direction.centre + step * place);
@@ -277,6 +278,36 @@ where
         let most = rest.iter().fold(T::zero(), |most: T, x| most.max(x.abs()));
         // Beside the crossing an error of interpolation is seen as far as rows are not zero.
         let doubt = T::from_f64(4.0) * best.error * self.frame.smallest();
-        most <= (critical::<T>() * round_off() + doubt) * self.chart.reach
+        most <= (critical::<T>() * round_off() + doubt) * reach
+    }
+
+    /// How far the coordinates reach along the rows: what their round-off adds up to in a row.
+    /// Where masses are unlike each other, that is far less than they reach along the heaviest.
+    fn reach_of_rows(
+        &mut self,
+        state: &State<T, N>,
+        direction: &Direction<T, N>,
+        best: &Best<T, N>,
+    ) -> T {
+        let place = direction.centre + best.spacing / direction.rate * best.found.places[0];
+        let mut node = direction.moved(state, place);
+        node.q += best.found.offsets[0];
+        self.mechanism.position(&node, self.position);
+        let chart = self.chart;
+        let mut most = T::zero();
+        for &row in &chart.rows[..self.constraints()] {
+            let jacobian = &self.position.jacobian;
+            let levers = chart.sizes.iter().enumerate();
+            // A state that is integrated has no size, and no lever.
+            let reach = levers
+                .map(|(j, size)| (jacobian[(row, j)].abs(), *size))
+                .filter(|(lever, _)| *lever > T::zero())
+                .fold(T::zero(), |sum, (lever, size)| sum + lever * size);
+            let length = norm(&self.metric.lift(jacobian, row));
+            if length > T::zero() {
+                most = most.max(reach / length);
+            }
+        }
+        most.min(chart.reach)
     }
 }

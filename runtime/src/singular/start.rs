@@ -84,7 +84,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             freedoms,
             metric,
             rows,
-            (self.reach, self.accepted()),
+            (self.reach, &self.sizes, self.accepted()),
         )?;
         mechanism.position(state, &mut self.position);
         if !is_zero(self.position.drift.as_slice()) {
@@ -106,6 +106,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         Sheet {
             mechanism,
             chart,
+            metric: &self.metric,
             position: &mut self.position,
             terms: &mut self.terms,
             frame: &mut self.frame,

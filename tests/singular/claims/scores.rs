@@ -80,7 +80,8 @@ never_wrong! {
     pendulum_minute pendulum_named cart_minute cart_short mast mast_minute rhombus turning slow rest_beside
     slider_rest rest_on curves_named curves surfaces_named surfaces grazing near three_curves
     three_surfaces tacnode cusp cone instant four_bar gaps hyperbola hyperboloid
-    almost_parallelogram gaps_wide slider driven driven_stops
+    almost_parallelogram unlike_hyperbola unlike_hyperboloid unlike_almost_parallelogram
+    gaps_wide slider driven driven_stops
     knife_edges products trees duplicated
 }
 

@@ -13,6 +13,9 @@ const TOLERANCES: (f64, f64) = (1e-12, 1e-4);
 const STEPS: (f64, f64) = (100.0, 3000.0);
 const OF_FIXED: f64 = 1e-4;
 
+/// Masses (kg).
+const UNLIKE: (f64, f64) = (1e-3, 1e3);
+
 /// A run at any tolerance, by any method, compared where velocities do not turn.
 fn any(random: &mut Random, trial: Trial, reduced: &'static str) -> Trial {
     use Method::{Dop853, Dp5, Radau9, Rk4};
@@ -25,6 +28,28 @@ fn any(random: &mut Random, trial: Trial, reduced: &'static str) -> Trial {
         method,
         step: fixed.then_some(step),
         tolerance: if fixed { OF_FIXED } else { tolerance },
+        ..trial
+    }
+}
+
+/// The same run with masses that are often very unlike a kilogram. What is light is whipped by
+/// what is heavy, which neither steps of equal length nor loose tolerances follow.
+fn unlike(random: &mut Random, trial: Trial, masses: &[&'static str]) -> Trial {
+    let method = random.of_these(&[Method::Dop853, Method::Radau9]);
+    let tolerance = random.decade(TOLERANCES.0, 1e-7);
+    let mut set = trial.set.clone();
+    for mass in masses {
+        if random.of_these(&[true, false]) {
+            set.push((mass, random.decade(UNLIKE.0, UNLIKE.1)));
+        }
+    }
+    Trial {
+        set,
+        method,
+        step: None,
+        tolerance,
+        // Later on the gap would be round-off of what has grown.
+        until: trial.until.min(6.0),
         ..trial
     }
 }
@@ -105,6 +130,12 @@ pub fn hyperbola(random: &mut Random, _: usize) -> Trial {
     towards.trial(random, ("hyperbola", "hyperbola_reduced"), &more)
 }
 
+/// Two curves, of a particle with an inertia along each coordinate.
+pub fn unlike_hyperbola(random: &mut Random, index: usize) -> Trial {
+    let trial = hyperbola(random, index);
+    unlike(random, trial, &["mx", "my"])
+}
+
 /// Two surfaces.
 pub fn hyperboloid(random: &mut Random, _: usize) -> Trial {
     let towards = Towards::new(random, "gz");
@@ -116,6 +147,12 @@ pub fn hyperboloid(random: &mut Random, _: usize) -> Trial {
         ("vy0", random.within(2.0)),
     ];
     towards.trial(random, ("hyperboloid", "hyperboloid_reduced"), &more)
+}
+
+/// Two surfaces, of a particle with an inertia along each coordinate.
+pub fn unlike_hyperboloid(random: &mut Random, index: usize) -> Trial {
+    let trial = hyperboloid(random, index);
+    unlike(random, trial, &["mx", "my", "mz"])
 }
 
 /// A linkage with a pendulum on it.
@@ -136,4 +173,18 @@ pub fn almost_parallelogram(random: &mut Random, _: usize) -> Trial {
     let reduced = "almost_parallelogram_reduced";
     let trial = Trial::short("almost_parallelogram", reduced, set).until(until);
     any(random, trial, reduced)
+}
+
+/// The linkage with links of unlike masses.
+pub fn unlike_almost_parallelogram(random: &mut Random, index: usize) -> Trial {
+    let trial = almost_parallelogram(random, index);
+    let mut trial = unlike(random, trial, &["m", "mc"]);
+    // A bob that is heavier would whip the linkage to where the reduction ends.
+    let links = trial
+        .set
+        .iter()
+        .filter(|(name, _)| ["m", "mc"].contains(name));
+    let lightest = links.fold(1.0, |least: f64, (_, mass)| least.min(*mass));
+    trial.set.push(("mp", lightest / 2.0));
+    trial
 }
