@@ -117,9 +117,7 @@ fn two_curves_are_passed_in_single_precision() {
     passes(("curves", "curve_reduced", 2), start, run);
 }
 
-#[test]
-fn a_slider_crank_passes_in_single_precision() {
-    let start = |random: &mut Random| vec![("p0", random.within(1.4)), ("w0", random.within(8.0))];
+fn a_slider_crank_passes(start: fn(&mut Random) -> Set) {
     let run = |values: &Set| {
         let mut mechanism = equal_slider_crank::EqualSliderCrank::<f32>::default();
         set(&mut mechanism, values);
@@ -130,6 +128,16 @@ fn a_slider_crank_passes_in_single_precision() {
         start,
         run,
     );
+}
+
+#[test]
+fn a_slider_crank_passes_in_single_precision() {
+    a_slider_crank_passes(|random| vec![("p0", random.within(1.4)), ("w0", random.within(8.0))]);
+}
+
+#[test]
+fn a_slider_crank_passes_in_single_precision_after_many_turns() {
+    a_slider_crank_passes(|random| vec![("p0", random.within(300.0)), ("w0", random.within(8.0))]);
 }
 
 /// What the end may be off by that of the same run in double precision, in units of the
