@@ -1,9 +1,10 @@
-//! Single precision passes singular positions too.
+//! Single and extended precision pass singular positions too.
 
 use crate::{SEED, is_long};
-use bricard_runtime::{Interface, Mechanism, Options, Whole, assemble, simulate};
+use bricard_reference::DoubleDouble;
+use bricard_runtime::{Interface, Mechanism, Options, Summary, Whole, assemble, simulate};
 use bricard_singular::descriptions::{
-    curves, equal_slider_crank, four_bar, parallelogram_pendulum,
+    curves, equal_slider_crank, equal_slider_crank_reduced, four_bar, parallelogram_pendulum,
 };
 use bricard_singular::{Set, exact};
 use bricard_testkit::Random;
@@ -181,4 +182,35 @@ fn several_passages_of_a_slider_crank_keep_the_digits_of_single_precision() {
 fn several_passages_of_a_four_bar_linkage_keep_the_digits_of_single_precision() {
     let single = four_bar::FourBar::<f32>::default();
     agree::<3, 2>(&single, &four_bar::FourBar::<f64>::default(), 2.0);
+}
+
+/// Tolerance in 106 bits: far beyond what 53 bits resolve.
+const EXTENDED: f64 = 1e-22;
+
+/// A run in 106 bits.
+fn extended<const N: usize, const R: usize>(
+    mechanism: &dyn Whole<DoubleDouble, N, R>,
+) -> Summary<DoubleDouble, N> {
+    let zero = DoubleDouble::from(0.0);
+    let start = assemble(mechanism, &mechanism.start(), zero).expect("it can be assembled");
+    let options = Options::dop853(DoubleDouble::from(1.5), DoubleDouble::from(EXTENDED));
+    simulate(mechanism, &start, &options, &mut []).unwrap_or_else(|why| panic!("{why}"))
+}
+
+#[test]
+fn passages_keep_digits_beyond_those_of_double_precision() {
+    let mut whole = equal_slider_crank::EqualSliderCrank::<DoubleDouble>::default();
+    let mut reduced = equal_slider_crank_reduced::EqualSliderCrankReduced::default();
+    let speed = DoubleDouble::from(9.0);
+    (whole.parameters.w0, reduced.parameters.w0) = (speed, speed);
+    let (found, wanted) = (extended::<2, 1>(&whole), extended::<1, 0>(&reduced));
+    let several = found.passages.is_some_and(|passages| passages >= 4);
+    assert!(several, "{:?} passages", found.passages);
+    for (a, b) in [
+        (found.end.q[0], wanted.end.q[0]),
+        (found.end.v[0], wanted.end.v[0]),
+    ] {
+        let off = (a - b).high().abs();
+        assert!(off <= 100.0 * EXTENDED, "{a} is off {b} by {off:e}");
+    }
 }
