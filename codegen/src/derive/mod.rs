@@ -17,6 +17,7 @@ mod explicit;
 mod force;
 mod gradient;
 mod linearised;
+mod local;
 mod mass;
 mod motion;
 mod properties;

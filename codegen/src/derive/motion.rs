@@ -36,7 +36,8 @@ pub(super) fn motion(mechanism: &mut Mechanism, by: Sweep) -> Option<Motion> {
     within_bounds(graph)?;
     let coriolis = force::coriolis_product(graph, kinetic, &momenta, by);
     let gravity = force::potential_force(graph, potential, n, by);
-    let applied = force::applied(graph, &mechanism.forces, dissipation, (n, freedoms));
+    let sizes = (n, freedoms);
+    let applied = force::applied(graph, &mechanism.forces, dissipation, sizes, by);
     let force = force::total(graph, &applied, &coriolis, &gravity);
     Some(Motion {
         kinetic,

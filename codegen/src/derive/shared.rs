@@ -10,12 +10,14 @@
 //! body to body, as the recursive methods do. Source: Featherstone, Rigid Body Dynamics
 //! Algorithms (2008), section 7.3 ("articulated-body algorithm").
 //!
-//! `w = J_w q̇` and `M = Jᵀ M̃ J`, so that `M q̈ = p₁` is part of
-//! `[M̃ Gᵀ; G 0] (x, μ) = (p₁, 0)`, where the rows `G` say what each `w` is.
+//! `(w, q̇) = J q̇` and `M = Jᵀ M̃ J`, so that `M q̈ = p₁` is part of
+//! `[M̃ Gᵀ; G 0] (x, μ) = (f, 0)` for all `f` with `Jᵀ f = p₁`, where the rows `G` say what
+//! each `w` is.
 
 use super::equations::Equations;
 use super::force;
-use super::gradient::Sweep;
+use super::gradient::{Sweep, coordinates, rates};
+use super::local::Local;
 use crate::expr::{ExprId, Graph, Node, Symbol};
 use crate::model::Mechanism;
 use rustc_hash::FxHashMap;
@@ -32,7 +34,7 @@ pub struct Shared {
     pub mass: Entries,
     /// `G`, a row for each shared velocity.
     pub links: Entries,
-    /// `p₁`, `N`, with what it has in common computed once.
+    /// `f`, of all unknowns, with what it has in common computed once.
     pub force: Vec<ExprId>,
 }
 
@@ -48,7 +50,6 @@ pub fn shared(mechanism: &mut Mechanism, equations: &Equations) -> Option<Shared
     let (n, freedoms) = (mechanism.coordinates.len(), mechanism.freedoms());
     let graph = &mut mechanism.graph;
     let kinetic = graph.sum(mechanism.kinetic.iter().map(|summand| summand.value));
-    let potential = graph.sum(mechanism.potential.iter().map(|summand| summand.value));
     let (reduced, links) = in_shared(graph, kinetic, n);
     let count = links.len();
     if count == 0 {
@@ -77,15 +78,43 @@ pub fn shared(mechanism: &mut Mechanism, equations: &Equations) -> Option<Shared
             rows.push((row, place(column), entry));
         }
     }
-    let momenta = super::mass::momenta(graph, kinetic, n, Sweep::Back);
-    let coriolis = force::coriolis_product(graph, kinetic, &momenta, Sweep::Back);
-    let gravity = force::potential_force(graph, potential, n, Sweep::Back);
+    let parts = parts(mechanism);
+    let graph = &mut mechanism.graph;
+    let local = Local::of(graph, &rows, count);
+    let parts = parts.map(|part| local.moved(graph, &part));
+    let mut force = Vec::with_capacity(count + n);
+    for place in 0..count + n {
+        let [applied, carried, slope, gravity] = [0, 1, 2, 3].map(|part| parts[part][place]);
+        let coriolis = graph.sub(carried, slope);
+        force.extend(force::total(graph, &[applied], &[coriolis], &[gravity]));
+    }
     Some(Shared {
         count,
         mass,
         links: rows,
-        force: force::total(graph, &equations.applied, &coriolis, &gravity),
+        force,
     })
+}
+
+/// What `p₁` is made of, as reverse sweeps give it: `Q`, `d/dt ∂T/∂q̇` without what
+/// accelerations bring, `∂T/∂q` and `h`.
+fn parts(mechanism: &mut Mechanism) -> [Vec<ExprId>; 4] {
+    let (n, freedoms) = (mechanism.coordinates.len(), mechanism.freedoms());
+    let graph = &mut mechanism.graph;
+    let [kinetic, potential, dissipation] = [
+        &mechanism.kinetic,
+        &mechanism.potential,
+        &mechanism.dissipation,
+    ]
+    .map(|summands| graph.sum(summands.iter().map(|summand| summand.value)));
+    let by = Sweep::Back;
+    let momenta = super::mass::momenta(graph, kinetic, n, by);
+    [
+        force::applied(graph, &mechanism.forces, dissipation, (n, freedoms), by),
+        rates(graph, &momenta, n),
+        by.gradient(graph, kinetic, coordinates(n)),
+        force::potential_force(graph, potential, n, by),
+    ]
 }
 
 /// An energy in which sums of velocities that occur more than once are symbols, the

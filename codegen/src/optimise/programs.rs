@@ -320,7 +320,7 @@ impl Optimiser<'_> {
             vector("force", &force),
             sparse("jacobian", &links),
         ]));
-        shared_acceleration(&terms, (force.len(), count))
+        shared_acceleration(&terms, (force.len() - count, count))
     }
 
     fn projection(&mut self) -> (Option<Optimised>, Option<Solved>) {
