@@ -28,12 +28,12 @@ pub(super) struct Local {
 }
 
 impl Local {
-    /// Those of the rows, `(row, place, coefficient)`, in which all coefficients are numbers;
+    /// Those of the rows of `w = L u`, given by their entries, in which all coefficients are numbers;
     /// the first `count` places are those of the shared velocities.
-    pub fn of(graph: &Graph, rows: &[(usize, usize, ExprId)], count: usize) -> Self {
+    pub fn of(graph: &Graph, links: &[(usize, usize, ExprId)], count: usize) -> Self {
         let mut entries: Vec<Vec<(usize, Option<Number>)>> = vec![Vec::new(); count];
         let mut uses: FxHashMap<usize, usize> = FxHashMap::default();
-        for &(row, place, entry) in rows.iter().filter(|(row, place, _)| row != place) {
+        for &(row, place, entry) in links {
             entries[row].push((place, graph.as_number(entry)));
             *uses.entry(place).or_default() += 1;
         }

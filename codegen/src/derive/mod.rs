@@ -10,6 +10,7 @@
 
 mod christoffel;
 mod closure;
+mod composite;
 mod eliminate;
 mod energy;
 mod equations;
@@ -21,6 +22,7 @@ mod local;
 mod mass;
 mod motion;
 mod properties;
+mod reduced;
 mod shared;
 mod swell;
 mod switch;

@@ -318,7 +318,7 @@ impl Optimiser<'_> {
         let terms = self.program(&merged([
             sparse("mass", &mass),
             vector("force", &force),
-            sparse("jacobian", &links),
+            sparse("links", &links),
         ]));
         shared_acceleration(&terms, (force.len() - count, count))
     }

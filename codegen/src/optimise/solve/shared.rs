@@ -1,7 +1,7 @@
 //! Solves with velocities that bodies share as unknowns of their own.
 //!
-//! In:  a program for `mass`, `jacobian` and `force` of these and of the coordinates, in this
-//!      order.
+//! In:  a program for `mass` and `force` of these and of the coordinates, in this order, and
+//!      for `links`, what these are made of.
 //! Out: a program for the accelerations of the coordinates.
 //!
 //! From the last body back: a shared velocity is replaced by what it is made of, which adds
@@ -39,7 +39,7 @@ pub(in crate::optimise) fn with_shared(
     }
     let mut take = |array| entries.remove(array).unwrap_or_default();
     let (mass, force) = (take("mass"), take("force"));
-    let order = Order::of(&take("jacobian"), n, count);
+    let order = Order::of(&take("links"), n, count);
     let diagonal = algebra.diagonal(&mass, &order)?;
     let steps = algebra.steps(&mass, &order)?;
     let driving = (0..count + n).map(|i| force.get(&(i, 0)).copied());
@@ -80,7 +80,7 @@ impl Order {
     fn of(links: &Sparse, n: usize, count: usize) -> Self {
         let mut parts = vec![Vec::new(); count];
         let mut first = vec![None; count + n];
-        for (&(row, place), &entry) in links.iter().filter(|((row, place), _)| row != place) {
+        for (&(row, place), &entry) in links {
             parts[row].push((place, entry));
             first[place].get_or_insert(row);
         }
