@@ -25,7 +25,8 @@ use crate::model::{Mechanism, Shape};
 const LINEARISED_MAX: usize = 10_000;
 
 /// The weight of a solve beyond which another with shared velocities as unknowns is tried.
-const LONG_SOLVE: usize = 2_000;
+/// A shorter one is of a few bodies, which have little in common.
+const LONG_SOLVE: usize = 500;
 
 /// A program and what was saved.
 #[derive(Clone, Debug, Default)]
