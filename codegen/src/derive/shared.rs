@@ -53,13 +53,12 @@ pub fn shared(mechanism: &mut Mechanism, equations: &Equations) -> Option<Shared
     let parts = parts(mechanism);
     let graph = &mut mechanism.graph;
     let local = Local::of(graph, &links, count);
-    let parts = parts.map(|part| local.moved(graph, &part));
-    let mut force = Vec::with_capacity(count + n);
-    for place in 0..count + n {
-        let [applied, carried, slope, gravity] = [0, 1, 2, 3].map(|part| parts[part][place]);
-        let coriolis = graph.sub(carried, slope);
-        force.extend(force::total(graph, &[applied], &[coriolis], &[gravity]));
-    }
+    let [applied, carried, slope, gravity] = parts.map(|part| local.moved(graph, &part));
+    let pairs = carried.iter().zip(&slope);
+    let coriolis: Vec<ExprId> = pairs
+        .map(|(&rate, &slope)| graph.sub(rate, slope))
+        .collect();
+    let force = force::total(graph, &applied, &coriolis, &gravity);
     Some(Shared {
         count,
         mass,

@@ -45,19 +45,19 @@ pub(in crate::optimise) fn with_shared(
     let driving = (0..count + n).map(|i| force.get(&(i, 0)).copied());
     let acceleration = algebra.swept(&steps, driving.collect());
     let mut outputs: Vec<(Slot, Value)> = Vec::new();
-    let mut write = |array, place: usize, entry| {
-        let slot = Slot::of_vector(array, place - count);
+    let mut write = |array, row, entry| {
+        let slot = Slot::of_vector(array, row);
         outputs.extend(algebra.unsigned(entry).map(|value| (slot, value)));
     };
-    for place in count..count + n {
-        write("acceleration", place, acceleration[place]);
+    for (row, entry) in acceleration[count..].iter().enumerate() {
+        write("acceleration", row, *entry);
     }
     for step in &steps {
         if let &Step::Eliminated { place, pivot, .. } = step
             && diagonal[place] != Some(pivot)
         {
-            write("mass_pivots", place, Some(pivot));
-            write("mass_diagonal", place, diagonal[place]);
+            write("mass_pivots", place - count, Some(pivot));
+            write("mass_diagonal", place - count, diagonal[place]);
         }
     }
     Some(Solved {
