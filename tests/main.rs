@@ -4,6 +4,7 @@ mod allocation;
 mod authoring;
 mod balance;
 mod by_path;
+mod chains;
 mod closed_forms;
 mod command;
 mod comparison;

@@ -16,6 +16,8 @@ const MORE_ROWS: [u32; 4] = [2, 5, 20, 80];
 const CHAINS: [&str; 2] = ["swings", "hung_row"];
 const LOOPS: [u32; 1] = [10];
 const MORE_LOOPS: [u32; 2] = [20, 40];
+/// Numbers of rods in joint angles.
+const JOINTS: [u32; 3] = [10, 20, 50];
 
 fn main() -> Result<(), BuildError> {
     let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
@@ -66,6 +68,12 @@ fn main() -> Result<(), BuildError> {
                 .out_dir(folder(&format!("chain_{n}"))?)
                 .compile(format!("{OWN}/{name}.mech"))?;
         }
+    }
+    for n in JOINTS {
+        Builder::new()
+            .constant("N", n)
+            .out_dir(folder(&format!("joint_{n}"))?)
+            .compile(format!("{OWN}/joint_chain.mech"))?;
     }
     Ok(())
 }

@@ -139,6 +139,18 @@ pub fn run(name: &str, rounds: u64) -> Result<(), Failed> {
         "row_80" => ours(&generated::row_80::n_four_bar::NFourBar::default(), job),
         "swings_10" => ours(&generated::swings_10::swings::Swings::default(), job),
         "hung_10" => ours(&generated::hung_10::hung_row::HungRow::default(), job),
+        "joint_10" => ours(
+            &generated::joint_10::joint_chain::JointChain::default(),
+            job,
+        ),
+        "joint_20" => ours(
+            &generated::joint_20::joint_chain::JointChain::default(),
+            job,
+        ),
+        "joint_50" => ours(
+            &generated::joint_50::joint_chain::JointChain::default(),
+            job,
+        ),
         #[cfg(feature = "long")]
         "swings_20" => ours(&generated::swings_20::swings::Swings::default(), job),
         #[cfg(feature = "long")]

@@ -47,6 +47,9 @@ pub const SHORT: &[&str] = &[
     "row_40/robust",
     "swings_10/turning",
     "hung_10/robust",
+    "joint_10/regular",
+    "joint_20/regular",
+    "joint_50/regular",
 ];
 
 /// What the long form counts besides.

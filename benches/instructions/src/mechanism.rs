@@ -44,6 +44,12 @@ generated! {
     swings_10: "chain_10" / "swings";
     /// 10 parallelograms and a pendulum.
     hung_10: "chain_10" / "hung_row";
+    /// 10 rods in joint angles.
+    joint_10: "joint_10" / "joint_chain";
+    /// 20 rods in joint angles.
+    joint_20: "joint_20" / "joint_chain";
+    /// 50 rods in joint angles.
+    joint_50: "joint_50" / "joint_chain";
 }
 
 #[cfg(feature = "long")]

@@ -43,22 +43,53 @@ pub(super) fn applied(
     forces: &[Force],
     dissipation: ExprId,
     (n, freedoms): (usize, usize),
+    by: Sweep,
 ) -> Vec<ExprId> {
-    let loss = gradient(graph, dissipation, velocities(freedoms));
+    let loss = by.gradient(graph, dissipation, velocities(freedoms));
     let mut terms: Vec<Vec<ExprId>> = loss.into_iter().map(|x| vec![graph.neg(x)]).collect();
     terms.resize(n, Vec::new());
-    for force in forces {
-        for (&component, &place) in force.force.iter().zip(&force.on) {
-            let slope = match force.on_velocity {
-                true => gradient(graph, place, velocities(n)),
-                false => gradient(graph, place, coordinates(n)),
-            };
-            for (terms, slope) in terms.iter_mut().zip(slope) {
-                terms.push(graph.mul(component, slope));
-            }
+    let work = match by {
+        Sweep::Forward => work_one_by_one(graph, forces, n),
+        Sweep::Back => Vec::from(work_at_once(graph, forces, n)),
+    };
+    for slopes in work {
+        for (terms, slope) in terms.iter_mut().zip(slopes) {
+            terms.push(slope);
         }
     }
     terms.into_iter().map(|terms| graph.sum(terms)).collect()
+}
+
+/// What each component of each force comes to on each coordinate.
+fn work_one_by_one(graph: &mut Graph, forces: &[Force], n: usize) -> Vec<Vec<ExprId>> {
+    let mut work = Vec::new();
+    for force in forces {
+        for (&component, &place) in force.force.iter().zip(&force.on) {
+            let slopes = match force.on_velocity {
+                true => gradient(graph, place, velocities(n)),
+                false => gradient(graph, place, coordinates(n)),
+            };
+            let slopes = slopes.into_iter();
+            work.push(slopes.map(|slope| graph.mul(component, slope)).collect());
+        }
+    }
+    work
+}
+
+/// What all forces on places come to on each coordinate, and all that work on velocities.
+fn work_at_once(graph: &mut Graph, forces: &[Force], n: usize) -> [Vec<ExprId>; 2] {
+    [false, true].map(|on_velocity| {
+        let chosen = forces.iter().filter(|f| f.on_velocity == on_velocity);
+        let rated = chosen.flat_map(|f| f.on.iter().copied().zip(f.force.iter().copied()));
+        let rated: Vec<(ExprId, ExprId)> = rated.collect();
+        let found = graph.pulled_back(&rated);
+        let zero = graph.integer(0);
+        let entry = |symbol| found.get(&symbol).copied().unwrap_or(zero);
+        match on_velocity {
+            true => velocities(n).map(entry).collect(),
+            false => coordinates(n).map(entry).collect(),
+        }
+    })
 }
 
 /// `p₁ = Q − C q̇ − h`.

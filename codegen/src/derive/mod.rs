@@ -10,6 +10,7 @@
 
 mod christoffel;
 mod closure;
+mod composite;
 mod eliminate;
 mod energy;
 mod equations;
@@ -17,9 +18,11 @@ mod explicit;
 mod force;
 mod gradient;
 mod linearised;
+mod local;
 mod mass;
 mod motion;
 mod properties;
+mod reduced;
 mod shared;
 mod swell;
 mod switch;
@@ -38,6 +41,13 @@ use gradient::Sweep;
 use motion::{Motion, motion};
 use swell::within_bounds;
 
+/// The number of expressions beyond which equations are derived in one sweep, too.
+const LONG: usize = 100;
+
+/// How much of their expressions others must have that are taken instead, below [`SWELL`]:
+/// linearisation differentiates once more, which formulas of one sweep take longer for.
+const MUCH_SHORTER: (usize, usize) = (2, 3);
+
 /// Derives the equations of motion from energies and constraints.
 ///
 /// # Errors
@@ -50,10 +60,14 @@ pub fn derive(mechanism: &mut Mechanism) -> Result<Equations, Diagnostics> {
     let forward = equations(mechanism, Sweep::Forward);
     let size = |mechanism: &Mechanism, equations: &Equations| swell::size(mechanism, equations);
     let longest = forward.as_ref().map(|equations| size(mechanism, equations));
-    if longest.is_none_or(|longest| longest > SWELL) {
+    if longest.is_none_or(|longest| longest > LONG) {
         let mut other = begun;
         let back = equations(&mut other, Sweep::Back);
-        let shorter = back.filter(|back| longest.is_none_or(|most| size(&other, back) < most));
+        let most = longest.map_or(usize::MAX, |longest| match longest > SWELL {
+            true => longest,
+            false => longest * MUCH_SHORTER.0 / MUCH_SHORTER.1,
+        });
+        let shorter = back.filter(|back| size(&other, back) < most);
         if let Some(back) = shorter {
             *mechanism = other;
             return Ok(back);

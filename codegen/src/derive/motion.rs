@@ -2,8 +2,9 @@
 
 use super::equations::Matrix;
 use super::gradient::Sweep;
+use super::reduced::Reduced;
 use super::swell::within_bounds;
-use super::{force, mass};
+use super::{composite, force, mass};
 use crate::expr::ExprId;
 use crate::model::Mechanism;
 
@@ -29,14 +30,22 @@ pub(super) fn motion(mechanism: &mut Mechanism, by: Sweep) -> Option<Motion> {
 
     let momenta = mass::momenta(graph, kinetic, n, by);
     within_bounds(graph)?;
-    let mut mass = mass::mass_matrix(graph, &momenta);
+    let shared = match by {
+        Sweep::Forward => None,
+        Sweep::Back => Reduced::of(graph, kinetic, n),
+    };
+    let mut mass = match shared {
+        Some(reduced) => composite::mass_matrix(graph, &reduced, n),
+        None => mass::mass_matrix(graph, &momenta),
+    };
     for (i, row) in mass.iter_mut().enumerate().skip(freedoms) {
         row[i] = graph.integer(1);
     }
     within_bounds(graph)?;
     let coriolis = force::coriolis_product(graph, kinetic, &momenta, by);
     let gravity = force::potential_force(graph, potential, n, by);
-    let applied = force::applied(graph, &mechanism.forces, dissipation, (n, freedoms));
+    let sizes = (n, freedoms);
+    let applied = force::applied(graph, &mechanism.forces, dissipation, sizes, by);
     let force = force::total(graph, &applied, &coriolis, &gravity);
     Some(Motion {
         kinetic,

@@ -23,8 +23,7 @@ pub const EXPRESSIONS_MAX: usize = 150_000;
 const NAMED: usize = 3;
 
 const HELP: &str = "energies written with the velocities of the body itself, from body to \
-                    body, stay much shorter than with positions in the world, and in a plane \
-                    chain angles from a fixed axis than angles between bodies";
+                    body, stay much shorter than with positions in the world";
 
 /// Nothing once there are more than [`EXPRESSIONS_MAX`] expressions.
 pub(super) fn within_bounds(graph: &Graph) -> Option<()> {

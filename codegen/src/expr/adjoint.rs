@@ -1,5 +1,8 @@
 //! All derivatives of one expression, in one sweep from it down to its symbols.
 //!
+//! In:  an expression, or several, each with the rate of the whole by it.
+//! Out: the rates of the whole by coordinates and velocities.
+//!
 //! Each expression on the way learns how fast the whole changes with it, once, whatever the
 //! number of symbols. What the whole shares, these rates share: the momenta of a chain of
 //! bodies are sums from the last body back, not a sum over all pairs of bodies.
@@ -16,7 +19,15 @@ type Rates = FxHashMap<ExprId, Vec<(ExprId, Number)>>;
 impl Graph {
     /// `∂e/∂symbol` for all coordinates and velocities in an expression.
     pub fn adjoints(&mut self, e: ExprId) -> BTreeMap<Symbol, ExprId> {
-        let nodes = self.reachable(&[e]);
+        let one = self.integer(1);
+        self.pulled_back(&[(e, one)])
+    }
+
+    /// `Σ r ∂e/∂symbol` over expressions `e` with rates `r`, for all coordinates and
+    /// velocities in them: what forces on places come to.
+    pub fn pulled_back(&mut self, rated: &[(ExprId, ExprId)]) -> BTreeMap<Symbol, ExprId> {
+        let roots: Vec<ExprId> = rated.iter().map(|(e, _)| *e).collect();
+        let nodes = self.reachable(&roots);
         let mut moves: FxHashMap<ExprId, bool> = FxHashMap::default();
         for &node in &nodes {
             let any = match self.node(node) {
@@ -28,7 +39,9 @@ impl Graph {
             moves.insert(node, any);
         }
         let mut rates = Rates::default();
-        rates.insert(e, vec![(self.integer(1), Number::ONE)]);
+        for &(e, rate) in rated {
+            rates.entry(e).or_default().push((rate, Number::ONE));
+        }
         let mut found = BTreeMap::new();
         for &node in nodes.iter().rev().filter(|node| moves[node]) {
             let Some(terms) = rates.remove(&node) else {

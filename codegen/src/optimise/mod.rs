@@ -135,8 +135,8 @@ pub fn regular_correction(
 }
 
 /// The program for the accelerations of so many coordinates, from the program for `mass` and
-/// `jacobian` with so many shared velocities in front of them, and `force`; `None` where
-/// there is none that divides by nothing but what it hands out.
+/// `force` with so many shared velocities in front of them, and `links`, what these are made
+/// of; `None` where it would divide by what is zero everywhere.
 ///
 /// # Panics
 ///

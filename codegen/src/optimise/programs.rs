@@ -25,7 +25,8 @@ use crate::model::{Mechanism, Shape};
 const LINEARISED_MAX: usize = 10_000;
 
 /// The weight of a solve beyond which another with shared velocities as unknowns is tried.
-const LONG_SOLVE: usize = 2_000;
+/// A shorter one is of a few bodies, which have little in common.
+const LONG_SOLVE: usize = 500;
 
 /// A program and what was saved.
 #[derive(Clone, Debug, Default)]
@@ -318,9 +319,9 @@ impl Optimiser<'_> {
         let terms = self.program(&merged([
             sparse("mass", &mass),
             vector("force", &force),
-            sparse("jacobian", &links),
+            sparse("links", &links),
         ]));
-        shared_acceleration(&terms, (force.len(), count))
+        shared_acceleration(&terms, (force.len() - count, count))
     }
 
     fn projection(&mut self) -> (Option<Optimised>, Option<Solved>) {

@@ -12,6 +12,7 @@ mod eliminated;
 mod forms;
 mod identities;
 mod invariances;
+mod shared;
 
 use bricard_codegen::Settings;
 use bricard_codegen::internals::analyse;

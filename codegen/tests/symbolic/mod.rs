@@ -5,6 +5,7 @@ mod canonical;
 mod derivative;
 mod dual;
 mod jet;
+pub(crate) mod joint;
 mod limits;
 mod number;
 mod passes;

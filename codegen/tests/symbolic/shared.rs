@@ -25,7 +25,7 @@ const CHAIN: &str = "mechanism Chain {
     force [1, 0.3] on end[N-1];
 }";
 
-fn state(symbol: Symbol) -> f64 {
+pub(super) fn state(symbol: Symbol) -> f64 {
     match symbol {
         Symbol::Coordinate(i) => 0.4 + (f64::from(i) * 0.37).sin(),
         Symbol::Velocity(i) => (f64::from(i) * 1.13).cos(),
@@ -34,7 +34,7 @@ fn state(symbol: Symbol) -> f64 {
     }
 }
 
-fn of_length(links: u32) -> Settings {
+pub(super) fn of_length(links: u32) -> Settings {
     let mut settings = Settings::default();
     settings.constants = vec![("N".to_string(), f64::from(links))];
     settings
@@ -64,7 +64,7 @@ fn accelerations(links: u32) -> (Programs, [Vec<f64>; 3]) {
 
 /// Accelerations of the chain from its mass matrix in closed form: `m L² cos(φ_i − φ_j)` times
 /// the number of rods that both move, one that both move by its middle counting half.
-fn exact(n: usize) -> Vec<f64> {
+pub(super) fn exact(n: usize) -> Vec<f64> {
     let (m, length) = (state(Symbol::Parameter(0)), 0.5);
     let phi: Vec<f64> = (0..n as u32)
         .map(|i| state(Symbol::Coordinate(i)))
@@ -92,11 +92,11 @@ fn exact(n: usize) -> Vec<f64> {
     dense(&mass, &force).0
 }
 
-fn largest(values: &[f64]) -> f64 {
+pub(super) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most, x| most.max(x.abs()))
 }
 
-fn difference(one: &[f64], other: &[f64]) -> f64 {
+pub(super) fn difference(one: &[f64], other: &[f64]) -> f64 {
     let pairs = one.iter().zip(other);
     pairs.fold(0.0, |most, (a, b)| most.max((a - b).abs()))
 }

@@ -2,8 +2,8 @@
 //!
 //! In:  a program whose outputs are entries of `mass`, `jacobian` and right-hand
 //!      sides.
-//! Out: a program that solves instead: [`with_acceleration`], [`with_correction`],
-//!      [`with_shared`].
+//! Out: a program that solves instead: [`with_acceleration`], [`with_correction`]; and
+//!      [`with_shared`], for chains of bodies.
 //!
 //! There are two ways, and the one that costs less is taken: [`Schur`] and [`Saddle`],
 //! each in a fill-reducing order that is fixed here. No pivoting and no branch: the
@@ -150,8 +150,8 @@ pub enum Way {
     Schur,
     /// `[M Aᵀ; A 0] = L D Lᵀ`, each multiplier after the coordinates of its row.
     Saddle,
-    /// The same with the velocities of points that bodies have in common as unknowns beside
-    /// the coordinates, and what they are as rows.
+    /// Velocities that bodies have in common as unknowns beside those of the coordinates,
+    /// replaced by what they are made of one after the other, from the last body back.
     Shared,
 }
 
@@ -216,11 +216,10 @@ impl System {
         let mut mass = entries.remove("mass").unwrap_or_default();
         let jacobian = entries.remove("jacobian").unwrap_or_default();
         algebra.weigh(&mut mass, &jacobian, given.weighed);
-        let factorised = match way {
-            Way::Schur => Factorised::Schur(Schur::of(&mut algebra, &mass, &jacobian, n, r)?),
-            Way::Saddle | Way::Shared => {
-                Factorised::Saddle(Saddle::of(&mut algebra, &mass, &jacobian, n, r)?)
-            }
+        let factorised = if way == Way::Schur {
+            Factorised::Schur(Schur::of(&mut algebra, &mass, &jacobian, n, r)?)
+        } else {
+            Factorised::Saddle(Saddle::of(&mut algebra, &mass, &jacobian, n, r)?)
         };
         Some(System {
             algebra,

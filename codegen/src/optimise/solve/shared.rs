@@ -1,45 +1,49 @@
 //! Solves with velocities that bodies share as unknowns of their own.
 //!
-//! In:  a program for `mass` and `jacobian` of these and of the coordinates, in this order,
-//!      and for `force`.
+//! In:  a program for `mass` and `force` of these and of the coordinates, in this order, and
+//!      for `links`, what these are made of.
 //! Out: a program for the accelerations of the coordinates.
 //!
-//! The rows say what each shared velocity is: they are independent whatever the position,
-//! and `M` is definite where the mass matrix of all unknowns is, since it is that matrix for
-//! the motions that the rows allow. Pivots of shared velocities are not handed out, so that
-//! there is such a program only where elimination leaves their masses as they are.
+//! From the last body back: a shared velocity is replaced by what it is made of, which adds
+//! what its body and those behind it resist with to that of the bodies before it; and a
+//! coordinate that no shared velocity is made of any more is eliminated. These are the sweeps
+//! of the articulated-body algorithm (Featherstone, Rigid Body Dynamics Algorithms (2008),
+//! section 7.3), found without knowing what a body is.
+//!
+//! Only coordinates are divided by, and what they are divided by are the pivots of `M`
+//! itself: there is such a program wherever `M` is definite, whether or not the mass matrix
+//! of all unknowns is. Their sizes, the diagonal of `M`, come of the same replacements without
+//! eliminating anything: the inertia of composite bodies.
 
-use super::{Factorised, Given, OPERATIONS_MAX, Solved, System, Way};
+use super::algebra::{Algebra, Entry, Signed, Sparse};
+use super::{OPERATIONS_MAX, Solved, Way};
+use crate::expr::Number;
 use crate::optimise::dead::ordered;
 use crate::optimise::program::{Program, Slot, Value};
+use std::collections::BTreeMap;
 
 /// The accelerations of `n` coordinates, beside which `count` velocities are shared.
 pub(in crate::optimise) fn with_shared(
     program: &Program,
     (n, count): (usize, usize),
 ) -> Option<Solved> {
-    let given = Given {
-        program,
-        n: count + n,
-        r: count,
-        weighed: &[],
+    let mut algebra = Algebra {
+        program: program.clone(),
+        longest: OPERATIONS_MAX,
     };
-    let mut system = System::of(&given, Way::Saddle, OPERATIONS_MAX)?;
-    let mut force = vec![None; count];
-    force.extend(system.take("force", n));
-    let acceleration = system.solve(force, &vec![None; count]);
-    let System {
-        mut algebra,
-        factorised: Factorised::Saddle(factors),
-        ..
-    } = system
-    else {
-        return None;
-    };
-    let (shared, own) = factors.mass_pivots().split_at(count);
-    if shared.iter().any(|(pivot, whole)| pivot != whole) {
-        return None;
+    let mut entries: BTreeMap<&str, Sparse> = BTreeMap::new();
+    for (slot, value) in &program.outputs {
+        let entry = algebra.signed(*value);
+        let array = entries.entry(slot.array).or_default();
+        array.insert((slot.row, slot.column), entry);
     }
+    let mut take = |array| entries.remove(array).unwrap_or_default();
+    let (mass, force) = (take("mass"), take("force"));
+    let order = Order::of(&take("links"), n, count);
+    let diagonal = algebra.diagonal(&mass, &order)?;
+    let steps = algebra.steps(&mass, &order)?;
+    let driving = (0..count + n).map(|i| force.get(&(i, 0)).copied());
+    let acceleration = algebra.swept(&steps, driving.collect());
     let mut outputs: Vec<(Slot, Value)> = Vec::new();
     let mut write = |array, row, entry| {
         let slot = Slot::of_vector(array, row);
@@ -48,14 +52,224 @@ pub(in crate::optimise) fn with_shared(
     for (row, entry) in acceleration[count..].iter().enumerate() {
         write("acceleration", row, *entry);
     }
-    for (row, &(pivot, whole)) in own.iter().enumerate() {
-        if pivot != whole {
-            write("mass_pivots", row, Some(pivot));
-            write("mass_diagonal", row, Some(whole));
+    for step in &steps {
+        if let &Step::Eliminated { place, pivot, .. } = step
+            && diagonal[place] != Some(pivot)
+        {
+            write("mass_pivots", place - count, Some(pivot));
+            write("mass_diagonal", place - count, diagonal[place]);
         }
     }
     Some(Solved {
         program: ordered(algebra.program.list(), &outputs, &|value| value),
         way: Way::Shared,
     })
+}
+
+/// What shared velocities are made of, and the order of the steps.
+struct Order {
+    /// By shared velocity: the places of its parts, which come before it or are velocities of
+    /// coordinates, and their coefficients.
+    parts: Vec<Vec<(usize, Signed)>>,
+    /// Places: shared velocities from the last back, and each coordinate as soon as no shared
+    /// velocity that is left is made of it.
+    places: Vec<usize>,
+}
+
+impl Order {
+    fn of(links: &Sparse, n: usize, count: usize) -> Self {
+        let mut parts = vec![Vec::new(); count];
+        let mut first = vec![None; count + n];
+        for (&(row, place), &entry) in links {
+            parts[row].push((place, entry));
+            first[place].get_or_insert(row);
+        }
+        let first = &first;
+        let ready = |row| (count..count + n).filter(move |place| first[*place] == row);
+        let mut places: Vec<usize> = ready(None).collect();
+        for row in (0..count).rev() {
+            places.push(row);
+            places.extend(ready(Some(row)));
+        }
+        Self { parts, places }
+    }
+}
+
+/// A step of an elimination.
+enum Step<'a> {
+    /// A shared velocity was replaced by its parts.
+    Replaced {
+        place: usize,
+        parts: &'a [(usize, Signed)],
+    },
+    /// A coordinate was eliminated.
+    Eliminated {
+        place: usize,
+        pivot: Signed,
+        inverse: Signed,
+        /// Its column, divided by the pivot.
+        column: Vec<(usize, Signed)>,
+    },
+}
+
+impl Algebra {
+    /// The diagonal of `M`, by the places of coordinates; `None` where the program becomes
+    /// too long.
+    fn diagonal(&mut self, mass: &Sparse, order: &Order) -> Option<Vec<Entry>> {
+        let mut rest = Rest::of(mass, order.places.len());
+        let mut diagonal = vec![None; order.places.len()];
+        for &place in &order.places {
+            match order.parts.get(place) {
+                Some(parts) => self.replace(&mut rest, place, parts),
+                None => (diagonal[place], _) = rest.take(place),
+            }
+            if self.is_too_long() {
+                return None;
+            }
+        }
+        Some(diagonal)
+    }
+
+    /// All steps of the elimination; `None` where a pivot is zero by structure or the program
+    /// becomes too long.
+    fn steps<'a>(&mut self, mass: &Sparse, order: &'a Order) -> Option<Vec<Step<'a>>> {
+        let mut rest = Rest::of(mass, order.places.len());
+        let mut steps = Vec::new();
+        for &place in &order.places {
+            steps.push(match order.parts.get(place) {
+                Some(parts) => {
+                    self.replace(&mut rest, place, parts);
+                    Step::Replaced { place, parts }
+                }
+                None => self.eliminated(&mut rest, place)?,
+            });
+            if self.is_too_long() {
+                return None;
+            }
+        }
+        Some(steps)
+    }
+
+    /// Replaces a velocity by a sum of others: for `w = Σ g_i u_i`, with `a` on the diagonal
+    /// and `b_i` beside it, `m_ij += g_i a g_j + g_i b_j + b_i g_j`.
+    fn replace(&mut self, rest: &mut Rest, place: usize, parts: &[(usize, Signed)]) {
+        let (own, beside) = rest.take(place);
+        for (k, &(i, g)) in parts.iter().enumerate() {
+            let b = beside.get(&i).copied();
+            let whole = self.plus_product(b, own, Some(g));
+            let twice = self.sum(whole.into_iter().chain(b).collect());
+            rest.add(self, (i, i), (Some(g), twice));
+            for &(j, other) in &parts[..k] {
+                rest.add(self, (i, j), (Some(other), whole));
+                rest.add(self, (i, j), (Some(g), beside.get(&j).copied()));
+            }
+            for (&j, &entry) in &beside {
+                if parts.iter().all(|(part, _)| *part != j) {
+                    rest.add(self, (i, j), (Some(g), Some(entry)));
+                }
+            }
+        }
+    }
+
+    /// Eliminates a coordinate; `None` where its pivot is zero by structure.
+    fn eliminated(&mut self, rest: &mut Rest, place: usize) -> Option<Step<'static>> {
+        let (pivot, beside) = rest.take(place);
+        let pivot = pivot.filter(|pivot| !self.as_number(pivot.1).is_some_and(Number::is_zero))?;
+        let inverse = self.inverse(pivot);
+        let mut column: Vec<(usize, Signed)> = Vec::with_capacity(beside.len());
+        for (&i, &entry) in &beside {
+            let factor = self.product(Some(entry), Some(inverse));
+            column.extend(factor.map(|factor| (i, factor)));
+        }
+        for (k, &(i, (minus, factor))) in column.iter().enumerate() {
+            for (&j, &entry) in beside.iter().take(k + 1) {
+                rest.add(self, (i, j), (Some((!minus, factor)), Some(entry)));
+            }
+        }
+        Some(Step::Eliminated {
+            place,
+            pivot,
+            inverse,
+            column,
+        })
+    }
+
+    /// The solution: what drives is carried along the steps, and accelerations back.
+    fn swept(&mut self, steps: &[Step], mut x: Vec<Entry>) -> Vec<Entry> {
+        for step in steps {
+            match step {
+                Step::Replaced { place, parts } => {
+                    for &(i, g) in *parts {
+                        x[i] = self.plus_product(x[i], Some(g), x[*place]);
+                    }
+                }
+                Step::Eliminated { place, column, .. } => {
+                    for &(i, factor) in column {
+                        x[i] = self.minus_product(x[i], Some(factor), x[*place]);
+                    }
+                }
+            }
+        }
+        for step in steps.iter().rev() {
+            match step {
+                Step::Replaced { place, parts } => {
+                    let (g, u): (Vec<Entry>, Vec<Entry>) =
+                        parts.iter().map(|&(i, g)| (Some(g), x[i])).unzip();
+                    x[*place] = self.dot(&g, &u, None);
+                }
+                Step::Eliminated {
+                    place,
+                    inverse,
+                    column,
+                    ..
+                } => {
+                    let mut entry = self.product(x[*place], Some(*inverse));
+                    for &(i, factor) in column {
+                        entry = self.minus_product(entry, Some(factor), x[i]);
+                    }
+                    x[*place] = entry;
+                }
+            }
+        }
+        x
+    }
+
+    /// `x + a·b`.
+    fn plus_product(&mut self, x: Entry, a: Entry, b: Entry) -> Entry {
+        self.minus_product(x, a.map(|(minus, value)| (!minus, value)), b)
+    }
+}
+
+/// What is left of a symmetric matrix, row by row.
+struct Rest(Vec<BTreeMap<usize, Signed>>);
+
+impl Rest {
+    fn of(matrix: &Sparse, size: usize) -> Self {
+        let mut rows = vec![BTreeMap::new(); size];
+        for (&(i, j), &entry) in matrix {
+            rows[i].insert(j, entry);
+        }
+        Self(rows)
+    }
+
+    /// Takes a row out, and its column: what is on the diagonal, and what is beside it.
+    fn take(&mut self, row: usize) -> (Entry, BTreeMap<usize, Signed>) {
+        let mut beside = std::mem::take(&mut self.0[row]);
+        let own = beside.remove(&row);
+        for i in beside.keys() {
+            self.0[*i].remove(&row);
+        }
+        (own, beside)
+    }
+
+    /// Adds a product to an entry.
+    fn add(&mut self, algebra: &mut Algebra, (i, j): (usize, usize), (a, b): (Entry, Entry)) {
+        let sum = algebra.plus_product(self.0[i].get(&j).copied(), a, b);
+        for (i, j) in [(i, j), (j, i)] {
+            match sum {
+                Some(sum) => self.0[i].insert(j, sum),
+                None => self.0[i].remove(&j),
+            };
+        }
+    }
 }

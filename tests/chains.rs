@@ -1,0 +1,79 @@
+//! A chain in joint angles moves as the same chain in the angles of its links.
+//!
+//! Both are compiled; the angle of a joint is the difference of those of two links.
+
+use bricard_fixtures::chains::joint_chain::JointChain;
+use bricard_fixtures::chains::link_chain::LinkChain;
+use bricard_runtime::nalgebra::SVector;
+use bricard_runtime::{
+    Form, Interface, Mechanism, Method, Options, Regular, Settings, Solver, State, StepControl,
+    assemble, simulate,
+};
+use bricard_testkit::Random;
+
+const N: usize = 10;
+const STATES: usize = 100;
+
+/// Round-off of an acceleration, relative to the largest of the chain.
+const ROUND_OFF: f64 = 1e-12;
+
+/// The same for a dense mass matrix, whose condition is that of joint angles.
+const DENSE_ROUND_OFF: f64 = 1e-10;
+
+/// How far two runs of a second may be apart (rad).
+const APART: f64 = 1e-8;
+
+/// What links do, as joints say it.
+fn of_joints(links: &SVector<f64, N>) -> SVector<f64, N> {
+    SVector::from_fn(|i, _| links[i] - if i == 0 { 0.0 } else { links[i - 1] })
+}
+
+/// Random states, in the angles of links and of joints.
+fn states() -> Vec<[State<f64, N>; 2]> {
+    let mut random = Random::seeded(1979);
+    let mut state = || {
+        let mut links = State::<f64, N>::default();
+        links.q.iter_mut().for_each(|q| *q = random.within(3.0));
+        links.v.iter_mut().for_each(|v| *v = random.within(5.0));
+        let mut joints = links;
+        (joints.q, joints.v) = (of_joints(&links.q), of_joints(&links.v));
+        [links, joints]
+    };
+    (0..STATES).map(|_| state()).collect()
+}
+
+#[test]
+fn joints_accelerate_as_differences_of_links() {
+    let (by_links, by_joints) = (LinkChain::default(), JointChain::default());
+    for [links, joints] in states() {
+        let mut found = [(); 2].map(|()| Regular::<f64, N, 0>::default());
+        assert!(by_links.regular(&links, &mut found[0]));
+        assert!(by_joints.regular(&joints, &mut found[1]));
+        let exact = of_joints(&found[0].acceleration);
+        let off = (found[1].acceleration - exact).amax() / exact.amax();
+        assert!(off < ROUND_OFF, "off by {off:e} at {joints:?}");
+        let mut solver = Solver::<f64, N, 0>::new(Settings {
+            form: Form::Full,
+            ..Settings::default()
+        });
+        let dense = solver.on(&by_joints).acceleration(&joints);
+        let off = (dense.expect("an acceleration") - exact).amax() / exact.amax();
+        assert!(off < DENSE_ROUND_OFF, "dense: off by {off:e} at {joints:?}");
+    }
+}
+
+#[test]
+fn joints_move_as_differences_of_links() {
+    let step_control = StepControl::Adaptive {
+        relative: 1e-11,
+        absolute: 1e-11,
+    };
+    let options = Options::new(1.0, Method::Dop853, step_control);
+    let (by_links, by_joints) = (LinkChain::default(), JointChain::default());
+    let links = assemble(&by_links, &by_links.start(), 0.0).expect("a start");
+    let joints = assemble(&by_joints, &by_joints.start(), 0.0).expect("a start");
+    let links = simulate(&by_links, &links, &options, &mut []).expect("a motion");
+    let joints = simulate(&by_joints, &joints, &options, &mut []).expect("a motion");
+    let off = (joints.end.q - of_joints(&links.end.q)).amax();
+    assert!(off < APART, "off by {off:e}");
+}
