@@ -43,6 +43,7 @@ where
     let failure = AssemblyError::NotFinite { t: state.t };
     let broken = |Breakdown| failure;
     let measured = Scales::measure(mechanism, state, at);
+    let guessed = speed(&state.v, &measured);
     let scales = Scales::measure_free(mechanism, state, held, at);
     mechanism.position(state, at);
     matrix.decompose(&at.jacobian, &scales).map_err(broken)?;
@@ -50,7 +51,10 @@ where
     if !state.is_finite() {
         return Err(failure);
     }
-    check(mechanism, state, at, &measured, held)?;
+    // The corrections are as good as the velocities are that they begin with, which may be
+    // far larger than those that they end with.
+    let speed = guessed.max(speed(&state.v, &measured));
+    check(mechanism, (state, speed), at, &measured, held)?;
     matrix.decompose(&at.jacobian, &measured).map_err(broken)?;
     if matrix.rank(regular()) == R {
         return Ok(());
@@ -121,11 +125,24 @@ fn opening<T: Real, const N: usize, const R: usize>(
     opening
 }
 
-/// Refuses velocities that contradict the constraints. Corrections are as good as the
-/// velocities are that they begin with, which may be far larger than those that they end with.
+/// The size of velocities in the kinetic metric, where a row of norm one turns a speed of
+/// one into an error of one.
+fn speed<T: Real, const N: usize, const R: usize>(
+    v: &SVector<T, N>,
+    measured: &Scales<T, N, R>,
+) -> T {
+    let squares = (0..N).fold(T::zero(), |sum, j| {
+        let x = v[j] / measured.columns[j];
+        sum + x * x
+    });
+    squares.sqrt()
+}
+
+/// Refuses velocities that contradict the constraints. The speed is the largest that took
+/// part in finding them.
 fn check<T, M, const N: usize, const R: usize>(
     mechanism: &M,
-    state: &State<T, N>,
+    (state, speed): (&State<T, N>, T),
     at: &Position<T, N, R>,
     measured: &Scales<T, N, R>,
     held: &[bool; N],
@@ -135,13 +152,14 @@ where
     M: Mechanism<T, N, R> + ?Sized,
 {
     let error = opening(at, &state.v);
-    // Rows that count as dependent may be off by what they are.
-    let slack = T::EPSILON * T::from_f64(CONTRADICTION) + regular();
+    let round_off = T::EPSILON * T::from_f64(CONTRADICTION);
     let residual = SVector::<T, R>::from_fn(|k, _| {
         let terms = (0..N).fold(at.drift[k].abs(), |sum, j| {
             sum + (at.jacobian[(k, j)] * state.v[j]).abs()
         });
-        let most = slack * measured.speeds[k].max(terms);
+        // Rows that count as dependent may be off by what they are.
+        let dependent = regular::<T>() * measured.speeds[k].max(terms);
+        let most = round_off * (speed / measured.rows[k] + at.drift[k].abs()) + dependent;
         if error[k].abs() <= most {
             T::zero()
         } else {
