@@ -10,7 +10,7 @@
 //! step: it changes at accepted states only.
 
 use crate::dynamics::{Metric, Rows, Which};
-use crate::linalg::{add_scaled, column, dot, norm, scaled};
+use crate::linalg::{Cholesky, add_scaled, column, dot, norm, scaled};
 use crate::{Real, State};
 use nalgebra::{SMatrix, SVector};
 
@@ -30,6 +30,8 @@ pub(crate) struct Chart<T, const N: usize, const R: usize> {
     pub(crate) speed: T,
     /// Constraint rows that are independent at regular states, `N − freedoms` of them.
     pub(crate) rows: [usize; R],
+    /// That of the metric.
+    pub(crate) factor: Cholesky<T, N>,
     /// What rows and columns are multiplied by to have size one.
     pub(crate) row_scale: [T; R],
     pub(crate) column_scale: [T; N],
@@ -93,6 +95,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             drift: SVector::zeros(),
             speed: T::zero(),
             rows: list,
+            factor: metric.factor.clone(),
             row_scale: column(|row| rows.scale(row)),
             column_scale: column(|j| T::one() / metric.factor.diagonal(j).sqrt()),
             reach,

@@ -12,7 +12,7 @@ use super::kept::SIDE;
 use super::nodes::Interpolated;
 use super::obstacle::Obstacle;
 use super::sheet::{Point, Sheet};
-use crate::linalg::{Frame, norm};
+use crate::linalg::{Frame, column, norm};
 use crate::tolerance::{critical, hull, negligible, noisy, resolved, round_off, spacing, window};
 use crate::{Mechanism, Real, State};
 
@@ -303,7 +303,9 @@ where
                 .map(|(j, size)| (jacobian[(row, j)].abs(), *size))
                 .filter(|(lever, _)| *lever > T::zero())
                 .fold(T::zero(), |sum, (lever, size)| sum + lever * size);
-            let length = norm(&self.metric.lift(jacobian, row));
+            let mut lifted: [T; N] = column(|j| jacobian[(row, j)]);
+            chart.factor.forward(&mut lifted);
+            let length = norm(&lifted);
             if length > T::zero() {
                 most = most.max(reach / length);
             }

@@ -12,7 +12,6 @@
 use super::chart::Chart;
 use super::kept::Nodes;
 use super::obstacle::Obstacle;
-use crate::dynamics::Metric;
 use crate::linalg::{Frame, add_scaled, dot, is_zero};
 use crate::tolerance::{contraction, critical, near_dependent, round_off};
 use crate::{Mechanism, Position, Real, State, Terms};
@@ -91,8 +90,6 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
 pub(crate) struct Sheet<'a, M: ?Sized, T, const N: usize, const R: usize> {
     pub(crate) mechanism: &'a M,
     pub(crate) chart: &'a Chart<T, N, R>,
-    /// At a state nearby.
-    pub(crate) metric: &'a Metric<T, N>,
     pub(crate) position: &'a mut Position<T, N, R>,
     pub(crate) terms: &'a mut Terms<T, N, R>,
     pub(crate) frame: &'a mut Frame<T, N, R>,

@@ -106,7 +106,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         Sheet {
             mechanism,
             chart,
-            metric: &self.metric,
             position: &mut self.position,
             terms: &mut self.terms,
             frame: &mut self.frame,
