@@ -33,8 +33,6 @@ pub(super) struct Scales<T, const N: usize, const R: usize> {
     pub(super) sizes: SVector<T, N>,
     /// How much each equation changes when the coordinates change by their sizes.
     pub(super) reach: SVector<T, R>,
-    /// How fast each equation changes at the speeds of the state, whatever their signs.
-    pub(super) speeds: SVector<T, R>,
 }
 
 impl<T: Real, const N: usize, const R: usize> Scales<T, N, R> {
@@ -69,7 +67,7 @@ impl<T: Real, const N: usize, const R: usize> Scales<T, N, R> {
             }
         });
         let mut norms = SVector::<T, R>::zeros();
-        let (mut reach, mut speeds) = (norms, norms);
+        let mut reach = norms;
         for distance in NEIGHBOURHOOD {
             let mut near = *state;
             near.q = disturbed(&state.q, &(sizes * T::from_f64(distance)));
@@ -81,12 +79,10 @@ impl<T: Real, const N: usize, const R: usize> Scales<T, N, R> {
                     sum + entry * entry
                 });
                 let length = (0..N).fold(T::zero(), |sum, j| sum + row(j, &sizes));
-                let speed = (0..N).fold(T::zero(), |sum, j| sum + row(j, &state.v).abs());
                 // A neighbour outside the domain of a root tells nothing.
                 if square.is_finite() && length.is_finite() {
                     norms[k] = norms[k].max(square.sqrt());
                     reach[k] = reach[k].max(length);
-                    speeds[k] = speeds[k].max(speed);
                 }
             }
         }
@@ -102,7 +98,6 @@ impl<T: Real, const N: usize, const R: usize> Scales<T, N, R> {
             rows: norms.map(inverse),
             sizes,
             reach,
-            speeds,
         }
     }
 

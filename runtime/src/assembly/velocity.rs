@@ -152,14 +152,10 @@ where
     M: Mechanism<T, N, R> + ?Sized,
 {
     let error = opening(at, &state.v);
-    let round_off = T::EPSILON * T::from_f64(CONTRADICTION);
+    // Rows that count as dependent may be off by what they are.
+    let slack = T::EPSILON * T::from_f64(CONTRADICTION) + regular();
     let residual = SVector::<T, R>::from_fn(|k, _| {
-        let terms = (0..N).fold(at.drift[k].abs(), |sum, j| {
-            sum + (at.jacobian[(k, j)] * state.v[j]).abs()
-        });
-        // Rows that count as dependent may be off by what they are.
-        let dependent = regular::<T>() * measured.speeds[k].max(terms);
-        let most = round_off * (speed / measured.rows[k] + at.drift[k].abs()) + dependent;
+        let most = slack * (speed / measured.rows[k] + at.drift[k].abs());
         if error[k].abs() <= most {
             T::zero()
         } else {
