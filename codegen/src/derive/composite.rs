@@ -11,19 +11,13 @@
 
 use super::equations::Matrix;
 use super::reduced::Reduced;
-use crate::expr::{ExprId, Graph};
-use std::collections::BTreeMap;
+use crate::expr::{Arithmetic, ExprId, Graph, Symmetric};
 
 /// `M = Jᵀ M̃ J` of `n` coordinates.
 pub(super) fn mass_matrix(graph: &mut Graph, reduced: &Reduced, n: usize) -> Matrix {
     let count = reduced.count;
-    let mut rest = Rest {
-        rows: vec![BTreeMap::new(); count + n],
-        zero: graph.integer(0),
-    };
-    for &(i, j, entry) in &reduced.mass {
-        rest.rows[i].insert(j, entry);
-    }
+    let entries = reduced.mass.iter().map(|&(i, j, entry)| ((i, j), entry));
+    let mut rest = Symmetric::of(entries, count + n);
     let mut parts = vec![Vec::new(); count];
     for &(row, place, entry) in &reduced.links {
         parts[row].push((place, entry));
@@ -31,55 +25,30 @@ pub(super) fn mass_matrix(graph: &mut Graph, reduced: &Reduced, n: usize) -> Mat
     for (place, parts) in parts.iter().enumerate().rev() {
         rest.replace(graph, place, parts);
     }
-    let row = |i| (0..n).map(|j| rest.entry(count + i, count + j)).collect();
+    let zero = graph.integer(0);
+    let entry = |i, j| rest.entry(count + i, count + j).unwrap_or(zero);
+    let row = |i| (0..n).map(|j| entry(i, j)).collect();
     (0..n).map(row).collect()
 }
 
-/// A symmetric matrix in the velocities that are left, row by row.
-struct Rest {
-    rows: Vec<BTreeMap<usize, ExprId>>,
-    zero: ExprId,
-}
+impl Arithmetic for Graph {
+    type Value = ExprId;
 
-impl Rest {
-    fn entry(&self, i: usize, j: usize) -> ExprId {
-        self.rows[i].get(&j).copied().unwrap_or(self.zero)
-    }
-
-    /// For `w = Σ g_i u_i`, with `a` on the diagonal and `b_i` beside it:
-    /// `m_ij += g_i a g_j + g_i b_j + b_i g_j`.
-    fn replace(&mut self, graph: &mut Graph, place: usize, parts: &[(usize, ExprId)]) {
-        let mut beside = std::mem::take(&mut self.rows[place]);
-        let own = beside.remove(&place).unwrap_or(self.zero);
-        for i in beside.keys() {
-            self.rows[*i].remove(&place);
-        }
-        let zero = self.zero;
-        let b = |i: usize| beside.get(&i).copied().unwrap_or(zero);
-        for (k, &(i, g)) in parts.iter().enumerate() {
-            let turned = graph.mul(own, g);
-            let whole = graph.add(b(i), turned);
-            let twice = graph.add(whole, b(i));
-            self.add(graph, (i, i), (g, twice));
-            for &(j, other) in &parts[..k] {
-                self.add(graph, (i, j), (other, whole));
-                self.add(graph, (i, j), (g, b(j)));
-            }
-            for (&j, &entry) in &beside {
-                if parts.iter().all(|(part, _)| *part != j) {
-                    self.add(graph, (i, j), (g, entry));
-                }
-            }
+    fn plus(&mut self, x: Option<ExprId>, y: Option<ExprId>) -> Option<ExprId> {
+        match (x, y) {
+            (Some(x), Some(y)) => Some(self.add(x, y)).filter(|sum| !self.is_zero(*sum)),
+            (one, None) | (None, one) => one,
         }
     }
 
-    /// Adds a product to an entry.
-    fn add(&mut self, graph: &mut Graph, (i, j): (usize, usize), (a, b): (ExprId, ExprId)) {
-        let product = graph.mul(a, b);
-        if !graph.is_zero(product) {
-            let sum = graph.add(self.entry(i, j), product);
-            self.rows[i].insert(j, sum);
-            self.rows[j].insert(i, sum);
-        }
+    fn plus_product(
+        &mut self,
+        x: Option<ExprId>,
+        a: Option<ExprId>,
+        b: Option<ExprId>,
+    ) -> Option<ExprId> {
+        let product = a.zip(b).map(|(a, b)| self.mul(a, b));
+        let product = product.filter(|product| !self.is_zero(*product));
+        self.plus(x, product)
     }
 }

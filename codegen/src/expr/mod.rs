@@ -15,6 +15,7 @@ mod number;
 mod print;
 mod reach;
 mod substitute;
+mod symmetric;
 mod table;
 
 pub(crate) use bits::Bits;
@@ -24,4 +25,5 @@ pub use graph::{ExprId, Graph, Node, Symbol};
 pub use hold::{Switch, Switches};
 pub use number::Number;
 pub use print::Notation;
+pub use symmetric::{Arithmetic, Symmetric};
 pub use table::{Entry, Lookup, Table};

@@ -1,7 +1,7 @@
 //! Chains in joint angles: accelerations, energies and lengths against the same chains in
 //! angles of the links, and solves from body to body against dense elimination.
 
-use super::shared::{difference, exact, largest, of_length, state as of_link};
+use super::shared::{chain, difference, exact, largest, of_length, state as of_link};
 use super::solve::dense;
 use bricard_codegen::Settings;
 use bricard_codegen::internals::analyse;
@@ -12,23 +12,13 @@ use bricard_codegen::internals::optimise::{
     Besides, Program, Programs, Slot, Way, interpret, optimise, programs, shared_acceleration,
 };
 
-/// The chain of `shared.rs`, in angles between neighbours.
-const CHAIN: &str = "mechanism Chain {
-    const N = 4;
-    const L = 0.5;
-    coord theta[N];
-    param m = 2;
-    let phi[i in 0..N] = if i == 0 then theta[0] else phi[i-1] + theta[i];
-    let rod[i in 0..N] = L*[sin(phi[i]), -cos(phi[i])];
-    let end[i in 0..N] = if i == 0 then rod[0] else end[i-1] + rod[i];
-    for i in 0..N {
-        let c = end[i] - rod[i]/2;
-        kinetic m/2*norm2(der(c)) + m*L^2/24*der(phi[i])^2;
-        potential 9.81*m*c.y;
-        dissipation 0.1*der(phi[i])^2;
-    }
-    force [1, 0.3] on end[N-1];
-}";
+/// The chain in angles between neighbours.
+fn of_joints() -> String {
+    chain(
+        "coord theta[N];
+        let phi[i in 0..N] = if i == 0 then theta[0] else phi[i-1] + theta[i];",
+    )
+}
 
 /// Bodies in other company: masses without inertia at the ends of rods, whose own velocities
 /// have no mass in the shared ones; a trolley with gears, springs and motors in the joints;
@@ -174,7 +164,7 @@ fn joint_accelerations(links: usize) -> Vec<f64> {
 #[test]
 fn joint_angles_accelerate_as_differences_of_the_angles_of_links() {
     for (links, way) in [(3, Way::Schur), (10, Way::Shared), (50, Way::Shared)] {
-        let mut case = Case::of(CHAIN, &of_length(links));
+        let mut case = Case::of(&of_joints(), &of_length(links));
         let solved = case.programs().regular.expect("a solve");
         assert_eq!(solved.way, way, "{links} links");
         let n = links as usize;
@@ -188,7 +178,7 @@ fn joint_angles_accelerate_as_differences_of_the_angles_of_links() {
 #[test]
 fn the_terms_of_a_chain_in_joint_angles_give_the_same_accelerations() {
     for links in [3, 10, 40] {
-        let case = Case::of(CHAIN, &of_length(links));
+        let case = Case::of(&of_joints(), &of_length(links));
         let exact = joint_accelerations(links as usize);
         let off = difference(&case.eliminated(), &exact) / largest(&exact);
         assert!(off < 1e-10, "{links} links: off by {off:e}");
@@ -198,7 +188,7 @@ fn the_terms_of_a_chain_in_joint_angles_give_the_same_accelerations() {
 #[test]
 fn the_mass_matrix_of_composite_bodies_has_the_kinetic_energy() {
     for links in [3, 10, 40] {
-        let case = Case::of(CHAIN, &of_length(links));
+        let case = Case::of(&of_joints(), &of_length(links));
         let rates: Vec<f64> = (0..links).map(|i| state(Symbol::Velocity(i))).collect();
         let rows = case.mass().into_iter().zip(&rates);
         let dot = |row: Vec<f64>| -> f64 { row.iter().zip(&rates).map(|(m, v)| m * v).sum() };
@@ -212,7 +202,7 @@ fn the_mass_matrix_of_composite_bodies_has_the_kinetic_energy() {
 #[test]
 fn the_energy_of_a_chain_in_joint_angles_changes_by_what_is_supplied() {
     for links in [3, 10] {
-        let mut case = Case::of(CHAIN, &of_length(links));
+        let mut case = Case::of(&of_joints(), &of_length(links));
         let program = case.programs().regular.expect("a solve").program;
         let acceleration = computed(&program, "acceleration", links as usize);
         let energies = case.equations.energies;
@@ -234,7 +224,7 @@ fn the_energy_of_a_chain_in_joint_angles_changes_by_what_is_supplied() {
 #[test]
 fn what_a_chain_in_joint_angles_takes_grows_as_it_does() {
     let length = |links| {
-        let mut case = Case::of(CHAIN, &of_length(links));
+        let mut case = Case::of(&of_joints(), &of_length(links));
         case.programs().regular.expect("a solve").program.len()
     };
     let (short, long) = (length(20), length(40));

@@ -8,22 +8,32 @@ use bricard_codegen::internals::expr::{ExprId, Symbol};
 use bricard_codegen::internals::optimise::{Besides, Programs, Way, cost, interpret, programs};
 use bricard_codegen::{Settings, compile_source};
 
-/// Rods that hang from one another, in angles of the rods, with all positions in the world.
-const CHAIN: &str = "mechanism Chain {
-    const N = 4;
-    const L = 0.5;
-    coord phi[N];
-    param m = 2;
-    let rod[i in 0..N] = L*[sin(phi[i]), -cos(phi[i])];
-    let end[i in 0..N] = if i == 0 then rod[0] else end[i-1] + rod[i];
-    for i in 0..N {
-        let c = end[i] - rod[i]/2;
-        kinetic m/2*norm2(der(c)) + m*L^2/24*der(phi[i])^2;
-        potential 9.81*m*c.y;
-        dissipation 0.1*der(phi[i])^2;
-    }
-    force [1, 0.3] on end[N-1];
-}";
+/// Rods that hang from one another, with all positions in the world, for coordinates and how
+/// the angles `phi[i]` of the rods follow from them.
+pub(super) fn chain(coordinates: &str) -> String {
+    format!(
+        "mechanism Chain {{
+            const N = 4;
+            const L = 0.5;
+            param m = 2;
+            {coordinates}
+            let rod[i in 0..N] = L*[sin(phi[i]), -cos(phi[i])];
+            let end[i in 0..N] = if i == 0 then rod[0] else end[i-1] + rod[i];
+            for i in 0..N {{
+                let c = end[i] - rod[i]/2;
+                kinetic m/2*norm2(der(c)) + m*L^2/24*der(phi[i])^2;
+                potential 9.81*m*c.y;
+                dissipation 0.1*der(phi[i])^2;
+            }}
+            force [1, 0.3] on end[N-1];
+        }}"
+    )
+}
+
+/// The same in the angles of the rods.
+fn of_rods() -> String {
+    chain("coord phi[N];")
+}
 
 pub(super) fn state(symbol: Symbol) -> f64 {
     match symbol {
@@ -43,7 +53,7 @@ pub(super) fn of_length(links: u32) -> Settings {
 /// The programs of a chain; its accelerations by the emitted solve, by dense elimination, and
 /// by equations in closed form.
 fn accelerations(links: u32) -> (Programs, [Vec<f64>; 3]) {
-    let (mut mechanism, _) = analyse(CHAIN, &of_length(links)).expect("it is right");
+    let (mut mechanism, _) = analyse(&of_rods(), &of_length(links)).expect("it is right");
     let equations = derive(&mut mechanism).expect("equations of a usual length");
     let graph = &mechanism.graph;
     let value = |e: &ExprId| graph.evaluate(*e, &state);
@@ -126,8 +136,8 @@ fn what_an_acceleration_takes_grows_as_the_chain_does() {
 
 #[test]
 fn a_hundred_links_in_angles_of_the_links_are_compiled() {
-    let compiled = compile_source(CHAIN, "chain", "chain.mech", &of_length(100));
-    let compiled = compiled.unwrap_or_else(|errors| panic!("{}", errors.render("", CHAIN)));
+    let compiled = compile_source(&of_rods(), "chain", "chain.mech", &of_length(100));
+    let compiled = compiled.unwrap_or_else(|errors| panic!("{}", errors.render("", &of_rods())));
     assert!(compiled.code.contains("fn regular"));
     let lines = compiled.code.lines().count();
     assert!(lines < 80_000, "{lines} lines");
@@ -138,7 +148,7 @@ fn long_functions_declare_names_many_at_a_time() {
     // rustc describes the scope of each `let` for the debugger within the one before, by
     // recursion, and runs out of stack at less than 3000.
     const LETS: usize = 1200;
-    let compiled = compile_source(CHAIN, "chain", "chain.mech", &of_length(50));
+    let compiled = compile_source(&of_rods(), "chain", "chain.mech", &of_length(50));
     let code = compiled.expect("it is compiled").code;
     let code = code.replace("        pub fn ", "        fn ");
     let functions: Vec<&str> = code.split("\n        fn ").collect();

@@ -17,7 +17,7 @@
 
 use super::algebra::{Algebra, Entry, Signed, Sparse};
 use super::{OPERATIONS_MAX, Solved, Way};
-use crate::expr::Number;
+use crate::expr::{Arithmetic, Number, Symmetric};
 use crate::optimise::dead::ordered;
 use crate::optimise::program::{Program, Slot, Value};
 use std::collections::BTreeMap;
@@ -112,15 +112,27 @@ enum Step<'a> {
     },
 }
 
+impl Arithmetic for Algebra {
+    type Value = Signed;
+
+    fn plus(&mut self, x: Entry, y: Entry) -> Entry {
+        self.sum(x.into_iter().chain(y).collect())
+    }
+
+    fn plus_product(&mut self, x: Entry, a: Entry, b: Entry) -> Entry {
+        self.minus_product(x, a.map(|(minus, value)| (!minus, value)), b)
+    }
+}
+
 impl Algebra {
     /// The diagonal of `M`, by the places of coordinates; `None` where the program becomes
     /// too long.
     fn diagonal(&mut self, mass: &Sparse, order: &Order) -> Option<Vec<Entry>> {
-        let mut rest = Rest::of(mass, order.places.len());
+        let mut rest = left_of(mass, order);
         let mut diagonal = vec![None; order.places.len()];
         for &place in &order.places {
             match order.parts.get(place) {
-                Some(parts) => self.replace(&mut rest, place, parts),
+                Some(parts) => rest.replace(self, place, parts),
                 None => (diagonal[place], _) = rest.take(place),
             }
             if self.is_too_long() {
@@ -133,12 +145,12 @@ impl Algebra {
     /// All steps of the elimination; `None` where a pivot is zero by structure or the program
     /// becomes too long.
     fn steps<'a>(&mut self, mass: &Sparse, order: &'a Order) -> Option<Vec<Step<'a>>> {
-        let mut rest = Rest::of(mass, order.places.len());
+        let mut rest = left_of(mass, order);
         let mut steps = Vec::new();
         for &place in &order.places {
             steps.push(match order.parts.get(place) {
                 Some(parts) => {
-                    self.replace(&mut rest, place, parts);
+                    rest.replace(self, place, parts);
                     Step::Replaced { place, parts }
                 }
                 None => self.eliminated(&mut rest, place)?,
@@ -150,29 +162,8 @@ impl Algebra {
         Some(steps)
     }
 
-    /// Replaces a velocity by a sum of others: for `w = Σ g_i u_i`, with `a` on the diagonal
-    /// and `b_i` beside it, `m_ij += g_i a g_j + g_i b_j + b_i g_j`.
-    fn replace(&mut self, rest: &mut Rest, place: usize, parts: &[(usize, Signed)]) {
-        let (own, beside) = rest.take(place);
-        for (k, &(i, g)) in parts.iter().enumerate() {
-            let b = beside.get(&i).copied();
-            let whole = self.plus_product(b, own, Some(g));
-            let twice = self.sum(whole.into_iter().chain(b).collect());
-            rest.add(self, (i, i), (Some(g), twice));
-            for &(j, other) in &parts[..k] {
-                rest.add(self, (i, j), (Some(other), whole));
-                rest.add(self, (i, j), (Some(g), beside.get(&j).copied()));
-            }
-            for (&j, &entry) in &beside {
-                if parts.iter().all(|(part, _)| *part != j) {
-                    rest.add(self, (i, j), (Some(g), Some(entry)));
-                }
-            }
-        }
-    }
-
     /// Eliminates a coordinate; `None` where its pivot is zero by structure.
-    fn eliminated(&mut self, rest: &mut Rest, place: usize) -> Option<Step<'static>> {
+    fn eliminated(&mut self, rest: &mut Symmetric<Signed>, place: usize) -> Option<Step<'static>> {
         let (pivot, beside) = rest.take(place);
         let pivot = pivot.filter(|pivot| !self.as_number(pivot.1).is_some_and(Number::is_zero))?;
         let inverse = self.inverse(pivot);
@@ -233,43 +224,10 @@ impl Algebra {
         }
         x
     }
-
-    /// `x + a·b`.
-    fn plus_product(&mut self, x: Entry, a: Entry, b: Entry) -> Entry {
-        self.minus_product(x, a.map(|(minus, value)| (!minus, value)), b)
-    }
 }
 
-/// What is left of a symmetric matrix, row by row.
-struct Rest(Vec<BTreeMap<usize, Signed>>);
-
-impl Rest {
-    fn of(matrix: &Sparse, size: usize) -> Self {
-        let mut rows = vec![BTreeMap::new(); size];
-        for (&(i, j), &entry) in matrix {
-            rows[i].insert(j, entry);
-        }
-        Self(rows)
-    }
-
-    /// Takes a row out, and its column: what is on the diagonal, and what is beside it.
-    fn take(&mut self, row: usize) -> (Entry, BTreeMap<usize, Signed>) {
-        let mut beside = std::mem::take(&mut self.0[row]);
-        let own = beside.remove(&row);
-        for i in beside.keys() {
-            self.0[*i].remove(&row);
-        }
-        (own, beside)
-    }
-
-    /// Adds a product to an entry.
-    fn add(&mut self, algebra: &mut Algebra, (i, j): (usize, usize), (a, b): (Entry, Entry)) {
-        let sum = algebra.plus_product(self.0[i].get(&j).copied(), a, b);
-        for (i, j) in [(i, j), (j, i)] {
-            match sum {
-                Some(sum) => self.0[i].insert(j, sum),
-                None => self.0[i].remove(&j),
-            };
-        }
-    }
+/// A mass matrix, of which nothing is taken out yet.
+fn left_of(mass: &Sparse, order: &Order) -> Symmetric<Signed> {
+    let entries = mass.iter().map(|(place, entry)| (*place, *entry));
+    Symmetric::of(entries, order.places.len())
 }
