@@ -1,5 +1,6 @@
 //! What a person who writes mechanisms is given: `list`, `check --json`, `new`.
 
+use crate::built;
 use serde_json::{Value, json};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -110,20 +111,7 @@ fn a_new_crate_builds_without_a_network_and_simulates() {
     assert!(said.contains("mechanisms/my_engine.mech"), "{said}");
     assert!(said.contains(workspace), "{said}");
     let made = folder.join("my-engine");
-    // The versions of the workspace, so that what it has built serves here too.
-    let lock = Path::new(workspace).join("Cargo.lock");
-    fs::copy(lock, made.join("Cargo.lock")).expect("the folder is ours");
-    let target = Path::new(env!("CARGO_BIN_EXE_bricard"))
-        .parent()
-        .and_then(Path::parent);
-    let (status, out, error) = run(Command::new(env!("CARGO"))
-        .args(["run", "--offline", "--quiet"])
-        .current_dir(&made)
-        .env(
-            "CARGO_TARGET_DIR",
-            target.expect("the folder of target/debug"),
-        )
-        .env("CARGO_PROFILE_DEV_DEBUG", "line-tables-only"));
+    let (status, out, error) = run(&mut built::run(&made));
     assert_eq!(status, Some(0), "{error}");
     assert_eq!(error, "", "the build of a new crate warns");
     assert_eq!(out.lines().count(), 1 + 21 + 1, "{out}");

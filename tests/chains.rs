@@ -6,8 +6,7 @@ use bricard_fixtures::chains::joint_chain::JointChain;
 use bricard_fixtures::chains::link_chain::LinkChain;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Form, Interface, Mechanism, Method, Options, Regular, Settings, Solver, State, StepControl,
-    assemble, simulate,
+    Form, Method, Options, Regular, Settings, Solver, State, StepControl, Whole, assemble, simulate,
 };
 use bricard_testkit::Random;
 
@@ -28,6 +27,9 @@ fn of_joints(links: &SVector<f64, N>) -> SVector<f64, N> {
     SVector::from_fn(|i, _| links[i] - if i == 0 { 0.0 } else { links[i - 1] })
 }
 
+/// A chain, with a driver that is compiled once for both.
+type Chain = dyn Whole<f64, N, 0>;
+
 /// Random states, in the angles of links and of joints.
 fn states() -> Vec<[State<f64, N>; 2]> {
     let mut random = Random::seeded(1979);
@@ -44,7 +46,8 @@ fn states() -> Vec<[State<f64, N>; 2]> {
 
 #[test]
 fn joints_accelerate_as_differences_of_links() {
-    let (by_links, by_joints) = (LinkChain::default(), JointChain::default());
+    let (by_links, by_joints) = (&LinkChain::default(), &JointChain::default());
+    let (by_links, by_joints): (&Chain, &Chain) = (by_links, by_joints);
     for [links, joints] in states() {
         let mut found = [(); 2].map(|()| Regular::<f64, N, 0>::default());
         assert!(by_links.regular(&links, &mut found[0]));
@@ -56,7 +59,7 @@ fn joints_accelerate_as_differences_of_links() {
             form: Form::Full,
             ..Settings::default()
         });
-        let dense = solver.on(&by_joints).acceleration(&joints);
+        let dense = solver.on(by_joints).acceleration(&joints);
         let off = (dense.expect("an acceleration") - exact).amax() / exact.amax();
         assert!(off < DENSE_ROUND_OFF, "dense: off by {off:e} at {joints:?}");
     }
@@ -69,11 +72,12 @@ fn joints_move_as_differences_of_links() {
         absolute: 1e-11,
     };
     let options = Options::new(1.0, Method::Dop853, step_control);
-    let (by_links, by_joints) = (LinkChain::default(), JointChain::default());
-    let links = assemble(&by_links, &by_links.start(), 0.0).expect("a start");
-    let joints = assemble(&by_joints, &by_joints.start(), 0.0).expect("a start");
-    let links = simulate(&by_links, &links, &options, &mut []).expect("a motion");
-    let joints = simulate(&by_joints, &joints, &options, &mut []).expect("a motion");
+    let (by_links, by_joints) = (&LinkChain::default(), &JointChain::default());
+    let (by_links, by_joints): (&Chain, &Chain) = (by_links, by_joints);
+    let links = assemble(by_links, &by_links.start(), 0.0).expect("a start");
+    let joints = assemble(by_joints, &by_joints.start(), 0.0).expect("a start");
+    let links = simulate(by_links, &links, &options, &mut []).expect("a motion");
+    let joints = simulate(by_joints, &joints, &options, &mut []).expect("a motion");
     let off = (joints.end.q - of_joints(&links.end.q)).amax();
     assert!(off < APART, "off by {off:e}");
 }

@@ -1,6 +1,7 @@
 //! Mechanisms exported to other programs: the folders are whole, and their examples say what
 //! the command itself says.
 
+use crate::built;
 use crate::command::{Ran, cache, folder, read};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -84,16 +85,10 @@ fn a_crate_of_rust_builds_and_moves_as_the_command_does() {
     assert_eq!(ran.status, Some(0), "{}", ran.err);
     let made = folder.join("slider_crank");
     assert!(!made.join("build.rs").exists());
-    // The versions of the workspace, which are here already.
-    let lock = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.lock");
-    fs::copy(lock, made.join("Cargo.lock")).expect("the folder is ours");
-    let target = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("exported");
     let said = finished(
-        Command::new(env!("CARGO"))
-            .args(["run", "--offline", "--quiet", "--example", "simulate"])
-            .current_dir(&made)
-            .env("CARGO_PROFILE_DEV_OPT_LEVEL", "1")
-            .env("CARGO_TARGET_DIR", target),
+        built::run(&made)
+            .args(["--example", "simulate"])
+            .env("CARGO_PROFILE_DEV_OPT_LEVEL", "1"),
     );
     assert_eq!(last_row(&said), simulated(&folder), "{said}");
 }

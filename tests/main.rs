@@ -3,6 +3,7 @@
 mod allocation;
 mod authoring;
 mod balance;
+mod built;
 mod by_path;
 mod chains;
 mod closed_forms;

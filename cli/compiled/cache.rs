@@ -94,8 +94,8 @@ pub enum Digits {
     Many,
 }
 
-/// The part of the cache that belongs to one version of the sources and of the toolchain,
-/// and to one kind of numbers.
+/// The part of the cache that belongs to one version of the sources and of the toolchain;
+/// what computes in it is of one kind of numbers.
 #[derive(Clone, Debug)]
 pub struct Version {
     cache: Cache,
@@ -117,11 +117,7 @@ impl Version {
     /// The part of a toolchain, and of the sources that this command carries.
     pub fn new(cache: &Cache, toolchain: &Toolchain, digits: Digits) -> Self {
         let key = hash([&*SOURCES.0.to_string(), &*toolchain.identity]);
-        let kind = match digits {
-            Digits::Double => "",
-            Digits::Many => "-precise",
-        };
-        let name = format!("{}-{key:016x}{kind}", env!("CARGO_PKG_VERSION"));
+        let name = format!("{}-{key:016x}", env!("CARGO_PKG_VERSION"));
         Self {
             cache: cache.clone(),
             folder: cache.root.join(name),
@@ -163,7 +159,7 @@ impl Version {
     /// Where the library for a pair of sizes is.
     pub fn sized(&self, [coordinates, constraints]: [usize; 2]) -> PathBuf {
         let name = format!("{coordinates}-{constraints}");
-        self.folder.join("sizes").join(name)
+        self.folder.join(self.kind("sizes")).join(name)
     }
 
     /// The program of a description, if it is there.
@@ -174,7 +170,17 @@ impl Version {
 
     /// Where the program of a description belongs.
     fn entry(&self, file: &Path, source: &str) -> PathBuf {
-        self.folder.join("programs").join(named(file, source))
+        self.folder
+            .join(self.kind("programs"))
+            .join(named(file, source))
+    }
+
+    /// The name of a folder for what computes with numbers of this kind.
+    fn kind(&self, name: &str) -> String {
+        match self.digits {
+            Digits::Double => name.to_string(),
+            Digits::Many => format!("precise-{name}"),
+        }
     }
 
     /// As [`Cache::lock`].

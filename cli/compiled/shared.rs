@@ -30,15 +30,11 @@ opt-level = 0
 opt-level = 0
 ";
 
-impl Digits {
-    /// The packages among the sources that are needed.
-    fn packages(self) -> &'static [&'static str] {
-        match self {
-            Self::Double => &["runtime", "driver"],
-            Self::Many => &["runtime", "driver", "reference"],
-        }
-    }
+/// The packages among the sources of which programs are made, with numbers of either kind:
+/// what 106 bits need besides is built in a second, while a processor has nothing to do.
+const PACKAGES: [&str; 3] = ["runtime", "driver", "reference"];
 
+impl Digits {
     /// What descriptions of one pair of sizes share: a `main` but for the mechanism.
     fn serve(self, [coordinates, constraints]: [usize; 2]) -> String {
         let (number, serve) = match self {
@@ -66,13 +62,10 @@ impl Digits {
 /// [`CommandError::Cache`], [`CommandError::Compile`].
 pub fn libraries(version: &Version, toolchain: &Toolchain) -> Result<PathBuf, CommandError> {
     let shared = Shared {
-        packages: version.digits.packages(),
-        wanted: version.digits.packages(),
+        packages: &PACKAGES,
+        wanted: &PACKAGES,
         target: &toolchain.host,
-        kind: match version.digits {
-            Digits::Double => "",
-            Digits::Many => " in numbers of 106 bits",
-        },
+        kind: "",
     };
     shared.build(version, version.libraries())
 }
@@ -222,8 +215,7 @@ pub fn sized(
     let built = scratch.folder("sized")?;
     let text = version.digits.serve([coordinates, constraints]);
     scratch.write(Path::new("sized.rs"), &text)?;
-    let packages = version.digits.packages().iter();
-    let crates: Vec<String> = packages.map(|name| format!("bricard_{name}")).collect();
+    let crates = PACKAGES.map(|name| format!("bricard_{name}"));
     let mut rustc = rustc(&[&libraries], &crates);
     rustc
         .args(["--crate-type", "lib", "sized.rs", "--out-dir"])

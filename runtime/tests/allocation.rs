@@ -4,8 +4,8 @@ use crate::fixtures::{Framed, PLAIN, simulate};
 use crate::mechanisms::{FourBars, Passing, SliderCrank};
 use allocation_counter::measure;
 use bricard_runtime::{
-    Form, Method, Options, Settings, Stabilisation, Start, State, StepControl, Stepper, Structure,
-    assemble,
+    Form, Mechanism, Method, Options, Settings, Stabilisation, Start, State, StepControl, Stepper,
+    Structure, assemble,
 };
 
 static CONSERVATIVE: Structure = Structure {
@@ -70,13 +70,14 @@ fn steps_allocate_nothing_with_any_form_method_and_stabilisation() {
                 let mut stepper =
                     Stepper::<f64, 5, 4>::new(method, step_control, settings).unwrap();
                 let mut copy = stepper.clone();
+                let mechanism: &dyn Mechanism<f64, 5, 4> = &FourBars;
                 let count = allocations(|| {
                     copy.clone_from(&stepper);
                     let mut state = start;
                     for _ in 0..8 {
                         // Through the first singular position, for those forms
                         // that can; the error of the others is free, too.
-                        if stepper.step(&FourBars, &mut state, 0.1).is_err() {
+                        if stepper.step(mechanism, &mut state, 0.1).is_err() {
                             break;
                         }
                     }

@@ -91,19 +91,20 @@ fn before<M: Passing<N, R>, const N: usize, const R: usize>(mechanism: &M) -> St
 
 /// Steps through a singular position, without a limit and with one that is never met.
 fn agrees<M: Passing<N, R>, const N: usize, const R: usize>(mechanism: M, method: Method) {
-    let mechanism = Counted::new(mechanism);
-    let start = before(&mechanism.mechanism);
+    let counted = Counted::new(mechanism);
+    let mechanism: &dyn Mechanism<f64, N, R> = &counted;
+    let start = before(&counted.mechanism);
     let (mut free, mut limited) = (stepper::<N, R>(method), stepper::<N, R>(method));
     let mut states = [start; 2];
     let mut most = 0;
     for _ in 0..20 {
-        free.step(&mechanism, &mut states[0], STEP).unwrap();
-        mechanism.asked.set(0);
+        free.step(mechanism, &mut states[0], STEP).unwrap();
+        counted.asked.set(0);
         let limit = u32::MAX;
-        let told = limited.step_within(&mechanism, &mut states[1], STEP, limit);
-        assert_eq!(told, Ok(mechanism.asked.get()), "{method}");
+        let told = limited.step_within(mechanism, &mut states[1], STEP, limit);
+        assert_eq!(told, Ok(counted.asked.get()), "{method}");
         assert_eq!(states[0], states[1], "{method}");
-        most = most.max(mechanism.asked.get());
+        most = most.max(counted.asked.get());
     }
     assert_eq!(free.counters(), limited.counters(), "{method}");
     assert!(free.counters().robust_accelerations > 0, "no passage");
@@ -120,32 +121,31 @@ fn a_limit_that_is_not_met_changes_nothing_and_evaluations_are_told() {
 
 /// Cuts off each step near a singular position after every number of evaluations.
 fn is_cut_off<M: Passing<N, R>, const N: usize, const R: usize>(mechanism: M, method: Method) {
-    let mechanism = Counted::new(mechanism);
+    let counted = Counted::new(mechanism);
+    let mechanism: &dyn Mechanism<f64, N, R> = &counted;
     let mut stepper = stepper::<N, R>(method);
-    let mut state = before(&mechanism.mechanism);
+    let mut state = before(&counted.mechanism);
     let (mut cuts, mut longest) = (0, 0);
     for _ in 0..20 {
         let mut plain = (stepper.clone(), state);
-        let needed = plain
-            .0
-            .step_within(&mechanism, &mut plain.1, STEP, u32::MAX);
+        let needed = plain.0.step_within(mechanism, &mut plain.1, STEP, u32::MAX);
         let needed = needed.unwrap();
         for most in 0..needed {
             let (mut cut, mut reached) = (stepper.clone(), state);
-            mechanism.asked.set(0);
-            let error = cut.step_within(&mechanism, &mut reached, STEP, most);
+            counted.asked.set(0);
+            let error = cut.step_within(mechanism, &mut reached, STEP, most);
             let t = reached.t;
             assert_eq!(
                 error,
                 Err(SimulateError::TooMuchWork { t, most }),
                 "{method}"
             );
-            longest = longest.max(mechanism.asked.get() - most);
+            longest = longest.max(counted.asked.get() - most);
             assert!(reached.is_finite(), "{method}, {most}: {reached:?}");
             // Nothing that was spoilt is left.
             let rest = plain.1.t - t;
             if rest > 0.0 {
-                cut.step(&mechanism, &mut reached, rest).unwrap();
+                cut.step(mechanism, &mut reached, rest).unwrap();
             }
             let off = (reached.q - plain.1.q).norm() + (reached.v - plain.1.v).norm();
             assert!(off < 1e-7, "{method}, {most} at t = {t}: {off:e}");

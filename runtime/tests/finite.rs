@@ -5,7 +5,7 @@ use crate::fixtures::{Framed, Oscillator, PLAIN, simulate};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Audit, Direction, DynamicsError, Energy, Event, IntegrateError, Mechanism, Method, Options,
-    Settings, SimulateError, State, StepControl, Stepper, Structure, Terms, Watched,
+    Settings, SimulateError, State, StepControl, Stepper, Structure, Terms, Watched, Whole,
 };
 
 static CONSERVATIVE: Structure = Structure {
@@ -160,17 +160,17 @@ fn a_step_of_fixed_length_that_overflows_is_refused() {
             SimulateError::Integrate(IntegrateError::Dynamics(not_finite))
         );
     };
-    let mechanism = Framed::new(Huge, &PLAIN);
+    let mechanism: &dyn Whole<f64, 1, 0> = &Framed::new(Huge, &PLAIN);
     for method in [Method::Rk4, Method::Dp5, Method::Dop853] {
         let step_control = StepControl::Fixed { step: 4.0 };
         let mut options = Options::new(4.0, method, step_control);
         options.audit = Audit::NONE;
-        let failure = simulate::<1, 0>(&mechanism, &start(0.0), &options, &mut []);
+        let failure = simulate(mechanism, &start(0.0), &options, &mut []);
         refused(failure.expect_err("beyond the largest number").error);
         let mut stepper = Stepper::<f64, 1, 0>::new(method, step_control, Settings::default())
             .expect("the step is positive");
         let mut state = start(0.0);
-        let error = stepper.step(&mechanism, &mut state, 4.0);
+        let error = stepper.step(mechanism, &mut state, 4.0);
         refused(error.expect_err("beyond the largest number"));
         assert_eq!(state, start(0.0), "the last good state");
     }

@@ -4,7 +4,7 @@ use crate::fixtures::{Framed, distance, simulate};
 use crate::mechanisms::{Hanging, RODS, Row, place, sizes};
 use bricard_runtime::{
     Initial, Mechanism, Method, Options, Recorder, Settings, Start, State, StepControl, Stepper,
-    assemble,
+    Whole, assemble,
 };
 use std::thread;
 
@@ -133,8 +133,9 @@ fn a_row_of_40_loops_is_stepped_by_every_method_in_a_thread_of_2_mb() {
     in_a_thread(|| {
         const SIZES: (usize, usize) = sizes(40);
         let start = leaning::<{ SIZES.0 }>(0.3);
-        let framed = Framed::new(Row::<40>, Row::<40>.structure());
-        let start = assemble(&framed, &start, 0.0).unwrap_or_else(|error| panic!("{error}"));
+        let framed: &dyn Whole<f64, { SIZES.0 }, { SIZES.1 }> =
+            &Framed::new(Row::<40>, Row::<40>.structure());
+        let start = assemble(framed, &start, 0.0).unwrap_or_else(|error| panic!("{error}"));
         let ends = [Method::Rk4, Method::Dp5, Method::Dop853, Method::Radau9].map(|method| {
             let pace = StepControl::Fixed { step: 1e-3 };
             let stepper = Stepper::<f64, { SIZES.0 }, { SIZES.1 }>::new;
@@ -142,9 +143,9 @@ fn a_row_of_40_loops_is_stepped_by_every_method_in_a_thread_of_2_mb() {
             // A copy goes on to the same bits.
             let mut copy = stepper.clone();
             let (mut state, mut other) = (start, start);
-            let stepped = stepper.step(&framed, &mut state, 1e-3);
+            let stepped = stepper.step(framed, &mut state, 1e-3);
             stepped.unwrap_or_else(|error| panic!("{method}: {error}"));
-            copy.step(&framed, &mut other, 1e-3).expect("the same");
+            copy.step(framed, &mut other, 1e-3).expect("the same");
             assert_eq!(state, other, "{method}");
             state
         });

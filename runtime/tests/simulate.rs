@@ -6,7 +6,7 @@ use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Audit, Direction, DynamicsError, Event, Form, IntegrateError, Method, Observer, Occurrence,
     Options, Passage, Probe, Recorder, Sampler, Settings, SimulateError, State, Step, StepControl,
-    Stepper, Structure,
+    Stepper, Structure, Whole,
 };
 use core::ops::ControlFlow;
 
@@ -480,7 +480,8 @@ fn a_stepper_lets_a_program_act_between_steps() {
     let mut stepper = Stepper::new(Method::Rk4, step_control, Settings::default()).unwrap();
     for _ in 0..400 {
         mechanism.input = -2.0 * state.v[0];
-        stepper.step::<_>(&mechanism, &mut state, 0.05).unwrap();
+        let pushed: &dyn Whole<f64, 1, 0> = &mechanism;
+        stepper.step(pushed, &mut state, 0.05).unwrap();
     }
     assert!((state.t - 20.0).abs() < 1e-9);
     assert!(state.q[0].abs() < 1e-3, "{state:?}");
@@ -510,7 +511,8 @@ fn a_stepper_and_a_run_agree() {
             Stepper::<f64, 5, 4>::new(method, step_control, Settings::default()).unwrap();
         let mut state = start;
         for _ in 0..20 {
-            stepper.step(&mechanism, &mut state, 0.1).unwrap();
+            let mechanism: &dyn Whole<f64, 5, 4> = &mechanism;
+            stepper.step(mechanism, &mut state, 0.1).unwrap();
         }
         let options = Options::new(2.0, method, step_control);
         let run = simulate::<5, 4>(&mechanism, &start, &options, &mut []).unwrap();

@@ -1,6 +1,6 @@
 //! What is regular is not taken to be singular.
 
-use bricard_runtime::Interface;
+use bricard_runtime::Whole;
 use bricard_runtime::{Options, assemble, simulate};
 use bricard_singular::descriptions::car_axis::CarAxis;
 
@@ -19,10 +19,10 @@ const CAR_AXIS: [f64; 8] = [
 
 #[test]
 fn the_car_axis_ends_where_the_test_set_says() {
-    let axis = CarAxis::<f64>::default();
-    let start = assemble(&axis, &axis.start(), 0.0).expect("it can be assembled");
+    let axis: &dyn Whole<f64, 4, 2> = &CarAxis::<f64>::default();
+    let start = assemble(axis, &axis.start(), 0.0).expect("it can be assembled");
     let options = Options::dop853(3.0, 1e-11);
-    let summary = simulate(&axis, &start, &options, &mut []).expect("it runs to its end");
+    let summary = simulate(axis, &start, &options, &mut []).expect("it runs to its end");
     let found = summary.end.q.iter().chain(summary.end.v.iter());
     for (found, wanted) in found.zip(CAR_AXIS) {
         assert!((found - wanted).abs() < 1e-7, "{found} is not {wanted}");

@@ -2,7 +2,7 @@
 
 use crate::is_long;
 use bricard_runtime::{DynamicsError, Observer, Probe, Step};
-use bricard_runtime::{Interface, Options, State, assemble, simulate};
+use bricard_runtime::{Options, State, Whole, assemble, simulate};
 use bricard_singular::descriptions::parallelogram_pendulum::ParallelogramPendulum;
 use core::f64::consts::PI;
 use core::ops::ControlFlow;
@@ -35,12 +35,13 @@ fn a_hundred_thousand_passages_with_two_freedoms_stay_on_their_branch() {
     let mut mechanism = ParallelogramPendulum::<f64>::default();
     let speed = 60.0;
     mechanism.parameters.w0 = speed;
-    let start = assemble(&mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+    let mechanism: &dyn Whole<f64, 4, 2> = &mechanism;
+    let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
     // The pendulum takes a part of the speed; the crank never turns back.
     let until = 1.2 * wanted * PI / speed;
     let mut largest = Largest::default();
     let options = Options::dop853(until, 1e-9);
-    let ran = simulate(&mechanism, &start, &options, &mut [&mut largest]);
+    let ran = simulate(mechanism, &start, &options, &mut [&mut largest]);
     let summary = ran.unwrap_or_else(|failure| panic!("{failure}"));
     let half_turns = |state: &State<f64, 4>| (state.q[0] / PI).floor();
     let passed = (half_turns(&summary.end) - half_turns(&start)).abs();
