@@ -4,7 +4,7 @@
 use crate::built;
 use crate::command::{Ran, cache, folder, read};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
 
 /// The command in a folder, with the cache that the tests share.
