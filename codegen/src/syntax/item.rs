@@ -4,11 +4,11 @@ use super::ast::{Declaration, Declared, Energy, Expr, ExprKind, Item, ItemKind, 
 use super::cursor::{Cursor, DIRECTIONS, Parsed, SHAPES, STATEMENTS};
 use super::model::Model;
 use super::token::TokenKind;
+use super::words::{CHOICE, FOR, NO_ASSIGNMENT, NO_UNIT_BEHIND, REMOVE, did_you_mean};
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::expr::Function;
 
 const FILE: &str = "a description is written `mechanism Name { … }`";
-const FOR: &str = "repetition is written `for i in 0..K { … }`";
 
 impl Cursor<'_> {
     /// Reads a whole file.
@@ -28,7 +28,7 @@ impl Cursor<'_> {
             let message = "nothing can follow the mechanism";
             let error = Diagnostic::error(self.span(), message);
             let help = match self.at_symbol(";") {
-                true => "remove it",
+                true => REMOVE,
                 false => "a file holds one mechanism; write another file",
             };
             let _reported = self.fail(error.help(help));
@@ -154,7 +154,7 @@ impl Cursor<'_> {
             let left = if left == ")" { "(…)" } else { left };
             let right = if right == "(" { "(…)" } else { right };
             let help = match right {
-                "if" => "a choice is written `if a < b then x else y`".to_string(),
+                "if" => CHOICE.to_string(),
                 _ if Function::ALL.iter().any(|(_, name)| *name == left) => {
                     format!("write `{left}({right})`")
                 }
@@ -176,8 +176,7 @@ impl Cursor<'_> {
         if !number || declared.is_some_and(|declared| declared.text != unit) {
             return Ok(());
         }
-        let message = "a unit does not stand behind a number";
-        let error = Diagnostic::error(self.span(), message);
+        let error = Diagnostic::error(self.span(), NO_UNIT_BEHIND);
         let (name, value) = (&declaration.name.text, declaration.value.span);
         let value = value.text(self.source);
         let help = format!("the unit goes behind `:`: `{word} {name}: {unit} = {value};`");
@@ -333,7 +332,7 @@ impl Cursor<'_> {
         if named {
             self.expect_symbol(":", "")?;
             if self.at_symbol("=") {
-                let error = Diagnostic::error(self.span(), "`:=` is not used here");
+                let error = Diagnostic::error(self.span(), NO_ASSIGNMENT);
                 let help = "write `constraint a = b;`; in front of `:` stands a name";
                 return Err(self.fail(error.help(help)));
             }
@@ -441,7 +440,7 @@ fn example(word: &str) -> String {
 fn statement_help(word: &str) -> String {
     let words = STATEMENTS.iter().map(|(word, _)| *word).chain(["for"]);
     match nearest(word, words.clone()) {
-        Some(near) => format!("did you mean `{near}`?"),
+        Some(near) => did_you_mean(near),
         None => {
             let list: Vec<_> = words.collect();
             format!("a statement begins with one of: {}", list.join(", "))

@@ -162,13 +162,19 @@ impl Hearing {
             (".coordinate(\"q\", \"m m\")", test().coordinate("q", "m m")),
             (".coordinate(\"q\", \"3\")", test().coordinate("q", "3")),
         ] {
-            self.0.extend(model.text().err().map(|error| Heard {
+            let error = model.text().err().map(|error| error.to_string());
+            let error = error.expect("a text that can't be read");
+            let said = error.split_once("error: ").map_or("", |(_, said)| said);
+            let help = said
+                .split_once("= help: ")
+                .map(|(_, help)| help.to_string());
+            self.0.push(Heard {
                 input: format!("{} in Rust", code(input)),
                 is_warning: false,
-                message: error.to_string(),
+                message: said.lines().next().unwrap_or_default().to_string(),
                 labels: Vec::new(),
-                help: None,
-            }));
+                help,
+            });
         }
     }
 }
@@ -182,6 +188,10 @@ fn long() -> Vec<(&'static str, String)> {
     let parts = chain(300, &|i| format!("part P{}() {{ let a = P{i}(); }}", i + 1));
     let given = chain(300, &|i| format!("let a{i} = P(a{}.y);", i + 1));
     vec![
+        (
+            "`output a = ((…(q)…));` with 101 brackets",
+            format!("output a = {}q{};", "(".repeat(101), ")".repeat(101)),
+        ),
         (
             "`potential -…-q;` with 500 signs",
             format!("potential {}q;", "-".repeat(500)),

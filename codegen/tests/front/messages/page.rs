@@ -36,7 +36,8 @@ fn source<'a>(templates: &'a [Template], text: &str) -> Option<&'a Template> {
 
 /// Which of two is shown: the one with the shorter input.
 fn rank(heard: &Heard) -> (usize, &str, &str) {
-    (heard.input.chars().count(), &heard.input, &heard.message)
+    let length = heard.input.chars().count();
+    (length, &heard.input, &heard.message)
 }
 
 /// One of all that is said for each message with each help, and for each text that stands

@@ -338,6 +338,20 @@ pub const STATEMENTS: &[&str] = &[
     "potential norm([q, w]);",
     "potential 1/q;",
     "param a = 0; start { q = 1/a; }",
+    "let a = 1\nlet b = a;",
+    "output a = q | w;",
+    "let n[i in 0..2] = q; let a = -n;",
+    "let n[i in 0..2] = q; output a = 2*n;",
+    "let n[i in 0..2] = q; let a = n + 1; output b = a;",
+    "param d[2] = [[1, 0], [0, 1]];",
+    "param l: m = 1; fn f(x: s) = x; output a = f(2*l);",
+    "fn f(x: m) = x; output a = f(2);",
+    "param l: m = 1; coord x: rad; output a = l^x;",
+    "param l: m = 1; param s: s = 1; coord x: m; constraint x = s;",
+    "coord x: m; constraint x = 1 + 0*q;",
+    "param l: m = 1; param s: s = 1; coord x: m; output a = x + s;",
+    "param l: m = 1; output a = [l, l] kg;",
+    "coord a: rad; start { a = 30; }",
 ];
 
 /// Whole descriptions that are wrong.
