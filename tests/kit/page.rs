@@ -45,7 +45,8 @@ pub fn row(cells: &[String]) -> String {
     format!("| {} |\n", cells.join(" | "))
 }
 
-/// A text as code in a cell of a table. What can't be seen is written as its number.
+/// A text as code in a cell of a table. The end of a line is `⏎`, and what can't be seen is
+/// its number.
 pub fn code(text: &str) -> String {
     let text: String = text.chars().map(visible).collect();
     let fence = "`".repeat(usize::from(text.contains('`')) + 1);
@@ -54,6 +55,9 @@ pub fn code(text: &str) -> String {
 }
 
 fn visible(sign: char) -> String {
+    if sign == '\n' {
+        return " ⏎ ".to_string();
+    }
     let is_plain = sign == ' ' || !sign.is_whitespace() && !sign.is_control();
     match is_plain && sign != '\u{200b}' {
         true => sign.to_string(),

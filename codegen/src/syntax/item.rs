@@ -143,13 +143,12 @@ impl Cursor<'_> {
         }
         self.comparison_stands_after_if()?;
         let next = self.peek();
-        let same_line = next.span.start.line == self.last_span().end.line;
         let goes_on = match &next.kind {
             TokenKind::Word(_) | TokenKind::Number(_) => true,
             TokenKind::Symbol(symbol) => *symbol == "(",
             TokenKind::Text(_) | TokenKind::End => false,
         };
-        if same_line && goes_on && !matches!(word, "coord" | "state") {
+        if goes_on && !self.at_next_statement() && !matches!(word, "coord" | "state") {
             let [left, right] = [self.last_span(), next.span].map(|span| span.text(self.source));
             let left = if left == ")" { "(…)" } else { left };
             let right = if right == "(" { "(…)" } else { right };
@@ -166,6 +165,12 @@ impl Cursor<'_> {
         Err(self.unexpected("`;`", &example(word)))
     }
 
+    /// Whether what comes next stands on a line of its own, or begins a statement.
+    fn at_next_statement(&self) -> bool {
+        let below = self.span().start.line > self.last_span().end.line;
+        below || STATEMENTS.iter().any(|(word, _)| self.at_word(word))
+    }
+
     /// Refuses a unit behind a number: `param m = 1 kg;`.
     fn no_unit_behind(&mut self, word: &str, declaration: &Declaration) -> Parsed<()> {
         let number = matches!(declaration.value.kind, ExprKind::Number(_));
@@ -173,7 +178,8 @@ impl Cursor<'_> {
             return Ok(());
         };
         let declared = declaration.unit.as_ref();
-        if !number || declared.is_some_and(|declared| declared.text != unit) {
+        let other = self.at_next_statement();
+        if !number || other || declared.is_some_and(|declared| declared.text != unit) {
             return Ok(());
         }
         let error = Diagnostic::error(self.span(), NO_UNIT_BEHIND);

@@ -49,7 +49,11 @@ impl Cursor<'_> {
     /// Refuses a unit behind the number that a start value is.
     fn no_unit_behind_value(&mut self, value: &Expr) -> Parsed<()> {
         let next = self.peek();
-        let same_line = next.span.start.line == value.span.end.line;
+        // What begins the next entry is no unit.
+        let next_entry = ["=", "~", "(", "[", "."]
+            .iter()
+            .any(|sign| self.peek_at(1).kind == TokenKind::Symbol(sign));
+        let same_line = next.span.start.line == value.span.end.line && !next_entry;
         let (TokenKind::Word(unit), ExprKind::Number(_), true) =
             (next.kind.clone(), &value.kind, same_line)
         else {

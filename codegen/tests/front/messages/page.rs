@@ -24,7 +24,8 @@ of `…`:
 mechanism Test { coord q; coord w; kinetic der(q)^2 + der(w)^2; … }
 ```
 
-In brackets stands what is said of places in the description.
+Behind a message stands in brackets what is said of places in the description. \
+`⏎` is the end of a line.
 ";
 
 /// The template that says most of a text.
