@@ -6,6 +6,7 @@
 use super::super::with;
 use super::statements::{DESCRIPTIONS, STATEMENTS};
 use super::templates::files;
+use crate::symbolic::limits::chain;
 use bricard_codegen::internals::diagnostic::{Diagnostic, Severity};
 use bricard_codegen::internals::examine;
 use bricard_codegen::{Model, Settings};
@@ -66,6 +67,10 @@ impl Hearing {
         }
         let spaces = " ".repeat(1 << 25);
         said.about("a file of 32 MB", &spaces, &Settings::default());
+        for links in [8, 20] {
+            let input = format!("a chain of {links} links with their positions in the world");
+            said.about(&input, &chain(links), &Settings::default());
+        }
         said.set();
         said.tables();
         said.calls();

@@ -8,6 +8,9 @@ use super::templates::{STAGES, Template};
 use bricard_testkit::page::{prose, row};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// The longest input that a reader is shown, in characters.
+const LONGEST: usize = 120;
+
 /// What the reader is told about each stage.
 const ABOUT: [(&str, &str); 4] = [
     ("syntax", "How a description is written"),
@@ -37,8 +40,7 @@ fn source<'a>(templates: &'a [Template], text: &str) -> Option<&'a Template> {
 
 /// Which of two is shown: the one with the shorter input.
 fn rank(heard: &Heard) -> (usize, &str, &str) {
-    let length = heard.input.chars().count();
-    (length, &heard.input, &heard.message)
+    (heard.input.chars().count(), &heard.input, &heard.message)
 }
 
 /// One of all that is said for each message with each help, and for each text that stands
@@ -88,6 +90,13 @@ fn printed(heard: &Heard) -> String {
 /// The section of the page.
 pub fn page(templates: &[Template], said: &[Heard]) -> String {
     let examples = examples(templates, said);
+    for (_, heard) in &examples {
+        assert!(
+            heard.input.chars().count() <= LONGEST,
+            "`{}` wants a shorter description that brings it about",
+            heard.message
+        );
+    }
     let mut text = INTRODUCTION.to_string();
     for (stage, about) in ABOUT {
         text += &format!("\n### {about}\n\n| message | what to write | input |\n|---|---|---|\n");

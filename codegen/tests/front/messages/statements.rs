@@ -345,7 +345,7 @@ pub const STATEMENTS: &[&str] = &[
     "fn f(x: m) = x; output a = f(2);",
     "param l: m = 1; coord x: rad; output a = l^x;",
     "param m: kg = 1; coord x: m; constraint x = m;",
-    "coord x: m; constraint x = 1 + 0*q;",
+    "coord x: m; coord a: rad; constraint x = a;",
     "param m: kg = 1; coord x: m; output a = x + m;",
     "param l: m = 1; output a = [l, l] kg;",
     "coord a: rad; start { a = 30; }",
