@@ -54,7 +54,7 @@ impl Lowering<'_> {
             let help = match near {
                 Some(near) => did_you_mean(near),
                 None if known.is_empty() => format!("the description declares no {kind}"),
-                None => format!("the description declares {}", known.join(", ")),
+                None => format!("the {kind}s of the description are {}", known.join(", ")),
             };
             let message =
                 format!("the build script sets the {kind} `{name}`, which is not declared");

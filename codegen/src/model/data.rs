@@ -8,6 +8,7 @@ use super::words::not_rising;
 use crate::diagnostic::nearest;
 use crate::syntax::words::{NUMBERS, did_you_mean};
 use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// The most pairs of a table, all of which the compiler of the code has to read.
@@ -26,14 +27,17 @@ fn fault<T>(message: String, help: &str) -> Result<T, Fault> {
 
 /// The text of a file.
 pub fn read(path: &Path) -> Result<String, Fault> {
-    let said = |error: std::io::Error| match error.kind() {
-        std::io::ErrorKind::NotFound => "there is no such file".to_string(),
-        std::io::ErrorKind::InvalidData => "it is not UTF-8".to_string(),
-        _ => error.to_string(),
-    };
-    fs::read_to_string(path).map_err(|error| Fault {
-        message: format!(" can't be read: {}", said(error)),
-        help: "files are looked for in the folder of the description".to_string(),
+    const PLACE: &str = "files are looked for in the folder of the description";
+    fs::read_to_string(path).map_err(|error| {
+        let (said, help) = match error.kind() {
+            ErrorKind::NotFound => ("there is no such file".to_string(), PLACE),
+            ErrorKind::InvalidData => ("it is not UTF-8".to_string(), "save the file as UTF-8"),
+            _ => (error.to_string(), PLACE),
+        };
+        Fault {
+            message: format!(" can't be read: {said}"),
+            help: help.to_string(),
+        }
     })
 }
 

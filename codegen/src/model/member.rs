@@ -11,7 +11,7 @@ use super::scope::Kind;
 use super::value::{Bare, Value};
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::syntax::ast::{Argument, Expr, ExprKind, Let, Name};
-use crate::syntax::words::{AXIS, COMPONENT, did_you_mean};
+use crate::syntax::words::{COMPONENT, did_you_mean, no_axis};
 
 impl Evaluator {
     /// Whether a formula names a part or an array of them.
@@ -104,7 +104,7 @@ impl Evaluator {
     /// A name behind the dot of what is no part.
     fn no_part(&mut self, inside: &Expr, name: &str, span: Span) -> Option<Value> {
         self.evaluate(inside)?;
-        let message = format!("expected {AXIS}, found `{name}`");
+        let message = no_axis(name);
         self.report(Diagnostic::error(span, message).help(COMPONENT))
     }
 

@@ -78,7 +78,8 @@ impl Evaluator {
         }
         if !tame {
             let message = format!("this contains a power above {LARGEST_EXPONENT}");
-            return self.report(Diagnostic::error(span, message));
+            return self
+                .report(Diagnostic::error(span, message).help("make the exponents smaller"));
         }
         Some(id)
     }

@@ -185,7 +185,10 @@ impl Cursor<'_> {
         let error = Diagnostic::error(self.span(), NO_UNIT_BEHIND);
         let (name, value) = (&declaration.name.text, declaration.value.span);
         let value = value.text(self.source);
-        let help = format!("the unit goes behind `:`: `{word} {name}: {unit} = {value};`");
+        let help = format!(
+            "the unit goes behind `:`: `{word} {name}: {unit} = {value};`; a product is written \
+             `{value}*{unit}`"
+        );
         Err(self.fail(error.help(help)))
     }
 

@@ -31,6 +31,11 @@ pub const FOR: &str = "repetition is written `for i in 0..K { … }`";
 pub const POINT: &str = "a point or vector is written `[x, y]`";
 pub const COMPONENT: &str = "a component is written `.x`, `.y` or `.z`, or with an index: `[0]`";
 
+/// Says that a name behind a dot is none of a component.
+pub fn no_axis(found: &str) -> String {
+    format!("expected {AXIS}, found `{found}`")
+}
+
 /// Asks for the name that was probably meant.
 pub fn did_you_mean(name: &str) -> String {
     format!("did you mean `{name}`?")

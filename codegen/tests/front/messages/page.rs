@@ -38,9 +38,17 @@ fn source<'a>(templates: &'a [Template], text: &str) -> Option<&'a Template> {
     found.rev().max_by_key(|template| template.length())
 }
 
-/// Which of two is shown: the one with the shorter input.
-fn rank(heard: &Heard) -> (usize, &str, &str) {
-    (heard.input.chars().count(), &heard.input, &heard.message)
+/// Which of two is shown: the one about whose input nothing else is said, then the one with
+/// the shorter input.
+fn rank(heard: &Heard) -> (bool, usize, usize, &str, &str) {
+    let length = heard.input.chars().count();
+    (
+        length > LONGEST,
+        heard.n_findings,
+        length,
+        &heard.input,
+        &heard.message,
+    )
 }
 
 /// One of all that is said for each message with each help, and for each text that stands
