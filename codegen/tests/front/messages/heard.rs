@@ -72,7 +72,11 @@ impl Hearing {
             said.about(&code(statements), &with(statements), &Settings::default());
         }
         for description in DESCRIPTIONS {
-            said.about(&code(description), description, &Settings::default());
+            let input = match description.starts_with("mechanism") {
+                true => code(description),
+                false => format!("{} alone", code(description)),
+            };
+            said.about(&input, description, &Settings::default());
         }
         for (input, statements) in long() {
             said.about(input, &with(&statements), &Settings::default());

@@ -20,8 +20,8 @@ const ABOUT: [(&str, &str); 4] = [
 ];
 
 const INTRODUCTION: &str = "\
-What stands as an input belongs, if it is not a whole description, into this one, in place \
-of `…`:
+What stands as an input belongs, if it is no `mechanism` and not told to stand alone, into \
+this description, in place of `…`:
 
 ```text
 mechanism Test { coord q; coord w; kinetic der(q)^2 + der(w)^2; … }
