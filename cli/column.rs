@@ -101,7 +101,7 @@ fn no_column(word: &str, structure: &Structure) -> Option<String> {
         return Some("is in every row; `--columns` adds others".to_string());
     }
     if has(structure.parameters) {
-        return Some("is a parameter, which stays as it is".to_string());
+        return Some("is a parameter, which stays as it is; leave it out".to_string());
     }
     let event = structure.events.iter().any(|event| event.name == word);
     event.then(|| "is an event: the summary says when it happens".to_string())

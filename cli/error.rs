@@ -264,7 +264,7 @@ impl Display for CommandError {
                 write!(f, "{} can't be written: {instead}", path.display())
             }
             Self::Read(path, error) => unread(f, path, error),
-            Self::Write(path, error) => write!(f, "could not write {}: {error}", path.display()),
+            Self::Write(path, error) => unwritten(f, path, error),
             Self::WriteRows { path, rows, error } => write!(
                 f,
                 "could not write {} to its end: {error}; it holds at most the first {rows} rows",
@@ -321,6 +321,18 @@ fn unread(f: &mut Formatter<'_>, path: &Path, error: &io::Error) -> fmt::Result 
         write!(f, "; did you mean `{}`?", meant.display())?;
     }
     Ok(())
+}
+
+fn unwritten(f: &mut Formatter<'_>, path: &Path, error: &io::Error) -> fmt::Result {
+    write!(f, "could not write {}: ", path.display())?;
+    match path.parent() {
+        Some(folder) if error.kind() == io::ErrorKind::NotFound && !folder.exists() => write!(
+            f,
+            "there is no folder {}; make it, or name another file",
+            folder.display()
+        ),
+        _ => write!(f, "{error}"),
+    }
 }
 
 /// The file of the same kind in a folder whose name is most like that of one that is not

@@ -9,11 +9,12 @@ use std::process::Command;
 
 /// How the workspace compiles what is written elsewhere: what it has built of that serves
 /// these crates too.
-const AS_HERE: [&str; 4] = [
+const AS_HERE: [&str; 5] = [
     "profile.dev.lto='off'",
-    "profile.dev.package.'*'={ opt-level = 0, codegen-units = 16 }",
-    "profile.dev.package.qd={ opt-level = 3 }",
-    "profile.dev.package.libm={ opt-level = 1 }",
+    "profile.dev.package.'*'.opt-level=0",
+    "profile.dev.package.'*'.codegen-units=16",
+    "profile.dev.package.qd.opt-level=3",
+    "profile.dev.package.libm.opt-level=1",
 ];
 
 /// `cargo run` for a crate.

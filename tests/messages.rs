@@ -2,8 +2,10 @@
 //! what to do.
 //!
 //! The reasons are read from the command's sources, so that a new one needs a case here.
+//! The cases stand on the page of messages.
 
 use crate::command::{folder, read};
+use bricard_testkit::page::{code, hold_section, prose, row};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -25,7 +27,7 @@ const CASES: &[Case] = &[
         "NoColumn",
         "simulate slider_crank --columns L1",
         2,
-        "`L1` is a parameter, which stays as it is",
+        "`L1` is a parameter, which stays as it is; leave it out",
     ),
     (
         "OutOfRange",
@@ -43,7 +45,8 @@ const CASES: &[Case] = &[
         "Law",
         "simulate slider_crank --set m1=sin(t)",
         2,
-        "`--set m1=…`: …; a parameter is a number",
+        "`--set m1=…`: `t` has no value here; the constants are `pi` and `deg`; a parameter is a \
+         number",
     ),
     (
         "TwoLists",
@@ -68,13 +71,14 @@ const CASES: &[Case] = &[
         "UselessOption",
         "simulate slider_crank --method rk4 --rtol 1e-6",
         2,
-        "rk4 has no use for --rtol; …--method dp5",
+        "rk4 has no use for --rtol; give --step, or take --method dp5, dop853, radau5 or radau9",
     ),
     (
         "FileKind",
         "simulate slider_crank --film run.mp4",
         2,
-        "run.mp4 can't be written: …--film run.gif",
+        "run.mp4 can't be written: films are GIF, strips of configurations SVG, PNG or PDF; write \
+         `--film run.gif` or `--film run.svg`",
     ),
     (
         "Read",
@@ -86,26 +90,28 @@ const CASES: &[Case] = &[
         "Write",
         "simulate slider_crank --out missing/run.csv",
         1,
-        "could not write missing/run.csv: …",
+        "could not write missing/run.csv: there is no folder missing; make it, or name another file",
     ),
     (
         "Description",
         "check broken.mech",
         1,
-        "the description is wrong\n\n…broken.mech:1:…",
+        "the description is wrong\n\nbroken.mech:1:42: error: `L9` is not declared\n…",
     ),
     (
         "Run",
         "simulate slider_crank --form multipliers --until 2 --out run.csv",
         1,
-        "at t = 0.… s only 1 of the 2 constraint equations is independent: …; use the form \
-         `reduced` or `full`…rows computed before…",
+        "at t = 0.… s only 1 of the 2 constraint equations is independent: `L1*cos(q1) + \
+         L2*cos(q2) = q3` (line …), `L1*sin(q1) = L2*sin(q2)` (line …), and the form \
+         `multipliers` cannot pass a singular position; use the form `reduced` or `full`\nthe … \
+         rows computed before, up to t = 0.… s, are kept: run.csv",
     ),
     (
         "Checkpoint",
         "simulate slider_crank --resume broken.mech",
         2,
-        "can't go on from broken.mech: …",
+        "can't go on from broken.mech: it is no checkpoint; give a file that --checkpoint wrote",
     ),
     (
         "NoFile",
@@ -139,8 +145,116 @@ const CASES: &[Case] = &[
         "a crate can't be called `Crane`: it begins with a lower-case letter and goes on with these, \
          digits, `-` and `_`",
     ),
+    (
+        "NoColumn",
+        "simulate slider_crank --columns q1",
+        2,
+        "`q1` is in every row; `--columns` adds others",
+    ),
+    (
+        "OutOfRange",
+        "simulate slider_crank --rtol 2",
+        2,
+        "--rtol must be less than 1: it is the part of a value that may be wrong, not 2",
+    ),
+    (
+        "Runs",
+        "simulate slider_crank --set L1=0.4,0.5 --plot run.html --live",
+        2,
+        "--live moves one run, and `--set L1` asks for 2; give it one value, which a slider \
+         changes, or compare the runs without --live",
+    ),
+    (
+        "Runs",
+        "simulate slider_crank --set L1=0.4,0.5 --out run.csv --checkpoint c.json",
+        2,
+        "--checkpoint is of one run, and `--set L1` asks for 2; give it one value",
+    ),
+    (
+        "Runs",
+        "simulate slider_crank --set L1=1,2,3,4,5,6,7,8 --plot run.svg",
+        2,
+        "a picture has colours for seven runs, and `--set L1` asks for 8; give it fewer values, \
+         or write the rows by --out alone",
+    ),
+    (
+        "UselessOption",
+        "simulate slider_crank --plot run.svg --live",
+        2,
+        "a plot that is no page has no use for --live; write `--plot run.html`",
+    ),
+    (
+        "UselessOption",
+        "simulate slider_crank --width 88mm",
+        2,
+        "a run without a picture has no use for --width; add `--plot run.pdf`",
+    ),
+    (
+        "UselessOption",
+        "simulate slider_crank --width 88mm --film run.gif",
+        2,
+        "what moves has no use for --width; write `--plot run.pdf` or `--film run.pdf`, or \
+         another name in .svg or .png",
+    ),
+    (
+        "FileKind",
+        "simulate slider_crank --out run.xlsx",
+        2,
+        "run.xlsx can't be written: rows are written as CSV or as Parquet; write `--out run.csv` \
+         or `--out run.parquet`",
+    ),
+    (
+        "FileKind",
+        "simulate slider_crank --out run.parquet --checkpoint c.json",
+        2,
+        "run.parquet can't be written: rows can't be added to Parquet after a checkpoint; write \
+         `--out run.csv`",
+    ),
+    (
+        "FileKind",
+        "simulate slider_crank --plot run.txt",
+        2,
+        "run.txt can't be written: plots are pages, SVG, PNG or PDF; write `--plot run.html`, \
+         `--plot run.svg`, `--plot run.png` or `--plot run.pdf`",
+    ),
+    (
+        "FileKind",
+        "simulate slider_crank --plot run.html --phase q1,q2",
+        2,
+        "run.html can't be written: one quantity over another is drawn as SVG, PNG or PDF; write \
+         `--plot run.svg`",
+    ),
+    (
+        "SameFile",
+        "simulate slider_crank --json",
+        2,
+        "--json and --out can't both be written to standard output; give them different names",
+    ),
+    (
+        "Name",
+        "new crane__1",
+        2,
+        "a crate can't be called `crane__1`: `-` and `_` stand alone and between letters",
+    ),
+    (
+        "Name",
+        "new match",
+        2,
+        "a crate can't be called `match`: it means something in Rust or to cargo",
+    ),
     ("Said", "check --json broken.mech", 1, ""),
 ];
+
+/// What is said where a folder is not fit to keep what is compiled.
+const SPOILT: &str = "could not keep what was compiled in …CACHEDIR.TAG: …; make room there \
+                      (`bricard cache --clear` does), or name another folder with \
+                      XDG_CACHE_HOME";
+
+const INTRODUCTION: &str = "\
+The command ends with status 2 where the command line is wrong, and with 1 where something \
+else is. `broken.mech` is a wrong description, `crane` a folder, and `…` stands for what \
+depends on the machine or follows from what is above.
+";
 
 /// Reasons that no command line alone brings about: the test that does, or why none can.
 const ELSEWHERE: [(&str, &str); 6] = [
@@ -222,9 +336,7 @@ fn a_cache_that_cannot_be_kept_is_told_with_how_to_move_it() {
         .args(["cache", "--clear"]);
     let ran = read(command.output().expect("the command starts"));
     assert_eq!(ran.status, Some(1), "{}", ran.err);
-    let expected = "could not keep what was compiled in …CACHEDIR.TAG: …; make room there \
-                    (`bricard cache --clear` does), or name another folder with XDG_CACHE_HOME";
-    assert!(says(&ran.err, expected), "{}", ran.err);
+    assert!(says(&ran.err, SPOILT), "{}", ran.err);
 }
 
 #[test]
@@ -233,5 +345,26 @@ fn every_reason_has_a_case() {
     let others = ELSEWHERE.iter().map(|(reason, _)| *reason);
     let told: BTreeSet<String> = cases.chain(others).map(String::from).collect();
     assert_eq!(told, reasons());
-    assert_eq!(told.len(), CASES.len() + ELSEWHERE.len(), "told twice");
+    let twice = ELSEWHERE
+        .iter()
+        .find(|(reason, _)| CASES.iter().any(|(of, ..)| of == reason));
+    assert_eq!(twice, None);
+}
+
+#[test]
+fn the_page_of_messages_shows_the_refusals() {
+    let spoilt = ("Cache", "cache --clear", 1, SPOILT);
+    let cases = CASES.iter().chain([&spoilt]);
+    let mut rows: Vec<String> = cases
+        .filter(|(.., said)| !said.is_empty())
+        .map(|(_, line, status, said)| {
+            let line = code(&format!("bricard {line}"));
+            row(&[prose(said), status.to_string(), line])
+        })
+        .collect();
+    rows.sort();
+    let head = "\n| message | status | command |\n|---|---|---|\n";
+    let text = format!("{INTRODUCTION}{head}{}", rows.concat());
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/messages.md");
+    hold_section(&page, "The command", &text);
 }

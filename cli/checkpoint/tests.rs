@@ -73,7 +73,11 @@ fn states_that_no_run_comes_to_are_refused() {
         let mut checkpoint = checkpoint();
         change(&mut checkpoint);
         let read = Checkpoint::read(&checkpoint.text(RUN), RUN, structure());
-        assert_eq!(read, Err("it is damaged"), "{checkpoint:?}");
+        assert_eq!(
+            read,
+            Err("it is damaged; begin the run anew"),
+            "{checkpoint:?}"
+        );
     };
     refused(|c| c.state[2] = f64::NAN);
     refused(|c| c.state[0] = f64::INFINITY);

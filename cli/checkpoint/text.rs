@@ -55,9 +55,10 @@ impl Checkpoint {
     ///
     /// Why a run can't go on from it.
     pub fn read(text: &str, run: &str, structure: &Structure) -> Result<Self, &'static str> {
-        let value: Value = serde_json::from_str(text).map_err(|_| "it is no checkpoint")?;
+        let value: Value = serde_json::from_str(text)
+            .map_err(|_| "it is no checkpoint; give a file that --checkpoint wrote")?;
         if value["format"] != FORMAT {
-            return Err("it is no checkpoint of this version of bricard");
+            return Err("it is no checkpoint of this version of bricard; begin the run anew");
         }
         if value["run"] != run {
             return Err("it is one of another run: give the same mechanism and options");
@@ -66,7 +67,7 @@ impl Checkpoint {
         let parsed = Self::parse(&value, structure).filter(|parsed| whole && parsed.is_sound());
         parsed
             .filter(|parsed| parsed.state.len() == 1 + 2 * structure.coordinates.len())
-            .ok_or("it is damaged")
+            .ok_or("it is damaged; begin the run anew")
     }
 
     /// Whether a run can have come here.

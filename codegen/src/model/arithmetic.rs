@@ -7,6 +7,7 @@ use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::Number;
 use crate::syntax::ast::{Expr, Name, Range};
+use crate::syntax::words::LARGE_AND_SMALL;
 
 /// The largest exponent that can be written.
 const EXPONENT: f64 = 1000.0;
@@ -33,7 +34,7 @@ impl Evaluator {
 
     /// Refuses a whole array in a calculation.
     pub fn no_array<T>(&mut self, span: Span) -> Option<T> {
-        let error = Diagnostic::error(span, "a whole array can't be calculated with");
+        let error = Diagnostic::error(span, "a whole array can't stand in a calculation");
         self.report(error.help("write one element, such as `theta[0]`, or use `for` or `sum`"))
     }
 
@@ -58,11 +59,14 @@ impl Evaluator {
                 return self.no_array(*span);
             }
             if !first.same_shape(value) {
-                let message = format!("a sum of {} and {}", first.shape(), value.shape());
+                let message = format!("{} and {} can't be added", first.shape(), value.shape());
                 let error = Diagnostic::error(*span, message)
                     .labelled(format!("this is {}", value.shape()));
                 let error = error.also(*place, format!("this is {}", first.shape()));
-                return self.report(error.help("the terms of a sum have one shape"));
+                return self
+                    .report(error.help(
+                        "the terms of a sum are numbers, or vectors or matrices of one size",
+                    ));
             }
         }
         let columns: Vec<_> = values
@@ -171,7 +175,7 @@ impl Evaluator {
     /// A number so small that it would be taken for zero.
     fn vanished<T>(&mut self, span: Span) -> Option<T> {
         let error = Diagnostic::error(span, "this number is too small");
-        self.report(error.help("numbers lie between 1e-308 and 1e308"))
+        self.report(error.help(LARGE_AND_SMALL))
     }
 
     /// Whether a number among dimensionless factors may stand for what has a unit:
@@ -191,7 +195,7 @@ impl Evaluator {
         let value = match self.evaluate(base)? {
             Value::Scalar(scalar) => scalar,
             other => {
-                let error = Diagnostic::error(span, format!("a power of {}", other.shape()));
+                let error = Diagnostic::error(span, format!("{} has no powers", other.shape()));
                 return self
                     .report(error.help("the square of the length of a vector is `norm2(v)`"));
             }
@@ -201,15 +205,22 @@ impl Evaluator {
             && !raised.unit.is_pure()
         {
             let error = Diagnostic::error(exponent.span, "an exponent has no unit");
-            return self.report(error.labelled(dimension.said()));
+            let error = error.labelled(dimension.said());
+            return self.report(
+                error.help("an exponent is a ratio: divide by a constant in the same unit"),
+            );
         }
         let number = self.graph.as_number(raised.id).map(Number::to_f64);
         if number.is_some_and(|n| n.abs() > EXPONENT) {
             let message = format!("an exponent above {EXPONENT}");
-            return self.report(Diagnostic::error(exponent.span, message).help("write `exp(…)`"));
+            return self.report(
+                Diagnostic::error(exponent.span, message).help("write a smaller one, or `exp(…)`"),
+            );
         }
         if number.is_some_and(|n| n < 0.0) && self.graph.is_zero(value.id) {
-            return self.report(Diagnostic::error(span, "a negative power of zero"));
+            let error = Diagnostic::error(span, "a negative power of zero");
+            return self
+                .report(error.help("zero divides nothing: correct the base or the exponent"));
         }
         let unit = match number {
             None if raised.unit == Unit::Unchecked => Unit::Unchecked,
@@ -218,7 +229,8 @@ impl Evaluator {
             None => {
                 let error =
                     Diagnostic::error(exponent.span, "the exponent of what has a unit is a number");
-                return self.report(error.labelled("this is not known when the code is generated"));
+                let error = error.labelled("this is not known when the code is generated");
+                return self.report(error.help("make it a number or a `const`"));
             }
         };
         let id = self.graph.pow(value.id, raised.id);

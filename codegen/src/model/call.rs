@@ -6,9 +6,11 @@ use super::linear::transposed;
 use super::scope::Kind;
 use super::unit::{PER_SECOND, Unit};
 use super::value::{Matrix, Scalar, Value};
+use super::words::{count, takes_others};
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::expr::{Function, Function2};
 use crate::syntax::ast::{Expr, ExprKind, Name};
+use crate::syntax::words::did_you_mean;
 
 impl Evaluator {
     /// `function(arguments)`
@@ -31,12 +33,11 @@ impl Evaluator {
             && (2..=4).contains(&arguments.len())
             && matches!(arguments[0].kind, ExprKind::Text(_));
         if arguments.len() != arity && !of_file {
-            let message = format!(
-                "`{}` takes {}, here {}",
-                name.text,
-                count(arity),
-                are(arguments.len())
-            );
+            let takes = match name.text.as_str() {
+                "rot" => "one or two arguments".to_string(),
+                _ => count(arity),
+            };
+            let message = takes_others(&name.text, &takes, arguments.len());
             return self.report(Diagnostic::error(span, message).help(format!("write `{form}`")));
         }
         if let Some((function, _)) = unary {
@@ -109,7 +110,11 @@ impl Evaluator {
             _ => "a 2 × 2 or a 3 × 3 matrix",
         };
         let shapes: Vec<_> = values.iter().map(Value::shape).collect();
-        let message = format!("`{name}` takes {wants}, this is {}", shapes.join(" and "));
+        let found = match shapes.len() {
+            1 => "this is",
+            _ => "these are",
+        };
+        let message = format!("`{name}` takes {wants}, {found} {}", shapes.join(" and "));
         self.report(Diagnostic::error(span, message))
     }
 
@@ -257,26 +262,10 @@ impl Evaluator {
         } else if let Some((_, form)) = ELSEWHERE.iter().find(|(other, _)| *other == text) {
             format!("write `{form}`")
         } else if let Some(near) = nearest(text, functions.iter().copied()) {
-            format!("did you mean `{near}`?")
+            did_you_mean(near)
         } else {
             format!("the functions are {}", functions.join(", "))
         };
         self.report(Diagnostic::error(name.span, format!("unknown function `{text}`")).help(help))
-    }
-}
-
-pub fn count(arguments: usize) -> String {
-    match arguments {
-        1 => "one argument".into(),
-        2 => "two arguments".into(),
-        n => format!("{n} arguments"),
-    }
-}
-
-pub fn are(arguments: usize) -> String {
-    match arguments {
-        0 => "is none".into(),
-        1 => "is one".into(),
-        n => format!("are {n}"),
     }
 }

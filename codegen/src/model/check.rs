@@ -13,6 +13,9 @@ use crate::diagnostic::{Diagnostic, Span, figure};
 use crate::expr::ExprId;
 use crate::syntax::ast::{Energy, Expr, ExprKind};
 
+/// What to write where a force works on something else.
+const WORKED_ON: &str = "write the coordinate, angle, length or point";
+
 const SMOOTH: &str =
     "`abs`, `sign`, `min`, `max` and `if` may stand in forces, inputs, outputs and events";
 
@@ -70,8 +73,11 @@ impl Lowering<'_> {
         match kind {
             Energy::Kinetic if analysis.degree >= NOT_POLYNOMIAL => {
                 let span = self.culprit(e, |analysis| analysis.degree >= NOT_POLYNOMIAL);
-                let error = Diagnostic::error(span, "this is not quadratic in the velocities");
-                let help = "the kinetic energy is a polynomial of degree two or less in `der(…)`";
+                let error = Diagnostic::error(
+                    span,
+                    "the kinetic energy has to be quadratic in the velocities",
+                );
+                let help = "it is a polynomial of degree two or less in `der(…)`";
                 self.report(error.help(help))
             }
             Energy::Potential if analysis.velocity() => {
@@ -99,20 +105,14 @@ impl Lowering<'_> {
         let any = |has: fn(&Analysis) -> bool| analysis.iter().any(has);
         let derivative = matches!(&on.kind, ExprKind::Call(name, _) if name.text == "der");
         let (message, help) = if any(Analysis::velocity) && derivative {
-            (
-                "a force can't work on a velocity",
-                "write the coordinate, angle, length or point",
-            )
+            ("a force can't work on a velocity", WORKED_ON)
         } else if any(|analysis| analysis.degree > 1) {
             (
                 "what a moment works on has to be linear in the velocities",
                 "write the angular velocity of a body: `force M on omega(R);`",
             )
         } else if any(|analysis| analysis.input) {
-            (
-                "a force can't work on an input",
-                "write the coordinate, angle, length or point",
-            )
+            ("a force can't work on an input", WORKED_ON)
         } else if any(|analysis| analysis.state) {
             (
                 "a force can't work on a state",

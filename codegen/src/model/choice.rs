@@ -5,6 +5,7 @@
 
 use super::evaluate::Evaluator;
 use super::value::{Scalar, Value};
+use super::words::{ONE_SIZE, sides_differ};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::{Comparison, ExprId};
 use crate::syntax::ast::{Condition, Expr};
@@ -37,12 +38,8 @@ impl Evaluator {
         let (yes, no) = (self.evaluate(then), self.evaluate(otherwise));
         let (yes, no) = (yes?.operand(), no?.operand());
         if !yes.same_shape(&no) {
-            let message = format!(
-                "one side of this choice is {}, the other {}",
-                yes.shape(),
-                no.shape()
-            );
-            return self.report(Diagnostic::error(span, message));
+            let error = Diagnostic::error(span, sides_differ("choice", &yes, &no));
+            return self.report(error.help(ONE_SIZE));
         }
         let mut chosen = Vec::new();
         for (one, other) in yes.scalars().into_iter().zip(no.scalars()) {

@@ -8,6 +8,7 @@ use crate::diagnostic::{Diagnostic, nearest};
 use crate::expr::{ExprId, Number, Symbol};
 use crate::syntax::Model;
 use crate::syntax::ast::{Declaration, Declared, ExprKind, Item, ItemKind};
+use crate::syntax::words::did_you_mean;
 
 impl Lowering<'_> {
     /// Checks that the build script changes what there is: whole constants and parameters,
@@ -51,9 +52,9 @@ impl Lowering<'_> {
             }
             let near = nearest(name, known.iter().map(String::as_str));
             let help = match near {
-                Some(near) => format!("did you mean `{near}`?"),
+                Some(near) => did_you_mean(near),
                 None if known.is_empty() => format!("the description declares no {kind}"),
-                None => format!("the description declares {}", known.join(", ")),
+                None => format!("the {kind}s of the description are {}", known.join(", ")),
             };
             let message =
                 format!("the build script sets the {kind} `{name}`, which is not declared");

@@ -4,8 +4,11 @@
 //!      them, if there is one, a row of names. Empty lines and what follows `#` are left out.
 //! Out: pairs of two columns, or what is wrong, with line and column.
 
-use crate::diagnostic::{figure, nearest};
+use super::words::not_rising;
+use crate::diagnostic::nearest;
+use crate::syntax::words::{NUMBERS, did_you_mean};
 use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 
 /// The most pairs of a table, all of which the compiler of the code has to read.
@@ -24,14 +27,17 @@ fn fault<T>(message: String, help: &str) -> Result<T, Fault> {
 
 /// The text of a file.
 pub fn read(path: &Path) -> Result<String, Fault> {
-    let said = |error: std::io::Error| match error.kind() {
-        std::io::ErrorKind::NotFound => "there is no such file".to_string(),
-        std::io::ErrorKind::InvalidData => "it is not UTF-8".to_string(),
-        _ => error.to_string(),
-    };
-    fs::read_to_string(path).map_err(|error| Fault {
-        message: format!(" can't be read: {}", said(error)),
-        help: "files are looked for in the folder of the description".to_string(),
+    const PLACE: &str = "files are looked for in the folder of the description";
+    fs::read_to_string(path).map_err(|error| {
+        let (said, help) = match error.kind() {
+            ErrorKind::NotFound => ("there is no such file".to_string(), PLACE),
+            ErrorKind::InvalidData => ("it is not UTF-8".to_string(), "save the file as UTF-8"),
+            _ => (error.to_string(), PLACE),
+        };
+        Fault {
+            message: format!(" can't be read: {said}"),
+            help: help.to_string(),
+        }
     })
 }
 
@@ -57,8 +63,8 @@ pub fn pairs(text: &str, names: &[&str]) -> Result<Vec<[f64; 2]>, Fault> {
         let row = fields(row, sign);
         let pair = [entry(&row, line, x)?, entry(&row, line, y)?];
         if let Some(before) = pairs.last().filter(|before| before[0] >= pair[0]) {
-            let (here, before) = (figure(pair[0]), figure(before[0]));
-            let message = format!(", line {line}: {here} does not come after {before}");
+            let (before, here) = (before[0], pair[0]);
+            let message = format!(", line {line}: {}", not_rising(before, here));
             return fault(message, "put the rows in rising order, each place once");
         }
         pairs.push(pair);
@@ -103,7 +109,7 @@ fn columns(header: Option<&[&str]>, names: &[&str]) -> Result<[usize; 2], Fault>
         found.ok_or_else(|| Fault {
             message: format!(" has no column `{name}`"),
             help: match nearest(name, header.iter().copied()) {
-                Some(near) => format!("did you mean `{near}`?"),
+                Some(near) => did_you_mean(near),
                 None => format!("its columns are {}", header.join(", ")),
             },
         })
@@ -126,7 +132,7 @@ fn entry(row: &[&str], line: usize, column: usize) -> Result<f64, Fault> {
                 ", line {line}, column {}: `{field}` is not a number",
                 column + 1
             );
-            fault(message, "numbers are written like `12`, `0.5` or `1e-3`")
+            fault(message, NUMBERS)
         },
         Ok,
     )

@@ -155,12 +155,14 @@ impl<'a> Lowering<'a> {
     fn size_fits(&mut self, size: i64, span: Span) -> Option<i64> {
         let room = COORDINATES - self.mechanism.coordinates.len() as i64;
         if size < 1 {
-            let error = Diagnostic::error(span, format!("an array of {size} coordinates"));
+            let error = Diagnostic::error(span, format!("an array can't have {size} coordinates"));
             return self.report(error.help("the size of an array is 1 or more"));
         }
         if size > room {
             let message = format!("more than {COORDINATES} coordinates");
-            return self.report(Diagnostic::error(span, message));
+            return self.report(
+                Diagnostic::error(span, message).help("make the arrays of `coord` smaller"),
+            );
         }
         Some(size)
     }
@@ -219,7 +221,10 @@ impl<'a> Lowering<'a> {
         self.without_acceleration(&declaration.value, &law.scalars(), what)?;
         let (place, suffixes) = (declaration.value.span, symbols.suffixes());
         if law.suffixes() != suffixes {
-            let message = format!("the elements of this law are {}, not numbers", law.shape());
+            let message = format!(
+                "each element of this input has to be a number, here it is {}",
+                law.shape()
+            );
             return self.report(Diagnostic::error(place, message));
         }
         for (law, suffix) in law.scalars().into_iter().zip(suffixes) {

@@ -2,8 +2,10 @@
 
 use super::evaluate::Evaluator;
 use super::value::{AXES, Array, Matrix, Value};
+use super::words::{are, elements_differ};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::ast::{Expr, Name, Range};
+use crate::syntax::words::NO_ELEMENTS;
 use std::rc::Rc;
 
 impl Evaluator {
@@ -32,9 +34,7 @@ impl Evaluator {
                 .first()
                 .is_some_and(|first| !first.same_shape(&element))
             {
-                let error =
-                    Diagnostic::error(value.span, "the elements of an array have one shape");
-                return self.report(error);
+                return self.report(elements_differ(value.span));
             }
             // The scope's share is gone, so nothing is copied.
             Rc::make_mut(&mut array).items.push(element);
@@ -50,10 +50,8 @@ impl Evaluator {
         let values: Vec<_> = values.collect();
         let values = values.into_iter().collect::<Option<Vec<_>>>()?;
         if !(2..=4).contains(&values.len()) {
-            let message = format!(
-                "a vector has two to four components, here are {}",
-                values.len()
-            );
+            let here = are(values.len());
+            let message = format!("a vector has two to four components, here {here}");
             let help = match values.len() {
                 0 | 1 => "write `[x, y]` or `[x, y, z]`",
                 _ => "longer lists are arrays: `param m[6] = […];`, `let a[i in 0..6] = …;`",
@@ -122,7 +120,7 @@ impl Evaluator {
                 (row.map(Value::Vector), 0, m.rows.len() as i64)
             }
             Value::Scalar(_) => {
-                let error = Diagnostic::error(span, "a number has no elements");
+                let error = Diagnostic::error(span, NO_ELEMENTS);
                 let help = "an array is declared `coord theta[3]` or `let n[i in 0..3] = …`";
                 return self.report(error.help(help));
             }

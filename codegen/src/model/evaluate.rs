@@ -16,6 +16,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest};
 use crate::expr::{Direction, ExprId, Function, Graph, Number, Symbol, Table};
 use crate::syntax::NESTING;
 use crate::syntax::ast::{Expr, ExprKind, Range};
+use crate::syntax::words::{DECLARED, NO_QUOTES, did_you_mean};
 use std::path::PathBuf;
 
 /// The most formulas that are evaluated for one description, loops unrolled.
@@ -104,7 +105,7 @@ impl Evaluator {
             }
             ExprKind::Name(name) => self.look_up(name, e.span),
             ExprKind::Text(_) => {
-                let error = Diagnostic::error(e.span, "quoted text has no meaning here");
+                let error = Diagnostic::error(e.span, NO_QUOTES);
                 self.report(error.help("a file of numbers is read by `table(\"file.csv\", t)`"))
             }
             ExprKind::Negative(inside) => self.negative(inside),
@@ -196,7 +197,7 @@ impl Evaluator {
                     "{what} is built of numbers and constants; `{name}` is {}",
                     kind.words()
                 );
-                let error = Diagnostic::error(span, message).also(place, "declared here");
+                let error = Diagnostic::error(span, message).also(place, DECLARED);
                 self.report(error.help("what depends on parameters is written with `let`"))
             }
             _ => value,
@@ -208,7 +209,10 @@ impl Evaluator {
             "t" => match self.constant {
                 Some(what) => {
                     let message = format!("{what} can't depend on the time `t`");
-                    return Some(self.report(Diagnostic::error(span, message)));
+                    let error = Diagnostic::error(span, message);
+                    return Some(
+                        self.report(error.help("what depends on time is written with `let`")),
+                    );
                 }
                 None => (self.graph.symbol(Symbol::Time), Unit::Unchecked),
             },
@@ -234,7 +238,7 @@ impl Evaluator {
         let built_in = BUILT_IN.iter().map(|(name, _)| *name);
         let near = nearest(name, self.scope.names().chain(built_in)).map(str::to_string);
         let help = if let Some(near) = near {
-            format!("did you mean `{near}`?")
+            did_you_mean(&near)
         } else if Function::ALL.iter().any(|(_, known)| *known == name)
             || language::known(name)
             || self.functions.contains(name)

@@ -6,7 +6,6 @@
 //!
 //! A finding inside a function points to its use as well.
 
-use super::call::{are, count};
 use super::declared::Known;
 use super::evaluate::Evaluator;
 use super::language::known;
@@ -16,9 +15,11 @@ use super::scope::{Kind, twice};
 use super::unit::{NONE, Unit};
 use super::unit_names;
 use super::value::{Scalar, Value};
+use super::words::{count, part_of_library, takes_others};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr;
 use crate::syntax::ast::{Argument, Expr, Function, Item, ItemKind, Name, UnitExpr};
+use crate::syntax::words::{DECLARED, REMOVE, RENAME};
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
 
@@ -68,11 +69,7 @@ impl Lowering<'_> {
     fn is_no_part(&mut self, name: &Name) -> Option<()> {
         let part = self.evaluator.parts.declared.get(&name.text).copied();
         match part {
-            Some(first) if first.library => {
-                let message = format!("the library has a part `{}`", name.text);
-                let error = Diagnostic::error(name.span, message);
-                self.report(error.help("choose another name"))
-            }
+            Some(first) if first.library => self.report(part_of_library(name)),
             Some(first) => self.report(twice(name, first)),
             None => Some(()),
         }
@@ -86,7 +83,7 @@ impl Lowering<'_> {
             return Some(());
         }
         let error = Diagnostic::error(name.span, format!("`{text}` is a function already"));
-        self.report(error.help("choose another name"))
+        self.report(error.help(RENAME))
     }
 
     fn function(&mut self, function: &Rc<Function>) {
@@ -96,7 +93,7 @@ impl Lowering<'_> {
             if !mentions.contains(&name.text) && !name.text.starts_with('_') {
                 let warning =
                     Diagnostic::warning(name.span, format!("`{}` is never used", name.text));
-                self.report::<()>(warning.help("remove it"));
+                self.report::<()>(warning.help(REMOVE));
             }
             self.unit(argument.unit.as_ref());
         }
@@ -123,7 +120,7 @@ impl Lowering<'_> {
             if !name.text.starts_with('_') {
                 let message = format!("the function `{}` is never used", name.text);
                 let warning = Diagnostic::warning(name.span, message);
-                self.report::<()>(warning.help("remove it"));
+                self.report::<()>(warning.help(REMOVE));
             }
         }
     }
@@ -194,8 +191,7 @@ impl Evaluator {
         if names.len() == arguments.len() {
             return Some(());
         }
-        let (takes, here) = (count(names.len()), are(arguments.len()));
-        let message = format!("`{}` takes {takes}, here {here}", name.text);
+        let message = takes_others(&name.text, &count(names.len()), arguments.len());
         let names: Vec<&str> = names.iter().map(|a| a.name.text.as_str()).collect();
         let help = format!("write `{}({})`", name.text, names.join(", "));
         self.report(Diagnostic::error(span, message).help(help))
@@ -212,13 +208,16 @@ impl Evaluator {
             if let Err((wanted, found)) = unit.meet(scalar.unit) {
                 let name = &argument.name.text;
                 let wants = match wanted {
-                    NONE => format!("`{name}` is an angle or a ratio"),
-                    _ => format!("`{name}` is in {}", wanted.text()),
+                    NONE => "an angle or a ratio".to_string(),
+                    _ => format!("in {}", wanted.text()),
                 };
-                let message = format!("in `{of}` {wants}, {}", found.said());
+                let message = format!(
+                    "the argument `{name}` of `{of}` is {wants}, {}",
+                    found.said()
+                );
                 let error = Diagnostic::error(e.span, message);
                 let error = self.declare_bare(error, e, [wanted, found]);
-                return self.report(error.also(place.span, "declared here"));
+                return self.report(error.also(place.span, DECLARED));
             }
         }
         Some(value.with_unit(unit))
@@ -243,7 +242,7 @@ impl Evaluator {
         let place = place.map_or(name.span, |unit| unit.span);
         let error = Diagnostic::error(e.span, message);
         let error = self.declare_bare(error, e, [declared, dimension]);
-        self.report(error.labelled(found).also(place, "declared here"))
+        self.report(error.labelled(found).also(place, DECLARED))
     }
 
     /// A value in the unit that its name is declared with: what bare numbers and symbols

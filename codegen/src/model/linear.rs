@@ -41,17 +41,17 @@ impl Evaluator {
                 ("the product of two vectors is ambiguous".to_string(), help)
             }
             (Value::Vector(_), Value::Matrix(_)) => (
-                "a vector stands behind the matrix".to_string(),
+                "a vector can't stand in front of a matrix".to_string(),
                 "write `transpose(R)*v`",
             ),
             (Value::Matrix(plane), Value::Vector(v)) if plane.rows.len() == 2 && v.len() == 3 => (
-                format!("{} times {}", a.shape(), b.shape()),
+                format!("{} can't be multiplied by {}", a.shape(), b.shape()),
                 "a rotation in space has an axis: `rotx(a)`, `roty(a)`, `rotz(a)`, \
                  `rot(axis, a)`",
             ),
             _ => (
-                format!("{} times {}", a.shape(), b.shape()),
-                "the sizes have to fit",
+                format!("{} can't be multiplied by {}", a.shape(), b.shape()),
+                "a matrix needs as many columns as what stands behind it has rows",
             ),
         };
         self.report(Diagnostic::error(span, message).help(help))

@@ -11,6 +11,7 @@ use super::scope::{Entry, Kind};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::syntax::ast::{Item, ItemKind};
+use crate::syntax::words::REMOVE;
 use crate::syntax::{self, Model};
 use rustc_hash::FxHashMap;
 use std::path::Path;
@@ -116,7 +117,7 @@ impl Lowering<'_> {
             if counts && !offered && !entry.used && !entry.name.text.starts_with('_') {
                 let message = format!("`{}` is never used", entry.name.text);
                 let warning = Diagnostic::warning(entry.name.span, message);
-                self.report::<()>(warning.help("remove it"));
+                self.report::<()>(warning.help(REMOVE));
             }
         }
     }

@@ -11,6 +11,7 @@ use super::scope::Kind;
 use super::value::{Bare, Value};
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::syntax::ast::{Argument, Expr, ExprKind, Let, Name};
+use crate::syntax::words::{COMPONENT, did_you_mean, no_axis};
 
 impl Evaluator {
     /// Whether a formula names a part or an array of them.
@@ -93,7 +94,7 @@ impl Evaluator {
         }
         let known = names.iter().map(String::as_str);
         let help = match nearest(name, known.clone()) {
-            Some(near) => format!("did you mean `{near}`?"),
+            Some(near) => did_you_mean(near),
             None => format!("it has {}", known.collect::<Vec<_>>().join(", ")),
         };
         let message = format!("the part `{path}` has no `{name}`");
@@ -103,9 +104,8 @@ impl Evaluator {
     /// A name behind the dot of what is no part.
     fn no_part(&mut self, inside: &Expr, name: &str, span: Span) -> Option<Value> {
         self.evaluate(inside)?;
-        let message = format!("expected `x`, `y` or `z` behind the dot, found `{name}`");
-        let help = "a component is written `.x`, `.y` or `.z`, or with an index: `[0]`";
-        self.report(Diagnostic::error(span, message).help(help))
+        let message = no_axis(name);
+        self.report(Diagnostic::error(span, message).help(COMPONENT))
     }
 
     /// A part that is called inside a formula.
@@ -135,7 +135,7 @@ impl Evaluator {
             return;
         };
         if !self.has_room() {
-            let error = Diagnostic::error(span, "too many parts are given what others have");
+            let error = Diagnostic::error(span, "too many parts depend on one another in a row");
             let help = "declare each part behind those whose names it is given";
             self.report::<()>(error.help(help));
             return;

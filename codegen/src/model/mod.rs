@@ -37,6 +37,7 @@ mod unit;
 mod unit_names;
 mod validity;
 mod value;
+mod words;
 
 pub(crate) use language::other_functions;
 pub use lower::lower;

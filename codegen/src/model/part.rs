@@ -10,8 +10,10 @@ use super::lowering::Lowering;
 use super::order::{Mention, collect};
 use super::scope::{Kind, built_in, twice};
 use super::value::Value;
+use super::words::part_of_library;
 use crate::diagnostic::{Diagnostic, Label, Span};
 use crate::syntax::ast::{Argument, Declared, Expr, ExprKind, Item, ItemKind, Let, Name, Part};
+use crate::syntax::words::{DECLARED, REMOVE};
 use std::rc::Rc;
 
 /// A statement and where its names are looked up.
@@ -49,9 +51,7 @@ impl<'a> Lowering<'a> {
             let known = &mut self.evaluator.parts.declared;
             match known.get(&name.text).copied() {
                 Some(first) if first.library => {
-                    let message = format!("the library has a part `{}`", name.text);
-                    let error = Diagnostic::error(name.span, message);
-                    self.report::<()>(error.help("choose another name"));
+                    self.report::<()>(part_of_library(name));
                 }
                 Some(first) => self.report(twice(name, first)).unwrap_or_default(),
                 None => {
@@ -119,7 +119,11 @@ impl<'a> Lowering<'a> {
         let (span, of) = (quantity.value.span, &part.name);
         if frame.parts.contains(&of.text) {
             let message = format!("the part `{}` is made of itself", of.text);
-            return self.report(Diagnostic::error(span, message).also(of.span, "declared here"));
+            let error = Diagnostic::error(span, message).also(of.span, DECLARED);
+            return self.report(error.help(format!(
+                "several in a row are an array: `let a[i in 0..K] = {}(…);`",
+                of.text
+            )));
         }
         if frame.parts.len() == DEEPEST {
             let message = format!("more than {DEEPEST} parts inside one another");
@@ -127,7 +131,11 @@ impl<'a> Lowering<'a> {
             return self.report(error.help("use the innermost ones in the mechanism itself"));
         }
         if let Some(unit) = &quantity.unit {
-            return self.report(Diagnostic::error(unit.span, "a part has no unit"));
+            let error = Diagnostic::error(unit.span, "a part has no unit");
+            return self.report(error.help(format!(
+                "write `let {} = {}(…);`",
+                quantity.name.text, of.text
+            )));
         }
         let (names, evaluator) = (&part.arguments, &mut self.evaluator);
         evaluator.arguments_fit(of, names, arguments, span)?;
@@ -153,7 +161,8 @@ impl<'a> Lowering<'a> {
         self.evaluator.spend(span)?;
         if self.evaluator.parts.used.len() >= PARTS {
             let message = format!("more than {PARTS} parts");
-            return self.report(Diagnostic::error(span, message));
+            return self
+                .report(Diagnostic::error(span, message).help("make the arrays of parts smaller"));
         }
         let frame = Rc::clone(&self.frame);
         let text = format!("in the part `{}`, used here", part.name.text);
@@ -265,7 +274,7 @@ impl<'a> Lowering<'a> {
         for (name, span) in declared {
             if !span.library && !name.starts_with('_') && !used.contains(&name) {
                 let warning = Diagnostic::warning(span, format!("the part `{name}` is never used"));
-                self.report::<()>(warning.help("remove it"));
+                self.report::<()>(warning.help(REMOVE));
             }
         }
     }

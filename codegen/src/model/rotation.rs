@@ -133,7 +133,8 @@ impl Evaluator {
         let parts = parts.clone();
         let square = self.inner(&parts, &parts, axis.span)?;
         if self.graph.is_zero(square.id) {
-            return self.report(Diagnostic::error(axis.span, "this axis has no direction"));
+            let error = Diagnostic::error(axis.span, "this axis has no direction");
+            return self.report(error.help("write a vector that is not zero, such as `[0, 0, 1]`"));
         }
         let length = Scalar {
             id: self.graph.function(Function::Sqrt, square.id),

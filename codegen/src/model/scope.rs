@@ -6,6 +6,7 @@
 use super::value::{Bare, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::ast::Name;
+use crate::syntax::words::{DECLARED, RENAME, RENAME_ONE};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What a name stands for.
@@ -110,7 +111,7 @@ impl Scope {
         if let Some((_, meaning)) = BUILT_IN.iter().find(|(known, _)| *known == name.text) {
             let message = format!("`{}` is {meaning} already", name.text);
             let error = Diagnostic::error(name.span, message);
-            return Err(Box::new(error.help("choose another name")));
+            return Err(Box::new(error.help(RENAME)));
         }
         let full = Name {
             text: self.full(&name.text),
@@ -215,6 +216,6 @@ impl Scope {
 /// The finding that a name is declared twice.
 pub fn twice(name: &Name, first: Span) -> Diagnostic {
     Diagnostic::error(name.span, format!("`{}` is declared twice", name.text))
-        .also(first, "declared here")
-        .help("choose another name for one of them")
+        .also(first, DECLARED)
+        .help(RENAME_ONE)
 }

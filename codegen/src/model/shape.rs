@@ -9,12 +9,17 @@ use super::lowering::Lowering;
 use super::unit::Unit;
 use super::unit_names;
 use super::value::{Array, Scalar, Value};
+use super::words::elements_differ;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::ast::{Declaration, Expr, ExprKind, Range, Size, UnitExpr};
+use crate::syntax::words::DECLARED;
 use std::rc::Rc;
 
 /// The most elements of an array that is declared.
 const ELEMENTS: i64 = 10_000;
+
+/// What the elements of an array are written as.
+const LIST: &str = "write one value for each element, `[a, b, c]`, or one number for all";
 
 impl Evaluator {
     /// The value that a declaration gives; `what` names it in messages.
@@ -78,7 +83,7 @@ impl Evaluator {
                 let shape = other.shape();
                 let message = format!("{what} with {count} elements can't be {shape}");
                 let error = Diagnostic::error(value.span, message);
-                self.report(error.help("write a list, `[a, b, c]`, or one number for all"))
+                self.report(error.help(LIST))
             }
         }
     }
@@ -91,13 +96,12 @@ impl Evaluator {
         let name = &declaration.name;
         let message = format!("`{}` has {count} elements, here are {found}", name.text);
         let error = Diagnostic::error(declaration.value.span, message);
-        self.report(error.also(name.span, "declared here"))
+        self.report(error.also(name.span, DECLARED).help(LIST))
     }
 
     fn array_of(&mut self, first: i64, items: Vec<Value>, span: Span) -> Option<Value> {
         if items.iter().any(|item| !item.same_shape(&items[0])) {
-            let error = Diagnostic::error(span, "the elements of an array have one shape");
-            return self.report(error);
+            return self.report(elements_differ(span));
         }
         let end = first + items.len() as i64;
         Some(Value::Array(Rc::new(Array { first, items, end })))
@@ -126,7 +130,7 @@ impl Evaluator {
         if (1..=ELEMENTS).contains(&count) {
             return Some(indices);
         }
-        let message = format!("an array of {count} elements");
+        let message = format!("an array can't have {count} elements");
         let help = format!("the size of an array is between 1 and {ELEMENTS}");
         self.report(Diagnostic::error(span, message).help(help))
     }
@@ -150,7 +154,11 @@ impl Evaluator {
         };
         for scalar in value.scalars() {
             if let Err((declared, found)) = unit.meet(scalar.unit) {
-                let message = format!("this vector is in {}, {}", declared.text(), found.said());
+                let message = format!(
+                    "this vector is declared in {}, {}",
+                    declared.text(),
+                    found.said()
+                );
                 let error = Diagnostic::error(span, message);
                 return self.report(error.also(place.span, "this is its unit"));
             }

@@ -2,10 +2,12 @@
 
 use super::lowering::Lowering;
 use super::value::{Scalar, Value};
+use super::words::are;
 use super::{Constraint, Point, Shape, Start};
 use crate::diagnostic::{Diagnostic, Span, figure};
 use crate::expr::{Node, Number, Symbol};
 use crate::syntax::ast::{Drawing, Expr, StartItem};
+use crate::syntax::words::{GIVEN, REMOVE_ONE};
 use crate::syntax::written;
 
 impl Lowering<'_> {
@@ -186,7 +188,7 @@ impl Lowering<'_> {
         match self.named.starts.get(&key).copied() {
             Some((first, other)) if other == depth => {
                 let error = Diagnostic::error(span, "this has a start value already");
-                return self.report(error.also(first, "given here").help("remove one of them"));
+                return self.report(error.also(first, GIVEN).help(REMOVE_ONE));
             }
             Some((_, other)) if other < depth => return Some(false),
             Some(_) => {
@@ -258,16 +260,14 @@ impl Lowering<'_> {
     }
 
     fn wrong_points(&mut self, shape: Drawing, found: usize, span: Span) -> Option<Shape> {
-        let wants = match shape {
-            Drawing::Line => "a line has two or more points",
-            Drawing::Polygon => "a polygon has three or more points",
-            Drawing::Trace => "a trace has one point",
-            Drawing::Circle => "a circle has one centre",
+        let [wants, call] = match shape {
+            Drawing::Line => ["a line has two or more points", "line(p, q)"],
+            Drawing::Polygon => ["a polygon has three or more points", "polygon(p, q, s)"],
+            Drawing::Trace => ["a trace has one point", "trace(p)"],
+            Drawing::Circle => ["a circle has one centre", "circle(p, r)"],
         };
-        self.report(Diagnostic::error(
-            span,
-            format!("{wants}, here are {found}"),
-        ))
+        let message = format!("{wants}, here {}", are(found));
+        self.report(Diagnostic::error(span, message).help(format!("write `draw {call};`")))
     }
 
     /// A point, or the points of an array.
@@ -306,7 +306,7 @@ impl Lowering<'_> {
                     span,
                     "a picture shows positions, this has a velocity, an input or a state in it",
                 );
-                return self.report(error);
+                return self.report(error.help("draw what coordinates, parameters and `t` give"));
             }
         }
         Some(())

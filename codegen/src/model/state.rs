@@ -11,6 +11,7 @@ use super::value::Scalar;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::{ExprId, Node, Symbol};
 use crate::syntax::ast::Expr;
+use crate::syntax::words::{GIVEN, REMOVE_ONE};
 
 impl Lowering<'_> {
     /// `der(of) = value`
@@ -24,7 +25,10 @@ impl Lowering<'_> {
         self.without_acceleration(value, &rates.scalars(), "the rate of a state")?;
         if !states.same_shape(&rates) {
             let message = format!("this is {}, its rate {}", states.shape(), rates.shape());
-            return self.report(Diagnostic::error(of.span.to(value.span), message));
+            let error = Diagnostic::error(of.span.to(value.span), message);
+            return self.report(
+                error.help("give each number of a state a rate of its own: `der(z[0]) = …;`"),
+            );
         }
         for (state, rate) in states.scalars().into_iter().zip(rates.scalars()) {
             let per_second = Scalar {
@@ -50,7 +54,7 @@ impl Lowering<'_> {
         match self.named.rates.insert(coordinate, self.place_of(span)) {
             Some(first) => {
                 let error = Diagnostic::error(span, "this state has a rate already");
-                self.report(error.also(first, "given here").help("remove one of them"))
+                self.report(error.also(first, GIVEN).help(REMOVE_ONE))
             }
             None => Some(()),
         }

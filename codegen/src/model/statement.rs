@@ -4,11 +4,13 @@ use super::lowering::Lowering;
 use super::scope::{Kind, twice};
 use super::unit::{Dimension, ENERGY, NONE, POWER, Unit};
 use super::value::{Scalar, Value};
+use super::words::{ONE_SIZE, sides_differ};
 use super::{Constraint, Direction, Event, Force, Output, Quantity, Summand};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::ast::{
     Crossing, Declaration, Declared, Energy, Expr, Item, ItemKind, Name, Range,
 };
+use crate::syntax::words::{REMOVE, RENAME};
 
 impl Lowering<'_> {
     /// Reads statements that aren't declarations.
@@ -65,7 +67,7 @@ impl Lowering<'_> {
         if self.indices.is_empty() && self.frame.prefix.is_empty() {
             return Some(());
         }
-        let message = format!("{what} stands outside parts and loops");
+        let message = format!("{what} can't stand in a part or a loop");
         self.report(Diagnostic::error(name.span, message).help("write it in the mechanism itself"))
     }
 
@@ -185,6 +187,8 @@ impl Lowering<'_> {
                     _ => place.power(-1.0).map_or(String::new(), Dimension::said),
                 };
                 let error = Diagnostic::error(force.span, message).also(on.span, target);
+                let error =
+                    error.help("a force works on a length or a point, a moment on an angle");
                 let error = self.evaluator.declare_bare(error, force, units);
                 self.report(error)
             }
@@ -218,9 +222,9 @@ impl Lowering<'_> {
         let (a, b) = (self.spread(&a, &b), self.spread(&b, &a));
         let vectors = matches!(a, Value::Scalar(_) | Value::Vector(_)) && a.same_shape(&b);
         if !vectors {
-            let message = format!("an equation between {} and {}", a.shape(), b.shape());
+            let message = sides_differ("equation", &a, &b);
             let error = Diagnostic::error(left.span.to(right.span), message);
-            return self.report(error.help("both sides are numbers, or vectors of one size"));
+            return self.report(error.help(ONE_SIZE));
         }
         for (side, value) in [(left, &a), (right, &b)] {
             self.without_acceleration(side, &value.scalars(), "a constraint")?;
@@ -252,7 +256,7 @@ impl Lowering<'_> {
         }
         if !active {
             let warning = Diagnostic::warning(span, "this equation always holds");
-            return self.report(warning.help("remove it"));
+            return self.report(warning.help(REMOVE));
         }
         Some(())
     }
@@ -323,7 +327,7 @@ impl Lowering<'_> {
     fn column_is_free(&mut self, column: &str, name: &Name) -> Option<()> {
         if column == "t" {
             let error = Diagnostic::error(name.span, "`t` is the time already");
-            return self.report(error.help("choose another name"));
+            return self.report(error.help(RENAME));
         }
         let coordinate = self.mechanism.coordinates.iter().find(|q| q.name == column);
         let taken = coordinate

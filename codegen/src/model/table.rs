@@ -13,6 +13,7 @@ use super::data;
 use super::evaluate::Evaluator;
 use super::unit::Unit;
 use super::value::{Scalar, Value};
+use super::words::not_rising;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::{Comparison, ExprId, Function, Lookup, Number, Table, Test};
 use crate::syntax::ast::{Expr, ExprKind};
@@ -135,15 +136,15 @@ impl Evaluator {
             };
             let spans = [at.span, value.span];
             let (at, value) = (
-                self.scalar(at, "the first number of a pair")?,
-                self.scalar(value, "the second number of a pair")?,
+                self.scalar(at, "the first entry of a pair")?,
+                self.scalar(value, "the second entry of a pair")?,
             );
             let Some(place) = self.analysis(at.id).value.filter(|x| x.is_finite()) else {
                 let error = Diagnostic::error(spans[0], "where a table changes has to be constant");
                 return self.report(error.help("make it a number or a `const`"));
             };
             if let Some(before) = points.last().filter(|before| before.place >= place) {
-                let message = format!("{place} does not come after {}", before.place);
+                let message = not_rising(before.place, place);
                 let error = Diagnostic::error(spans[0], message);
                 return self.report(error.help("put the pairs in rising order, each place once"));
             }

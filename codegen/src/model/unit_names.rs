@@ -9,6 +9,7 @@
 use super::unit::{Dimension, ENERGY, NONE, PARTS};
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::syntax::ast::UnitExpr;
+use crate::syntax::words::did_you_mean;
 
 /// The base units, in the order of the exponents of a [`Dimension`].
 const BASE: [&str; 5] = ["kg", "m", "s", "A", "K"];
@@ -119,12 +120,12 @@ fn instead(name: &str) -> String {
     if let Some((_, si, factor)) = SCALED.iter().find(|(known, ..)| *known == name) {
         return match *factor {
             "1" => format!("write `{si}`"),
-            _ => format!("write SI: `{si}`, and multiply the value by {factor}"),
+            _ => format!("write SI: `{si}`, and multiply the value by `{factor}`"),
         };
     }
     let known = NAMED.iter().map(|(known, _)| *known);
     match nearest(name, known) {
-        Some(near) => format!("did you mean `{near}`?"),
+        Some(near) => did_you_mean(near),
         None => {
             "units are products of m, kg, s, rad, N, J, W, Pa, Hz, A, V, K and their powers".into()
         }

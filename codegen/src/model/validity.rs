@@ -5,6 +5,7 @@ use super::unit::{Dimension, Unit};
 use super::value::Scalar;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::{ExprId, Node};
+use crate::syntax::words::LARGE_AND_SMALL;
 
 /// The largest exponent that is kept as a product.
 const LARGEST_EXPONENT: i32 = 1_000_000;
@@ -72,11 +73,13 @@ impl Evaluator {
         };
         if !finite {
             let message = "this is not a finite number";
-            return self.report(Diagnostic::error(span, message));
+            let error = Diagnostic::error(span, message);
+            return self.report(error.help(LARGE_AND_SMALL));
         }
         if !tame {
             let message = format!("this contains a power above {LARGEST_EXPONENT}");
-            return self.report(Diagnostic::error(span, message));
+            return self
+                .report(Diagnostic::error(span, message).help("make the exponents smaller"));
         }
         Some(id)
     }

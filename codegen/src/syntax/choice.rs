@@ -3,23 +3,18 @@
 use super::ast::{Condition, Expr, ExprKind};
 use super::cursor::{Cursor, Parsed};
 use super::token::TokenKind;
+use super::words::{AND, CHOICE};
 use crate::diagnostic::Diagnostic;
 use crate::expr::Comparison;
 
 /// Operators of other languages, and what is written instead.
 const ELSEWHERE: [(&str, &str); 5] = [
-    (
-        "&&",
-        "conditions are joined with `and`: `if a < b and c < d then x else y`",
-    ),
+    ("&&", AND),
     (
         "||",
         "conditions are joined with `or`: `if a < b or c < d then x else y`",
     ),
-    (
-        "&",
-        "conditions are joined with `and`: `if a < b and c < d then x else y`",
-    ),
+    ("&", AND),
     (
         "|",
         "the size of a number is `abs(x)`, that of a vector `norm(v)`",
@@ -33,7 +28,7 @@ const ELSEWHERE: [(&str, &str); 5] = [
 impl Cursor<'_> {
     /// Reads `if condition then a else b`.
     pub fn choice(&mut self) -> Parsed<Expr> {
-        let help = "a choice is written `if a < b then x else y`";
+        let help = CHOICE;
         let start = self.span();
         self.advance();
         let condition = self.condition(help)?;

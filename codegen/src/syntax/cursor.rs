@@ -3,6 +3,7 @@
 use super::ast::{Crossing, Drawing, Name};
 use super::scan::NESTING;
 use super::token::{Token, TokenKind, Tokens};
+use super::words::{NAME_INSIDE, RENAME};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 
 /// The mistake has been reported; go on behind the statement.
@@ -194,9 +195,7 @@ impl<'a> Cursor<'a> {
                 "self" | "Self" | "super" | "crate" | "_" => format!("`{text}` can't be a name"),
                 _ => message,
             };
-            return Err(
-                self.fail(Diagnostic::error(token.span, message).help("choose another name"))
-            );
+            return Err(self.fail(Diagnostic::error(token.span, message).help(RENAME)));
         }
         self.advance();
         Ok(Name {
@@ -241,7 +240,7 @@ impl<'a> Cursor<'a> {
         if self.nesting >= NESTING {
             let message = format!("more than {NESTING} levels inside one another");
             let error = Diagnostic::error(self.span(), message);
-            return Err(self.fail(error.help("give inner parts names of their own with `let`")));
+            return Err(self.fail(error.help(NAME_INSIDE)));
         }
         self.nesting += 1;
         let result = read(self);

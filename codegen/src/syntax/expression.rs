@@ -9,6 +9,7 @@ use super::cursor::{CONNECTIVES, Cursor, DIRECTIONS, Parsed};
 use super::literal::read_number;
 use super::scan::NESTING;
 use super::token::TokenKind;
+use super::words::{AXIS, COMPONENT, FORMULA, NAME_INSIDE, NO_ELEMENTS, NUMBERS, POINT};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::Function;
 
@@ -92,7 +93,10 @@ impl Cursor<'_> {
         let argument = self
             .parenthesis()
             .map(|e| e.span.text(self.source).to_string())?;
-        let error = Diagnostic::error(span, "a power stands behind the whole function");
+        let error = Diagnostic::error(
+            span,
+            "a power can't stand between a function and its argument",
+        );
         let help = match name.as_str() {
             "norm" if power == "2" => format!("write `norm2{argument}`"),
             _ => format!("write `{name}{argument}^{power}`"),
@@ -120,7 +124,7 @@ impl Cursor<'_> {
                     kind: ExprKind::Component(Box::new(value), axis),
                 };
             } else if self.at_symbol("[") && matches!(value.kind, ExprKind::Number(_)) {
-                let error = Diagnostic::error(self.span(), "a number has no elements");
+                let error = Diagnostic::error(self.span(), NO_ELEMENTS);
                 let help = "a unit goes behind `:`, for example `param m: kg = 1;`";
                 return Err(self.fail(error.help(help)));
             } else if self.take_symbol("[") {
@@ -136,7 +140,7 @@ impl Cursor<'_> {
             }
         }
         let error = Diagnostic::error(self.span(), "too many components and indices in a row");
-        Err(self.fail(error.help("give a part a name of its own with `let`")))
+        Err(self.fail(error.help(NAME_INSIDE)))
     }
 
     /// Whether behind the dot that comes next stands a name in a part.
@@ -152,13 +156,12 @@ impl Cursor<'_> {
     }
 
     fn axis(&mut self) -> Parsed<usize> {
-        let help = "a component is written `.x`, `.y` or `.z`, or with an index: `[0]`";
         let axis = ["x", "y", "z"].iter().position(|axis| self.at_word(axis));
         let Some(axis) = axis else {
             if let Some(error) = self.broken_number() {
                 return Err(self.fail(error));
             }
-            return Err(self.unexpected("`x`, `y` or `z` behind the dot", help));
+            return Err(self.unexpected(AXIS, COMPONENT));
         };
         self.advance();
         Ok(axis)
@@ -179,7 +182,7 @@ impl Cursor<'_> {
         (digits && touching && goes_on).then(|| {
             let span = before.span.to(next.span);
             let message = format!("`{}` is not a number", span.text(self.source));
-            Diagnostic::error(span, message).help("numbers are written like `12`, `0.5` or `1e-3`")
+            Diagnostic::error(span, message).help(NUMBERS)
         })
     }
 
@@ -198,25 +201,23 @@ impl Cursor<'_> {
             TokenKind::Word(word)
                 if ["then", "else", "in", "on", "for"].contains(&word.as_str()) =>
             {
-                Err(self.unexpected("a formula", ""))
+                Err(self.unexpected(FORMULA, ""))
             }
             TokenKind::Word(word) => self.name_or_call(word, token.span),
             TokenKind::Symbol("(") => self.parenthesis(),
             TokenKind::Symbol("[") => self.vector(),
             TokenKind::Symbol(".") => self.dot(token.span),
-            TokenKind::Symbol("{") => {
-                Err(self.unexpected("a formula", "a point or vector is written `[x, y]`"))
-            }
+            TokenKind::Symbol("{") => Err(self.unexpected(FORMULA, POINT)),
             TokenKind::Symbol("|") => {
-                Err(self.unexpected("a formula", "a size is written `abs(x)` or `norm(v)`"))
+                Err(self.unexpected(FORMULA, "a size is written `abs(x)` or `norm(v)`"))
             }
-            _ => Err(self.unexpected("a formula", "")),
+            _ => Err(self.unexpected(FORMULA, "")),
         }
     }
 
     fn dot(&mut self, span: Span) -> Parsed<Expr> {
         let TokenKind::Number(digits) = &self.peek_at(1).kind else {
-            return Err(self.unexpected("a formula", ""));
+            return Err(self.unexpected(FORMULA, ""));
         };
         let help = format!("write `0.{digits}`");
         let error = Diagnostic::error(span, "a number can't begin with a dot");
@@ -293,8 +294,9 @@ impl Cursor<'_> {
             if !self.at_symbol(close) {
                 self.comparison_stands_after_if()?;
                 let help = self.number_in_front(close == "]");
-                let help = help
-                    .unwrap_or_else(|| format!("between parts stands `,`, at the end `{close}`"));
+                let help = help.unwrap_or_else(|| {
+                    format!("formulas are separated by `,`, at the end stands `{close}`")
+                });
                 self.expect_symbol(",", &help)?;
             }
         }
@@ -307,7 +309,7 @@ impl Cursor<'_> {
         let inside = self.expression()?;
         if self.at_symbol(",") {
             let error = Diagnostic::error(self.span(), "parentheses hold one formula");
-            return Err(self.fail(error.help("a point or vector is written `[x, y]`")));
+            return Err(self.fail(error.help(POINT)));
         }
         self.comparison_stands_after_if()?;
         let help = self.number_in_front(false).unwrap_or_default();

@@ -2,6 +2,7 @@
 
 use super::ast::{Argument, Function, ItemKind, Part};
 use super::cursor::{Cursor, Parsed};
+use super::words::RENAME_ONE;
 use crate::diagnostic::Diagnostic;
 use std::rc::Rc;
 
@@ -53,7 +54,7 @@ impl Cursor<'_> {
                 let message = format!("two arguments are called `{}`", name.text);
                 let error = Diagnostic::error(name.span, message);
                 let error = error.also(first.name.span, "this is the other one");
-                return Err(self.fail(error.help("choose another name for one of them")));
+                return Err(self.fail(error.help(RENAME_ONE)));
             }
             let unit = self.optional_unit()?;
             arguments.push(Argument { name, unit });

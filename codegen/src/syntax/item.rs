@@ -4,11 +4,11 @@ use super::ast::{Declaration, Declared, Energy, Expr, ExprKind, Item, ItemKind, 
 use super::cursor::{Cursor, DIRECTIONS, Parsed, SHAPES, STATEMENTS};
 use super::model::Model;
 use super::token::TokenKind;
+use super::words::{CHOICE, FOR, NO_ASSIGNMENT, NO_UNIT_BEHIND, REMOVE, did_you_mean};
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::expr::Function;
 
 const FILE: &str = "a description is written `mechanism Name { … }`";
-const FOR: &str = "repetition is written `for i in 0..K { … }`";
 
 impl Cursor<'_> {
     /// Reads a whole file.
@@ -28,7 +28,7 @@ impl Cursor<'_> {
             let message = "nothing can follow the mechanism";
             let error = Diagnostic::error(self.span(), message);
             let help = match self.at_symbol(";") {
-                true => "remove it",
+                true => REMOVE,
                 false => "a file holds one mechanism; write another file",
             };
             let _reported = self.fail(error.help(help));
@@ -143,18 +143,17 @@ impl Cursor<'_> {
         }
         self.comparison_stands_after_if()?;
         let next = self.peek();
-        let same_line = next.span.start.line == self.last_span().end.line;
         let goes_on = match &next.kind {
             TokenKind::Word(_) | TokenKind::Number(_) => true,
             TokenKind::Symbol(symbol) => *symbol == "(",
             TokenKind::Text(_) | TokenKind::End => false,
         };
-        if same_line && goes_on && !matches!(word, "coord" | "state") {
+        if goes_on && !self.at_next_statement() && !matches!(word, "coord" | "state") {
             let [left, right] = [self.last_span(), next.span].map(|span| span.text(self.source));
             let left = if left == ")" { "(…)" } else { left };
             let right = if right == "(" { "(…)" } else { right };
             let help = match right {
-                "if" => "a choice is written `if a < b then x else y`".to_string(),
+                "if" => CHOICE.to_string(),
                 _ if Function::ALL.iter().any(|(_, name)| *name == left) => {
                     format!("write `{left}({right})`")
                 }
@@ -166,6 +165,12 @@ impl Cursor<'_> {
         Err(self.unexpected("`;`", &example(word)))
     }
 
+    /// Whether what comes next stands on a line of its own, or begins a statement.
+    fn at_next_statement(&self) -> bool {
+        let below = self.span().start.line > self.last_span().end.line;
+        below || STATEMENTS.iter().any(|(word, _)| self.at_word(word))
+    }
+
     /// Refuses a unit behind a number: `param m = 1 kg;`.
     fn no_unit_behind(&mut self, word: &str, declaration: &Declaration) -> Parsed<()> {
         let number = matches!(declaration.value.kind, ExprKind::Number(_));
@@ -173,14 +178,17 @@ impl Cursor<'_> {
             return Ok(());
         };
         let declared = declaration.unit.as_ref();
-        if !number || declared.is_some_and(|declared| declared.text != unit) {
+        let other = self.at_next_statement();
+        if !number || other || declared.is_some_and(|declared| declared.text != unit) {
             return Ok(());
         }
-        let message = "a unit does not stand behind a number";
-        let error = Diagnostic::error(self.span(), message);
+        let error = Diagnostic::error(self.span(), NO_UNIT_BEHIND);
         let (name, value) = (&declaration.name.text, declaration.value.span);
         let value = value.text(self.source);
-        let help = format!("the unit goes behind `:`: `{word} {name}: {unit} = {value};`");
+        let help = format!(
+            "the unit goes behind `:`: `{word} {name}: {unit} = {value};`; a product is written \
+             `{value}*{unit}`"
+        );
         Err(self.fail(error.help(help)))
     }
 
@@ -333,7 +341,7 @@ impl Cursor<'_> {
         if named {
             self.expect_symbol(":", "")?;
             if self.at_symbol("=") {
-                let error = Diagnostic::error(self.span(), "`:=` is not used here");
+                let error = Diagnostic::error(self.span(), NO_ASSIGNMENT);
                 let help = "write `constraint a = b;`; in front of `:` stands a name";
                 return Err(self.fail(error.help(help)));
             }
@@ -441,7 +449,7 @@ fn example(word: &str) -> String {
 fn statement_help(word: &str) -> String {
     let words = STATEMENTS.iter().map(|(word, _)| *word).chain(["for"]);
     match nearest(word, words.clone()) {
-        Some(near) => format!("did you mean `{near}`?"),
+        Some(near) => did_you_mean(near),
         None => {
             let list: Vec<_> = words.collect();
             format!("a statement begins with one of: {}", list.join(", "))

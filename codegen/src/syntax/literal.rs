@@ -1,5 +1,6 @@
 //! Numbers as they are written.
 
+use super::words::LARGE_AND_SMALL;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::Number;
 
@@ -38,7 +39,7 @@ pub fn read_number(text: &str, span: Span) -> Result<Number, Box<Diagnostic>> {
         Some(number) => Ok(number),
         None => Err(refuse(
             format!("`{}` is too large or too small", shorten(text)),
-            "numbers lie between 1e-308 and 1e308".into(),
+            LARGE_AND_SMALL.into(),
         )),
     }
 }

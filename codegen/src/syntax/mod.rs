@@ -30,6 +30,7 @@ mod start;
 mod stray;
 mod token;
 mod unit;
+pub(crate) mod words;
 
 pub(crate) use cursor::{CONNECTIVES, DIRECTIONS, SHAPES, STATEMENTS};
 pub use error::ModelError;

@@ -6,6 +6,7 @@
 //!      blanks in their place, so that one of them does not hide all other mistakes.
 
 use super::stray::{instead, shown};
+use super::words::{NAME_INSIDE, NO_QUOTES, REMOVE};
 use crate::diagnostic::{Diagnostic, Diagnostics, Position, Span};
 use std::iter::Peekable;
 use std::ops::Range;
@@ -246,9 +247,8 @@ impl Scanner<'_> {
         if self.open.len() == NESTING + 1 && self.readable {
             self.readable = false;
             let message = format!("more than {NESTING} brackets inside one another");
-            let help = "give inner parts names of their own with `let`";
             self.diagnostics
-                .push(Diagnostic::error(span, message).help(help));
+                .push(Diagnostic::error(span, message).help(NAME_INSIDE));
         }
     }
 
@@ -263,7 +263,7 @@ impl Scanner<'_> {
         let Some(last) = self.open.last() else {
             let message = format!("this `{bracket}` closes nothing");
             self.diagnostics
-                .push(Diagnostic::error(span, message).help("remove it"));
+                .push(Diagnostic::error(span, message).help(REMOVE));
             self.blank(span);
             return;
         };
@@ -335,7 +335,7 @@ impl Scanner<'_> {
         if closed && plain && self.names_a_file(start) {
             return;
         }
-        let error = Diagnostic::error(span, "quoted text has no meaning here");
+        let error = Diagnostic::error(span, NO_QUOTES);
         self.diagnostics.push(error.help(instead('"')));
         self.blank(span);
     }

@@ -3,6 +3,7 @@
 use super::ast::{Expr, ExprKind, StartItem};
 use super::cursor::{Cursor, Parsed};
 use super::token::TokenKind;
+use super::words::{FOR, NO_UNIT_BEHIND};
 use crate::diagnostic::Diagnostic;
 
 const HELP: &str = "an entry is written `q1 = 45*deg;` (held) or `q2 ~ 0.7;` (a guess)";
@@ -23,7 +24,7 @@ impl Cursor<'_> {
 
     fn start_item(&mut self) -> Parsed<StartItem> {
         if self.take_word("for") {
-            let range = self.range("repetition is written `for i in 0..K { … }`")?;
+            let range = self.range(FOR)?;
             let items = self.deeper(Self::start_block)?;
             return Ok(StartItem::For(range, items));
         }
@@ -48,7 +49,11 @@ impl Cursor<'_> {
     /// Refuses a unit behind the number that a start value is.
     fn no_unit_behind_value(&mut self, value: &Expr) -> Parsed<()> {
         let next = self.peek();
-        let same_line = next.span.start.line == value.span.end.line;
+        // What begins the next entry is no unit.
+        let next_entry = ["=", "~", "(", "[", "."]
+            .iter()
+            .any(|sign| self.peek_at(1).kind == TokenKind::Symbol(sign));
+        let same_line = next.span.start.line == value.span.end.line && !next_entry;
         let (TokenKind::Word(unit), ExprKind::Number(_), true) =
             (next.kind.clone(), &value.kind, same_line)
         else {
@@ -59,8 +64,7 @@ impl Cursor<'_> {
             "deg" => format!("write `{number}*deg`"),
             _ => format!("values are in SI units and have none behind them: write `{number}`"),
         };
-        let message = "a unit does not stand behind a number";
-        let error = Diagnostic::error(self.span(), message);
+        let error = Diagnostic::error(self.span(), NO_UNIT_BEHIND);
         Err(self.fail(error.help(help)))
     }
 }

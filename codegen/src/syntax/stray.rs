@@ -3,6 +3,8 @@
 //! In:  a character.
 //! Out: its name, and what to write instead.
 
+use super::words::{CHOICE, REMOVE};
+
 /// A character as a message names it.
 pub fn shown(character: char) -> String {
     match character {
@@ -34,14 +36,14 @@ pub fn instead(character: char) -> String {
         '≥' => write(">="),
         '≠' => write("!="),
         '√' => write("sqrt(…)"),
-        '?' => "a choice is written `if a < b then x else y`".into(),
+        '?' => CHOICE.into(),
         c if greek(c).is_some() => write(greek(c).unwrap_or_default()),
         c if c.is_alphabetic() => {
             "names are made of the letters a–z and A–Z, digits and `_`".into()
         }
         '\r' => "save the file with line feeds".into(),
         c if c.is_whitespace() => "write an ordinary blank".into(),
-        _ => "remove it".into(),
+        _ => REMOVE.into(),
     }
 }
 

@@ -3,6 +3,7 @@
 //! In:  a text that [`super::scan`] has passed.
 //! Out: tokens with their places and nesting, doc comments set apart.
 
+use super::words::NUMBERS;
 use crate::diagnostic::{Diagnostic, Diagnostics, Position, Span};
 use proc_macro2::{Delimiter, Group, Spacing, TokenStream, TokenTree, token_stream};
 use std::iter::Peekable;
@@ -54,7 +55,7 @@ pub fn tokenize(source: &str) -> Result<Tokens, Diagnostics> {
     let stream = TokenStream::from_str(source).map_err(|error| {
         let mut diagnostics = Diagnostics::new();
         let span = place(error.span());
-        diagnostics.push(Diagnostic::error(span, "this can't be read").help(UNREADABLE));
+        diagnostics.push(Diagnostic::error(span, "this can't be read").help(NUMBERS));
         diagnostics
     })?;
     let tokens = Tokens {
@@ -70,8 +71,6 @@ pub fn tokenize(source: &str) -> Result<Tokens, Diagnostics> {
     flattener.end();
     Ok(flattener.tokens)
 }
-
-const UNREADABLE: &str = "numbers are written like `12`, `0.5` or `1e-3`";
 
 impl Flattener<'_> {
     fn run(&mut self, stream: TokenStream) {

@@ -4,6 +4,7 @@ use super::ast::{Name, UnitExpr};
 use super::cursor::{Cursor, Parsed};
 use super::scan;
 use super::token::{TokenKind, tokenize};
+use super::words::NO_ASSIGNMENT;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 
 /// The largest exponent of a unit.
@@ -34,8 +35,7 @@ impl Cursor<'_> {
             return Ok(None);
         }
         if self.at_symbol("=") && self.span().start == self.last_span().end {
-            let error =
-                Diagnostic::error(self.last_span().to(self.span()), "`:=` is not used here");
+            let error = Diagnostic::error(self.last_span().to(self.span()), NO_ASSIGNMENT);
             return Err(self.fail(error.help("write `=`; behind `:` stands a unit")));
         }
         self.unit().map(Some)

@@ -65,7 +65,10 @@ fn what_is_wrong_with_a_file_is_told_with_its_line_and_column() {
         ("0,1\n1,abc\n", "line 2, column 2: `abc` is not a number"),
         ("0,1\n1,NaN\n", "line 2, column 2: `NaN` is not a number"),
         ("0,1\n\n1\n", "line 3, has no column 2"),
-        ("0,1\n1,2\n1,3\n", "line 3: 1 does not come after 1"),
+        (
+            "0,1\n1,2\n1,3\n",
+            "line 3: 1 stands behind 1, and these numbers have to rise",
+        ),
     ]
     .into_iter()
     .enumerate()

@@ -163,3 +163,18 @@ fn a_missing_semicolon_is_reported_where_it_is_missing() {
     refuse_saying(source, "test.mech:2:10: error: expected `;`");
     assert_eq!(super::refuse(source).error_count(), 1);
 }
+
+#[test]
+fn a_semicolon_that_is_missing_behind_a_number_is_no_unit_and_no_product() {
+    for (statements, found) in [
+        ("param a = 1\nparam b = 2;", ""),
+        ("param a = 1 param b = 2;", ", found `param`"),
+        ("let a = 1 let b = 2;", ", found `let`"),
+        ("start { q = 1 w = 2; }", ", found `w`"),
+        ("start { q = 1 der(w) = 2; }", ", found `der`"),
+    ] {
+        refuse_saying(&with(statements), &format!("error: expected `;`{found}\n"));
+    }
+    refuse_saying(&with("param a = 1 kg;"), "a unit can't stand behind");
+    refuse_saying(&with("start { q = 1 m; }"), "a unit can't stand behind");
+}

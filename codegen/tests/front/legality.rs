@@ -6,23 +6,23 @@ use super::{accept, refuse_saying, with};
 fn the_kinetic_energy_is_quadratic_in_the_velocities() {
     refuse_saying(
         &with("kinetic q*der(q)^2 + der(w)^3;"),
-        "1:86: error: this is not quadratic",
+        "1:86: error: the kinetic energy has to be quadratic",
     );
     refuse_saying(
         &with("kinetic sin(der(q));"),
-        "this is not quadratic in the velocities",
+        "has to be quadratic in the velocities",
     );
     refuse_saying(
         &with("kinetic 1/der(q);"),
-        "this is not quadratic in the velocities",
+        "has to be quadratic in the velocities",
     );
     refuse_saying(
         &with("kinetic der(q)^1.5;"),
-        "this is not quadratic in the velocities",
+        "has to be quadratic in the velocities",
     );
     refuse_saying(
         &with("let v = der(q)^2; kinetic v*der(w);"),
-        "this is not quadratic in the velocities",
+        "has to be quadratic in the velocities",
     );
 }
 

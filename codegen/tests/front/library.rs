@@ -59,7 +59,7 @@ fn every_argument_of_the_library_that_has_a_dimension_has_its_unit() {
         let ball = PointMass([x, 0], L, [0, -9.81]); }";
     let text = refuse(source).render("m.mech", source);
     assert!(
-        text.contains("in `PointMass` `m` is in kg, this is in m"),
+        text.contains("the argument `m` of `PointMass` is in kg, this is in m"),
         "{text}"
     );
 }

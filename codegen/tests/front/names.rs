@@ -168,7 +168,10 @@ fn a_build_script_can_change_constants_and_freeze_parameters() {
 fn a_build_script_can_change_only_what_there_is() {
     let source = with("const N = 2; param a = 3;");
     for (settings, words) in [
-        (settings(&[("M", 5.0)], &[]), "the description declares N"),
+        (
+            settings(&[("M", 5.0)], &[]),
+            "the constants of the description are N",
+        ),
         (
             settings(&[], &["N"]),
             "sets the parameter `N`, which is not declared",

@@ -61,7 +61,10 @@ fn shapes_that_do_not_fit_are_refused() {
     refuse_saying(&with("let v = q.x;"), "a number has no components");
     refuse_saying(&with("let v = [q, w]^2;"), "norm2(v)");
     refuse_saying(&with("let v = [1, 2]*rotz(q);"), "write `transpose(R)*v`");
-    refuse_saying(&with("let v = rotz(q)*[1, 2];"), "the sizes have to fit");
+    refuse_saying(
+        &with("let v = rotz(q)*[1, 2];"),
+        "as many columns as what stands behind it has rows",
+    );
     refuse_saying(
         &with("constraint [q, w] = [1, 2, 3];"),
         "both sides are numbers",
@@ -115,11 +118,11 @@ fn indices_are_whole_numbers_in_range() {
     );
     refuse_saying(
         &with("let p[i in 0..3] = [q, i]; let a = 2*p;"),
-        "a whole array can't be calculated with",
+        "a whole array can't stand in a calculation",
     );
     refuse_saying(
         &with("let p[i in 1..3] = i*q; let a = 2*p;"),
-        "a whole array can't be calculated with",
+        "a whole array can't stand in a calculation",
     );
     refuse_saying(
         &with("let p[i in 0..3] = norm2(p);"),
@@ -129,7 +132,7 @@ fn indices_are_whole_numbers_in_range() {
         &with("coord p[1]; let a = cross(p, p);"),
         "`cross` takes two",
     );
-    refuse_saying(&with("coord p[0];"), "an array of 0 coordinates");
+    refuse_saying(&with("coord p[0];"), "an array can't have 0 coordinates");
     refuse_saying(&with("coord p[100000];"), "more than 10000 coordinates");
     refuse_saying(&with("let a[i in 0..0] = 1;"), "has no elements");
     refuse_saying(&with("let a = q[0];"), "a number has no elements");
@@ -139,7 +142,10 @@ fn indices_are_whole_numbers_in_range() {
 fn a_literal_zero_stands_for_a_zero_vector_in_an_equation() {
     let m = accept(&with("constraint [q, w] = 0;"));
     assert_eq!(m.constraints.len(), 2);
-    refuse_saying(&with("constraint [q, w] = 1;"), "an equation between");
+    refuse_saying(
+        &with("constraint [q, w] = 1;"),
+        "one side of this equation is",
+    );
 }
 
 #[test]

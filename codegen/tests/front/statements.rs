@@ -144,7 +144,7 @@ fn the_picture_is_made_of_points_in_space() {
     assert!(matches!(&m.shapes[3], Shape::Trace(p) if m.graph.is_zero(p[2])));
     refuse_saying(
         &with("draw line([0, 0]);"),
-        "a line has two or more points, here are 1",
+        "a line has two or more points, here is one",
     );
     refuse_saying(
         &with("draw circle([0, 0]);"),

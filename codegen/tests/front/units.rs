@@ -174,11 +174,11 @@ fn units_are_products_and_quotients_of_names() {
 fn units_that_hide_a_factor_are_refused() {
     refuse_saying(
         &with("param a: mm = 1;"),
-        "write SI: `m`, and multiply the value by 1e-3",
+        "write SI: `m`, and multiply the value by `1e-3`",
     );
     refuse_saying(
         &with("param a: deg = 1;"),
-        "write SI: `rad`, and multiply the value by deg",
+        "write SI: `rad`, and multiply the value by `deg`",
     );
     refuse_saying(&with("param a: Nm = 1;"), "`Nm` is written `N*m`");
     refuse_saying(&with("param a: kN = 1;"), "`kN` is not an SI unit");

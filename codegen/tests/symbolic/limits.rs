@@ -13,7 +13,7 @@ fn compiled(source: &str) -> Compiled {
 }
 
 /// A chain of bodies that turn about two axes each, with all positions in the world.
-fn chain(links: usize) -> String {
+pub fn chain(links: usize) -> String {
     let mut text = String::from("mechanism Chain {\n");
     for i in 0..links {
         let _ = writeln!(text, "coord a{i}; coord b{i};");

@@ -6,7 +6,7 @@ mod derivative;
 mod dual;
 mod jet;
 pub(crate) mod joint;
-mod limits;
+pub mod limits;
 mod number;
 mod passes;
 mod print;

@@ -1,7 +1,8 @@
 //! Every error of the runtime can be provoked, and says when, what and what to try.
 //!
-//! The tables have whole messages, with `…` for a number that depends on steps. An error
-//! without a case does not compile (`variants!`), or has no line in a table.
+//! The tables have whole messages, with `…` for a number that depends on steps, and stand
+//! on the page of messages. An error without a case does not compile (`variants!`), or has
+//! no line in a table.
 
 mod point;
 mod runs;
@@ -10,9 +11,26 @@ mod starts;
 use bricard_runtime::{
     AssemblyError, BadInterval, DynamicsError, IntegrateError, SimulateError, Singularity, Watched,
 };
+use bricard_testkit::page::{hold_section, prose, row};
+use std::path::Path;
 
-/// What is provoked, how, and what is said then.
-type Case = (&'static str, fn() -> Said, &'static str);
+/// What is provoked, how, in words and in Rust, and what is said then.
+type Case = (&'static str, &'static str, fn() -> Said, &'static str);
+
+/// The tables, each with what it is about.
+const TABLES: [(&str, &[Case]); 4] = [
+    ("Starts", starts::STARTS),
+    ("Where a motion can't go on", runs::MOTIONS),
+    ("Steps and tolerances", runs::STEPS),
+    ("What can't be asked of a run", runs::ASKED),
+];
+
+const INTRODUCTION: &str = "\
+These are said by `bricard simulate`, and by the runtime to programs of one's own. \
+Here they are about a unit mass in the plane with the coordinates `x` and `y`, on one \
+constraint, which they call `g = 0` (line 3); `…` stands for a number that depends on the \
+steps.
+";
 
 /// An error that was provoked: the names of its variant and of those within it.
 struct Said {
@@ -116,8 +134,7 @@ impl Variants for BadInterval<f64> {
 }
 
 fn cases() -> impl Iterator<Item = Case> {
-    let tables = [runs::MOTIONS, runs::STEPS, runs::ASKED, starts::STARTS];
-    tables.into_iter().flatten().copied()
+    TABLES.into_iter().flat_map(|(_, cases)| cases).copied()
 }
 
 /// Whether a text is as expected, whatever stands for `…`.
@@ -139,7 +156,7 @@ fn agrees(text: &str, expected: &str) -> bool {
 #[test]
 fn every_case_provokes_its_error_which_says_what_the_table_says() {
     let mut wrong = String::new();
-    for (variant, provoke, expected) in cases() {
+    for (variant, _, provoke, expected) in cases() {
         let Said { variants, text } = provoke();
         if !variants.contains(&variant) || !agrees(&text, expected) {
             wrong += &format!("{variant}: {variants:?} says\n  {text}\nand not\n  {expected}\n");
@@ -151,7 +168,7 @@ fn every_case_provokes_its_error_which_says_what_the_table_says() {
 #[test]
 fn every_error_is_provoked() {
     let provoked: Vec<&str> = cases()
-        .flat_map(|(_, provoke, _)| provoke().variants)
+        .flat_map(|(_, _, provoke, _)| provoke().variants)
         .collect();
     let all = [
         Singularity::ALL,
@@ -165,4 +182,18 @@ fn every_error_is_provoked() {
     let all = all.into_iter().flatten();
     let silent: Vec<&&str> = all.filter(|name| !provoked.contains(name)).collect();
     assert!(silent.is_empty(), "no case provokes {silent:?}");
+}
+
+/// The order of the tables is that of the page: a reader looks for what is alike.
+#[test]
+fn the_page_of_messages_shows_what_is_said_about_starts_and_runs() {
+    let mut text = INTRODUCTION.to_string();
+    for (about, cases) in TABLES {
+        text += &format!("\n### {about}\n\n| message | brought about by |\n|---|---|\n");
+        for (_, how, _, said) in cases {
+            text += &row(&[prose(said), prose(how)]);
+        }
+    }
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/messages.md");
+    hold_section(&page, "Starts and runs", &text);
 }

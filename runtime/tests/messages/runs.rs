@@ -53,6 +53,7 @@ const SLIDES: [[f64; 2]; 2] = [[0.0, 0.0], [1.0, 0.0]];
 pub const MOTIONS: &[Case] = &[
     (
         "DynamicsError::NotFinite",
+        "the force `sqrt(0.5 - t)`",
         || {
             let force = |state: &State<f64, 2>, _| [(0.5 - state.t).sqrt(), 0.0];
             refused(pushed(force), rk4())
@@ -62,6 +63,7 @@ pub const MOTIONS: &[Case] = &[
     ),
     (
         "Watched::KineticEnergy",
+        "a kinetic energy with `ln(0.5 - t)` in it",
         || {
             let mut point = Point::on(line);
             point.spoil = |state, energy| {
@@ -75,6 +77,7 @@ pub const MOTIONS: &[Case] = &[
     ),
     (
         "Watched::PotentialEnergy",
+        "a potential energy with `sqrt(0.5 - t)` in it",
         || {
             let mut point = Point::on(line);
             point.spoil = |state, energy| energy.balance += (0.5 - state.t).sqrt();
@@ -85,6 +88,7 @@ pub const MOTIONS: &[Case] = &[
     ),
     (
         "Watched::Power",
+        "a power of `sqrt(0.5 - t)`",
         || {
             let mut point = Point::on(line);
             point.spoil = |state, energy| energy.power = (0.5 - state.t).sqrt();
@@ -95,6 +99,7 @@ pub const MOTIONS: &[Case] = &[
     ),
     (
         "Watched::ConstraintError",
+        "the constraint `y + 0*sqrt(0.5 - t) = 0`, without projection",
         || {
             let mut point = Point::on(line);
             point.constraint = |state| {
@@ -111,6 +116,7 @@ pub const MOTIONS: &[Case] = &[
     ),
     (
         "Watched::Event",
+        "`event hit: sqrt(0.5 - t) + 1 crossing;`",
         || {
             let point = Point {
                 events: |state, values| values.fill((0.5 - state.t).sqrt() + 1.0),
@@ -124,6 +130,7 @@ pub const MOTIONS: &[Case] = &[
     ),
     (
         "Watched::Condition",
+        "a condition on `sqrt(0.5 - t) + 1`",
         || {
             let mut point = Point::on(line);
             point.side = Some(|state| (0.5 - state.t).sqrt() + 1.0);
@@ -134,6 +141,7 @@ pub const MOTIONS: &[Case] = &[
     ),
     (
         "DynamicsError::SingularPosition",
+        "two lines that cross, `(x - 1)*(y - 1) = 0`, passed with `--form multipliers`",
         || {
             let mut options = rk4();
             options.settings.form = Form::Multipliers;
@@ -145,6 +153,7 @@ pub const MOTIONS: &[Case] = &[
     ),
     (
         "Singularity::Unresolved",
+        "three lines that meet in a point, passed",
         || from(Point::on(three_lines), [[0.495, 0.495], [1.0, 1.0]], rk4()),
         "at t = … s the constraint `g = 0` (line 3) nearly depends on the others, and the \
          branches of motion that meet there can't be told apart by the digits of the numbers; if \
@@ -152,12 +161,14 @@ pub const MOTIONS: &[Case] = &[
     ),
     (
         "Singularity::Turning",
+        "a cusp, `(y - 1)^2 = (x - 1)^3`, passed",
         || from(Point::on(cusp), [[1.25, 0.875], [-1.0, 0.75]], rk4()),
         "at t = … s the constraint `g = 0` (line 3) nearly depends on the others, and the branch \
          of motion turns faster than steps can follow; take a smaller tolerance or step",
     ),
     (
         "Singularity::Touching",
+        "`(x - 1)^2*(y - 1) = 0`, where one of two crossing lines counts twice",
         || from(Point::on(doubled), THROUGH, rk4()),
         "at t = … s the constraint `g = 0` (line 3) depends on the others where branches of \
          motion touch, so that the way on can't be told; describe the branch that is meant by \
@@ -165,6 +176,7 @@ pub const MOTIONS: &[Case] = &[
     ),
     (
         "Singularity::Undetermined",
+        "`(x - 1)*(y - 1) = 0`, begun at rest where the lines cross",
         || {
             let force = |_: &State<f64, 2>, _| [1.0, 1.0];
             let point = Point {
@@ -179,6 +191,7 @@ pub const MOTIONS: &[Case] = &[
     ),
     (
         "Singularity::Vanishing",
+        "`(x^2 + y^2 - 1)^2 = 0`",
         || from(Point::on(squared), [[0.6, 0.8], [0.8, -0.6]], rk4()),
         "at t = 0 s the constraint `g = 0` (line 3) has a gradient that vanishes not only here \
          but wherever it holds, so that it restricts no motion; if it says that a square is \
@@ -186,6 +199,7 @@ pub const MOTIONS: &[Case] = &[
     ),
     (
         "DynamicsError::NotRegular",
+        "`(x - 1)*(y - 1) = 0`, generated as `regular`, passed where the lines cross",
         || {
             let point = Point {
                 structure: &REGULAR,
@@ -200,6 +214,7 @@ pub const MOTIONS: &[Case] = &[
     ),
     (
         "DynamicsError::MassSingular",
+        "a mass of zero along `x`",
         || {
             refused(
                 Point {
@@ -214,6 +229,7 @@ pub const MOTIONS: &[Case] = &[
     ),
     (
         "DynamicsError::SharedReaction",
+        "the reaction of `(x - 1)*(y - 1) = 0` asked for where the lines cross",
         || {
             let point = Point::on(crossing);
             let state = State::new(0.0, [1.0, 1.0].into(), [1.0, 0.0].into());
@@ -234,6 +250,7 @@ pub const MOTIONS: &[Case] = &[
     ),
     (
         "DynamicsError::Sticks",
+        "a force of 5 N towards `x = 0.5` from both sides, begun there at rest",
         || {
             let mut point = Point::on(line);
             point.side = Some(|state| state.q[0] - 0.5);
@@ -249,6 +266,7 @@ pub const MOTIONS: &[Case] = &[
     ),
     (
         "DynamicsError::ProjectionFailed",
+        "`y = 0` until t = 0.5 s, then a constraint that nothing satisfies",
         || refused(Point::on(torn), rk4()),
         "at t = … s the constraint `g = 0` (line 3) is violated by … and the position could not \
          be brought back onto it; take a smaller step, or check that the constraints can be \
@@ -288,6 +306,7 @@ impl System<f64, 2> for Careless {
 pub const STEPS: &[Case] = &[
     (
         "IntegrateError::StepUnderflow",
+        "a force `der(x)^2`, which is infinite at t = 1 s, by `dp5`",
         || {
             // It is infinitely fast at t = 1.
             let force = |state: &State<f64, 2>, _| [state.v[0] * state.v[0], 0.0];
@@ -300,6 +319,7 @@ pub const STEPS: &[Case] = &[
     ),
     (
         "IntegrateError::NotFinite",
+        "a system of the program's own whose accelerations are NaN, by `dp5`",
         || {
             let tolerance = Tolerance::uniform(1e-6, 1e-6).expect("a tolerance");
             let state = State::new(0.0, [0.0; 2].into(), [1.0, 0.0].into());
@@ -311,6 +331,7 @@ pub const STEPS: &[Case] = &[
     ),
     (
         "IntegrateError::NewtonDiverged",
+        "the force `1e9*cos(1000*x)`, by `radau5` with a step of 0.01 s",
         || {
             let force = |state: &State<f64, 2>, _| [1e9 * (1e3 * state.q[0]).cos(), 0.0];
             let step_control = StepControl::Fixed { step: 0.01 };
@@ -322,40 +343,47 @@ pub const STEPS: &[Case] = &[
     ),
     (
         "IntegrateError::ToleranceNotPositive",
+        "a tolerance of -1e-6",
         || refused(Point::on(line), Options::dp5(1.0, -1e-6)),
         "a tolerance must be a positive number, not -1e-6",
     ),
     (
         "IntegrateError::ToleranceTooSmall",
+        "a tolerance of 1e-17",
         || refused(Point::on(line), Options::dp5(1.0, 1e-17)),
         "a relative tolerance of 1e-17 is below the round-off of the numbers; the smallest that \
          makes sense is …",
     ),
     (
         "SimulateError::StepNotPositive",
+        "a step of 0 s",
         || refused(Point::on(line), Options::rk4(1.0, 0.0)),
         "the step must be a positive number of seconds, not 0",
     ),
     (
         "SimulateError::StepLost",
+        "a step of 1e-18 s",
         || refused(Point::on(line), Options::rk4(1.0, 1e-18)),
         "a step of 1e-18 s is lost in the round-off of time; the smallest that could be told \
          from zero here is … s",
     ),
     (
         "SimulateError::NoErrorEstimate",
+        "`rk4` with a tolerance",
         || refused(Point::on(line), adaptive(Method::Rk4, 1e-6)),
         "the method rk4 has no error estimate and can't follow a tolerance; give it a fixed \
          step, or take dp5 or dop853",
     ),
     (
         "SimulateError::BadEnd",
+        "a run from t = 0 s until t = -1 s",
         || refused(Point::on(line), Options::rk4(-1.0, 0.01)),
         "the run begins at t = 0 s and can't end at t = -1 s: the end must be a number and not \
          come earlier",
     ),
     (
         "SimulateError::TooManySteps",
+        "four steps of 0.01 s for a run of 1 s",
         || {
             let mut options = rk4();
             options.most_steps = Some(4);
@@ -366,6 +394,7 @@ pub const STEPS: &[Case] = &[
     ),
     (
         "SimulateError::TooMuchWork",
+        "a step by `rk4` within three evaluations",
         || {
             let mut state = State::new(0.0, [0.0, 0.0].into(), [1.0, 0.0].into());
             let point: &dyn Mechanism<f64, 2, 1> = &Point::on(line);
@@ -380,6 +409,7 @@ pub const STEPS: &[Case] = &[
 pub const ASKED: &[Case] = &[
     (
         "IntegrateError::BadBound",
+        "a step backwards",
         || {
             let state = State::new(1.0, [0.0, 0.0].into(), [1.0, 0.0].into());
             let (point, mut solver) = (
@@ -395,11 +425,13 @@ pub const ASKED: &[Case] = &[
     ),
     (
         "SimulateError::StartNotFinite",
+        "a run from a state with NaN in it",
         || from(Point::on(line), [[f64::NAN, 0.0], [0.0, 0.0]], rk4()),
         "the initial state at t = 0 s is infinite or NaN; check what it was made from",
     ),
     (
         "SimulateError::NotConservative",
+        "`keep_energy` for a mechanism with applied forces",
         || {
             let mut options = rk4();
             options.keep_energy = true;
@@ -410,6 +442,7 @@ pub const ASKED: &[Case] = &[
     ),
     (
         "SimulateError::TooManyEvents",
+        "65 events",
         || {
             let point = Point {
                 structure: &WITH_MANY_EVENTS,
@@ -421,6 +454,7 @@ pub const ASKED: &[Case] = &[
     ),
     (
         "BadInterval",
+        "rows every 0 s",
         || Said::of(Recorder::<f64, 2>::new(0.0)),
         "the interval between rows must be a positive number of seconds, not 0",
     ),

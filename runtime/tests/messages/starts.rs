@@ -26,6 +26,7 @@ fn near(x: f64, y: f64) -> ([Initial<f64>; 2], [Initial<f64>; 2]) {
 pub const STARTS: &[Case] = &[
     (
         "AssemblyError::NotFinite",
+        "`y = 0` with a held `x` that is NaN",
         || {
             refused(
                 Point::on(line),
@@ -38,6 +39,7 @@ pub const STARTS: &[Case] = &[
     ),
     (
         "AssemblyError::Positions",
+        "`x^2 + y^2 = 1` with `x = 1.5;` held",
         || refused(Point::on(circle), [hold(1.5), guess(0.2)], [guess(0.0); 2]),
         "no position near the start satisfies the constraints: `g = 0` (line 3) is off by 1.25; \
          these held values contradict each other or the parameters: x; turn one of them into a \
@@ -45,6 +47,7 @@ pub const STARTS: &[Case] = &[
     ),
     (
         "AssemblyError::Positions",
+        "`x^2 + y^2 = -1`, which nothing satisfies",
         || {
             let mut point = Point::on(circle);
             point.constraint = |state: &State<f64, 2>| {
@@ -59,6 +62,7 @@ pub const STARTS: &[Case] = &[
     ),
     (
         "AssemblyError::Velocities",
+        "`x^2 + y^2 = 1` with `x = 1; der(x) = 0.5;` held",
         || {
             refused(
                 Point::on(circle),
@@ -72,6 +76,7 @@ pub const STARTS: &[Case] = &[
     ),
     (
         "AssemblyError::NoBranch",
+        "`(x - 1)*(y - 1) = 0` with `der(x) = 1; der(y) = 1;` held where the lines cross",
         || refused(Point::on(crossing), [hold(1.0); 2], [hold(1.0); 2]),
         "the start is a singular position, and no branch of the motion through it has the held \
          velocities; these held values contradict each other or the parameters: der(x), der(y); \
@@ -79,6 +84,7 @@ pub const STARTS: &[Case] = &[
     ),
     (
         "AssemblyError::Vanishing",
+        "`(x^2 + y^2 - 1)^2 = 0`",
         || {
             let (q, v) = near(2.3, 1.4);
             refused(Point::on(squared), q, v)
@@ -89,6 +95,7 @@ pub const STARTS: &[Case] = &[
     ),
     (
         "AssemblyError::Start",
+        "an equation of `start` that is NaN",
         || {
             let (q, v) = near(1.0, 0.0);
             let point = Point {
@@ -102,6 +109,7 @@ pub const STARTS: &[Case] = &[
     ),
     (
         "AssemblyError::Start",
+        "`x^2 + y^2 = 1` with `x = 0.3;` held and the equation `y = height;` with `height` 0.5",
         || {
             let point = Point {
                 wanted: Some([0.5, 0.0]),
@@ -115,6 +123,7 @@ pub const STARTS: &[Case] = &[
     ),
     (
         "AssemblyError::Start",
+        "`x^2 + y^2 = 1` with `der(y) = 0.25;` held and the equation `der(y) = speed;` with `speed` 0.5",
         || {
             let point = Point {
                 wanted: Some([0.0, 0.5]),
@@ -128,6 +137,7 @@ pub const STARTS: &[Case] = &[
     ),
     (
         "AssemblyError::NegativeInertia",
+        "a mass of -1 kg along `x`",
         || {
             let (q, v) = near(0.0, 0.0);
             refused(
