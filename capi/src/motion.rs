@@ -11,7 +11,7 @@ use crate::names::List;
 use crate::status::{Status, time};
 use crate::watch::{Ended, Listeners, Writer};
 use bricard_runtime::{
-    Interface, Observer, Options, Sampler, SimulateError, State, Summary, simulate,
+    Interface, Observer, Options, Sampler, SimulateError, State, Summary, simulate, with_room,
 };
 use core::cell::Cell;
 use core::ops::ControlFlow;
@@ -131,6 +131,16 @@ where
     /// [`Status::Length`], [`Status::NotFinite`], [`Status::Order`], [`Status::Run`];
     /// [`Status::Argument`] for derivatives that the mechanism lacks.
     pub fn evaluate(
+        &mut self,
+        quantity: Quantity,
+        at: Option<State<f64, N>>,
+        out: &mut [f64],
+    ) -> Outcome {
+        // The matrices of a large mechanism don't fit onto the stack of every thread.
+        with_room::<f64, _, N, R>(|| self.evaluated(quantity, at, out))
+    }
+
+    fn evaluated(
         &mut self,
         quantity: Quantity,
         at: Option<State<f64, N>>,

@@ -49,6 +49,7 @@ pub use simulate::{
     Audit, Failure, Options, Origin, SimulateError, StepControl, Stepper, Summary, simulate,
 };
 pub use singular::Passage;
+pub use stack::with_room;
 pub use state::State;
 #[doc(hidden)]
 pub use structure::written_for;

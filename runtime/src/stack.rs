@@ -36,9 +36,13 @@ const MATRICES: usize = 64;
 const REST: usize = 8 << 20;
 
 /// Does something where there is room for the matrices of a mechanism with `N` coordinates
-/// and `R` constraint equations.
+/// and `R` constraint equations, [`Terms`](crate::Terms) among them.
+///
+/// What this crate computes finds room by itself; programs that evaluate the equations of
+/// large mechanisms themselves do so here. Where the system has no more memory to give, it
+/// is done on the stack of the caller.
 #[inline(always)]
-pub(crate) fn with_room<T, V, const N: usize, const R: usize>(work: impl FnOnce() -> V) -> V {
+pub fn with_room<T, V, const N: usize, const R: usize>(work: impl FnOnce() -> V) -> V {
     if const { matrix::<T>(N + R) <= SMALL } {
         return work();
     }
