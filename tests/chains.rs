@@ -1,16 +1,21 @@
-//! A chain in joint angles moves as the same chain in the angles of its links.
+//! A chain in joint angles moves as the same chain in the angles of its links; the mass matrix
+//! of a long one is that of its energy.
 //!
-//! Both are compiled; the angle of a joint is the difference of those of two links.
+//! All are compiled; the angle of a joint is the difference of those of two links.
 
 use bricard_fixtures::chains::joint_chain::JointChain;
 use bricard_fixtures::chains::link_chain::LinkChain;
-use bricard_runtime::nalgebra::SVector;
+use bricard_fixtures::chains::long_chain::LongChain;
+use bricard_runtime::nalgebra::{SMatrix, SVector};
 use bricard_runtime::{
-    Form, Method, Options, Regular, Settings, Solver, State, StepControl, Whole, assemble, simulate,
+    Form, Mechanism, Method, Options, Regular, Settings, Solver, State, StepControl, Terms, Whole,
+    assemble, simulate,
 };
 use bricard_testkit::Random;
 
 const N: usize = 10;
+/// Links of a chain whose mass matrix is computed column by column.
+const LONG: usize = 40;
 const STATES: usize = 100;
 
 /// Round-off of an acceleration, relative to the largest of the chain.
@@ -80,4 +85,55 @@ fn joints_move_as_differences_of_links() {
     let joints = simulate(by_joints, &joints, &options, &mut []).expect("a motion");
     let off = (joints.end.q - of_joints(&links.end.q)).amax();
     assert!(off < APART, "off by {off:e}");
+}
+
+/// A random state of the long chain.
+fn long_state(random: &mut Random) -> State<f64, LONG> {
+    let mut state = State::<f64, LONG>::default();
+    state.q.iter_mut().for_each(|q| *q = random.within(3.0));
+    state.v.iter_mut().for_each(|v| *v = random.within(5.0));
+    state
+}
+
+/// Second derivatives of the kinetic energy, a quadratic form of the velocities.
+fn second_derivatives(state: &State<f64, LONG>) -> SMatrix<f64, LONG, LONG> {
+    let chain = LongChain::<f64>::default();
+    let kinetic = |moving: &[usize]| {
+        let mut state = *state;
+        state.v = SVector::zeros();
+        moving.iter().for_each(|i| state.v[*i] += 1.0);
+        chain.energy(&state).kinetic
+    };
+    SMatrix::from_fn(|i, j| kinetic(&[i, j]) - kinetic(&[i]) - kinetic(&[j]))
+}
+
+#[test]
+fn the_mass_matrix_of_a_long_chain_is_that_of_its_kinetic_energy() {
+    let (chain, mut random) = (LongChain::default(), Random::seeded(1987));
+    for _ in 0..5 {
+        let state = long_state(&mut random);
+        let (mass, exact) = (chain.mass_matrix(&state), second_derivatives(&state));
+        let off = (mass - exact).amax() / exact.amax();
+        assert!(off < ROUND_OFF, "off by {off:e} at {state:?}");
+        assert_eq!(mass, mass.transpose());
+        let mut terms = Terms::<f64, LONG, 0>::default();
+        chain.terms(&state, &mut terms);
+        assert_eq!(terms.mass, mass);
+    }
+}
+
+#[test]
+fn a_long_chain_accelerates_against_its_mass_matrix_as_forces_say() {
+    let (chain, mut random) = (LongChain::default(), Random::seeded(1988));
+    for _ in 0..STATES {
+        let state = long_state(&mut random);
+        let mut terms = Terms::<f64, LONG, 0>::default();
+        let mut found = Regular::<f64, LONG, 0>::default();
+        chain.terms(&state, &mut terms);
+        assert!(chain.regular(&state, &mut found));
+        // What round-off of the accelerations comes to.
+        let size = (terms.mass.abs() * found.acceleration.abs()).amax();
+        let off = (terms.mass * found.acceleration - terms.force).amax() / size;
+        assert!(off < ROUND_OFF, "off by {off:e} at {state:?}");
+    }
 }

@@ -18,17 +18,22 @@ pub(super) fn mass_matrix(graph: &mut Graph, reduced: &Reduced, n: usize) -> Mat
     let count = reduced.count;
     let entries = reduced.mass.iter().map(|&(i, j, entry)| ((i, j), entry));
     let mut rest = Symmetric::of(entries, count + n);
-    let mut parts = vec![Vec::new(); count];
-    for &(row, place, entry) in &reduced.links {
-        parts[row].push((place, entry));
-    }
-    for (place, parts) in parts.iter().enumerate().rev() {
+    for (place, parts) in parts(reduced).iter().enumerate().rev() {
         rest.replace(graph, place, parts);
     }
     let zero = graph.integer(0);
     let entry = |i, j| rest.entry(count + i, count + j).unwrap_or(zero);
     let row = |i| (0..n).map(|j| entry(i, j)).collect();
     (0..n).map(row).collect()
+}
+
+/// By shared velocity: the places of its parts and their coefficients.
+pub(super) fn parts(reduced: &Reduced) -> Vec<Vec<(usize, ExprId)>> {
+    let mut parts = vec![Vec::new(); reduced.count];
+    for &(row, place, entry) in &reduced.links {
+        parts[row].push((place, entry));
+    }
+    parts
 }
 
 impl Arithmetic for Graph {

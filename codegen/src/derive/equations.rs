@@ -11,6 +11,8 @@ pub type Matrix = Vec<Vec<ExprId>>;
 pub struct Equations {
     /// `M`, `N × N`.
     pub mass: Matrix,
+    /// `M q̈`, `N`, of which functions compute `M`, where writing its entries down is longer.
+    pub inertia: Option<Vec<ExprId>>,
     /// `C q̇` and the terms of moving frames: `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`.
     pub coriolis: Vec<ExprId>,
     /// `h = ∂Π/∂q`, `N`.

@@ -17,6 +17,7 @@ mod equations;
 mod explicit;
 mod force;
 mod gradient;
+mod inertia;
 mod linearised;
 mod local;
 mod mass;
@@ -38,6 +39,7 @@ pub use swell::{EXPRESSIONS_MAX, SWELL, swell};
 use crate::diagnostic::Diagnostics;
 use crate::model::Mechanism;
 use gradient::Sweep;
+use inertia::LONG_CHAIN;
 use motion::{Motion, motion};
 use swell::within_bounds;
 
@@ -57,6 +59,10 @@ const MUCH_SHORTER: (usize, usize) = (2, 3);
 pub fn derive(mechanism: &mut Mechanism) -> Result<Equations, Diagnostics> {
     switch::hold(mechanism)?;
     let begun = mechanism.clone();
+    if let Some((other, equations)) = of_long_chain(&begun) {
+        *mechanism = other;
+        return Ok(equations);
+    }
     let forward = equations(mechanism, Sweep::Forward);
     let size = |mechanism: &Mechanism, equations: &Equations| swell::size(mechanism, equations);
     let longest = forward.as_ref().map(|equations| size(mechanism, equations));
@@ -76,6 +82,20 @@ pub fn derive(mechanism: &mut Mechanism) -> Result<Equations, Diagnostics> {
     forward.ok_or_else(|| swell::refusal(mechanism))
 }
 
+/// The equations of a long chain, which would have many more expressions if they were
+/// derived symbol by symbol, and its mechanism; nothing where it is none.
+fn of_long_chain(begun: &Mechanism) -> Option<(Mechanism, Equations)> {
+    if begun.coordinates.len() < LONG_CHAIN {
+        return None;
+    }
+    let mut mechanism = begun.clone();
+    let equations = equations(&mut mechanism, Sweep::Back)?;
+    equations
+        .inertia
+        .is_some()
+        .then_some((mechanism, equations))
+}
+
 /// The equations, or nothing as soon as they are too long.
 fn equations(mechanism: &mut Mechanism, by: Sweep) -> Option<Equations> {
     let (n, freedoms) = (mechanism.coordinates.len(), mechanism.freedoms());
@@ -84,6 +104,7 @@ fn equations(mechanism: &mut Mechanism, by: Sweep) -> Option<Equations> {
         potential,
         momenta,
         mass,
+        inertia,
         coriolis,
         gravity,
         applied,
@@ -107,6 +128,7 @@ fn equations(mechanism: &mut Mechanism, by: Sweep) -> Option<Equations> {
     let weighed = weighed::weighed(graph, &mass, &closure.jacobian);
     Some(Equations {
         mass,
+        inertia,
         coriolis,
         gravity,
         applied,

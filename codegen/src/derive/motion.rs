@@ -4,8 +4,8 @@ use super::equations::Matrix;
 use super::gradient::Sweep;
 use super::reduced::Reduced;
 use super::swell::within_bounds;
-use super::{composite, force, mass};
-use crate::expr::ExprId;
+use super::{composite, force, inertia, mass};
+use crate::expr::{ExprId, Symbol};
 use crate::model::Mechanism;
 
 /// What comes of the energies and forces alone.
@@ -14,6 +14,7 @@ pub(super) struct Motion {
     pub potential: ExprId,
     pub momenta: Vec<ExprId>,
     pub mass: Matrix,
+    pub inertia: Option<Vec<ExprId>>,
     pub coriolis: Vec<ExprId>,
     pub gravity: Vec<ExprId>,
     pub applied: Vec<ExprId>,
@@ -34,12 +35,16 @@ pub(super) fn motion(mechanism: &mut Mechanism, by: Sweep) -> Option<Motion> {
         Sweep::Forward => None,
         Sweep::Back => Reduced::of(graph, kinetic, n),
     };
-    let mut mass = match shared {
-        Some(reduced) => composite::mass_matrix(graph, &reduced, n),
+    let mut mass = match &shared {
+        Some(reduced) => composite::mass_matrix(graph, reduced, n),
         None => mass::mass_matrix(graph, &momenta),
     };
+    let mut inertia = shared.and_then(|reduced| inertia::inertia(graph, &reduced, n));
     for (i, row) in mass.iter_mut().enumerate().skip(freedoms) {
         row[i] = graph.integer(1);
+        if let (Some(inertia), Ok(state)) = (&mut inertia, u32::try_from(i)) {
+            inertia[i] = graph.symbol(Symbol::Acceleration(state));
+        }
     }
     within_bounds(graph)?;
     let coriolis = force::coriolis_product(graph, kinetic, &momenta, by);
@@ -52,6 +57,7 @@ pub(super) fn motion(mechanism: &mut Mechanism, by: Sweep) -> Option<Motion> {
         potential,
         momenta,
         mass,
+        inertia,
         coriolis,
         gravity,
         applied,

@@ -77,13 +77,13 @@ fn part(share: f64) -> String {
 }
 
 fn roots(equations: &Equations) -> Vec<ExprId> {
-    let matrices = [&equations.mass, &equations.jacobian];
-    let entries = matrices.into_iter().flatten().flatten();
-    let vectors = [&equations.force, &equations.bias];
-    entries
-        .chain(vectors.into_iter().flatten())
-        .copied()
-        .collect()
+    let masses = match &equations.inertia {
+        Some(inertia) => inertia.clone(),
+        None => equations.mass.concat(),
+    };
+    let rows = equations.jacobian.concat();
+    let vectors = [&masses, &rows, &equations.force, &equations.bias];
+    vectors.into_iter().flatten().copied().collect()
 }
 
 /// The part that each statement has in the equations, the largest first. What is

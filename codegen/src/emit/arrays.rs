@@ -3,13 +3,14 @@
 //! In:  the programs of the arrays.
 //! Out: functions that return them.
 
+use super::columns::columns;
 use super::function::Decided;
 use super::subject::{Reads, Subject, Written, doc_lines, entry};
 use crate::optimise::{Array, Optimised};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
-const MASS: &str =
+pub(super) const MASS: &str =
     "Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric; kg for two lengths, kg·m² for two
 angles, kg·m for one of each.";
 
@@ -39,8 +40,9 @@ pub(super) fn arrays(subject: &Subject) -> TokenStream {
     let functions: TokenStream = arrays
         .map(|(array, computed)| function(subject, *array, computed))
         .collect();
+    let mass = columns(subject);
     let name = subject.type_name();
-    quote!(impl<T: Real> #name<T> { #functions })
+    quote!(impl<T: Real> #name<T> { #mass #functions })
 }
 
 fn described(subject: &Subject, array: Array) -> Described {

@@ -84,12 +84,16 @@ pub(super) fn mechanism(subject: &Subject) -> TokenStream {
     }
 }
 
-/// A method that fills the fields of a buffer with arrays of their names.
+/// A method that fills the fields of a buffer with arrays of their names; the mass matrix
+/// by a function of its own, if there is one.
 fn filled(subject: &Subject, method: [&str; 3], computed: &Optimised) -> TokenStream {
     let [name, buffer, docs] = method;
     let Written { body, state, cost } =
         subject.optimised(computed, &entry_of_field, Decided::BySides);
-    let out = argument("out", Reads::of(&computed.program).out);
+    let by_columns = subject.programs.inertia.is_some();
+    let mass = by_columns.then(|| quote!(self.write_mass(state, &mut out.mass);));
+    let state = if by_columns { ident("state") } else { state };
+    let out = argument("out", by_columns || Reads::of(&computed.program).out);
     let (name, buffer) = (ident(name), ident(buffer));
     let (docs, statements) = (doc_lines(docs), body.statements);
     let (n, r) = subject.sizes();
@@ -98,6 +102,7 @@ fn filled(subject: &Subject, method: [&str; 3], computed: &Optimised) -> TokenSt
         ///
         #[doc = #cost]
         fn #name(&self, #state: &State<T, #n>, #out: &mut #buffer<T, #n, #r>) {
+            #mass
             #statements
         }
     }

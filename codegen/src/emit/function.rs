@@ -86,25 +86,12 @@ impl Body {
         place: Place,
         decided: Decided,
     ) -> Self {
-        let mut writer = Writer {
-            program,
-            symbols,
-            decided,
-            names,
-            uses: program.uses(),
-            pieces: vec![None; program.len()],
-            nothing: atom(quote!(T::zero())),
-            angles: FxHashMap::default(),
-            statements: Statements::default(),
-        };
+        let mut writer = Writer::of(program, symbols, names, decided);
         let bound = writer.place_angles();
         // Bound after the call for the angles, symbols need not be kept during it.
         let rest = &writer.symbols_read() - &bound;
         writer.statements.push(symbols.prelude(&rest));
-        let mut slots: Vec<Vec<Slot>> = vec![Vec::new(); program.len()];
-        for (slot, value) in &program.outputs {
-            slots[value.index()].push(*slot);
-        }
+        let slots = program.slots();
         let mut outputs = FxHashMap::default();
         for (value, _) in program.operations() {
             writer.place(value);
@@ -136,7 +123,26 @@ pub(super) struct Writer<'a> {
     pub(super) statements: Statements,
 }
 
-impl Writer<'_> {
+impl<'a> Writer<'a> {
+    pub(super) fn of(
+        program: &'a Program,
+        symbols: &'a dyn Symbols,
+        names: Names,
+        decided: Decided,
+    ) -> Self {
+        Writer {
+            program,
+            symbols,
+            decided,
+            names,
+            uses: program.uses(),
+            pieces: vec![None; program.len()],
+            nothing: atom(quote!(T::zero())),
+            angles: FxHashMap::default(),
+            statements: Statements::default(),
+        }
+    }
+
     /// Writes a value whose operands are written, unless it is written already.
     pub(super) fn place(&mut self, value: Value) {
         if self.pieces[value.index()].is_none() {

@@ -10,6 +10,7 @@
 mod angles;
 mod arrays;
 mod c;
+mod columns;
 mod described;
 mod dynamics;
 mod function;
@@ -22,6 +23,7 @@ mod name;
 mod outputs;
 mod partials;
 mod quantity;
+mod repeated;
 mod start;
 mod statements;
 mod structure;

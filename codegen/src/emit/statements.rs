@@ -7,7 +7,7 @@
 //! For the debugger rustc describes the scope of each `let` as a part of the one before, by
 //! recursion, and runs out of stack over some thousands of them.
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
 /// The most names that a function declares one by one.
@@ -50,7 +50,8 @@ impl Statements {
                 Statement::Named(name, value) if declared == 0 => {
                     let part = parts.next().unwrap_or_default();
                     declared = part.len() - 1;
-                    quote!(let (#(#part,)*); #name = #value;)
+                    let count = Literal::usize_unsuffixed(part.len());
+                    quote!(let [#(#part),*]: [T; #count]; #name = #value;)
                 }
                 Statement::Named(name, value) => {
                     declared -= 1;

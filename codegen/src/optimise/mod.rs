@@ -19,6 +19,7 @@
 mod count;
 mod dead;
 mod factor;
+mod functions;
 mod interpret;
 mod monomial;
 mod order;
@@ -35,10 +36,11 @@ mod verify;
 mod wanted;
 
 pub use count::{Cost, cost};
+pub use functions::{Array, LeftOut, List, Optimised, Programs, StartPrograms};
 pub use interpret::interpret;
 pub use pass::{Pass, alone};
 pub use program::{Operation, Program, Slot, Value};
-pub use programs::{Array, Besides, LeftOut, List, Optimised, Programs, StartPrograms, programs};
+pub use programs::{Besides, programs};
 pub use solve::{Solved, Way};
 pub use trig::{Polynomials, in_trig_ring};
 pub use verify::verify;

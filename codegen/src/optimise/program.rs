@@ -170,6 +170,15 @@ impl Program {
         self.operations.iter().any(is_kind)
     }
 
+    /// By value: the entries that it is.
+    pub fn slots(&self) -> Vec<Vec<Slot>> {
+        let mut slots = vec![Vec::new(); self.len()];
+        for (slot, value) in &self.outputs {
+            slots[value.index()].push(*slot);
+        }
+        slots
+    }
+
     /// How often each value is read, outputs included.
     pub fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.len()];

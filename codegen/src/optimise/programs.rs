@@ -8,9 +8,10 @@
 //! to be wanted, after the programs that every module has: terms stand in the order in which
 //! their expressions were made, so that what is asked for besides changes no other function.
 
+use super::functions::{Array, LeftOut, List, Optimised, Programs, StartPrograms};
 use super::wanted::{Wanted, matrix, sparse, vector};
 use super::{
-    Cost, Polynomials, Program, Slot, Solved, cost, derived_cost, optimise_among, plain,
+    Polynomials, Program, Slot, Solved, Way, cost, derived_cost, optimise_among, plain,
     regular_acceleration, regular_correction, shared_acceleration,
 };
 use crate::derive::{
@@ -27,169 +28,6 @@ const LINEARISED_MAX: usize = 10_000;
 /// The weight of a solve beyond which another with shared velocities as unknowns is tried.
 /// A shorter one is of a few bodies, which have little in common.
 const LONG_SOLVE: usize = 500;
-
-/// A program and what was saved.
-#[derive(Clone, Debug, Default)]
-pub struct Optimised {
-    /// The program.
-    pub program: Program,
-    /// What it costs.
-    pub cost: Cost,
-    /// What it would cost as it was derived.
-    pub derived: Cost,
-}
-
-/// Why a module has no linearised equations of motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LeftOut {
-    /// Deriving them takes more expressions than a function should have.
-    Expressions,
-    /// Their program has this many operations, more than a function should have.
-    Operations(usize),
-}
-
-/// An array that has a function of its own.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Array {
-    /// `M`, `N × N`.
-    Mass,
-    /// `h`, `N`.
-    PotentialForce,
-    /// `Q`, `N`.
-    AppliedForce,
-    /// `C q̇` and the terms of moving frames, `N`.
-    CoriolisForce,
-    /// `C`, `N × N`.
-    CoriolisMatrix,
-    /// `g`, `R`.
-    Residual,
-    /// `A`, `R × N`.
-    Jacobian,
-    /// `p₂`, `R`.
-    Bias,
-}
-
-impl Array {
-    /// The name of its function.
-    pub fn name(self) -> &'static str {
-        match self {
-            Array::Mass => "mass_matrix",
-            Array::PotentialForce => "potential_force",
-            Array::AppliedForce => "applied_force",
-            Array::CoriolisForce => "coriolis_force",
-            Array::CoriolisMatrix => "coriolis_matrix",
-            Array::Residual => "constraint_residual",
-            Array::Jacobian => "constraint_jacobian",
-            Array::Bias => "constraint_bias",
-        }
-    }
-}
-
-/// Values that a function writes one after the other.
-#[derive(Clone, Debug, Default)]
-pub struct List {
-    /// How many.
-    pub count: usize,
-    /// Their program; its one array has the name of the function.
-    pub computed: Optimised,
-}
-
-/// Equations of the start at a place, and their derivatives.
-#[derive(Clone, Debug, Default)]
-pub struct StartPrograms {
-    /// What the equations are off by.
-    pub errors: List,
-    /// Their derivatives, row by row.
-    pub slopes: List,
-}
-
-/// What a module of a mechanism computes.
-#[derive(Clone, Debug)]
-pub struct Programs {
-    /// `mass`, `force`, `jacobian`, `bias`.
-    pub terms: Optimised,
-    /// The acceleration where the constraints are regular, if its factors exist.
-    pub regular: Option<Solved>,
-    /// `mass`, `residual`, `jacobian`, `drift`; nothing without constraints.
-    pub position: Option<Optimised>,
-    /// The corrections of position and velocity where the constraints are regular, if there
-    /// are any and their factors exist.
-    pub correction: Option<Solved>,
-    /// `energy`: kinetic, potential, balance, power.
-    pub energy: Optimised,
-    /// The linearised equations of motion, or why they are left out.
-    pub linearised: Result<Optimised, LeftOut>,
-    /// `force_by_input`, `outputs`, `events`: their derivatives, each row by row. Nothing
-    /// where they are not wanted, would be too long, or the linearised equations are left
-    /// out.
-    pub partials: Option<Optimised>,
-    /// `switches`: value and rate of each switching function.
-    pub switches: Optimised,
-    /// Arrays for those who want them one by one. Their slots have no array's name.
-    pub arrays: Vec<(Array, Optimised)>,
-    /// Equations of the start for positions.
-    pub start_positions: StartPrograms,
-    /// Equations of the start for velocities.
-    pub start_velocities: StartPrograms,
-    /// `start`: the entries of the `start` block.
-    pub start: Optimised,
-    /// `outputs`: those of positions and velocities.
-    pub outputs: Optimised,
-    /// `outputs` of accelerations, and all `inputs`.
-    pub signals: Optimised,
-    /// `events`.
-    pub events: List,
-    /// `draw`: the numbers of the picture, shape by shape.
-    pub draw: Optimised,
-    /// `described`: position, velocity, acceleration and reaction of each coordinate that
-    /// was declared, where some were eliminated.
-    pub described: Optimised,
-    /// `default`: one program for each default of a parameter.
-    pub defaults: Vec<Program>,
-}
-
-impl Programs {
-    /// Those that compute something, each with the name of its function.
-    pub fn named(&self) -> Vec<(&'static str, &Program)> {
-        let starts = [&self.start_positions, &self.start_velocities];
-        let [positions, velocities] = starts.map(|rows| [&rows.errors, &rows.slopes]);
-        let arrays = self.arrays.iter();
-        let all = [
-            ("terms", Some(&self.terms.program)),
-            (
-                "regular",
-                self.regular.as_ref().map(|solved| &solved.program),
-            ),
-            ("position", self.position.as_ref().map(|made| &made.program)),
-            (
-                "correction",
-                self.correction.as_ref().map(|solved| &solved.program),
-            ),
-            ("energy", Some(&self.energy.program)),
-            (
-                "linearised",
-                self.linearised.as_ref().ok().map(|made| &made.program),
-            ),
-            ("partials", self.partials.as_ref().map(|made| &made.program)),
-            ("switches", Some(&self.switches.program)),
-            ("position_errors", Some(&positions[0].computed.program)),
-            ("position_slopes", Some(&positions[1].computed.program)),
-            ("velocity_errors", Some(&velocities[0].computed.program)),
-            ("velocity_slopes", Some(&velocities[1].computed.program)),
-            ("start", Some(&self.start.program)),
-            ("outputs", Some(&self.outputs.program)),
-            ("signals", Some(&self.signals.program)),
-            ("events", Some(&self.events.computed.program)),
-            ("draw", Some(&self.draw.program)),
-            ("described", Some(&self.described.program)),
-        ];
-        let arrays = arrays.map(|(array, made)| (array.name(), Some(&made.program)));
-        let all = all.into_iter().chain(arrays);
-        all.filter_map(|(name, program)| Some((name, program?)))
-            .filter(|(_, program)| !program.outputs.is_empty())
-            .collect()
-    }
-}
 
 /// What is computed besides what every module has.
 #[derive(Clone, Copy, Debug, Default)]
@@ -213,6 +51,7 @@ pub fn programs(mechanism: &mut Mechanism, equations: &Equations, besides: Besid
         laws,
         polynomials: Polynomials::default(),
     };
+    let inertia = optimiser.inertia();
     let (terms, regular) = optimiser.terms();
     let (position, correction) = optimiser.projection();
     let energy = optimiser.energy();
@@ -228,6 +67,7 @@ pub fn programs(mechanism: &mut Mechanism, equations: &Equations, besides: Besid
     let wants_partials = besides.partials && linearised.is_ok();
     let regular = optimiser.shorter(regular);
     Programs {
+        inertia,
         terms,
         regular,
         position,
@@ -284,15 +124,39 @@ impl Optimiser<'_> {
         (self.equations.mass.len(), self.equations.jacobian.len())
     }
 
+    /// `M q̈`, where `M` is not written down.
+    fn inertia(&mut self) -> Option<Optimised> {
+        let inertia = self.equations.inertia.as_ref()?;
+        Some(self.optimised(&vector("mass", inertia)))
+    }
+
+    /// The entries of `M`, which take part where they are written down.
+    fn mass(&self) -> Wanted {
+        match self.equations.inertia {
+            Some(_) => Wanted::new(),
+            None => matrix("mass", &self.equations.mass),
+        }
+    }
+
     fn terms(&mut self) -> (Optimised, Option<Solved>) {
         let equations = self.equations;
-        let terms = self.optimised(&merged([
-            matrix("mass", &equations.mass),
-            vector("force", &equations.force),
-            matrix("jacobian", &equations.jacobian),
-            vector("bias", &equations.bias),
-        ]));
-        let regular = regular_acceleration(&terms.program, self.sizes(), &equations.weighed);
+        let vectors = || {
+            merged([
+                vector("force", &equations.force),
+                matrix("jacobian", &equations.jacobian),
+                vector("bias", &equations.bias),
+            ])
+        };
+        let terms = self.optimised(&merged([self.mass(), vectors()]));
+        let (sizes, weighed) = (self.sizes(), &equations.weighed);
+        if equations.inertia.is_none() {
+            let regular = regular_acceleration(&terms.program, sizes, weighed);
+            return (terms, regular);
+        }
+        let regular = self.with_shared().or_else(|| {
+            let whole = merged([matrix("mass", &equations.mass), vectors()]);
+            regular_acceleration(&self.program(&whole), sizes, weighed)
+        });
         (terms, regular)
     }
 
@@ -300,7 +164,10 @@ impl Optimiser<'_> {
     fn shorter(&mut self, regular: Option<Solved>) -> Option<Solved> {
         let weight = |solved: &Solved| cost(&solved.program).weight();
         let longest = regular.as_ref().map_or(usize::MAX, weight);
-        if longest <= LONG_SOLVE {
+        let is_shared = regular
+            .as_ref()
+            .is_some_and(|solved| solved.way == Way::Shared);
+        if is_shared || longest <= LONG_SOLVE {
             return regular;
         }
         match self.with_shared() {
@@ -330,7 +197,7 @@ impl Optimiser<'_> {
             return (None, None);
         }
         let position = self.optimised(&merged([
-            matrix("mass", &equations.mass),
+            self.mass(),
             vector("residual", &equations.residual),
             matrix("jacobian", &equations.jacobian),
             vector("drift", &equations.drift),
@@ -402,10 +269,12 @@ impl Optimiser<'_> {
     fn arrays(&mut self, coriolis: bool) -> Vec<(Array, Optimised)> {
         let equations = self.equations;
         let mut wanted = vec![
-            (Array::Mass, matrix("", &equations.mass)),
             (Array::PotentialForce, vector("", &equations.gravity)),
             (Array::AppliedForce, vector("", &equations.applied)),
         ];
+        if equations.inertia.is_none() {
+            wanted.insert(0, (Array::Mass, matrix("", &equations.mass)));
+        }
         let graph = &mut self.mechanism.graph;
         if equations.coriolis.iter().any(|e| !graph.is_zero(*e)) {
             wanted.push((Array::CoriolisForce, vector("", &equations.coriolis)));

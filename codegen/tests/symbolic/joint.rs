@@ -13,7 +13,7 @@ use bricard_codegen::internals::optimise::{
 };
 
 /// The chain in angles between neighbours.
-fn of_joints() -> String {
+pub(super) fn of_joints() -> String {
     chain(
         "coord theta[N];
         let phi[i in 0..N] = if i == 0 then theta[0] else phi[i-1] + theta[i];",
@@ -23,7 +23,7 @@ fn of_joints() -> String {
 /// Bodies in other company: masses without inertia at the ends of rods, whose own velocities
 /// have no mass in the shared ones; a trolley with gears, springs and motors in the joints;
 /// a chain that forks.
-const OTHERS: [&str; 3] = [
+pub(super) const OTHERS: [&str; 3] = [
     "mechanism Points {
         const N = 7;
         coord phi[N];
@@ -74,7 +74,7 @@ const OTHERS: [&str; 3] = [
 const IN_SPACE: &str = include_str!("../../../benches/instructions/mechanisms/spatial_chain.mech");
 
 /// Joint angles in which the links have the angles of the other chain.
-fn state(symbol: Symbol) -> f64 {
+pub(super) fn state(symbol: Symbol) -> f64 {
     match symbol {
         Symbol::Coordinate(i) if i > 0 => of_link(symbol) - of_link(Symbol::Coordinate(i - 1)),
         Symbol::Velocity(i) if i > 0 => of_link(symbol) - of_link(Symbol::Velocity(i - 1)),
@@ -83,13 +83,13 @@ fn state(symbol: Symbol) -> f64 {
 }
 
 /// A mechanism and its equations, at one state.
-struct Case {
-    mechanism: Mechanism,
-    equations: Equations,
+pub(super) struct Case {
+    pub(super) mechanism: Mechanism,
+    pub(super) equations: Equations,
 }
 
 impl Case {
-    fn of(source: &str, settings: &Settings) -> Self {
+    pub(super) fn of(source: &str, settings: &Settings) -> Self {
         let (mut mechanism, _) = analyse(source, settings).expect("it is right");
         let equations = derive(&mut mechanism).expect("equations of a usual length");
         Self {
@@ -111,7 +111,7 @@ impl Case {
         dense(&self.mass(), &self.values(&self.equations.force)).0
     }
 
-    fn programs(&mut self) -> Programs {
+    pub(super) fn programs(&mut self) -> Programs {
         programs(&mut self.mechanism, &self.equations, Besides::default())
     }
 }

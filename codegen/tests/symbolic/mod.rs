@@ -2,6 +2,7 @@
 //! with them.
 
 mod canonical;
+mod columns;
 mod derivative;
 mod dual;
 mod jet;

@@ -31,7 +31,7 @@ pub(super) fn chain(coordinates: &str) -> String {
 }
 
 /// The same in the angles of the rods.
-fn of_rods() -> String {
+pub(super) fn of_rods() -> String {
     chain("coord phi[N];")
 }
 
@@ -140,7 +140,7 @@ fn a_hundred_links_in_angles_of_the_links_are_compiled() {
     let compiled = compiled.unwrap_or_else(|errors| panic!("{}", errors.render("", &of_rods())));
     assert!(compiled.code.contains("fn regular"));
     let lines = compiled.code.lines().count();
-    assert!(lines < 80_000, "{lines} lines");
+    assert!(lines < 25_000, "{lines} lines");
 }
 
 #[test]

@@ -1,0 +1,95 @@
+//! What accelerations are resisted with, from body to body.
+//!
+//! In:  a kinetic energy in velocities that bodies share.
+//! Out: `M q̈`, in as many expressions as there are bodies, where `M` has many more entries.
+//!
+//! In a chain `M` has an entry for each pair of bodies, and code that writes all of them is
+//! as long. Products with `M` are not: accelerations of shared velocities come of those
+//! before them, and what resists them is given back to what they are made of, from the last
+//! body back: `M q̈ = Jᵀ (M̃ (J q̈))`. These are the sweeps of the recursive Newton–Euler
+//! algorithm without velocities and forces (Featherstone, Rigid Body Dynamics Algorithms
+//! (2008), section 5.3); columns of `M` are its results for unit accelerations (section 6.1).
+
+use super::composite::parts;
+use super::reduced::Reduced;
+use crate::expr::{Arithmetic, ExprId, Graph, Symbol, Symmetric};
+
+/// The fewest coordinates of a long chain. In a shorter one `M` has fewer entries than there
+/// is other work, and entry by entry it takes fewer instructions.
+pub(super) const LONG_CHAIN: usize = 32;
+
+/// `M q̈` of `n` coordinates; none where `M` itself is as short, whose entries take a product
+/// or two, as coefficients of the sweeps do.
+pub(super) fn inertia(graph: &mut Graph, reduced: &Reduced, n: usize) -> Option<Vec<ExprId>> {
+    let (count, coefficients) = (reduced.count, reduced.mass.len() + reduced.links.len());
+    if n < LONG_CHAIN || entries_of(reduced, n) < coefficients {
+        return None;
+    }
+    let parts = parts(reduced);
+    let mut rates: Vec<Option<ExprId>> = vec![None; count];
+    rates.extend(
+        (0..)
+            .take(n)
+            .map(|i| Some(graph.symbol(Symbol::Acceleration(i)))),
+    );
+    for (place, parts) in parts.iter().enumerate() {
+        rates[place] = combination(graph, parts.iter().map(|&(i, g)| (Some(g), rates[i])));
+    }
+    let mut rows = vec![Vec::new(); count + n];
+    for &(row, place, entry) in &reduced.mass {
+        rows[row].push((Some(entry), rates[place]));
+    }
+    for place in (0..count).rev() {
+        let force = combination(graph, std::mem::take(&mut rows[place]).into_iter());
+        for &(i, g) in &parts[place] {
+            rows[i].push((Some(g), force));
+        }
+    }
+    let zero = graph.integer(0);
+    let rows = rows.drain(count..);
+    Some(
+        rows.map(|row| combination(graph, row.into_iter()).unwrap_or(zero))
+            .collect(),
+    )
+}
+
+/// `Σ g x`.
+fn combination(
+    graph: &mut Graph,
+    terms: impl Iterator<Item = (Option<ExprId>, Option<ExprId>)>,
+) -> Option<ExprId> {
+    let products: Vec<ExprId> = terms.filter_map(|(g, x)| Some(graph.mul(g?, x?))).collect();
+    Some(graph.sum(products)).filter(|sum| !graph.is_zero(*sum))
+}
+
+/// How many entries of a triangle of `M` can differ from zero.
+fn entries_of(reduced: &Reduced, n: usize) -> usize {
+    let entries = reduced.mass.iter().map(|&(i, j, _)| ((i, j), ()));
+    let mut rest = Symmetric::of(entries, reduced.count + n);
+    for (place, parts) in parts(reduced).iter().enumerate().rev() {
+        let parts: Vec<(usize, ())> = parts.iter().map(|(part, _)| (*part, ())).collect();
+        rest.replace(&mut Structure, place, &parts);
+    }
+    let own = reduced.count..reduced.count + n;
+    let triangle = own
+        .clone()
+        .flat_map(|i| (own.start..=i).map(move |j| (i, j)));
+    triangle
+        .filter(|&(i, j)| rest.entry(i, j).is_some())
+        .count()
+}
+
+/// Arithmetic that knows what is zero by structure, and nothing else.
+struct Structure;
+
+impl Arithmetic for Structure {
+    type Value = ();
+
+    fn plus(&mut self, x: Option<()>, y: Option<()>) -> Option<()> {
+        x.or(y)
+    }
+
+    fn plus_product(&mut self, x: Option<()>, a: Option<()>, b: Option<()>) -> Option<()> {
+        x.or(a.and(b))
+    }
+}

@@ -1,0 +1,56 @@
+//! The mass matrix column by column.
+//!
+//! In:  the program of `M q̈`.
+//! Out: a function that runs it for one unit acceleration after the other, for those that
+//!      hand out `M`.
+
+use super::arrays::MASS;
+use super::repeated::Repeated;
+use super::subject::{Subject, argument, doc_lines};
+use super::symbol::SymbolNames;
+use crate::expr::Symbol;
+use crate::optimise::{Optimised, Slot};
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+/// `mass_matrix`, and what it has in common with other functions.
+pub(super) fn columns(subject: &Subject) -> Option<TokenStream> {
+    let Optimised { program, cost, .. } = subject.programs.inertia.as_ref()?;
+    let is_acceleration = |symbol: &Symbol| matches!(symbol, Symbol::Acceleration(_));
+    let (names, taken) = (&subject.names, subject.names.taken.clone());
+    let Repeated { once, again } = Repeated::of(program, names, taken, &place, &is_acceleration);
+    let state = argument("state", SymbolNames::reads_state(program));
+    let docs = doc_lines(MASS);
+    let cost = format!(" Costs {cost} for each column.");
+    let n = subject.sizes().0;
+    Some(quote! {
+        #(#[doc = #docs])*
+        pub fn mass_matrix(&self, state: &State<T, #n>) -> SMatrix<T, #n, #n> {
+            let mut out = SMatrix::<T, #n, #n>::zeros();
+            self.write_mass(state, &mut out);
+            out
+        }
+
+        /// Writes the mass matrix: each column is what resists a unit acceleration, from body
+        /// to body.
+        ///
+        #[doc = #cost]
+        fn write_mass(&self, #state: &State<T, #n>, out: &mut SMatrix<T, #n, #n>) {
+            #once
+            for (index, values) in out.data.0.iter_mut().enumerate() {
+                let mut acceleration = SVector::<T, #n>::zeros();
+                if let Some(unit) = acceleration.data.0[0].get_mut(index) {
+                    *unit = T::one();
+                }
+                #again
+            }
+            // Equal but for round-off.
+            out.fill_upper_triangle_with_lower_triangle();
+        }
+    })
+}
+
+fn place(slot: &Slot) -> Option<TokenStream> {
+    let row = Literal::usize_unsuffixed(slot.row);
+    Some(quote!(values[#row]))
+}
