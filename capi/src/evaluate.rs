@@ -6,9 +6,7 @@
 use crate::Embedded;
 use crate::fed::Fed;
 use bricard_runtime::nalgebra::SMatrix;
-use bricard_runtime::{
-    DynamicsError, Interface, Mechanism, Position, Probe, Solver, State, Structure, Terms,
-};
+use bricard_runtime::{DynamicsError, Interface, Mechanism, Probe, Solver, State, Structure};
 
 /// What can be evaluated at a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -115,8 +113,8 @@ where
 {
     match quantity {
         Quantity::Mass | Quantity::Force | Quantity::Jacobian | Quantity::Bias => {
-            let mut terms = Terms::<f64, N, R>::default();
-            fed.terms(state, &mut terms);
+            let mut system = solver.on(fed);
+            let terms = system.terms(state);
             match quantity {
                 Quantity::Mass => rows(&terms.mass, out),
                 Quantity::Force => rows(&terms.force, out),
@@ -125,12 +123,16 @@ where
             }
         }
         Quantity::Residual | Quantity::Rate => {
-            let mut position = Position::<f64, N, R>::default();
-            fed.position(state, &mut position);
-            match quantity {
-                Quantity::Residual => rows(&position.residual, out),
-                _ => rows(&(position.jacobian * state.v + position.drift), out),
+            let mut system = solver.on(fed);
+            let position = system.position(state);
+            if quantity == Quantity::Residual {
+                rows(&position.residual, out);
+                return Ok(());
             }
+            // `A` is not copied, as `*` does.
+            let mut rate = position.drift;
+            rate.gemv(1.0, &position.jacobian, &state.v, 1.0);
+            rows(&rate, out);
         }
         Quantity::Acceleration => rows(&solver.on(fed).acceleration(state)?, out),
         Quantity::Reaction => rows(&solver.on(fed).reaction(state)?.1, out),

@@ -1,7 +1,7 @@
 //! A mechanism with its solver: what integrators and observers talk to.
 //!
 //! In:  states.
-//! Out: accelerations, reactions, projections, rank, constraint errors.
+//! Out: accelerations, reactions, terms of equations, projections, rank, constraint errors.
 
 use super::{Core, Source, Which};
 use crate::linalg::count_above;
@@ -10,7 +10,8 @@ use crate::stack::with_room;
 use crate::system::escalating;
 use crate::tolerance::{passes, regular, window};
 use crate::{
-    AccelerationJacobian, Counters, DynamicsError, Mechanism, Real, State, Step, Switching, System,
+    AccelerationJacobian, Counters, DynamicsError, Mechanism, Position, Real, State, Step,
+    Switching, System, Terms,
 };
 use nalgebra::{SMatrix, SVector};
 
@@ -228,6 +229,22 @@ where
             let jacobian = self.solver.acceleration_jacobian(self.mechanism, state)?;
             Some((jacobian, self.solver.compliance()))
         })
+    }
+
+    /// The equations of motion at a state, with conditions as the state says; in memory of the
+    /// solver, since those of many bodies do not fit onto a usual stack.
+    pub fn terms(&mut self, state: &State<T, N>) -> &Terms<T, N, R> {
+        self.solver.release();
+        self.solver.safe = None;
+        with_room::<T, _, N, R>(|| self.mechanism.terms(state, &mut self.solver.terms));
+        &self.solver.terms
+    }
+
+    /// What a projection needs at a position, likewise.
+    pub fn position(&mut self, state: &State<T, N>) -> &Position<T, N, R> {
+        self.solver.safe = None;
+        with_room::<T, _, N, R>(|| self.mechanism.position(state, &mut self.solver.position));
+        &self.solver.position
     }
 
     /// How far a state is off the constraints.
