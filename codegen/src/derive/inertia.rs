@@ -18,24 +18,17 @@ use crate::expr::{Arithmetic, ExprId, Graph, Symbol, Symmetric};
 /// is other work, and entry by entry it takes fewer instructions.
 pub(super) const LONG_CHAIN: usize = 32;
 
-/// How many entries of a triangle of `M` there are for each coefficient of the sweeps, at
-/// least, where these are as short: both take a product or two.
-const ENTRIES_FOR_EACH: (usize, usize) = (1, 1);
-
-/// `M q̈` of `n` coordinates; none where `M` itself is not much longer.
+/// `M q̈` of `n` coordinates; none where they are few, or where writing a triangle of `M` is
+/// no longer: an entry takes a product or two, and so does a coefficient of the sweeps.
 pub(super) fn inertia(graph: &mut Graph, reduced: &Reduced, n: usize) -> Option<Vec<ExprId>> {
     let (count, coefficients) = (reduced.count, reduced.mass.len() + reduced.links.len());
-    let (entries, each) = ENTRIES_FOR_EACH;
-    if n < LONG_CHAIN || each * entries_of(reduced, n) < entries * coefficients {
+    if n < LONG_CHAIN || entries_of(reduced, n) < coefficients {
         return None;
     }
     let parts = parts(reduced);
     let mut rates: Vec<Option<ExprId>> = vec![None; count];
-    rates.extend(
-        (0..)
-            .take(n)
-            .map(|i| Some(graph.symbol(Symbol::Acceleration(i)))),
-    );
+    let own = (0..).map(Symbol::Acceleration).take(n);
+    rates.extend(own.map(|symbol| Some(graph.symbol(symbol))));
     for (place, parts) in parts.iter().enumerate() {
         rates[place] = combination(graph, parts.iter().map(|&(i, g)| (Some(g), rates[i])));
     }
