@@ -3,16 +3,18 @@
 use bricard_codegen::internals::optimise::Programs;
 
 /// One line for each function that a simulation calls: the arrays that it computes together,
-/// and its operations.
+/// and its operations; those of the mass matrix of a long chain by themselves.
 pub fn costs(programs: &Programs) -> String {
-    let acceleration = match &programs.position {
-        Some(_) => "an acceleration (M, p1, G, p2)",
-        None => "an acceleration (M, p1)",
-    };
+    let columns = programs.inertia.as_ref();
+    let mass = if columns.is_some() { "" } else { "M, " };
+    let rows = programs.position.as_ref().map_or("", |_| ", G, p2");
+    let acceleration = format!("an acceleration ({mass}p1{rows})");
+    let projection = format!("a projection ({mass}g, G, b)");
     let mut text = "operations\n".to_string();
     for (title, computed) in [
-        (acceleration, Some(&programs.terms)),
-        ("a projection (M, g, G, b)", programs.position.as_ref()),
+        ("a column of M", columns),
+        (&*acceleration, Some(&programs.terms)),
+        (&projection, programs.position.as_ref()),
         ("the energies", Some(&programs.energy)),
     ] {
         if let Some(computed) = computed {

@@ -71,8 +71,11 @@ fn constant_mass(graph: &Graph, equations: &Equations) -> Option<String> {
     })
 }
 
-/// What zeros of M and G save in the solve.
+/// What zeros of M and G save in the solve, where it is of the entries of M.
 fn solve(graph: &Graph, equations: &Equations, programs: &Programs) -> Option<String> {
+    if programs.inertia.is_some() {
+        return None;
+    }
     let (n, r) = (equations.mass.len(), equations.jacobian.len());
     let absent = zeros(graph, equations.mass.iter().flatten())
         + 2 * zeros(graph, equations.jacobian.iter().flatten());

@@ -2,9 +2,10 @@
 
 use crate::fixtures::{Framed, distance, simulate};
 use crate::mechanisms::{Hanging, RODS, Row, place, sizes};
+use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Initial, Mechanism, Method, Options, Recorder, Settings, Start, State, StepControl, Stepper,
-    Whole, assemble,
+    Initial, Mechanism, Method, Options, Position, Recorder, Settings, Solver, Start, State,
+    StepControl, Stepper, Terms, Whole, assemble, with_room,
 };
 use std::thread;
 
@@ -13,7 +14,12 @@ const STACK: usize = 2 << 20;
 
 /// Does something in a thread as most of them are.
 fn in_a_thread(work: impl FnOnce() + Send + 'static) {
-    let thread = thread::Builder::new().stack_size(STACK).spawn(work);
+    in_a_thread_of(STACK, work);
+}
+
+/// Does something in a thread with a stack of this size.
+fn in_a_thread_of(stack: usize, work: impl FnOnce() + Send + 'static) {
+    let thread = thread::Builder::new().stack_size(stack).spawn(work);
     thread.expect("a thread").join().expect("it ends well");
 }
 
@@ -32,6 +38,12 @@ fn leaning<const N: usize>(angle: f64) -> Start<f64, N> {
         0 => (i / 2) as f64 + angle.sin(),
         _ => angle.cos(),
     })
+}
+
+/// Velocities of a row whose cranks lean by 0.3 rad and turn at 1 rad/s.
+fn leaning_rates<const N: usize>() -> SVector<f64, N> {
+    let (sin, cos) = 0.3_f64.sin_cos();
+    SVector::from_fn(|i, _| if i % 2 == 0 { cos } else { -sin })
 }
 
 /// Assembles a mechanism and follows its motion with everyone who watches.
@@ -152,5 +164,31 @@ fn a_row_of_40_loops_is_stepped_by_every_method_in_a_thread_of_2_mb() {
         for end in &ends[1..] {
             assert!(distance(&ends[0], end) < 1e-9);
         }
+    });
+}
+
+#[test]
+fn equations_of_160_loops_are_evaluated_in_a_thread_that_has_no_room_for_them() {
+    in_a_thread_of(STACK / 8, || {
+        const SIZES: (usize, usize) = sizes(160);
+        let row = Row::<160>;
+        let start = leaning::<{ SIZES.0 }>(0.3);
+        let mut state = assemble(&row, &start, 0.0).unwrap_or_else(|error| panic!("{error}"));
+        state.v = leaning_rates();
+        let mut solver = Solver::<f64, { SIZES.0 }, { SIZES.1 }>::new(Settings::default());
+        let acceleration = solver.on(&row).acceleration(&state);
+        let acceleration = acceleration.expect("an acceleration");
+        with_room::<f64, _, { SIZES.0 }, { SIZES.1 }>(|| {
+            let mut terms = Terms::default();
+            row.terms(&state, &mut terms);
+            let off = terms.jacobian * acceleration - terms.bias;
+            assert!(terms.bias.amax() > 0.1, "it is bent");
+            assert!(off.amax() < 1e-9, "rows are off by {:e}", off.amax());
+            let mut position = Position::default();
+            row.position(&state, &mut position);
+            let rate = position.jacobian * state.v + position.drift;
+            let off = rate.amax().max(position.residual.amax());
+            assert!(off < 1e-12, "constraints are off by {off:e}");
+        });
     });
 }

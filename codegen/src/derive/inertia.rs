@@ -18,8 +18,8 @@ use crate::expr::{Arithmetic, ExprId, Graph, Symbol, Symmetric};
 /// is other work, and entry by entry it takes fewer instructions.
 pub(super) const LONG_CHAIN: usize = 32;
 
-/// `M q̈` of `n` coordinates; none where `M` itself is as short, whose entries take a product
-/// or two, as coefficients of the sweeps do.
+/// `M q̈` of `n` coordinates; none where they are few, or where writing a triangle of `M` is
+/// no longer: an entry takes a product or two, and so does a coefficient of the sweeps.
 pub(super) fn inertia(graph: &mut Graph, reduced: &Reduced, n: usize) -> Option<Vec<ExprId>> {
     let (count, coefficients) = (reduced.count, reduced.mass.len() + reduced.links.len());
     if n < LONG_CHAIN || entries_of(reduced, n) < coefficients {
@@ -27,11 +27,8 @@ pub(super) fn inertia(graph: &mut Graph, reduced: &Reduced, n: usize) -> Option<
     }
     let parts = parts(reduced);
     let mut rates: Vec<Option<ExprId>> = vec![None; count];
-    rates.extend(
-        (0..)
-            .take(n)
-            .map(|i| Some(graph.symbol(Symbol::Acceleration(i)))),
-    );
+    let own = (0..).map(Symbol::Acceleration).take(n);
+    rates.extend(own.map(|symbol| Some(graph.symbol(symbol))));
     for (place, parts) in parts.iter().enumerate() {
         rates[place] = combination(graph, parts.iter().map(|&(i, g)| (Some(g), rates[i])));
     }
