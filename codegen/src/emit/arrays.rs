@@ -3,16 +3,12 @@
 //! In:  the programs of the arrays.
 //! Out: functions that return them.
 
-use super::columns::columns;
+use super::columns::{MASS, columns};
 use super::function::Decided;
 use super::subject::{Reads, Subject, Written, doc_lines, entry};
 use crate::optimise::{Array, Optimised};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
-
-pub(super) const MASS: &str =
-    "Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric; kg for two lengths, kg·m² for two
-angles, kg·m for one of each.";
 
 const CORIOLIS_FORCE: &str =
     "`C q̇` and the terms of moving frames, `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`; N for a

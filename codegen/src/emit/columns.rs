@@ -4,7 +4,6 @@
 //! Out: a function that runs it for one unit acceleration after the other, for those that
 //!      hand out `M`.
 
-use super::arrays::MASS;
 use super::repeated::Repeated;
 use super::subject::{Subject, argument, doc_lines};
 use super::symbol::SymbolNames;
@@ -12,6 +11,11 @@ use crate::expr::Symbol;
 use crate::optimise::{Optimised, Slot};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
+
+/// What is said of `M`.
+pub(super) const MASS: &str =
+    "Mass matrix `M = ∂²T/∂q̇²`, `N × N`, symmetric; kg for two lengths, kg·m² for two
+angles, kg·m for one of each.";
 
 /// `mass_matrix`, and what it has in common with other functions.
 pub(super) fn columns(subject: &Subject) -> Option<TokenStream> {
