@@ -16,15 +16,29 @@ use crate::expr::{Arithmetic, ExprId, Graph, Symmetric};
 /// `M = Jᵀ M̃ J` of `n` coordinates.
 pub(super) fn mass_matrix(graph: &mut Graph, reduced: &Reduced, n: usize) -> Matrix {
     let count = reduced.count;
-    let entries = reduced.mass.iter().map(|&(i, j, entry)| ((i, j), entry));
-    let mut rest = Symmetric::of(entries, count + n);
-    for (place, parts) in parts(reduced).iter().enumerate().rev() {
-        rest.replace(graph, place, parts);
-    }
+    let rest = of_coordinates(graph, reduced, n, |entry| entry);
     let zero = graph.integer(0);
     let entry = |i, j| rest.entry(count + i, count + j).unwrap_or(zero);
     let row = |i| (0..n).map(|j| entry(i, j)).collect();
     (0..n).map(row).collect()
+}
+
+/// `M̃` after the replacement of all velocities that bodies share, in any arithmetic: what is
+/// left are the entries of the `n` coordinates, behind those velocities.
+pub(super) fn of_coordinates<A: Arithmetic>(
+    arithmetic: &mut A,
+    reduced: &Reduced,
+    n: usize,
+    value: impl Fn(ExprId) -> A::Value,
+) -> Symmetric<A::Value> {
+    let entries = reduced.mass.iter();
+    let entries = entries.map(|&(i, j, entry)| ((i, j), value(entry)));
+    let mut rest = Symmetric::of(entries, reduced.count + n);
+    for (place, parts) in parts(reduced).iter().enumerate().rev() {
+        let parts: Vec<_> = parts.iter().map(|&(i, g)| (i, value(g))).collect();
+        rest.replace(arithmetic, place, &parts);
+    }
+    rest
 }
 
 /// By shared velocity: the places of its parts and their coefficients.

@@ -10,9 +10,9 @@
 //! algorithm without velocities and forces (Featherstone, Rigid Body Dynamics Algorithms
 //! (2008), section 5.3); columns of `M` are its results for unit accelerations (section 6.1).
 
-use super::composite::parts;
+use super::composite::{of_coordinates, parts};
 use super::reduced::Reduced;
-use crate::expr::{Arithmetic, ExprId, Graph, Symbol, Symmetric};
+use crate::expr::{Arithmetic, ExprId, Graph, Symbol};
 
 /// The fewest coordinates of a long chain. In a shorter one `M` has fewer entries than there
 /// is other work, and entry by entry it takes fewer instructions.
@@ -61,12 +61,7 @@ fn combination(
 
 /// How many entries of a triangle of `M` can differ from zero.
 fn entries_of(reduced: &Reduced, n: usize) -> usize {
-    let entries = reduced.mass.iter().map(|&(i, j, _)| ((i, j), ()));
-    let mut rest = Symmetric::of(entries, reduced.count + n);
-    for (place, parts) in parts(reduced).iter().enumerate().rev() {
-        let parts: Vec<(usize, ())> = parts.iter().map(|(part, _)| (*part, ())).collect();
-        rest.replace(&mut Structure, place, &parts);
-    }
+    let rest = of_coordinates(&mut Structure, reduced, n, |_| ());
     let own = reduced.count..reduced.count + n;
     let triangle = own
         .clone()

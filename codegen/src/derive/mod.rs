@@ -59,22 +59,26 @@ const MUCH_SHORTER: (usize, usize) = (2, 3);
 pub fn derive(mechanism: &mut Mechanism) -> Result<Equations, Diagnostics> {
     switch::hold(mechanism)?;
     let begun = mechanism.clone();
-    if let Some((other, equations)) = of_long_chain(&begun) {
-        *mechanism = other;
-        return Ok(equations);
-    }
+    // Symbol by symbol a long chain would have many more expressions.
+    let first = (begun.coordinates.len() >= LONG_CHAIN).then(|| in_one_sweep(&begun));
+    let first = match first {
+        Some(Some((other, back))) if back.inertia.is_some() => {
+            *mechanism = other;
+            return Ok(back);
+        }
+        other => other,
+    };
     let forward = equations(mechanism, Sweep::Forward);
     let size = |mechanism: &Mechanism, equations: &Equations| swell::size(mechanism, equations);
     let longest = forward.as_ref().map(|equations| size(mechanism, equations));
     if longest.is_none_or(|longest| longest > LONG) {
-        let mut other = begun;
-        let back = equations(&mut other, Sweep::Back);
+        let back = first.unwrap_or_else(|| in_one_sweep(&begun));
         let most = longest.map_or(usize::MAX, |longest| match longest > SWELL {
             true => longest,
             false => longest * MUCH_SHORTER.0 / MUCH_SHORTER.1,
         });
-        let shorter = back.filter(|back| size(&other, back) < most);
-        if let Some(back) = shorter {
+        let shorter = back.filter(|(other, back)| size(other, back) < most);
+        if let Some((other, back)) = shorter {
             *mechanism = other;
             return Ok(back);
         }
@@ -82,18 +86,12 @@ pub fn derive(mechanism: &mut Mechanism) -> Result<Equations, Diagnostics> {
     forward.ok_or_else(|| swell::refusal(mechanism))
 }
 
-/// The equations of a long chain, which would have many more expressions if they were
-/// derived symbol by symbol, and its mechanism; nothing where it is none.
-fn of_long_chain(begun: &Mechanism) -> Option<(Mechanism, Equations)> {
-    if begun.coordinates.len() < LONG_CHAIN {
-        return None;
-    }
+/// The equations from the energy back, and the mechanism with their expressions; nothing
+/// where they are too long.
+fn in_one_sweep(begun: &Mechanism) -> Option<(Mechanism, Equations)> {
     let mut mechanism = begun.clone();
     let equations = equations(&mut mechanism, Sweep::Back)?;
-    equations
-        .inertia
-        .is_some()
-        .then_some((mechanism, equations))
+    Some((mechanism, equations))
 }
 
 /// The equations, or nothing as soon as they are too long.
