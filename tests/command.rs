@@ -403,6 +403,27 @@ fn equations_are_shown_entry_by_entry() {
     );
 }
 
+/// In joint angles an entry of M and C holds all links from there on: parts that many
+/// entries share would be written out again in each.
+#[test]
+fn entries_that_nobody_would_read_to_their_end_are_shown_by_their_length() {
+    let chain = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/tests/fixtures/chains/long_chain.mech"
+    );
+    for notation in [&["show", chain][..], &["show", chain, "--latex"]] {
+        let ran = bricard(notation);
+        assert_eq!(ran.status, Some(0), "{}", ran.err);
+        let lines: Vec<&str> = ran.out.lines().collect();
+        let long = |line: &&&str| line.contains("too long to be written out: ");
+        assert!(lines.iter().any(|line| long(&line)), "nothing is too long");
+        let longest = lines.iter().map(|line| line.len()).max();
+        assert!(longest < Some(500_000), "a line of {longest:?} bytes");
+    }
+    let ran = bricard(&["show", "stewart_platform"]);
+    assert!(!ran.out.contains("too long"), "the library is shown whole");
+}
+
 #[test]
 fn programs_are_shown_operation_by_operation() {
     let ran = bricard(&["show", "slider_crank", "--programs"]);

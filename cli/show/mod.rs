@@ -93,7 +93,7 @@ pub fn equations(file: &Path, source: &str) -> Option<Vec<Array>> {
     let names = |symbol: Symbol| names::latex(&mechanism.symbol_text(symbol));
     let mut all = Vec::new();
     for section in &sections {
-        all.push((section.title(), section.lines(&mut graph, &names).collect()));
+        all.push((section.title(), section.lines(&mut graph, &names)));
     }
     Some(all)
 }

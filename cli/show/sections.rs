@@ -5,6 +5,11 @@ use bricard_codegen::internals::expr::{ExprId, Graph, Notation, Symbol};
 use bricard_codegen::internals::model::Mechanism;
 use bricard_codegen::internals::optimise::in_trig_ring;
 
+/// Terms and factors that an array may have in all, written out.
+const SECTION_MOST: u64 = 1_000_000;
+/// Those that each of its entries may have at least, however many there are.
+const ENTRY_MOST: u64 = 1_000;
+
 /// One array.
 pub struct Section {
     title: &'static str,
@@ -101,17 +106,10 @@ fn vector(
 /// The entries in the notation of descriptions.
 pub fn text(graph: &mut Graph, sections: &[Section], names: &dyn Fn(Symbol) -> String) -> String {
     let mut text = String::new();
-    for Section {
-        title,
-        symbol,
-        entries,
-        ..
-    } in sections
-    {
-        text.push_str(&format!("{title}\n"));
-        for (place, e) in places(entries) {
-            let value = shortest(graph, e, Notation::Text, names);
-            text.push_str(&format!("{symbol}[{place}] = {value}\n"));
+    for section in sections {
+        text.push_str(&format!("{}\n", section.title));
+        for (place, value) in section.written(graph, Notation::Text, names) {
+            text.push_str(&format!("{}[{place}] = {value}\n", section.symbol));
         }
         text.push('\n');
     }
@@ -122,8 +120,8 @@ pub fn text(graph: &mut Graph, sections: &[Section], names: &dyn Fn(Symbol) -> S
 pub fn latex(graph: &mut Graph, sections: &[Section], names: &dyn Fn(Symbol) -> String) -> String {
     let mut text = String::new();
     for section in sections {
-        let lines: Vec<String> = section
-            .lines(graph, names)
+        let lines = section.lines(graph, names).into_iter();
+        let lines: Vec<String> = lines
             .map(|[entry, value]| format!("{entry} &= {value}"))
             .collect();
         text.push_str(&format!("% {}\n\\begin{{align*}}\n", section.title));
@@ -140,15 +138,42 @@ impl Section {
     }
 
     /// Each entry and its value, in LaTeX.
-    pub fn lines<'a>(
-        &'a self,
-        graph: &'a mut Graph,
-        names: &'a dyn Fn(Symbol) -> String,
-    ) -> impl Iterator<Item = [String; 2]> + 'a {
-        places(&self.entries).map(move |(place, e)| {
-            let value = shortest(graph, e, Notation::Latex, names);
-            [format!("{}_{{{place}}}", self.latex), value]
-        })
+    pub fn lines(&self, graph: &mut Graph, names: &dyn Fn(Symbol) -> String) -> Vec<[String; 2]> {
+        let written = self.written(graph, Notation::Latex, names).into_iter();
+        written
+            .map(|(place, value)| [format!("{}_{{{place}}}", self.latex), value])
+            .collect()
+    }
+
+    /// Each place and what is written there.
+    fn written(
+        &self,
+        graph: &mut Graph,
+        notation: Notation,
+        names: &dyn Fn(Symbol) -> String,
+    ) -> Vec<(String, String)> {
+        let (places, entries): (Vec<String>, Vec<ExprId>) = places(&self.entries).unzip();
+        let most = (SECTION_MOST / entries.len().max(1) as u64).max(ENTRY_MOST);
+        let lengths = graph.lengths(&entries);
+        let mut value = |(entry, length): (ExprId, u64)| match length > most {
+            true => too_long(length, notation),
+            false => shortest(graph, entry, notation, names),
+        };
+        let values: Vec<String> = entries.into_iter().zip(lengths).map(&mut value).collect();
+        places.into_iter().zip(values).collect()
+    }
+}
+
+/// What stands for an entry that nobody would read to its end.
+fn too_long(length: u64, notation: Notation) -> String {
+    let length = match length {
+        u64::MAX => "countless".to_string(),
+        length => length.to_string(),
+    };
+    let text = format!("too long to be written out: {length} terms and factors; see --programs");
+    match notation {
+        Notation::Text => format!("({text})"),
+        Notation::Latex => format!("\\text{{({})}}", text.replace("--", "-{}-")),
     }
 }
 

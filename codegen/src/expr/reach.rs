@@ -69,6 +69,20 @@ impl Graph {
         seen.ascending().into_iter().map(ExprId::at).collect()
     }
 
+    /// How many nodes it takes to write expressions out, one number for each; a part that
+    /// is used twice counts twice.
+    pub fn lengths(&self, roots: &[ExprId]) -> Vec<u64> {
+        let mut lengths = vec![0_u64; self.len()];
+        for e in self.reachable(roots) {
+            let mut length = 1_u64;
+            self.node(e).for_each_child(&mut |child| {
+                length = length.saturating_add(lengths[child.index()]);
+            });
+            lengths[e.index()] = length;
+        }
+        roots.iter().map(|root| lengths[root.index()]).collect()
+    }
+
     /// Every symbol an expression is made of.
     pub fn symbols(&self, e: ExprId) -> BTreeSet<Symbol> {
         let symbol = |e: ExprId| match self.node(e) {
