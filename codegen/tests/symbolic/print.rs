@@ -80,3 +80,24 @@ fn every_symbol_has_a_name_of_its_own() {
         assert!(!names[..i].contains(name), "{name}");
     }
 }
+
+/// An expression that holds the one before it twice is twice as long, and soon longer than
+/// any text could be.
+#[test]
+fn lengths_count_shared_parts_as_often_as_they_are_written() {
+    let mut graph = Graph::new();
+    let x = graph.symbol(Symbol::Coordinate(0));
+    let one = graph.integer(1);
+    let mut e = graph.add(x, one);
+    let mut lengths = Vec::new();
+    for level in 0..70 {
+        lengths.push(graph.lengths(&[e])[0]);
+        let p = graph.symbol(Symbol::Parameter(level));
+        let (a, b) = (graph.add(e, p), graph.sub(e, p));
+        e = graph.mul(a, b);
+    }
+    assert_eq!(graph.lengths(&[x, e]), [1, u64::MAX]);
+    for pair in lengths.windows(2).take_while(|pair| pair[1] < u64::MAX) {
+        assert!(pair[1] >= 2 * pair[0], "{pair:?}");
+    }
+}
