@@ -155,12 +155,12 @@ impl Section {
         let (places, entries): (Vec<String>, Vec<ExprId>) = places(&self.entries).unzip();
         let most = (SECTION_MOST / entries.len().max(1) as u64).max(ENTRY_MOST);
         let lengths = graph.lengths(&entries);
-        let mut value = |(entry, length): (ExprId, u64)| match length > most {
+        let measured = entries.into_iter().zip(lengths);
+        let value = |(entry, length)| match length > most {
             true => too_long(length, notation),
             false => shortest(graph, entry, notation, names),
         };
-        let values: Vec<String> = entries.into_iter().zip(lengths).map(&mut value).collect();
-        places.into_iter().zip(values).collect()
+        places.into_iter().zip(measured.map(value)).collect()
     }
 }
 
@@ -170,10 +170,10 @@ fn too_long(length: u64, notation: Notation) -> String {
         u64::MAX => "countless".to_string(),
         length => length.to_string(),
     };
-    let text = format!("too long to be written out: {length} terms and factors; see --programs");
+    let text = format!("too long to be written out: {length} terms and factors");
     match notation {
-        Notation::Text => format!("({text})"),
-        Notation::Latex => format!("\\text{{({})}}", text.replace("--", "-{}-")),
+        Notation::Text => format!("({text}; see --programs)"),
+        Notation::Latex => format!("\\text{{({text})}}"),
     }
 }
 
