@@ -85,6 +85,61 @@ pub trait Mechanism<T: Real, const N: usize, const R: usize> {
     }
 }
 
+/// A reference to a mechanism is one. By it the parts of the runtime that are not called in
+/// every evaluation take any mechanism as `&dyn Mechanism<T, N, R>`, so that they are
+/// compiled once for each pair of sizes.
+impl<T: Real, M, const N: usize, const R: usize> Mechanism<T, N, R> for &M
+where
+    M: Mechanism<T, N, R> + ?Sized,
+{
+    fn structure(&self) -> &'static Structure {
+        (**self).structure()
+    }
+
+    fn terms(&self, state: &State<T, N>, out: &mut Terms<T, N, R>) {
+        (**self).terms(state, out);
+    }
+
+    fn regular(&self, state: &State<T, N>, out: &mut Regular<T, N, R>) -> bool {
+        (**self).regular(state, out)
+    }
+
+    fn position(&self, state: &State<T, N>, out: &mut Position<T, N, R>) {
+        (**self).position(state, out);
+    }
+
+    fn correction(&self, state: &State<T, N>, out: &mut Correction<T, N, R>) -> bool {
+        (**self).correction(state, out)
+    }
+
+    fn begin(&self, start: &mut Start<T, N>, t: T) -> Result<(), StartFault<T, N>> {
+        (**self).begin(start, t)
+    }
+
+    fn switches(
+        &self,
+        state: &State<T, N>,
+        acceleration: &SVector<T, N>,
+        values: &mut [Switch<T>],
+    ) -> &'static [Condition] {
+        (**self).switches(state, acceleration, values)
+    }
+
+    fn energy(&self, state: &State<T, N>) -> Energy<T> {
+        (**self).energy(state)
+    }
+
+    fn linearised(
+        &self,
+        state: &State<T, N>,
+        acceleration: &SVector<T, N>,
+        multiplier: &SVector<T, R>,
+        out: &mut Linearised<T, N, R>,
+    ) -> bool {
+        (**self).linearised(state, acceleration, multiplier, out)
+    }
+}
+
 /// What a program needs to handle a mechanism it knows nothing about.
 pub trait Interface<T: Real, const N: usize> {
     /// The value of a parameter, by its place in [`Structure::parameters`].

@@ -27,11 +27,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             return finite(state);
         }
         if !self.is_prepared() {
-            self.prepare(mechanism, state)?;
+            self.prepare(&mechanism, state)?;
         }
         let mut placed = *state;
         if self.session.chart.is_some() && self.follows() && self.is_beside() {
-            self.project_onto_sheet(mechanism, &mut placed)?;
+            self.project_onto_sheet(&mechanism, &mut placed)?;
         } else if self.settings.stabilisation == Stabilisation::Projection {
             self.project_regular(mechanism, &mut placed)?;
         }
@@ -55,7 +55,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             Some(squared) => squared,
             None => {
                 self.expected = false;
-                self.project_by_iteration(mechanism, state)?
+                self.project_by_iteration(&mechanism, state)?
             }
         };
         self.session.trial.end = squared;
@@ -68,9 +68,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The factors of one iteration serve the next as long as they reduce the
     /// residual well, and those at the end the acceleration at the same position.
     #[inline(never)]
-    fn project_by_iteration<M: Mechanism<T, N, R> + ?Sized>(
+    fn project_by_iteration(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &mut State<T, N>,
     ) -> Result<T, DynamicsError<T>> {
         let mut before: Option<T> = None;
@@ -105,9 +105,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// Near a singular configuration: the published method leaves the state where it is.
     #[cold]
-    fn leave_to_chart<M: Mechanism<T, N, R> + ?Sized>(
+    fn leave_to_chart(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         squared: T,
     ) -> Result<T, DynamicsError<T>> {
@@ -159,9 +159,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// The error of a projection that gives up at the position in the buffer.
-    pub(crate) fn failed<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn failed(
         &self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> DynamicsError<T> {
         let (_, row) = self.residual(&self.position.residual);

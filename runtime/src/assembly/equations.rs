@@ -101,7 +101,7 @@ where
             velocities: false,
         };
         let held = start.q.map(|initial| initial.held);
-        position::assemble::<T, _, N, P>(&rows, &mut state, &mut Room::default(), &held)
+        position::assemble::<T, N, P>(&rows, &mut state, &mut Room::default(), &held)
             .map_err(|error| fault(error, t, positions))?;
     }
     if V > 0 {
@@ -112,7 +112,7 @@ where
             velocities: true,
         };
         let held = start.v.map(|initial| initial.held);
-        velocity::assemble::<T, _, N, V>(&rows, &mut state, &mut Room::default(), &held)
+        velocity::assemble::<T, N, V>(&rows, &mut state, &mut Room::default(), &held)
             .map_err(|error| fault(error, t, velocities))?;
     }
     for i in 0..N {

@@ -76,9 +76,9 @@ where
         state.q = SVector::from_fn(|i, _| met.q[i].value);
         state.v = SVector::from_fn(|i, _| met.v[i].value);
         if R > 0 {
-            constrain(mechanism, &mut state, start)?;
+            constrain(&mechanism, &mut state, start)?;
         }
-        check_inertia(mechanism, &state)?;
+        check_inertia(&mechanism, &state)?;
         Ok(state)
     })
 }
@@ -86,15 +86,11 @@ where
 /// Moves what is not held onto the constraints. Not inlined, as what comes after it: both
 /// work in large matrices.
 #[inline(never)]
-fn constrain<T, M, const N: usize, const R: usize>(
-    mechanism: &M,
+fn constrain<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Mechanism<T, N, R>,
     state: &mut State<T, N>,
     start: &Start<T, N>,
-) -> Result<(), AssemblyError<T, N, R>>
-where
-    T: Real,
-    M: Mechanism<T, N, R> + ?Sized,
-{
+) -> Result<(), AssemblyError<T, N, R>> {
     let held = start.q.map(|initial| initial.held);
     let held_velocities = start.v.map(|initial| initial.held);
     let mut room = Room::default();
@@ -105,14 +101,10 @@ where
 /// Refuses a kinetic energy that is negative for some velocities, whether or not the
 /// constraints allow them at this position.
 #[inline(never)]
-fn check_inertia<T, M, const N: usize, const R: usize>(
-    mechanism: &M,
+fn check_inertia<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Mechanism<T, N, R>,
     state: &State<T, N>,
-) -> Result<(), AssemblyError<T, N, R>>
-where
-    T: Real,
-    M: Mechanism<T, N, R> + ?Sized,
-{
+) -> Result<(), AssemblyError<T, N, R>> {
     // Without constraints there are no projections, and nothing to tell of positions.
     let negative = if R > 0 {
         let mut at = Position::default();

@@ -38,16 +38,12 @@ const DOUBLE_ROOT: (f64, f64) = (0.1, 0.4);
 const DISTURBANCES: [f64; 5] = [0.0, 1e-3, 1e-2, 0.1, 1.0];
 
 /// Moves the coordinates that are not held onto the constraints.
-pub(super) fn assemble<T, M, const N: usize, const R: usize>(
-    mechanism: &M,
+pub(super) fn assemble<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Mechanism<T, N, R>,
     state: &mut State<T, N>,
     Room { at, matrix }: &mut Room<T, N, R>,
     held: &[bool; N],
-) -> Result<(), AssemblyError<T, N, R>>
-where
-    T: Real,
-    M: Mechanism<T, N, R> + ?Sized,
-{
+) -> Result<(), AssemblyError<T, N, R>> {
     let guess = state.q;
     let mut measured = Scales::measure(mechanism, state, at);
     measured.leave_out_velocities(mechanism.structure().constraints);
@@ -81,8 +77,8 @@ where
 }
 
 /// One descent of the constraint error.
-struct Descent<'a, M: ?Sized, T, const N: usize, const R: usize> {
-    mechanism: &'a M,
+struct Descent<'a, T, const N: usize, const R: usize> {
+    mechanism: &'a dyn Mechanism<T, N, R>,
     scales: &'a Scales<T, N, R>,
     /// Where the descent is.
     state: State<T, N>,
@@ -96,13 +92,9 @@ struct Descent<'a, M: ?Sized, T, const N: usize, const R: usize> {
     matrix: &'a mut Decomposition<T, N, R>,
 }
 
-impl<'a, M, T, const N: usize, const R: usize> Descent<'a, M, T, N, R>
-where
-    T: Real,
-    M: Mechanism<T, N, R> + ?Sized,
-{
+impl<'a, T: Real, const N: usize, const R: usize> Descent<'a, T, N, R> {
     fn new(
-        mechanism: &'a M,
+        mechanism: &'a dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         (at, matrix): (&'a mut Position<T, N, R>, &'a mut Decomposition<T, N, R>),
         scales: &'a Scales<T, N, R>,
@@ -191,16 +183,12 @@ where
 }
 
 /// Refuses a constraint that lost its gradient on the way and can't be crossed here.
-fn check_gradients<T, M, const N: usize, const R: usize>(
-    mechanism: &M,
+fn check_gradients<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Mechanism<T, N, R>,
     state: &State<T, N>,
     at: &mut Position<T, N, R>,
     measured: &Scales<T, N, R>,
-) -> Result<(), AssemblyError<T, N, R>>
-where
-    T: Real,
-    M: Mechanism<T, N, R> + ?Sized,
-{
+) -> Result<(), AssemblyError<T, N, R>> {
     let round_off = T::EPSILON * T::from_f64(CONTRADICTION);
     mechanism.position(state, at);
     match vanishing_row(mechanism, state, at, measured, round_off) {
@@ -237,16 +225,12 @@ fn contradictions<T: Real, const N: usize, const R: usize>(
 }
 
 /// The error that tells which constraints and which held values contradict.
-fn contradiction<T, M, const N: usize, const R: usize>(
-    mechanism: &M,
+fn contradiction<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Mechanism<T, N, R>,
     at: &Position<T, N, R>,
     measured: &Scales<T, N, R>,
     held: &[bool; N],
-) -> AssemblyError<T, N, R>
-where
-    T: Real,
-    M: Mechanism<T, N, R> + ?Sized,
-{
+) -> AssemblyError<T, N, R> {
     let residual = contradictions(&at.residual, measured);
     let conflicting = measured.influential(&at.jacobian, &residual, held);
     AssemblyError::Positions {

@@ -37,8 +37,8 @@ pub(super) struct Scales<T, const N: usize, const R: usize> {
 
 impl<T: Real, const N: usize, const R: usize> Scales<T, N, R> {
     /// Measures the mechanism around a state; `at` is a buffer.
-    pub(super) fn measure<M: Mechanism<T, N, R> + ?Sized>(
-        mechanism: &M,
+    pub(super) fn measure(
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         at: &mut Position<T, N, R>,
     ) -> Self {
@@ -48,8 +48,8 @@ impl<T: Real, const N: usize, const R: usize> Scales<T, N, R> {
     /// The same for the coordinates that are not held: rows are measured by what these can
     /// do. Of masses that are unlike each other, those that are held may be the lightest.
     #[inline(never)]
-    pub(super) fn measure_free<M: Mechanism<T, N, R> + ?Sized>(
-        mechanism: &M,
+    pub(super) fn measure_free(
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         held: &[bool; N],
         at: &mut Position<T, N, R>,

@@ -19,17 +19,13 @@ const AROUND: f64 = 1e-2;
 /// what it was around the guess, and whose error has one sign wherever it is looked at
 /// around the position; `at` is that position, and used up, `round_off` what errors of one
 /// unit of [`Scales::reach`] have.
-pub(super) fn vanishing_row<T, M, const N: usize, const R: usize>(
-    mechanism: &M,
+pub(super) fn vanishing_row<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Mechanism<T, N, R>,
     state: &State<T, N>,
     at: &mut Position<T, N, R>,
     scales: &Scales<T, N, R>,
     round_off: T,
-) -> Option<usize>
-where
-    T: Real,
-    M: Mechanism<T, N, R> + ?Sized,
-{
+) -> Option<usize> {
     let lost: [bool; R] = core::array::from_fn(|row| {
         let entries = at.jacobian.row(row);
         let lengths = entries.iter().zip(scales.columns.iter());
@@ -45,17 +41,13 @@ where
 
 /// Whether the error of a constraint is nowhere positive or nowhere negative around a
 /// position, along each coordinate and between each two; `at` is a buffer.
-fn has_one_sign<T, M, const N: usize, const R: usize>(
-    mechanism: &M,
+fn has_one_sign<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Mechanism<T, N, R>,
     (state, at): (&State<T, N>, &mut Position<T, N, R>),
     scales: &Scales<T, N, R>,
     row: usize,
     noise: T,
-) -> bool
-where
-    T: Real,
-    M: Mechanism<T, N, R> + ?Sized,
-{
+) -> bool {
     let (mut above, mut below) = (false, false);
     let mut look = |moved: &State<T, N>| {
         mechanism.position(moved, at);

@@ -30,16 +30,12 @@ const ON_BRANCH: f64 = 1e-9;
 const EFFECTIVE: f64 = 1e-6;
 
 /// Moves the velocities that are not held onto the constraints.
-pub(super) fn assemble<T, M, const N: usize, const R: usize>(
-    mechanism: &M,
+pub(super) fn assemble<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Mechanism<T, N, R>,
     state: &mut State<T, N>,
     Room { at, matrix }: &mut Room<T, N, R>,
     held: &[bool; N],
-) -> Result<(), AssemblyError<T, N, R>>
-where
-    T: Real,
-    M: Mechanism<T, N, R> + ?Sized,
-{
+) -> Result<(), AssemblyError<T, N, R>> {
     let failure = AssemblyError::NotFinite { t: state.t };
     let broken = |Breakdown| failure;
     let measured = Scales::measure(mechanism, state, at);
@@ -74,16 +70,12 @@ where
 /// because its matrices are large.
 #[cold]
 #[inline(never)]
-fn follow_branch<T, M, const N: usize, const R: usize>(
-    mechanism: &M,
+fn follow_branch<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Mechanism<T, N, R>,
     state: &mut State<T, N>,
     (at, whole): (&Position<T, N, R>, &Decomposition<T, N, R>),
     [measured, scales]: [&Scales<T, N, R>; 2],
-) -> Result<bool, Breakdown>
-where
-    T: Real,
-    M: Mechanism<T, N, R> + ?Sized,
-{
+) -> Result<bool, Breakdown> {
     let mut free = Decomposition::default();
     free.decompose(&at.jacobian, scales)?;
     let branches = Branches {
@@ -140,17 +132,13 @@ fn speed<T: Real, const N: usize, const R: usize>(
 
 /// Refuses velocities that contradict the constraints. The speed is the largest that took
 /// part in finding them.
-fn check<T, M, const N: usize, const R: usize>(
-    mechanism: &M,
+fn check<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Mechanism<T, N, R>,
     (state, speed): (&State<T, N>, T),
     at: &Position<T, N, R>,
     measured: &Scales<T, N, R>,
     held: &[bool; N],
-) -> Result<(), AssemblyError<T, N, R>>
-where
-    T: Real,
-    M: Mechanism<T, N, R> + ?Sized,
-{
+) -> Result<(), AssemblyError<T, N, R>> {
     let error = opening(at, &state.v);
     // Rows that count as dependent may be off by what they are.
     let slack = T::EPSILON * T::from_f64(CONTRADICTION) + regular();
@@ -174,8 +162,8 @@ where
 }
 
 /// The branches that meet at a singular position.
-struct Branches<'a, M: ?Sized, T, const N: usize, const R: usize> {
-    mechanism: &'a M,
+struct Branches<'a, T, const N: usize, const R: usize> {
+    mechanism: &'a dyn Mechanism<T, N, R>,
     measured: &'a Scales<T, N, R>,
     /// The same, with what is held taken out.
     scales: &'a Scales<T, N, R>,
@@ -185,11 +173,7 @@ struct Branches<'a, M: ?Sized, T, const N: usize, const R: usize> {
     whole: &'a Decomposition<T, N, R>,
 }
 
-impl<M, T, const N: usize, const R: usize> Branches<'_, M, T, N, R>
-where
-    T: Real,
-    M: Mechanism<T, N, R> + ?Sized,
-{
+impl<T: Real, const N: usize, const R: usize> Branches<'_, T, N, R> {
     /// Newton's method towards the nearest branch, along the directions that
     /// the constraints leave free; whether one was reached.
     fn choose(&self, state: &mut State<T, N>) -> Result<bool, Breakdown> {

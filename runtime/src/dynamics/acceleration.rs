@@ -24,16 +24,16 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if self.expected && passes(self.evaluate(mechanism, state, &mut acceleration), window()) {
             self.counters.cheap_accelerations += 1;
         } else {
-            acceleration = self.careful_acceleration(mechanism, state)?;
+            acceleration = self.careful_acceleration(&mechanism, state)?;
         }
         Ok(acceleration)
     }
 
     /// The same where nothing is expected.
     #[inline(never)]
-    fn careful_acceleration<M: Mechanism<T, N, R> + ?Sized>(
+    fn careful_acceleration(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         if !self.is_prepared() {
@@ -51,9 +51,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// The acceleration by the runtime's own solves.
-    fn general_acceleration<M: Mechanism<T, N, R> + ?Sized>(
+    fn general_acceleration(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         let acceleration = if R == 0 {
@@ -75,9 +75,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// `M q̈ = p₁`, for a mechanism without constraints.
     #[inline(never)]
-    fn unconstrained<M: Mechanism<T, N, R> + ?Sized>(
+    fn unconstrained(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         mechanism.terms(state, &mut self.terms);
@@ -91,9 +91,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// `p₂`, or `p₂ − 2α(A q̇ + b) − β²g` after Baumgarte (1972).
-    pub(super) fn stabilised_bias<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn stabilised_bias(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> SVector<T, R> {
         let Stabilisation::Baumgarte { alpha, beta } = self.settings.stabilisation else {

@@ -15,9 +15,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The derivatives of the acceleration where the constraints are regular; `None`
     /// near singular positions, and where constraint errors take part in it.
     #[inline(never)]
-    pub(crate) fn acceleration_jacobian<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn acceleration_jacobian(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Option<AccelerationJacobian<T, N>> {
         if matches!(self.settings.stabilisation, Stabilisation::Baumgarte { .. }) {

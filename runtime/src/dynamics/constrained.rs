@@ -110,10 +110,10 @@ where
         if !self.solver.places_starts() {
             return Ok(());
         }
-        self.solver.prepare(self.mechanism, state)?;
+        self.solver.prepare(&self.mechanism, state)?;
         let mut placed = *state;
         self.project_within(&mut placed)?;
-        self.solver.start(self.mechanism, state, &placed)
+        self.solver.start(&self.mechanism, state, &placed)
     }
 
     /// Brings a state near the constraints onto them, positions, then velocities, whatever
@@ -167,10 +167,10 @@ where
                 sine: T::one(),
             });
         }
-        solver.prepare(self.mechanism, state)?;
+        solver.prepare(&self.mechanism, state)?;
         self.mechanism.position(state, &mut solver.position);
         solver.safe = None;
-        solver.factorise_metric(self.mechanism, Source::Position, state.t)?;
+        solver.factorise_metric(&self.mechanism, Source::Position, state.t)?;
         let full = solver.rows.regular(Which::All);
         let squared = solver.factorise_constraints(Source::Position, Which::All);
         if passes(squared, window()) {
@@ -225,7 +225,7 @@ where
         state: &State<T, N>,
     ) -> Option<(AccelerationJacobian<T, N>, SMatrix<T, N, N>)> {
         with_room::<T, _, N, R>(|| {
-            let jacobian = self.solver.acceleration_jacobian(self.mechanism, state)?;
+            let jacobian = self.solver.acceleration_jacobian(&self.mechanism, state)?;
             Some((jacobian, self.solver.compliance()))
         })
     }
@@ -259,7 +259,7 @@ where
     #[inline]
     fn begin(&mut self, state: &State<T, N>) -> bool {
         self.solver.begin_step(state);
-        self.solver.hold(self.mechanism, state)
+        self.solver.hold(&self.mechanism, state)
     }
 
     #[inline]
@@ -272,22 +272,22 @@ where
     }
 
     fn escalate(&mut self) -> Result<bool, DynamicsError<T>> {
-        self.solver.escalate(self.mechanism)
+        self.solver.escalate(&self.mechanism)
     }
 
     fn verify(&mut self, start: &State<T, N>, end: &State<T, N>) -> Result<(), DynamicsError<T>> {
-        self.solver.verify(self.mechanism, start, end)
+        self.solver.verify(&self.mechanism, start, end)
     }
 
     fn switch(&mut self, step: &Step<T, N>) -> Result<Switching<T>, DynamicsError<T>> {
-        self.solver.switch(self.mechanism, step)
+        self.solver.switch(&self.mechanism, step)
     }
 
     fn commit(&mut self, step: &Step<T, N>) -> Result<(), DynamicsError<T>> {
-        self.solver.commit(self.mechanism, step)
+        self.solver.commit(&self.mechanism, step)
     }
 
     fn acceleration_jacobian(&mut self, state: &State<T, N>) -> Option<AccelerationJacobian<T, N>> {
-        with_room::<T, _, N, R>(|| self.solver.acceleration_jacobian(self.mechanism, state))
+        with_room::<T, _, N, R>(|| self.solver.acceleration_jacobian(&self.mechanism, state))
     }
 }

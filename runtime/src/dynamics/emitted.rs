@@ -49,9 +49,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// The acceleration by emitted code, if there is any and it is safe here.
-    pub(super) fn emitted_acceleration<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn emitted_acceleration(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Option<SVector<T, N>> {
         if !self.asks_emitted() {
@@ -159,9 +159,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// Takes note of the sizes of the rows at an accepted state that emitted code
     /// corrected.
-    pub(crate) fn learn_emitted_rows<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn learn_emitted_rows(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) {
         for row in 0..R {

@@ -51,9 +51,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Begins at a state, or at where it was put onto the constraints if it is not on them
     /// to round-off.
     #[inline(never)]
-    pub(crate) fn start<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn start(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &mut State<T, N>,
         placed: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
@@ -94,9 +94,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Makes a chart at the last accepted state if the trial step wanted one; whether it
     /// did.
     #[inline(never)]
-    pub(crate) fn escalate<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn escalate(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
     ) -> Result<bool, DynamicsError<T>> {
         let wanted = core::mem::take(&mut self.session.trial.wants_chart);
         let Some(base) = self
@@ -132,9 +132,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// The error of constraints that were declared to be regular and are not.
     #[inline(never)]
-    pub(super) fn not_regular<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn not_regular(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<DynamicsError<T>, DynamicsError<T>> {
         mechanism.position(state, &mut self.position);
@@ -150,9 +150,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The acceleration on the sheet, at the state that a state of a trial step stands
     /// for.
     #[inline(never)]
-    pub(super) fn acceleration_on_sheet<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn acceleration_on_sheet(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         let mut point = Point::zeros();
@@ -183,9 +183,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// A chart at the last accepted state, for the forms that always need one.
-    pub(super) fn require_chart<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn require_chart(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         if self.session.chart.is_none() {
@@ -199,9 +199,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// Puts a state onto the sheet of the chart at hand.
-    pub(super) fn place<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn place(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         point: &mut Point<T, N>,
     ) -> Result<Placement<T>, DynamicsError<T>> {
@@ -215,9 +215,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// The geometry at a state as it is; `false` next to a singular configuration.
-    pub(super) fn measure_here<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn measure_here(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         point: &mut Point<T, N>,
     ) -> bool {
@@ -231,9 +231,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// The acceleration at a state on the sheet: `D̃ᵀM D̃ z = D̃ᵀ(p₁ − M aₚ)`,
     /// `q̈ = aₚ + D̃ z`. Source: Phong & Hoang (2012), section 3.
-    fn accelerate<M: Mechanism<T, N, R> + ?Sized>(
+    fn accelerate(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         point: &Point<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         mechanism.terms(&point.state, &mut self.terms);
@@ -253,9 +253,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// The least acceleration at rest in a singular configuration: zero if it stays.
     #[inline(never)]
-    pub(super) fn acceleration_at_rest<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn acceleration_at_rest(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         let least = self.published(mechanism, state)?;
@@ -277,9 +277,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// Puts the end of a trial step onto the sheet.
     #[inline(never)]
-    pub(crate) fn project_onto_sheet<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn project_onto_sheet(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &mut State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         let mut point = Point::zeros();
@@ -304,7 +304,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Finds the passages of an accepted step, if anyone wants them, and puts its chart
     /// aside.
     #[inline(never)]
-    fn look_back<M: Mechanism<T, N, R> + ?Sized>(&mut self, mechanism: &M, step: &Step<T, N>) {
+    fn look_back(&mut self, mechanism: &dyn Mechanism<T, N, R>, step: &Step<T, N>) {
         let Some(chart) = self.session.chart.take() else {
             return;
         };
@@ -318,9 +318,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// Takes note that a trial step was accepted.
-    pub(crate) fn commit<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn commit(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         step: &Step<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         self.session.base = Some(step.end);

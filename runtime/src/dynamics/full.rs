@@ -18,9 +18,9 @@ use nalgebra::SVector;
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The acceleration by least squares.
     #[inline(never)]
-    pub(super) fn full<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn full(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         if self.settings.published {

@@ -15,9 +15,9 @@ use nalgebra::SVector;
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The acceleration, by elimination of `q̈` and then of the multipliers.
     #[inline(never)]
-    pub(super) fn multipliers<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn multipliers(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         mechanism.terms(state, &mut self.terms);
@@ -32,9 +32,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Factorises all rows; an error with the rank if they are not safely
     /// independent. For the forms that need them to be.
     #[inline(never)]
-    pub(super) fn require_independent_rows<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn require_independent_rows(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         self.safe = None;

@@ -16,9 +16,9 @@ use nalgebra::{SMatrix, SVector};
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The acceleration, by elimination of the dependent coordinates.
     #[inline(never)]
-    pub(super) fn partitioning<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn partitioning(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         mechanism.terms(state, &mut self.terms);

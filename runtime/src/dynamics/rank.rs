@@ -87,9 +87,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Where the state itself may be singular, its neighbours tell: along the velocity, or
     /// in the directions that its constraints leave free.
     #[inline(never)]
-    pub(crate) fn learn_rank<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn learn_rank(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         if self.is_safely_regular() {
@@ -132,9 +132,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// The rank at a state, or next to it if it is higher there, and where.
     #[inline(never)]
-    fn rank_nearby<M: Mechanism<T, N, R> + ?Sized>(
+    fn rank_nearby(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         which: Which,
     ) -> Result<(usize, SVector<T, N>), DynamicsError<T>> {
@@ -183,9 +183,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// derivatives have one sign but for directions along which it is flat, and there it
     /// does not become negative.
     #[inline(never)]
-    fn is_square<M: Mechanism<T, N, R> + ?Sized>(
+    fn is_square(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         combined: &Combined<T, N, R>,
         rank: usize,
@@ -226,9 +226,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// Whether a rank next to a state is still there where the constraints hold.
     #[inline(never)]
-    fn stays<M: Mechanism<T, N, R> + ?Sized>(
+    fn stays(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         mut state: State<T, N>,
         which: Which,
         (wanted, least): (usize, T),
@@ -317,9 +317,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The acceleration by the null space of the rows that are not zero to round-off: the
     /// form as it was published. Source: Phong & Hoang (2012), section 3.
     #[inline(never)]
-    pub(super) fn published<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn published(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         self.prepare(mechanism, state)?;

@@ -48,7 +48,7 @@ where
     pub fn multipliers(&mut self, state: &State<T, N>) -> Result<[Option<T>; R], DynamicsError<T>> {
         with_room::<T, _, N, R>(|| {
             let (_, reaction) = self.reaction(state)?;
-            self.solver.shares_of(self.mechanism, state.t, &reaction)
+            self.solver.shares_of(&self.mechanism, state.t, &reaction)
         })
     }
 
@@ -83,7 +83,7 @@ where
         let acceleration = self.acceleration_within(state)?;
         Ok(self
             .solver
-            .held_reaction(self.mechanism, state, &acceleration))
+            .held_reaction(&self.mechanism, state, &acceleration))
     }
 
     /// The multipliers within a step, likewise.
@@ -92,16 +92,16 @@ where
         state: &State<T, N>,
     ) -> Result<[Option<T>; R], DynamicsError<T>> {
         let reaction = self.reaction_within(state)?;
-        self.solver.shares_of(self.mechanism, state.t, &reaction)
+        self.solver.shares_of(&self.mechanism, state.t, &reaction)
     }
 }
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// `p₁ − M q̈`, of a motion that slides with the shares of its forces.
     #[inline(never)]
-    fn held_reaction<M: Mechanism<T, N, R> + ?Sized>(
+    fn held_reaction(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         acceleration: &SVector<T, N>,
     ) -> SVector<T, N> {
@@ -131,9 +131,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// The `λ` of `Aᵀλ = r` at the state whose terms are in the buffer.
     #[inline(never)]
-    fn shares_of<M: Mechanism<T, N, R> + ?Sized>(
+    fn shares_of(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         t: T,
         reaction: &SVector<T, N>,
     ) -> Result<[Option<T>; R], DynamicsError<T>> {

@@ -16,9 +16,9 @@ use nalgebra::SVector;
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The acceleration.
-    pub(super) fn reduced<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn reduced(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         if self.session.chart.is_some() {
@@ -38,9 +38,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// Where constraint rows are near-dependent and there is no chart.
     #[cold]
-    fn without_rank<M: Mechanism<T, N, R> + ?Sized>(
+    fn without_rank(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         if self.settings.published {
@@ -52,9 +52,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// Factorises metric and constraints of the terms in the buffer and returns the
     /// smallest squared sine of a row.
-    pub(super) fn factorise_terms<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn factorise_terms(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<T, DynamicsError<T>> {
         self.safe = None;

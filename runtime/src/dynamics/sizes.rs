@@ -50,11 +50,7 @@ impl<T: Real> RowSize<T> {
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Takes note of the mean sizes of the rows over some turned positions.
     #[inline(never)]
-    pub(super) fn sample_sizes<M: Mechanism<T, N, R> + ?Sized>(
-        &mut self,
-        mechanism: &M,
-        state: &State<T, N>,
-    ) {
+    pub(super) fn sample_sizes(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) {
         let coordinates = mechanism.structure().coordinates;
         let sure = coordinates.iter().all(|c| !c.unit.is_empty());
         self.sample_mass(mechanism, state);
@@ -85,7 +81,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Finds out whether the mass matrix is a metric at any turned position, and one in
     /// which the rows can be told apart.
     #[inline(never)]
-    fn sample_mass<M: Mechanism<T, N, R> + ?Sized>(&mut self, mechanism: &M, state: &State<T, N>) {
+    fn sample_mass(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) {
         let coordinates = mechanism.structure().coordinates;
         let named = mechanism.structure().weighed;
         self.metric.begin(named);
@@ -142,9 +138,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The sizes of all rows at a position; zero where they are not finite or have no
     /// metric.
     #[inline(never)]
-    fn sizes<M: Mechanism<T, N, R> + ?Sized>(
+    fn sizes(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> [RowSize<T>; R] {
         let mut sizes = [RowSize::default(); R];

@@ -31,15 +31,15 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         match self.conditions.sliding {
             0 => self.acceleration(mechanism, state),
-            _ => self.sliding_acceleration(mechanism, state),
+            _ => self.sliding_acceleration(&mechanism, state),
         }
     }
 
     /// The acceleration of a motion that slides.
     #[inline(never)]
-    fn sliding_acceleration<M: Mechanism<T, N, R> + ?Sized>(
+    fn sliding_acceleration(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         let (list, count) = self.sliding_list(state)?;
@@ -103,9 +103,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// When one side no longer pushes back within a step that slides along a condition.
     #[inline(never)]
-    pub(super) fn end_of_sliding<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn end_of_sliding(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         step: &Step<T, N>,
         index: usize,
     ) -> Result<Option<T>, DynamicsError<T>> {

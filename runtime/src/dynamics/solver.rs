@@ -115,9 +115,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// Factorises the metric at the state whose terms are in a buffer.
     #[inline(never)]
-    pub(crate) fn factorise_metric<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn factorise_metric(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         source: Source,
         t: T,
     ) -> Result<(), DynamicsError<T>> {
@@ -169,9 +169,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// Learns the sizes and the rank of the rows at the first state there is.
     #[cold]
-    pub(crate) fn prepare<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn prepare(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         if self.is_prepared() {
@@ -191,9 +191,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Takes note of the length of the coordinates in the metric, where one of them is
     /// larger than it was.
     #[inline]
-    pub(crate) fn observe_reach<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn observe_reach(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) {
         let [q] = &state.q.data.0;
@@ -205,7 +205,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// Functions of an angle have the round-off of an angle of one, however small it is.
     #[inline(never)]
-    fn extend_reach<M: Mechanism<T, N, R> + ?Sized>(&mut self, mechanism: &M, state: &State<T, N>) {
+    fn extend_reach(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) {
         let mut sizes = state.q;
         let structure = mechanism.structure();
         for i in N.saturating_sub(structure.states)..N {
@@ -239,9 +239,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// What a run is told of an obstacle.
     #[inline(never)]
-    pub(crate) fn refusal<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn refusal(
         &self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         obstacle: Obstacle,
         t: T,
     ) -> DynamicsError<T> {

@@ -54,11 +54,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// Holds the conditions as they are at the start of a step; whether there are any.
-    pub(super) fn hold<M: Mechanism<T, N, R> + ?Sized>(
-        &mut self,
-        mechanism: &M,
-        state: &State<T, N>,
-    ) -> bool {
+    pub(super) fn hold(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) -> bool {
         let count = self.conditions.list.len();
         if count == 0 {
             return false;
@@ -82,9 +78,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// Where the first condition changes within a step that was made with those at its
     /// start.
-    pub(super) fn switch<M: Mechanism<T, N, R> + ?Sized>(
+    pub(super) fn switch(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         step: &Step<T, N>,
     ) -> Result<Switching<T>, DynamicsError<T>> {
         if self.conditions.list.is_empty() {
@@ -152,9 +148,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// A better time for a function to pass zero, by Newton's method from the end of an
     /// attempt; none if that was good enough.
     #[inline(never)]
-    fn refined<M: Mechanism<T, N, R> + ?Sized>(
+    fn refined(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         step: &Step<T, N>,
         aim: Aim<T>,
         same: T,
@@ -173,9 +169,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Changes a condition at a state: to its other side, or to sliding if the motion is
     /// pushed back from there; off that again where one side no longer pushes.
     #[inline(never)]
-    fn turn<M: Mechanism<T, N, R> + ?Sized>(
+    fn turn(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         index: usize,
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
@@ -224,9 +220,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// The first condition that changes within a step, and when.
     #[inline(never)]
-    fn first_change<M: Mechanism<T, N, R> + ?Sized>(
+    fn first_change(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         step: &Step<T, N>,
     ) -> Result<Option<(usize, T)>, DynamicsError<T>> {
         let list = self.conditions.list;
@@ -298,15 +294,12 @@ pub(super) fn earliest<T: Real>(
 
 /// Samples some switching functions of a step, from one on.
 #[inline(never)]
-fn sample<T, M, const N: usize, const R: usize>(
-    mechanism: &M,
+fn sample<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Mechanism<T, N, R>,
     step: &Step<T, N>,
     (times, first): (&[T; NODES], usize),
     sampled: &mut [[T; NODES]; AT_ONCE],
-) where
-    T: Real,
-    M: Mechanism<T, N, R> + ?Sized,
-{
+) {
     let mut values = [Switch::default(); Sides::ROOM];
     let values = &mut values[..(first + AT_ONCE).min(Sides::ROOM)];
     for (k, t) in times.iter().enumerate() {
@@ -318,31 +311,23 @@ fn sample<T, M, const N: usize, const R: usize>(
 }
 
 /// The value of one switching function at a state.
-fn one<T, M, const N: usize, const R: usize>(
-    mechanism: &M,
+fn one<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Mechanism<T, N, R>,
     state: &State<T, N>,
     acceleration: &SVector<T, N>,
     index: usize,
-) -> Switch<T>
-where
-    T: Real,
-    M: Mechanism<T, N, R> + ?Sized,
-{
+) -> Switch<T> {
     let mut values = [Switch::default(); Sides::ROOM];
     mechanism.switches(state, acceleration, &mut values[..=index]);
     values[index]
 }
 
 /// The values of all switching functions at a state.
-pub(super) fn values<T, M, const N: usize, const R: usize>(
-    mechanism: &M,
+pub(super) fn values<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Mechanism<T, N, R>,
     state: &State<T, N>,
     acceleration: &SVector<T, N>,
-) -> Values<T>
-where
-    T: Real,
-    M: Mechanism<T, N, R> + ?Sized,
-{
+) -> Values<T> {
     let mut values = [Switch::default(); Sides::ROOM];
     mechanism.switches(state, acceleration, &mut values);
     values

@@ -25,9 +25,9 @@ const ENERGY_OF_FIXED: f64 = 1e-4;
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Verifies a trial step before it is accepted.
-    pub(crate) fn verify<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn verify(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         start: &State<T, N>,
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
@@ -54,9 +54,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// The sine of the constraints where nothing is known of it yet.
     #[inline(never)]
-    fn sine_at<M: Mechanism<T, N, R> + ?Sized>(
+    fn sine_at(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<T, DynamicsError<T>> {
         mechanism.position(state, &mut self.position);
@@ -67,9 +67,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// A step without a chart: was it far from singular configurations all the way?
-    fn verify_far<M: Mechanism<T, N, R> + ?Sized>(
+    fn verify_far(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         start: &State<T, N>,
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
@@ -117,9 +117,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.settings.form != Form::Reduced || self.session.trial.near
     }
 
-    fn want_chart<M: Mechanism<T, N, R> + ?Sized>(
+    fn want_chart(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         t: T,
     ) -> Result<(), DynamicsError<T>> {
         self.session.trial.wants_chart = true;
@@ -128,9 +128,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// A step with a chart: is its end on the same sheet?
     #[inline(never)]
-    fn verify_near<M: Mechanism<T, N, R> + ?Sized>(
+    fn verify_near(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         chart: &Chart<T, N, R>,
         start: &State<T, N>,
         end: &State<T, N>,
@@ -204,9 +204,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// A step on which signs changed, none of whose states is next to a singular
     /// configuration: is there one where sheets cross, or did it leap over a gap?
     #[inline(never)]
-    fn verify_crossing<M: Mechanism<T, N, R> + ?Sized>(
+    fn verify_crossing(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         chart: &Chart<T, N, R>,
         reference: Option<&Reference<T, N, R>>,
         (start, end): (&State<T, N>, &State<T, N>),
@@ -229,9 +229,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// All constraint equations, in their own units, at the position in the buffer.
-    fn verify_residual<M: Mechanism<T, N, R> + ?Sized>(
+    fn verify_residual(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         let (worst, _) = self.residual(&self.position.residual);
@@ -248,9 +248,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// accepted error explain. Constraints that move do work of their own, and are not
     /// judged.
     #[inline(never)]
-    fn verify_energy<M: Mechanism<T, N, R> + ?Sized>(
+    fn verify_energy(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         start: &State<T, N>,
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {

@@ -12,7 +12,7 @@ use super::obstacle::Obstacle;
 use super::sheet::Sheet;
 use crate::linalg::{Block, Frame, add_scaled, column, norm};
 use crate::tolerance::{difference, hull, spacing, window};
-use crate::{Mechanism, Real, State};
+use crate::{Real, State};
 use nalgebra::SVector;
 
 /// Directions that are tried where several loops are nearly singular at once.
@@ -57,10 +57,7 @@ struct Best<T, const N: usize> {
     score: T,
 }
 
-impl<M, T: Real, const N: usize, const R: usize> Sheet<'_, M, T, N, R>
-where
-    M: Mechanism<T, N, R> + ?Sized,
-{
+impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
     /// The best direction through a state whose frame is `like`.
     pub(super) fn direction(
         &mut self,

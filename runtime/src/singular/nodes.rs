@@ -17,7 +17,7 @@ use super::obstacle::Obstacle;
 use super::sheet::{Point, Sheet};
 use crate::linalg::{Block, Frame, add_scaled, column, dot};
 use crate::tolerance::clearance;
-use crate::{Mechanism, Real, State};
+use crate::{Real, State};
 use nalgebra::{SMatrix, SVector};
 
 /// How many earlier nodes predict the next.
@@ -175,10 +175,7 @@ pub(super) fn weights_of_sets<T: Real>(places: &[T; NODES], at: T) -> [[T; NODES
     sets
 }
 
-impl<M, T: Real, const N: usize, const R: usize> Sheet<'_, M, T, N, R>
-where
-    M: Mechanism<T, N, R> + ?Sized,
-{
+impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
     /// Finds the nodes along a direction and what they say of the sheet at the state.
     #[inline(never)]
     pub(super) fn interpolate(
@@ -237,10 +234,7 @@ where
     }
 }
 
-impl<M, T: Real, const N: usize, const R: usize> Sheet<'_, M, T, N, R>
-where
-    M: Mechanism<T, N, R> + ?Sized,
-{
+impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
     /// How the sheet bends along steps of a line.
     #[inline(never)]
     fn bend(&self, state: &State<T, N>, step: &SVector<T, N>) -> Bend<T, N> {

@@ -6,7 +6,7 @@
 
 use super::sheet::Sheet;
 use crate::linalg::{Block, Frame};
-use crate::{Mechanism, Real, State};
+use crate::{Real, State};
 
 /// Passages that are kept of one step.
 const ROOM: usize = 8;
@@ -128,10 +128,7 @@ struct View<'a, T, const N: usize, const R: usize> {
     regular: usize,
 }
 
-impl<M, T: Real, const N: usize, const R: usize> Sheet<'_, M, T, N, R>
-where
-    M: Mechanism<T, N, R> + ?Sized,
-{
+impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
     /// What states of a step that begins here are compared with; `None` where the
     /// constraints can't be eliminated.
     pub(crate) fn reference(&mut self, start: &State<T, N>) -> Option<Reference<T, N, R>> {

@@ -14,7 +14,7 @@ use super::obstacle::Obstacle;
 use super::sheet::{Point, Sheet};
 use crate::linalg::{Frame, column, norm};
 use crate::tolerance::{critical, hull, negligible, noisy, resolved, round_off, spacing, window};
-use crate::{Mechanism, Real, State};
+use crate::{Real, State};
 
 /// How much larger than the round-off of one node, magnified by the weights, the
 /// difference of two interpolations may be for that reason.
@@ -44,10 +44,7 @@ pub(super) struct Best<T, const N: usize> {
     pub(super) spacing: T,
 }
 
-impl<M, T: Real, const N: usize, const R: usize> Sheet<'_, M, T, N, R>
-where
-    M: Mechanism<T, N, R> + ?Sized,
-{
+impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
     /// Puts a state onto its sheet.
     pub(crate) fn place(
         &mut self,

@@ -16,13 +16,10 @@ use super::place::Best;
 use super::sheet::{Point, Sheet};
 use crate::linalg::column;
 use crate::tolerance::{hull, resolved};
-use crate::{Mechanism, Real, State};
+use crate::{Real, State};
 use nalgebra::SVector;
 
-impl<M, T: Real, const N: usize, const R: usize> Sheet<'_, M, T, N, R>
-where
-    M: Mechanism<T, N, R> + ?Sized,
-{
+impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
     /// Whether the sheet is a curve that stays where it is.
     fn is_curve(&self) -> bool {
         self.chart.freedoms == 1 && self.mechanism.structure().scleronomic

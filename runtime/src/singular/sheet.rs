@@ -87,8 +87,8 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
 }
 
 /// What evaluates the sheet: a mechanism, a chart, and buffers.
-pub(crate) struct Sheet<'a, M: ?Sized, T, const N: usize, const R: usize> {
-    pub(crate) mechanism: &'a M,
+pub(crate) struct Sheet<'a, T, const N: usize, const R: usize> {
+    pub(crate) mechanism: &'a dyn Mechanism<T, N, R>,
     pub(crate) chart: &'a Chart<T, N, R>,
     pub(crate) position: &'a mut Position<T, N, R>,
     pub(crate) terms: &'a mut Terms<T, N, R>,
@@ -99,10 +99,7 @@ pub(crate) struct Sheet<'a, M: ?Sized, T, const N: usize, const R: usize> {
     pub(crate) holonomic: bool,
 }
 
-impl<M, T: Real, const N: usize, const R: usize> Sheet<'_, M, T, N, R>
-where
-    M: Mechanism<T, N, R> + ?Sized,
-{
+impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
     /// How many constraint rows take part.
     pub(super) fn constraints(&self) -> usize {
         N - self.chart.freedoms

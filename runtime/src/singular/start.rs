@@ -40,9 +40,9 @@ pub(crate) enum Start<T, const N: usize, const R: usize> {
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The chart of the sheet that a motion begins on.
-    pub(crate) fn start_at<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn start_at(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<Start<T, N, R>, DynamicsError<T>> {
         self.prepare(mechanism, state)?;
@@ -70,9 +70,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// A chart at a state whose metric is factorised.
-    pub(crate) fn chart<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn chart(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         tangent: SMatrix<T, N, N>,
         freedoms: usize,
@@ -98,11 +98,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// What evaluates a sheet.
-    pub(crate) fn sheet<'a, M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn sheet<'a>(
         &'a mut self,
-        mechanism: &'a M,
+        mechanism: &'a dyn Mechanism<T, N, R>,
         chart: &'a Chart<T, N, R>,
-    ) -> Sheet<'a, M, T, N, R> {
+    ) -> Sheet<'a, T, N, R> {
         Sheet {
             mechanism,
             chart,
@@ -131,9 +131,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// The tangent space in a singular configuration or next to one.
     #[inline(never)]
-    fn singular_tangent<M: Mechanism<T, N, R> + ?Sized>(
+    fn singular_tangent(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         freedoms: usize,
     ) -> Result<Option<SMatrix<T, N, N>>, DynamicsError<T>> {
@@ -161,9 +161,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// that is lost returns in the direction of the sheet's normal. `None` where the
     /// velocity leads along the singular set, or is zero.
     #[inline(never)]
-    fn tangent_along<M: Mechanism<T, N, R> + ?Sized>(
+    fn tangent_along(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         freedoms: usize,
     ) -> Result<Option<SMatrix<T, N, N>>, DynamicsError<T>> {
@@ -197,9 +197,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// The tangent space of one of two sheets that cross.
     #[inline(never)]
-    fn one_of_two<M: Mechanism<T, N, R> + ?Sized>(
+    fn one_of_two(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         combined: &Combined<T, N, R>,
         freedoms: usize,
@@ -246,9 +246,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// How far a state is off two sheets; `None` where that can't be told.
     #[inline(never)]
-    fn distances<M: Mechanism<T, N, R> + ?Sized>(
+    fn distances(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         sheets: &[SMatrix<T, N, N>; 2],
         freedoms: usize,
@@ -273,9 +273,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The second derivatives, along some directions, of the combination of rows that
     /// loses its gradient.
     #[inline(never)]
-    pub(crate) fn second_derivatives<M: Mechanism<T, N, R> + ?Sized>(
+    pub(crate) fn second_derivatives(
         &mut self,
-        mechanism: &M,
+        mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         combined: &Combined<T, N, R>,
         kernel: &SMatrix<T, N, N>,
