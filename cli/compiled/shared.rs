@@ -16,15 +16,18 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// How the shared libraries are compiled. What a run computes with is generic and compiled
-/// with each pair of sizes, so these crates hold none of it: nalgebra nothing but generic
-/// code, num-rational what nalgebra asks for and nobody uses, and the driver the messages
-/// between two programs.
+/// with each pair of sizes, so what others have written is compiled without optimisation,
+/// but for functions of numbers; and so is the driver, the messages between two programs.
 const PROFILE: &str = "
-[profile.release.package.nalgebra]
+[profile.release.package.\"*\"]
 opt-level = 0
+codegen-units = 16
 
-[profile.release.package.num-rational]
-opt-level = 0
+[profile.release.package.qd]
+opt-level = 3
+
+[profile.release.package.libm]
+opt-level = 3
 
 [profile.release.package.bricard-driver]
 opt-level = 0

@@ -51,6 +51,12 @@ use crate::expr::{ExprId, Graph};
 /// all pairs again after each; a longer program is emitted as it was derived.
 pub const REWRITTEN_MAX: usize = 30_000;
 
+/// How many terms may be multiplied or added in the ring of sines and cosines, for each
+/// operand of a program and for any program. Of the programs that are shorter for it, none
+/// takes more than 11 for each operand; in a long chain of angles the polynomials grow with
+/// its length, are no shorter, and would take most of the time.
+const MULTIPLIED: (usize, usize) = (14, 20_000);
+
 /// The program for the wanted expressions; `laws` are the default laws of the
 /// inputs.
 ///
@@ -81,11 +87,16 @@ pub fn optimise_among(
         return checked(order::arranged(&scheduled));
     }
     let mut best = factor::factor(&scheduled);
-    let mut reduced = wanted.to_vec();
-    let mut ring = trig::Ring::new(graph, memory);
-    for (_, e) in &mut reduced {
-        *e = ring.reduced(*e);
-    }
+    let operands: usize = scheduled.uses().iter().sum();
+    let most = MULTIPLIED.0 * operands + MULTIPLIED.1;
+    let mut ring = trig::Ring::new(graph, memory, most);
+    let reduced: Option<Vec<(Slot, ExprId)>> = wanted
+        .iter()
+        .map(|(slot, e)| Some((*slot, ring.reduced(*e)?)))
+        .collect();
+    let Some(reduced) = reduced else {
+        return checked(order::arranged(&best));
+    };
     // Arrays share work, so each is judged by what the whole then costs.
     for array in arrays {
         let mut candidate = chosen.clone();

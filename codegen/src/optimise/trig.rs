@@ -8,7 +8,8 @@
 //!
 //! A polynomial that grows past [`TERMS_MAX`] terms leaves the expression as it
 //! was: multiplying out pays for planar linkages, not for long spatial chains. So does
-//! one with a coefficient that overflows, and the inverse of one that is zero.
+//! one with a coefficient that overflows, and the inverse of one that is zero. The whole
+//! is given up where it takes more work than a program is worth.
 
 use super::monomial::{MonomialId, Monomials};
 use super::squares;
@@ -31,7 +32,8 @@ type Growing = FxHashMap<MonomialId, Number>;
 
 /// The expression as a reduced polynomial, or unchanged where that is refused.
 pub fn in_trig_ring(graph: &mut Graph, e: ExprId) -> ExprId {
-    Ring::new(graph, &mut Polynomials::default()).reduced(e)
+    let reduced = Ring::new(graph, &mut Polynomials::default(), usize::MAX).reduced(e);
+    reduced.unwrap_or(e)
 }
 
 /// What is known of the expressions of a graph: each is multiplied out once, whatever
@@ -48,25 +50,41 @@ pub struct Polynomials {
 pub(super) struct Ring<'a> {
     graph: &'a mut Graph,
     memory: &'a mut Polynomials,
+    /// How many terms may still be multiplied or added.
+    left: usize,
 }
 
 impl<'a> Ring<'a> {
-    pub fn new(graph: &'a mut Graph, memory: &'a mut Polynomials) -> Self {
-        Ring { graph, memory }
+    /// One that multiplies or adds so many terms at most.
+    pub fn new(graph: &'a mut Graph, memory: &'a mut Polynomials, most: usize) -> Self {
+        let left = most;
+        Ring {
+            graph,
+            memory,
+            left,
+        }
     }
 
-    /// The expression as a reduced polynomial, or unchanged where that is refused.
-    pub fn reduced(&mut self, e: ExprId) -> ExprId {
-        if self.expand(e).is_none() {
-            self.memory.refused.insert(e);
-            return e;
+    /// The expression as a reduced polynomial, or unchanged where that is refused; `None`
+    /// where it is too much work.
+    pub fn reduced(&mut self, e: ExprId) -> Option<ExprId> {
+        let expanded = self.expand(e);
+        if self.left == 0 {
+            return None;
         }
-        self.known_expression(e)
+        if expanded.is_none() {
+            self.memory.refused.insert(e);
+            return Some(e);
+        }
+        Some(self.known_expression(e))
     }
 
     fn expand(&mut self, e: ExprId) -> Option<()> {
         let mut pending = vec![(e, false)];
         while let Some((node, ready)) = pending.pop() {
+            if self.left == 0 {
+                return None;
+            }
             if self.memory.refused.contains(&node) {
                 return None;
             }
@@ -96,6 +114,7 @@ impl<'a> Ring<'a> {
                 let mut sum = Growing::default();
                 accumulate(&mut sum, Monomials::ONE, number);
                 for (x, weight) in terms {
+                    self.spend(self.memory.known[&x].len());
                     for &(monomial, coefficient) in self.memory.known[&x].iter() {
                         accumulate(&mut sum, monomial, coefficient * weight);
                     }
@@ -119,6 +138,10 @@ impl<'a> Ring<'a> {
                 Some(self.atomic(atom))
             }
         }
+    }
+
+    fn spend(&mut self, terms: usize) {
+        self.left = self.left.saturating_sub(terms);
     }
 
     /// A rebuilt function as a polynomial: a weighted atom, or a number.
@@ -178,6 +201,7 @@ impl<'a> Ring<'a> {
 
     fn times(&mut self, a: &Polynomial, b: &Polynomial) -> Option<Polynomial> {
         let mut product = Growing::default();
+        self.spend(a.len() * b.len());
         for &(left, x) in a.iter() {
             for &(right, y) in b.iter() {
                 let weight = x * y;
