@@ -50,12 +50,12 @@ pub fn run(made: &Path) -> Command {
     cargo
 }
 
-/// The compiler for a file that uses the runtime, and for what is compiled of it; warnings are
-/// errors.
+/// The compiler for a file that uses the runtime, and the folder for what comes of it. Warnings
+/// are errors; optimisation would take longer than such programs run.
 pub fn rustc(file: &Path, into: &Path) -> Command {
     let mut rustc = Command::new("rustc");
     rustc
-        .args(["--edition", "2024", "-C", "opt-level=1", "-D", "warnings"])
+        .args(["--edition", "2024", "-D", "warnings"])
         .args(["--extern", "bricard_runtime", "-L"])
         .arg(&*LIBRARIES)
         .arg(file)
