@@ -101,21 +101,45 @@ fn what_is_in_order_is_said_to_be_so_with_its_warnings() {
     assert!(said.contains("could not read a.mech"), "{said}");
 }
 
-#[test]
-fn a_new_crate_builds_without_a_network_and_simulates() {
-    let folder = folder("new");
-    let workspace = env!("CARGO_MANIFEST_DIR");
-    let arguments = ["new", "my-engine"];
-    let (status, said, error) = bricard(&folder, &arguments);
+/// A new crate, in a folder of one test's own.
+fn new(test: &str) -> PathBuf {
+    let folder = folder(test);
+    let (status, said, error) = bricard(&folder, &["new", "my-engine"]);
     assert_eq!(status, Some(0), "{error}");
     assert!(said.contains("mechanisms/my_engine.mech"), "{said}");
-    assert!(said.contains(workspace), "{said}");
-    let made = folder.join("my-engine");
-    let (status, out, error) = run(&mut built::run(&made));
+    assert!(said.contains(env!("CARGO_MANIFEST_DIR")), "{said}");
+    folder.join("my-engine")
+}
+
+/// Runs the program of a new crate, which has to say what it should and nothing else.
+fn simulates(program: &mut Command) {
+    let (status, out, error) = run(program);
     assert_eq!(status, Some(0), "{error}");
     assert_eq!(error, "", "the build of a new crate warns");
     assert_eq!(out.lines().count(), 1 + 21 + 1, "{out}");
     assert!(out.contains("crank") && out.contains("J"), "{out}");
+}
+
+#[test]
+fn the_program_of_a_new_crate_simulates_its_mechanism() {
+    let made = new("program");
+    let description = made.join("mechanisms/my_engine.mech");
+    let path = description.to_string_lossy();
+    let (status, _, error) = bricard(&made, &["check", &path]);
+    assert_eq!((status, &*error), (Some(0), ""));
+    // As the build script does.
+    let builder = bricard_codegen::Builder::new().out_dir(&made);
+    builder.compile(&description).expect("it is in order");
+    let main = made.join("src/main.rs");
+    let (status, _, error) = run(built::rustc(&main, &made).env("OUT_DIR", &made));
+    assert_eq!((status, &*error), (Some(0), ""));
+    simulates(&mut Command::new(made.join("main")));
+}
+
+#[test]
+#[ignore = "long: builds a crate with all that it depends on"]
+fn a_new_crate_builds_without_a_network_and_simulates() {
+    simulates(&mut built::run(&new("new")));
 }
 
 #[test]

@@ -1,11 +1,23 @@
-//! Crates that the command writes, built as their owner would.
+//! Crates that the command writes, built.
 //!
-//! In:  the folder of a crate.
-//! Out: cargo, to run it without a network.
+//! In:  the folder of a crate, or one of its files.
+//! Out: cargo, to run it as its owner would, without a network; or the compiler, for one file
+//!      beside the runtime that the command keeps for descriptions.
 
+use crate::command::bricard;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::LazyLock;
+
+/// The folder of what the programs of all descriptions share, in the cache of the tests.
+static LIBRARIES: LazyLock<PathBuf> = LazyLock::new(|| {
+    let ran = bricard(&["export", "slider_crank", "--to", "library"]);
+    assert_eq!(ran.status, Some(0), "{}", ran.err);
+    // It is said where the library is: in its own folder, among others, in that of a version.
+    let version = Path::new(ran.out.trim()).ancestors().nth(3);
+    version.expect("a place in the cache").join("libraries")
+});
 
 /// How the workspace compiles what is written elsewhere: what it has built of that serves
 /// these crates too.
@@ -36,4 +48,20 @@ pub fn run(made: &Path) -> Command {
         )
         .env("CARGO_PROFILE_DEV_DEBUG", "false");
     cargo
+}
+
+/// The compiler for a file that uses the runtime, and the folder for what comes of it. Warnings
+/// are errors; optimisation would take longer than such programs run.
+pub fn rustc(file: &Path, into: &Path) -> Command {
+    let mut rustc = Command::new("rustc");
+    rustc
+        .args(["--edition", "2024", "-D", "warnings"])
+        .args(["--extern", "bricard_runtime", "-L"])
+        .arg(&*LIBRARIES)
+        .arg(file)
+        .arg("-L")
+        .arg(into)
+        .arg("--out-dir")
+        .arg(into);
+    rustc
 }

@@ -4,7 +4,7 @@
 use crate::built;
 use crate::command::{Ran, cache, folder, read};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// The command in a folder, with the cache that the tests share.
@@ -49,10 +49,29 @@ fn last_row(said: &str) -> Vec<String> {
     row.split_whitespace().skip(1).map(str::to_string).collect()
 }
 
+/// A folder with a `rustc` that is a script of the shell.
+#[cfg(unix)]
+fn toolchain(folder: &Path, script: &str) -> PathBuf {
+    use std::os::unix::fs::PermissionsExt;
+    let place = folder.join("toolchain");
+    fs::create_dir_all(&place).expect("the folder is ours");
+    let rustc = place.join("rustc");
+    fs::write(&rustc, format!("#!/bin/sh\n{script}\n")).expect("the folder is ours");
+    fs::set_permissions(&rustc, fs::Permissions::from_mode(0o755)).expect("the file is ours");
+    place
+}
+
+// That the module moves as it should `examples/web/exported` finds out.
+#[cfg(unix)]
 #[test]
-fn a_package_for_npm_is_whole_or_says_what_its_module_needs() {
+fn a_package_for_npm_is_whole_but_for_its_module_where_rust_can_not_compile_that() {
     let folder = folder("export_wasm");
-    let ran = bricard(&folder, &["export", "slider_crank", "--to", "wasm"]);
+    let output = Command::new(env!("CARGO_BIN_EXE_bricard"))
+        .current_dir(&folder)
+        .env("PATH", toolchain(&folder, "echo /nowhere"))
+        .args(["export", "slider_crank", "--to", "wasm"])
+        .output();
+    let ran = read(output.expect("the command starts"));
     let made = folder.join("slider_crank");
     for file in [
         "index.js",
@@ -63,28 +82,38 @@ fn a_package_for_npm_is_whole_or_says_what_its_module_needs() {
     ] {
         assert!(made.join(file).is_file(), "{file}: {}", ran.err);
     }
-    match ran.status {
-        Some(0) => {
-            let said = finished(Command::new("node").arg(made.join("example.mjs")));
-            let row = said.lines().next_back().expect("rows").split_whitespace();
-            assert_eq!(row.skip(1).collect::<Vec<_>>(), simulated(&folder));
-        }
-        status => {
-            let needs = "rustup target add wasm32-unknown-unknown";
-            assert_eq!(status, Some(1), "{}", ran.err);
-            assert!(ran.err.contains(needs), "{}", ran.err);
-            assert!(!made.join("mechanism.wasm").exists());
-        }
-    }
+    let needs = "rustup target add wasm32-unknown-unknown";
+    assert_eq!(ran.status, Some(1), "{}", ran.err);
+    assert!(ran.err.contains(needs), "{}", ran.err);
+    assert!(!made.join("mechanism.wasm").exists());
 }
 
-#[test]
-fn a_crate_of_rust_builds_and_moves_as_the_command_does() {
-    let folder = folder("export_rust");
-    let ran = bricard(&folder, &["export", "slider_crank", "--to", "rust"]);
+/// A crate of Rust, in a folder of one test's own.
+fn exported_crate(folder: &Path) -> PathBuf {
+    let ran = bricard(folder, &["export", "slider_crank", "--to", "rust"]);
     assert_eq!(ran.status, Some(0), "{}", ran.err);
     let made = folder.join("slider_crank");
     assert!(!made.join("build.rs").exists());
+    made
+}
+
+#[test]
+fn the_example_of_a_crate_of_rust_moves_as_the_command_does() {
+    let folder = folder("export_rust");
+    let made = exported_crate(&folder);
+    let name = ["--crate-type", "lib", "--crate-name", "slider_crank"];
+    finished(built::rustc(&made.join("src/lib.rs"), &made).args(name));
+    let example = made.join("examples/simulate.rs");
+    finished(built::rustc(&example, &made).args(["--extern", "slider_crank"]));
+    let said = finished(&mut Command::new(made.join("simulate")));
+    assert_eq!(last_row(&said), simulated(&folder), "{said}");
+}
+
+#[test]
+#[ignore = "long: builds a crate with all that it depends on"]
+fn a_crate_of_rust_builds_and_moves_as_the_command_does() {
+    let folder = folder("export_cargo");
+    let made = exported_crate(&folder);
     let said = finished(
         built::run(&made)
             .args(["--example", "simulate"])
@@ -226,20 +255,34 @@ fn what_can_not_be_exported_is_refused_and_nothing_is_touched() {
     assert!(!folder.join("cart_pole").exists());
 }
 
+#[cfg(unix)]
 #[test]
 fn a_library_belongs_to_the_numbers_in_the_files_that_its_description_reads() {
     let folder = folder("export_data");
     let text = "mechanism Told { const m: kg = 2; coord x: m; kinetic 1/2*m*der(x)^2;
         force table(\"told.csv\", \"force\", t) on x; }";
     fs::write(folder.join("told.mech"), text).expect("the folder is ours");
-    let exported = |force: u8| {
+    let path = std::env::var("PATH").expect("where rustc is");
+    let exported = |force: u8, path: &str| {
         let data = format!("time,force\n0,0\n1,{force}\n");
         fs::write(folder.join("told.csv"), data).expect("the folder is ours");
-        let ran = bricard(&folder, &["export", "told.mech", "--to", "library"]);
-        assert_eq!(ran.status, Some(0), "{}", ran.err);
-        ran.out
+        let output = Command::new(env!("CARGO_BIN_EXE_bricard"))
+            .current_dir(&folder)
+            .env("XDG_CACHE_HOME", cache())
+            .env("PATH", path)
+            .args(["export", "told.mech", "--to", "library"])
+            .output();
+        read(output.expect("the command starts"))
     };
-    let first = exported(2);
-    assert_eq!(exported(2), first);
-    assert_ne!(exported(3), first);
+    let first = exported(2, &path);
+    assert_eq!(first.status, Some(0), "{}", first.err);
+    // A toolchain that says which it is and compiles nothing: what needs no compiler is there.
+    let script = format!("[ \"$1\" = -vV ] && PATH='{path}' exec rustc -vV\nexit 1");
+    let idle = toolchain(&folder, &script).to_string_lossy().into_owned();
+    let again = exported(2, &idle);
+    assert_eq!((again.status, again.out), (Some(0), first.out));
+    let other = exported(3, &idle);
+    assert_eq!(other.status, Some(1), "{}", other.out);
+    let said = "told.mech could not be compiled";
+    assert!(other.err.contains(said), "{}", other.err);
 }

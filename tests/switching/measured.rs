@@ -54,24 +54,42 @@ fn near(found: f64, exact: f64, most: f64, what: &str) {
     );
 }
 
+/// How far runs go in some seconds: every day over hundreds of points, with `BRICARD_LONG=1`
+/// over thousands.
+fn ends(every_day: f64, long: f64) -> Vec<f64> {
+    match std::env::var_os("BRICARD_LONG") {
+        None => vec![every_day],
+        Some(_) => vec![every_day, long],
+    }
+}
+
+/// Steps that pass hundreds of points each.
+const STEP: f64 = 0.06;
+
 #[test]
 fn masses_pushed_by_long_tables_are_where_their_integrals_say() {
+    for until in ends(0.1, 0.4) {
+        pushed(until);
+    }
+}
+
+fn pushed(until: f64) {
     let mechanism = Measured::default();
     let (thousand, many) = (points(1_000), points(10_000));
-    let fixed = |method| Options::new(0.4, method, StepControl::Fixed { step: 0.13 });
+    let fixed = |method| Options::new(until, method, StepControl::Fixed { step: STEP });
     for (options, most) in [
         (fixed(Method::Rk4), 1e-11),
         (fixed(Method::Radau5), 1e-11),
-        (Options::dp5(0.4, 1e-6), 1e-11),
+        (Options::dp5(until, 1e-6), 1e-11),
     ] {
         let what = options.method.to_string();
         let end = simulate::<_, _, 4, 1>(&mechanism, &start(&mechanism), &options, &mut [])
             .unwrap_or_else(|failure| panic!("{what}: {failure}"))
             .end;
-        let [_, speed, place] = integrals(&thousand, 0.4);
+        let [_, speed, place] = integrals(&thousand, until);
         near(end.v[0], speed, most, &what);
         near(end.q[0], place, most, &what);
-        let [_, speed, place] = integrals(&many, 0.4);
+        let [_, speed, place] = integrals(&many, until);
         near(end.v[1], speed, most, &what);
         near(end.q[1], place, most, &what);
     }
@@ -80,7 +98,7 @@ fn masses_pushed_by_long_tables_are_where_their_integrals_say() {
 #[test]
 fn a_mass_that_moves_along_a_long_table_has_the_energy_of_its_integral() {
     let mechanism = Measured::default();
-    for until in [0.2, 0.6] {
+    for until in ends(0.2, 0.6) {
         let options = Options::dp5(until, 1e-10);
         let end = simulate::<_, _, 4, 1>(&mechanism, &start(&mechanism), &options, &mut [])
             .unwrap_or_else(|failure| panic!("{failure}"))

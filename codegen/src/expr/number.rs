@@ -78,7 +78,13 @@ impl Number {
 
     /// The nearest float.
     pub fn to_f64(self) -> f64 {
-        self.parts().0
+        match self {
+            // A quotient of two floats is rounded to the nearest.
+            Number::Exact(n, d) if n.unsigned_abs().max(d.unsigned_abs()) < 1 << MANTISSA_BITS => {
+                n as f64 / d as f64
+            }
+            _ => self.parts().0,
+        }
     }
 
     /// Two floats whose sum is the number to about 106 bits; the first is the
@@ -173,6 +179,10 @@ impl Number {
 fn quotient(n: u128, d: u128) -> (f64, f64) {
     if n == 0 {
         return (0.0, 0.0);
+    }
+    // Most numbers are whole, and floats.
+    if d == 1 && n < 1 << MANTISSA_BITS {
+        return (n as f64, 0.0);
     }
     let bits = |x: u128| (u128::BITS - x.leading_zeros()).cast_signed();
     let mut exponent = (bits(n) - bits(d) - MANTISSA_BITS + 1).max(0);

@@ -74,11 +74,11 @@ pub fn lower(
 }
 
 /// The statements of the library, if a description uses it.
-fn library(model: &Model) -> Vec<Item> {
+fn library(model: &Model) -> Rc<[Item]> {
     let uses = |item: &Item| matches!(&item.kind, ItemKind::Use(name) if name.text == LIBRARY);
     match model.items.iter().any(uses) {
         true => syntax::library(),
-        false => Vec::new(),
+        false => Rc::default(),
     }
 }
 

@@ -25,6 +25,7 @@ mod literal;
 mod model;
 mod print;
 mod read;
+mod ruler;
 mod scan;
 mod start;
 mod stray;

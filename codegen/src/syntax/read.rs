@@ -6,6 +6,7 @@ use super::model::Model;
 use super::token::TokenKind;
 use super::{scan, token};
 use crate::diagnostic::{Diagnostics, LIBRARY, without_mark};
+use std::rc::Rc;
 
 /// As much of a description as could be read, and everything that breaks the grammar.
 pub(crate) type Read = (Option<Model>, Diagnostics);
@@ -48,8 +49,16 @@ pub(crate) fn read(source: &str) -> Read {
     (model, wrong)
 }
 
-/// Reads the library of parts.
-pub(crate) fn library() -> Vec<Item> {
+thread_local! {
+    static ITEMS: Rc<[Item]> = items().into();
+}
+
+/// The library of parts, which a thread reads once.
+pub(crate) fn library() -> Rc<[Item]> {
+    ITEMS.with(Rc::clone)
+}
+
+fn items() -> Vec<Item> {
     let Ok(mut tokens) = token::tokenize(LIBRARY) else {
         return Vec::new();
     };

@@ -3,6 +3,7 @@
 //! In:  a text that [`super::scan`] has passed.
 //! Out: tokens with their places and nesting, doc comments set apart.
 
+use super::ruler::Ruler;
 use super::words::NUMBERS;
 use crate::diagnostic::{Diagnostic, Diagnostics, Position, Span};
 use proc_macro2::{Delimiter, Group, Spacing, TokenStream, TokenTree, token_stream};
@@ -46,6 +47,7 @@ const SINGLES: [&str; 17] = [
 
 struct Flattener<'a> {
     source: &'a str,
+    ruler: Ruler<'a>,
     tokens: Tokens,
     frames: Vec<(Peekable<token_stream::IntoIter>, Group)>,
 }
@@ -54,7 +56,7 @@ struct Flattener<'a> {
 pub fn tokenize(source: &str) -> Result<Tokens, Diagnostics> {
     let stream = TokenStream::from_str(source).map_err(|error| {
         let mut diagnostics = Diagnostics::new();
-        let span = place(error.span());
+        let span = place(error.span(), &mut Ruler::new(source));
         diagnostics.push(Diagnostic::error(span, "this can't be read").help(NUMBERS));
         diagnostics
     })?;
@@ -64,6 +66,7 @@ pub fn tokenize(source: &str) -> Result<Tokens, Diagnostics> {
     };
     let mut flattener = Flattener {
         source,
+        ruler: Ruler::new(source),
         tokens,
         frames: Vec::new(),
     };
@@ -78,24 +81,31 @@ impl Flattener<'_> {
         loop {
             match current.next() {
                 Some(TokenTree::Group(group)) => {
-                    self.push(bracket(group.delimiter(), true), place(group.span_open()));
+                    let span = self.place(group.span_open());
+                    self.push(bracket(group.delimiter(), true), span);
                     let inside = group.stream().into_iter().peekable();
                     self.frames
                         .push((std::mem::replace(&mut current, inside), group));
                 }
                 Some(TokenTree::Punct(punct)) if punct.as_char() == '#' => {
-                    self.doc_comment(place(punct.span()), &mut current);
+                    let span = self.place(punct.span());
+                    self.doc_comment(span, &mut current);
                 }
                 Some(tree) => self.leaf(tree, &mut current),
                 None => match self.frames.pop() {
                     Some((outer, group)) => {
                         current = outer;
-                        self.push(bracket(group.delimiter(), false), place(group.span_close()));
+                        let span = self.place(group.span_close());
+                        self.push(bracket(group.delimiter(), false), span);
                     }
                     None => return,
                 },
             }
         }
+    }
+
+    fn place(&mut self, span: proc_macro2::Span) -> Span {
+        place(span, &mut self.ruler)
     }
 
     fn push(&mut self, kind: TokenKind, span: Span) {
@@ -109,7 +119,7 @@ impl Flattener<'_> {
     }
 
     fn leaf(&mut self, tree: TokenTree, rest: &mut Peekable<token_stream::IntoIter>) {
-        let span = place(tree.span());
+        let span = self.place(tree.span());
         match tree {
             TokenTree::Ident(word) => self.push(TokenKind::Word(word.to_string()), span),
             TokenTree::Literal(literal) => {
@@ -134,7 +144,8 @@ impl Flattener<'_> {
                 if let Some((pair, end)) = second.and_then(|(c, end)| Some((pair(first, c)?, end)))
                 {
                     rest.next();
-                    self.push(TokenKind::Symbol(pair), span.to(place(end)));
+                    let end = self.place(end);
+                    self.push(TokenKind::Symbol(pair), span.to(end));
                 } else {
                     self.push(TokenKind::Symbol(single(first)), span);
                 }
@@ -222,17 +233,16 @@ fn single(character: char) -> &'static str {
         .unwrap_or("?")
 }
 
-fn place(span: proc_macro2::Span) -> Span {
-    let bytes = span.byte_range();
+fn place(span: proc_macro2::Span, ruler: &mut Ruler) -> Span {
     let number = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-    let position = |at: proc_macro2::LineColumn, offset| Position {
+    let mut position = |at: proc_macro2::LineColumn| Position {
         line: number(at.line),
         column: number(at.column + 1),
-        offset: number(offset),
+        offset: number(ruler.offset(at)),
     };
     Span {
         library: false,
-        start: position(span.start(), bytes.start),
-        end: position(span.end(), bytes.end),
+        start: position(span.start()),
+        end: position(span.end()),
     }
 }

@@ -22,7 +22,7 @@ use bricard_codegen::internals::model::Mechanism;
 use proptest::test_runner::{Config, RngSeed, TestCaseError};
 
 /// How many mechanisms each test tries; `BRICARD_LONG=1` tries a hundred thousand.
-const CASES: u32 = 500;
+const CASES: u32 = 250;
 const LONG_CASES: u32 = 100_000;
 
 /// How many descriptions may be thrown away, on average, for each that is tried: more,
