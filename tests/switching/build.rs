@@ -4,8 +4,8 @@
 use bricard_codegen::Builder;
 use std::error::Error;
 use std::fmt::Write;
-use std::path::PathBuf;
-use std::{env, fs};
+use std::path::{Path, PathBuf};
+use std::{env, fs, io};
 
 mod points;
 
@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         for [place, value] in points::points(count) {
             writeln!(text, "{place},{value}")?;
         }
-        fs::write(folder.join(name), text)?;
+        write(&folder.join(name), &text)?;
     }
     for name in [
         "contact", "friction", "frozen", "looped", "placed", "tabled", "timed",
@@ -26,7 +26,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=points.rs");
     println!("cargo::rerun-if-changed=measured.mech");
     let measured = folder.join("measured.mech");
-    fs::copy("measured.mech", &measured)?;
+    write(&measured, &fs::read_to_string("measured.mech")?)?;
     Builder::new().compile(measured)?;
     Ok(())
+}
+
+/// Writes a file that cargo watches, unless it holds this already: a file that is newer than
+/// the last run of this program is a reason to run it again.
+fn write(path: &Path, text: &str) -> io::Result<()> {
+    match fs::read_to_string(path) {
+        Ok(known) if known == text => Ok(()),
+        _ => fs::write(path, text),
+    }
 }
