@@ -164,13 +164,17 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) {
+        // Mostly no row has grown; where some have, all are evaluated once.
+        let mut alone = None;
         for row in 0..R {
-            let alone = || {
-                mechanism.position(state, &mut self.position);
-                self.position.row_alone(row)
-            };
             let size = self.correction.pivots.row_squares[row];
-            self.rows.observe(row, size, alone);
+            self.rows.observe(row, size, || {
+                let alone = alone.get_or_insert_with(|| {
+                    mechanism.position(state, &mut self.position);
+                    self.position.rows_alone()
+                });
+                alone[row]
+            });
         }
     }
 

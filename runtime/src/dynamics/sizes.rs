@@ -151,13 +151,14 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             .factorise_metric(mechanism, Source::Position, t)
             .is_ok()
         {
+            let alone = self.position.rows_alone();
             for (row, size) in sizes.iter_mut().enumerate() {
                 let vector = self.metric.lift(&self.position.jacobian, row);
                 let square = dot(&vector, &vector);
                 if square.is_finite() {
                     *size = RowSize {
                         whole: square,
-                        alone: self.position.row_alone(row),
+                        alone: alone[row],
                     };
                 }
             }
@@ -167,16 +168,19 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 }
 
 impl<T: Real, const N: usize, const R: usize> Position<T, N, R> {
-    /// The squared size of a row in the metric of each coordinate alone, `Σ aⱼ²/mⱼⱼ`;
-    /// infinite if it restricts a coordinate without inertia.
-    pub(super) fn row_alone(&self, row: usize) -> T {
-        (0..N).fold(T::zero(), |sum, j| {
-            let lever = self.jacobian[(row, j)];
-            match lever == T::zero() {
-                true => sum,
-                false => sum + lever * lever / self.mass[(j, j)].max(T::zero()),
+    /// The squared sizes of the rows in the metric of each coordinate alone, `Σ aⱼ²/mⱼⱼ`;
+    /// infinite for one that restricts a coordinate without inertia.
+    pub(super) fn rows_alone(&self) -> [T; R] {
+        let mut alone = [T::zero(); R];
+        for (j, levers) in self.jacobian.data.0.iter().enumerate() {
+            let mass = self.mass[(j, j)].max(T::zero());
+            for (sum, lever) in alone.iter_mut().zip(levers) {
+                if *lever != T::zero() {
+                    *sum += *lever * *lever / mass;
+                }
             }
-        })
+        }
+        alone
     }
 }
 
