@@ -9,12 +9,17 @@ use std::process::{Command, Output};
 
 /// The command in a folder, with the cache that the tests share.
 fn bricard(folder: &Path, arguments: &[&str]) -> Ran {
-    let output = Command::new(env!("CARGO_BIN_EXE_bricard"))
-        .current_dir(folder)
-        .env("XDG_CACHE_HOME", cache())
-        .args(arguments)
-        .output();
-    read(output.expect("the command starts"))
+    bricard_with(None, folder, arguments)
+}
+
+/// The same with another `PATH`, where the compiler is looked for.
+fn bricard_with(path: Option<&Path>, folder: &Path, arguments: &[&str]) -> Ran {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_bricard"));
+    command.current_dir(folder).env("XDG_CACHE_HOME", cache());
+    command
+        .envs(path.map(|path| ("PATH", path)))
+        .args(arguments);
+    read(command.output().expect("the command starts"))
 }
 
 /// Runs a command to its end, which has to be a good one; what it prints.
@@ -66,12 +71,9 @@ fn toolchain(folder: &Path, script: &str) -> PathBuf {
 #[test]
 fn a_package_for_npm_is_whole_but_for_its_module_where_rust_can_not_compile_that() {
     let folder = folder("export_wasm");
-    let output = Command::new(env!("CARGO_BIN_EXE_bricard"))
-        .current_dir(&folder)
-        .env("PATH", toolchain(&folder, "echo /nowhere"))
-        .args(["export", "slider_crank", "--to", "wasm"])
-        .output();
-    let ran = read(output.expect("the command starts"));
+    let idle = toolchain(&folder, "echo /nowhere");
+    let wasm = ["export", "slider_crank", "--to", "wasm"];
+    let ran = bricard_with(Some(&idle), &folder, &wasm);
     let made = folder.join("slider_crank");
     for file in [
         "index.js",
@@ -263,25 +265,20 @@ fn a_library_belongs_to_the_numbers_in_the_files_that_its_description_reads() {
         force table(\"told.csv\", \"force\", t) on x; }";
     fs::write(folder.join("told.mech"), text).expect("the folder is ours");
     let path = std::env::var("PATH").expect("where rustc is");
-    let exported = |force: u8, path: &str| {
+    let exported = |force: u8, path: Option<&Path>| {
         let data = format!("time,force\n0,0\n1,{force}\n");
         fs::write(folder.join("told.csv"), data).expect("the folder is ours");
-        let output = Command::new(env!("CARGO_BIN_EXE_bricard"))
-            .current_dir(&folder)
-            .env("XDG_CACHE_HOME", cache())
-            .env("PATH", path)
-            .args(["export", "told.mech", "--to", "library"])
-            .output();
-        read(output.expect("the command starts"))
+        let library = ["export", "told.mech", "--to", "library"];
+        bricard_with(path, &folder, &library)
     };
-    let first = exported(2, &path);
+    let first = exported(2, None);
     assert_eq!(first.status, Some(0), "{}", first.err);
     // A toolchain that says which it is and compiles nothing: what needs no compiler is there.
     let script = format!("[ \"$1\" = -vV ] && PATH='{path}' exec rustc -vV\nexit 1");
-    let idle = toolchain(&folder, &script).to_string_lossy().into_owned();
-    let again = exported(2, &idle);
+    let idle = toolchain(&folder, &script);
+    let again = exported(2, Some(&idle));
     assert_eq!((again.status, again.out), (Some(0), first.out));
-    let other = exported(3, &idle);
+    let other = exported(3, Some(&idle));
     assert_eq!(other.status, Some(1), "{}", other.out);
     let said = "told.mech could not be compiled";
     assert!(other.err.contains(said), "{}", other.err);

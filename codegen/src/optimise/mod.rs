@@ -52,9 +52,9 @@ use crate::expr::{ExprId, Graph};
 pub const REWRITTEN_MAX: usize = 30_000;
 
 /// How many terms may be multiplied or added in the ring of sines and cosines, for each
-/// operand of a program and for any program. Of the programs that are shorter for it, none
-/// takes more than 11 for each operand; in a long chain of angles the polynomials grow with
-/// its length, are no shorter, and would take most of the time.
+/// operand of a program and for any program. Every program of the descriptions here that is
+/// shorter for it stays within; in a long chain of angles the polynomials grow with its
+/// length, are no shorter, and would take most of the time.
 const MULTIPLIED: (usize, usize) = (14, 20_000);
 
 /// The program for the wanted expressions; `laws` are the default laws of the
