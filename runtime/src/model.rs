@@ -101,7 +101,7 @@ where
     }
 
     fn regular(&self, state: &State<T, N>, out: &mut Regular<T, N, R>) -> bool {
-        (**self).regular(state, out)
+        regular(*self, state, out)
     }
 
     fn position(&self, state: &State<T, N>, out: &mut Position<T, N, R>) {
@@ -109,7 +109,7 @@ where
     }
 
     fn correction(&self, state: &State<T, N>, out: &mut Correction<T, N, R>) -> bool {
-        (**self).correction(state, out)
+        correction(*self, state, out)
     }
 
     fn begin(&self, start: &mut Start<T, N>, t: T) -> Result<(), StartFault<T, N>> {
@@ -138,6 +138,27 @@ where
     ) -> bool {
         (**self).linearised(state, acceleration, multiplier, out)
     }
+}
+
+/// [`Mechanism::regular`], which is inlined wherever it is called; this is not, so that there
+/// is one copy of a long one.
+#[inline(never)]
+pub(crate) fn regular<T: Real, const N: usize, const R: usize>(
+    mechanism: &(impl Mechanism<T, N, R> + ?Sized),
+    state: &State<T, N>,
+    out: &mut Regular<T, N, R>,
+) -> bool {
+    mechanism.regular(state, out)
+}
+
+/// [`Mechanism::correction`], likewise.
+#[inline(never)]
+pub(crate) fn correction<T: Real, const N: usize, const R: usize>(
+    mechanism: &(impl Mechanism<T, N, R> + ?Sized),
+    state: &State<T, N>,
+    out: &mut Correction<T, N, R>,
+) -> bool {
+    mechanism.correction(state, out)
 }
 
 /// What a program needs to handle a mechanism it knows nothing about.

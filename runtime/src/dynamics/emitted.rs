@@ -9,6 +9,7 @@
 //! everywhere, whose pivots are never safe.
 
 use super::{Core, Rows};
+use crate::model;
 use crate::state::all_finite;
 use crate::tolerance::{definite, negligible, passes, window};
 use crate::{Form, Mechanism, Pivots, Real, Regular, Stabilisation, State};
@@ -65,7 +66,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The acceleration by emitted code, and the smallest squared sine that its pivots
     /// show: zero if something is not definite or not finite, or there is no such code.
     ///
-    /// The code is long enough to be inlined in one place only.
+    /// Short code is inlined here and nowhere else in what is called often; there is one copy
+    /// of long code.
     #[inline(never)]
     pub(super) fn evaluate<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
@@ -85,7 +87,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if !mechanism.structure().weighed.is_empty() {
             regular.weights = SVector::from(self.rows.weights());
         }
-        self.emitted = mechanism.regular(state, regular);
+        self.emitted = match N + R <= IN_REGISTERS {
+            true => mechanism.regular(state, regular),
+            false => model::regular(mechanism, state, regular),
+        };
         if !self.emitted {
             return T::zero();
         }
@@ -134,7 +139,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if !mechanism.structure().weighed.is_empty() {
             self.correction.weights = SVector::from(self.rows.weights());
         }
-        if !mechanism.correction(state, &mut self.correction) {
+        let provided = match N + R <= IN_REGISTERS {
+            true => mechanism.correction(state, &mut self.correction),
+            false => model::correction(mechanism, state, &mut self.correction),
+        };
+        if !provided {
             return Correcting::Lost;
         }
         let squared = squared_sine(&self.correction.pivots, &self.rows);
