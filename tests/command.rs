@@ -403,8 +403,8 @@ fn equations_are_shown_entry_by_entry() {
     );
 }
 
-/// In joint angles an entry of M and C holds all links from there on: parts that many
-/// entries share would be written out again in each.
+/// In joint angles an entry holds all links from there on: parts that many entries share would
+/// be written out again in each.
 #[test]
 fn entries_that_nobody_would_read_to_their_end_are_shown_by_their_length() {
     let chain = concat!(

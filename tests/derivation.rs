@@ -184,7 +184,7 @@ impl Case<'_> {
 #[test]
 fn the_mass_matrix_is_the_second_derivative_of_the_kinetic_energy() {
     check(|case| {
-        let mass = case.matrix(&case.of.equations.mass);
+        let mass = case.matrix(&case.of.mass);
         let Point { q, v, t, .. } = &case.point;
         for (i, row) in mass.iter().enumerate() {
             for (j, &entry) in row.iter().enumerate() {
@@ -205,7 +205,7 @@ fn the_mass_matrix_is_the_second_derivative_of_the_kinetic_energy() {
 #[test]
 fn the_kinetic_energy_is_its_value_at_rest_its_slope_there_and_half_the_quadratic_form() {
     check(|case| {
-        let mass = case.matrix(&case.of.equations.mass);
+        let mass = case.matrix(&case.of.mass);
         let resting = Point {
             v: vec![0.0; case.of.n()],
             ..case.point.clone()
@@ -231,7 +231,7 @@ fn the_kinetic_energy_is_its_value_at_rest_its_slope_there_and_half_the_quadrati
 fn the_equations_of_motion_are_lagranges() {
     check(|case| {
         let equations = &case.of.equations;
-        let (mass, force) = (case.matrix(&equations.mass), case.vector(&equations.force));
+        let (mass, force) = (case.matrix(&case.of.mass), case.vector(&equations.force));
         for i in 0..case.of.n() {
             let inertia =
                 case.momentum_rate(i) - case.total(&case.kinetic(), &|e| case.partial(e, i, false));
@@ -275,7 +275,7 @@ fn with_coriolis(claim: impl Fn(&Case, &[Vec<f64>])) {
     for mut derived in everything().filter(|derived| !derived.mass_knows_time()) {
         let entries = coriolis_matrix(
             &mut derived.mechanism.graph,
-            &derived.equations.mass.clone(),
+            &derived.mass.clone(),
         );
         for seed in 0..STATES as u64 {
             let point = derived.point(&mut Random::seeded(seed));
@@ -321,7 +321,7 @@ fn the_rate_of_the_mass_matrix_less_twice_the_coriolis_matrix_is_skew() {
             let velocity = |k: usize| Dual64::from_re(v[k]);
             case.dual(e, coordinate, velocity, Dual64::new(*t, 1.0)).eps
         };
-        let mass = &case.of.equations.mass;
+        let mass = &case.of.mass;
         let entry = |i: usize, j: usize| rate(mass[i][j]) - 2.0 * coriolis[i][j];
         let places = (0..coriolis.len()).flat_map(|i| (0..=i).map(move |j| (i, j)));
         for (i, j) in places {
@@ -391,7 +391,7 @@ fn the_energy_balance_is_the_power_supplied() {
     check(|case| {
         let equations = &case.of.equations;
         let energies = equations.energies;
-        let (mass, force) = (case.matrix(&equations.mass), case.vector(&equations.force));
+        let (mass, force) = (case.matrix(&case.of.mass), case.vector(&equations.force));
         let reaction: Vec<f64> = mass
             .iter()
             .zip(&force)

@@ -3,7 +3,7 @@
 
 use bricard_codegen::Settings;
 use bricard_codegen::internals::analyse;
-use bricard_codegen::internals::derive::{Equations, Linearised, derive, linearise};
+use bricard_codegen::internals::derive::{Equations, Linearised, Matrix, derive, linearise, mass_matrix};
 use bricard_codegen::internals::expr::{ExprId, Symbol};
 use bricard_codegen::internals::model;
 use bricard_runtime::{Interface, Mechanism, Real, Visitor, Whole};
@@ -14,6 +14,8 @@ pub struct Derived {
     pub name: String,
     pub mechanism: model::Mechanism,
     pub equations: Equations,
+    /// `M`, also where equations do without its entries.
+    pub mass: Matrix,
     pub linearised: Linearised,
 }
 
@@ -37,11 +39,13 @@ pub fn derived(name: &str, source: &str) -> Derived {
     let (mut mechanism, _) =
         analysed.unwrap_or_else(|errors| panic!("{}", errors.render(name, source)));
     let equations = derive(&mut mechanism).expect("equations of a usual length");
+    let mass = mass_matrix(&mut mechanism, &equations);
     let linearised = linearise(&mut mechanism, &equations).expect("derivatives likewise");
     Derived {
         name: name.to_string(),
         mechanism,
         equations,
+        mass,
         linearised,
     }
 }
@@ -186,7 +190,7 @@ impl Derived {
     /// Whether time itself occurs in the mass matrix.
     pub fn mass_knows_time(&self) -> bool {
         let graph = &self.mechanism.graph;
-        let entries = self.equations.mass.iter().flatten();
+        let entries = self.mass.iter().flatten();
         entries
             .into_iter()
             .any(|e| graph.depends_on(*e, Symbol::Time))

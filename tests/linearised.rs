@@ -103,7 +103,7 @@ fn check(derived: &Derived, point: &Point) {
     let (equations, linear) = (&derived.equations, &derived.linearised);
     let (q, v): (By, By) = (Symbol::Coordinate, Symbol::Velocity);
     for i in 0..derived.n() {
-        let masses = equations.mass[i]
+        let masses = derived.mass[i]
             .iter()
             .copied()
             .zip(point.accelerations.clone());

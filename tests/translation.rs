@@ -67,7 +67,7 @@ fn places(derived: &Derived) -> Vec<(Place, ExprId)> {
         ("force by v", &linear.force_by_velocity),
         ("row by q", &linear.row_by_position),
         ("row by v", &linear.row_by_velocity),
-        ("mass", &equations.mass),
+        ("mass", &derived.mass),
         ("jacobian", &equations.jacobian),
     ];
     for (array, rows) in matrices {

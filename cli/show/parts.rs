@@ -8,23 +8,31 @@ use bricard_codegen::internals::expr::{ExprId, Graph, Symbol};
 
 /// The coordinates of each part, in their order.
 pub fn parts(graph: &Graph, equations: &Equations) -> Vec<Vec<usize>> {
-    let n = equations.mass.len();
+    let (n, _) = equations.sizes();
     let mut part: Vec<usize> = (0..n).collect();
     let moving = |entry: &ExprId| {
         let symbols = graph.symbols(*entry).into_iter();
         symbols.filter_map(|symbol| match symbol {
-            Symbol::Coordinate(i) | Symbol::Velocity(i) => Some(i as usize),
+            Symbol::Coordinate(i) | Symbol::Velocity(i) | Symbol::Acceleration(i) => {
+                Some(i as usize)
+            }
             _ => None,
         })
     };
-    for (i, row) in equations.mass.iter().enumerate() {
+    for (i, inertia) in equations.inertia.iter().flatten().enumerate() {
+        let together: Vec<usize> = moving(inertia).chain([i]).collect();
+        join(&mut part, &together);
+    }
+    for (i, row) in equations.mass.iter().flatten().enumerate() {
         for (j, entry) in row.iter().enumerate() {
             if !graph.is_zero(*entry) {
                 let together: Vec<usize> = moving(entry).chain([i, j]).collect();
                 join(&mut part, &together);
             }
         }
-        let together: Vec<usize> = moving(&equations.force[i]).chain([i]).collect();
+    }
+    for (i, force) in equations.force.iter().enumerate() {
+        let together: Vec<usize> = moving(force).chain([i]).collect();
         join(&mut part, &together);
     }
     for (row, bias) in equations.jacobian.iter().zip(&equations.bias) {

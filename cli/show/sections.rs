@@ -26,15 +26,8 @@ enum Entries {
 /// The arrays in the order of their derivation. Those of constraints are left
 /// out where there are none.
 pub fn sections(mechanism: &mut Mechanism, equations: &Equations) -> Vec<Section> {
-    let coriolis = coriolis_matrix(&mut mechanism.graph, &equations.mass);
-    let mut sections = vec![
-        matrix("mass matrix M = ∂²T/∂q̇²", "M", "M", &equations.mass),
-        matrix(
-            "Coriolis matrix C by Christoffel symbols",
-            "C",
-            "C",
-            &coriolis,
-        ),
+    let mut sections = inertia(mechanism, equations);
+    sections.extend([
         vector(
             "product C q̇, with the terms of moving frames",
             "Cv",
@@ -48,7 +41,7 @@ pub fn sections(mechanism: &mut Mechanism, equations: &Equations) -> Vec<Section
             "Q",
             &equations.applied,
         ),
-    ];
+    ]);
     if !equations.jacobian.is_empty() {
         sections.extend([
             vector("constraints g", "g", "g", &equations.residual),
@@ -73,6 +66,24 @@ pub fn sections(mechanism: &mut Mechanism, equations: &Equations) -> Vec<Section
         ]);
     }
     sections
+}
+
+/// `M` and `C`; of a chain so long that `M` is not derived, what stands for it.
+fn inertia(mechanism: &mut Mechanism, equations: &Equations) -> Vec<Section> {
+    let Some(mass) = &equations.mass else {
+        let title = "product M q̈, of which functions compute M column by column";
+        return vec![vector(title, "Ma", "(M\\ddot q)", &equations.inertial())];
+    };
+    let coriolis = coriolis_matrix(&mut mechanism.graph, mass);
+    vec![
+        matrix("mass matrix M = ∂²T/∂q̇²", "M", "M", mass),
+        matrix(
+            "Coriolis matrix C by Christoffel symbols",
+            "C",
+            "C",
+            &coriolis,
+        ),
+    ]
 }
 
 fn matrix(

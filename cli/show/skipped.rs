@@ -62,11 +62,8 @@ fn coriolis(graph: &Graph, equations: &Equations) -> Option<String> {
 
 /// A mass matrix that is factorised once.
 fn constant_mass(graph: &Graph, equations: &Equations) -> Option<String> {
-    let moves = |symbol: &Symbol| matches!(symbol, Symbol::Time | Symbol::Coordinate(_));
-    let constant = |e: &ExprId| !graph.symbols(*e).iter().any(moves);
-    let n = equations.mass.len();
-    let all = equations.mass.iter().flatten().all(constant);
-    all.then(|| {
+    let (n, _) = equations.sizes();
+    equations.has_constant_mass(graph).then(|| {
         format!("slopes of M, and its factorisation but for the first: M is constant; {} operations a factorisation", (n * n * n + 2 * n) / 3)
     })
 }
@@ -76,8 +73,8 @@ fn solve(graph: &Graph, equations: &Equations, programs: &Programs) -> Option<St
     if programs.inertia.is_some() {
         return None;
     }
-    let (n, r) = (equations.mass.len(), equations.jacobian.len());
-    let absent = zeros(graph, equations.mass.iter().flatten())
+    let (n, r) = equations.sizes();
+    let absent = zeros(graph, equations.inertial().iter())
         + 2 * zeros(graph, equations.jacobian.iter().flatten());
     let solved = operations(cost(&programs.regular.as_ref()?.program));
     let spent = solved.saturating_sub(operations(programs.terms.cost));
@@ -95,11 +92,11 @@ fn solve(graph: &Graph, equations: &Equations, programs: &Programs) -> Option<St
 /// Entries that are equal to others.
 fn repeated(graph: &Graph, equations: &Equations) -> Option<String> {
     let e = equations;
-    let entries = e.mass.iter().chain(&e.jacobian).flatten();
-    let entries: Vec<ExprId> = entries
-        .chain(&e.force)
-        .chain(&e.bias)
-        .copied()
+    let rows = e.jacobian.iter().flatten();
+    let entries: Vec<ExprId> = e
+        .inertial()
+        .into_iter()
+        .chain(rows.chain(&e.force).chain(&e.bias).copied())
         .filter(|entry| !graph.is_zero(*entry) && graph.constant_value(*entry).is_none())
         .collect();
     let distinct: BTreeSet<ExprId> = entries.iter().copied().collect();
@@ -127,9 +124,10 @@ fn time(graph: &Graph, equations: &Equations) -> Option<String> {
 fn ignorable(mechanism: &Mechanism, equations: &Equations) -> Option<String> {
     let e = equations;
     let graph = &mechanism.graph;
-    let entries = e.mass.iter().chain(&e.jacobian).flatten();
-    let entries = entries.chain(&e.force).chain(&e.residual).chain(&e.bias);
-    let present: BTreeSet<Symbol> = entries.flat_map(|entry| graph.symbols(*entry)).collect();
+    let rows = e.jacobian.iter().flatten();
+    let others = rows.chain(&e.force).chain(&e.residual).chain(&e.bias);
+    let entries = e.inertial().into_iter().chain(others.copied());
+    let present: BTreeSet<Symbol> = entries.flat_map(|entry| graph.symbols(entry)).collect();
     let absent = mechanism.coordinates.iter().enumerate();
     let absent: Vec<&str> = absent
         .filter(|(i, _)| !present.contains(&Symbol::Coordinate(*i as u32)))

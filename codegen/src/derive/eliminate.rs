@@ -14,10 +14,11 @@
 use super::explicit::{Explicit, explicit};
 use super::gradient::Sweep;
 use super::gradient::{coordinates, velocities};
+use super::inertia::product;
 use super::motion::{Motion, motion};
 use super::swell;
 use crate::diagnostic::Diagnostics;
-use crate::expr::{ExprId, Graph, Number, Symbol};
+use crate::expr::{ExprId, Graph, Symbol};
 use crate::model::{Described, Mechanism, Shape};
 
 /// The mechanism without the coordinates that its constraints give explicitly; as it is
@@ -60,18 +61,16 @@ pub fn eliminate(mut mechanism: Mechanism) -> Result<Mechanism, Diagnostics> {
 
 /// `r = p₁ − M q̈` in all coordinates.
 fn reactions(mechanism: &mut Mechanism) -> Option<Vec<ExprId>> {
-    let Motion { mass, force, .. } = motion(mechanism, Sweep::Forward)?;
+    let Motion {
+        mass,
+        inertia,
+        force,
+        ..
+    } = motion(mechanism, Sweep::Forward)?;
     let graph = &mut mechanism.graph;
-    let mut reactions = Vec::new();
-    for (force, masses) in force.into_iter().zip(mass) {
-        let mut terms = vec![(force, Number::ONE)];
-        for (j, entry) in (0..).zip(masses) {
-            let acceleration = graph.symbol(Symbol::Acceleration(j));
-            terms.push((graph.mul(entry, acceleration), Number::MINUS_ONE));
-        }
-        reactions.push(graph.weighted_sum(Number::ZERO, &terms));
-    }
-    Some(reactions)
+    let inertia = product(graph, inertia.as_ref(), mass.as_ref());
+    let pairs = force.into_iter().zip(inertia);
+    Some(pairs.map(|(force, i)| graph.sub(force, i)).collect())
 }
 
 /// The declared coordinates in terms of those that are kept, by their old places.

@@ -9,8 +9,9 @@ pub type Matrix = Vec<Vec<ExprId>>;
 /// constraint equations: `M q̈ + r = p₁`, `A q̈ = p₂`, `g = 0`.
 #[derive(Clone, Debug)]
 pub struct Equations {
-    /// `M`, `N × N`.
-    pub mass: Matrix,
+    /// `M`, `N × N`; none where `inertia` is all that the code is made of: without constraints,
+    /// nothing needs the entries.
+    pub mass: Option<Matrix>,
     /// `M q̈`, `N`, of which functions compute `M`, where writing its entries down is longer.
     pub inertia: Option<Vec<ExprId>>,
     /// `C q̇` and the terms of moving frames: `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`, `N`.
@@ -41,6 +42,19 @@ pub struct Equations {
     pub start_positions: StartRows,
     /// Equations of the start for velocities, likewise: `b` and `A` of `A q̇ + b = 0`.
     pub start_velocities: StartRows,
+}
+
+impl Equations {
+    /// `N` and `R`.
+    pub fn sizes(&self) -> (usize, usize) {
+        (self.force.len(), self.jacobian.len())
+    }
+
+    /// What is written down of inertia: `M q̈`, or else the entries of `M`.
+    pub fn inertial(&self) -> Vec<ExprId> {
+        let entries = || self.mass.iter().flatten().flatten().copied().collect();
+        self.inertia.clone().unwrap_or_else(entries)
+    }
 }
 
 /// Equations of the start.

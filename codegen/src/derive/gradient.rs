@@ -26,6 +26,16 @@ pub(super) fn gradient(
     symbols.map(&mut by).collect()
 }
 
+/// `Σ eᵢ sᵢ`.
+pub(super) fn against(graph: &mut Graph, entries: &[ExprId], symbol: fn(u32) -> Symbol) -> ExprId {
+    let mut terms = Vec::new();
+    for (i, &entry) in (0..).zip(entries) {
+        let factor = graph.symbol(symbol(i));
+        terms.push(graph.mul(entry, factor));
+    }
+    graph.sum(terms)
+}
+
 /// How derivatives by all coordinates or velocities are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Sweep {

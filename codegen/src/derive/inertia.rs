@@ -11,6 +11,8 @@
 //! (2008), section 5.3); columns of `M` are its results for unit accelerations (section 6.1).
 
 use super::composite::{of_coordinates, parts};
+use super::equations::Matrix;
+use super::gradient::against;
 use super::reduced::Reduced;
 use crate::expr::{Arithmetic, ExprId, Graph, Symbol};
 
@@ -48,6 +50,19 @@ pub(super) fn inertia(graph: &mut Graph, reduced: &Reduced, n: usize) -> Option<
         rows.map(|row| combination(graph, row.into_iter()).unwrap_or(zero))
             .collect(),
     )
+}
+
+/// `M q̈` as it is derived: by itself, or else of the entries of `M`.
+pub(super) fn product(
+    graph: &mut Graph,
+    inertia: Option<&Vec<ExprId>>,
+    mass: Option<&Matrix>,
+) -> Vec<ExprId> {
+    let of_entries = |row: &Vec<ExprId>| against(graph, row, Symbol::Acceleration);
+    match inertia {
+        Some(inertia) => inertia.clone(),
+        None => mass.into_iter().flatten().map(of_entries).collect(),
+    }
 }
 
 /// `Σ g x`.

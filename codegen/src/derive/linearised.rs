@@ -8,7 +8,8 @@
 //! The symbol `Follows` tells them apart.
 
 use super::equations::{Equations, Matrix};
-use super::gradient::{coordinates, velocities};
+use super::gradient::{against, coordinates, velocities};
+use super::inertia::product;
 use crate::expr::{Direction, ExprId, Graph, Number, Symbol};
 use crate::model::{Input, Mechanism};
 
@@ -31,7 +32,7 @@ const EXPRESSIONS_MAX: usize = 30_000;
 /// Linearises the equations of motion of a mechanism; none if that takes more
 /// expressions than a function should have.
 pub fn linearise(mechanism: &mut Mechanism, equations: &Equations) -> Option<Linearised> {
-    let n = equations.mass.len();
+    let (n, _) = equations.sizes();
     let Mechanism { graph, inputs, .. } = mechanism;
     let forces = forces_left(graph, equations);
     let rows = rows_left(graph, equations);
@@ -62,7 +63,7 @@ pub struct Partials {
 /// Derives what other programs ask for besides [`linearise`]; none if that takes more
 /// expressions than a function should have.
 pub fn differentiate(mechanism: &mut Mechanism, equations: &Equations) -> Option<Partials> {
-    let n = equations.mass.len();
+    let (n, _) = equations.sizes();
     let outputs: Vec<_> = mechanism.outputs.iter().map(|y| y.value).collect();
     let events: Vec<_> = mechanism.events.iter().map(|e| e.value).collect();
     let Mechanism { graph, inputs, .. } = mechanism;
@@ -82,10 +83,11 @@ pub fn differentiate(mechanism: &mut Mechanism, equations: &Equations) -> Option
 
 /// `p₁ − M q̈ − Aᵀλ`, `N`.
 fn forces_left(graph: &mut Graph, equations: &Equations) -> Vec<ExprId> {
+    let (inertia, mass) = (equations.inertia.as_ref(), equations.mass.as_ref());
+    let inertia = product(graph, inertia, mass);
     let mut left = Vec::new();
-    for (i, (&force, masses)) in equations.force.iter().zip(&equations.mass).enumerate() {
+    for (i, (&force, inertia)) in equations.force.iter().zip(inertia).enumerate() {
         let column: Vec<ExprId> = equations.jacobian.iter().map(|row| row[i]).collect();
-        let inertia = against(graph, masses, Symbol::Acceleration);
         let reaction = against(graph, &column, Symbol::Multiplier);
         let minus = Number::MINUS_ONE;
         let terms = [(force, Number::ONE), (inertia, minus), (reaction, minus)];
@@ -102,16 +104,6 @@ fn rows_left(graph: &mut Graph, equations: &Equations) -> Vec<ExprId> {
         left.push(graph.sub(bias, turned));
     }
     left
-}
-
-/// `Σ eᵢ sᵢ`.
-fn against(graph: &mut Graph, entries: &[ExprId], symbol: fn(u32) -> Symbol) -> ExprId {
-    let mut terms = Vec::new();
-    for (i, &entry) in (0..).zip(entries) {
-        let factor = graph.symbol(symbol(i));
-        terms.push(graph.mul(entry, factor));
-    }
-    graph.sum(terms)
 }
 
 /// `∂e/∂symbol`, a row for each expression, unless the graph becomes too long.

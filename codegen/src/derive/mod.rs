@@ -33,6 +33,7 @@ pub use christoffel::coriolis_matrix;
 pub use eliminate::eliminate;
 pub use equations::{Energies, Equations, Matrix, StartRows};
 pub use linearised::{Linearised, Partials, differentiate, linearise};
+pub use mass::mass_matrix;
 pub use shared::{Shared, shared};
 pub use swell::{EXPRESSIONS_MAX, SWELL, swell};
 
@@ -123,7 +124,8 @@ fn equations(mechanism: &mut Mechanism, by: Sweep) -> Option<Equations> {
     let (forces, momenta) = (&applied[..freedoms], &momenta[..freedoms]);
     let energies = energy::energies(graph, kinetic, potential, forces, momenta);
     within_bounds(graph)?;
-    let weighed = weighed::weighed(graph, &mass, &closure.jacobian);
+    let weighed = mass.as_ref();
+    let weighed = weighed.map(|mass| weighed::weighed(graph, mass, &closure.jacobian));
     Some(Equations {
         mass,
         inertia,
@@ -135,7 +137,7 @@ fn equations(mechanism: &mut Mechanism, by: Sweep) -> Option<Equations> {
         speed: closure.speed,
         turn: closure.turn,
         jacobian: closure.jacobian,
-        weighed,
+        weighed: weighed.unwrap_or_default(),
         drift: closure.drift,
         bias: closure.bias,
         energies,

@@ -13,7 +13,7 @@ pub(super) struct Motion {
     pub kinetic: ExprId,
     pub potential: ExprId,
     pub momenta: Vec<ExprId>,
-    pub mass: Matrix,
+    pub mass: Option<Matrix>,
     pub inertia: Option<Vec<ExprId>>,
     pub coriolis: Vec<ExprId>,
     pub gravity: Vec<ExprId>,
@@ -35,17 +35,20 @@ pub(super) fn motion(mechanism: &mut Mechanism, by: Sweep) -> Option<Motion> {
         Sweep::Forward => None,
         Sweep::Back => Reduced::of(graph, kinetic, n),
     };
-    let mut mass = match &shared {
-        Some(reduced) => composite::mass_matrix(graph, reduced, n),
-        None => mass::mass_matrix(graph, &momenta),
-    };
-    let mut inertia = shared.and_then(|reduced| inertia::inertia(graph, &reduced, n));
-    for (i, row) in mass.iter_mut().enumerate().skip(freedoms) {
-        row[i] = graph.integer(1);
-        if let (Some(inertia), Ok(state)) = (&mut inertia, u32::try_from(i)) {
-            inertia[i] = graph.symbol(Symbol::Acceleration(state));
-        }
+    let inertia = shared.as_ref();
+    let mut inertia = inertia.and_then(|reduced| inertia::inertia(graph, reduced, n));
+    for (state, entry) in (0..).zip(inertia.iter_mut().flatten()).skip(freedoms) {
+        *entry = graph.symbol(Symbol::Acceleration(state));
     }
+    let needs_entries = inertia.is_none() || !mechanism.constraints.is_empty();
+    let mass = needs_entries.then(|| {
+        let mut mass = match &shared {
+            Some(reduced) => composite::mass_matrix(graph, reduced, n),
+            None => mass::of_momenta(graph, &momenta),
+        };
+        mass::set_states(graph, &mut mass, freedoms);
+        mass
+    });
     within_bounds(graph)?;
     let coriolis = force::coriolis_product(graph, kinetic, &momenta, by);
     let gravity = force::potential_force(graph, potential, n, by);

@@ -9,7 +9,7 @@ impl Equations {
     pub fn has_constant_mass(&self, graph: &Graph) -> bool {
         let moves = |symbol: &Symbol| matches!(symbol, Symbol::Time | Symbol::Coordinate(_));
         let constant = |entry: &ExprId| !graph.symbols(*entry).iter().any(moves);
-        self.mass.iter().flatten().all(constant)
+        self.inertial().iter().all(constant)
     }
 
     /// Whether the constraints restrict positions only, to the same ones at all times.

@@ -77,10 +77,7 @@ fn part(share: f64) -> String {
 }
 
 fn roots(equations: &Equations) -> Vec<ExprId> {
-    let masses = match &equations.inertia {
-        Some(inertia) => inertia.clone(),
-        None => equations.mass.concat(),
-    };
+    let masses = equations.inertial();
     let rows = equations.jacobian.concat();
     let vectors = [&masses, &rows, &equations.force, &equations.bias];
     vectors.into_iter().flatten().copied().collect()

@@ -96,7 +96,7 @@ pub(super) fn doc_lines(text: &str) -> Vec<String> {
 impl Subject<'_> {
     /// `N` and `R`.
     pub fn counts(&self) -> (usize, usize) {
-        (self.equations.mass.len(), self.equations.jacobian.len())
+        self.equations.sizes()
     }
 
     /// `N` and `R` as literals.

@@ -28,9 +28,24 @@ pub struct Numbers<'a> {
     graph: &'a Graph,
     /// The constraints, and behind them the equations of the start where they are looked at.
     rows: Vec<Row<'a>>,
-    /// `M`, row by row.
-    mass: &'a Matrix,
+    inertia: Inertia<'a>,
     parameters: Vec<f64>,
+}
+
+/// What `M` is found from.
+#[derive(Clone, Copy, Debug)]
+enum Inertia<'a> {
+    /// Its entries.
+    Entries(&'a Matrix),
+    /// `M q̈`.
+    Product(&'a [ExprId]),
+}
+
+impl<'a> Inertia<'a> {
+    fn of(equations: &'a Equations) -> Option<Self> {
+        let entries = equations.mass.as_ref().map(Self::Entries);
+        entries.or_else(|| equations.inertia.as_deref().map(Self::Product))
+    }
 }
 
 /// A constraint or an equation of the start.
@@ -108,7 +123,7 @@ impl<'a> Numbers<'a> {
             mechanism,
             graph: &mechanism.graph,
             rows,
-            mass: &equations.mass,
+            inertia: Inertia::of(equations)?,
             parameters: Vec::new(),
         };
         let defaults = mechanism.parameters.iter().map(|p| p.default);
@@ -117,7 +132,7 @@ impl<'a> Numbers<'a> {
             t: 0.0,
             q: vec![0.0; n],
         };
-        numbers.parameters = numbers.with_inputs(&defaults, &nowhere, &[], &[]);
+        numbers.parameters = numbers.with_inputs(&defaults, &nowhere, &[], (&[], None));
         Some(numbers)
     }
 
@@ -142,16 +157,33 @@ impl<'a> Numbers<'a> {
     /// Values of expressions at a place, at velocities; those behind the last are zero.
     /// Inputs are at their laws.
     pub fn moving(&self, roots: &[ExprId], place: &Place, v: &[f64]) -> Vec<f64> {
+        self.accelerating(roots, place, v, None)
+    }
+
+    /// The same where one acceleration is one, if any, and all others are zero.
+    fn accelerating(
+        &self,
+        roots: &[ExprId],
+        place: &Place,
+        v: &[f64],
+        unit: Option<u32>,
+    ) -> Vec<f64> {
         let laws = self.mechanism.inputs.iter().map(|input| input.law);
         let laws: Vec<ExprId> = laws.collect();
         let inputs = match laws.as_slice() {
             [] => Vec::new(),
-            laws => self.with_inputs(laws, place, v, &[]),
+            laws => self.with_inputs(laws, place, v, (&[], unit)),
         };
-        self.with_inputs(roots, place, v, &inputs)
+        self.with_inputs(roots, place, v, (&inputs, unit))
     }
 
-    fn with_inputs(&self, roots: &[ExprId], place: &Place, v: &[f64], inputs: &[f64]) -> Vec<f64> {
+    fn with_inputs(
+        &self,
+        roots: &[ExprId],
+        place: &Place,
+        v: &[f64],
+        (inputs, unit): (&[f64], Option<u32>),
+    ) -> Vec<f64> {
         let value = |symbol| match symbol {
             // An infinite law is found fault with where it stands.
             Symbol::Input(i) => match inputs.get(i as usize) {
@@ -162,6 +194,7 @@ impl<'a> Numbers<'a> {
             Symbol::Coordinate(i) => place.q[i as usize],
             Symbol::Velocity(i) => v.get(i as usize).copied().unwrap_or(0.0),
             Symbol::Parameter(i) => self.parameters[i as usize],
+            Symbol::Acceleration(i) if unit == Some(i) => 1.0,
             _ => 0.0,
         };
         self.graph.evaluate_all(roots, &value)
@@ -175,8 +208,17 @@ impl<'a> Numbers<'a> {
 
     /// `M` at a place.
     pub fn mass(&self, place: &Place) -> Vec<Vec<f64>> {
-        let rows: Vec<&[ExprId]> = self.mass.iter().map(Vec::as_slice).collect();
-        self.matrix(&rows, place)
+        match self.inertia {
+            Inertia::Entries(mass) => {
+                let rows: Vec<&[ExprId]> = mass.iter().map(Vec::as_slice).collect();
+                self.matrix(&rows, place)
+            }
+            // What resists a unit acceleration is a column, and its row.
+            Inertia::Product(product) => {
+                let row = |unit| self.accelerating(product, place, &[], Some(unit));
+                (0..).map(row).take(product.len()).collect()
+            }
+        }
     }
 
     /// `A` at a place.

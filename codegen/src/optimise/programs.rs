@@ -16,7 +16,7 @@ use super::{
 };
 use crate::derive::{
     Equations, Linearised, Partials, Shared, StartRows, coriolis_matrix, differentiate, linearise,
-    shared,
+    mass_matrix, shared,
 };
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Mechanism, Shape};
@@ -119,22 +119,23 @@ impl Optimiser<'_> {
         }
     }
 
-    /// How many coordinates there are, and how many constraint rows.
-    fn sizes(&self) -> (usize, usize) {
-        (self.equations.mass.len(), self.equations.jacobian.len())
-    }
-
     /// `M q̈`, where `M` is not written down.
     fn inertia(&mut self) -> Option<Optimised> {
         let inertia = self.equations.inertia.as_ref()?;
         Some(self.optimised(&vector("mass", inertia)))
     }
 
-    /// The entries of `M`, which take part where they are written down.
+    /// The entries of `M`, where they are derived.
     fn mass(&self) -> Wanted {
+        let entries = self.equations.mass.as_ref();
+        entries.map_or_else(Wanted::new, |mass| matrix("mass", mass))
+    }
+
+    /// The same where they are written down.
+    fn written_mass(&self) -> Wanted {
         match self.equations.inertia {
             Some(_) => Wanted::new(),
-            None => matrix("mass", &self.equations.mass),
+            None => self.mass(),
         }
     }
 
@@ -147,16 +148,18 @@ impl Optimiser<'_> {
                 vector("bias", &equations.bias),
             ])
         };
-        let terms = self.optimised(&merged([self.mass(), vectors()]));
-        let (sizes, weighed) = (self.sizes(), &equations.weighed);
+        let terms = self.optimised(&merged([self.written_mass(), vectors()]));
+        let (sizes, weighed) = (equations.sizes(), &equations.weighed);
         if equations.inertia.is_none() {
             let regular = regular_acceleration(&terms.program, sizes, weighed);
             return (terms, regular);
         }
-        let regular = self.with_shared().or_else(|| {
-            let whole = merged([matrix("mass", &equations.mass), vectors()]);
-            regular_acceleration(&self.program(&whole), sizes, weighed)
-        });
+        let of_entries = |optimiser: &mut Self| {
+            equations.mass.as_ref()?;
+            let whole = merged([optimiser.mass(), vectors()]);
+            regular_acceleration(&optimiser.program(&whole), sizes, weighed)
+        };
+        let regular = self.with_shared().or_else(|| of_entries(self));
         (terms, regular)
     }
 
@@ -197,19 +200,19 @@ impl Optimiser<'_> {
             return (None, None);
         }
         let position = self.optimised(&merged([
-            self.mass(),
+            self.written_mass(),
             vector("residual", &equations.residual),
             matrix("jacobian", &equations.jacobian),
             vector("drift", &equations.drift),
         ]));
         let terms = self.program(&merged([
-            matrix("mass", &equations.mass),
+            self.mass(),
             matrix("jacobian", &equations.jacobian),
             vector("residual", &equations.residual),
             vector("speed", &equations.speed),
             matrix("turn", &equations.turn),
         ]));
-        let correction = regular_correction(&terms, self.sizes(), &equations.weighed);
+        let correction = regular_correction(&terms, equations.sizes(), &equations.weighed);
         (Some(position), correction)
     }
 
@@ -272,15 +275,17 @@ impl Optimiser<'_> {
             (Array::PotentialForce, vector("", &equations.gravity)),
             (Array::AppliedForce, vector("", &equations.applied)),
         ];
-        if equations.inertia.is_none() {
-            wanted.insert(0, (Array::Mass, matrix("", &equations.mass)));
+        if let (None, Some(mass)) = (&equations.inertia, &equations.mass) {
+            wanted.insert(0, (Array::Mass, matrix("", mass)));
         }
         let graph = &mut self.mechanism.graph;
         if equations.coriolis.iter().any(|e| !graph.is_zero(*e)) {
             wanted.push((Array::CoriolisForce, vector("", &equations.coriolis)));
         }
         if coriolis {
-            let rows = coriolis_matrix(graph, &equations.mass);
+            let mass = mass_matrix(self.mechanism, equations);
+            let graph = &mut self.mechanism.graph;
+            let rows = coriolis_matrix(graph, &mass);
             if rows.iter().flatten().any(|e| !graph.is_zero(*e)) {
                 wanted.push((Array::CoriolisMatrix, matrix("", &rows)));
             }

@@ -88,7 +88,7 @@ fn equations(mut m: Mechanism, state: u32) -> Vec<(&'static str, Vec<f64>)> {
     let e = derive(&mut m).expect("equations of a usual length");
     let outputs = m.outputs.iter().map(|output| output.value);
     let kinds = [
-        ("M", e.mass.concat()),
+        ("M", e.inertial()),
         ("p1", e.force),
         ("g", e.residual),
         ("A", e.jacobian.concat()),

@@ -132,7 +132,7 @@ fn puma_560_is_that_of_the_toolbox(description: &str) {
         Symbol::Parameter(i) => defaults[i as usize],
         _ => 0.0,
     };
-    let mass = m.graph.evaluate_all(&equations.mass.concat(), &at);
+    let mass = m.graph.evaluate_all(&equations.inertial(), &at);
     let force = m.graph.evaluate_all(&equations.force, &at);
     let places = |found: f64, printed: f64| (found - printed).abs() < 0.51e-4;
     for (found, printed) in mass.iter().zip(PUMA_MASS.as_flattened()) {

@@ -63,6 +63,33 @@ fn a_negative_kinetic_energy_is_told_once_with_what_makes_it_negative() {
 }
 
 #[test]
+fn energies_of_a_chain_without_entries_of_its_mass_matrix_are_looked_at() {
+    let chain = |last: &str, inertia: &str| {
+        lints(&format!(
+            "mechanism Chain {{
+                const N = 40;
+                coord phi[N]; coord idle;
+                let joint[i in 0..N] = if i == 0 then [sin(phi[0]), cos(phi[0])]
+                    else joint[i-1] + [sin(phi[i]), cos(phi[i])];
+                for i in 0..N {{ kinetic (if i == N-1 then {last} else 1)*norm2(der(joint[i])); }}
+                kinetic {inertia}*der(idle)^2; potential idle^2;
+            }}"
+        ))
+    };
+    assert_eq!(chain("1", "1"), "");
+    let negative = chain("-41", "1");
+    assert!(
+        negative.contains("the kinetic energy is negative where"),
+        "{negative}"
+    );
+    let idle = chain("1", "0");
+    assert!(
+        idle.contains("`idle` can move without kinetic energy"),
+        "{idle}"
+    );
+}
+
+#[test]
 fn an_equation_whose_derivatives_vanish_where_it_holds_is_named() {
     for flat in ["1 - cos(phi) = 0", "(x - y)^2 = 0", "x^2 + y^2 = 0"] {
         says(

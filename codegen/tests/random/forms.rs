@@ -83,26 +83,24 @@ impl<const N: usize, const R: usize> Mechanism<f64, N, R> for Interpreted<'_> {
 
     fn terms(&self, state: &State<f64, N>, out: &mut Terms<f64, N, R>) {
         let Equations {
-            mass,
             jacobian,
             force,
             bias,
             ..
         } = &self.0.equations;
-        let values = &mut self.values(state, &[mass, jacobian], &[force, bias]);
+        let values = &mut self.values(state, &[self.0.mass(), jacobian], &[force, bias]);
         (out.mass, out.jacobian) = (matrix(values), matrix(values));
         (out.force, out.bias) = (matrix(values), matrix(values));
     }
 
     fn position(&self, state: &State<f64, N>, out: &mut Position<f64, N, R>) {
         let Equations {
-            mass,
             jacobian,
             residual,
             drift,
             ..
         } = &self.0.equations;
-        let values = &mut self.values(state, &[mass, jacobian], &[residual, drift]);
+        let values = &mut self.values(state, &[self.0.mass(), jacobian], &[residual, drift]);
         (out.mass, out.jacobian) = (matrix(values), matrix(values));
         (out.residual, out.drift) = (matrix(values), matrix(values));
     }

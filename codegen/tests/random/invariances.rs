@@ -74,7 +74,7 @@ proptest! {
         let manner = Manner { reversed: true, ..Manner::PLAIN };
         let backwards = |x: &[f64]| x[..n].iter().rev().copied().collect::<Vec<f64>>();
         let turned = Case::new(&random.text(manner), backwards(&q), backwards(&v))?;
-        let (a, b) = (plain.matrix(&plain.equations.mass), turned.matrix(&turned.equations.mass));
+        let (a, b) = (plain.matrix(plain.mass()), turned.matrix(turned.mass()));
         let (f, g) = (plain.vector(&plain.equations.force), turned.vector(&turned.equations.force));
         let largest = f.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         for i in 0..n {

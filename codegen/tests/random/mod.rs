@@ -95,6 +95,11 @@ impl Case {
         self.mechanism.graph.evaluate_all(entries, &symbol)
     }
 
+    /// The entries of `M`, which every short mechanism has.
+    fn mass(&self) -> &[Vec<ExprId>] {
+        self.equations.mass.as_deref().expect("a short mechanism")
+    }
+
     fn matrix(&self, rows: &[Vec<ExprId>]) -> Vec<Vec<f64>> {
         rows.iter().map(|row| self.vector(row)).collect()
     }

@@ -4,7 +4,7 @@
 use super::joint::{Case, OTHERS, of_joints, state};
 use super::shared::{chain, difference, largest, of_length, of_rods};
 use bricard_codegen::internals::expr::Symbol;
-use bricard_codegen::internals::optimise::{Program, interpret};
+use bricard_codegen::internals::optimise::{Array, Besides, Program, interpret, programs};
 use bricard_codegen::{Settings, compile_source};
 
 /// A chain whose last rod is held at its end, beside a state of the first order.
@@ -41,7 +41,7 @@ fn kinetic(case: &Case, moving: &[usize]) -> f64 {
 /// The second derivatives of the kinetic energy, a quadratic form; and one on the diagonal for
 /// each state of the first order, of which no energy contains anything.
 fn second_derivatives(case: &Case) -> Vec<Vec<f64>> {
-    let (n, freedoms) = (case.equations.mass.len(), case.mechanism.freedoms());
+    let (n, freedoms) = (case.equations.sizes().0, case.mechanism.freedoms());
     let alone: Vec<f64> = (0..n).map(|i| kinetic(case, &[i])).collect();
     let entry = |i: usize, j: usize| match i == j {
         true if i >= freedoms => 1.0,
@@ -95,6 +95,46 @@ fn the_entries_of_a_mass_matrix_are_written_down_once_or_not_at_all() {
 }
 
 #[test]
+fn the_entries_of_a_mass_matrix_are_derived_where_something_is_made_of_them() {
+    let free = of_joints();
+    let cases = [(&free, 6, true), (&free, 36, false), (&held(), 36, true)];
+    for (source, links, wanted) in cases {
+        let case = Case::of(source, &of_length(links));
+        assert_eq!(
+            case.equations.mass.is_some(),
+            wanted,
+            "{source}: {links} links"
+        );
+    }
+}
+
+#[test]
+fn the_coriolis_matrix_of_a_long_chain_has_its_coriolis_forces() {
+    let mut case = Case::of(&of_rods(), &of_length(36));
+    let besides = Besides {
+        coriolis_matrix: true,
+        ..Besides::default()
+    };
+    let programs = programs(&mut case.mechanism, &case.equations, besides);
+    let mut found = vec![0.0; 36];
+    let mut scale = found.clone();
+    let matrices = programs.arrays.iter();
+    for (_, made) in matrices.filter(|(array, _)| *array == Array::CoriolisMatrix) {
+        for (slot, value) in interpret(&made.program, &|symbol| Some(state(symbol))) {
+            let term = value * state(Symbol::Velocity(slot.column as u32));
+            found[slot.row] += term;
+            scale[slot.row] += term.abs();
+        }
+    }
+    let exact = case
+        .mechanism
+        .graph
+        .evaluate_all(&case.equations.coriolis, &state);
+    let off = difference(&found, &exact) / largest(&scale);
+    assert!(largest(&exact) > 0.0 && off < 1e-13, "off by {off:e}");
+}
+
+#[test]
 fn bodies_that_share_nothing_have_entries_and_no_columns() {
     let source = "mechanism Apart {
         const N = 40;
@@ -112,7 +152,16 @@ fn the_code_of_a_chain_grows_as_the_chain_does() {
             let compiled = compile_source(&source, "chain", "chain.mech", &of_length(links));
             compiled.expect("it is compiled").code.lines().count()
         };
-        let (short, long) = (lines(40), lines(80));
-        assert!(10 * long <= 22 * short, "{short} and {long} lines");
+        let (short, long) = (lines(40), lines(120));
+        assert!(10 * long <= 32 * short, "{short} and {long} lines");
+    }
+}
+
+#[test]
+fn equations_of_a_chain_grow_as_the_chain_does() {
+    for source in [of_joints(), of_rods()] {
+        let expressions = |links| Case::of(&source, &of_length(links)).mechanism.graph.len();
+        let (short, long) = (expressions(40), expressions(640));
+        assert!(10 * long <= 184 * short, "{short} and {long} expressions");
     }
 }

@@ -5,7 +5,7 @@ use super::shared::{chain, difference, exact, largest, of_length, state as of_li
 use super::solve::dense;
 use bricard_codegen::Settings;
 use bricard_codegen::internals::analyse;
-use bricard_codegen::internals::derive::{Equations, Shared, derive, shared};
+use bricard_codegen::internals::derive::{Equations, Shared, derive, mass_matrix, shared};
 use bricard_codegen::internals::expr::{ExprId, Symbol};
 use bricard_codegen::internals::model::Mechanism;
 use bricard_codegen::internals::optimise::{
@@ -103,8 +103,10 @@ impl Case {
     }
 
     fn mass(&self) -> Vec<Vec<f64>> {
-        let rows = self.equations.mass.iter();
-        rows.map(|row| self.values(row)).collect()
+        let mut mechanism = self.mechanism.clone();
+        let rows = mass_matrix(&mut mechanism, &self.equations);
+        let values = |row: &Vec<ExprId>| mechanism.graph.evaluate_all(row, &state);
+        rows.iter().map(values).collect()
     }
 
     fn eliminated(&self) -> Vec<f64> {

@@ -53,7 +53,7 @@ fn vector(array: &'static str, entries: &[ExprId]) -> Vec<(Slot, ExprId)> {
 
 /// Everything that the functions of a mechanism compute.
 fn wanted(equations: &Equations) -> Vec<(Slot, ExprId)> {
-    let mut wanted = matrix("mass", &equations.mass);
+    let mut wanted = matrix("mass", equations.mass.as_ref().expect("a short mechanism"));
     wanted.extend(vector("force", &equations.force));
     wanted.extend(vector("residual", &equations.residual));
     wanted.extend(vector("speed", &equations.speed));

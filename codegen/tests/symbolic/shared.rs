@@ -3,7 +3,7 @@
 
 use super::solve::dense;
 use bricard_codegen::internals::analyse;
-use bricard_codegen::internals::derive::derive;
+use bricard_codegen::internals::derive::{derive, mass_matrix};
 use bricard_codegen::internals::expr::{ExprId, Symbol};
 use bricard_codegen::internals::optimise::{Besides, Programs, Way, cost, interpret, programs};
 use bricard_codegen::{Settings, compile_source};
@@ -55,10 +55,13 @@ pub(super) fn of_length(links: u32) -> Settings {
 fn accelerations(links: u32) -> (Programs, [Vec<f64>; 3]) {
     let (mut mechanism, _) = analyse(&of_rods(), &of_length(links)).expect("it is right");
     let equations = derive(&mut mechanism).expect("equations of a usual length");
+    let rows = mass_matrix(&mut mechanism, &equations);
     let graph = &mechanism.graph;
     let value = |e: &ExprId| graph.evaluate(*e, &state);
-    let rows = equations.mass.iter();
-    let mass = rows.map(|row| row.iter().map(value).collect()).collect();
+    let mass = rows
+        .iter()
+        .map(|row| row.iter().map(value).collect())
+        .collect();
     let force: Vec<f64> = equations.force.iter().map(value).collect();
     let (eliminated, _) = dense(&mass, &force);
     let programs = programs(&mut mechanism, &equations, Besides::default());

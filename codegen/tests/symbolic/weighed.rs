@@ -58,11 +58,11 @@ fn state(symbol: Symbol) -> f64 {
 /// `[M Aᵀ; A 0]`.
 fn accelerations(source: &str, weight: fn(u32) -> f64) -> (Vec<f64>, Vec<f64>) {
     let (mut mechanism, equations) = derived(source);
-    let (n, r) = (equations.mass.len(), equations.jacobian.len());
+    let (n, r) = equations.sizes();
     let graph = &mut mechanism.graph;
     let value = |e: &ExprId| graph.evaluate(*e, &state);
     let mut whole = vec![vec![0.0; n + r]; n + r];
-    for (i, row) in equations.mass.iter().enumerate() {
+    for (i, row) in equations.mass.iter().flatten().enumerate() {
         row.iter()
             .enumerate()
             .for_each(|(j, e)| whole[i][j] = value(e));
@@ -79,7 +79,8 @@ fn accelerations(source: &str, weight: fn(u32) -> f64) -> (Vec<f64>, Vec<f64>) {
 
     let slot = |array, row, column| Slot { array, row, column };
     let mut wanted = Vec::new();
-    for (array, matrix) in [("mass", &equations.mass), ("jacobian", &equations.jacobian)] {
+    let mass = equations.mass.as_ref().expect("a short mechanism");
+    for (array, matrix) in [("mass", mass), ("jacobian", &equations.jacobian)] {
         for (i, row) in matrix.iter().enumerate() {
             wanted.extend(row.iter().enumerate().map(|(j, e)| (slot(array, i, j), *e)));
         }
