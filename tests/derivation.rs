@@ -273,10 +273,7 @@ fn the_force_is_made_of_its_parts() {
 /// The Coriolis matrices of all mechanisms whose mass matrix does not know time.
 fn with_coriolis(claim: impl Fn(&Case, &[Vec<f64>])) {
     for mut derived in everything().filter(|derived| !derived.mass_knows_time()) {
-        let entries = coriolis_matrix(
-            &mut derived.mechanism.graph,
-            &derived.mass.clone(),
-        );
+        let entries = coriolis_matrix(&mut derived.mechanism.graph, &derived.mass.clone());
         for seed in 0..STATES as u64 {
             let point = derived.point(&mut Random::seeded(seed));
             let coriolis = derived.matrix(&entries, &point);

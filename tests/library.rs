@@ -3,7 +3,9 @@
 
 use bricard_codegen::Settings;
 use bricard_codegen::internals::analyse;
-use bricard_codegen::internals::derive::{Equations, Linearised, Matrix, derive, linearise, mass_matrix};
+use bricard_codegen::internals::derive::{
+    Equations, Linearised, Matrix, derive, linearise, mass_matrix,
+};
 use bricard_codegen::internals::expr::{ExprId, Symbol};
 use bricard_codegen::internals::model;
 use bricard_runtime::{Interface, Mechanism, Real, Visitor, Whole};
