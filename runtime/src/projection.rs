@@ -7,14 +7,11 @@
 //! Not here: what to do where rows of `A` are near-dependent
 //! ([`crate::dynamics`], `follow.rs`).
 
-use crate::dynamics::{Core, Source, Which};
+use crate::dynamics::{Core, MAX_ITERATIONS, Source, Which};
 use crate::singular::Obstacle;
 use crate::tolerance::{contraction, negligible, passes, round_off, window};
 use crate::{DynamicsError, Mechanism, Real, Stabilisation, State};
 use nalgebra::SVector;
-
-/// Corrections after which a position is given up.
-const MAX_ITERATIONS: usize = 20;
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Projects the end of a trial step, if the settings say so.
@@ -49,7 +46,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         state: &mut State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         self.safe = None;
-        let emitted = self.emitted_projection(mechanism, state);
+        let emitted = self.emitted_projection(mechanism, state)?;
         self.session.trial.by_emitted = emitted.is_some();
         let squared = match emitted {
             Some(squared) => squared,
@@ -155,6 +152,22 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             Ok(worst)
         } else {
             Err(DynamicsError::NotFinite { t: state.t })
+        }
+    }
+
+    /// The error of a projection by emitted code that gives up at a state: the same iteration
+    /// with other factors would not end either.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn lost(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &State<T, N>,
+    ) -> DynamicsError<T> {
+        mechanism.position(state, &mut self.position);
+        match self.finite_residual(state) {
+            Ok(_) => self.failed(mechanism, state),
+            Err(error) => error,
         }
     }
 

@@ -12,15 +12,15 @@ use super::{Core, Rows};
 use crate::model;
 use crate::state::all_finite;
 use crate::tolerance::{definite, negligible, passes, window};
-use crate::{Form, Mechanism, Pivots, Real, Regular, Stabilisation, State};
+use crate::{DynamicsError, Form, Mechanism, Pivots, Real, Regular, Stabilisation, State};
 use nalgebra::SVector;
 
 /// Coordinates and constraint equations of a mechanism whose pivots fit into registers;
 /// those of a larger one have a buffer that need not be cleared.
 const IN_REGISTERS: usize = 16;
 
-/// Corrections after which the general projection takes over.
-const MAX_ITERATIONS: usize = 8;
+/// Corrections after which a position is given up.
+pub(crate) const MAX_ITERATIONS: usize = 20;
 
 /// What one correction by emitted code came to.
 enum Correcting<T> {
@@ -106,24 +106,28 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// Brings a state onto the constraints by emitted code and returns the squared
     /// sine there; none if there is no such code or it is not safe.
+    ///
+    /// # Errors
+    ///
+    /// The iteration does not end.
     #[inline(always)]
     pub(crate) fn emitted_projection<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &mut State<T, N>,
-    ) -> Option<T> {
+    ) -> Result<Option<T>, DynamicsError<T>> {
         if !self.expected && !self.asks_emitted() {
-            return None;
+            return Ok(None);
         }
         let mut before = None;
         for _ in 0..MAX_ITERATIONS {
             match self.correct(mechanism, state, before) {
-                Correcting::Done(squared) => return Some(squared),
+                Correcting::Done(squared) => return Ok(Some(squared)),
                 Correcting::Off(worst) => before = Some(worst),
-                Correcting::Lost => return None,
+                Correcting::Lost => return Ok(None),
             }
         }
-        None
+        Err(self.lost(&mechanism, state))
     }
 
     /// One correction by emitted code of a state that was off by `before` until the last

@@ -341,9 +341,16 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             self.learn_emitted_rows(mechanism, &step.end);
         }
         if self.session.trial.chart.is_some() {
-            self.session.chart = self.session.trial.chart.take();
+            self.keep_chart();
         }
         self.expect_regular();
         Ok(())
+    }
+
+    /// The chart of the trial step is that of the next one, too. A function of its own: a
+    /// chart is large, and most steps have none.
+    #[inline(never)]
+    fn keep_chart(&mut self) {
+        self.session.chart = self.session.trial.chart.take();
     }
 }

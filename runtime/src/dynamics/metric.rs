@@ -92,6 +92,11 @@ impl<T: Real, const N: usize> Metric<T, N> {
         self.takes != Takes::All
     }
 
+    /// Whether it is `M` alone.
+    pub(crate) fn is_mass_matrix(&self) -> bool {
+        self.takes == Takes::None
+    }
+
     /// Whether a constraint row takes part.
     fn takes(&self, row: usize) -> bool {
         match self.takes {

@@ -38,6 +38,7 @@ pub use held::Solver;
 pub use settings::{Counters, Form, Settings, Stabilisation};
 pub(crate) use solver::Core;
 
+pub(crate) use emitted::MAX_ITERATIONS;
 pub(crate) use lifted::Lifted;
 pub(crate) use metric::Metric;
 pub(crate) use rank::Combined;

@@ -62,7 +62,14 @@ impl<T: Real, const R: usize> Rows<T, R> {
     #[inline]
     pub(crate) fn observe(&mut self, row: usize, size: T, alone: impl FnOnce() -> T) {
         if size > self.size[row] {
-            self.grow(row, size.min(self.coupling[row] * alone()));
+            let coupling = self.coupling[row];
+            self.grow(
+                row,
+                match coupling.is_finite() {
+                    true => size.min(coupling * alone()),
+                    false => size,
+                },
+            );
         }
     }
 

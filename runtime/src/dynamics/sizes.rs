@@ -24,7 +24,7 @@ const STRIDES: [f64; 2] = [0.618_033_988_749_894_9, 0.414_213_562_373_095];
 
 /// How much more than usual the masses that a row connects may be coupled for its size to
 /// count: the mass matrix may be nearly singular at some positions, where rows are as
-/// large as one likes.
+/// large as one likes. One that is constant is not.
 const UNUSUAL: f64 = 4.0;
 
 /// The squared size of a row.
@@ -60,11 +60,14 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             *sizes = self.sizes(mechanism, &turned(state, coordinates, sample + 1));
         }
         self.metric.forget();
+        let constant = mechanism.structure().constant_mass && self.metric.is_mass_matrix();
         for row in 0..R {
             let of_row: [RowSize<T>; SAMPLES] = column(|sample| samples[sample][row]);
-            let coupling = median(column(|sample| of_row[sample].coupling()));
-            self.rows
-                .expect_coupling(row, coupling * T::from_f64(UNUSUAL));
+            if !constant {
+                let coupling = median(column(|sample| of_row[sample].coupling()));
+                self.rows
+                    .expect_coupling(row, coupling * T::from_f64(UNUSUAL));
+            }
             let mean = |part: fn(&RowSize<T>) -> T| {
                 let sum = of_row.iter().fold(T::zero(), |sum, size| sum + part(size));
                 sum / T::from_f64(SAMPLES as f64)

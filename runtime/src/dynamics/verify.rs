@@ -37,10 +37,22 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if self.session.sine.is_none() {
             self.session.sine = Some(self.sine_at(mechanism, start)?);
         }
-        // A chart is large, so that even taking none costs something.
-        if self.session.chart.is_none() {
-            return self.verify_far(mechanism, start, end);
+        match self.session.chart {
+            None => self.verify_far(mechanism, start, end),
+            Some(_) => self.verify_beside(mechanism, start, end),
         }
+    }
+
+    /// A step with a chart, which is needed only where a state was near a singular
+    /// configuration. It is large, and so is what a function needs that takes it: the parts
+    /// of most steps are functions of their own.
+    #[inline(never)]
+    fn verify_beside(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        start: &State<T, N>,
+        end: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
         let chart = self.session.chart.take().filter(|_| self.is_beside());
         match chart {
             None => self.verify_far(mechanism, start, end),
@@ -91,6 +103,17 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if after <= window() {
             return self.want_chart(mechanism, end.t);
         }
+        self.look_between(mechanism, (start, end), comes_near)
+    }
+
+    /// A step that may have leapt over a singular configuration: do signs change on its way?
+    #[inline(never)]
+    fn look_between(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        (start, end): (&State<T, N>, &State<T, N>),
+        comes_near: bool,
+    ) -> Result<(), DynamicsError<T>> {
         let Start::Sheet(chart) = self.start_at(mechanism, end)? else {
             return self.want_chart(mechanism, end.t);
         };
