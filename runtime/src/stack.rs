@@ -15,15 +15,16 @@ pub(crate) type Held<V> = Box<V>;
 #[cfg(not(feature = "std"))]
 pub(crate) type Held<V> = V;
 
-/// Puts a part where it is held.
+/// Makes a part where it is held, so that it need not be moved there.
 #[cfg(feature = "std")]
-pub(crate) fn held<V>(part: V) -> Held<V> {
-    Box::new(part)
+#[inline(always)]
+pub(crate) fn held<V>(make: impl FnOnce() -> V) -> Held<V> {
+    Box::write(Box::new_uninit(), make())
 }
-/// Puts a part where it is held.
+/// Makes a part where it is held.
 #[cfg(not(feature = "std"))]
-pub(crate) fn held<V>(part: V) -> Held<V> {
-    part
+pub(crate) fn held<V>(make: impl FnOnce() -> V) -> Held<V> {
+    make()
 }
 
 /// Mechanisms whose matrices of all coordinates and constraint equations are larger than

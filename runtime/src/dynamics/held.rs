@@ -37,7 +37,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// A solver that knows nothing yet.
     pub fn new(settings: Settings<T>) -> Self {
         with_room::<T, _, N, R>(|| Self {
-            core: held(Core::new(settings)),
+            core: held(|| Core::new(settings)),
         })
     }
 

@@ -59,7 +59,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         for (sample, sizes) in samples.iter_mut().enumerate() {
             *sizes = self.sizes(mechanism, &turned(state, coordinates, sample + 1));
         }
-        self.metric.forget();
         let constant = mechanism.structure().constant_mass && self.metric.is_mass_matrix();
         for row in 0..R {
             let of_row: [RowSize<T>; SAMPLES] = column(|sample| samples[sample][row]);
@@ -94,7 +93,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             let turned = turned(state, coordinates, sample);
             mechanism.position(&turned, &mut self.position);
             self.metric.observe(&self.position.mass);
-            definite |= is_definite(&self.position.mass);
+            definite = definite || is_definite(&self.position.mass);
             for (most, entry) in levers.iter_mut().zip(&self.position.jacobian) {
                 let square = *entry * *entry;
                 if square > *most && square.is_finite() {
@@ -148,7 +147,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> [RowSize<T>; R] {
         let mut sizes = [RowSize::default(); R];
         mechanism.position(state, &mut self.position);
-        self.metric.forget();
         let t = state.t;
         if self
             .factorise_metric(mechanism, Source::Position, t)

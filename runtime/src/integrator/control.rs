@@ -74,6 +74,11 @@ impl<T: Real, const N: usize> Tolerance<T, N> {
         Ok(Self { relative, q, v })
     }
 
+    /// The relative part.
+    pub(crate) fn relative(&self) -> T {
+        self.relative
+    }
+
     /// A multiple of the round-off, for what must be solved as well as it can.
     pub(crate) fn round_off(multiple: f64) -> Self {
         let small = T::EPSILON * T::from_f64(multiple);

@@ -49,7 +49,7 @@ macro_rules! method {
             }
 
             fn with(tolerance: Option<Tolerance<T, N>>) -> Self {
-                with_room::<T, _, N, N>(|| Self(held($make(tolerance))))
+                with_room::<T, _, N, N>(|| Self(held(|| $make(tolerance))))
             }
 
             /// Forgets the derivative at the last step's end, because the system has

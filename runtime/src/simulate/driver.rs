@@ -23,33 +23,45 @@ enum AnyMethod<T, const N: usize> {
     Radau(Controlled<Radau<T, N>, T, N>),
 }
 
+/// The tolerance of steps that follow one.
+///
+/// # Errors
+///
+/// A step that isn't positive, a tolerance that isn't or that is below round-off, or a
+/// tolerance for a method without error estimate.
+pub(super) fn tolerance<T: Real, const N: usize>(
+    method: Method,
+    step_control: StepControl<T>,
+) -> Result<Option<Tolerance<T, N>>, SimulateError<T>> {
+    match step_control {
+        StepControl::Fixed { step } if step.is_finite() && step > T::zero() => Ok(None),
+        StepControl::Fixed { step } => Err(SimulateError::StepNotPositive { step }),
+        StepControl::Adaptive { relative, absolute } => {
+            let tolerance = Tolerance::uniform(relative, absolute)?;
+            match method {
+                Method::Rk4 => Err(SimulateError::NoErrorEstimate { method }),
+                _ => Ok(Some(tolerance)),
+            }
+        }
+    }
+}
+
 impl<T: Real, const N: usize> Driver<T, N> {
-    pub(super) fn new(
-        method: Method,
-        step_control: StepControl<T>,
-    ) -> Result<Self, SimulateError<T>> {
-        let tolerance = match step_control {
-            StepControl::Fixed { step } if step.is_finite() && step > T::zero() => None,
-            StepControl::Fixed { step } => return Err(SimulateError::StepNotPositive { step }),
-            StepControl::Adaptive { relative, absolute } => {
-                Some(Tolerance::uniform(relative, absolute)?)
-            }
+    /// The method with the accuracy that [`tolerance`] tells.
+    #[inline(always)]
+    pub(super) fn new(method: Method, tolerance: Option<Tolerance<T, N>>, inside: Inside) -> Self {
+        let mut driver = Self {
+            method: match method {
+                Method::Rk4 => AnyMethod::Rk4(Rk4::new()),
+                Method::Dp5 => AnyMethod::Explicit(dp5(tolerance)),
+                Method::Dop853 => AnyMethod::Explicit(dop853(tolerance)),
+                Method::Radau5 => AnyMethod::Radau(radau5(tolerance)),
+                Method::Radau9 => AnyMethod::Radau(radau9(tolerance)),
+            },
+            tolerance: tolerance.as_ref().map(Tolerance::relative),
         };
-        let method = match method {
-            Method::Rk4 if tolerance.is_some() => {
-                return Err(SimulateError::NoErrorEstimate { method });
-            }
-            Method::Rk4 => AnyMethod::Rk4(Rk4::new()),
-            Method::Dp5 => AnyMethod::Explicit(dp5(tolerance)),
-            Method::Dop853 => AnyMethod::Explicit(dop853(tolerance)),
-            Method::Radau5 => AnyMethod::Radau(radau5(tolerance)),
-            Method::Radau9 => AnyMethod::Radau(radau9(tolerance)),
-        };
-        let tolerance = match step_control {
-            StepControl::Fixed { .. } => None,
-            StepControl::Adaptive { relative, .. } => Some(relative),
-        };
-        Ok(Self { method, tolerance })
+        driver.keep(inside);
+        driver
     }
 
     /// Accepted error of a step, relative, if the steps follow one.
@@ -58,7 +70,7 @@ impl<T: Real, const N: usize> Driver<T, N> {
     }
 
     /// Chooses what is kept of the inside of steps.
-    pub(super) fn keep(&mut self, inside: Inside) {
+    fn keep(&mut self, inside: Inside) {
         match &mut self.method {
             AnyMethod::Rk4(method) => method.keep(inside),
             AnyMethod::Explicit(method) => method.keep(inside),

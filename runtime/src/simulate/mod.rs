@@ -22,7 +22,7 @@ pub use stepper::Stepper;
 pub use summary::Summary;
 
 use conserve::Conserving;
-use driver::Driver;
+use driver::{Driver, tolerance};
 use grid::Grid;
 use watch::Watchers;
 
@@ -30,6 +30,7 @@ use crate::dynamics::Core;
 use crate::stack::with_room;
 use crate::{
     ConstrainedSystem, IntegrateError, Integrator, Interface, Mechanism, Observer, Real, State,
+    Tolerance,
 };
 use core::ops::ControlFlow;
 
@@ -109,12 +110,12 @@ where
         if !state.is_finite() {
             return Err(SimulateError::StartNotFinite { t: state.t });
         }
-        let mut driver = Driver::new(method, step_control)?;
+        let tolerance = tolerance(method, step_control)?;
         let begun = origin.map_or(state.t, |origin| origin.t);
         let grid = Grid::new(begun, until, step_control)?;
         let first = grid.first_after(state.t);
         self.system
-            .start(&mut state, driver.tolerance())
+            .start(&mut state, tolerance.as_ref().map(Tolerance::relative))
             .map_err(IntegrateError::Dynamics)?;
         self.done.end = state;
         self.probe.follow(self.system.system());
@@ -137,7 +138,7 @@ where
             self.done.stopped = true;
             return Ok(());
         }
-        driver.keep(self.watchers.inside());
+        let mut driver = Driver::new(method, tolerance, self.watchers.inside());
         let seeks_passages = self.watchers.want_passages();
         self.system.seek_passages(seeks_passages);
         for interval in first..=grid.intervals() {

@@ -5,7 +5,7 @@
 //!
 //! Not here: observers and audits ([`super::simulate`]).
 
-use super::driver::Driver;
+use super::driver::{Driver, tolerance};
 use super::metered::Metered;
 use super::options::StepControl;
 use super::{Grid, SimulateError};
@@ -55,11 +55,10 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
         settings: Settings<T>,
     ) -> Result<Self, SimulateError<T>> {
         with_room::<T, _, N, R>(|| {
-            let mut driver = Driver::new(method, step_control)?;
-            driver.keep(Inside::Nothing);
+            let tolerance = tolerance(method, step_control)?;
             Ok(Self {
                 solver: Solver::new(settings),
-                driver: held(driver),
+                driver: held(|| Driver::new(method, tolerance, Inside::Nothing)),
                 step_control,
             })
         })
@@ -77,10 +76,9 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
         settings: Settings<T>,
     ) -> Result<(), SimulateError<T>> {
         with_room::<T, _, N, R>(|| {
-            let mut fresh = Driver::new(method, step_control)?;
-            fresh.keep(Inside::Nothing);
+            let tolerance = tolerance(method, step_control)?;
             let driver: &mut Driver<T, N> = &mut self.driver;
-            *driver = fresh;
+            *driver = Driver::new(method, tolerance, Inside::Nothing);
             self.solver.renew(settings);
             self.step_control = step_control;
             Ok(())
