@@ -158,6 +158,18 @@ fn a_number_that_makes_no_sense_is_a_wrong_command_line() {
 }
 
 #[test]
+fn a_wrong_command_line_is_told_before_the_description_is_read() {
+    for options in [&[][..], &["--set", "m=1,2"]] {
+        let wrong = ["simulate", "absent.mech", "--until", "-1"];
+        check_refused(&[&wrong, options].concat(), 2, &["--until must be"]);
+        let wrong = ["simulate", "absent.mech", "--plot", "run.xyz"];
+        check_refused(&[&wrong, options].concat(), 2, &["--plot run.html"]);
+        let wrong = ["simulate", "absent.mech", "--tolerance", "0"];
+        check_refused(&[&wrong, options].concat(), 2, &["--rtol must be"]);
+    }
+}
+
+#[test]
 fn options_that_contradict_each_other_are_refused() {
     let name = ["simulate", "slider_crank"];
     let both = [&name[..], &["--step", "0.01", "--rtol", "1e-6"]].concat();

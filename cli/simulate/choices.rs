@@ -2,7 +2,6 @@
 
 use super::record::is_parquet;
 use crate::arguments::{MethodName, Simulate};
-use crate::column::Column;
 use crate::error::CommandError;
 use crate::page::is_page;
 use crate::run::Plan;
@@ -33,12 +32,12 @@ const PLOTTED: f64 = 1000.0;
 const FRAMES: f64 = 100.0;
 const MOST_FRAMES: f64 = 6000.0;
 
-/// The plan of a run.
+/// The plan of a run, without columns.
 ///
 /// # Errors
 ///
 /// [`CommandError::OutOfRange`], [`CommandError::UselessOption`].
-pub fn plan(arguments: &Simulate, columns: Vec<Column>) -> Result<Plan, CommandError> {
+pub fn plan(arguments: &Simulate) -> Result<Plan, CommandError> {
     if arguments.until < 0.0 {
         let (option, value) = ("--until", arguments.until);
         return Err(CommandError::OutOfRange {
@@ -78,7 +77,7 @@ pub fn plan(arguments: &Simulate, columns: Vec<Column>) -> Result<Plan, CommandE
     bounded(arguments, every, options.step_control)?;
     Ok(Plan {
         watched: !arguments.quiet,
-        ..Plan::new(options, every, columns)
+        ..Plan::new(options, every, Vec::new())
     })
 }
 

@@ -59,12 +59,14 @@ fn module(arguments: &Simulate, case: &Case) -> Result<Option<Vec<u8>>, CommandE
 
 /// Simulates a mechanism once, for a page that is kept up to date, if there is one.
 pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), CommandError> {
+    // What can be told from the command line is told before anything is compiled.
+    let mut plan = choices::plan(arguments)?;
+    choices::check_files(arguments)?;
     let case = cases::single(arguments);
     let (mechanism, changes) = prepared(arguments, &case)?;
     let structure = mechanism.structure();
     let columns = columns(&arguments.columns, structure, &arguments.name)?;
-    let mut plan = choices::plan(arguments, columns.clone())?;
-    choices::check_files(arguments)?;
+    plan.columns = columns.clone();
     plan.checkpoints = checkpoints::checkpoints((arguments, &case), &plan, &changes, structure)?;
     let mut record = Record::open(arguments, structure, &columns, None)?;
     let shown = picture::shown(arguments, &columns, structure)?;

@@ -138,6 +138,11 @@ impl Record {
         finished?;
         Ok(match self.count {
             0 => "\nno rows were computed, and nothing was written".to_string(),
+            1 => format!(
+                "\nthe row of t = {} s is kept: {}",
+                self.last,
+                places.join(", ")
+            ),
             count => format!(
                 "\nthe {count} rows computed before, up to t = {} s, are kept: {}",
                 self.last,

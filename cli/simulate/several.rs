@@ -36,11 +36,11 @@ struct Done {
 /// A [`CommandError`] if no run can begin, some have failed, or something can't be written.
 pub fn simulate(arguments: &Simulate, varied: &Varied) -> Result<(), CommandError> {
     varied.check(arguments)?;
+    let mut plan = choices::plan(arguments)?;
+    choices::check_files(arguments)?;
     // What is wrong with the command line is wrong for the first run, too.
     let structure = prepared(arguments, &varied.first)?.0.structure();
     let columns = columns(&arguments.columns, structure, &arguments.name)?;
-    let mut plan = choices::plan(arguments, columns.clone())?;
-    choices::check_files(arguments)?;
     let mut record = Record::open(arguments, structure, &columns, Some(varied.column()))?;
     let shown = shown(arguments, &columns, structure)?;
     plan.columns = shown.columns.clone();
