@@ -117,6 +117,17 @@ fn without_constraints_nothing_is_projected() {
 }
 
 #[test]
+fn constraints_of_independent_form_have_no_singular_configurations_to_look_for() {
+    let fixed = HUNG.replace("param l", "const l");
+    let line = differs("independent", "independent at all", [HUNG, &fixed]);
+    assert!(line.starts_with("rank decisions, and the search"), "{line}");
+    assert!(code(&fixed).contains(" independent: true"));
+    assert!(code(HUNG).contains(" independent: false"));
+    // Nothing is said where there is nothing to be said of.
+    assert!(!left_out("independent", CART).contains("independent at all"));
+}
+
+#[test]
 fn zeros_shorten_the_solve() {
     // In a full matrix nothing is zero.
     let full = HUNG.replace("der(y)^2)", "der(y)^2 + der(x)*der(y))");

@@ -23,6 +23,7 @@ pub fn skipped(mechanism: &Mechanism, equations: &Equations, programs: &Programs
         apart(mechanism, equations),
         folded(mechanism),
         no_constraints(equations),
+        independent(&mechanism.graph, equations),
         on_request(mechanism, programs),
     ];
     let lines: Vec<String> = lines.into_iter().flatten().collect();
@@ -174,6 +175,14 @@ fn folded(mechanism: &Mechanism) -> Option<String> {
 fn no_constraints(equations: &Equations) -> Option<String> {
     equations.jacobian.is_empty().then(|| {
         "projection, rank decisions, and all that singular configurations need: there are no constraints".into()
+    })
+}
+
+/// What singular configurations need, where there is none.
+fn independent(graph: &Graph, equations: &Equations) -> Option<String> {
+    let (_, r) = equations.sizes();
+    (r > 0 && equations.are_independent(graph)).then(|| {
+        "rank decisions, and the search for singular configurations in each step: by their form the constraints are independent at all positions".into()
     })
 }
 

@@ -6,7 +6,7 @@
 /// The version of what generated code and this crate agree on: traits, buffers and this
 /// description. It goes up with every change that older code would not compile with, or
 /// would compile with to something else.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// Compiles where generated code was written for this version of the crate.
 ///
@@ -132,6 +132,9 @@ pub struct Structure {
     /// The constraints are holonomic and scleronomic: they restrict positions only, and do
     /// not depend on time.
     pub scleronomic: bool,
+    /// The rows of `A` are independent wherever the constraints hold, by their form: there is
+    /// no singular configuration. `false` says nothing.
+    pub independent: bool,
     /// The description draws something.
     pub drawn: bool,
     /// The constraints were declared to be regular: a run ends with an error at a
@@ -161,6 +164,7 @@ impl Structure {
         constant_mass: false,
         conservative: false,
         scleronomic: false,
+        independent: false,
         drawn: false,
         regular: false,
         weighed: &[],

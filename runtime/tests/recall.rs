@@ -1,12 +1,13 @@
 //! The stages of a passage share the nodes between which they are interpolated, where the
 //! sheet is a curve that stays where it is; what they come to is what nodes of their own
-//! would say.
+//! would say. Where constraints are independent by their form, no configuration is looked at
+//! that is not on the way.
 
 use crate::fixtures::system_of;
-use crate::mechanisms::{FourBars, Passing, SliderCrank};
+use crate::mechanisms::{FourBars, Passing, Sled, SliderCrank};
 use bricard_runtime::{
-    Correction, Energy, Integrator, Mechanism, Position, Regular, Rk4, Settings, Solver, State,
-    Structure, Terms,
+    Correction, Energy, Integrator, Mechanism, Method, Position, Regular, Rk4, Settings, Solver,
+    State, StepControl, Stepper, Structure, Terms,
 };
 use std::cell::Cell;
 
@@ -96,4 +97,52 @@ fn stages_of_a_passage_share_their_nodes() {
     check::<_, 3, 2>(&SliderCrank::default());
     check::<_, 5, 4>(&FourBars);
     check::<_, 11, 10>(&FourBars);
+}
+
+/// Where adaptive steps lead from a state, and positions asked for.
+fn moved<P, const N: usize, const R: usize>(
+    mechanism: &P,
+    structure: &'static Structure,
+    mut state: State<f64, N>,
+) -> (State<f64, N>, u32)
+where
+    P: Mechanism<f64, N, R>,
+{
+    let counted = Counted {
+        mechanism,
+        structure,
+        positions: Cell::new(0),
+    };
+    let tolerance = 1e-9;
+    let control = StepControl::Adaptive {
+        relative: tolerance,
+        absolute: tolerance,
+    };
+    let settings = Settings::default();
+    let mut stepper = Stepper::<f64, N, R>::new(Method::Dop853, control, settings).unwrap();
+    let mechanism: &dyn Mechanism<f64, N, R> = &counted;
+    stepper.step(mechanism, &mut state, 5.0).unwrap();
+    (state, counted.positions.get())
+}
+
+#[test]
+fn constraints_that_are_independent_by_their_form_are_looked_at_on_the_way_alone() {
+    let usual = Mechanism::<f64, 3, 1>::structure(&Sled);
+    let by_form = Box::leak(Box::new(Structure {
+        independent: true,
+        ..*usual
+    }));
+    let start = State::new(0.0, [0.2, 0.1, 0.3].into(), [0.0, 0.0, 0.7].into());
+    let (searched, many) = moved::<_, 3, 1>(&Sled, usual, start);
+    let (known, few) = moved::<_, 3, 1>(&Sled, by_form, start);
+    assert!(
+        (searched.q - known.q).amax() < 1e-8,
+        "{searched:?} {known:?}"
+    );
+    assert!(
+        (searched.v - known.v).amax() < 1e-8,
+        "{searched:?} {known:?}"
+    );
+    // The angles are turned eight times for the sizes of the rows.
+    assert!(few + 8 <= many, "{few} positions beside {many}");
 }

@@ -57,6 +57,7 @@ runs! {
     "mass": mass_with, mass_without;
     "ignorable": ignorable_with, ignorable_without;
     "constraints": constraints_with, constraints_without;
+    "rank": rank_with, rank_without;
     "clock": clock_with, clock_without;
     "zeros": zeros_with, zeros_without;
     "ties": ties_with, ties_without;

@@ -63,6 +63,16 @@ pub const PAIRS: &[Pair] = &[
         adds: [ON_CIRCLE, FREE],
     },
     Pair {
+        name: "rank",
+        what: "constraints that a parameter may make dependent",
+        left_out: "the search for singular configurations",
+        common: HUNG,
+        adds: [
+            "param r = 1; kinetic 1/2*m*(der(x)^2 + der(y)^2); constraint x^2 + y^2 = r*l^2;",
+            ON_CIRCLE,
+        ],
+    },
+    Pair {
         name: "clock",
         what: "time in the constraints",
         left_out: "derivatives of the constraints by time",

@@ -37,6 +37,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
     let constant_mass = subject.equations.has_constant_mass(&mechanism.graph);
     let conservative = subject.equations.are_conservative(mechanism);
     let scleronomic = subject.equations.are_scleronomic(mechanism);
+    let independent = subject.equations.are_independent(&mechanism.graph);
     let drawn = !mechanism.shapes.is_empty();
     let regular = subject.options.regular;
     let weighed = subject.equations.weighed.iter().copied();
@@ -59,6 +60,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
             constant_mass: #constant_mass,
             conservative: #conservative,
             scleronomic: #scleronomic,
+            independent: #independent,
             drawn: #drawn,
             regular: #regular,
             weighed: &[#(#weighed),*],

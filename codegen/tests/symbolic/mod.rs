@@ -5,6 +5,7 @@ mod canonical;
 mod columns;
 mod derivative;
 mod dual;
+mod independent;
 mod jet;
 pub(crate) mod joint;
 pub mod limits;

@@ -36,7 +36,8 @@ const MASSLESS: &str = "mechanism Massless {
     constraint sin(phi) + 2*sin(psi) = 0;
 }";
 
-fn derived(source: &str) -> (Mechanism, Equations) {
+/// A mechanism and its equations.
+pub(super) fn derived(source: &str) -> (Mechanism, Equations) {
     let (mut mechanism, _) = analyse(source, &Settings::default()).expect("it is right");
     let equations = derive(&mut mechanism).expect("equations of a usual length");
     (mechanism, equations)

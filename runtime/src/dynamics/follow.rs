@@ -91,6 +91,16 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         R > 0 && !self.settings.published
     }
 
+    /// Whether no step of the null-space form can come near a singular configuration: there is
+    /// none. Rows may look near-dependent all the same where masses differ by many orders of
+    /// magnitude, and then have a chart.
+    #[inline]
+    pub(crate) fn is_regular_by_form(&self) -> bool {
+        self.rows.are_independent_by_form()
+            && self.settings.form == Form::Reduced
+            && self.session.chart.is_none()
+    }
+
     /// Makes a chart at the last accepted state if the trial step wanted one; whether it
     /// did.
     #[inline(never)]

@@ -92,7 +92,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        if self.is_safely_regular() {
+        if self.rows.are_independent_by_form() || self.is_safely_regular() {
             for which in [Which::Holonomic, Which::All] {
                 self.rows.observe_rank(self.rows.count(which), which);
             }

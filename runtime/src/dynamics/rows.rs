@@ -30,6 +30,8 @@ pub(crate) struct Rows<T, const R: usize> {
     /// Whether they are those of the heaviest masses.
     uneven: bool,
     holonomic: [bool; R],
+    /// Whether they are independent at all positions, by their form.
+    by_form: bool,
     active: [usize; R],
     active_count: usize,
     holonomic_count: usize,
@@ -39,8 +41,9 @@ pub(crate) struct Rows<T, const R: usize> {
 }
 
 impl<T: Real, const R: usize> Rows<T, R> {
-    /// Rows of which nothing is known but which of them restrict positions.
-    pub(crate) fn new(holonomic: impl Fn(usize) -> bool) -> Self {
+    /// Rows of which nothing is known but which of them restrict positions, and whether they
+    /// are independent by their form.
+    pub(crate) fn new(holonomic: impl Fn(usize) -> bool, by_form: bool) -> Self {
         Self {
             size: [T::zero(); R],
             coupling: [T::from_f64(f64::INFINITY); R],
@@ -49,12 +52,19 @@ impl<T: Real, const R: usize> Rows<T, R> {
             weight: [T::zero(); R],
             uneven: false,
             holonomic: column(holonomic),
+            by_form,
             active: column(|row| row),
             active_count: 0,
             holonomic_count: 0,
             regular: 0,
             holonomic_regular: 0,
         }
+    }
+
+    /// Whether the rows are independent at all positions, by their form.
+    #[inline]
+    pub(crate) fn are_independent_by_form(&self) -> bool {
+        self.by_form
     }
 
     /// Takes note of the squared size of a row, which is `Σ aⱼ²/mⱼⱼ` in the metric of each

@@ -55,6 +55,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let sure = coordinates.iter().all(|c| !c.unit.is_empty());
         self.sample_mass(mechanism, state);
         let here = self.sizes(mechanism, state);
+        if self.rows.are_independent_by_form() {
+            // No row vanishes anywhere, so that this state is as good as others.
+            for (row, size) in here.iter().enumerate() {
+                self.rows.observe(row, size.whole, || size.alone);
+            }
+            return;
+        }
         let mut samples = [[RowSize::default(); R]; SAMPLES];
         for (sample, sizes) in samples.iter_mut().enumerate() {
             *sizes = self.sizes(mechanism, &turned(state, coordinates, sample + 1));

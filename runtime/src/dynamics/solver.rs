@@ -77,7 +77,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             terms: Terms::default(),
             position: Position::default(),
             metric: Metric::default(),
-            rows: Rows::new(|_| true),
+            rows: Rows::new(|_| true, false),
             lifted: Lifted::default(),
             frame: Frame::new(),
             regular: Regular::default(),
@@ -177,8 +177,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if self.is_prepared() {
             return Ok(());
         }
-        let constraints = mechanism.structure().constraints;
-        self.rows = Rows::new(|row| constraints.get(row).is_none_or(|c| c.holonomic));
+        let structure = mechanism.structure();
+        let constraints = structure.constraints;
+        let holonomic = |row: usize| constraints.get(row).is_none_or(|c| c.holonomic);
+        self.rows = Rows::new(holonomic, structure.independent);
         self.sample_sizes(mechanism, state);
         mechanism.position(state, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, state.t)?;

@@ -31,7 +31,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         start: &State<T, N>,
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        if !self.follows() || self.session.rests {
+        if !self.follows() || self.session.rests || self.is_regular_by_form() {
             return Ok(());
         }
         if self.session.sine.is_none() {
