@@ -3,7 +3,8 @@
 use crate::fixtures::{Free, distance, kepler, kepler_exact, kepler_start};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Dop853, Dp5, DynamicsError, IntegrateError, Integrator, Rk4, State, System, Tolerance,
+    Dop853, Dp5, DynamicsError, IntegrateError, Integrator, Rk4, Singularity, State, Structure,
+    System, Tolerance,
 };
 
 /// Time at the end of the runs.
@@ -299,4 +300,62 @@ fn projection_costs_no_acceleration_and_leaves_no_kink() {
     // One at the start, one for the first step's size, then six per trial.
     assert_eq!(system.evaluations, 2 + 6 * trials, "{steps} steps");
     assert!((state.q[0] - 10_f64.cos()).abs() < 1e-5);
+}
+
+/// A motion that is refused behind a place, unless the step is next to nothing.
+struct Barrier {
+    at: f64,
+    refused: u32,
+}
+
+impl System<f64, 1> for Barrier {
+    fn acceleration(&mut self, _: &State<f64, 1>) -> Result<SVector<f64, 1>, DynamicsError<f64>> {
+        Ok([0.0].into())
+    }
+
+    fn project(&mut self, _: &mut State<f64, 1>) -> Result<(), DynamicsError<f64>> {
+        Ok(())
+    }
+
+    fn verify(
+        &mut self,
+        start: &State<f64, 1>,
+        end: &State<f64, 1>,
+    ) -> Result<(), DynamicsError<f64>> {
+        if end.t < self.at || end.t - start.t < 1e-13 {
+            return Ok(());
+        }
+        self.refused += 1;
+        assert!(self.refused < 1000, "it creeps");
+        Err(DynamicsError::SingularConfiguration {
+            t: end.t,
+            kind: Singularity::Unresolved,
+            row: 0,
+            structure: &Structure::PLAIN,
+        })
+    }
+}
+
+#[test]
+fn steps_do_not_creep_on_where_a_singular_configuration_stands_in_the_way() {
+    let mut system = Barrier {
+        at: 0.7,
+        refused: 0,
+    };
+    let mut method = Dop853::adaptive(Tolerance::uniform(1e-9, 1e-9).unwrap());
+    let mut state = State::new(0.0, [0.3].into(), [0.2].into());
+    let error = loop {
+        match method.step(&mut system, &state, 1.0) {
+            Ok(step) => state = *step.end(),
+            Err(error) => break error,
+        }
+    };
+    assert!((state.t - 0.7).abs() < 1e-9, "{state:?}");
+    assert!(
+        matches!(
+            error,
+            IntegrateError::Dynamics(DynamicsError::SingularConfiguration { .. })
+        ),
+        "{error:?}"
+    );
 }

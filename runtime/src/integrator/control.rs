@@ -15,6 +15,9 @@ use nalgebra::SVector;
 const SMALLEST_TOLERANCE: f64 = 10.0;
 /// Steps below this multiple of the round-off of time are refused.
 const SMALLEST_STEP: f64 = 4.0;
+/// Power of round-off that a step beside a singular configuration is given up at, in units of
+/// the longest one (4e-11 for `f64`).
+const CREEPING: f64 = 2.0 / 3.0;
 /// The next step aims at this fraction of the step that would just pass.
 const SAFETY: f64 = 0.9;
 /// Errors below this are not remembered: they would promise too much.
@@ -160,6 +163,8 @@ pub(crate) struct Control<T> {
     shortest_jump: T,
     last_error: T,
     rejected: bool,
+    /// The longest step that was accepted.
+    longest: T,
 }
 
 impl<T: Real> Control<T> {
@@ -175,7 +180,14 @@ impl<T: Real> Control<T> {
             shortest_jump: T::from_f64(least),
             last_error: T::from_f64(REMEMBERED_ERROR),
             rejected: false,
+            longest: T::zero(),
         }
+    }
+
+    /// Whether a step that a singular configuration still stands in the way of is so short
+    /// that shorter ones would only creep up to it.
+    pub(crate) fn creeps(&self, h: T) -> bool {
+        h < self.longest * T::EPSILON.powf(T::from_f64(CREEPING))
     }
 
     /// Where the next trial step ends: at the bound if it is near, half-way
@@ -231,6 +243,7 @@ impl<T: Real> Control<T> {
         };
         self.last_error = error.max(T::from_f64(REMEMBERED_ERROR));
         self.rejected = false;
+        self.longest = self.longest.max(h);
         true
     }
 }

@@ -8,7 +8,8 @@
 //! be told (NaN), or on whose way the mechanics failed, is tried again with a
 //! shorter one, until the step is lost in the round-off of time. A singular
 //! position that the form of the equations can't pass is reported at once: no
-//! step is short enough.
+//! step is short enough. One that can't be told what it is ends the run as soon as
+//! steps only creep up to it.
 
 use super::IntegrateError;
 use super::control::{Control, Tolerance, check_bound};
@@ -223,7 +224,9 @@ impl<T: Real, const N: usize> Steps<T, N> {
             let error = match adaptive.trial(method, system, step, (end, inside)) {
                 Ok(Some(error)) => error,
                 Ok(None) => continue,
-                Err(failure) if is_final(&failure) => return Err(failure),
+                Err(failure) if is_final(&failure, || adaptive.control.creeps(end - t)) => {
+                    return Err(failure);
+                }
                 Err(failure) => {
                     obstacle = Some(failure);
                     T::from_f64(f64::NAN)
@@ -381,9 +384,10 @@ impl<T: Real, const N: usize> Adaptive<T, N> {
 }
 
 /// Whether a shorter step can't help.
-fn is_final<T>(failure: &IntegrateError<T>) -> bool {
-    matches!(
-        failure,
-        IntegrateError::Dynamics(DynamicsError::SingularPosition { .. })
-    )
+fn is_final<T>(failure: &IntegrateError<T>, creeps: impl Fn() -> bool) -> bool {
+    match failure {
+        IntegrateError::Dynamics(DynamicsError::SingularPosition { .. }) => true,
+        IntegrateError::Dynamics(DynamicsError::SingularConfiguration { .. }) => creeps(),
+        _ => false,
+    }
 }

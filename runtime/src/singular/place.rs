@@ -56,15 +56,15 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
         }
         self.eliminate(state, None)?;
         let sine = self.frame.smallest();
-        let mut why = Obstacle::Unresolved;
+        let mut why = Some(Obstacle::Unresolved);
         let mut placement = Placement::Regular;
         if sine < window() && !self.chart.gap {
             let like = self.frame.clone();
             match self.place_between(state, &like, point) {
-                Ok(Placement::Regular) => {}
+                Ok(Placement::Regular) => why = None,
                 Ok(Placement::Gap) => placement = Placement::Gap,
                 Ok(crossing) => return Ok(crossing),
-                Err(obstacle) => why = obstacle,
+                Err(obstacle) => why = Some(obstacle),
             }
             self.eliminate(state, None)?;
         }
@@ -72,15 +72,14 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
             true => noisy(),
             false => self.chart.accepted * T::from_f64(10.0),
         };
-        if sine < window() && T::EPSILON > noise * sine * sine {
+        if let Some(why) = why.filter(|_| sine < window() && T::EPSILON > noise * sine * sine) {
             return Err(why);
         }
         self.place_regular(state, point)?;
         Ok(placement)
     }
 
-    /// Interpolates where the state is well between the nodes; `Regular` where it is
-    /// not.
+    /// Interpolates; `Regular` where the equations at the state itself are better.
     #[inline(never)]
     fn place_between(
         &mut self,
@@ -109,7 +108,7 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
         })
     }
 
-    /// Finds nodes for a state, or that it is not well between any.
+    /// Finds nodes for a state, or that it is better placed without any.
     #[inline(never)]
     fn find_nodes(
         &mut self,
@@ -118,7 +117,7 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
     ) -> Result<Result<Best<T, N>, Placement<T>>, Obstacle> {
         let direction = self.direction(state, like)?;
         let Some(best) = self.search(state, like, &direction)? else {
-            return Ok(Err(Placement::Regular));
+            return Err(Obstacle::Unresolved);
         };
         if !self.is_crossing(state, like, &direction, &best) {
             return Ok(Err(Placement::Gap));
@@ -128,6 +127,11 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
         let noise = T::from_f64(NOISE) * T::EPSILON * magnified;
         if best.error > self.chart.accepted.max(noise) {
             return Err(Obstacle::Unresolved);
+        }
+        // Where neither is as good as wanted, the better one.
+        let sine = like.smallest();
+        if best.error > self.chart.accepted && best.error * sine * sine > T::EPSILON {
+            return Ok(Err(Placement::Regular));
         }
         self.remember(state, &direction, &best);
         Ok(Ok(best))
@@ -222,11 +226,15 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
                 true => self.chart.length(&(a.particular - b.particular)) / bend,
                 false => T::zero(),
             };
+            let drift = match self.chart.speed > T::zero() {
+                true => self.chart.length(&(a.drift - b.drift)) / self.chart.speed.max(speed),
+                false => T::zero(),
+            };
             let mut turn = T::zero();
             for i in 0..self.chart.freedoms {
                 turn += self.chart.apart(&a.tangent, &b.tangent, i);
             }
-            *difference = offset + particular + turn;
+            *difference = offset + drift + particular + turn;
         }
         let [last, before] = differences;
         let ratio = last / before;

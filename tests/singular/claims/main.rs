@@ -10,6 +10,7 @@ mod passages;
 mod references;
 mod scalar;
 mod scores;
+mod stops;
 mod tolerances;
 
 /// The seed of all random trials.
