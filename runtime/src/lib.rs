@@ -5,6 +5,7 @@ mod assembly;
 mod catalogue;
 mod crossing;
 mod dynamics;
+mod equations;
 mod error;
 mod integrator;
 mod linalg;

@@ -6,6 +6,7 @@
 //! implementing this one trait; nothing else in the crate names a float type.
 
 use crate::sincos;
+use crate::singular::Routines;
 use core::fmt::{Debug, Display};
 use core::ops::Neg;
 use nalgebra::Scalar;
@@ -87,6 +88,12 @@ pub trait Real:
     fn min(self, other: Self) -> Self;
     /// The larger of two numbers; NaN if one of them is NaN (unlike `f64::max`).
     fn max(self, other: Self) -> Self;
+
+    /// What works on numbers of this kind in slices, and is compiled where this is.
+    #[doc(hidden)]
+    fn routines() -> &'static Routines<Self> {
+        const { &Routines::new() }
+    }
 }
 
 macro_rules! real_for_float {
@@ -94,6 +101,10 @@ macro_rules! real_for_float {
         impl Real for $float {
             const EPSILON: Self = $float::EPSILON;
 
+            fn routines() -> &'static Routines<Self> {
+                static ROUTINES: Routines<$float> = Routines::new();
+                &ROUTINES
+            }
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
                 value as $float

@@ -215,11 +215,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         state: &State<T, N>,
         point: &mut Point<T, N>,
     ) -> Result<Placement<T>, DynamicsError<T>> {
-        let Some(chart) = self.session.chart.take() else {
-            return Err(self.refusal(mechanism, Obstacle::Undetermined, state.t));
-        };
-        let result = self.sheet(mechanism, &chart).place(state, point);
-        self.session.chart = Some(chart);
+        let result = self
+            .place_here(mechanism, state, point)
+            .unwrap_or(Err(Obstacle::Undetermined));
         self.session.trial.crosses |= matches!(result, Ok(Placement::Crossing { .. }));
         result.map_err(|obstacle| self.refusal(mechanism, obstacle, state.t))
     }
@@ -231,12 +229,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         state: &State<T, N>,
         point: &mut Point<T, N>,
     ) -> bool {
-        let Some(chart) = self.session.chart.take() else {
-            return false;
-        };
-        let result = self.sheet(mechanism, &chart).measure_here(state, point);
-        self.session.chart = Some(chart);
-        result.is_ok() && point.sine > window()
+        let measured = self.geometry_here(mechanism, state, point);
+        measured.is_some_and(|measured| measured.is_ok()) && point.sine > window()
     }
 
     /// The acceleration at a state on the sheet: `D̃ᵀM D̃ z = D̃ᵀ(p₁ − M aₚ)`,
@@ -319,10 +313,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             return;
         };
         if self.seeks_passages {
-            let regular = N - chart.freedoms;
-            let at = |t| step.inside_at(t);
-            let ends = (&step.start, &step.end);
-            self.session.passages = self.sheet(mechanism, &chart).passages(ends, &at, regular);
+            let at = |t, q: &mut [T]| q.copy_from_slice(step.inside_at(t).q.as_slice());
+            let (start, length) = (step.start.at(), step.end.t - step.start.t);
+            self.session.passages = self.on_sheet(mechanism, &chart, |sheet, workspace| {
+                sheet.find_passages(start, length, &at, workspace)
+            });
         }
         self.session.used = Some(chart);
     }

@@ -10,8 +10,8 @@
 
 use super::conditions::Conditions;
 use super::{Lifted, Metric, Rows, Which};
-use crate::linalg::{Frame, NotDefinite};
-use crate::singular::{Obstacle, Session};
+use crate::linalg::NotDefinite;
+use crate::singular::{Memory, Obstacle, Session};
 use crate::{
     Correction, Counters, DynamicsError, Mechanism, Position, Real, Regular, Settings, Singularity,
     State, Terms,
@@ -37,7 +37,10 @@ pub(crate) struct Core<T, const N: usize, const R: usize> {
     pub(crate) metric: Metric<T, N>,
     pub(crate) rows: Rows<T, R>,
     pub(crate) lifted: Lifted<T, N, R>,
-    pub(crate) frame: Frame<T, N, R>,
+    /// What sheets are evaluated in.
+    pub(crate) memory: Memory<T, N>,
+    /// The row that came last when one was, by its place among the independent ones.
+    pub(crate) weakest: usize,
     pub(crate) regular: Regular<T, N, R>,
     pub(crate) correction: Correction<T, N, R>,
     pub(crate) session: Session<T, N, R>,
@@ -79,7 +82,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             metric: Metric::default(),
             rows: Rows::new(|_| true, false),
             lifted: Lifted::default(),
-            frame: Frame::new(),
+            memory: Memory::new(),
+            weakest: 0,
             regular: Regular::default(),
             correction: Correction::default(),
             session: Session::new(),
@@ -258,7 +262,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         DynamicsError::SingularConfiguration {
             t,
             kind,
-            row: self.rows.listed(self.frame.weakest_row()),
+            row: self.rows.listed(self.weakest),
             structure,
         }
     }

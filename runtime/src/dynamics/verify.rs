@@ -6,7 +6,7 @@
 
 use super::{Core, Source, Which};
 use crate::linalg::is_zero;
-use crate::singular::{Chart, Obstacle, Placed, Placement, Point, Reference, Start};
+use crate::singular::{Chart, Obstacle, Placed, Placement, Point, Start};
 use crate::tolerance::{negligible, safe_steps, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
 
@@ -117,11 +117,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let Start::Sheet(chart) = self.start_at(mechanism, end)? else {
             return self.want_chart(mechanism, end.t);
         };
-        let mut sheet = self.sheet(mechanism, &chart);
-        let stays = sheet.reference(start).is_some_and(|reference| {
-            (1..=LOOKS).all(|k| {
-                let there = start.towards(end, T::from_f64(k as f64 / LOOKS as f64));
-                sheet.sign_changes(&reference, &there) == Some(0)
+        let stays = self.on_sheet(mechanism, &chart, |sheet, workspace| {
+            let reference = sheet.refer_to(start.at(), workspace);
+            reference.is_some_and(|reference| {
+                (1..=LOOKS).all(|k| {
+                    let there = start.towards(end, T::from_f64(k as f64 / LOOKS as f64));
+                    sheet.count_crossed(&reference, there.at(), workspace) == Some(0)
+                })
             })
         });
         if !stays {
@@ -159,12 +161,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         self.session.trial.chart = None;
-        let mut sheet = self.sheet(mechanism, chart);
-        let reference = sheet.reference(start);
-        let changes = match &reference {
-            Some(reference) => sheet.sign_changes(reference, end),
-            None => None,
-        };
+        let changes = self.on_sheet(mechanism, chart, |sheet, workspace| {
+            let reference = sheet.refer_to(start.at(), workspace)?;
+            sheet.count_crossed(&reference, end.at(), workspace)
+        });
         if changes != Some(0) && mechanism.structure().regular {
             return Err(self.not_regular(mechanism, end)?);
         }
@@ -178,7 +178,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             });
         }
         if changes != Some(0) && !self.session.trial.crosses {
-            self.verify_crossing(mechanism, chart, reference.as_ref(), (start, end))?;
+            self.verify_crossing(mechanism, chart, (start, end))?;
         }
         self.verify_energy(mechanism, start, end)?;
         let Some(placed) = self.session.trial.placed.take() else {
@@ -231,21 +231,27 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
         chart: &Chart<T, N, R>,
-        reference: Option<&Reference<T, N, R>>,
         (start, end): (&State<T, N>, &State<T, N>),
     ) -> Result<(), DynamicsError<T>> {
-        let (mut before, mut after) = (T::zero(), T::one());
-        let mut sheet = self.sheet(mechanism, chart);
-        for _ in 0..BISECTIONS {
-            let middle = (before + after) * T::from_f64(0.5);
-            let there = start.towards(end, middle);
-            match reference.and_then(|from| sheet.sign_changes(from, &there)) {
-                Some(0) => before = middle,
-                _ => after = middle,
+        let beyond = self.on_sheet(mechanism, chart, |sheet, workspace| {
+            let reference = sheet.refer_to(start.at(), workspace);
+            let (mut before, mut after) = (T::zero(), T::one());
+            for _ in 0..BISECTIONS {
+                let middle = (before + after) * T::from_f64(0.5);
+                let there = start.towards(end, middle);
+                let changes = reference
+                    .as_ref()
+                    .and_then(|from| sheet.count_crossed(from, there.at(), workspace));
+                match changes {
+                    Some(0) => before = middle,
+                    _ => after = middle,
+                }
             }
-        }
+            after
+        });
         let mut point = Point::zeros();
-        match sheet.place(&start.towards(end, after), &mut point) {
+        let there = start.towards(end, beyond);
+        match self.place_on(mechanism, chart, &there, &mut point) {
             Ok(Placement::Crossing { .. }) => Ok(()),
             _ => Err(self.refusal(mechanism, Obstacle::LeftSheet, end.t)),
         }

@@ -1,55 +1,101 @@
 //! The block that near-dependent rows leave when all others are eliminated.
 //!
-//! In:  its entries, in the first rows and columns of an array that has room for all.
+//! In:  its entries.
 //! Out: about its smallest singular value; how many eigenvalues changed their sign.
 
-use super::add_scaled;
+use super::workspace::Workspace;
+use super::{add_scaled, pair};
 use crate::Real;
 
-/// The block of near-dependent rows, in its first `size` rows and columns.
-#[derive(Clone, Debug)]
-pub(crate) struct Block<T, const R: usize> {
-    pub(crate) entries: [[T; R]; R],
-    pub(crate) size: usize,
+/// A square matrix of the size of the near-dependent rows, row by row.
+#[derive(Debug)]
+pub(crate) struct Block<'a, T> {
+    entries: &'a mut [T],
+    size: usize,
 }
 
-impl<T: Real, const R: usize> Block<T, R> {
-    pub(crate) fn zeros(size: usize) -> Self {
+impl<'a, T: Real> Block<'a, T> {
+    /// A block of zeros.
+    pub(crate) fn zeros(size: usize, workspace: &Workspace<'a, T>) -> Self {
         Self {
-            entries: [[T::zero(); R]; R],
+            entries: workspace.numbers(size * size),
             size,
         }
     }
 
-    /// `self + factor · other`, two blocks of one size.
-    pub(crate) fn plus(&self, factor: T, other: &Self) -> Self {
-        let mut sum = Self::zeros(self.size);
-        sum.set_sum(self, factor, other);
-        sum
+    /// An empty block with room for one of this size.
+    pub(crate) fn with_capacity(size: usize, workspace: &Workspace<'a, T>) -> Self {
+        Self {
+            entries: workspace.numbers(size * size),
+            size: 0,
+        }
     }
 
-    /// Becomes `a + factor · b`. A block has room for all rows, of which most are not used:
-    /// those are left alone.
-    pub(crate) fn set_sum(&mut self, a: &Self, factor: T, b: &Self) {
+    /// A copy elsewhere.
+    pub(crate) fn copy<'b>(&self, workspace: &Workspace<'b, T>) -> Block<'b, T> {
+        let mut copy = Block::zeros(self.size, workspace);
+        copy.set(self);
+        copy
+    }
+
+    pub(crate) fn size(&self) -> usize {
+        self.size
+    }
+
+    /// Becomes zero, of another size that there is room for.
+    pub(crate) fn clear(&mut self, size: usize) {
+        self.size = size;
+        self.entries[..size * size].fill(T::zero());
+    }
+
+    pub(crate) fn row(&self, row: usize) -> &[T] {
+        &self.entries[row * self.size..(row + 1) * self.size]
+    }
+
+    pub(crate) fn row_mut(&mut self, row: usize) -> &mut [T] {
+        &mut self.entries[row * self.size..(row + 1) * self.size]
+    }
+
+    /// The first entry, zero if there is none.
+    pub(crate) fn first(&self) -> T {
+        self.all().first().copied().unwrap_or_default()
+    }
+
+    fn all(&self) -> &[T] {
+        &self.entries[..self.size * self.size]
+    }
+
+    fn all_mut(&mut self) -> &mut [T] {
+        &mut self.entries[..self.size * self.size]
+    }
+
+    /// Becomes the same as another, which there is room for.
+    pub(crate) fn set(&mut self, other: &Block<'_, T>) {
+        self.size = other.size;
+        self.all_mut().copy_from_slice(other.all());
+    }
+
+    /// Becomes `a + factor · b`, two blocks of one size.
+    pub(crate) fn set_sum(&mut self, a: &Block<'_, T>, factor: T, b: &Block<'_, T>) {
         self.size = a.size;
-        let rows = self.entries[..a.size].iter_mut();
-        for ((row, a), b) in rows.zip(&a.entries).zip(&b.entries) {
-            for ((entry, a), b) in row[..self.size].iter_mut().zip(a).zip(b) {
-                *entry = factor.mul_add(*b, *a);
-            }
+        let terms = a.all().iter().zip(b.all());
+        for (entry, (a, b)) in self.all_mut().iter_mut().zip(terms) {
+            *entry = factor.mul_add(*b, *a);
+        }
+    }
+
+    /// Is multiplied by a factor.
+    pub(crate) fn scale(&mut self, factor: T) {
+        for entry in self.all_mut() {
+            *entry *= factor;
         }
     }
 
     /// Becomes a sum of other blocks of one size, each times a factor.
-    pub(crate) fn set_combination(&mut self, factors: &[T], blocks: &[Self]) {
-        self.size = blocks.first().map_or(0, |first| first.size);
-        for i in 0..self.size {
-            for j in 0..self.size {
-                let terms = factors.iter().zip(blocks);
-                self.entries[i][j] = terms.fold(T::zero(), |sum, (factor, block)| {
-                    factor.mul_add(block.entries[i][j], sum)
-                });
-            }
+    pub(crate) fn set_combination(&mut self, factors: &[T], blocks: &[Block<'_, T>]) {
+        self.clear(blocks.first().map_or(0, |first| first.size));
+        for (factor, block) in factors.iter().zip(blocks) {
+            add_scaled(self.all_mut(), *factor, block.all());
         }
     }
 
@@ -58,40 +104,52 @@ impl<T: Real, const R: usize> Block<T, R> {
     ///
     /// Rows stay in their places and entries that are zero are skipped: loops in a row
     /// leave a block with a few entries in each row.
-    pub(crate) fn smallest(&mut self) -> T {
+    pub(crate) fn smallest(&mut self, workspace: &Workspace<'_, T>) -> T {
+        match self.size {
+            0 => T::one(),
+            // False for NaN, too.
+            1 => match self.first().abs() > T::zero() {
+                true => self.first().abs().min(T::one()),
+                false => T::zero(),
+            },
+            _ => workspace.scope(|workspace| self.smallest_of_several(workspace)),
+        }
+    }
+
+    fn smallest_of_several(&mut self, workspace: &Workspace<'_, T>) -> T {
         let size = self.size;
         let mut smallest = T::one();
-        let mut done = [false; R];
-        let mut peaks = [(0, T::zero()); R];
-        for (peak, row) in peaks.iter_mut().zip(&self.entries[..size]) {
-            *peak = largest_of(&row[..size]);
+        let (open, columns) = (workspace.indices(size), workspace.indices(size));
+        let peaks = workspace.numbers(size);
+        for row in 0..size {
+            open[row] = row;
+            (columns[row], peaks[row]) = largest_of(self.row(row));
         }
-        for _ in 0..size {
-            let open = (0..size).filter(|row| !done[*row]);
-            let next = open.fold((0, T::zero()), |best, row| match peaks[row].1 > best.1 {
-                true => (row, peaks[row].1),
-                false => best,
-            });
-            let (row, peak) = next;
+        for left in (1..=size).rev() {
+            let mut place = 0;
+            for other in 0..left {
+                if peaks[open[other]] > peaks[open[place]] {
+                    place = other;
+                }
+            }
+            let row = open[place];
             // False for NaN, too.
-            let is_left = peak > T::zero();
+            let is_left = peaks[row] > T::zero();
             if !is_left {
                 return T::zero();
             }
-            smallest = smallest.min(peak);
-            done[row] = true;
-            let (column, pivot) = (peaks[row].0, self.entries[row]);
-            for other in (0..size).filter(|other| !done[*other]) {
-                let entries = &mut self.entries[other][..size];
+            smallest = smallest.min(peaks[row]);
+            open.copy_within(place + 1..left, place);
+            let column = columns[row];
+            for &other in &open[..left - 1] {
+                let [entries, pivot] = pair(self.entries, size, other, row);
                 if entries[column] == T::zero() {
                     continue;
                 }
                 let share = entries[column] / pivot[column];
-                for (entry, lost) in entries.iter_mut().zip(&pivot) {
-                    *entry -= share * *lost;
-                }
+                add_scaled(entries, -share, pivot);
                 entries[column] = T::zero();
-                peaks[other] = largest_of(entries);
+                (columns[other], peaks[other]) = largest_of(entries);
             }
         }
         smallest
@@ -100,65 +158,77 @@ impl<T: Real, const R: usize> Block<T, R> {
     /// How many eigenvalues change their sign from another block to this one: the
     /// number of negative eigenvalues of the symmetric part of this block in bases in
     /// which the other one is the identity.
-    pub(crate) fn sign_changes_from(&self, other: &Self) -> usize {
-        let (here, pivots) = self.in_bases_of(other);
-        let size = here.size;
-        if pivots[..size].contains(&T::zero()) {
-            return 0;
-        }
-        let mut symmetric = Self::zeros(size);
-        for i in 0..size {
-            for j in 0..size {
-                let sum = here.entries[i][j] + here.entries[j][i];
-                symmetric.entries[i][j] = sum / (pivots[i] * pivots[j]).sqrt();
+    pub(crate) fn sign_changes_from(
+        &self,
+        other: &Block<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> usize {
+        workspace.scope(|workspace| {
+            let (here, pivots) = self.in_bases_of(other, workspace);
+            let size = here.size;
+            if pivots.contains(&T::zero()) {
+                return 0;
             }
-        }
-        symmetric.negative_eigenvalues()
+            let mut symmetric = Block::zeros(size, workspace);
+            for i in 0..size {
+                for j in 0..size {
+                    let sum = here.row(i)[j] + here.row(j)[i];
+                    symmetric.row_mut(i)[j] = sum / (pivots[i] * pivots[j]).sqrt();
+                }
+            }
+            symmetric.negative_eigenvalues()
+        })
     }
 
     /// This block in bases in which another one is diagonal, and what it is there: its
     /// pivots in an elimination with complete pivoting, the largest first, none negative.
-    pub(crate) fn in_bases_of(&self, other: &Self) -> (Self, [T; R]) {
-        let (mut here, mut there) = (self.clone(), other.clone());
-        here.size = self.size.min(other.size);
-        let mut pivots = [T::zero(); R];
-        for step in 0..here.size {
+    pub(crate) fn in_bases_of<'b>(
+        &self,
+        other: &Block<'_, T>,
+        workspace: &Workspace<'b, T>,
+    ) -> (Block<'b, T>, &'b mut [T]) {
+        let (mut here, mut there) = (self.copy(workspace), other.copy(workspace));
+        let size = here.size;
+        let pivots = workspace.numbers(size);
+        for step in 0..size {
             let Some((row, column)) = there.largest(step) else {
                 break;
             };
             there.swap(step, row, column);
             here.swap(step, row, column);
-            let size = here.size;
-            let pivot = there.entries[step];
-            let above = here.entries[step];
+            let pivot = there.row(step)[step];
             for later in step + 1..size {
-                let share = -there.entries[later][step] / pivot[step];
+                let share = -there.row(later)[step] / pivot;
                 if share == T::zero() {
                     continue;
                 }
-                add_scaled(&mut here.entries[later][..size], share, &above[..size]);
-                add_scaled(&mut there.entries[later][..size], share, &pivot[..size]);
-            }
-            for row in &mut here.entries[..size] {
-                let share = row[step] / pivot[step];
-                for (entry, pivot) in row[step + 1..size].iter_mut().zip(&pivot[step + 1..]) {
-                    *entry -= share * *pivot;
+                for block in [&mut here, &mut there] {
+                    let [row, above] = pair(block.entries, size, later, step);
+                    add_scaled(row, share, above);
                 }
-                if pivot[step] < T::zero() {
+            }
+            for row in 0..size {
+                let row = here.row_mut(row);
+                let share = row[step] / pivot;
+                if share != T::zero() {
+                    add_scaled(&mut row[step + 1..], -share, &there.row(step)[step + 1..]);
+                }
+                if pivot < T::zero() {
                     row[step] = -row[step];
                 }
             }
-            pivots[step] = pivot[step].abs();
+            pivots[step] = pivot.abs();
         }
         (here, pivots)
     }
 
     /// Its last rows and columns, so many.
-    pub(crate) fn last(&self, count: usize) -> Self {
-        let mut last = Self::zeros(count);
+    pub(crate) fn last<'b>(&self, count: usize, workspace: &Workspace<'b, T>) -> Block<'b, T> {
+        let mut last = Block::zeros(count, workspace);
         let first = self.size - count;
-        for (target, row) in last.entries.iter_mut().zip(&self.entries[first..self.size]) {
-            target[..count].copy_from_slice(&row[first..self.size]);
+        for row in 0..count {
+            let entries = &self.row(first + row)[first..];
+            last.row_mut(row).copy_from_slice(entries);
         }
         last
     }
@@ -169,22 +239,26 @@ impl<T: Real, const R: usize> Block<T, R> {
     fn negative_eigenvalues(mut self) -> usize {
         let mut count = 0;
         for step in 0..self.size {
-            let diagonal = |k: &usize| self.entries[*k][*k].abs();
-            let larger = |best: usize, k: usize| {
-                if diagonal(&k) > diagonal(&best) {
-                    k
-                } else {
-                    best
+            let diagonal = |k: usize| self.row(k)[k].abs();
+            let mut next = step;
+            for k in step + 1..self.size {
+                if diagonal(k) > diagonal(next) {
+                    next = k;
                 }
-            };
-            let next = (step..self.size).fold(step, larger);
+            }
             self.swap(step, next, next);
-            let pivot = self.entries[step][step];
+            let pivot = self.row(step)[step];
             if pivot == T::zero() {
                 break;
             }
             count += usize::from(pivot < T::zero());
-            self.eliminate(step);
+            for later in step + 1..self.size {
+                let [row, above] = pair(self.entries, self.size, later, step);
+                let share = -row[step] / pivot;
+                if share != T::zero() {
+                    add_scaled(row, share, above);
+                }
+            }
         }
         count
     }
@@ -194,8 +268,8 @@ impl<T: Real, const R: usize> Block<T, R> {
         let mut most = T::zero();
         let mut place = None;
         for row in step..self.size {
-            for column in step..self.size {
-                let size = self.entries[row][column].abs();
+            for (column, entry) in self.row(row).iter().enumerate().skip(step) {
+                let size = entry.abs();
                 if size > most {
                     most = size;
                     place = Some((row, column));
@@ -206,29 +280,25 @@ impl<T: Real, const R: usize> Block<T, R> {
     }
 
     fn swap(&mut self, step: usize, row: usize, column: usize) {
-        self.entries.swap(step, row);
-        for entries in &mut self.entries[..self.size] {
-            entries.swap(step, column);
+        if row != step {
+            let [row, other] = pair(self.entries, self.size, row, step);
+            row.swap_with_slice(other);
         }
-    }
-
-    fn eliminate(&mut self, step: usize) {
-        let pivot = self.entries[step];
-        for row in &mut self.entries[step + 1..self.size] {
-            let share = -row[step] / pivot[step];
-            add_scaled(row, share, &pivot);
+        if column != step {
+            for row in 0..self.size {
+                self.row_mut(row).swap(step, column);
+            }
         }
     }
 }
 
 /// Where the largest of some entries is, and its size.
 pub(crate) fn largest_of<T: Real>(entries: &[T]) -> (usize, T) {
-    let entries = entries.iter().enumerate();
-    entries.fold((0, -T::one()), |best, (column, entry)| {
+    let mut best = (0, -T::one());
+    for (column, entry) in entries.iter().enumerate() {
         if entry.abs() > best.1 {
-            (column, entry.abs())
-        } else {
-            best
+            best = (column, entry.abs());
         }
-    })
+    }
+    best
 }

@@ -12,7 +12,7 @@
 //!
 //! Not here: what to do with a matrix that is only semi-definite.
 
-use super::norm;
+use super::{add_scaled, dot, norm};
 use crate::Real;
 use crate::tolerance::definite;
 use nalgebra::SMatrix;
@@ -87,6 +87,44 @@ fn is_skipped<T: Real, const N: usize>(entry: T) -> bool {
     N >= LONG && entry == T::zero()
 }
 
+/// `x := U⁻¹ x`, for a factor of any size, column by column.
+pub(crate) fn solve_upper<T: Real>(upper: &[T], x: &mut [T]) {
+    let n = x.len();
+    for (j, column) in upper.chunks_exact(n).enumerate().rev() {
+        let value = x[j] / column[j];
+        x[j] = value;
+        if value != T::zero() {
+            add_scaled(&mut x[..j], -value, &column[..j]);
+        }
+    }
+}
+
+/// `x := U⁻ᵀ x`, likewise.
+pub(crate) fn solve_upper_transposed<T: Real>(upper: &[T], x: &mut [T]) {
+    let n = x.len();
+    for (j, column) in upper.chunks_exact(n).enumerate() {
+        x[j] = (x[j] - dot(&column[..j], &x[..j])) / column[j];
+    }
+}
+
+/// `x := U x`, likewise.
+pub(crate) fn multiply_upper<T: Real>(upper: &[T], x: &mut [T]) {
+    let n = x.len();
+    for (j, column) in upper.chunks_exact(n).enumerate() {
+        let value = x[j];
+        x[j] = T::zero();
+        add_scaled(&mut x[..=j], value, &column[..=j]);
+    }
+}
+
+/// `Uᵀ x`, likewise.
+pub(crate) fn multiply_upper_transposed<T: Real>(upper: &[T], x: &[T], product: &mut [T]) {
+    let columns = upper.chunks_exact(x.len());
+    for (j, (target, column)) in product.iter_mut().zip(columns).enumerate() {
+        *target = dot(&column[..=j], &x[..=j]);
+    }
+}
+
 impl<T: Real, const N: usize> Cholesky<T, N> {
     /// Factorises `matrix`, of which the upper triangle is read.
     ///
@@ -138,6 +176,11 @@ impl<T: Real, const N: usize> Cholesky<T, N> {
         }
     }
 
+    /// The factor as it is stored, column by column, of which the upper triangle counts.
+    pub(crate) fn as_slice(&self) -> &[T] {
+        self.upper.as_slice()
+    }
+
     /// `x := U⁻ᵀ x`.
     #[inline]
     pub(crate) fn backward(&self, x: &mut [T; N]) {
@@ -155,17 +198,6 @@ impl<T: Real, const N: usize> Cholesky<T, N> {
     pub(crate) fn diagonal(&self, j: usize) -> T {
         let row = (j..N).map(|i| self.upper[(j, i)]);
         row.fold(T::zero(), |sum, entry| sum + entry * entry)
-    }
-
-    /// `U x`.
-    pub(crate) fn product(&self, x: &[T; N]) -> [T; N] {
-        let mut product = [T::zero(); N];
-        for (j, column) in self.upper.data.0.iter().enumerate() {
-            for i in 0..=j {
-                product[i] += x[j] * column[i];
-            }
-        }
-        product
     }
 
     /// `√(xᵀ M x)`, the length of `x` in the metric of the matrix.

@@ -71,7 +71,7 @@ pub(crate) fn add_scaled<T: Real>(target: &mut [T], factor: T, column: &[T]) {
 }
 
 /// Two of some columns of one length, to be changed.
-pub(super) fn pair<T>(columns: &mut [T], length: usize, i: usize, j: usize) -> [&mut [T]; 2] {
+pub(crate) fn pair<T>(columns: &mut [T], length: usize, i: usize, j: usize) -> [&mut [T]; 2] {
     let (low, high) = (i.min(j), i.max(j));
     let (before, rest) = columns.split_at_mut(high * length);
     let low = &mut before[low * length..(low + 1) * length];

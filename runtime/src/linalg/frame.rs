@@ -1,6 +1,6 @@
 //! Elimination of constraint rows and tangent rows, near-dependent rows last.
 //!
-//! In:  a square system: `k` constraint rows and the `N − k` rows that measure how far a
+//! In:  a square system: `k` constraint rows and the `n − k` rows that measure how far a
 //!      vector goes along a tangent space.
 //! Out: its factors; the block that near-dependent rows leave when all others are
 //!      eliminated; the sign of the determinant; solutions.
@@ -9,186 +9,311 @@
 //! nothing else: its entries are smooth along the constraint set and its determinant
 //! changes sign where sheets of the set cross.
 //!
-//! Rows are visited in the given order and entries that are zero are skipped, so that
-//! what is local in a chain of loops stays local.
+//! Rows are visited in the given order, of each row only the columns between its first and
+//! last entry are touched, and of the rows before it only those that it shares a column with,
+//! so that what is local in a chain of loops stays local.
 
 use super::block::{Block, largest_of};
-use super::{add_scaled, dot};
+use super::workspace::Workspace;
+use super::{add_scaled, dot, pair};
 use crate::Real;
-use nalgebra::SMatrix;
+use core::ops::Range;
 
 /// The factors of a square system.
-#[derive(Clone, Debug)]
-pub(crate) struct Frame<T, const N: usize, const R: usize> {
-    /// What is left of each row when the rows before it are eliminated.
-    upper: SMatrix<T, N, N>,
+#[derive(Debug)]
+pub(crate) struct Frame<'a, T> {
+    n: usize,
+    /// What is left of each row when the rows before it are eliminated, row by row.
+    upper: &'a mut [T],
     /// How much of each row before it a row loses, in the order of elimination.
-    lower: SMatrix<T, N, N>,
+    lower: &'a mut [T],
+    /// The columns between which a row has entries.
+    spans: &'a mut [usize],
+    /// The first elimination that changed a row.
+    changed: &'a mut [usize],
+    /// In which step a column is eliminated, counted from one; zero for none yet.
+    step_of: &'a mut [usize],
+    order: Order<'a>,
+    block: Block<'a, T>,
+    smallest: T,
+    /// Solutions on the way.
+    forward: &'a mut [T],
+    /// Marks of rows or columns.
+    marks: &'a mut [usize],
+}
+
+/// The order of an elimination.
+#[derive(Debug)]
+struct Order<'a> {
     /// Rows in the order of elimination, and the column of each one's pivot.
-    rows: [usize; N],
-    columns: [usize; N],
+    rows: &'a mut [usize],
+    columns: &'a mut [usize],
     /// How many rows come before the near-dependent ones.
     independent: usize,
     /// How many rows are constraint rows.
     constraints: usize,
-    block: Block<T, R>,
+}
+
+/// An elimination that others are compared with.
+#[derive(Debug)]
+pub(crate) struct Eliminated<'a, T> {
+    order: Order<'a>,
+    block: Block<'a, T>,
     smallest: T,
+}
+
+impl<T: Real> Eliminated<'_, T> {
+    /// The block of near-dependent rows.
+    pub(crate) fn block(&self) -> &Block<'_, T> {
+        &self.block
+    }
+
+    /// The smallest pivot of a constraint row.
+    pub(crate) fn smallest(&self) -> T {
+        self.smallest
+    }
 }
 
 /// A pivot vanished, or something is not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct NotRegular;
 
-impl<T: Real, const N: usize, const R: usize> Frame<T, N, R> {
-    pub(crate) fn new() -> Self {
+impl<'a, T: Real> Frame<'a, T> {
+    /// A frame of a system of `n` rows, of which as many as `constraints` may be
+    /// near-dependent.
+    pub(crate) fn new(n: usize, constraints: usize, workspace: &Workspace<'a, T>) -> Self {
         Self {
-            upper: SMatrix::zeros(),
-            lower: SMatrix::zeros(),
-            rows: [0; N],
-            columns: [0; N],
-            independent: 0,
-            constraints: 0,
-            block: Block::zeros(0),
+            n,
+            upper: workspace.numbers(n * n),
+            lower: workspace.numbers(n * n),
+            spans: workspace.indices(2 * n),
+            changed: workspace.indices(n),
+            step_of: workspace.indices(n),
+            order: Order::new(n, workspace),
+            block: Block::with_capacity(constraints, workspace),
             smallest: T::zero(),
+            forward: workspace.numbers(n),
+            marks: workspace.indices(n),
         }
     }
 
-    /// The rows to be eliminated: constraint rows first. Their columns should be scaled
-    /// to one size, the rows too.
-    pub(crate) fn rows_mut(&mut self) -> &mut [[T; N]; N] {
-        &mut self.upper.data.0
+    /// What has been eliminated, to compare others with.
+    pub(crate) fn eliminated<'b>(&self, workspace: &Workspace<'b, T>) -> Eliminated<'b, T> {
+        let mut order = Order::new(self.n, workspace);
+        order.set(&self.order);
+        Eliminated {
+            order,
+            block: self.block.copy(workspace),
+            smallest: self.smallest,
+        }
+    }
+
+    /// Begins anew, with rows of zeros.
+    pub(crate) fn clear(&mut self) {
+        self.upper.fill(T::zero());
+        self.lower.fill(T::zero());
+        self.spans.fill(0);
+        self.changed.fill(self.n);
+        self.step_of.fill(0);
+    }
+
+    /// Gives a row to be eliminated an entry: constraint rows first. Their columns should be
+    /// scaled to one size, the rows too. Entries are given column by column.
+    #[inline]
+    pub(crate) fn set_entry(&mut self, row: usize, column: usize, entry: T) {
+        self.upper[row * self.n + column] = entry;
+        let span = &mut self.spans[2 * row..2 * row + 2];
+        if span[1] == 0 {
+            span[0] = column;
+        }
+        span[1] = column + 1;
+    }
+
+    fn entry(&self, row: usize, column: usize) -> T {
+        self.upper[row * self.n + column]
+    }
+
+    fn span(&self, row: usize) -> Range<usize> {
+        self.spans[2 * row]..self.spans[2 * row + 1]
     }
 
     /// Eliminates all rows, of which the first `constraints` are constraint rows; one of
     /// these of which less than `least` is left by those before it comes last.
     pub(crate) fn factorise(&mut self, constraints: usize, least: T) -> Result<(), NotRegular> {
-        let mut late = [(0, 0); R];
         let mut done = 0;
-        let mut waiting = 0;
-        for row in 0..N {
-            self.reduce(row, 0, done);
+        let mut late = self.n;
+        for row in 0..self.n {
+            self.reduce(row, 0..done);
             let (column, size) = self.largest(row);
             if row < constraints && size < least {
-                late[waiting] = (row, done);
-                waiting += 1;
+                // From the end, the last one first.
+                late -= 1;
+                self.order.rows[late] = row;
+                self.marks[row] = done;
                 continue;
             }
             self.take(done, row, column)?;
             done += 1;
         }
-        self.independent = done;
-        self.constraints = constraints;
-        self.take_late(&late[..waiting])
+        self.order.independent = done;
+        self.order.constraints = constraints;
+        self.order.rows[done..].reverse();
+        for place in done..self.n {
+            let row = self.order.rows[place];
+            self.reduce(row, self.marks[row]..done);
+        }
+        self.take_late()
     }
 
-    /// Eliminates the rows in the order of another frame, so that the blocks of both can
-    /// be compared.
-    pub(crate) fn factorise_like(&mut self, other: &Self) -> Result<(), NotRegular> {
-        (self.rows, self.columns) = (other.rows, other.columns);
-        self.constraints = other.constraints;
-        self.independent = other.independent;
-        for step in 0..self.independent {
-            let (row, column) = (self.rows[step], self.columns[step]);
-            self.reduce(row, 0, step);
+    /// Eliminates the rows in the order of another elimination, so that the blocks of both
+    /// can be compared.
+    pub(crate) fn factorise_like(&mut self, other: &Eliminated<'_, T>) -> Result<(), NotRegular> {
+        self.order.set(&other.order);
+        let done = self.order.independent;
+        for step in 0..done {
+            let (row, column) = (self.order.rows[step], self.order.columns[step]);
+            self.reduce(row, 0..step);
             self.take(step, row, column)?;
         }
-        let mut late = [(0, 0); R];
-        let mut waiting = 0;
-        for row in 0..N {
-            if other.rows[other.independent..].contains(&row) {
-                late[waiting] = (row, 0);
-                waiting += 1;
-            }
+        self.order.rows[done..].sort_unstable();
+        for place in done..self.n {
+            let row = self.order.rows[place];
+            self.reduce(row, 0..done);
         }
-        self.take_late(&late[..waiting])
+        self.take_late()
     }
 
     /// Subtracts from a row what makes its entries in some pivot columns vanish.
-    fn reduce(&mut self, row: usize, from: usize, to: usize) {
-        for step in from..to {
-            let (pivot_row, column) = (self.rows[step], self.columns[step]);
-            let entry = self.upper.data.0[row][column];
-            if entry == T::zero() {
-                self.lower.data.0[row][step] = T::zero();
-                continue;
-            }
-            let pivot = self.upper.data.0[pivot_row];
-            let share = entry / pivot[column];
-            self.lower.data.0[row][step] = share;
-            add_scaled(&mut self.upper.data.0[row], -share, &pivot);
-            self.upper.data.0[row][column] = T::zero();
+    fn reduce(&mut self, row: usize, steps: Range<usize>) {
+        let mut next = steps.start;
+        while let Some(step) = self.next_shared(row, next..steps.end) {
+            self.eliminate(row, step);
+            next = step + 1;
         }
+    }
+
+    /// The first of some steps in whose column a row has an entry.
+    fn next_shared(&self, row: usize, steps: Range<usize>) -> Option<usize> {
+        let span = self.span(row);
+        let entries = &self.upper[row * self.n..(row + 1) * self.n];
+        if steps.len() <= span.len() {
+            let columns = &self.order.columns[steps.clone()];
+            let shared = columns.iter().position(|j| entries[*j] != T::zero())?;
+            return Some(steps.start + shared);
+        }
+        let mut first = steps.end;
+        for (entry, step) in entries[span.clone()].iter().zip(&self.step_of[span]) {
+            if *entry != T::zero() && *step > steps.start && *step <= first {
+                first = *step - 1;
+            }
+        }
+        (first < steps.end).then_some(first)
+    }
+
+    /// Subtracts from a row what makes its entry in the pivot column of a step vanish.
+    fn eliminate(&mut self, row: usize, step: usize) {
+        let (above, column) = (self.order.rows[step], self.order.columns[step]);
+        let span = self.span(above);
+        let [target, pivot] = pair(self.upper, self.n, row, above);
+        let share = target[column] / pivot[column];
+        add_scaled(&mut target[span.clone()], -share, &pivot[span.clone()]);
+        target[column] = T::zero();
+        self.lower[row * self.n + step] = share;
+        self.changed[row] = self.changed[row].min(step);
+        self.spans[2 * row] = self.spans[2 * row].min(span.start);
+        self.spans[2 * row + 1] = self.spans[2 * row + 1].max(span.end);
     }
 
     /// The largest entry of a row that is reduced, and its size; columns of pivots hold
     /// zeros.
     fn largest(&self, row: usize) -> (usize, T) {
-        largest_of(&self.upper.data.0[row])
+        let span = self.span(row);
+        let start = span.start;
+        let (column, size) = largest_of(&self.upper[row * self.n..(row + 1) * self.n][span]);
+        (start + column, size)
     }
 
     fn take(&mut self, step: usize, row: usize, column: usize) -> Result<(), NotRegular> {
-        let pivot = self.upper.data.0[row][column];
+        let pivot = self.upper.get(row * self.n + column).copied();
+        let pivot = pivot.unwrap_or_default();
         if pivot == T::zero() || !pivot.is_finite() {
             return Err(NotRegular);
         }
-        (self.rows[step], self.columns[step]) = (row, column);
+        (self.order.rows[step], self.order.columns[step]) = (row, column);
+        self.step_of[column] = step + 1;
         Ok(())
     }
 
-    /// Keeps the block of the near-dependent rows, each reduced by so many rows before,
-    /// and eliminates it, the largest entry first; as far as it goes where the block is
+    /// Keeps the block of the near-dependent rows, which are reduced by all others, and
+    /// eliminates it, the largest entry first; as far as it goes where the block is
     /// singular, which leaves a frame that solves nothing.
-    fn take_late(&mut self, late: &[(usize, usize)]) -> Result<(), NotRegular> {
-        let first = self.independent;
-        let mut columns = [0; R];
-        let open = (0..N).filter(|column| !self.columns[..first].contains(column));
-        for (place, column) in columns.iter_mut().zip(open) {
-            *place = column;
-        }
-        self.block.size = late.len();
-        for row in &mut self.block.entries[..late.len()] {
-            *row = [T::zero(); R];
-        }
-        for (k, &(row, from)) in late.iter().enumerate() {
-            self.reduce(row, from, first);
-            for (entry, &column) in self.block.entries[k].iter_mut().zip(&columns[..late.len()]) {
-                *entry = self.upper.data.0[row][column];
+    fn take_late(&mut self) -> Result<(), NotRegular> {
+        let first = self.order.independent;
+        self.smallest = T::one();
+        for step in 0..first {
+            let (row, column) = (self.order.rows[step], self.order.columns[step]);
+            if row < self.order.constraints {
+                self.smallest = self.smallest.min(self.entry(row, column).abs());
             }
+        }
+        self.block.clear(self.n - first);
+        if first == self.n {
+            return Ok(());
         }
         // In any order, for a block that cannot be eliminated to the end.
-        for (k, (row, _)) in late.iter().enumerate() {
-            (self.rows[first + k], self.columns[first + k]) = (*row, columns[k]);
+        self.marks.fill(0);
+        for &column in &self.order.columns[..first] {
+            self.marks[column] = 1;
         }
-        self.smallest = T::one();
-        for (&row, &column) in self.rows[..first].iter().zip(&self.columns) {
-            if row < self.constraints {
-                self.smallest = self.smallest.min(self.upper.data.0[row][column].abs());
+        let open = (0..self.n).filter(|column| self.marks[*column] == 0);
+        for (place, column) in self.order.columns[first..].iter_mut().zip(open) {
+            *place = column;
+        }
+        for k in 0..self.n - first {
+            let row = self.order.rows[first + k];
+            let columns = self.order.columns[first..].iter();
+            for (entry, column) in self.block.row_mut(k).iter_mut().zip(columns) {
+                *entry = self.upper[row * self.n + *column];
             }
         }
-        self.eliminate_late()
+        match first + 1 == self.n {
+            true => self.take_only(),
+            false => self.eliminate_late(),
+        }
+    }
+
+    /// The only near-dependent row.
+    fn take_only(&mut self) -> Result<(), NotRegular> {
+        let last = self.n - 1;
+        let (row, column) = (self.order.rows[last], self.order.columns[last]);
+        let size = self.entry(row, column).abs();
+        self.smallest = self.smallest.min(size);
+        match size == T::zero() {
+            true => Ok(()),
+            false => self.take(last, row, column),
+        }
     }
 
     /// Eliminates the near-dependent rows, the largest entry first.
-    #[inline(never)]
     fn eliminate_late(&mut self) -> Result<(), NotRegular> {
-        let mut peaks = [(0, T::zero()); N];
-        for &row in &self.rows[self.independent..] {
-            peaks[row] = self.largest(row);
+        // The column of the largest entry of each row.
+        for place in self.order.independent..self.n {
+            let row = self.order.rows[place];
+            self.marks[row] = self.largest(row).0;
         }
-        for step in self.independent..N {
-            let size = self.bring_largest(step, &peaks);
+        for step in self.order.independent..self.n {
+            let size = self.bring_largest(step);
             self.smallest = self.smallest.min(size);
             if size == T::zero() {
                 return Ok(());
             }
-            let column = self.columns[step];
-            self.take(step, self.rows[step], column)?;
-            for place in step + 1..N {
-                let row = self.rows[place];
-                let changes = self.upper.data.0[row][column] != T::zero();
-                self.reduce(row, step, step + 1);
-                if changes {
-                    peaks[row] = self.largest(row);
+            let (row, column) = (self.order.rows[step], self.order.columns[step]);
+            self.take(step, row, column)?;
+            for place in step + 1..self.n {
+                let row = self.order.rows[place];
+                if self.entry(row, column) != T::zero() {
+                    self.eliminate(row, step);
+                    self.marks[row] = self.largest(row).0;
                 }
             }
         }
@@ -197,28 +322,34 @@ impl<T: Real, const N: usize, const R: usize> Frame<T, N, R> {
 
     /// Makes the row with the largest entry of those that are left the next one, and that
     /// entry its pivot; its size.
-    fn bring_largest(&mut self, step: usize, peaks: &[(usize, T); N]) -> T {
-        let peak = |place: usize| peaks[self.rows[place]];
-        let larger = |best: usize, place: usize| match peak(place).1 > peak(best).1 {
-            true => place,
-            false => best,
+    fn bring_largest(&mut self, step: usize) -> T {
+        let peak = |place: usize| {
+            let row = self.order.rows[place];
+            self.entry(row, self.marks[row]).abs()
         };
-        let place = (step + 1..N).fold(step, larger);
-        let (column, size) = peak(place);
-        self.rows.swap(step, place);
-        if let Some(place) = (step..N).find(|place| self.columns[*place] == column) {
-            self.columns.swap(step, place);
+        let (mut place, mut size) = (step, peak(step));
+        for other in step + 1..self.n {
+            let peak = peak(other);
+            if peak > size {
+                (place, size) = (other, peak);
+            }
+        }
+        let column = self.marks[self.order.rows[place]];
+        self.order.rows.swap(step, place);
+        let columns = &mut self.order.columns[step..];
+        if let Some(place) = columns.iter().position(|other| *other == column) {
+            columns.swap(0, place);
         }
         size
     }
 
     /// The row that comes last.
     pub(crate) fn weakest_row(&self) -> usize {
-        self.rows.last().copied().unwrap_or_default()
+        self.order.rows.last().copied().unwrap_or_default()
     }
 
     /// The block of near-dependent rows.
-    pub(crate) fn block(&self) -> &Block<T, R> {
+    pub(crate) fn block(&self) -> &Block<'a, T> {
         &self.block
     }
 
@@ -229,86 +360,99 @@ impl<T: Real, const N: usize, const R: usize> Frame<T, N, R> {
     }
 
     /// The determinant; with its sign where it is not so small that it counts as zero.
-    pub(crate) fn determinant(&self) -> T {
-        let pivots = self.rows.iter().zip(&self.columns);
-        let size = pivots.fold(T::one(), |product, (&row, &column)| {
-            product * self.upper.data.0[row][column].abs()
-        });
+    pub(crate) fn determinant(&mut self) -> T {
+        let mut size = T::one();
+        for (row, column) in self.order.rows.iter().zip(&*self.order.columns) {
+            size *= self.upper[row * self.n + column].abs();
+        }
         if self.is_negative() { -size } else { size }
     }
 
     /// The sign of the determinant.
-    pub(crate) fn is_negative(&self) -> bool {
+    pub(crate) fn is_negative(&mut self) -> bool {
         let mut negative = false;
-        let mut columns: [usize; N] = [0; N];
-        for (&row, &column) in self.rows.iter().zip(&self.columns) {
-            negative ^= self.upper.data.0[row][column] < T::zero();
-            columns[row] = column;
+        for (row, column) in self.order.rows.iter().zip(&*self.order.columns) {
+            negative ^= self.upper[row * self.n + column] < T::zero();
+            self.marks[*row] = *column;
         }
-        for i in 0..N {
-            while columns[i] != i {
-                let other = columns[i];
-                columns.swap(i, other);
+        for i in 0..self.n {
+            while self.marks[i] != i {
+                let other = self.marks[i];
+                self.marks.swap(i, other);
                 negative = !negative;
             }
         }
         negative
     }
 
-    /// The right-hand sides of the near-dependent rows when all others are eliminated.
-    pub(crate) fn reduced(&self, right: &[T; N]) -> [T; R] {
-        let y = self.forward(right, self.independent);
-        let mut rest = [T::zero(); R];
-        let late = self.rows[self.independent..].iter();
-        for (rest, &row) in rest.iter_mut().zip(late) {
-            *rest = right[row];
-            for (share, y) in self.lower.data.0[row][..self.independent].iter().zip(&y) {
-                *rest -= *share * *y;
+    /// The largest right-hand side of the near-dependent rows when all others are
+    /// eliminated.
+    pub(crate) fn largest_reduced(&mut self, right: &[T]) -> T {
+        let independent = self.order.independent;
+        self.go_forward(right, independent);
+        let mut most = T::zero();
+        for &row in &self.order.rows[independent..] {
+            let shares = &self.lower[row * self.n..][..independent];
+            let mut rest = right[row];
+            for (share, y) in shares.iter().zip(&*self.forward) {
+                rest -= *share * *y;
             }
+            most = most.max(rest.abs());
         }
-        rest
+        most
     }
 
     /// The solution for the right-hand sides of all rows.
-    pub(crate) fn solve(&self, right: &[T; N]) -> [T; N] {
-        let y = self.forward(right, N);
-        self.backward(&y)
+    pub(crate) fn solve(&mut self, right: &[T], x: &mut [T]) {
+        self.go_forward(right, self.n);
+        self.go_backward(self.n, x);
     }
 
     /// The solution that satisfies the rows before the near-dependent ones, and leaves
     /// these alone.
-    pub(crate) fn solve_independent(&self, right: &[T; N]) -> [T; N] {
-        let y = self.forward(right, self.independent);
-        let mut x = [T::zero(); N];
-        for step in (0..self.independent).rev() {
-            let (row, column) = (self.rows[step], self.columns[step]);
-            let upper = &self.upper.data.0[row];
-            x[column] = (y[step] - dot(upper, &x)) / upper[column];
-        }
-        x
+    pub(crate) fn solve_independent(&mut self, right: &[T], x: &mut [T]) {
+        self.go_forward(right, self.order.independent);
+        self.go_backward(self.order.independent, x);
     }
 
-    fn forward(&self, right: &[T; N], steps: usize) -> [T; N] {
-        let mut y = [T::zero(); N];
+    fn go_forward(&mut self, right: &[T], steps: usize) {
         for step in 0..steps {
-            let row = self.rows[step];
-            let shares = &self.lower.data.0[row][..step];
+            let row = self.order.rows[step];
+            let first = self.changed[row].min(step);
+            let shares = &self.lower[row * self.n..][first..step];
             let mut value = right[row];
-            for (share, y) in shares.iter().zip(&y) {
+            for (share, y) in shares.iter().zip(&self.forward[first..step]) {
                 value -= *share * *y;
             }
-            y[step] = value;
+            self.forward[step] = value;
         }
-        y
     }
 
-    fn backward(&self, y: &[T; N]) -> [T; N] {
-        let mut x = [T::zero(); N];
-        for step in (0..N).rev() {
-            let (row, column) = (self.rows[step], self.columns[step]);
-            let upper = &self.upper.data.0[row];
-            x[column] = (y[step] - dot(upper, &x)) / upper[column];
+    fn go_backward(&self, steps: usize, x: &mut [T]) {
+        x.fill(T::zero());
+        for step in (0..steps).rev() {
+            let (row, column) = (self.order.rows[step], self.order.columns[step]);
+            let upper = &self.upper[row * self.n..][..self.n];
+            let span = self.span(row);
+            let known = dot(&upper[span.clone()], &x[span]);
+            x[column] = (self.forward[step] - known) / upper[column];
         }
-        x
+    }
+}
+
+impl<'a> Order<'a> {
+    fn new<T: Real>(n: usize, workspace: &Workspace<'a, T>) -> Self {
+        Self {
+            rows: workspace.indices(n),
+            columns: workspace.indices(n),
+            independent: 0,
+            constraints: 0,
+        }
+    }
+
+    fn set(&mut self, other: &Order<'_>) {
+        self.rows.copy_from_slice(other.rows);
+        self.columns.copy_from_slice(other.columns);
+        (self.independent, self.constraints) = (other.independent, other.constraints);
     }
 }

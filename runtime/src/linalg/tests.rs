@@ -39,7 +39,8 @@ fn cholesky_gives_the_matrix_back() {
         cholesky.factorise(&matrix).unwrap();
         let x: SVector<f64, 6> = random.matrix();
         let lifted = cholesky.transposed_product(&x.data.0[0]);
-        let image = SVector::from(cholesky.product(&lifted));
+        let mut image = SVector::from(lifted);
+        multiply_upper(cholesky.as_slice(), image.as_mut_slice());
         assert!((image - matrix * x).amax() < 1e-13, "seed {SEED} + {round}");
         let mut back = image.data.0[0];
         cholesky.forward(&mut back);
@@ -233,12 +234,15 @@ fn the_smallest_pivot_of_a_block_is_that_of_complete_pivoting() {
             0 | 1 => random.number(),
             _ => 0.0,
         });
-        let mut block = Block::<f64, 9>::zeros(K);
-        for (i, row) in block.entries.iter_mut().take(K).enumerate() {
-            row[..K].copy_from_slice(chain.row(i).transpose().as_slice());
+        let (mut numbers, mut indices) = ([0.0; 2 * K * K], [0; 2 * K]);
+        let workspace = Workspace::new(&mut numbers, &mut [], &mut indices);
+        let mut block = Block::zeros(K, &workspace);
+        for i in 0..K {
+            let row = chain.row(i).transpose();
+            block.row_mut(i).copy_from_slice(row.as_slice());
         }
         let pivots = chain.full_piv_lu().u().diagonal().abs();
-        let (found, exact) = (block.smallest(), pivots.min().min(1.0));
+        let (found, exact) = (block.smallest(&workspace), pivots.min().min(1.0));
         assert!(
             (found - exact).abs() < 1e-12,
             "{round}: {found} is not {exact}"

@@ -10,7 +10,11 @@
 //! step: it changes at accepted states only.
 
 use crate::dynamics::{Metric, Rows, Which};
-use crate::linalg::{Cholesky, add_scaled, column, dot, norm, scaled};
+use crate::equations::At;
+use crate::linalg::{
+    Cholesky, add_scaled, column, dot, multiply_upper, multiply_upper_transposed, norm, pair,
+    solve_upper_transposed,
+};
 use crate::{Real, State};
 use nalgebra::{SMatrix, SVector};
 
@@ -18,39 +22,38 @@ use nalgebra::{SMatrix, SVector};
 #[derive(Clone, Debug)]
 pub(crate) struct Chart<T, const N: usize, const R: usize> {
     /// `D`: orthonormal in the metric, in the first `freedoms` columns.
-    pub(crate) tangent: SMatrix<T, N, N>,
+    tangent: SMatrix<T, N, N>,
     /// `M D`, in the same columns.
     pub(crate) dual: SMatrix<T, N, N>,
     pub(crate) freedoms: usize,
     /// The accepted state.
-    pub(crate) base: State<T, N>,
+    base: State<T, N>,
     /// The velocity of the sheet where the coordinates of the chart rest.
-    pub(crate) drift: SVector<T, N>,
+    drift: SVector<T, N>,
     /// The largest length of that so far.
     pub(crate) speed: T,
     /// Constraint rows that are independent at regular states, `N − freedoms` of them.
-    pub(crate) rows: [usize; R],
+    rows: [usize; R],
     /// That of the metric.
-    pub(crate) factor: Cholesky<T, N>,
+    factor: Cholesky<T, N>,
     /// What rows and columns are multiplied by to have size one.
-    pub(crate) row_scale: [T; R],
-    pub(crate) column_scale: [T; N],
+    row_scale: [T; R],
+    column_scale: [T; N],
     /// The length of the coordinates in the metric.
-    pub(crate) reach: T,
+    reach: T,
     /// How large each of them is.
-    pub(crate) sizes: [T; N],
+    sizes: [T; N],
     /// The spacing of the nodes that served last, as a change of the sine.
     pub(crate) spacing: T,
     /// Error of an interpolation, relative, that is accepted.
-    pub(crate) accepted: T,
+    accepted: T,
     /// No sheets cross at the critical configuration nearby: a gap keeps them apart.
     pub(crate) gap: bool,
 }
 
 impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
     /// A chart at a state from vectors that span the tangent space there; `None` if they
-    /// are dependent. Vectors are made orthonormal one after the other, so that the
-    /// orientation of charts is carried along.
+    /// are dependent.
     #[inline(never)]
     pub(crate) fn new(
         base: &State<T, N>,
@@ -60,31 +63,14 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
         rows: &Rows<T, R>,
         (reach, sizes, accepted): (T, &[T; N], T),
     ) -> Option<Self> {
-        let mut dual = SMatrix::zeros();
-        for i in 0..freedoms {
-            let mut lifted = metric.factor.transposed_product(&tangent.data.0[i]);
-            // The second time takes the round-off of the first.
-            for _ in 0..2 {
-                let (done, _) = tangent.data.0.split_at(i);
-                for other in done {
-                    let other = metric.factor.transposed_product(other);
-                    let share = dot(&other, &lifted);
-                    add_scaled(&mut lifted, -share, &other);
-                }
-            }
-            let size = norm(&lifted);
-            // False for NaN, too.
-            let enough = size > T::EPSILON;
-            if !enough {
-                return None;
-            }
-            let mut column = scaled(T::one() / size, &lifted);
-            dual.data.0[i] = metric.factor.product(&column);
-            metric.factor.backward(&mut column);
-            tangent.data.0[i] = column;
-        }
         let (list, count) = rows.active(Which::All)?;
         if count + freedoms != N {
+            return None;
+        }
+        let mut dual: SMatrix<T, N, N> = SMatrix::zeros();
+        let factor = metric.factor.as_slice();
+        let (columns, duals) = (tangent.as_mut_slice(), dual.as_mut_slice());
+        if !orthonormalise(factor, &mut columns[..N * freedoms], duals, N) {
             return None;
         }
         Some(Self {
@@ -109,6 +95,122 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
     /// Takes note of how fast the sheet moves.
     pub(crate) fn set_drift(&mut self, drift: SVector<T, N>, speed: T) {
         self.drift = drift;
-        self.speed = speed.max(self.length(&drift));
+        self.speed = speed.max(self.view().length(drift.as_slice()));
+    }
+
+    /// The chart over slices.
+    pub(crate) fn view(&self) -> ChartView<'_, T> {
+        ChartView {
+            tangent: &self.tangent.as_slice()[..N * self.freedoms],
+            dual: &self.dual.as_slice()[..N * self.freedoms],
+            freedoms: self.freedoms,
+            base: self.base.at(),
+            drift: self.drift.as_slice(),
+            speed: self.speed,
+            rows: &self.rows[..N - self.freedoms],
+            factor: self.factor.as_slice(),
+            row_scale: &self.row_scale,
+            column_scale: &self.column_scale,
+            reach: self.reach,
+            sizes: &self.sizes,
+            spacing: self.spacing,
+            accepted: self.accepted,
+            gap: self.gap,
+        }
+    }
+}
+
+/// Makes vectors of length `n` orthonormal in a metric `U Uᵀ`, one after the other, so that
+/// the orientation of charts is carried along, and finds what they are times the metric;
+/// `false` if they are dependent.
+fn orthonormalise<T: Real>(factor: &[T], vectors: &mut [T], duals: &mut [T], n: usize) -> bool {
+    let count = vectors.len() / n;
+    for i in 0..count {
+        let lifted = &mut duals[i * n..(i + 1) * n];
+        multiply_upper_transposed(factor, &vectors[i * n..(i + 1) * n], lifted);
+        // The second time takes the round-off of the first.
+        for other in (0..i).chain(0..i) {
+            let [lifted, other] = pair(duals, n, i, other);
+            add_scaled(lifted, -dot(other, lifted), other);
+        }
+        let lifted = &mut duals[i * n..(i + 1) * n];
+        let size = norm(lifted);
+        // False for NaN, too.
+        let enough = size > T::EPSILON;
+        if !enough {
+            return false;
+        }
+        for entry in lifted {
+            *entry /= size;
+        }
+    }
+    for (vector, lifted) in vectors.chunks_exact_mut(n).zip(duals.chunks_exact_mut(n)) {
+        vector.copy_from_slice(lifted);
+        solve_upper_transposed(factor, vector);
+        multiply_upper(factor, lifted);
+    }
+    true
+}
+
+/// A chart over slices.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ChartView<'a, T> {
+    pub(super) tangent: &'a [T],
+    pub(super) dual: &'a [T],
+    pub(super) freedoms: usize,
+    pub(super) base: At<'a, T>,
+    pub(super) drift: &'a [T],
+    pub(super) speed: T,
+    pub(super) rows: &'a [usize],
+    pub(super) factor: &'a [T],
+    pub(super) row_scale: &'a [T],
+    pub(super) column_scale: &'a [T],
+    pub(super) reach: T,
+    pub(super) sizes: &'a [T],
+    pub(super) spacing: T,
+    pub(super) accepted: T,
+    pub(super) gap: bool,
+}
+
+impl<T: Real> ChartView<'_, T> {
+    /// How many coordinates there are.
+    pub(super) fn n(&self) -> usize {
+        self.column_scale.len()
+    }
+
+    /// The length of a vector in the diagonal of the metric.
+    pub(crate) fn length(&self, x: &[T]) -> T {
+        self.distance(x, None)
+    }
+
+    /// The length of what two vectors differ by.
+    pub(super) fn apart(&self, a: &[T], b: &[T]) -> T {
+        self.distance(a, Some(b))
+    }
+
+    fn distance(&self, a: &[T], b: Option<&[T]>) -> T {
+        let mut sum = T::zero();
+        for (i, (x, scale)) in a.iter().zip(self.column_scale).enumerate() {
+            let x = match b {
+                Some(b) => *x - b[i],
+                None => *x,
+            };
+            let x = x / *scale;
+            sum += x * x;
+        }
+        sum.sqrt()
+    }
+
+    /// `D* x`.
+    pub(super) fn coordinates(&self, x: &[T], along: &mut [T]) {
+        let duals = self.dual.chunks_exact(self.n());
+        for (along, dual) in along.iter_mut().zip(duals) {
+            *along = dot(dual, x);
+        }
+    }
+
+    /// The columns of the tangent space.
+    pub(super) fn tangents(&self) -> impl Iterator<Item = &[T]> {
+        self.tangent.chunks_exact(self.n())
     }
 }

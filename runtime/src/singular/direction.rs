@@ -1,6 +1,6 @@
 //! The direction in which the constraints leave a singular configuration fastest.
 //!
-//! In:  a state near a singular configuration, its frame.
+//! In:  a state near a singular configuration, its elimination.
 //! Out: [`Direction`]: along the sheet, and in time where constraints move.
 //!
 //! The block of near-dependent rows changes along the sheet, to first order, by one
@@ -10,10 +10,10 @@
 use super::kept::SIDE;
 use super::obstacle::Obstacle;
 use super::sheet::Sheet;
-use crate::linalg::{Block, Frame, add_scaled, column, norm};
+use crate::Real;
+use crate::equations::At;
+use crate::linalg::{Block, Eliminated, Workspace, add_scaled, norm};
 use crate::tolerance::{difference, hull, spacing, window};
-use crate::{Real, State};
-use nalgebra::SVector;
 
 /// Directions that are tried where several loops are nearly singular at once.
 const TRIALS: usize = 64;
@@ -26,10 +26,10 @@ const FEW: usize = 4;
 const STILL: f64 = 1e-3;
 
 /// A line through a state along which the constraints leave a singular configuration.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Direction<T, const N: usize> {
+#[derive(Debug)]
+pub(super) struct Direction<'a, T> {
     /// The change of position along it, of length one in the metric.
-    q: SVector<T, N>,
+    pub(super) q: &'a mut [T],
     /// The change of time along it (s).
     t: T,
     /// Whether nothing but time moves along it.
@@ -40,70 +40,142 @@ pub(super) struct Direction<T, const N: usize> {
     pub(super) rate: T,
 }
 
-impl<T: Real, const N: usize> Direction<T, N> {
-    /// The state a distance along it.
-    pub(super) fn moved(&self, state: &State<T, N>, distance: T) -> State<T, N> {
-        State::new(
-            state.t + self.t * distance,
-            state.q + self.q * distance,
-            state.v,
-        )
+impl<'a, T: Real> Direction<'a, T> {
+    /// One that leads nowhere.
+    fn new(n: usize, workspace: &Workspace<'a, T>) -> Self {
+        Self {
+            q: workspace.numbers(n),
+            t: T::zero(),
+            is_of_time: false,
+            centre: T::zero(),
+            rate: T::zero(),
+        }
+    }
+
+    fn set(&mut self, other: &Direction<'_, T>) {
+        self.q.copy_from_slice(other.q);
+        (self.t, self.is_of_time) = (other.t, other.is_of_time);
+        (self.centre, self.rate) = (other.centre, other.rate);
+    }
+
+    /// The time and the position a distance along it.
+    pub(super) fn moved(&self, state: At<'_, T>, distance: T, q: &mut [T]) -> T {
+        q.copy_from_slice(state.q);
+        add_scaled(q, distance, self.q);
+        state.t + self.t * distance
     }
 }
 
-/// The best direction so far.
-struct Best<T, const N: usize> {
-    direction: Direction<T, N>,
-    score: T,
+/// Where directions are looked for.
+struct Search<'a, 'b, T> {
+    state: At<'a, T>,
+    like: &'a Eliminated<'b, T>,
+    /// Coordinates of the chart, and time where the sheet moves.
+    dimension: usize,
+    /// The time (s) in which the sheet moves by one unit of length when it is fastest.
+    clock: Option<T>,
 }
 
-impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
-    /// The best direction through a state whose frame is `like`.
-    pub(super) fn direction(
+/// The best direction so far, and its score; none yet if that is not known.
+struct Best<'a, T> {
+    direction: Direction<'a, T>,
+    score: Option<T>,
+}
+
+impl<T: Real> Sheet<'_, T> {
+    /// The best direction through a state with this elimination.
+    #[inline(never)]
+    pub(super) fn direction<'b>(
         &mut self,
-        state: &State<T, N>,
-        like: &Frame<T, N, R>,
-    ) -> Result<Direction<T, N>, Obstacle> {
+        state: At<'_, T>,
+        like: &Eliminated<'_, T>,
+        workspace: &Workspace<'b, T>,
+    ) -> Result<Direction<'b, T>, Obstacle> {
         let clock = self.clock();
-        let dimension = (self.chart.freedoms + usize::from(clock.is_some())).min(N);
-        let mut best = None;
-        if like.block().size == 1 {
-            let steepest = self.steepest(state, like, dimension, clock)?;
-            let direction = self.line(&steepest, clock);
-            let change = self.change(state, like, &direction)?;
-            self.consider(like.block(), direction, &change, &mut best);
-        } else {
-            self.try_directions(state, like, (dimension, clock), &mut best)?;
+        let dimension = self.chart.freedoms + usize::from(clock.is_some());
+        let search = Search {
+            state,
+            like,
+            dimension: dimension.min(self.chart.n()),
+            clock,
+        };
+        let mut best = Best {
+            direction: Direction::new(self.chart.n(), workspace),
+            score: None,
+        };
+        workspace.scope(|workspace| match like.block().size() {
+            1 => self.try_steepest(&search, &mut best, workspace),
+            _ => self.try_directions(&search, &mut best, workspace),
+        })?;
+        match best.score {
+            Some(_) => Ok(best.direction),
+            None => Err(Obstacle::Unresolved),
         }
-        best.map(|best| best.direction).ok_or(Obstacle::Unresolved)
+    }
+
+    /// The direction in which the one entry of the block changes fastest.
+    fn try_steepest(
+        &mut self,
+        search: &Search<'_, '_, T>,
+        best: &mut Best<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Result<(), Obstacle> {
+        let mut direction = Direction::new(self.chart.n(), workspace);
+        let mut change = Block::zeros(1, workspace);
+        let gradient = workspace.numbers(search.dimension);
+        for i in 0..search.dimension {
+            self.set_axis(search, i, &mut direction, workspace);
+            self.change(search, &direction, &mut change, workspace)?;
+            gradient[i] = change.first();
+        }
+        let size = norm(gradient);
+        // False for NaN, too.
+        let changes = size > T::zero();
+        if !changes {
+            return Err(Obstacle::Unresolved);
+        }
+        for entry in &mut *gradient {
+            *entry /= size;
+        }
+        self.set_line(gradient, search.clock, &mut direction);
+        self.change(search, &direction, &mut change, workspace)?;
+        self.consider(search.like.block(), direction, &change, best, workspace);
+        Ok(())
     }
 
     /// Judges directions that are spread evenly.
-    #[inline(never)]
     fn try_directions(
         &mut self,
-        state: &State<T, N>,
-        like: &Frame<T, N, R>,
-        (dimension, clock): (usize, Option<T>),
-        best: &mut Option<Best<T, N>>,
+        search: &Search<'_, '_, T>,
+        best: &mut Best<'_, T>,
+        workspace: &Workspace<'_, T>,
     ) -> Result<(), Obstacle> {
-        let mut kept: [Block<T, R>; FEW] = core::array::from_fn(|_| Block::zeros(0));
+        let (size, dimension) = (search.like.block().size(), search.dimension);
+        let few = dimension.min(FEW);
+        let mut kept: [Block<'_, T>; FEW] =
+            core::array::from_fn(|i| Block::zeros(if i < few { size } else { 0 }, workspace));
+        let mut direction = Direction::new(self.chart.n(), workspace);
         if dimension <= FEW {
             for (i, kept) in kept[..dimension].iter_mut().enumerate() {
-                let coordinate = self.line(&column(|k| unit(k == i)), clock);
-                *kept = self.change(state, like, &coordinate)?;
+                self.set_axis(search, i, &mut direction, workspace);
+                self.change(search, &direction, kept, workspace)?;
             }
         }
-        let mut change = Block::zeros(0);
+        let mut change = Block::zeros(size, workspace);
+        let shares = workspace.numbers(dimension);
         for trial in 0..if dimension > 1 { TRIALS } else { 1 } {
-            let shares = spread_evenly(trial, dimension);
-            let direction = self.line(&shares, clock);
-            if dimension <= FEW {
-                change.set_combination(&shares, &kept[..dimension]);
-            } else {
-                change = self.change(state, like, &direction)?;
-            }
-            self.consider(like.block(), direction, &change, best);
+            spread_evenly(trial, shares);
+            workspace.scope(|workspace| {
+                let mut direction = Direction::new(self.chart.n(), workspace);
+                self.set_line(shares, search.clock, &mut direction);
+                if dimension <= FEW {
+                    change.set_combination(shares, &kept[..dimension]);
+                } else {
+                    self.change(search, &direction, &mut change, workspace)?;
+                }
+                self.consider(search.like.block(), direction, &change, best, workspace);
+                Ok(())
+            })?;
         }
         Ok(())
     }
@@ -115,83 +187,68 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
         (speed > T::zero()).then(|| T::one() / speed)
     }
 
+    /// A line along one coordinate of the chart, or along time.
+    fn set_axis(
+        &self,
+        search: &Search<'_, '_, T>,
+        axis: usize,
+        direction: &mut Direction<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) {
+        workspace.scope(|workspace| {
+            let shares = workspace.numbers(search.dimension);
+            shares[axis] = T::one();
+            self.set_line(shares, search.clock, direction);
+        });
+    }
+
     /// A line along some coordinates of the chart, of which time may be the last.
-    fn line(&self, shares: &[T; N], clock: Option<T>) -> Direction<T, N> {
-        let mut q: SVector<T, N> = SVector::zeros();
-        let columns = shares.iter().zip(&self.chart.tangent.data.0);
-        for (share, column) in columns.take(self.chart.freedoms) {
-            add_scaled(q.as_mut_slice(), *share, column);
+    fn set_line(&self, shares: &[T], clock: Option<T>, direction: &mut Direction<'_, T>) {
+        direction.q.fill(T::zero());
+        for (share, column) in shares.iter().zip(self.chart.tangents()) {
+            add_scaled(direction.q, *share, column);
         }
-        let t = match (clock, shares.get(self.chart.freedoms)) {
+        direction.t = match (clock, shares.get(self.chart.freedoms)) {
             (Some(unit), Some(share)) => unit * *share,
             _ => T::zero(),
         };
-        add_scaled(q.as_mut_slice(), t, self.chart.drift.as_slice());
-        let others = &shares[..self.chart.freedoms.min(N)];
-        Direction {
-            q,
-            t,
-            is_of_time: t != T::zero() && norm_of(others) < T::from_f64(STILL),
-            centre: T::zero(),
-            rate: T::zero(),
-        }
-    }
-
-    /// The direction of the first coordinate of the chart.
-    pub(super) fn along_chart(&self) -> Direction<T, N> {
-        self.line(&column(|k| unit(k == 0)), None)
+        add_scaled(direction.q, direction.t, self.chart.drift);
+        let others = &shares[..self.chart.freedoms.min(shares.len())];
+        direction.is_of_time = direction.t != T::zero() && norm(others) < T::from_f64(STILL);
+        (direction.centre, direction.rate) = (T::zero(), T::zero());
     }
 
     /// Judges a direction along which the block changes: how fast its singular values do,
     /// and whether they pass zero near one place.
     fn consider(
         &self,
-        here: &Block<T, R>,
-        mut direction: Direction<T, N>,
-        change: &Block<T, R>,
-        best: &mut Option<Best<T, N>>,
+        here: &Block<'_, T>,
+        mut direction: Direction<'_, T>,
+        change: &Block<'_, T>,
+        best: &mut Best<'_, T>,
+        workspace: &Workspace<'_, T>,
     ) {
         // Where the block is diagonal, its last entries are those that nearly vanish, and
         // the others are those of rows that only might have.
-        let (slopes, values) = change.in_bases_of(here);
-        let values = &values[..here.size];
-        let weak = values.iter().filter(|value| **value < window()).count();
-        let weak = weak.max(1);
-        let met = meeting(&slopes.last(weak), &values[here.size - weak..]);
+        let met = workspace.scope(|workspace| {
+            let (slopes, values) = change.in_bases_of(here, workspace);
+            let weak = values.iter().filter(|value| **value < window()).count();
+            let weak = weak.max(1).min(values.len());
+            let first = values.len() - weak;
+            meeting(slopes.last(weak, workspace), &values[first..], workspace)
+        });
         let Some((centre, rate)) = met else {
             return;
         };
         (direction.centre, direction.rate) = (centre, rate);
         let step = spacing::<T>() * self.chart.reach.min(T::one() / rate);
-        if centre.abs() <= step * hull(SIDE) {
-            let least = best.as_ref().map(|best| best.score);
-            let score = clearance_of(here, change, (centre, step), least);
-            if least.is_none_or(|least| score > least) {
-                *best = Some(Best { direction, score });
-            }
+        if centre.abs() > step * hull(SIDE) {
+            return;
         }
-    }
-
-    /// The direction in which the one entry of the block changes fastest.
-    #[inline(never)]
-    fn steepest(
-        &mut self,
-        state: &State<T, N>,
-        like: &Frame<T, N, R>,
-        dimension: usize,
-        clock: Option<T>,
-    ) -> Result<[T; N], Obstacle> {
-        let mut gradient = [T::zero(); N];
-        for (i, entry) in gradient.iter_mut().enumerate().take(dimension) {
-            let direction = self.line(&column(|k| unit(k == i)), clock);
-            *entry = self.change(state, like, &direction)?.entries[0][0];
-        }
-        let size = norm(&gradient);
-        // False for NaN, too.
-        let changes = size > T::zero();
-        match changes {
-            true => Ok(column(|i| gradient[i] / size)),
-            false => Err(Obstacle::Unresolved),
+        let score = clearance_of(here, change, (centre, step), best.score, workspace);
+        if best.score.is_none_or(|least| score > least) {
+            best.direction.set(&direction);
+            best.score = Some(score);
         }
     }
 
@@ -199,68 +256,74 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
     /// and spacing of the nodes are wanted to a few digits only.
     fn change(
         &mut self,
-        state: &State<T, N>,
-        like: &Frame<T, N, R>,
-        direction: &Direction<T, N>,
-    ) -> Result<Block<T, R>, Obstacle> {
+        search: &Search<'_, '_, T>,
+        direction: &Direction<'_, T>,
+        change: &mut Block<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Result<(), Obstacle> {
         let distance = difference::<T>() * self.chart.reach;
-        self.eliminate(&direction.moved(state, distance), Some(like))?;
-        let difference = self.frame.block().plus(-T::one(), like.block());
-        Ok(Block::zeros(difference.size).plus(T::one() / distance, &difference))
+        workspace.scope(|workspace| {
+            let q = workspace.numbers(self.chart.n());
+            let t = direction.moved(search.state, distance, q);
+            self.eliminate((t, q), Some(search.like))
+        })?;
+        change.set_sum(self.frame.block(), -T::one(), search.like.block());
+        change.scale(T::one() / distance);
+        Ok(())
     }
 }
 
 /// Where the nearest of some singular values passes zero, and how fast the slowest of them
 /// changes, to first order; none if one of them stays what it is.
-#[inline(never)]
-fn meeting<T: Real, const R: usize>(slopes: &Block<T, R>, values: &[T]) -> Option<(T, T)> {
+fn meeting<T: Real>(
+    mut slopes: Block<'_, T>,
+    values: &[T],
+    workspace: &Workspace<'_, T>,
+) -> Option<(T, T)> {
     let mut nearest = T::from_f64(f64::INFINITY);
     for (i, value) in values.iter().enumerate() {
-        let centre = -*value / slopes.entries[i][i];
+        let centre = -*value / slopes.row(i)[i];
         // False for NaN.
         if centre.abs() < nearest.abs() {
             nearest = centre;
         }
     }
-    let rate = slopes.clone().smallest();
+    let rate = slopes.smallest(workspace);
     (rate > T::zero() && nearest.is_finite()).then_some((nearest, rate))
 }
 
-fn unit<T: Real>(one: bool) -> T {
-    if one { T::one() } else { T::zero() }
-}
-
-fn norm_of<T: Real>(shares: &[T]) -> T {
-    shares.iter().fold(T::zero(), |sum, x| sum + *x * *x).sqrt()
-}
-
 /// Directions that fill the sphere evenly, by multiples of irrational numbers.
-fn spread_evenly<T: Real, const N: usize>(trial: usize, dimension: usize) -> [T; N] {
-    let mut vector = [T::zero(); N];
-    for (i, entry) in vector[..dimension.min(N)].iter_mut().enumerate() {
+fn spread_evenly<T: Real>(trial: usize, vector: &mut [T]) {
+    for (i, entry) in vector.iter_mut().enumerate() {
         let root = ((i * i + 3 * i + 2) as f64 + 0.5).sqrt();
         *entry = T::from_f64(2.0 * ((trial + 1) as f64 * root % 1.0) - 1.0);
     }
-    let size = norm(&vector);
-    column(|i| vector[i] / size)
+    let size = norm(vector);
+    for entry in vector {
+        *entry /= size;
+    }
 }
 
 /// The smallest sine of nodes on both sides of a place, to first order; of no interest
 /// where it is not above a score that another place has, and then only a bound of it.
-fn clearance_of<T: Real, const R: usize>(
-    here: &Block<T, R>,
-    change: &Block<T, R>,
+fn clearance_of<T: Real>(
+    here: &Block<'_, T>,
+    change: &Block<'_, T>,
     (centre, step): (T, T),
     best: Option<T>,
+    workspace: &Workspace<'_, T>,
 ) -> T {
-    let sides = (1..=SIDE).flat_map(|k| [T::from_f64(k as f64), -T::from_f64(k as f64)]);
-    let (mut least, mut there) = (T::one(), Block::zeros(0));
-    for place in sides {
-        if best.is_some_and(|best| least <= best) {
-            break;
+    workspace.scope(|workspace| {
+        let sides = (1..=SIDE).flat_map(|k| [T::from_f64(k as f64), -T::from_f64(k as f64)]);
+        let mut there = Block::with_capacity(here.size(), workspace);
+        let mut least = T::one();
+        for place in sides {
+            if best.is_some_and(|best| least <= best) {
+                break;
+            }
+            there.set_sum(here, centre + step * place, change);
+            least = least.min(there.smallest(workspace));
         }
-        there.set_sum(here, centre + step * place, change);
-        least = least.min(there.smallest());
-    }
-    least
+        least
+    })
 }

@@ -14,21 +14,27 @@
 
 mod chart;
 mod direction;
+mod evaluate;
 mod kept;
+mod memory;
 mod nodes;
 mod obstacle;
 mod passage;
 mod place;
 mod recall;
+mod routines;
 mod session;
 mod sheet;
 mod start;
 
 pub(crate) use chart::Chart;
+pub(crate) use memory::Memory;
 pub(crate) use obstacle::Obstacle;
 pub use passage::Passage;
-pub(crate) use passage::{Found, Reference};
+pub(crate) use passage::Found;
 pub(crate) use place::Placement;
+#[doc(hidden)]
+pub use routines::Routines;
 pub(crate) use session::{Placed, Session};
 pub(crate) use sheet::Point;
 pub(crate) use start::Start;

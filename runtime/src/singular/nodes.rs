@@ -11,127 +11,219 @@
 //! sheet is interpolated: position, tangent space, the acceleration that curvature
 //! demands. Masses and forces are taken at the state itself.
 
+use super::chart::ChartView;
 use super::direction::Direction;
 use super::kept::{NODES, SIDE};
 use super::obstacle::Obstacle;
-use super::sheet::{Point, Sheet};
-use crate::linalg::{Block, Frame, add_scaled, column, dot};
+use super::sheet::{PointView, Sheet};
+use crate::Real;
+use crate::equations::At;
+use crate::linalg::{Block, Eliminated, Workspace, add_scaled, column, dot};
 use crate::tolerance::clearance;
-use crate::{Real, State};
-use nalgebra::{SMatrix, SVector};
 
 /// How many earlier nodes predict the next.
 const PREDICTORS: usize = 5;
 /// The interpolations that are compared leave out this many pairs of nodes.
 pub(super) const SETS: usize = 3;
 
-/// What is interpolated.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sum<T, const N: usize> {
+/// What is interpolated: vectors one after the other.
+#[derive(Debug)]
+pub(super) struct Sum<'a, T> {
     /// From the state that is asked for to the sheet, along the chart's complement.
-    pub(super) offset: SVector<T, N>,
-    pub(super) tangent: SMatrix<T, N, N>,
-    pub(super) drift: SVector<T, N>,
-    pub(super) particular: SVector<T, N>,
+    pub(super) offset: &'a mut [T],
+    pub(super) tangent: &'a mut [T],
+    pub(super) drift: &'a mut [T],
+    pub(super) particular: &'a mut [T],
 }
 
-impl<T: Real, const N: usize> Sum<T, N> {
-    fn zeros() -> Self {
+impl<'a, T: Real> Sum<'a, T> {
+    fn new(chart: &ChartView<'_, T>, workspace: &Workspace<'a, T>) -> Self {
+        let n = chart.n();
         Self {
-            offset: SVector::zeros(),
-            tangent: SMatrix::zeros(),
-            drift: SVector::zeros(),
-            particular: SVector::zeros(),
+            offset: workspace.numbers(n),
+            tangent: workspace.numbers(n * chart.freedoms),
+            drift: workspace.numbers(n),
+            particular: workspace.numbers(n),
         }
     }
 
-    pub(super) fn add(
-        &mut self,
-        weight: T,
-        offset: &SVector<T, N>,
-        point: &Point<T, N>,
-        columns: usize,
-    ) {
-        let (particular, tangent) = (&mut self.particular, &mut self.tangent.data.0);
-        add_scaled(self.offset.as_mut_slice(), weight, offset.as_slice());
-        add_scaled(self.drift.as_mut_slice(), weight, point.drift.as_slice());
-        add_scaled(
-            particular.as_mut_slice(),
-            weight,
-            point.particular.as_slice(),
-        );
-        let tangents = tangent.iter_mut().zip(&point.tangent.data.0);
-        for (sum, column) in tangents.take(columns) {
-            add_scaled(sum, weight, column);
+    fn clear(&mut self) {
+        self.offset.fill(T::zero());
+        self.tangent.fill(T::zero());
+        self.drift.fill(T::zero());
+        self.particular.fill(T::zero());
+    }
+
+    /// Adds what a node says, so much of it.
+    pub(super) fn add(&mut self, weight: T, offset: &[T], point: &PointView<'_, T>) {
+        if weight != T::zero() {
+            add_scaled(self.offset, weight, offset);
+            add_scaled(self.drift, weight, point.drift);
+            add_scaled(self.particular, weight, point.particular);
+            add_scaled(self.tangent, weight, point.tangent);
         }
     }
 }
 
-/// A sheet bends away from its tangent space with the square of the distance from the
-/// accepted state, where the tangent space touches it.
-#[derive(Clone, Debug)]
-struct Bend<T, const N: usize> {
+/// What was found between nodes of one spacing.
+#[derive(Debug)]
+pub(super) struct Interpolated<'a, T> {
+    n: usize,
+    /// By all nodes, and by one and two pairs fewer.
+    pub(super) sums: [Sum<'a, T>; SETS],
+    /// The offsets of the nodes, one after the other, and their places in units of the
+    /// spacing.
+    offsets: &'a mut [T],
+    pub(super) places: [T; NODES],
+    /// The tangents of the nodes, of the first coordinate of the chart, and the accelerations
+    /// that the constraints demand there.
+    tangents: &'a mut [T],
+    demanded: &'a mut [T],
+    /// How the round-off of each node is magnified by what is solved there.
+    pub(super) noises: [T; NODES],
+    bend: Bend<'a, T>,
+    /// By how much round-off is magnified.
+    pub(super) noise: T,
+    /// How the first entry of the block changes from one node to the next.
+    pub(super) slope: T,
+    /// By how much it is off, relative to what is interpolated, without and with round-off.
+    pub(super) error: T,
+    pub(super) score: T,
+    pub(super) spacing: T,
+}
+
+/// How the sheet bends, as far as it is known: away from its tangent space with the square of
+/// the distance from the accepted state, where the tangent space touches it.
+#[derive(Debug)]
+struct Bend<'a, T> {
     /// How far it has bent away at the state that is asked for.
-    whole: SVector<T, N>,
+    whole: &'a mut [T],
     /// The change of the distance from the accepted state, relative to what it is at the
     /// state that is asked for, from one place of the line to the next.
     share: T,
 }
 
-impl<T: Real, const N: usize> Bend<T, N> {
-    /// The offset at a place so far from the state that is asked for.
-    fn at(&self, place: T) -> SVector<T, N> {
+impl<T: Real> Bend<'_, T> {
+    /// Adds the offset at a place so far from the state that is asked for, times a factor.
+    fn add(&self, factor: T, place: T, offset: &mut [T]) {
         let distance = T::one() + self.share * place;
-        self.whole * (distance * distance - T::one())
+        let bent = distance * distance - T::one();
+        add_scaled(offset, factor * bent, self.whole);
     }
 }
 
-/// What was found between nodes of one spacing.
-#[derive(Clone, Debug)]
-pub(super) struct Interpolated<T, const N: usize> {
-    /// By all nodes, and by one and two pairs fewer.
-    pub(super) sums: [Sum<T, N>; SETS],
-    /// The offsets of the nodes, and their places in units of the spacing.
-    pub(super) offsets: [SVector<T, N>; NODES],
-    pub(super) places: [T; NODES],
-    /// The tangents of the nodes, of the first coordinate of the chart, and the accelerations
-    /// that the constraints demand there.
-    pub(super) geometry: [[SVector<T, N>; 2]; NODES],
-    /// How the round-off of each node is magnified by what is solved there.
-    pub(super) noises: [T; NODES],
-    /// How the sheet bends, as far as it is known.
-    bend: Bend<T, N>,
-    /// By how much round-off is magnified.
-    pub(super) noise: T,
-    /// How the first entry of the block changes from one node to the next.
-    pub(super) slope: T,
-}
-
-impl<T: Real, const N: usize> Interpolated<T, N> {
-    pub(super) fn new() -> Self {
+impl<'a, T: Real> Interpolated<'a, T> {
+    pub(super) fn new(chart: &ChartView<'_, T>, workspace: &Workspace<'a, T>) -> Self {
+        let n = chart.n();
         Self {
-            sums: [Sum::zeros(); SETS],
-            offsets: [SVector::zeros(); NODES],
+            n,
+            sums: core::array::from_fn(|_| Sum::new(chart, workspace)),
+            offsets: workspace.numbers(n * NODES),
             places: [T::zero(); NODES],
-            geometry: [[SVector::zeros(); 2]; NODES],
+            tangents: workspace.numbers(n * NODES),
+            demanded: workspace.numbers(n * NODES),
             noises: [T::zero(); NODES],
             bend: Bend {
-                whole: SVector::zeros(),
+                whole: workspace.numbers(n),
                 share: T::zero(),
             },
             noise: T::zero(),
             slope: T::zero(),
+            error: T::zero(),
+            score: T::zero(),
+            spacing: T::zero(),
         }
     }
 
-    /// The offset of the sheet at another place of the line.
-    pub(super) fn offset_at(&self, place: T) -> SVector<T, N> {
-        let weights = weights(&self.places, &[true; NODES], place);
-        let mut offset: SVector<T, N> = SVector::zeros();
-        for (node, weight) in self.offsets.iter().zip(weights) {
-            add_scaled(offset.as_mut_slice(), weight, node.as_slice());
+    /// Begins anew.
+    pub(super) fn clear(&mut self) {
+        for sum in &mut self.sums {
+            sum.clear();
         }
-        offset
+        self.noise = T::zero();
+    }
+
+    /// A vector of a node, of those that are one after the other.
+    fn of_node(vectors: &[T], n: usize, node: usize) -> &[T] {
+        &vectors[node * n..(node + 1) * n]
+    }
+
+    pub(super) fn offset(&self, node: usize) -> &[T] {
+        Self::of_node(self.offsets, self.n, node)
+    }
+
+    pub(super) fn tangent(&self, node: usize) -> &[T] {
+        Self::of_node(self.tangents, self.n, node)
+    }
+
+    pub(super) fn demanded(&self, node: usize) -> &[T] {
+        Self::of_node(self.demanded, self.n, node)
+    }
+
+    /// Adds the offset of the sheet at another place of the line.
+    pub(super) fn add_offset_at(&self, place: T, target: &mut [T]) {
+        let mut weights = [T::zero(); NODES];
+        weigh(&self.places, |_| true, place, &mut weights);
+        for (node, weight) in weights.iter().enumerate() {
+            add_scaled(target, *weight, self.offset(node));
+        }
+    }
+
+    /// Keeps what was found at a node, and adds it to the sums.
+    fn keep(
+        &mut self,
+        node: usize,
+        moved: &[T],
+        point: &PointView<'_, T>,
+        sets: &[[T; NODES]; SETS],
+    ) {
+        let range = node * self.n..(node + 1) * self.n;
+        let offset = &mut self.offsets[range.clone()];
+        offset.copy_from_slice(point.q);
+        add_scaled(offset, -T::one(), moved);
+        for (sum, weights) in self.sums.iter_mut().zip(sets) {
+            sum.add(weights[node], offset, point);
+        }
+        self.tangents[range.clone()].copy_from_slice(&point.tangent[..self.n]);
+        self.demanded[range].copy_from_slice(point.particular);
+        self.noises[node] = T::one() / (point.sine * point.sine);
+        self.noise += sets[0][node].abs() * self.noises[node];
+    }
+
+    /// Whether sheets cross between the nodes next to the singular configuration.
+    fn judge(
+        &mut self,
+        [behind, ahead]: &[Block<'_, T>; 2],
+        is_of_time: bool,
+        workspace: &Workspace<'_, T>,
+    ) -> Result<(), Obstacle> {
+        let change = ahead.first() - behind.first();
+        self.slope = change / (self.places[BEYOND] - self.places[0]);
+        match ahead.sign_changes_from(behind, workspace) {
+            // A law of time may lead to a singular configuration and back.
+            0 if !is_of_time => Err(Obstacle::Touching),
+            _ => Ok(()),
+        }
+    }
+
+    /// Moves a position to where a node is to be looked for, by those before it and by the
+    /// state itself, which is on the sheet but for the error of a step.
+    fn predict(&self, node: usize, place: T, here: T, q: &mut [T]) {
+        let first = node.saturating_sub(PREDICTORS - 1);
+        let mut places = [here; PREDICTORS];
+        let count = node - first;
+        places[..count].copy_from_slice(&self.places[first..node]);
+        // A node next to the state says the same.
+        let far = |other: &T| (*other - here).abs() > T::from_f64(0.3);
+        let state = places[..count].iter().all(far);
+        let known = |k: usize| k < count || k == count && state;
+        let mut weights = [T::zero(); PREDICTORS];
+        weigh(&places, known, place, &mut weights);
+        self.bend.add(T::one(), place - here, q);
+        for (k, weight) in (first..node).zip(weights) {
+            add_scaled(q, weight, self.offset(k));
+            self.bend.add(-weight, self.places[k] - here, q);
+        }
     }
 }
 
@@ -141,23 +233,12 @@ pub(super) const ORDER: [f64; NODES] = [1.0, 2.0, 3.0, -1.0, 4.0, -2.0, 5.0, -3.
 /// The one next to the singular configuration beyond it.
 pub(super) const BEYOND: usize = 3;
 
-/// Lagrange's weights, at a place, of the places that are wanted; the others are zero.
-fn weights<T: Real, const K: usize>(places: &[T; K], wanted: &[bool; K], at: T) -> [T; K] {
-    let mut weights = [T::zero(); K];
-    weigh(places, wanted, at, &mut weights);
-    weights
-}
-
-/// The same for any number of places.
-#[inline(never)]
-fn weigh<T: Real>(places: &[T], wanted: &[bool], at: T, weights: &mut [T]) {
-    for (i, own) in places.iter().enumerate() {
-        if !wanted[i] {
-            continue;
-        }
+/// Lagrange's weights, at a place, of the places that are wanted; the others are left alone.
+fn weigh<T: Real>(places: &[T], wanted: impl Fn(usize) -> bool, at: T, weights: &mut [T]) {
+    for (i, own) in places.iter().enumerate().filter(|(i, _)| wanted(*i)) {
         let mut weight = T::one();
-        for (j, (place, wanted)) in places.iter().zip(wanted).enumerate() {
-            if *wanted && j != i {
+        for (j, place) in places.iter().enumerate() {
+            if j != i && wanted(j) {
                 weight *= (at - *place) / (*own - *place);
             }
         }
@@ -169,131 +250,96 @@ fn weigh<T: Real>(places: &[T], wanted: &[bool], at: T, weights: &mut [T]) {
 pub(super) fn weights_of_sets<T: Real>(places: &[T; NODES], at: T) -> [[T; NODES]; SETS] {
     let mut sets = [[T::zero(); NODES]; SETS];
     for (k, set) in sets.iter_mut().enumerate() {
-        let wanted = column(|node| ORDER[node].abs() <= (SIDE - k) as f64);
-        *set = weights(places, &wanted, at);
+        weigh(
+            places,
+            |node| ORDER[node].abs() <= (SIDE - k) as f64,
+            at,
+            set,
+        );
     }
     sets
 }
 
-impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
+impl<T: Real> Sheet<'_, T> {
     /// Finds the nodes along a direction and what they say of the sheet at the state.
     #[inline(never)]
     pub(super) fn interpolate(
         &mut self,
-        state: &State<T, N>,
-        direction: &Direction<T, N>,
-        spacing: T,
-        like: &Frame<T, N, R>,
-        found: &mut Interpolated<T, N>,
+        state: At<'_, T>,
+        direction: &Direction<'_, T>,
+        like: &Eliminated<'_, T>,
+        found: &mut Interpolated<'_, T>,
+        workspace: &Workspace<'_, T>,
     ) -> Result<(), Obstacle> {
-        let step = spacing / direction.rate;
+        let step = found.spacing / direction.rate;
         let here = -direction.centre / step;
-        found.places = column(|node| match here < T::zero() {
-            true => -T::from_f64(ORDER[node]),
-            false => T::from_f64(ORDER[node]),
-        });
+        let sign = if here < T::zero() {
+            -T::one()
+        } else {
+            T::one()
+        };
+        found.clear();
+        found.places = column(|node| sign * T::from_f64(ORDER[node]));
         let sets = weights_of_sets(&found.places, here);
-        found.sums = [Sum::zeros(); SETS];
-        found.bend = self.bend(state, &direction.moved(&State::default(), step).q);
-        found.noise = T::zero();
-        let along = self.chart.coordinates(&state.v);
-        let mut blocks: [Block<T, R>; 2] = [Block::zeros(0), Block::zeros(0)];
-        let mut point = Point::zeros();
+        self.bend(state, direction, step, &mut found.bend, workspace);
+        let along = workspace.numbers(self.chart.freedoms);
+        self.chart.coordinates(state.v, along);
+        let size = like.block().size();
+        let mut blocks = core::array::from_fn(|_| Block::with_capacity(size, workspace));
+        let mut point = PointView::new(&self.chart, workspace);
+        let moved = workspace.numbers(self.chart.n());
         for node in 0..NODES {
             let place: T = found.places[node];
-            let moved = direction.moved(state, direction.centre + step * place);
-            let guess = found.predict(node, place, here);
-            point.state = State::new(moved.t, moved.q + guess, moved.v);
-            self.project(&mut point.state, Some(like))?;
-            let sine = self.frame.smallest();
+            let t = direction.moved(state, direction.centre + step * place, moved);
+            point.set(At {
+                t,
+                q: moved,
+                v: state.v,
+            });
+            found.predict(node, place, here, point.q);
+            self.project(t, point.q, Some(like))?;
             // False for NaN, too.
-            let clear = sine >= clearance::<T>() * spacing;
+            let clear = self.frame.smallest() >= clearance::<T>() * found.spacing;
             if !clear {
                 return Err(Obstacle::Unresolved);
             }
-            self.measure(Some(&along), &mut point);
-            found.offsets[node] = point.state.q - moved.q;
-            for (sum, weights) in found.sums.iter_mut().zip(&sets) {
-                if weights[node] != T::zero() {
-                    sum.add(
-                        weights[node],
-                        &found.offsets[node],
-                        &point,
-                        self.chart.freedoms,
-                    );
-                }
-            }
-            found.geometry[node] = [SVector::from(point.tangent.data.0[0]), point.particular];
-            found.noises[node] = T::one() / (sine * sine);
-            found.noise += sets[0][node].abs() * found.noises[node];
+            self.measure(Some(along), &mut point);
+            found.keep(node, moved, &point, &sets);
             if ORDER[node].abs() == 1.0 {
-                blocks[usize::from(node > 0)] = self.frame.block().clone();
+                blocks[usize::from(node > 0)].set(self.frame.block());
             }
         }
-        found.judge(&blocks, direction.is_of_time)
+        found.judge(&blocks, direction.is_of_time, workspace)
     }
-}
 
-impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
-    /// How the sheet bends along steps of a line.
-    #[inline(never)]
-    fn bend(&self, state: &State<T, N>, step: &SVector<T, N>) -> Bend<T, N> {
+    /// How the sheet bends along a line, in steps of this length.
+    fn bend(
+        &self,
+        state: At<'_, T>,
+        direction: &Direction<'_, T>,
+        step: T,
+        bend: &mut Bend<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) {
         let base = &self.chart.base;
-        let moved = state.q - base.q - self.chart.drift * (state.t - base.t);
-        let along = self.chart.coordinates(&moved);
-        let distance = dot(&along, &along);
-        let share = dot(&along, &self.chart.coordinates(step)) / distance;
-        let mut whole = moved;
-        for (along, column) in along.iter().zip(&self.chart.tangent.data.0) {
-            add_scaled(whole.as_mut_slice(), -*along, column);
+        let (along, change) = (
+            workspace.numbers(self.chart.freedoms),
+            workspace.numbers(self.chart.freedoms),
+        );
+        bend.whole.copy_from_slice(state.q);
+        add_scaled(bend.whole, -T::one(), base.q);
+        add_scaled(bend.whole, base.t - state.t, self.chart.drift);
+        self.chart.coordinates(bend.whole, along);
+        self.chart.coordinates(direction.q, change);
+        bend.share = step * dot(along, change) / dot(along, along);
+        for (along, column) in along.iter().zip(self.chart.tangents()) {
+            add_scaled(bend.whole, -*along, column);
         }
         // False for NaN, too: where the state is the accepted one.
-        let known = share.abs() < T::one();
-        match known {
-            true => Bend { whole, share },
-            false => Bend {
-                whole: SVector::zeros(),
-                share: T::zero(),
-            },
+        let known = bend.share.abs() < T::one();
+        if !known {
+            bend.whole.fill(T::zero());
+            bend.share = T::zero();
         }
-    }
-}
-
-impl<T: Real, const N: usize> Interpolated<T, N> {
-    /// Whether sheets cross between the nodes next to the singular configuration.
-    fn judge<const R: usize>(
-        &mut self,
-        [behind, ahead]: &[Block<T, R>; 2],
-        is_of_time: bool,
-    ) -> Result<(), Obstacle> {
-        let change = ahead.entries[0][0] - behind.entries[0][0];
-        self.slope = change / (self.places[BEYOND] - self.places[0]);
-        match ahead.sign_changes_from(behind) {
-            // A law of time may lead to a singular configuration and back.
-            0 if !is_of_time => Err(Obstacle::Touching),
-            _ => Ok(()),
-        }
-    }
-
-    /// Where a node is to be looked for, by those before it and by the state itself, which
-    /// is on the sheet but for the error of a step.
-    #[inline(never)]
-    fn predict(&self, node: usize, place: T, here: T) -> SVector<T, N> {
-        let first = node.saturating_sub(PREDICTORS - 1);
-        let mut places = [here; PREDICTORS];
-        let count = node - first;
-        places[..count].copy_from_slice(&self.places[first..node]);
-        // A node next to the state says the same.
-        let state = places[..count]
-            .iter()
-            .all(|other| (*other - here).abs() > T::from_f64(0.3));
-        let known = column(|k| k < count || k == count && state);
-        let weights = weights(&places, &known, place);
-        let mut guess = self.bend.at(place - here);
-        for (k, weight) in (first..node).zip(weights) {
-            let rest = self.offsets[k] - self.bend.at(self.places[k] - here);
-            add_scaled(guess.as_mut_slice(), weight, rest.as_slice());
-        }
-        guess
     }
 }

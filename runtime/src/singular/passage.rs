@@ -5,8 +5,9 @@
 //!      other side.
 
 use super::sheet::Sheet;
-use crate::linalg::{Block, Frame};
-use crate::{Real, State};
+use crate::Real;
+use crate::equations::At;
+use crate::linalg::{Block, Eliminated, Frame, Workspace};
 
 /// Passages that are kept of one step.
 const ROOM: usize = 8;
@@ -75,19 +76,18 @@ impl<T: Real> Found<T> {
 }
 
 /// What changes its sign where sheets cross.
-#[derive(Clone)]
-struct Signs<T, const R: usize> {
-    block: Block<T, R>,
+struct Signs<'a, T> {
+    block: Block<'a, T>,
     /// That of the whole system vanishes where the constraints are singular and nowhere
     /// else: the tangent space turns by far less than a right angle within a step.
     determinant: T,
     negative: bool,
 }
 
-impl<T: Real, const R: usize> Signs<T, R> {
-    fn of<const N: usize>(frame: &Frame<T, N, R>) -> Self {
+impl<'a, T: Real> Signs<'a, T> {
+    fn of(frame: &mut Frame<'_, T>, workspace: &Workspace<'a, T>) -> Self {
         Self {
-            block: frame.block().clone(),
+            block: frame.block().copy(workspace),
             determinant: frame.determinant(),
             negative: frame.is_negative(),
         }
@@ -96,8 +96,8 @@ impl<T: Real, const R: usize> Signs<T, R> {
     /// How many sheets were crossed. Blocks count them, and determinants tell whether
     /// their number is odd; a block also changes its sign where one of the rows before it
     /// loses its pivot.
-    fn changes_from(&self, other: &Self) -> usize {
-        let changes = self.block.sign_changes_from(&other.block);
+    fn changes_from(&self, other: &Signs<'_, T>, workspace: &Workspace<'_, T>) -> usize {
+        let changes = self.block.sign_changes_from(&other.block, workspace);
         let odd = self.negative != other.negative;
         match (changes % 2 == 1) == odd {
             true => changes,
@@ -107,161 +107,211 @@ impl<T: Real, const R: usize> Signs<T, R> {
 }
 
 /// The start of a step: the order of elimination for all of its states, and the signs.
-pub(crate) struct Reference<T, const N: usize, const R: usize> {
-    like: Frame<T, N, R>,
-    signs: Signs<T, R>,
+pub(crate) struct Reference<'a, T> {
+    like: Eliminated<'a, T>,
+    signs: Signs<'a, T>,
 }
 
 /// A look into a step.
-#[derive(Clone)]
-struct Look<T, const R: usize> {
+struct Look<'a, T> {
     t: T,
-    signs: Signs<T, R>,
+    signs: Signs<'a, T>,
 }
 
 /// What is needed to look into a step.
-struct View<'a, T, const N: usize, const R: usize> {
-    like: Frame<T, N, R>,
-    at: &'a dyn Fn(T) -> State<T, N>,
+struct View<'a, T> {
+    like: Eliminated<'a, T>,
+    at: &'a dyn Fn(T, &mut [T]),
     start: T,
     length: T,
     regular: usize,
 }
 
-impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
+impl<T: Real> Sheet<'_, T> {
     /// What states of a step that begins here are compared with; `None` where the
     /// constraints can't be eliminated.
-    pub(crate) fn reference(&mut self, start: &State<T, N>) -> Option<Reference<T, N, R>> {
-        self.eliminate_widely(start).ok()?;
+    pub(super) fn reference<'b>(
+        &mut self,
+        start: At<'_, T>,
+        workspace: &Workspace<'b, T>,
+    ) -> Option<Reference<'b, T>> {
+        self.eliminate_widely(start.t, start.q).ok()?;
         Some(Reference {
-            like: self.frame.clone(),
-            signs: Signs::of(self.frame),
+            like: self.frame.eliminated(workspace),
+            signs: Signs::of(&mut self.frame, workspace),
         })
     }
 
     /// How many sheets are crossed on the way to a state; `None` where that can't be told.
-    pub(crate) fn sign_changes(
+    pub(super) fn sign_changes(
         &mut self,
-        from: &Reference<T, N, R>,
-        to: &State<T, N>,
+        from: &Reference<'_, T>,
+        to: At<'_, T>,
+        workspace: &Workspace<'_, T>,
     ) -> Option<usize> {
-        self.eliminate(to, Some(&from.like)).ok()?;
-        Some(Signs::of(self.frame).changes_from(&from.signs))
+        self.eliminate((to.t, to.q), Some(&from.like)).ok()?;
+        workspace.scope(|workspace| {
+            let signs = Signs::of(&mut self.frame, workspace);
+            Some(signs.changes_from(&from.signs, workspace))
+        })
     }
 
-    /// The passages of a step whose states are `at`, by its chart.
-    #[inline(never)]
-    pub(crate) fn passages(
+    /// The passages of a step of this length whose positions are `at`, by its chart.
+    pub(super) fn passages(
         &mut self,
-        (start, end): (&State<T, N>, &State<T, N>),
-        at: &dyn Fn(T) -> State<T, N>,
-        regular: usize,
+        start: At<'_, T>,
+        length: T,
+        at: &dyn Fn(T, &mut [T]),
+        workspace: &Workspace<'_, T>,
     ) -> Found<T> {
         let mut found = Found::new();
-        let Some(reference) = self.reference(start) else {
+        let Some(reference) = self.reference(start, workspace) else {
             return found;
         };
         let view = View {
             like: reference.like,
             at,
             start: start.t,
-            length: end.t - start.t,
-            regular,
+            length,
+            regular: self.constraints(),
         };
-        let first = Look {
+        let mut first = Some(Look {
             t: start.t,
             signs: reference.signs,
-        };
-        let part = view.length / T::from_f64((LOOKS - 1) as f64);
+        });
+        let part = length / T::from_f64((LOOKS - 1) as f64);
         let looks: [_; LOOKS] = core::array::from_fn(|k| match k {
-            0 => Some(first.clone()),
-            _ if k + 1 == LOOKS => self.look(&view, end.t),
-            _ => self.look(&view, start.t + part * T::from_f64(k as f64)),
+            0 => first.take(),
+            _ if k + 1 == LOOKS => self.look(&view, start.t + length, workspace),
+            _ => self.look(&view, start.t + part * T::from_f64(k as f64), workspace),
         });
         let rates = rates(&looks, part);
-        let mut before: Option<(&Look<T, R>, T)> = None;
+        let mut before: Option<(&Look<'_, T>, T)> = None;
         for (look, rate) in looks.iter().zip(rates) {
             let Some(here) = look else {
                 continue;
             };
-            let Some(rate) = rate.or_else(|| self.rate(&view, here)) else {
+            let seen = (here.t, here.signs.determinant);
+            let Some(rate) = rate.or_else(|| self.rate(&view, seen, workspace)) else {
                 continue;
             };
             if let Some((before, rate_before)) = before {
-                match self.beyond(&view, (before, here), [rate_before, rate]) {
-                    Some(middle) => {
-                        self.between(&view, (before, &middle), false, &mut found);
-                        self.between(&view, (&middle, here), false, &mut found);
+                workspace.scope(|inner| {
+                    let rates = [rate_before, rate];
+                    match self.beyond(&view, (before, here), rates, inner) {
+                        Some(middle) => {
+                            self.between(&view, (before, &middle), false, &mut found, inner);
+                            self.between(&view, (&middle, here), false, &mut found, inner);
+                        }
+                        None => self.between(&view, (before, here), false, &mut found, inner),
                     }
-                    None => self.between(&view, (before, here), false, &mut found),
-                }
+                });
             }
             before = Some((here, rate));
         }
         found
     }
 
-    fn look(&mut self, view: &View<T, N, R>, t: T) -> Option<Look<T, R>> {
-        self.eliminate(&(view.at)(t), Some(&view.like)).ok()?;
-        let signs = Signs::of(self.frame);
+    /// Eliminates the constraints at a time within a step.
+    fn eliminate_at(
+        &mut self,
+        view: &View<'_, T>,
+        t: T,
+        workspace: &Workspace<'_, T>,
+    ) -> Option<()> {
+        workspace.scope(|workspace| {
+            let q = workspace.numbers(self.chart.n());
+            (view.at)(t, q);
+            self.eliminate((t, q), Some(&view.like)).ok()
+        })
+    }
+
+    fn look<'b>(
+        &mut self,
+        view: &View<'_, T>,
+        t: T,
+        workspace: &Workspace<'b, T>,
+    ) -> Option<Look<'b, T>> {
+        self.eliminate_at(view, t, workspace)?;
+        let signs = Signs::of(&mut self.frame, workspace);
         Some(Look { t, signs })
     }
 
+    /// The determinant at a time within a step.
+    fn determinant_at(
+        &mut self,
+        view: &View<'_, T>,
+        t: T,
+        workspace: &Workspace<'_, T>,
+    ) -> Option<T> {
+        self.eliminate_at(view, t, workspace)?;
+        Some(self.frame.determinant())
+    }
+
     /// How fast the determinant changes where somebody looks (1/s).
-    fn rate(&mut self, view: &View<T, N, R>, look: &Look<T, R>) -> Option<T> {
+    fn rate(
+        &mut self,
+        view: &View<'_, T>,
+        (t, determinant): (T, T),
+        workspace: &Workspace<'_, T>,
+    ) -> Option<T> {
         let moment = view.length * T::from_f64(MOMENT);
-        let beside = match look.t > view.start + moment {
-            true => look.t - moment,
-            false => look.t + moment,
+        let beside = match t > view.start + moment {
+            true => t - moment,
+            false => t + moment,
         };
-        self.eliminate(&(view.at)(beside), Some(&view.like)).ok()?;
-        let change = look.signs.determinant - self.frame.determinant();
-        Some(change / (look.t - beside))
+        let change = determinant - self.determinant_at(view, beside, workspace)?;
+        Some(change / (t - beside))
     }
 
     /// Passages between two looks: one for each loop that becomes singular, unless several
     /// do so at once. What lies between is looked at in the middle if `halve` says so.
     fn between(
         &mut self,
-        view: &View<T, N, R>,
-        (from, to): (&Look<T, R>, &Look<T, R>),
+        view: &View<'_, T>,
+        (from, to): (&Look<'_, T>, &Look<'_, T>),
         halve: bool,
         found: &mut Found<T>,
+        workspace: &Workspace<'_, T>,
     ) {
-        let changes = to.signs.changes_from(&from.signs);
+        let changes = to.signs.changes_from(&from.signs, workspace);
         let (width, half) = (to.t - from.t, T::from_f64(0.5));
         let at_once = view.length * T::from_f64(AT_ONCE);
         let middle = match changes {
             0 => return,
             1 => None,
             _ if width <= at_once => None,
-            _ if halve => self.look(view, (from.t + to.t) * half),
-            _ => self.look(view, beside(from, to, changes, at_once)),
+            _ if halve => Some((from.t + to.t) * half),
+            _ => Some(beside(from, to, changes, at_once)),
         };
-        let Some(middle) = middle else {
-            self.pass(view, (from, to), changes, found);
-            return;
-        };
-        for (from, to) in [(from, &middle), (&middle, to)] {
-            let slow = to.t - from.t > width * half;
-            self.between(view, (from, to), slow, found);
-        }
+        workspace.scope(|workspace| {
+            let middle = middle.and_then(|t| self.look(view, t, workspace));
+            let Some(middle) = middle else {
+                self.pass(view, (from, to), changes, found, workspace);
+                return;
+            };
+            for (from, to) in [(from, &middle), (&middle, to)] {
+                let slow = to.t - from.t > width * half;
+                self.between(view, (from, to), slow, found, workspace);
+            }
+        });
     }
 
     /// A passage of so many loops at once.
     fn pass(
         &mut self,
-        view: &View<T, N, R>,
-        (from, to): (&Look<T, R>, &Look<T, R>),
+        view: &View<'_, T>,
+        (from, to): (&Look<'_, T>, &Look<'_, T>),
         changes: usize,
         found: &mut Found<T>,
+        workspace: &Workspace<'_, T>,
     ) {
         let t = match from.signs.negative == to.signs.negative {
             true => (from.t + to.t) * T::from_f64(0.5),
-            false => self.locate(view, from, to),
+            false => self.locate(view, from, to, workspace),
         };
-        let sine = match self.look(view, t) {
-            Some(_) => self.frame.smallest(),
+        let sine = match self.eliminate_at(view, t, workspace) {
+            Some(()) => self.frame.smallest(),
             None => T::zero(),
         };
         found.push(Passage {
@@ -275,13 +325,13 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
     /// A look between two others, of equal signs, that is beyond a singular configuration,
     /// if there is one: by the cubic polynomial through the determinants and their rates,
     /// and then by bisection.
-    #[inline(never)]
-    fn beyond(
+    fn beyond<'b>(
         &mut self,
-        view: &View<T, N, R>,
-        (from, to): (&Look<T, R>, &Look<T, R>),
+        view: &View<'_, T>,
+        (from, to): (&Look<'_, T>, &Look<'_, T>),
         rates: [T; 2],
-    ) -> Option<Look<T, R>> {
+        workspace: &Workspace<'b, T>,
+    ) -> Option<Look<'b, T>> {
         if from.signs.negative != to.signs.negative {
             return None;
         }
@@ -296,17 +346,19 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
         let dips = rates[0] < T::zero() && rates[1] > T::zero();
         let (mut x, lowest) = lowest_of_cubic(ends, rates);
         let worth_a_look = lowest <= ends[0].min(ends[1]) * T::from_f64(WORTH_A_LOOK);
-        if !dips || !worth_a_look || to.signs.changes_from(&from.signs) > 0 {
+        if !dips || !worth_a_look || to.signs.changes_from(&from.signs, workspace) > 0 {
             return None;
         }
         let (mut a, mut b) = (T::zero(), T::one());
         for _ in 0..DEEPENINGS {
-            let look = self.look(view, from.t + span * x)?;
-            if look.signs.negative != from.signs.negative {
-                return Some(look);
+            let t = from.t + span * x;
+            self.eliminate_at(view, t, workspace)?;
+            let signs = Signs::of(&mut self.frame, workspace);
+            if signs.negative != from.signs.negative {
+                return Some(Look { t, signs });
             }
             // Towards where it falls.
-            if sign * self.rate(view, &look)? > T::zero() {
+            if sign * self.rate(view, (t, signs.determinant), workspace)? > T::zero() {
                 b = x;
             } else {
                 a = x;
@@ -318,8 +370,13 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
 
     /// The time at which the determinant changes its sign, by the method of false position
     /// in its Illinois form.
-    #[inline(never)]
-    fn locate(&mut self, view: &View<T, N, R>, from: &Look<T, R>, to: &Look<T, R>) -> T {
+    fn locate(
+        &mut self,
+        view: &View<'_, T>,
+        from: &Look<'_, T>,
+        to: &Look<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> T {
         let (mut a, mut fa) = (from.t, from.signs.determinant);
         let (mut b, mut fb) = (to.t, to.signs.determinant);
         let half = T::from_f64(0.5);
@@ -329,7 +386,7 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
                 break;
             }
             let t = b - fb * (b - a) / (fb - fa);
-            let Some(f) = self.look(view, t).map(|look| look.signs.determinant) else {
+            let Some(f) = self.determinant_at(view, t, workspace) else {
                 break;
             };
             if (f < T::zero()) != (fb < T::zero()) {
@@ -350,13 +407,8 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
 /// A time close to where so many loops become singular, if they do so at once: there the
 /// determinant vanishes like that power of the time. It is put a little away from the
 /// nearer end, so that the shorter part holds what is looked for.
-fn beside<T: Real, const R: usize>(
-    from: &Look<T, R>,
-    to: &Look<T, R>,
-    loops: usize,
-    at_once: T,
-) -> T {
-    let root = |look: &Look<T, R>| {
+fn beside<T: Real>(from: &Look<'_, T>, to: &Look<'_, T>, loops: usize, at_once: T) -> T {
+    let root = |look: &Look<'_, T>| {
         let power = T::one() / T::from_f64(loops as f64);
         look.signs.determinant.abs().powf(power)
     };
@@ -371,10 +423,7 @@ fn beside<T: Real, const R: usize>(
 
 /// How fast the determinant changes (1/s) at looks that are `part` apart, by the polynomial
 /// through all of them; `None` where one is missing.
-fn rates<T: Real, const R: usize>(
-    looks: &[Option<Look<T, R>>; LOOKS],
-    part: T,
-) -> [Option<T>; LOOKS] {
+fn rates<T: Real>(looks: &[Option<Look<'_, T>>; LOOKS], part: T) -> [Option<T>; LOOKS] {
     let [Some(a), Some(b), Some(c), Some(d), Some(e)] = looks else {
         return [None; LOOKS];
     };

@@ -1,7 +1,7 @@
 //! A state onto its sheet, at regular states and across singular configurations.
 //!
 //! In:  a state within a step, the chart of the last accepted state.
-//! Out: a [`Point`] on the sheet, and how it was found.
+//! Out: a [`PointView`] on the sheet, and how it was found.
 //!
 //! Near a singular configuration nodes of several spacings are tried, each half the one
 //! before. Wide ones have less round-off, narrow ones less error of interpolation, and
@@ -11,10 +11,11 @@ use super::direction::Direction;
 use super::kept::SIDE;
 use super::nodes::Interpolated;
 use super::obstacle::Obstacle;
-use super::sheet::{Point, Sheet};
-use crate::linalg::{Frame, column, norm};
+use super::sheet::{PointView, Sheet};
+use crate::Real;
+use crate::equations::At;
+use crate::linalg::{Eliminated, Workspace, add_scaled, norm, solve_upper};
 use crate::tolerance::{critical, hull, negligible, noisy, resolved, round_off, spacing, window};
-use crate::{Real, State};
 
 /// How much larger than the round-off of one node, magnified by the weights, the
 /// difference of two interpolations may be for that reason.
@@ -36,37 +37,42 @@ pub(crate) enum Placement<T> {
     Gap,
 }
 
-/// The best interpolation so far.
-pub(super) struct Best<T, const N: usize> {
-    pub(super) found: Interpolated<T, N>,
-    pub(super) score: T,
-    pub(super) error: T,
-    pub(super) spacing: T,
+/// Where a state is better placed.
+enum Nodes<'a, T> {
+    /// Between these.
+    Found(Interpolated<'a, T>),
+    /// Without any.
+    Without(Placement<T>),
 }
 
-impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
+impl<T: Real> Sheet<'_, T> {
     /// Puts a state onto its sheet.
-    pub(crate) fn place(
+    pub(super) fn place(
         &mut self,
-        state: &State<T, N>,
-        point: &mut Point<T, N>,
+        state: At<'_, T>,
+        point: &mut PointView<'_, T>,
+        workspace: &Workspace<'_, T>,
     ) -> Result<Placement<T>, Obstacle> {
-        if !state.is_finite() {
+        if !is_finite(state) {
             return Err(Obstacle::NotFinite);
         }
-        self.eliminate(state, None)?;
+        let here = (state.t, state.q);
+        self.eliminate(here, None)?;
         let sine = self.frame.smallest();
         let mut why = Some(Obstacle::Unresolved);
         let mut placement = Placement::Regular;
         if sine < window() && !self.chart.gap {
-            let like = self.frame.clone();
-            match self.place_between(state, &like, point) {
+            let placed = workspace.scope(|workspace| {
+                let like = self.frame.eliminated(workspace);
+                self.place_between(state, &like, point, workspace)
+            });
+            match placed {
                 Ok(Placement::Regular) => why = None,
                 Ok(Placement::Gap) => placement = Placement::Gap,
                 Ok(crossing) => return Ok(crossing),
                 Err(obstacle) => why = Some(obstacle),
             }
-            self.eliminate(state, None)?;
+            self.eliminate(here, None)?;
         }
         let noise = match self.chart.gap {
             true => noisy(),
@@ -75,32 +81,34 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
         if let Some(why) = why.filter(|_| sine < window() && T::EPSILON > noise * sine * sine) {
             return Err(why);
         }
-        self.place_regular(state, point)?;
+        self.place_regular(state, point, workspace)?;
         Ok(placement)
     }
 
     /// Interpolates; `Regular` where the equations at the state itself are better.
-    #[inline(never)]
     fn place_between(
         &mut self,
-        state: &State<T, N>,
-        like: &Frame<T, N, R>,
-        point: &mut Point<T, N>,
+        state: At<'_, T>,
+        like: &Eliminated<'_, T>,
+        point: &mut PointView<'_, T>,
+        workspace: &Workspace<'_, T>,
     ) -> Result<Placement<T>, Obstacle> {
-        let best = match self.recall(state) {
+        let best = match self.recall(state, workspace) {
             Some(best) => best,
-            None => match self.find_nodes(state, like)? {
-                Ok(best) => best,
-                Err(placement) => return Ok(placement),
+            None => match self.find_nodes(state, like, workspace)? {
+                Nodes::Found(best) => best,
+                Nodes::Without(placement) => return Ok(placement),
             },
         };
-        let [sum, ..] = &best.found.sums;
-        point.tangent = sum.tangent;
-        point.drift = sum.drift;
-        point.particular = sum.particular;
-        point.state = State::new(state.t, state.q + sum.offset, state.v);
-        let along = self.chart.coordinates(&state.v);
-        point.move_along(&along, self.chart.freedoms);
+        let [sum, ..] = &best.sums;
+        point.tangent.copy_from_slice(sum.tangent);
+        point.drift.copy_from_slice(sum.drift);
+        point.particular.copy_from_slice(sum.particular);
+        point.set(state);
+        add_scaled(point.q, T::one(), sum.offset);
+        let along = workspace.numbers(self.chart.freedoms);
+        self.chart.coordinates(state.v, along);
+        point.move_along(along);
         point.sine = like.smallest();
         self.polish(point, like)?;
         Ok(Placement::Crossing {
@@ -110,20 +118,21 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
 
     /// Finds nodes for a state, or that it is better placed without any.
     #[inline(never)]
-    fn find_nodes(
+    fn find_nodes<'b>(
         &mut self,
-        state: &State<T, N>,
-        like: &Frame<T, N, R>,
-    ) -> Result<Result<Best<T, N>, Placement<T>>, Obstacle> {
-        let direction = self.direction(state, like)?;
-        let Some(best) = self.search(state, like, &direction)? else {
+        state: At<'_, T>,
+        like: &Eliminated<'_, T>,
+        workspace: &Workspace<'b, T>,
+    ) -> Result<Nodes<'b, T>, Obstacle> {
+        let direction = self.direction(state, like, workspace)?;
+        let Some(best) = self.search(state, like, &direction, workspace)? else {
             return Err(Obstacle::Unresolved);
         };
-        if !self.is_crossing(state, like, &direction, &best) {
-            return Ok(Err(Placement::Gap));
+        if !workspace.scope(|inner| self.is_crossing(state, like, &direction, &best, inner)) {
+            return Ok(Nodes::Without(Placement::Gap));
         }
         // Rows are no more exact than the coordinates, whose round-off grows with their size.
-        let magnified = best.found.noise * (direction.rate * self.chart.reach).max(T::one());
+        let magnified = best.noise * (direction.rate * self.chart.reach).max(T::one());
         let noise = T::from_f64(NOISE) * T::EPSILON * magnified;
         if best.error > self.chart.accepted.max(noise) {
             return Err(Obstacle::Unresolved);
@@ -131,47 +140,57 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
         // Where neither is as good as wanted, the better one.
         let sine = like.smallest();
         if best.error > self.chart.accepted && best.error * sine * sine > T::EPSILON {
-            return Ok(Err(Placement::Regular));
+            return Ok(Nodes::Without(Placement::Regular));
         }
         self.remember(state, &direction, &best);
-        Ok(Ok(best))
+        Ok(Nodes::Found(best))
     }
 
     /// Tries spacings; `None` if the state is outside the nodes of all that are narrow
     /// enough.
-    fn search(
+    fn search<'b>(
         &mut self,
-        state: &State<T, N>,
-        like: &Frame<T, N, R>,
-        direction: &Direction<T, N>,
-    ) -> Result<Option<Best<T, N>>, Obstacle> {
+        state: At<'_, T>,
+        like: &Eliminated<'_, T>,
+        direction: &Direction<'_, T>,
+        workspace: &Workspace<'b, T>,
+    ) -> Result<Option<Interpolated<'b, T>>, Obstacle> {
         let known = self.chart.spacing;
         let mut width = (spacing::<T>() * self.chart.reach * direction.rate).min(spacing());
         let mut tried = None;
+        let mut last = Interpolated::new(&self.chart, workspace);
         if known > T::zero() {
             // Mostly the last spacing serves again.
-            let last = self.between_nodes(state, like, direction, known);
-            if matches!(&last, Ok(Some(last)) if last.score <= resolved()) {
-                return last;
+            last.spacing = known;
+            let inside = self.between_nodes(state, like, direction, &mut last, workspace);
+            if inside == Ok(true) && last.score <= resolved() {
+                return Ok(Some(last));
             }
-            tried = Some(last);
+            tried = Some(inside);
             width = width.min(known * T::from_f64(4.0));
         }
-        let mut best: Option<Best<T, N>> = None;
-        let mut why = None;
+        let mut found = Interpolated::new(&self.chart, workspace);
+        let mut best = Interpolated::new(&self.chart, workspace);
+        let (mut least, mut why) = (None, None);
         for _ in 0..LEVELS {
-            let found = match tried.take_if(|_| width == known) {
-                Some(found) => found,
-                None => self.between_nodes(state, like, direction, width),
+            let inside = match tried.take_if(|_| width == known) {
+                Some(inside) => {
+                    core::mem::swap(&mut found, &mut last);
+                    inside
+                }
+                None => {
+                    found.spacing = width;
+                    self.between_nodes(state, like, direction, &mut found, workspace)
+                }
             };
-            match found {
-                Ok(None) => break,
-                Ok(Some(found)) => {
-                    let least = best.as_ref().map(|best| best.score);
+            match inside {
+                Ok(false) => break,
+                Ok(true) => {
                     let resolves = found.error <= resolved();
                     let worse = least.is_some_and(|least| found.score > least * T::from_f64(4.0));
                     if least.is_none_or(|least| found.score < least) {
-                        best = Some(found);
+                        core::mem::swap(&mut best, &mut found);
+                        least = Some(best.score);
                     }
                     if resolves || worse {
                         break;
@@ -181,58 +200,55 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
             }
             width *= T::from_f64(0.5);
         }
-        match (best, why) {
+        match (least, why) {
+            (Some(_), _) => Ok(Some(best)),
             (None, Some(why)) => Err(why),
-            (best, _) => Ok(best),
+            (None, None) => Ok(None),
         }
     }
 
-    /// Interpolates between nodes of a spacing; `None` if the state is outside.
+    /// Interpolates between nodes of the spacing of `found`; `false` if the state is outside.
     #[inline(never)]
     fn between_nodes(
         &mut self,
-        state: &State<T, N>,
-        like: &Frame<T, N, R>,
-        direction: &Direction<T, N>,
-        width: T,
-    ) -> Result<Option<Best<T, N>>, Obstacle> {
-        if direction.centre.abs() * direction.rate > hull::<T>(SIDE) * width {
-            return Ok(None);
+        state: At<'_, T>,
+        like: &Eliminated<'_, T>,
+        direction: &Direction<'_, T>,
+        found: &mut Interpolated<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Result<bool, Obstacle> {
+        if direction.centre.abs() * direction.rate > hull::<T>(SIDE) * found.spacing {
+            return Ok(false);
         }
-        let mut found = Interpolated::new();
-        self.interpolate(state, direction, width, like, &mut found)?;
-        let error = self.error(state, direction.rate, &found);
-        let score = error + found.noise * T::EPSILON;
-        Ok(Some(Best {
-            found,
-            score,
-            error,
-            spacing: width,
-        }))
+        workspace.scope(|inner| self.interpolate(state, direction, like, found, inner))?;
+        self.judge(state, direction.rate, found);
+        Ok(true)
     }
 
-    /// By how much the interpolation is off, relative to what is interpolated: the
+    /// Finds by how much an interpolation is off, relative to what is interpolated: the
     /// difference that one pair of nodes makes, made smaller by as much as it is smaller
     /// than that of the pair before.
     #[inline(never)]
-    pub(super) fn error(&self, state: &State<T, N>, rate: T, found: &Interpolated<T, N>) -> T {
+    pub(super) fn judge(&self, state: At<'_, T>, rate: T, found: &mut Interpolated<'_, T>) {
+        let chart = &self.chart;
         let [all, fewer, fewest] = &found.sums;
-        let speed = self.chart.length(&state.v);
-        let bend = self.chart.length(&all.particular) + speed * speed * rate;
+        let speed = chart.length(state.v);
+        let bend = chart.length(all.particular) + speed * speed * rate;
         let mut differences = [T::zero(); 2];
         for (difference, (a, b)) in differences.iter_mut().zip([(all, fewer), (fewer, fewest)]) {
-            let offset = self.chart.length(&(a.offset - b.offset)) / self.chart.reach;
+            let offset = chart.apart(a.offset, b.offset) / chart.reach;
             let particular = match bend > T::zero() {
-                true => self.chart.length(&(a.particular - b.particular)) / bend,
+                true => chart.apart(a.particular, b.particular) / bend,
                 false => T::zero(),
             };
-            let drift = match self.chart.speed > T::zero() {
-                true => self.chart.length(&(a.drift - b.drift)) / self.chart.speed.max(speed),
+            let drift = match chart.speed > T::zero() {
+                true => chart.apart(a.drift, b.drift) / chart.speed.max(speed),
                 false => T::zero(),
             };
             let mut turn = T::zero();
-            for i in 0..self.chart.freedoms {
-                turn += self.chart.apart(&a.tangent, &b.tangent, i);
+            let columns = a.tangent.chunks_exact(chart.n());
+            for (a, b) in columns.zip(b.tangent.chunks_exact(chart.n())) {
+                turn += chart.apart(a, b);
             }
             *difference = offset + drift + particular + turn;
         }
@@ -240,11 +256,12 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
         let ratio = last / before;
         let least = T::from_f64(1e-3);
         // NaN where both are zero.
-        if ratio < T::one() {
+        found.error = if ratio < T::one() {
             last * ratio.max(least)
         } else {
             last
-        }
+        };
+        found.score = found.error + found.noise * T::EPSILON;
     }
 
     /// Whether the constraints vanish, to round-off, where the sheet meets the singular
@@ -252,35 +269,35 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
     #[inline(never)]
     fn is_crossing(
         &mut self,
-        state: &State<T, N>,
-        like: &Frame<T, N, R>,
-        direction: &Direction<T, N>,
-        best: &Best<T, N>,
+        state: At<'_, T>,
+        like: &Eliminated<'_, T>,
+        direction: &Direction<'_, T>,
+        best: &Interpolated<'_, T>,
+        workspace: &Workspace<'_, T>,
     ) -> bool {
         if !self.holonomic {
             return true;
         }
+        let q = workspace.numbers(self.chart.n());
         let step = best.spacing / direction.rate;
-        let reach = self.reach_of_rows(state, direction, best);
+        let reach = self.reach_of_rows(state, direction, best, workspace);
         let mut place = T::zero();
         for _ in 0..CENTRINGS {
-            let mut at = direction.moved(state, direction.centre + step * place);
-            at.q += best.found.offset_at(place);
-            if self.eliminate(&at, Some(like)).is_err() {
+            let t = direction.moved(state, direction.centre + step * place, q);
+            best.add_offset_at(place, q);
+            if self.eliminate((t, q), Some(like)).is_err() {
                 return false;
             }
             let block = self.frame.block();
-            let moved = block.entries[0][0] / best.found.slope;
+            let moved = block.first() / best.slope;
             // Several loops have no one place where all of them are singular.
-            let refines = block.size == 1 && moved.abs() < T::one();
+            let refines = block.size() == 1 && moved.abs() < T::one();
             if !refines || moved.abs() < negligible() {
                 break;
             }
             place -= moved;
         }
-        let right = self.scaled(&self.position.residual, &[T::zero(); N]);
-        let rest = self.frame.reduced(&right);
-        let most = rest.iter().fold(T::zero(), |most: T, x| most.max(x.abs()));
+        let most = self.largest_residual();
         // Beside the crossing an error of interpolation is seen as far as rows are not zero.
         let doubt = T::from_f64(4.0) * best.error * self.frame.smallest();
         most <= (critical::<T>() * round_off() + doubt) * reach
@@ -290,31 +307,42 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
     /// Where masses are unlike each other, that is far less than they reach along the heaviest.
     fn reach_of_rows(
         &mut self,
-        state: &State<T, N>,
-        direction: &Direction<T, N>,
-        best: &Best<T, N>,
+        state: At<'_, T>,
+        direction: &Direction<'_, T>,
+        best: &Interpolated<'_, T>,
+        workspace: &Workspace<'_, T>,
     ) -> T {
-        let place = direction.centre + best.spacing / direction.rate * best.found.places[0];
-        let mut node = direction.moved(state, place);
-        node.q += best.found.offsets[0];
-        self.mechanism.position(&node, self.position);
-        let chart = self.chart;
+        let q = workspace.numbers(self.chart.n());
+        let place = direction.centre + best.spacing / direction.rate * best.places[0];
+        let t = direction.moved(state, place, q);
+        add_scaled(q, T::one(), best.offset(0));
+        self.equations.locate(t, q);
+        let chart = &self.chart;
+        let jacobian = self.equations.constraints().jacobian;
+        let lifted = q;
         let mut most = T::zero();
-        for &row in &chart.rows[..self.constraints()] {
-            let jacobian = &self.position.jacobian;
-            let levers = chart.sizes.iter().enumerate();
-            // A state that is integrated has no size, and no lever.
-            let reach = levers
-                .map(|(j, size)| (jacobian[(row, j)].abs(), *size))
-                .filter(|(lever, _)| *lever > T::zero())
-                .fold(T::zero(), |sum, (lever, size)| sum + lever * size);
-            let mut lifted: [T; N] = column(|j| jacobian[(row, j)]);
-            chart.factor.forward(&mut lifted);
-            let length = norm(&lifted);
+        for &row in chart.rows {
+            let mut reach = T::zero();
+            let entries = jacobian.iter().skip(row).step_by(chart.row_scale.len());
+            for ((target, entry), size) in lifted.iter_mut().zip(entries).zip(chart.sizes) {
+                *target = *entry;
+                // A state that is integrated has no size, and no lever.
+                if *entry != T::zero() {
+                    reach += entry.abs() * *size;
+                }
+            }
+            solve_upper(chart.factor, lifted);
+            let length = norm(lifted);
             if length > T::zero() {
                 most = most.max(reach / length);
             }
         }
         most.min(chart.reach)
     }
+}
+
+/// Whether every number of a state is finite.
+fn is_finite<T: Real>(state: At<'_, T>) -> bool {
+    let numbers = state.q.iter().chain(state.v);
+    state.t.is_finite() && numbers.into_iter().all(|x| x.is_finite())
 }

@@ -10,100 +10,117 @@
 //! `D* D̃ = 1`, and `D* aₚ = 0`.
 
 use super::direction::Direction;
-use super::kept::SIDE;
+use super::kept::{NODES, SIDE};
 use super::nodes::{BEYOND, Interpolated, weights_of_sets};
-use super::place::Best;
-use super::sheet::{Point, Sheet};
-use crate::linalg::column;
+use super::sheet::{PointView, Sheet};
+use crate::Real;
+use crate::equations::At;
+use crate::linalg::{Workspace, add_scaled, dot};
 use crate::tolerance::{hull, resolved};
-use crate::{Real, State};
-use nalgebra::SVector;
 
-impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
+impl<T: Real> Sheet<'_, T> {
     /// Whether the sheet is a curve that stays where it is.
     fn is_curve(&self) -> bool {
-        self.chart.freedoms == 1 && self.mechanism.structure().scleronomic
+        self.chart.freedoms == 1 && self.equations.structure().scleronomic
     }
 
     /// The first coordinate in the chart.
-    fn along(&self, x: &SVector<T, N>) -> T {
-        self.chart.dual.column(0).dot(x)
+    fn along(&self, x: &[T]) -> T {
+        dot(&self.chart.dual[..x.len()], x)
     }
 
     /// Keeps the nodes between which a state was interpolated.
-    #[inline(never)]
     pub(super) fn remember(
         &mut self,
-        state: &State<T, N>,
-        direction: &Direction<T, N>,
-        best: &Best<T, N>,
+        state: At<'_, T>,
+        direction: &Direction<'_, T>,
+        best: &Interpolated<'_, T>,
     ) {
-        self.nodes.known = false;
-        let speed = self.along(&state.v);
+        self.nodes.quality.known = false;
+        let speed = self.along(state.v);
         let square = speed * speed;
         // False for NaN, too.
         let moves = square > T::zero();
         if !self.is_curve() || !moves {
             return;
         }
+        let n = self.chart.n();
         let step = best.spacing / direction.rate;
-        for (node, point) in self.nodes.points.iter_mut().enumerate() {
-            let place = direction.centre + step * best.found.places[node];
-            let position = direction.moved(state, place).q + best.found.offsets[node];
-            let [tangent, demanded] = best.found.geometry[node];
-            *point = [position, tangent, demanded / square];
+        for (node, point) in self.nodes.points.chunks_exact_mut(3 * n).enumerate() {
+            let (position, rest) = point.split_at_mut(n);
+            let (tangent, demanded) = rest.split_at_mut(n);
+            let place = direction.centre + step * best.places[node];
+            direction.moved(state, place, position);
+            add_scaled(position, T::one(), best.offset(node));
+            tangent.copy_from_slice(best.tangent(node));
+            for (target, entry) in demanded.iter_mut().zip(best.demanded(node)) {
+                *target = *entry / square;
+            }
         }
-        self.nodes.noise = best.found.noises;
-        self.nodes.spacing = best.spacing;
-        self.nodes.rate = direction.rate;
-        self.nodes.score = best.score;
-        self.nodes.known = true;
+        let quality = &mut *self.nodes.quality;
+        quality.noise = best.noises;
+        quality.spacing = best.spacing;
+        quality.rate = direction.rate;
+        quality.score = best.score;
+        quality.known = true;
     }
 
     /// Interpolates between the nodes that are kept, if the state is well between them and
     /// they resolve the sheet there as well as where they were found.
     #[inline(never)]
-    pub(super) fn recall(&self, state: &State<T, N>) -> Option<Best<T, N>> {
-        if !self.nodes.known || !self.is_curve() {
+    pub(super) fn recall<'b>(
+        &self,
+        state: At<'_, T>,
+        workspace: &Workspace<'b, T>,
+    ) -> Option<Interpolated<'b, T>> {
+        let quality = &*self.nodes.quality;
+        if !quality.known || !self.is_curve() {
             return None;
         }
-        let nodes = &*self.nodes;
-        let mut found = Interpolated::new();
-        let chart = SVector::from(self.chart.tangent.data.0[0]);
-        let places = column(|node| self.along(&(nodes.points[node][0] - state.q)));
+        let n = self.chart.n();
+        let offset = workspace.numbers(n);
+        let mut places = [T::zero(); NODES];
+        for (place, point) in places.iter_mut().zip(self.nodes.points.chunks_exact(3 * n)) {
+            offset.copy_from_slice(&point[..n]);
+            add_scaled(offset, -T::one(), state.q);
+            *place = self.along(offset);
+        }
         let half = T::from_f64(0.5);
         let (ahead, behind) = (places[0], places[BEYOND]);
-        let mut direction = self.along_chart();
-        direction.centre = (ahead + behind) * half;
-        direction.rate = nodes.rate;
+        let centre = (ahead + behind) * half;
         // False for NaN, too.
-        let inside = direction.centre.abs() <= hull::<T>(SIDE) * ((ahead - behind) * half).abs();
+        let inside = centre.abs() <= hull::<T>(SIDE) * ((ahead - behind) * half).abs();
         if !inside {
             return None;
         }
         let sets = weights_of_sets(&places, T::zero());
-        let speed = self.along(&state.v);
-        let mut point = Point::zeros();
-        for (node, [q, tangent, demanded]) in nodes.points.iter().enumerate() {
+        let speed = self.along(state.v);
+        let mut found = Interpolated::new(&self.chart, workspace);
+        let point = PointView::new(&self.chart, workspace);
+        for (node, kept) in self.nodes.points.chunks_exact(3 * n).enumerate() {
+            let (q, rest) = kept.split_at(n);
+            let (tangent, demanded) = rest.split_at(n);
             let length = self.along(tangent);
-            let tangent: SVector<T, N> = tangent / length;
-            let share: T = speed / length;
-            point.tangent.data.0[0] = tangent.data.0[0];
-            point.particular = (demanded - tangent * self.along(demanded)) * (share * share);
-            let offset = q - (state.q + chart * places[node]);
-            for (sum, weights) in found.sums.iter_mut().zip(&sets) {
-                sum.add(weights[node], &offset, &point, 1);
+            for (target, entry) in point.tangent.iter_mut().zip(tangent) {
+                *target = *entry / length;
             }
-            found.noise += sets[0][node].abs() * nodes.noise[node];
+            let share: T = speed / length;
+            point.particular.copy_from_slice(demanded);
+            add_scaled(point.particular, -self.along(demanded), point.tangent);
+            for entry in &mut *point.particular {
+                *entry *= share * share;
+            }
+            offset.copy_from_slice(q);
+            add_scaled(offset, -T::one(), state.q);
+            add_scaled(offset, -places[node], &self.chart.tangent[..n]);
+            for (sum, weights) in found.sums.iter_mut().zip(&sets) {
+                sum.add(weights[node], offset, &point);
+            }
+            found.noise += sets[0][node].abs() * quality.noise[node];
         }
-        let error = self.error(state, direction.rate, &found);
-        let score = error + found.noise * T::EPSILON;
-        let resolves = score <= nodes.score.max(resolved());
-        resolves.then_some(Best {
-            found,
-            score,
-            error,
-            spacing: nodes.spacing,
-        })
+        found.spacing = quality.spacing;
+        self.judge(state, quality.rate, &mut found);
+        let resolves = found.score <= quality.score.max(resolved());
+        resolves.then_some(found)
     }
 }

@@ -1,20 +1,22 @@
 //! The sheet of the constraint set on which the motion lives, at regular states.
 //!
-//! In:  a [`Chart`], a state near the sheet.
+//! In:  a [`ChartView`], a state near the sheet.
 //! Out: the state on the sheet that has the same coordinates in the chart ([`Point`]),
 //!      its tangent space there, and the accelerations that the constraints demand.
 //!
 //! All are solutions of one square system, `[A; D*] x = right`: the constraint rows, and
-//! the rows that measure how far `x` goes along the chart.
+//! the rows that measure how far `x` goes along the chart. Everything is over slices, and
+//! compiled once for mechanisms of all sizes.
 //!
 //! Not here: states where that system is nearly singular ([`super::nodes`]).
 
-use super::chart::Chart;
-use super::kept::Nodes;
+use super::chart::ChartView;
+use super::kept::NodesView;
 use super::obstacle::Obstacle;
-use crate::linalg::{Frame, add_scaled, dot, is_zero};
+use crate::equations::{At, Equations};
+use crate::linalg::{Eliminated, Frame, Workspace, add_scaled, is_zero};
 use crate::tolerance::{contraction, critical, near_dependent, round_off};
-use crate::{Mechanism, Position, Real, State, Terms};
+use crate::{Real, State};
 use nalgebra::{SMatrix, SVector};
 
 /// Corrections after which a state is given up.
@@ -50,175 +52,278 @@ impl<T: Real, const N: usize> Point<T, N> {
         }
     }
 
-    /// Gives the state the velocity of these coordinates in the chart.
-    pub(super) fn move_along(&mut self, along: &[T; N], freedoms: usize) {
-        self.state.v = self.drift;
-        for (tangent, along) in self.tangent.data.0.iter().zip(along).take(freedoms) {
-            add_scaled(self.state.v.as_mut_slice(), *along, tangent);
-        }
+    /// Changes it over slices.
+    pub(crate) fn change<V>(
+        &mut self,
+        freedoms: usize,
+        change: impl FnOnce(&mut PointView<'_, T>) -> V,
+    ) -> V {
+        let mut view = PointView {
+            t: self.state.t,
+            q: self.state.q.as_mut_slice(),
+            v: self.state.v.as_mut_slice(),
+            tangent: &mut self.tangent.as_mut_slice()[..N * freedoms],
+            drift: self.drift.as_mut_slice(),
+            particular: self.particular.as_mut_slice(),
+            sine: self.sine,
+        };
+        let done = change(&mut view);
+        (self.state.t, self.sine) = (view.t, view.sine);
+        done
     }
 }
 
-impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
-    /// The length of what two columns of matrices differ by.
-    pub(crate) fn apart(&self, a: &SMatrix<T, N, N>, b: &SMatrix<T, N, N>, column: usize) -> T {
-        self.length(&(SVector::from(a.data.0[column]) - SVector::from(b.data.0[column])))
-    }
+/// A [`Point`] over slices.
+#[derive(Debug)]
+pub(crate) struct PointView<'a, T> {
+    pub(super) t: T,
+    pub(super) q: &'a mut [T],
+    pub(super) v: &'a mut [T],
+    pub(super) tangent: &'a mut [T],
+    pub(super) drift: &'a mut [T],
+    pub(super) particular: &'a mut [T],
+    pub(super) sine: T,
+}
 
-    /// The length of a vector in the diagonal of the metric.
-    pub(crate) fn length(&self, x: &SVector<T, N>) -> T {
-        let scaled = x.iter().zip(&self.column_scale);
-        let sum = scaled.fold(T::zero(), |sum, (x, scale)| {
-            let x = *x / *scale;
-            sum + x * x
-        });
-        sum.sqrt()
-    }
-
-    /// `D* x`.
-    pub(crate) fn coordinates(&self, x: &SVector<T, N>) -> [T; N] {
-        let [x] = &x.data.0;
-        let mut along = [T::zero(); N];
-        for (along, dual) in along.iter_mut().zip(&self.dual.data.0[..self.freedoms]) {
-            *along = dot(dual, x);
+impl<'a, T: Real> PointView<'a, T> {
+    /// Room for one on the sheet of a chart.
+    pub(super) fn new(chart: &ChartView<'_, T>, workspace: &Workspace<'a, T>) -> Self {
+        let n = chart.n();
+        Self {
+            t: T::zero(),
+            q: workspace.numbers(n),
+            v: workspace.numbers(n),
+            tangent: workspace.numbers(n * chart.freedoms),
+            drift: workspace.numbers(n),
+            particular: workspace.numbers(n),
+            sine: T::zero(),
         }
-        along
+    }
+
+    pub(super) fn at(&self) -> At<'_, T> {
+        At {
+            t: self.t,
+            q: self.q,
+            v: self.v,
+        }
+    }
+
+    /// Becomes a state of which nothing else is known yet.
+    pub(super) fn set(&mut self, state: At<'_, T>) {
+        self.t = state.t;
+        self.q.copy_from_slice(state.q);
+        self.v.copy_from_slice(state.v);
+    }
+
+    /// Gives the state the velocity of these coordinates in the chart.
+    pub(super) fn move_along(&mut self, along: &[T]) {
+        let n = self.q.len();
+        self.v.copy_from_slice(self.drift);
+        for (tangent, along) in self.tangent.chunks_exact(n).zip(along) {
+            add_scaled(self.v, *along, tangent);
+        }
     }
 }
 
 /// What evaluates the sheet: a mechanism, a chart, and buffers.
-pub(crate) struct Sheet<'a, T, const N: usize, const R: usize> {
-    pub(crate) mechanism: &'a dyn Mechanism<T, N, R>,
-    pub(crate) chart: &'a Chart<T, N, R>,
-    pub(crate) position: &'a mut Position<T, N, R>,
-    pub(crate) terms: &'a mut Terms<T, N, R>,
-    pub(crate) frame: &'a mut Frame<T, N, R>,
+pub(crate) struct Sheet<'a, T> {
+    pub(super) equations: &'a mut dyn Equations<T>,
+    pub(super) chart: ChartView<'a, T>,
+    pub(super) frame: Frame<'a, T>,
     /// The nodes of the last interpolation.
-    pub(crate) nodes: &'a mut Nodes<T, N>,
+    pub(super) nodes: NodesView<'a, T>,
     /// Whether any row restricts positions.
-    pub(crate) holonomic: bool,
+    pub(super) holonomic: bool,
+    /// A right-hand side in the order and scale of the frame's rows, and its solution.
+    right: &'a mut [T],
+    solution: &'a mut [T],
 }
 
-impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
+/// A right-hand side of the constraint rows.
+#[derive(Clone, Copy)]
+enum Right {
+    /// Zero.
+    Nothing,
+    /// `−g`.
+    Residual,
+    /// `−b`.
+    Drift,
+    /// `p₂`.
+    Bias,
+}
+
+impl<'a, T: Real> Sheet<'a, T> {
+    pub(crate) fn new(
+        equations: &'a mut dyn Equations<T>,
+        chart: ChartView<'a, T>,
+        nodes: NodesView<'a, T>,
+        holonomic: bool,
+        workspace: &Workspace<'a, T>,
+    ) -> Self {
+        let n = chart.n();
+        Self {
+            equations,
+            chart,
+            frame: Frame::new(n, chart.rows.len(), workspace),
+            nodes,
+            holonomic,
+            right: workspace.numbers(n),
+            solution: workspace.numbers(n),
+        }
+    }
+
+    /// The constraint row that comes last in the elimination, by its place among the
+    /// independent ones.
+    pub(crate) fn weakest_row(&self) -> usize {
+        self.frame.weakest_row()
+    }
+
     /// How many constraint rows take part.
     pub(super) fn constraints(&self) -> usize {
-        N - self.chart.freedoms
+        self.chart.rows.len()
     }
 
     /// Evaluates and eliminates the constraints at a position, in the order of another
-    /// frame if there is one.
+    /// elimination if there is one.
     pub(super) fn eliminate(
         &mut self,
-        state: &State<T, N>,
-        like: Option<&Frame<T, N, R>>,
+        (t, q): (T, &[T]),
+        like: Option<&Eliminated<'_, T>>,
     ) -> Result<(), Obstacle> {
-        self.load(state);
+        self.load(t, q);
         match like {
             Some(other) => self.frame.factorise_like(other),
-            None => self.frame.factorise(self.constraints(), near_dependent()),
+            None => self.frame.factorise(self.chart.rows.len(), near_dependent()),
         }
         .map_err(|_| Obstacle::NotRegular)
     }
 
     /// The same with all rows last that could turn within a step.
-    pub(super) fn eliminate_widely(&mut self, state: &State<T, N>) -> Result<(), Obstacle> {
-        self.load(state);
-        let result = self
-            .frame
-            .factorise(self.constraints(), T::from_f64(MAY_TURN));
+    pub(super) fn eliminate_widely(&mut self, t: T, q: &[T]) -> Result<(), Obstacle> {
+        self.load(t, q);
+        let constraints = self.constraints();
+        let result = self.frame.factorise(constraints, T::from_f64(MAY_TURN));
         result.map_err(|_| Obstacle::NotRegular)
     }
 
     /// Evaluates the constraints at a position.
-    fn load(&mut self, state: &State<T, N>) {
-        self.mechanism.position(state, self.position);
-        let constraints = self.constraints();
-        let chart = self.chart;
-        let (rows, duals) = self.frame.rows_mut().split_at_mut(constraints);
-        for (target, &row) in rows.iter_mut().zip(&chart.rows) {
-            let scale = chart.row_scale[row];
-            for (j, (entry, column)) in target.iter_mut().zip(&chart.column_scale).enumerate() {
-                *entry = scale * self.position.jacobian[(row, j)] * *column;
+    fn load(&mut self, t: T, q: &[T]) {
+        self.equations.locate(t, q);
+        self.frame.clear();
+        let chart = &self.chart;
+        let jacobian = self.equations.constraints().jacobian;
+        let columns = jacobian.chunks_exact(chart.row_scale.len());
+        for (j, (entries, column)) in columns.zip(chart.column_scale).enumerate() {
+            for (place, &row) in chart.rows.iter().enumerate() {
+                if entries[row] != T::zero() {
+                    let entry = chart.row_scale[row] * entries[row] * *column;
+                    self.frame.set_entry(place, j, entry);
+                }
             }
-        }
-        for (target, dual) in duals.iter_mut().zip(&chart.dual.data.0) {
-            for ((entry, dual), column) in target.iter_mut().zip(dual).zip(&chart.column_scale) {
-                *entry = *dual * *column;
+            for (i, dual) in chart.dual.iter().skip(j).step_by(chart.n()).enumerate() {
+                let row = chart.rows.len() + i;
+                self.frame.set_entry(row, j, *dual * *column);
             }
         }
     }
 
-    /// The solution of the square system for right-hand sides of the constraint rows and
-    /// of the coordinates in the chart.
-    pub(super) fn solve(&self, right: &SVector<T, R>, along: &[T; N]) -> SVector<T, N> {
-        let mut x = self.frame.solve(&self.scaled(right, along));
-        for (x, scale) in x.iter_mut().zip(&self.chart.column_scale) {
+    /// Prepares the right-hand side of the constraint rows, with zeros for the coordinates
+    /// in the chart.
+    fn set_right(&mut self, right: Right) {
+        let at = self.equations.constraints();
+        self.right.fill(T::zero());
+        let (sign, entries) = match right {
+            Right::Nothing => return,
+            Right::Residual => (-T::one(), at.residual),
+            Right::Drift => (-T::one(), at.drift),
+            Right::Bias => (T::one(), at.bias),
+        };
+        scale_rows(&self.chart, sign, entries, self.right);
+    }
+
+    /// Solves the square system for the right-hand side at hand.
+    fn solve(&mut self) {
+        self.frame.solve(self.right, self.solution);
+        for (x, scale) in self.solution.iter_mut().zip(self.chart.column_scale) {
             *x *= *scale;
         }
-        SVector::from(x)
+    }
+
+    /// Solves it for another right-hand side of the constraint rows.
+    fn solve_for(&mut self, right: Right, solution: &mut [T]) {
+        self.set_right(right);
+        self.solve();
+        solution.copy_from_slice(self.solution);
     }
 
     /// Corrects what interpolation leaves of position and velocity in the rows that are
     /// safely independent. The near-dependent ones would magnify round-off.
     pub(super) fn polish(
         &mut self,
-        point: &mut Point<T, N>,
-        like: &Frame<T, N, R>,
+        point: &mut PointView<'_, T>,
+        like: &Eliminated<'_, T>,
     ) -> Result<(), Obstacle> {
-        let still = [T::zero(); N];
-        self.eliminate(&point.state, Some(like))?;
-        let position = self.scaled(&-self.position.residual, &still);
-        let velocity = -(self.position.jacobian * point.state.v + self.position.drift);
-        let velocity = self.scaled(&velocity, &still);
-        let (q, v) = (
-            self.frame.solve_independent(&position),
-            self.frame.solve_independent(&velocity),
-        );
-        for (j, scale) in self.chart.column_scale.iter().enumerate() {
-            point.state.q[j] += *scale * q[j];
-            point.state.v[j] += *scale * v[j];
+        self.eliminate((point.t, point.q), Some(like))?;
+        self.set_right(Right::Residual);
+        self.correct_independent(point.q);
+        let at = self.equations.constraints();
+        self.right.fill(T::zero());
+        for (place, &row) in self.chart.rows.iter().enumerate() {
+            let levers = at.jacobian.iter().skip(row).step_by(at.drift.len());
+            let mut speed = T::zero();
+            for (lever, v) in levers.zip(&*point.v) {
+                speed += *lever * *v;
+            }
+            self.right[place] = -(self.chart.row_scale[row] * (speed + at.drift[row]));
         }
+        self.correct_independent(point.v);
         Ok(())
     }
 
-    /// Right-hand sides in the order and scale of the frame's rows.
-    pub(super) fn scaled(&self, right: &SVector<T, R>, along: &[T; N]) -> [T; N] {
-        let constraints = self.constraints();
-        let mut all = [T::zero(); N];
-        for (place, &row) in all[..constraints].iter_mut().zip(&self.chart.rows) {
-            *place = self.chart.row_scale[row] * right[row];
+    /// Adds the solution for the right-hand side at hand of all rows but the near-dependent
+    /// ones.
+    fn correct_independent(&mut self, target: &mut [T]) {
+        self.frame.solve_independent(self.right, self.solution);
+        let corrections = self.solution.iter().zip(self.chart.column_scale);
+        for (entry, (x, scale)) in target.iter_mut().zip(corrections) {
+            *entry += *scale * *x;
         }
-        let rest = all[constraints..].iter_mut();
-        for (place, along) in rest.zip(along) {
-            *place = *along;
-        }
-        all
+    }
+
+    /// The largest of the constraints that is left when the rows before the near-dependent
+    /// ones are eliminated.
+    pub(super) fn largest_residual(&mut self) -> T {
+        self.set_right(Right::Residual);
+        self.frame.largest_reduced(self.right)
     }
 
     /// Moves a position along the chart's complement onto the sheet, by Newton's
     /// iteration; leaves its frame.
     pub(super) fn project(
         &mut self,
-        state: &mut State<T, N>,
-        like: Option<&Frame<T, N, R>>,
+        t: T,
+        q: &mut [T],
+        like: Option<&Eliminated<'_, T>>,
     ) -> Result<(), Obstacle> {
-        self.eliminate(state, like)?;
-        self.project_from_here(state, like)
+        self.eliminate((t, q), like)?;
+        self.project_from_here(t, q, like)
     }
 
     /// The same, from a position whose frame is at hand.
     fn project_from_here(
         &mut self,
-        state: &mut State<T, N>,
-        like: Option<&Frame<T, N, R>>,
+        t: T,
+        q: &mut [T],
+        like: Option<&Eliminated<'_, T>>,
     ) -> Result<(), Obstacle> {
         let mut before: Option<T> = None;
         for _ in 0..MAX_CORRECTIONS {
             if !self.holonomic {
                 return Ok(());
             }
-            let correction = self.solve(&-self.position.residual, &[T::zero(); N]);
-            let size = self.chart.length(&correction);
+            self.set_right(Right::Residual);
+            self.solve();
+            let size = self.chart.length(self.solution);
             if !size.is_finite() {
                 return Err(Obstacle::NotFinite);
             }
@@ -229,49 +334,48 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
             if before.is_some_and(|before| size > before * contraction()) {
                 // Where round-off is all that is left, it does not contract either.
                 let stuck = size <= noise * critical();
-                return if stuck {
-                    Ok(())
-                } else {
-                    Err(Obstacle::NotContracting)
+                return match stuck {
+                    true => Ok(()),
+                    false => Err(Obstacle::NotContracting),
                 };
             }
-            state.q += correction;
+            add_scaled(q, T::one(), self.solution);
             before = Some(size);
-            self.eliminate(state, like)?;
+            self.eliminate((t, q), like)?;
         }
         Err(Obstacle::NotContracting)
     }
 
     /// The sheet's geometry at a position on it whose frame is at hand, for a velocity of
     /// these coordinates in the chart, or as it is.
-    pub(super) fn measure(&mut self, along: Option<&[T; N]>, point: &mut Point<T, N>) {
-        let zero = SVector::zeros();
-        for i in 0..self.chart.freedoms {
-            let mut unit = [T::zero(); N];
-            unit[i] = T::one();
-            point.tangent.data.0[i] = self.solve(&zero, &unit).data.0[0];
+    pub(super) fn measure(&mut self, along: Option<&[T]>, point: &mut PointView<'_, T>) {
+        let n = self.chart.n();
+        for (i, tangent) in point.tangent.chunks_exact_mut(n).enumerate() {
+            self.set_right(Right::Nothing);
+            self.right[self.chart.rows.len() + i] = T::one();
+            self.solve();
+            tangent.copy_from_slice(self.solution);
         }
-        let still = is_zero(self.position.drift.as_slice());
-        point.drift = match still {
-            false => self.solve(&-self.position.drift, &[T::zero(); N]),
-            true => SVector::zeros(),
-        };
+        match is_zero(self.equations.constraints().drift) {
+            true => point.drift.fill(T::zero()),
+            false => self.solve_for(Right::Drift, point.drift),
+        }
         if let Some(along) = along {
-            point.move_along(along, self.chart.freedoms);
+            point.move_along(along);
         }
-        self.mechanism.terms(&point.state, self.terms);
-        point.particular = self.solve(&self.terms.bias, &[T::zero(); N]);
+        self.equations.evaluate(point.at());
+        self.solve_for(Right::Bias, point.particular);
         point.sine = self.frame.smallest();
     }
 
     /// The geometry at a state as it is.
-    pub(crate) fn measure_here(
+    pub(super) fn measure_here(
         &mut self,
-        state: &State<T, N>,
-        point: &mut Point<T, N>,
+        state: At<'_, T>,
+        point: &mut PointView<'_, T>,
     ) -> Result<(), Obstacle> {
-        self.eliminate(state, None)?;
-        point.state = *state;
+        self.eliminate((state.t, state.q), None)?;
+        point.set(state);
         self.measure(None, point);
         Ok(())
     }
@@ -280,13 +384,22 @@ impl<T: Real, const N: usize, const R: usize> Sheet<'_, T, N, R> {
     /// regular.
     pub(super) fn place_regular(
         &mut self,
-        state: &State<T, N>,
-        point: &mut Point<T, N>,
+        state: At<'_, T>,
+        point: &mut PointView<'_, T>,
+        workspace: &Workspace<'_, T>,
     ) -> Result<(), Obstacle> {
-        point.state = *state;
-        self.project_from_here(&mut point.state, None)?;
-        let along = self.chart.coordinates(&state.v);
-        self.measure(Some(&along), point);
+        point.set(state);
+        self.project_from_here(state.t, point.q, None)?;
+        let along = workspace.numbers(self.chart.freedoms);
+        self.chart.coordinates(state.v, along);
+        self.measure(Some(along), point);
         Ok(())
+    }
+}
+
+/// Right-hand sides of the constraint rows in their order and scale in a chart.
+fn scale_rows<T: Real>(chart: &ChartView<'_, T>, sign: T, right: &[T], scaled: &mut [T]) {
+    for (target, &row) in scaled.iter_mut().zip(chart.rows) {
+        *target = sign * chart.row_scale[row] * right[row];
     }
 }

@@ -12,7 +12,7 @@
 
 use super::chart::Chart;
 use super::place::Placement;
-use super::sheet::{Point, Sheet};
+use super::sheet::Point;
 use crate::dynamics::{Combined, Core, Source, Which};
 use crate::linalg::{
     add_scaled, column, count_above, dot, eigen, is_zero, norm, orthonormal, remove, scaled,
@@ -89,29 +89,12 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism.position(state, &mut self.position);
         if !is_zero(self.position.drift.as_slice()) {
             let mut point = Point::zeros();
-            let placed = self.sheet(mechanism, &chart).place(state, &mut point);
+            let placed = self.place_on(mechanism, &chart, state, &mut point);
             if placed.is_ok() {
                 chart.set_drift(point.drift, T::zero());
             }
         }
         Some(chart)
-    }
-
-    /// What evaluates a sheet.
-    pub(crate) fn sheet<'a>(
-        &'a mut self,
-        mechanism: &'a dyn Mechanism<T, N, R>,
-        chart: &'a Chart<T, N, R>,
-    ) -> Sheet<'a, T, N, R> {
-        Sheet {
-            mechanism,
-            chart,
-            position: &mut self.position,
-            terms: &mut self.terms,
-            frame: &mut self.frame,
-            nodes: &mut self.session.nodes,
-            holonomic: self.rows.any_holonomic(),
-        }
     }
 
     /// What the factorised constraints leave free, in the first columns.
@@ -259,8 +242,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             let mut point = Point::zeros();
             let chart = self.chart(mechanism, state, *sheet, freedoms);
             let placed = chart.as_ref().map(|chart| {
-                let placed = self.sheet(mechanism, chart).place(state, &mut point);
-                *distance = chart.length(&(point.state.q - state.q));
+                let placed = self.place_on(mechanism, chart, state, &mut point);
+                *distance = chart.view().length((point.state.q - state.q).as_slice());
                 placed
             });
             known &= matches!(placed, Some(Ok(Placement::Crossing { .. })));

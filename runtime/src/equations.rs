@@ -1,0 +1,106 @@
+//! The equations of a mechanism whose sizes are forgotten.
+//!
+//! In:  a mechanism, buffers of its sizes.
+//! Out: [`Equations`], which are evaluated into slices.
+//!
+//! What is not called in every evaluation works on these, so that it is compiled once,
+//! whatever the sizes of mechanisms are.
+
+use crate::{Mechanism, Position, Real, State, Structure, Terms};
+use nalgebra::SVector;
+
+/// A state, over slices.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct At<'a, T> {
+    /// Time (s).
+    pub(crate) t: T,
+    /// Generalized coordinates.
+    pub(crate) q: &'a [T],
+    /// Generalized velocities.
+    pub(crate) v: &'a [T],
+}
+
+impl<T: Real, const N: usize> State<T, N> {
+    /// The same over slices.
+    pub(crate) fn at(&self) -> At<'_, T> {
+        At {
+            t: self.t,
+            q: self.q.as_slice(),
+            v: self.v.as_slice(),
+        }
+    }
+}
+
+/// What is known of the constraints, over slices.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Constraints<'a, T> {
+    /// `g`.
+    pub(crate) residual: &'a [T],
+    /// `A`, column by column.
+    pub(crate) jacobian: &'a [T],
+    /// `b`.
+    pub(crate) drift: &'a [T],
+    /// `p₂`, where all terms were evaluated last.
+    pub(crate) bias: &'a [T],
+}
+
+/// The equations of a mechanism of any size, and what they were evaluated into.
+pub(crate) trait Equations<T: Real> {
+    /// What was known when the code was generated.
+    fn structure(&self) -> &'static Structure;
+    /// Evaluates the constraints at a time and a position.
+    fn locate(&mut self, t: T, q: &[T]);
+    /// The constraints where they were evaluated last.
+    fn constraints(&self) -> Constraints<'_, T>;
+    /// Evaluates all terms at a state.
+    fn evaluate(&mut self, state: At<'_, T>);
+}
+
+/// The equations of a mechanism, with the buffers that they are evaluated into.
+pub(crate) struct Bound<'a, T, const N: usize, const R: usize> {
+    pub(crate) mechanism: &'a dyn Mechanism<T, N, R>,
+    pub(crate) position: &'a mut Position<T, N, R>,
+    pub(crate) terms: &'a mut Terms<T, N, R>,
+}
+
+/// A state of fixed size. What has another length is cut off, or filled with zeros.
+fn sized<T: Real, const N: usize>(t: T, q: &[T], v: &[T]) -> State<T, N> {
+    let mut state = State {
+        t,
+        ..State::default()
+    };
+    for (target, source) in [(&mut state.q, q), (&mut state.v, v)] {
+        copy(target, source);
+    }
+    state
+}
+
+fn copy<T: Real, const N: usize>(target: &mut SVector<T, N>, source: &[T]) {
+    for (target, source) in target.iter_mut().zip(source) {
+        *target = *source;
+    }
+}
+
+impl<T: Real, const N: usize, const R: usize> Equations<T> for Bound<'_, T, N, R> {
+    fn structure(&self) -> &'static Structure {
+        self.mechanism.structure()
+    }
+
+    fn locate(&mut self, t: T, q: &[T]) {
+        self.mechanism.position(&sized(t, q, &[]), self.position);
+    }
+
+    fn constraints(&self) -> Constraints<'_, T> {
+        Constraints {
+            residual: self.position.residual.as_slice(),
+            jacobian: self.position.jacobian.as_slice(),
+            drift: self.position.drift.as_slice(),
+            bias: self.terms.bias.as_slice(),
+        }
+    }
+
+    fn evaluate(&mut self, state: At<'_, T>) {
+        let state = sized(state.t, state.q, state.v);
+        self.mechanism.terms(&state, self.terms);
+    }
+}

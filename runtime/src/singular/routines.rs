@@ -1,0 +1,115 @@
+//! What is compiled once for each scalar: everything that works on a [`Sheet`].
+//!
+//! Out: [`Routines`], of which each scalar has one table.
+//!
+//! Generic functions are compiled where they are called, in the crate of every mechanism.
+//! The tables of `f64` and `f32` are part of this crate, and so is the code behind them.
+
+use super::obstacle::Obstacle;
+use super::passage::{Found, Reference};
+use super::place::Placement;
+use super::sheet::{PointView, Sheet};
+use crate::Real;
+use crate::equations::At;
+use crate::linalg::Workspace;
+
+type Place<T> = fn(
+    &mut Sheet<'_, T>,
+    At<'_, T>,
+    &mut PointView<'_, T>,
+    &Workspace<'_, T>,
+) -> Result<Placement<T>, Obstacle>;
+type MeasureHere<T> =
+    fn(&mut Sheet<'_, T>, At<'_, T>, &mut PointView<'_, T>) -> Result<(), Obstacle>;
+type Passages<T> = fn(
+    &mut Sheet<'_, T>,
+    At<'_, T>,
+    T,
+    &dyn Fn(T, &mut [T]),
+    &Workspace<'_, T>,
+) -> Found<T>;
+type Refer<T> = for<'b> fn(
+    &mut Sheet<'_, T>,
+    At<'_, T>,
+    &Workspace<'b, T>,
+) -> Option<Reference<'b, T>>;
+type SignChanges<T> =
+    fn(&mut Sheet<'_, T>, &Reference<'_, T>, At<'_, T>, &Workspace<'_, T>) -> Option<usize>;
+
+/// The routines of a scalar.
+#[derive(Debug)]
+pub struct Routines<T> {
+    place: Place<T>,
+    measure_here: MeasureHere<T>,
+    passages: Passages<T>,
+    reference: Refer<T>,
+    sign_changes: SignChanges<T>,
+}
+
+impl<T: Real> Routines<T> {
+    /// Those of any scalar.
+    pub const fn new() -> Self {
+        Self {
+            place: |sheet, state, point, workspace| sheet.place(state, point, workspace),
+            measure_here: |sheet, state, point| sheet.measure_here(state, point),
+            passages: |sheet, start, length, at, workspace| {
+                sheet.passages(start, length, at, workspace)
+            },
+            reference: |sheet, start, workspace| sheet.reference(start, workspace),
+            sign_changes: |sheet, from, to, workspace| sheet.sign_changes(from, to, workspace),
+        }
+    }
+}
+
+/// The routines of the scalar, as methods.
+impl<T: Real> Sheet<'_, T> {
+    /// Puts a state onto its sheet.
+    pub(crate) fn put(
+        &mut self,
+        state: At<'_, T>,
+        point: &mut PointView<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Result<Placement<T>, Obstacle> {
+        (T::routines().place)(self, state, point, workspace)
+    }
+
+    /// The geometry at a state as it is.
+    pub(crate) fn look_at(
+        &mut self,
+        state: At<'_, T>,
+        point: &mut PointView<'_, T>,
+    ) -> Result<(), Obstacle> {
+        (T::routines().measure_here)(self, state, point)
+    }
+
+    /// The passages of a step of this length whose positions are `at`.
+    pub(crate) fn find_passages(
+        &mut self,
+        start: At<'_, T>,
+        length: T,
+        at: &dyn Fn(T, &mut [T]),
+        workspace: &Workspace<'_, T>,
+    ) -> Found<T> {
+        (T::routines().passages)(self, start, length, at, workspace)
+    }
+
+    /// What states of a step that begins here are compared with; `None` where the
+    /// constraints can't be eliminated.
+    pub(crate) fn refer_to<'b>(
+        &mut self,
+        start: At<'_, T>,
+        workspace: &Workspace<'b, T>,
+    ) -> Option<Reference<'b, T>> {
+        (T::routines().reference)(self, start, workspace)
+    }
+
+    /// How many sheets are crossed on the way to a state; `None` where that can't be told.
+    pub(crate) fn count_crossed(
+        &mut self,
+        from: &Reference<'_, T>,
+        to: At<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Option<usize> {
+        (T::routines().sign_changes)(self, from, to, workspace)
+    }
+}
