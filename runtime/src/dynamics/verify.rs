@@ -215,7 +215,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             placed.tangent,
             chart.freedoms,
             metric,
-            rows,
+            (rows, &self.position.jacobian),
             (self.reach, &self.sizes, self.accepted()),
         )?;
         next.set_drift(placed.drift, chart.speed);

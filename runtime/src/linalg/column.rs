@@ -46,9 +46,12 @@ fn long_dot<T: Real>(a: &[T], b: &[T]) -> T {
 }
 
 /// Whether all entries are zero.
-#[inline(never)]
+///
+/// All of them are looked at, so that it can be done with several at once.
+#[inline]
 pub(crate) fn is_zero<T: Real>(entries: &[T]) -> bool {
-    entries.iter().all(|entry| *entry == T::zero())
+    let differs = |any, entry: &T| any | (*entry != T::zero());
+    !entries.iter().fold(false, differs)
 }
 
 /// How many entries are above a bound.

@@ -11,7 +11,8 @@
 //!
 //! Rows are visited in the given order, of each row only the columns between its first and
 //! last entry are touched, and of the rows before it only those that it shares a column with,
-//! so that what is local in a chain of loops stays local.
+//! so that what is local in a chain of loops stays local. Columns are kept in an order in
+//! which rows have their entries close to one another ([`by_first_row`]).
 
 use super::block::{Block, largest_of};
 use super::workspace::Workspace;
@@ -23,6 +24,8 @@ use core::ops::Range;
 #[derive(Debug)]
 pub(crate) struct Frame<'a, T> {
     n: usize,
+    /// Where each column is kept.
+    places: &'a [usize],
     /// What is left of each row when the rows before it are eliminated, row by row.
     upper: &'a mut [T],
     /// How much of each row before it a row loses, in the order of elimination.
@@ -38,6 +41,7 @@ pub(crate) struct Frame<'a, T> {
     smallest: T,
     /// Solutions on the way.
     forward: &'a mut [T],
+    backward: &'a mut [T],
     /// Marks of rows or columns.
     marks: &'a mut [usize],
 }
@@ -79,11 +83,17 @@ impl<T: Real> Eliminated<'_, T> {
 pub(crate) struct NotRegular;
 
 impl<'a, T: Real> Frame<'a, T> {
-    /// A frame of a system of `n` rows, of which as many as `constraints` may be
-    /// near-dependent.
-    pub(crate) fn new(n: usize, constraints: usize, workspace: &Workspace<'a, T>) -> Self {
+    /// A frame of a system of as many rows as columns, of which as many as `constraints` may
+    /// be near-dependent, and whose columns are kept in these places.
+    pub(crate) fn new(
+        places: &'a [usize],
+        constraints: usize,
+        workspace: &Workspace<'a, T>,
+    ) -> Self {
+        let n = places.len();
         Self {
             n,
+            places,
             upper: workspace.numbers(n * n),
             lower: workspace.numbers(n * n),
             spans: workspace.indices(2 * n),
@@ -93,6 +103,7 @@ impl<'a, T: Real> Frame<'a, T> {
             block: Block::with_capacity(constraints, workspace),
             smallest: T::zero(),
             forward: workspace.numbers(n),
+            backward: workspace.numbers(n),
             marks: workspace.indices(n),
         }
     }
@@ -110,23 +121,29 @@ impl<'a, T: Real> Frame<'a, T> {
 
     /// Begins anew, with rows of zeros.
     pub(crate) fn clear(&mut self) {
-        self.upper.fill(T::zero());
-        self.lower.fill(T::zero());
+        for row in 0..self.n {
+            let (span, first) = (self.span(row), self.changed[row]);
+            let entries = row * self.n..(row + 1) * self.n;
+            self.upper[entries.clone()][span].fill(T::zero());
+            self.lower[entries][first..].fill(T::zero());
+        }
         self.spans.fill(0);
         self.changed.fill(self.n);
         self.step_of.fill(0);
     }
 
     /// Gives a row to be eliminated an entry: constraint rows first. Their columns should be
-    /// scaled to one size, the rows too. Entries are given column by column.
+    /// scaled to one size, the rows too.
     #[inline]
     pub(crate) fn set_entry(&mut self, row: usize, column: usize, entry: T) {
-        self.upper[row * self.n + column] = entry;
+        let place = self.places[column];
+        self.upper[row * self.n + place] = entry;
         let span = &mut self.spans[2 * row..2 * row + 2];
         if span[1] == 0 {
-            span[0] = column;
+            span[0] = place;
         }
-        span[1] = column + 1;
+        span[0] = span[0].min(place);
+        span[1] = span[1].max(place + 1);
     }
 
     fn entry(&self, row: usize, column: usize) -> T {
@@ -220,14 +237,24 @@ impl<'a, T: Real> Frame<'a, T> {
         target[column] = T::zero();
         self.lower[row * self.n + step] = share;
         self.changed[row] = self.changed[row].min(step);
-        self.spans[2 * row] = self.spans[2 * row].min(span.start);
-        self.spans[2 * row + 1] = self.spans[2 * row + 1].max(span.end);
+        let [mut start, mut end] = [self.spans[2 * row], self.spans[2 * row + 1]];
+        (start, end) = (start.min(span.start), end.max(span.end));
+        while start < end && target[start] == T::zero() {
+            start += 1;
+        }
+        while start < end && target[end - 1] == T::zero() {
+            end -= 1;
+        }
+        (self.spans[2 * row], self.spans[2 * row + 1]) = (start, end);
     }
 
     /// The largest entry of a row that is reduced, and its size; columns of pivots hold
     /// zeros.
     fn largest(&self, row: usize) -> (usize, T) {
         let span = self.span(row);
+        if span.is_empty() {
+            return (0, T::zero());
+        }
         let start = span.start;
         let (column, size) = largest_of(&self.upper[row * self.n..(row + 1) * self.n][span]);
         (start + column, size)
@@ -296,51 +323,43 @@ impl<'a, T: Real> Frame<'a, T> {
 
     /// Eliminates the near-dependent rows, the largest entry first.
     fn eliminate_late(&mut self) -> Result<(), NotRegular> {
-        // The column of the largest entry of each row.
-        for place in self.order.independent..self.n {
+        let n = self.n;
+        // Of each row the largest entry, and its column.
+        for place in self.order.independent..n {
             let row = self.order.rows[place];
-            self.marks[row] = self.largest(row).0;
+            (self.marks[row], self.forward[place]) = self.largest(row);
         }
-        for step in self.order.independent..self.n {
-            let size = self.bring_largest(step);
+        for step in self.order.independent..n {
+            let (ahead, size) = largest_of(&self.forward[step..n]);
             self.smallest = self.smallest.min(size);
             if size == T::zero() {
                 return Ok(());
             }
-            let (row, column) = (self.order.rows[step], self.order.columns[step]);
+            let (row, column) = self.bring(step, step + ahead);
             self.take(step, row, column)?;
-            for place in step + 1..self.n {
+            for place in step + 1..n {
                 let row = self.order.rows[place];
                 if self.entry(row, column) != T::zero() {
                     self.eliminate(row, step);
-                    self.marks[row] = self.largest(row).0;
+                    (self.marks[row], self.forward[place]) = self.largest(row);
                 }
             }
         }
         Ok(())
     }
 
-    /// Makes the row with the largest entry of those that are left the next one, and that
-    /// entry its pivot; its size.
-    fn bring_largest(&mut self, step: usize) -> T {
-        let peak = |place: usize| {
-            let row = self.order.rows[place];
-            self.entry(row, self.marks[row]).abs()
-        };
-        let (mut place, mut size) = (step, peak(step));
-        for other in step + 1..self.n {
-            let peak = peak(other);
-            if peak > size {
-                (place, size) = (other, peak);
-            }
-        }
-        let column = self.marks[self.order.rows[place]];
+    /// Makes a row that is left the next one, and its largest entry its pivot: the row and
+    /// its column.
+    fn bring(&mut self, step: usize, place: usize) -> (usize, usize) {
         self.order.rows.swap(step, place);
+        self.forward.swap(step, place);
+        let row = self.order.rows[step];
+        let column = self.marks[row];
         let columns = &mut self.order.columns[step..];
         if let Some(place) = columns.iter().position(|other| *other == column) {
             columns.swap(0, place);
         }
-        size
+        (row, column)
     }
 
     /// The row that comes last.
@@ -428,15 +447,40 @@ impl<'a, T: Real> Frame<'a, T> {
         }
     }
 
-    fn go_backward(&self, steps: usize, x: &mut [T]) {
-        x.fill(T::zero());
+    fn go_backward(&mut self, steps: usize, x: &mut [T]) {
+        self.backward.fill(T::zero());
         for step in (0..steps).rev() {
             let (row, column) = (self.order.rows[step], self.order.columns[step]);
             let upper = &self.upper[row * self.n..][..self.n];
             let span = self.span(row);
-            let known = dot(&upper[span.clone()], &x[span]);
-            x[column] = (self.forward[step] - known) / upper[column];
+            let known = dot(&upper[span.clone()], &self.backward[span]);
+            self.backward[column] = (self.forward[step] - known) / upper[column];
         }
+        for (x, place) in x.iter_mut().zip(self.places) {
+            *x = self.backward[*place];
+        }
+    }
+}
+
+/// Places for the columns of a sparse matrix, given column by column, some rows of which are
+/// eliminated in their order: by the first of these that has an entry there. `first` is room
+/// for as many.
+#[inline(never)]
+pub(crate) fn by_first_row<T: Real>(
+    matrix: &[T],
+    rows: &[usize],
+    places: &mut [usize],
+    first: &mut [usize],
+) {
+    let n = places.len();
+    for (column, first) in first.iter_mut().enumerate() {
+        let entries = &matrix[column * (matrix.len() / n)..];
+        let occupied = |row: &usize| entries[*row] != T::zero();
+        *first = rows.iter().position(occupied).unwrap_or(rows.len()) * n + column;
+    }
+    first.sort_unstable();
+    for (place, key) in first.iter().enumerate() {
+        places[key % n] = place;
     }
 }
 

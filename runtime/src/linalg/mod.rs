@@ -37,7 +37,7 @@ pub(crate) use cholesky::{
 pub(crate) use column::{add_scaled, column, count_above, dot, is_zero, norm, pair, scaled};
 pub(crate) use complement::{orthonormal, remove};
 pub(crate) use elimination::Elimination;
-pub(crate) use frame::{Eliminated, Frame};
+pub(crate) use frame::{Eliminated, Frame, by_first_row};
 pub(crate) use gram::Gram;
 pub(crate) use jacobi::{Breakdown, orthogonalise};
 pub(crate) use products::Products;

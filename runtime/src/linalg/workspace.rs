@@ -20,11 +20,7 @@ pub(crate) struct Workspace<'a, T> {
 impl<'a, T: Real> Workspace<'a, T> {
     /// Numbers are cut from the first piece of memory, and from the second where that is
     /// not enough.
-    pub(crate) fn new(
-        first: &'a mut [T],
-        second: &'a mut [T],
-        indices: &'a mut [usize],
-    ) -> Self {
+    pub(crate) fn new(first: &'a mut [T], second: &'a mut [T], indices: &'a mut [usize]) -> Self {
         Self {
             first: Cell::new(first),
             second: Cell::new(second),

@@ -12,8 +12,8 @@
 use crate::dynamics::{Metric, Rows, Which};
 use crate::equations::At;
 use crate::linalg::{
-    Cholesky, add_scaled, column, dot, multiply_upper, multiply_upper_transposed, norm, pair,
-    solve_upper_transposed,
+    Cholesky, add_scaled, by_first_row, column, dot, multiply_upper, multiply_upper_transposed,
+    norm, pair, solve_upper_transposed,
 };
 use crate::{Real, State};
 use nalgebra::{SMatrix, SVector};
@@ -34,6 +34,10 @@ pub(crate) struct Chart<T, const N: usize, const R: usize> {
     pub(crate) speed: T,
     /// Constraint rows that are independent at regular states, `N − freedoms` of them.
     rows: [usize; R],
+    /// The place of each row among these; their number for one that is not.
+    places: [usize; R],
+    /// The places of the columns in eliminations.
+    column_places: [usize; N],
     /// That of the metric.
     factor: Cholesky<T, N>,
     /// What rows and columns are multiplied by to have size one.
@@ -53,14 +57,14 @@ pub(crate) struct Chart<T, const N: usize, const R: usize> {
 
 impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
     /// A chart at a state from vectors that span the tangent space there; `None` if they
-    /// are dependent.
+    /// are dependent. The Jacobian may be that of any state.
     #[inline(never)]
     pub(crate) fn new(
         base: &State<T, N>,
         mut tangent: SMatrix<T, N, N>,
         freedoms: usize,
         metric: &Metric<T, N>,
-        rows: &Rows<T, R>,
+        (rows, jacobian): (&Rows<T, R>, &SMatrix<T, R, N>),
         (reach, sizes, accepted): (T, &[T; N], T),
     ) -> Option<Self> {
         let (list, count) = rows.active(Which::All)?;
@@ -73,6 +77,17 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
         if !orthonormalise(factor, &mut columns[..N * freedoms], duals, N) {
             return None;
         }
+        let mut places = [count; R];
+        for (place, row) in list[..count].iter().enumerate() {
+            places[*row] = place;
+        }
+        let mut column_places = [0; N];
+        by_first_row(
+            jacobian.as_slice(),
+            &list[..count],
+            &mut column_places,
+            &mut [0; N],
+        );
         Some(Self {
             tangent,
             dual,
@@ -81,6 +96,8 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             drift: SVector::zeros(),
             speed: T::zero(),
             rows: list,
+            places,
+            column_places,
             factor: metric.factor.clone(),
             row_scale: column(|row| rows.scale(row)),
             column_scale: column(|j| T::one() / metric.factor.diagonal(j).sqrt()),
@@ -108,6 +125,8 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             drift: self.drift.as_slice(),
             speed: self.speed,
             rows: &self.rows[..N - self.freedoms],
+            places: &self.places,
+            column_places: &self.column_places,
             factor: self.factor.as_slice(),
             row_scale: &self.row_scale,
             column_scale: &self.column_scale,
@@ -162,6 +181,8 @@ pub(crate) struct ChartView<'a, T> {
     pub(super) drift: &'a [T],
     pub(super) speed: T,
     pub(super) rows: &'a [usize],
+    pub(super) places: &'a [usize],
+    pub(super) column_places: &'a [usize],
     pub(super) factor: &'a [T],
     pub(super) row_scale: &'a [T],
     pub(super) column_scale: &'a [T],

@@ -15,7 +15,12 @@ use crate::linalg::Workspace;
 const MATRICES: usize = 64;
 /// Vectors of all coordinates that there is room for, of which an interpolation takes 250:
 /// with the standard library the matrices of small mechanisms among them.
-const VECTORS: usize = 288 + if cfg!(feature = "std") { SMALL * MATRICES } else { 0 };
+const VECTORS: usize = 288
+    + if cfg!(feature = "std") {
+        SMALL * MATRICES
+    } else {
+        0
+    };
 /// Lists of indices.
 const LISTS: usize = 16;
 /// Coordinates up to which a mechanism is small.

@@ -30,8 +30,8 @@ mod start;
 pub(crate) use chart::Chart;
 pub(crate) use memory::Memory;
 pub(crate) use obstacle::Obstacle;
-pub use passage::Passage;
 pub(crate) use passage::Found;
+pub use passage::Passage;
 pub(crate) use place::Placement;
 #[doc(hidden)]
 pub use routines::Routines;

@@ -21,18 +21,10 @@ type Place<T> = fn(
 ) -> Result<Placement<T>, Obstacle>;
 type MeasureHere<T> =
     fn(&mut Sheet<'_, T>, At<'_, T>, &mut PointView<'_, T>) -> Result<(), Obstacle>;
-type Passages<T> = fn(
-    &mut Sheet<'_, T>,
-    At<'_, T>,
-    T,
-    &dyn Fn(T, &mut [T]),
-    &Workspace<'_, T>,
-) -> Found<T>;
-type Refer<T> = for<'b> fn(
-    &mut Sheet<'_, T>,
-    At<'_, T>,
-    &Workspace<'b, T>,
-) -> Option<Reference<'b, T>>;
+type Passages<T> =
+    fn(&mut Sheet<'_, T>, At<'_, T>, T, &dyn Fn(T, &mut [T]), &Workspace<'_, T>) -> Found<T>;
+type Refer<T> =
+    for<'b> fn(&mut Sheet<'_, T>, At<'_, T>, &Workspace<'b, T>) -> Option<Reference<'b, T>>;
 type SignChanges<T> =
     fn(&mut Sheet<'_, T>, &Reference<'_, T>, At<'_, T>, &Workspace<'_, T>) -> Option<usize>;
 

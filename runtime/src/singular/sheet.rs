@@ -26,6 +26,9 @@ const MAX_CORRECTIONS: usize = 12;
 /// a step.
 const MAY_TURN: f64 = 0.5;
 
+/// Entries of a Jacobian, most of which are zero, that are looked at together.
+const GLANCE: usize = 8;
+
 /// A state on the sheet, and the sheet's geometry there.
 #[derive(Clone, Debug)]
 pub(crate) struct Point<T, const N: usize> {
@@ -164,7 +167,7 @@ impl<'a, T: Real> Sheet<'a, T> {
         Self {
             equations,
             chart,
-            frame: Frame::new(n, chart.rows.len(), workspace),
+            frame: Frame::new(chart.column_places, chart.rows.len(), workspace),
             nodes,
             holonomic,
             right: workspace.numbers(n),
@@ -193,7 +196,9 @@ impl<'a, T: Real> Sheet<'a, T> {
         self.load(t, q);
         match like {
             Some(other) => self.frame.factorise_like(other),
-            None => self.frame.factorise(self.chart.rows.len(), near_dependent()),
+            None => self
+                .frame
+                .factorise(self.chart.rows.len(), near_dependent()),
         }
         .map_err(|_| Obstacle::NotRegular)
     }
@@ -214,10 +219,15 @@ impl<'a, T: Real> Sheet<'a, T> {
         let jacobian = self.equations.constraints().jacobian;
         let columns = jacobian.chunks_exact(chart.row_scale.len());
         for (j, (entries, column)) in columns.zip(chart.column_scale).enumerate() {
-            for (place, &row) in chart.rows.iter().enumerate() {
-                if entries[row] != T::zero() {
-                    let entry = chart.row_scale[row] * entries[row] * *column;
-                    self.frame.set_entry(place, j, entry);
+            for (first, entries) in entries.chunks(GLANCE).enumerate() {
+                if is_zero(entries) {
+                    continue;
+                }
+                for (row, entry) in (first * GLANCE..).zip(entries) {
+                    if *entry != T::zero() && chart.places[row] < chart.rows.len() {
+                        let entry = chart.row_scale[row] * *entry * *column;
+                        self.frame.set_entry(chart.places[row], j, entry);
+                    }
                 }
             }
             for (i, dual) in chart.dual.iter().skip(j).step_by(chart.n()).enumerate() {

@@ -83,7 +83,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             tangent,
             freedoms,
             metric,
-            rows,
+            (rows, &self.position.jacobian),
             (self.reach, &self.sizes, self.accepted()),
         )?;
         mechanism.position(state, &mut self.position);
