@@ -61,7 +61,7 @@ impl<'a, T: Real> Block<'a, T> {
         self.all().first().copied().unwrap_or_default()
     }
 
-    fn all(&self) -> &[T] {
+    pub(crate) fn all(&self) -> &[T] {
         &self.entries[..self.size * self.size]
     }
 
@@ -119,11 +119,10 @@ impl<'a, T: Real> Block<'a, T> {
     fn smallest_of_several(&mut self, workspace: &Workspace<'_, T>) -> T {
         let size = self.size;
         let mut smallest = T::one();
-        let (open, columns) = (workspace.indices(size), workspace.indices(size));
+        let open = workspace.indices(size);
         let peaks = workspace.numbers(size);
         for row in 0..size {
-            open[row] = row;
-            (columns[row], peaks[row]) = largest_of(self.row(row));
+            (open[row], peaks[row]) = (row, peak_of(self.row(row)));
         }
         for left in (1..=size).rev() {
             let mut place = 0;
@@ -140,7 +139,7 @@ impl<'a, T: Real> Block<'a, T> {
             }
             smallest = smallest.min(peaks[row]);
             open.copy_within(place + 1..left, place);
-            let column = columns[row];
+            let (column, _) = largest_of(self.row(row));
             for &other in &open[..left - 1] {
                 let [entries, pivot] = pair(self.entries, size, other, row);
                 if entries[column] == T::zero() {
@@ -149,7 +148,7 @@ impl<'a, T: Real> Block<'a, T> {
                 let share = entries[column] / pivot[column];
                 add_scaled(entries, -share, pivot);
                 entries[column] = T::zero();
-                (columns[other], peaks[other]) = largest_of(entries);
+                peaks[other] = peak_of(entries);
             }
         }
         smallest
@@ -301,4 +300,26 @@ pub(crate) fn largest_of<T: Real>(entries: &[T]) -> (usize, T) {
         }
     }
     best
+}
+
+/// Numbers that are compared side by side.
+const LANES: usize = 4;
+
+/// The size of the largest of some entries.
+pub(crate) fn peak_of<T: Real>(entries: &[T]) -> T {
+    let mut peaks = [T::zero(); LANES];
+    let (chunks, rest) = entries.as_chunks::<LANES>();
+    for chunk in chunks {
+        for lane in 0..LANES {
+            peaks[lane] = larger(chunk[lane].abs(), peaks[lane]);
+        }
+    }
+    let rest = rest.iter().map(|entry| entry.abs());
+    rest.chain(peaks)
+        .fold(T::zero(), |most, size| larger(size, most))
+}
+
+/// The first of two sizes if it is larger, else the second.
+fn larger<T: Real>(size: T, most: T) -> T {
+    if size > most { size } else { most }
 }

@@ -14,7 +14,7 @@
 //! so that what is local in a chain of loops stays local. Columns are kept in an order in
 //! which rows have their entries close to one another ([`by_first_row`]).
 
-use super::block::{Block, largest_of};
+use super::block::{Block, largest_of, peak_of};
 use super::workspace::Workspace;
 use super::{add_scaled, dot, pair};
 use crate::Real;
@@ -44,6 +44,9 @@ pub(crate) struct Frame<'a, T> {
     backward: &'a mut [T],
     /// Marks of rows or columns.
     marks: &'a mut [usize],
+    /// The block while it is eliminated, and the largest entry of each of its rows.
+    late: &'a mut [T],
+    peaks: &'a mut [T],
 }
 
 /// The order of an elimination.
@@ -105,6 +108,8 @@ impl<'a, T: Real> Frame<'a, T> {
             forward: workspace.numbers(n),
             backward: workspace.numbers(n),
             marks: workspace.indices(n),
+            late: workspace.numbers(constraints * constraints),
+            peaks: workspace.numbers(constraints),
         }
     }
 
@@ -321,45 +326,66 @@ impl<'a, T: Real> Frame<'a, T> {
         }
     }
 
-    /// Eliminates the near-dependent rows, the largest entry first.
+    /// Eliminates the near-dependent rows, the largest entry first, in a copy of their block.
     fn eliminate_late(&mut self) -> Result<(), NotRegular> {
-        let n = self.n;
-        // Of each row the largest entry, and its column.
-        for place in self.order.independent..n {
-            let row = self.order.rows[place];
-            (self.marks[row], self.forward[place]) = self.largest(row);
+        let (first, size) = (self.order.independent, self.n - self.order.independent);
+        self.late[..size * size].copy_from_slice(self.block.all());
+        self.marks[..size].copy_from_slice(&self.order.columns[first..]);
+        let rows = self.late.chunks_exact(size);
+        for (peak, row) in self.peaks.iter_mut().zip(rows).take(size) {
+            *peak = peak_of(row);
         }
-        for step in self.order.independent..n {
-            let (ahead, size) = largest_of(&self.forward[step..n]);
-            self.smallest = self.smallest.min(size);
-            if size == T::zero() {
-                return Ok(());
+        let result = (0..size).try_for_each(|step| self.eliminate_largest(step, size));
+        for (place, entries) in self.late[..size * size].chunks_exact(size).enumerate() {
+            let row = self.order.rows[first + place];
+            for (entry, column) in entries.iter().zip(&self.marks[..size]) {
+                self.upper[row * self.n + *column] = *entry;
             }
-            let (row, column) = self.bring(step, step + ahead);
-            self.take(step, row, column)?;
-            for place in step + 1..n {
-                let row = self.order.rows[place];
-                if self.entry(row, column) != T::zero() {
-                    self.eliminate(row, step);
-                    (self.marks[row], self.forward[place]) = self.largest(row);
-                }
-            }
+            (self.spans[2 * row], self.spans[2 * row + 1]) = (0, self.n);
         }
-        Ok(())
+        result
     }
 
-    /// Makes a row that is left the next one, and its largest entry its pivot: the row and
-    /// its column.
-    fn bring(&mut self, step: usize, place: usize) -> (usize, usize) {
-        self.order.rows.swap(step, place);
-        self.forward.swap(step, place);
-        let row = self.order.rows[step];
-        let column = self.marks[row];
-        let columns = &mut self.order.columns[step..];
+    /// Makes the row with the largest entry of those near-dependent ones that are left the
+    /// next one, and that entry its pivot; nothing if all are zero.
+    fn eliminate_largest(&mut self, step: usize, size: usize) -> Result<(), NotRegular> {
+        let first = self.order.independent;
+        let (ahead, largest) = largest_of(&self.peaks[step..size]);
+        self.smallest = self.smallest.min(largest);
+        if largest == T::zero() {
+            return Ok(());
+        }
+        let place = step + ahead;
+        if place != step {
+            let [row, other] = pair(self.late, size, step, place);
+            row.swap_with_slice(other);
+            self.order.rows.swap(first + step, first + place);
+            self.peaks.swap(step, place);
+        }
+        let (done, rest) = self.late[..size * size].split_at_mut((step + 1) * size);
+        let pivot = &done[step * size..];
+        let (local, _) = largest_of(pivot);
+        let column = self.marks[local];
+        let columns = &mut self.order.columns[first + step..];
         if let Some(place) = columns.iter().position(|other| *other == column) {
             columns.swap(0, place);
         }
-        (row, column)
+        if !(pivot[local] != T::zero() && pivot[local].is_finite()) {
+            return Err(NotRegular);
+        }
+        for (k, entries) in rest.chunks_exact_mut(size).enumerate() {
+            if entries[local] == T::zero() {
+                continue;
+            }
+            let row = self.order.rows[first + step + 1 + k];
+            let share = entries[local] / pivot[local];
+            add_scaled(entries, -share, pivot);
+            entries[local] = T::zero();
+            self.peaks[step + 1 + k] = peak_of(entries);
+            self.lower[row * self.n + first + step] = share;
+            self.changed[row] = self.changed[row].min(first + step);
+        }
+        Ok(())
     }
 
     /// The row that comes last.

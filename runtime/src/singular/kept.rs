@@ -23,7 +23,8 @@ pub(crate) struct Nodes<T, const N: usize> {
 pub(super) struct Quality<T> {
     /// How the round-off of each is magnified.
     pub(super) noise: [T; NODES],
-    /// Their spacing, as a change of the sine.
+    /// Their spacing, as a change of the sine; that of the last interpolation, also where its
+    /// nodes are not kept.
     pub(super) spacing: T,
     /// How fast the sine changes along the curve.
     pub(super) rate: T,

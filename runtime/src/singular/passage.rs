@@ -24,6 +24,9 @@ const AT_ONCE: f64 = 1e-6;
 const WORTH_A_LOOK: f64 = 0.25;
 /// Halvings of the interval in which the determinant turns back.
 const DEEPENINGS: usize = 26;
+/// Halvings after which it is given up where the determinant, at twice the rate at which it
+/// falls, would still not reach zero.
+const DEEP: usize = 4;
 /// Places at which a polynomial is evaluated.
 const SAMPLES: usize = 16;
 
@@ -350,18 +353,23 @@ impl<T: Real> Sheet<'_, T> {
             return None;
         }
         let (mut a, mut b) = (T::zero(), T::one());
-        for _ in 0..DEEPENINGS {
+        for deepening in 0..DEEPENINGS {
             let t = from.t + span * x;
             self.eliminate_at(view, t, workspace)?;
             let signs = Signs::of(&mut self.frame, workspace);
             if signs.negative != from.signs.negative {
                 return Some(Look { t, signs });
             }
+            let rate = sign * self.rate(view, (t, signs.determinant), workspace)?;
             // Towards where it falls.
-            if sign * self.rate(view, (t, signs.determinant), workspace)? > T::zero() {
+            if rate > T::zero() {
                 b = x;
             } else {
                 a = x;
+            }
+            let fall = rate.abs() * span * (b - a);
+            if deepening >= DEEP && fall * T::from_f64(2.0) < sign * signs.determinant {
+                return None;
             }
             x = (a + b) * T::from_f64(0.5);
         }

@@ -24,6 +24,9 @@ const NOISE: f64 = 48.0;
 const CENTRINGS: usize = 4;
 /// Spacings that are tried.
 const LEVELS: usize = 12;
+/// By how much worse an interpolation may be than the best of all spacings, so that no others
+/// are tried.
+const NEARLY: f64 = 4.0;
 
 /// How a state was put onto its sheet.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -155,19 +158,24 @@ impl<T: Real> Sheet<'_, T> {
         direction: &Direction<'_, T>,
         workspace: &Workspace<'b, T>,
     ) -> Result<Option<Interpolated<'b, T>>, Obstacle> {
-        let known = self.chart.spacing;
         let mut width = (spacing::<T>() * self.chart.reach * direction.rate).min(spacing());
+        // Mostly the last spacing serves again, or that of the last passage.
+        let known = match self.chart.spacing > T::zero() {
+            true => self.chart.spacing,
+            false => self.nodes.quality.spacing.min(width),
+        };
         let mut tried = None;
         let mut last = Interpolated::new(&self.chart, workspace);
         if known > T::zero() {
-            // Mostly the last spacing serves again.
             last.spacing = known;
             let inside = self.between_nodes(state, like, direction, &mut last, workspace);
-            if inside == Ok(true) && last.score <= resolved() {
+            if inside == Ok(true) && self.serves_again(&last) {
                 return Ok(Some(last));
             }
             tried = Some(inside);
-            width = width.min(known * T::from_f64(4.0));
+            if self.chart.spacing > T::zero() {
+                width = width.min(known * T::from_f64(4.0));
+            }
         }
         let mut found = Interpolated::new(&self.chart, workspace);
         let mut best = Interpolated::new(&self.chart, workspace);
@@ -205,6 +213,14 @@ impl<T: Real> Sheet<'_, T> {
             (None, Some(why)) => Err(why),
             (None, None) => Ok(None),
         }
+    }
+
+    /// Whether an interpolation is as good as the last that was the best of all spacings, or
+    /// nearly so and as good as a step needs it.
+    pub(super) fn serves_again(&self, found: &Interpolated<'_, T>) -> bool {
+        let best = self.nodes.quality.score.max(resolved());
+        let nearly = found.score <= best * T::from_f64(NEARLY);
+        found.score <= best || nearly && found.error <= self.chart.accepted
     }
 
     /// Interpolates between nodes of the spacing of `found`; `false` if the state is outside.

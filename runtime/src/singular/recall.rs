@@ -16,7 +16,7 @@ use super::sheet::{PointView, Sheet};
 use crate::Real;
 use crate::equations::At;
 use crate::linalg::{Workspace, add_scaled, dot};
-use crate::tolerance::{hull, resolved};
+use crate::tolerance::hull;
 
 impl<T: Real> Sheet<'_, T> {
     /// Whether the sheet is a curve that stays where it is.
@@ -37,6 +37,8 @@ impl<T: Real> Sheet<'_, T> {
         best: &Interpolated<'_, T>,
     ) {
         self.nodes.quality.known = false;
+        self.nodes.quality.spacing = best.spacing;
+        self.nodes.quality.score = best.score;
         let speed = self.along(state.v);
         let square = speed * speed;
         // False for NaN, too.
@@ -59,9 +61,7 @@ impl<T: Real> Sheet<'_, T> {
         }
         let quality = &mut *self.nodes.quality;
         quality.noise = best.noises;
-        quality.spacing = best.spacing;
         quality.rate = direction.rate;
-        quality.score = best.score;
         quality.known = true;
     }
 
@@ -120,7 +120,6 @@ impl<T: Real> Sheet<'_, T> {
         }
         found.spacing = quality.spacing;
         self.judge(state, quality.rate, &mut found);
-        let resolves = found.score <= quality.score.max(resolved());
-        resolves.then_some(found)
+        self.serves_again(&found).then_some(found)
     }
 }
