@@ -6,7 +6,7 @@
 
 use super::{Core, Source, Which};
 use crate::linalg::is_zero;
-use crate::singular::{Chart, Obstacle, Placed, Placement, Point, Start};
+use crate::singular::{Chart, Obstacle, Placed, Placement, Point, Sheet, Start};
 use crate::tolerance::{negligible, safe_steps, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
 
@@ -161,24 +161,33 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         self.session.trial.chart = None;
-        let changes = self.on_sheet(mechanism, chart, |sheet, workspace| {
-            let reference = sheet.refer_to(start.at(), workspace)?;
-            sheet.count_crossed(&reference, end.at(), workspace)
+        let (form, structure) = (self.settings.form, mechanism.structure());
+        let seeks = form.passes() && !structure.regular && !self.session.trial.crosses;
+        let (changes, beyond) = self.on_sheet(mechanism, chart, |sheet, workspace| {
+            let reference = sheet.refer_to(start.at(), workspace);
+            let changed_at = |sheet: &mut Sheet<'_, T>, state: &State<T, N>| {
+                let reference = reference.as_ref()?;
+                sheet.count_crossed(reference, state.at(), workspace)
+            };
+            let changes = changed_at(sheet, end);
+            let crosses = |state: &State<T, N>| changed_at(sheet, state) != Some(0);
+            let beyond = (seeks && changes != Some(0)).then(|| bisect((start, end), crosses));
+            (changes, beyond)
         });
-        if changes != Some(0) && mechanism.structure().regular {
+        if changes != Some(0) && structure.regular {
             return Err(self.not_regular(mechanism, end)?);
         }
-        if changes != Some(0) && !self.settings.form.passes() {
+        if changes != Some(0) && !form.passes() {
             let rank = self.rows.regular(Which::All) - changes.unwrap_or(1);
             return Err(DynamicsError::SingularPosition {
                 t: end.t,
-                form: self.settings.form,
+                form,
                 rank,
-                structure: mechanism.structure(),
+                structure,
             });
         }
-        if changes != Some(0) && !self.session.trial.crosses {
-            self.verify_crossing(mechanism, chart, (start, end))?;
+        if let Some(beyond) = beyond {
+            self.verify_crossing(mechanism, chart, &beyond)?;
         }
         self.verify_energy(mechanism, start, end)?;
         let Some(placed) = self.session.trial.placed.take() else {
@@ -225,35 +234,19 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// A step on which signs changed, none of whose states is next to a singular
-    /// configuration: is there one where sheets cross, or did it leap over a gap?
+    /// configuration: is there one where sheets cross, at this state of it, or did it leap
+    /// over a gap?
     #[inline(never)]
     fn verify_crossing(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
         chart: &Chart<T, N, R>,
-        (start, end): (&State<T, N>, &State<T, N>),
+        state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        let beyond = self.on_sheet(mechanism, chart, |sheet, workspace| {
-            let reference = sheet.refer_to(start.at(), workspace);
-            let (mut before, mut after) = (T::zero(), T::one());
-            for _ in 0..BISECTIONS {
-                let middle = (before + after) * T::from_f64(0.5);
-                let there = start.towards(end, middle);
-                let changes = reference
-                    .as_ref()
-                    .and_then(|from| sheet.count_crossed(from, there.at(), workspace));
-                match changes {
-                    Some(0) => before = middle,
-                    _ => after = middle,
-                }
-            }
-            after
-        });
         let mut point = Point::zeros();
-        let there = start.towards(end, beyond);
-        match self.place_on(mechanism, chart, &there, &mut point) {
+        match self.place_on(mechanism, chart, state, &mut point) {
             Ok(Placement::Crossing { .. }) => Ok(()),
-            _ => Err(self.refusal(mechanism, Obstacle::LeftSheet, end.t)),
+            _ => Err(self.refusal(mechanism, Obstacle::LeftSheet, state.t)),
         }
     }
 
@@ -309,4 +302,20 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             Err(self.refusal(mechanism, Obstacle::LeftSheet, end.t))
         }
     }
+}
+
+/// The first state of a step that is beyond something, which its end is.
+fn bisect<T: Real, const N: usize>(
+    (start, end): (&State<T, N>, &State<T, N>),
+    mut is_beyond: impl FnMut(&State<T, N>) -> bool,
+) -> State<T, N> {
+    let (mut before, mut after) = (T::zero(), T::one());
+    for _ in 0..BISECTIONS {
+        let middle = (before + after) * T::from_f64(0.5);
+        match is_beyond(&start.towards(end, middle)) {
+            true => after = middle,
+            false => before = middle,
+        }
+    }
+    start.towards(end, after)
 }

@@ -16,7 +16,7 @@
 
 use super::block::{Block, largest_of, peak_of};
 use super::workspace::Workspace;
-use super::{add_scaled, dot, pair};
+use super::{add_scaled, dot, is_zero, pair};
 use crate::Real;
 use core::ops::Range;
 
@@ -353,7 +353,13 @@ impl<'a, T: Real> Frame<'a, T> {
         let (ahead, largest) = largest_of(&self.peaks[step..size]);
         self.smallest = self.smallest.min(largest);
         if largest == T::zero() {
-            return Ok(());
+            // What is not finite has no size either.
+            let rest = &self.late[step * size..size * size];
+            return if is_zero(rest) {
+                Ok(())
+            } else {
+                Err(NotRegular)
+            };
         }
         let place = step + ahead;
         if place != step {

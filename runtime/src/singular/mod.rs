@@ -36,5 +36,5 @@ pub(crate) use place::Placement;
 #[doc(hidden)]
 pub use routines::Routines;
 pub(crate) use session::{Placed, Session};
-pub(crate) use sheet::Point;
+pub(crate) use sheet::{Point, Sheet};
 pub(crate) use start::Start;
