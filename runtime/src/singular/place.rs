@@ -15,7 +15,9 @@ use super::sheet::{PointView, Sheet};
 use crate::Real;
 use crate::equations::At;
 use crate::linalg::{Eliminated, Workspace, add_scaled, norm, solve_upper};
-use crate::tolerance::{critical, hull, negligible, noisy, resolved, round_off, spacing, window};
+use crate::tolerance::{
+    critical, hull, negligible, noisy, resolvable, resolved, round_off, spacing, window,
+};
 
 /// How much larger than the round-off of one node, magnified by the weights, the
 /// difference of two interpolations may be for that reason.
@@ -169,7 +171,7 @@ impl<T: Real> Sheet<'_, T> {
         if known > T::zero() {
             last.spacing = known;
             let inside = self.between_nodes(state, like, direction, &mut last, workspace);
-            if inside == Ok(true) && self.serves_again(&last) {
+            if inside == Ok(true) && self.serves(&last) {
                 return Ok(Some(last));
             }
             tried = Some(inside);
@@ -215,12 +217,14 @@ impl<T: Real> Sheet<'_, T> {
         }
     }
 
-    /// Whether an interpolation is as good as the last that was the best of all spacings, or
-    /// nearly so and as good as a step needs it.
-    pub(super) fn serves_again(&self, found: &Interpolated<'_, T>) -> bool {
-        let best = self.nodes.quality.score.max(resolved());
-        let nearly = found.score <= best * T::from_f64(NEARLY);
-        found.score <= best || nearly && found.error <= self.chart.accepted
+    /// Whether an interpolation is as good as none, or nearly as good as the last, which was
+    /// the best of all spacings, and as good as a step needs it. Where the sheet moves, what
+    /// was good enough before tells nothing of now.
+    pub(super) fn serves(&self, found: &Interpolated<'_, T>) -> bool {
+        let nearly = self.nodes.quality.score * T::from_f64(NEARLY);
+        let rests = self.chart.speed == T::zero();
+        let enough = rests && found.error <= self.chart.accepted;
+        found.score <= resolved() || enough && found.score <= nearly.min(resolvable())
     }
 
     /// Interpolates between nodes of the spacing of `found`; `false` if the state is outside.

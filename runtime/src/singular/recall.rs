@@ -120,6 +120,7 @@ impl<T: Real> Sheet<'_, T> {
         }
         found.spacing = quality.spacing;
         self.judge(state, quality.rate, &mut found);
-        self.serves_again(&found).then_some(found)
+        let as_before = found.score <= quality.score;
+        (as_before || self.serves(&found)).then_some(found)
     }
 }
