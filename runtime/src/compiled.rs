@@ -1,0 +1,30 @@
+//! What is compiled once for each scalar, whatever the sizes of mechanisms are.
+//!
+//! Out: [`Compiled`], of which each scalar has one.
+//!
+//! Generic functions are compiled where they are called, in the crate of every mechanism.
+//! The tables of `f64` and `f32` are part of this crate, and so is the code behind them.
+//!
+//! Not here: what works on sheets of the constraint set ([`crate::singular`]).
+
+use crate::simulate::{Along, Events, Happened};
+use crate::{DynamicsError, Real};
+
+type Done<T, V> = Result<V, DynamicsError<T>>;
+
+/// The routines of a scalar.
+#[derive(Debug)]
+pub struct Compiled<T> {
+    pub(crate) find_first: fn(&mut Events<T>, &mut Along<'_, T>) -> Done<T, ()>,
+    pub(crate) take_first: fn(&mut Events<T>, &mut Along<'_, T>) -> Done<T, Option<Happened<T>>>,
+}
+
+impl<T: Real> Compiled<T> {
+    /// Those of any scalar.
+    pub const fn new() -> Self {
+        Self {
+            find_first: |events, along| events.find_first(along),
+            take_first: |events, along| events.take_first(along),
+        }
+    }
+}
