@@ -7,8 +7,9 @@
 //!
 //! Not here: what works on sheets of the constraint set ([`crate::singular`]).
 
+use crate::dynamics::{Accelerate, Motion, Shares, Slid};
 use crate::simulate::{Along, Events, Happened};
-use crate::{DynamicsError, Real};
+use crate::{DynamicsError, Real, Switching};
 
 type Done<T, V> = Result<V, DynamicsError<T>>;
 
@@ -17,6 +18,8 @@ type Done<T, V> = Result<V, DynamicsError<T>>;
 pub struct Compiled<T> {
     pub(crate) find_first: fn(&mut Events<T>, &mut Along<'_, T>) -> Done<T, ()>,
     pub(crate) take_first: fn(&mut Events<T>, &mut Along<'_, T>) -> Done<T, Option<Happened<T>>>,
+    pub(crate) switch: fn(&mut (dyn Motion<T> + '_)) -> Done<T, Switching<T>>,
+    pub(crate) slide: fn(&Slid, usize, &mut [T], Accelerate<'_, T>) -> Done<T, Shares<T>>,
 }
 
 impl<T: Real> Compiled<T> {
@@ -25,6 +28,8 @@ impl<T: Real> Compiled<T> {
         Self {
             find_first: |events, along| events.find_first(along),
             take_first: |events, along| events.take_first(along),
+            switch: |motion| motion.switch(),
+            slide: |slid, n, vectors, accelerate| slid.slide(n, vectors, accelerate),
         }
     }
 }
