@@ -7,10 +7,17 @@
 //!
 //! Not here: what works on sheets of the constraint set ([`crate::singular`]).
 
-use crate::dynamics::{Accelerate, Motion, Shares, Slid};
+use crate::dynamics::{Accelerate, Motion, Shares, Slid, Squares, partition};
+use crate::linalg::Workspace;
 use crate::simulate::{Along, Events, Happened};
 use crate::{DynamicsError, Real, Switching};
 
+type Partition<T> = for<'a> fn(
+    (&[T], &[T]),
+    (&'a mut [T], &'a mut [T]),
+    &Workspace<'a, T>,
+    &mut [T],
+) -> Result<(), usize>;
 type Done<T, V> = Result<V, DynamicsError<T>>;
 
 /// The routines of a scalar.
@@ -20,6 +27,8 @@ pub struct Compiled<T> {
     pub(crate) take_first: fn(&mut Events<T>, &mut Along<'_, T>) -> Done<T, Option<Happened<T>>>,
     pub(crate) switch: fn(&mut (dyn Motion<T> + '_)) -> Done<T, Switching<T>>,
     pub(crate) slide: fn(&Slid, usize, &mut [T], Accelerate<'_, T>) -> Done<T, Shares<T>>,
+    pub(crate) least_squares: fn(&Squares<'_, T>, &Workspace<'_, T>, &mut [T]),
+    pub(crate) partition: Partition<T>,
 }
 
 impl<T: Real> Compiled<T> {
@@ -29,6 +38,8 @@ impl<T: Real> Compiled<T> {
             find_first: |events, along| events.find_first(along),
             take_first: |events, along| events.take_first(along),
             switch: |motion| motion.switch(),
+            least_squares: |squares, workspace, out| squares.solve(workspace, out),
+            partition: |inertia, rows, workspace, out| partition(inertia, rows, workspace, out),
             slide: |slid, n, vectors, accelerate| slid.slide(n, vectors, accelerate),
         }
     }

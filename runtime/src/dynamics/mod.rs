@@ -40,8 +40,10 @@ pub use settings::{Counters, Form, Settings, Stabilisation};
 pub(crate) use solver::Core;
 
 pub(crate) use emitted::MAX_ITERATIONS;
+pub(crate) use full::Squares;
 pub(crate) use lifted::Lifted;
 pub(crate) use metric::Metric;
+pub(crate) use partitioning::partition;
 pub(crate) use rank::Combined;
 pub(crate) use rows::{Rows, Which};
 pub(crate) use sliding::{Accelerate, Shares, Slid};
