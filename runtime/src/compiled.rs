@@ -8,9 +8,11 @@
 //! Not here: what works on sheets of the constraint set ([`crate::singular`]).
 
 use crate::dynamics::{Accelerate, Motion, Shares, Slid, Squares, partition};
+use crate::equations::At;
+use crate::integrator::{Collocation, Digits, Flow, Newton, set_through};
 use crate::linalg::Workspace;
 use crate::simulate::{Along, Events, Happened};
-use crate::{DynamicsError, Real, Switching};
+use crate::{DynamicsError, IntegrateError, Real, Switching};
 
 type Partition<T> = for<'a> fn(
     (&[T], &[T]),
@@ -18,6 +20,14 @@ type Partition<T> = for<'a> fn(
     &Workspace<'a, T>,
     &mut [T],
 ) -> Result<(), usize>;
+type Attempt<T> = fn(
+    &mut Newton<'_, T>,
+    &mut dyn Flow<T>,
+    At<'_, T>,
+    (T, bool),
+    &Workspace<'_, T>,
+) -> Result<(), IntegrateError<T>>;
+type SetThrough<T> = fn(&mut [T], (&[T], &[T]), &[T], &mut [T]);
 type Done<T, V> = Result<V, DynamicsError<T>>;
 
 /// The routines of a scalar.
@@ -29,6 +39,9 @@ pub struct Compiled<T> {
     pub(crate) slide: fn(&Slid, usize, &mut [T], Accelerate<'_, T>) -> Done<T, Shares<T>>,
     pub(crate) least_squares: fn(&Squares<'_, T>, &Workspace<'_, T>, &mut [T]),
     pub(crate) partition: Partition<T>,
+    pub(crate) collocation: fn(&Digits) -> Collocation<T>,
+    pub(crate) attempt: Attempt<T>,
+    pub(crate) set_through: SetThrough<T>,
 }
 
 impl<T: Real> Compiled<T> {
@@ -40,6 +53,11 @@ impl<T: Real> Compiled<T> {
             switch: |motion| motion.switch(),
             least_squares: |squares, workspace, out| squares.solve(workspace, out),
             partition: |inertia, rows, workspace, out| partition(inertia, rows, workspace, out),
+            collocation: |digits| Collocation::new(digits),
+            attempt: |newton, flow, start, end, workspace| {
+                newton.attempt(flow, start, end, workspace)
+            },
+            set_through: |out, ends, nodes, values| set_through(out, ends, nodes, values),
             slide: |slid, n, vectors, accelerate| slid.slide(n, vectors, accelerate),
         }
     }
