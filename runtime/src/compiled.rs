@@ -14,6 +14,8 @@ use crate::linalg::Workspace;
 use crate::simulate::{Along, Events, Happened};
 use crate::{DynamicsError, IntegrateError, Real, Switching};
 
+type TakeFirst<T> = fn(&mut Events<T>, &mut Along<'_, T>) -> Done<T, Option<Happened<T>>>;
+type Slide<T> = fn(&Slid, usize, &mut [T], Accelerate<'_, T>) -> Done<T, Shares<T>>;
 type Partition<T> = for<'a> fn(
     (&[T], &[T]),
     (&'a mut [T], &'a mut [T]),
@@ -34,9 +36,9 @@ type Done<T, V> = Result<V, DynamicsError<T>>;
 #[derive(Debug)]
 pub struct Compiled<T> {
     pub(crate) find_first: fn(&mut Events<T>, &mut Along<'_, T>) -> Done<T, ()>,
-    pub(crate) take_first: fn(&mut Events<T>, &mut Along<'_, T>) -> Done<T, Option<Happened<T>>>,
+    pub(crate) take_first: TakeFirst<T>,
     pub(crate) switch: fn(&mut (dyn Motion<T> + '_)) -> Done<T, Switching<T>>,
-    pub(crate) slide: fn(&Slid, usize, &mut [T], Accelerate<'_, T>) -> Done<T, Shares<T>>,
+    pub(crate) slide: Slide<T>,
     pub(crate) least_squares: fn(&Squares<'_, T>, &Workspace<'_, T>, &mut [T]),
     pub(crate) partition: Partition<T>,
     pub(crate) collocation: fn(&Digits) -> Collocation<T>,
@@ -51,6 +53,7 @@ impl<T: Real> Compiled<T> {
             find_first: |events, along| events.find_first(along),
             take_first: |events, along| events.take_first(along),
             switch: |motion| motion.switch(),
+            slide: |slid, n, vectors, accelerate| slid.slide(n, vectors, accelerate),
             least_squares: |squares, workspace, out| squares.solve(workspace, out),
             partition: |inertia, rows, workspace, out| partition(inertia, rows, workspace, out),
             collocation: |digits| Collocation::new(digits),
@@ -58,7 +61,6 @@ impl<T: Real> Compiled<T> {
                 newton.attempt(flow, start, end, workspace)
             },
             set_through: |out, ends, nodes, values| set_through(out, ends, nodes, values),
-            slide: |slid, n, vectors, accelerate| slid.slide(n, vectors, accelerate),
         }
     }
 }

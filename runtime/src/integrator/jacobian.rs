@@ -1,12 +1,11 @@
 //! How the acceleration changes with the state.
 //!
-//! In:  a system, a state and its acceleration.
+//! In:  a system of any size ([`Flow`]), a state and its acceleration.
 //! Out: `∂q̈/∂q` and `∂q̈/∂q̇`, from the system where it knows them, else by differences.
 //!
 //! The iteration that uses them needs no more than a few digits: they decide how
 //! fast it converges, not what it converges to.
 
-use super::newton::Flow;
 use crate::equations::At;
 use crate::linalg::Workspace;
 use crate::{DynamicsError, Real};
@@ -15,6 +14,15 @@ use crate::{DynamicsError, Real};
 /// power of round-off: farther than the square root, because near singular
 /// positions accelerations carry more than round-off.
 const VARIATION: f64 = 0.4;
+
+/// A system of any size.
+pub(crate) trait Flow<T> {
+    /// Writes the acceleration at a state.
+    fn accelerate(&mut self, at: At<'_, T>, out: &mut [T]) -> Result<(), DynamicsError<T>>;
+    /// Writes `∂q̈/∂q` and `∂q̈/∂q̇` at a state, column by column, if they are known; whether
+    /// they are.
+    fn derivatives(&mut self, at: At<'_, T>, by_q: &mut [T], by_v: &mut [T]) -> bool;
+}
 
 /// Writes the derivatives at a state with acceleration `a`, column by column.
 pub(super) fn differentiate<T: Real>(

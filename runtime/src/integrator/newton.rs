@@ -14,10 +14,10 @@ use super::IntegrateError;
 use super::collocation::{Collocation, MOST_STAGES, cardinal};
 use super::control::Scale;
 use super::factors::Factors;
-use super::jacobian::differentiate;
+use super::jacobian::{Flow, differentiate};
+use crate::Real;
 use crate::equations::At;
 use crate::linalg::{Workspace, add_scaled};
-use crate::{DynamicsError, Real};
 
 /// Vectors of all coordinates that an attempt at a step takes room for.
 pub(super) const VECTORS: usize = 6 * MOST_STAGES + 5;
@@ -33,15 +33,6 @@ const BEST_RATE: f64 = 1e-3;
 const UNKNOWN_RATE: f64 = 0.5;
 /// Rate of convergence at which a step is given up.
 const WORST_RATE: f64 = 0.9;
-
-/// A system of any size.
-pub(crate) trait Flow<T> {
-    /// Writes the acceleration at a state.
-    fn accelerate(&mut self, at: At<'_, T>, out: &mut [T]) -> Result<(), DynamicsError<T>>;
-    /// Writes `∂q̈/∂q` and `∂q̈/∂q̇` at a state, column by column, if they are known; whether
-    /// they are.
-    fn derivatives(&mut self, at: At<'_, T>, by_q: &mut [T], by_v: &mut [T]) -> bool;
-}
 
 /// What an iteration knows from one step to the next, whatever the sizes are.
 #[derive(Clone, Debug)]

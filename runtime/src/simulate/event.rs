@@ -62,12 +62,14 @@ pub(crate) enum On {
     Constraints,
 }
 
+/// Writes all event functions at a time within a step.
+type Write<'a, T> = dyn FnMut(T, On, &mut [T]) -> Result<(), DynamicsError<T>> + 'a;
+
 /// The event functions along a step.
 pub(crate) struct Along<'a, T> {
     /// Where the step begins and ends.
     ends: (T, T),
-    /// Writes all of them at a time.
-    write: &'a mut dyn FnMut(T, On, &mut [T]) -> Result<(), DynamicsError<T>>,
+    write: &'a mut Write<'a, T>,
 }
 
 impl<T: Real> Default for Events<T> {
@@ -166,8 +168,9 @@ impl<T: Real> Events<T> {
         for (values, t) in sampled.iter_mut().zip(times) {
             *values = along.values(self.events, t, On::Interpolant)?;
         }
+        let values_of = |index: usize| column(|node| sampled[node][index]);
         for index in 0..self.events.len() {
-            let values = column(|node| sampled[node][index]);
+            let values = values_of(index);
             let samples = Samples { times, values };
             self.next[index] = self.search(along, index, samples)?;
         }

@@ -10,6 +10,10 @@ use crate::singular::Found;
 use crate::{ConstraintAudit, DynamicsError, EnergyAudit, Observer, Probe, Real, State, Step};
 use core::ops::ControlFlow;
 
+/// Does something with someone who watches.
+type Show<'a, T, const N: usize> =
+    dyn FnMut(&mut dyn Observer<T, N>) -> Result<ControlFlow<()>, DynamicsError<T>> + 'a;
+
 /// Audits, events and observers of a run.
 pub(super) struct Watchers<'a, 'b, T, const N: usize> {
     constraints: Option<ConstraintAudit<T>>,
@@ -57,10 +61,7 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
 
     /// Does something with all audits and observers; whether one of them broke off.
     #[inline(never)]
-    fn all(
-        &mut self,
-        show: &mut dyn FnMut(&mut dyn Observer<T, N>) -> Result<ControlFlow<()>, DynamicsError<T>>,
-    ) -> Result<ControlFlow<()>, DynamicsError<T>> {
+    fn all(&mut self, show: &mut Show<'_, T, N>) -> Result<ControlFlow<()>, DynamicsError<T>> {
         let mut flow = ControlFlow::Continue(());
         // Audits never break off.
         if let Some(audit) = &mut self.constraints {
