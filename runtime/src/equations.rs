@@ -64,12 +64,12 @@ pub(crate) struct Bound<'a, T, const N: usize, const R: usize> {
 }
 
 /// A state of fixed size. What has another length is cut off, or filled with zeros.
-fn sized<T: Real, const N: usize>(t: T, q: &[T], v: &[T]) -> State<T, N> {
+pub(crate) fn sized<T: Real, const N: usize>(at: At<'_, T>) -> State<T, N> {
     let mut state = State {
-        t,
+        t: at.t,
         ..State::default()
     };
-    for (target, source) in [(&mut state.q, q), (&mut state.v, v)] {
+    for (target, source) in [(&mut state.q, at.q), (&mut state.v, at.v)] {
         copy(target, source);
     }
     state
@@ -87,7 +87,8 @@ impl<T: Real, const N: usize, const R: usize> Equations<T> for Bound<'_, T, N, R
     }
 
     fn locate(&mut self, t: T, q: &[T]) {
-        self.mechanism.position(&sized(t, q, &[]), self.position);
+        let at = At { t, q, v: &[] };
+        self.mechanism.position(&sized(at), self.position);
     }
 
     fn constraints(&self) -> Constraints<'_, T> {
@@ -100,7 +101,6 @@ impl<T: Real, const N: usize, const R: usize> Equations<T> for Bound<'_, T, N, R
     }
 
     fn evaluate(&mut self, state: At<'_, T>) {
-        let state = sized(state.t, state.q, state.v);
-        self.mechanism.terms(&state, self.terms);
+        self.mechanism.terms(&sized(state), self.terms);
     }
 }

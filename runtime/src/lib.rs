@@ -3,6 +3,7 @@
 
 mod assembly;
 mod catalogue;
+mod compiled;
 mod crossing;
 mod dynamics;
 mod equations;

@@ -5,6 +5,7 @@
 //! Not here: lanes, dual numbers and extended precision. A type joins by
 //! implementing this one trait; nothing else in the crate names a float type.
 
+use crate::compiled::Compiled;
 use crate::sincos;
 use crate::singular::Routines;
 use core::fmt::{Debug, Display};
@@ -94,6 +95,12 @@ pub trait Real:
     fn routines() -> &'static Routines<Self> {
         const { &Routines::new() }
     }
+
+    /// What else is compiled where this is.
+    #[doc(hidden)]
+    fn compiled() -> &'static Compiled<Self> {
+        const { &Compiled::new() }
+    }
 }
 
 macro_rules! real_for_float {
@@ -104,6 +111,11 @@ macro_rules! real_for_float {
             fn routines() -> &'static Routines<Self> {
                 static ROUTINES: Routines<$float> = Routines::new();
                 &ROUTINES
+            }
+
+            fn compiled() -> &'static Compiled<Self> {
+                static COMPILED: Compiled<$float> = Compiled::new();
+                &COMPILED
             }
             #[inline(always)]
             fn from_f64(value: f64) -> Self {

@@ -1,9 +1,11 @@
 //! What is known of the conditions of a motion from one attempt at a step to the next.
 //!
 //! In:  what [`super::switching`] finds.
-//! Out: [`Conditions`]: the sides on which they are held, and those that are slid along.
+//! Out: [`Decided`]: the sides on which conditions are held, and those that are slid along;
+//!      [`Conditions`]: the same with the state that it is known for.
 
-use crate::{Condition, Real, Sides, State};
+use super::sliding::Slid;
+use crate::{Condition, DynamicsError, Real, Sides, State, Switch};
 
 /// What an attempt at a step was shortened for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +21,14 @@ pub(super) struct Aim<T> {
 /// The conditions of a motion.
 #[derive(Clone, Debug)]
 pub(crate) struct Conditions<T, const N: usize> {
+    /// The state that they are known for.
+    pub(super) at: Option<State<T, N>>,
+    pub(super) decided: Decided<T>,
+}
+
+/// What was decided about conditions.
+#[derive(Clone, Debug)]
+pub(crate) struct Decided<T> {
     /// All there are.
     pub(super) list: &'static [Condition],
     /// The sides on which they are held.
@@ -29,8 +39,6 @@ pub(crate) struct Conditions<T, const N: usize> {
     pub(super) shares: [T; Sides::ROOM],
     /// Sides, and those slid along, with which the last step was made.
     pub(super) made: Option<(Sides, u128)>,
-    /// The state that they are known for.
-    pub(super) at: Option<State<T, N>>,
     pub(super) aim: Option<Aim<T>>,
     /// When a condition changed last (s).
     pub(super) turned: T,
@@ -46,12 +54,26 @@ impl<T: Real, const N: usize> Conditions<T, N> {
     /// Nothing is known.
     pub(super) fn new() -> Self {
         Self {
+            at: None,
+            decided: Decided::new(),
+        }
+    }
+
+    /// Forgets on which sides a motion was.
+    pub(super) fn forget(&mut self, list: &'static [Condition]) {
+        self.decided.list = list;
+        (self.at, self.decided.made) = (None, None);
+    }
+}
+
+impl<T: Real> Decided<T> {
+    fn new() -> Self {
+        Self {
             list: &[],
             sides: Sides::FREE,
             sliding: 0,
             shares: [T::zero(); Sides::ROOM],
             made: None,
-            at: None,
             aim: None,
             turned: T::zero(),
             turns: 0,
@@ -60,18 +82,24 @@ impl<T: Real, const N: usize> Conditions<T, N> {
         }
     }
 
-    /// Forgets on which sides a motion was.
-    pub(super) fn forget(&mut self, list: &'static [Condition]) {
-        self.list = list;
-        (self.at, self.made) = (None, None);
+    /// Begins at a time with these values of the functions.
+    pub(super) fn begin(&mut self, t: T, values: &[Switch<T>]) {
+        for (index, switch) in (0..).zip(values) {
+            // On the wrong side of zero for zero: the first step will show it.
+            self.sides.hold(index, switch.value >= T::zero());
+        }
+        (self.sliding, self.turns) = (0, 0);
+        (self.turned, self.attempt) = (t, T::zero());
+        self.burst = (t, 0);
+        self.aim = None;
     }
 
     /// Holds the conditions as another motion did in its last step; where it has made
     /// none, the state decides.
     pub(super) fn adopt(&mut self, other: &Self) {
         self.made = other.made;
-        self.shares = other.shares;
         if let Some((sides, sliding)) = self.made {
+            self.shares = other.shares;
             (self.sides, self.sliding) = (sides, sliding);
         }
     }
@@ -86,5 +114,17 @@ impl<T: Real, const N: usize> Conditions<T, N> {
 
     pub(super) fn slides(&self, index: usize) -> bool {
         self.sliding >> index & 1 == 1
+    }
+
+    /// The conditions that the motion slides along at a time.
+    #[inline(never)]
+    pub(super) fn slid(&self, t: T) -> Result<Slid, DynamicsError<T>> {
+        let mut slid = Slid::new(self.sides);
+        for (index, condition) in self.list.iter().enumerate().take(Sides::ROOM) {
+            if self.slides(index) && !slid.push(index) {
+                return Err(DynamicsError::Sticks { t, condition });
+            }
+        }
+        Ok(slid)
     }
 }

@@ -206,7 +206,7 @@ where
     #[inline(never)]
     pub(crate) fn follow(&mut self, other: &Self) {
         let (here, there) = (&mut *self.solver, &*other.solver);
-        here.conditions.adopt(&there.conditions);
+        here.conditions.decided.adopt(&there.conditions.decided);
         let chart = there.session.used.as_ref().or(there.session.chart.as_ref());
         if here.session.chart.is_some() || chart.is_some() {
             here.session.base = there.session.base;

@@ -10,10 +10,24 @@
 //! mass matrix, so that the result does not depend on units.
 
 use super::Core;
-use crate::linalg::{Triangle, column};
+use crate::linalg::{Triangle, Workspace, add_scaled};
 use crate::singular::Point;
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
+
+/// Vectors of all coordinates that the least squares have room for.
+const VECTORS: usize = 5;
+
+/// What the rows of the least squares are made of, over slices.
+pub(crate) struct Squares<'a, T> {
+    mass: &'a [T],
+    force: &'a [T],
+    /// `D̃`, and the coordinates in the chart that go with it.
+    tangent: &'a [T],
+    dual: &'a [T],
+    /// The acceleration that the constraints demand.
+    particular: &'a [T],
+}
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The acceleration by least squares.
@@ -33,81 +47,114 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         self.counters.robust_accelerations += 1;
         mechanism.terms(&point.state, &mut self.terms);
-        let unit = self.units();
-        let mut triangle = Triangle::default();
-        self.insert_motion(&mut triangle, &unit);
-        self.insert_decided(&mut triangle, &unit, &point);
-        self.insert_ideality(&mut triangle, &unit, &point);
-        let (scaled, _reaction) = triangle.solve();
-        Ok(self.stabilised(scaled.component_mul(&unit), state, &point))
-    }
-
-    /// What one unit of each scaled acceleration is worth: `1/√mⱼⱼ`, or one for a
-    /// coordinate without inertia.
-    pub(super) fn units(&self) -> SVector<T, N> {
-        let unit = |j: usize| {
-            let mass = self.terms.mass[(j, j)];
-            if mass > T::zero() {
-                T::one() / mass.sqrt()
-            } else {
-                T::one()
-            }
+        let freedoms = self.freedoms();
+        let chart = self.session.chart.as_ref();
+        let squares = Squares {
+            mass: self.terms.mass.as_slice(),
+            force: self.terms.force.as_slice(),
+            tangent: &point.tangent.as_slice()[..N * freedoms],
+            dual: chart.map_or(&[], |chart| chart.dual.as_slice()),
+            particular: point.particular.as_slice(),
         };
-        SVector::from(column(unit))
+        let mut matrices = [[[T::zero(); N]; N]; 3];
+        let mut vectors = [[T::zero(); N]; VECTORS];
+        let workspace = Workspace::new(
+            matrices.as_flattened_mut().as_flattened_mut(),
+            vectors.as_flattened_mut(),
+            &mut [],
+        );
+        let mut acceleration = SVector::<T, N>::zeros();
+        (T::compiled().least_squares)(&squares, &workspace, acceleration.as_mut_slice());
+        Ok(self.stabilised(acceleration, state, &point))
+    }
+}
+
+/// What one unit of each scaled acceleration is worth: `1/√mⱼⱼ`, or one for a
+/// coordinate without inertia.
+pub(super) fn set_units<T: Real>(mass: &[T], units: &mut [T]) {
+    let n = units.len();
+    for (unit, mass) in units.iter_mut().zip(mass.iter().step_by(n + 1)) {
+        *unit = match *mass > T::zero() {
+            true => T::one() / mass.sqrt(),
+            false => T::one(),
+        };
+    }
+}
+
+impl<T: Real> Squares<'_, T> {
+    /// The acceleration of least squares.
+    pub(crate) fn solve(&self, workspace: &Workspace<'_, T>, acceleration: &mut [T]) {
+        let n = acceleration.len();
+        let mut triangle = Triangle::new(n, workspace);
+        let (a, b) = (workspace.numbers(n), workspace.numbers(n));
+        let unit = workspace.numbers(n);
+        set_units(self.mass, unit);
+        self.insert_motion(&mut triangle, unit, (a, b));
+        self.insert_decided(&mut triangle, unit, (a, b));
+        self.insert_ideality(&mut triangle, unit, (a, b));
+        let (scaled, _reaction) = triangle.solve();
+        for ((acceleration, scaled), unit) in acceleration.iter_mut().zip(scaled).zip(&*unit) {
+            *acceleration = *scaled * *unit;
+        }
     }
 
     /// `M q̈ + r = p₁`.
-    #[inline(never)]
-    fn insert_motion(&self, triangle: &mut Triangle<T, N>, unit: &SVector<T, N>) {
-        for i in 0..N {
-            let row = column(|j| unit[i] * self.terms.mass[(i, j)] * unit[j]);
-            let mut identity = [T::zero(); N];
-            identity[i] = T::one();
-            triangle.insert(row, identity, unit[i] * self.terms.force[i]);
+    fn insert_motion(
+        &self,
+        triangle: &mut Triangle<'_, T>,
+        unit: &[T],
+        (a, b): (&mut [T], &mut [T]),
+    ) {
+        let n = unit.len();
+        for (i, force) in self.force.iter().enumerate() {
+            for (j, entry) in a.iter_mut().enumerate() {
+                *entry = unit[i] * self.mass[j * n + i] * unit[j];
+            }
+            b.fill(T::zero());
+            b[i] = T::one();
+            triangle.insert(a, b, unit[i] * *force);
         }
     }
 
     /// What the constraints decide: `q̈ − aₚ` lies in the tangent space. The projection
     /// `1 − D̃D*` onto the complement has as many rows as there are coordinates.
-    #[inline(never)]
     fn insert_decided(
         &self,
-        triangle: &mut Triangle<T, N>,
-        unit: &SVector<T, N>,
-        point: &Point<T, N>,
+        triangle: &mut Triangle<'_, T>,
+        unit: &[T],
+        (a, b): (&mut [T], &mut [T]),
     ) {
-        let Some(chart) = &self.session.chart else {
-            return;
-        };
-        for i in 0..N {
-            let mut row = [T::zero(); N];
-            row[i] = T::one();
-            for k in 0..chart.freedoms {
-                let share = point.tangent[(i, k)];
-                for (entry, dual) in row.iter_mut().zip(&chart.dual.data.0[k]) {
-                    *entry -= share * *dual;
-                }
+        let n = unit.len();
+        for i in 0..n {
+            a.fill(T::zero());
+            b.fill(T::zero());
+            a[i] = T::one();
+            let columns = self.tangent.chunks_exact(n).zip(self.dual.chunks_exact(n));
+            for (tangent, dual) in columns {
+                add_scaled(a, -tangent[i], dual);
             }
             let mut value = T::zero();
-            for (j, entry) in row.iter_mut().enumerate() {
+            for (j, entry) in a.iter_mut().enumerate() {
                 *entry *= unit[j] / unit[i];
-                value += *entry / unit[j] * point.particular[j];
+                value += *entry / unit[j] * self.particular[j];
             }
-            triangle.insert(row, [T::zero(); N], value);
+            triangle.insert(a, b, value);
         }
     }
 
     /// `D̃ᵀr = 0`: ideal constraints do no work in the free directions.
-    #[inline(never)]
     fn insert_ideality(
         &self,
-        triangle: &mut Triangle<T, N>,
-        unit: &SVector<T, N>,
-        point: &Point<T, N>,
+        triangle: &mut Triangle<'_, T>,
+        unit: &[T],
+        (a, b): (&mut [T], &mut [T]),
     ) {
-        for k in 0..self.freedoms() {
-            let row = column(|j| point.tangent[(j, k)] / unit[j]);
-            triangle.insert([T::zero(); N], row, T::zero());
+        for tangent in self.tangent.chunks_exact(unit.len().max(1)) {
+            a.fill(T::zero());
+            for ((entry, tangent), unit) in b.iter_mut().zip(tangent).zip(unit) {
+                *entry = *tangent / *unit;
+            }
+            triangle.insert(a, b, T::zero());
         }
     }
 }

@@ -9,9 +9,13 @@
 //! `A_d` is as well conditioned as the position allows.
 
 use super::Core;
-use crate::linalg::{Elimination, project_onto};
+use super::full::set_units;
+use crate::linalg::{Elimination, Workspace, add_along, add_scaled};
 use crate::{DynamicsError, Mechanism, Real, State};
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
+
+/// Vectors of all coordinates that the elimination has room for.
+const VECTORS: usize = 3;
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The acceleration, by elimination of the dependent coordinates.
@@ -26,63 +30,71 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.require_independent_rows(mechanism, state)?;
         self.counters.cheap_accelerations += 1;
         let mut jacobian = self.terms.jacobian;
-        for row in 0..R {
-            jacobian
-                .row_mut(row)
-                .iter_mut()
-                .for_each(|x| *x *= self.rows.scale(row));
+        for column in &mut jacobian.data.0 {
+            for (row, entry) in column.iter_mut().enumerate() {
+                *entry *= self.rows.scale(row);
+            }
         }
-        let right = SVector::from(self.scaled(&bias));
-        let eliminated = Elimination::new(&jacobian, &right, &self.units());
-        let particular = particular(&eliminated);
-        let (null_space, free) = null_space(&eliminated);
-        let force = self.terms.force - self.terms.mass * particular;
-        let t = state.t;
-        project_onto(&self.terms.mass, &null_space, free, &force)
-            .map(|change| particular + change)
-            .map_err(|column| DynamicsError::MassSingular {
-                t,
-                coordinate: independent(&eliminated, column),
-                structure: mechanism.structure(),
-            })
+        let mut right = self.scaled(&bias);
+        let mut columns = [[T::zero(); N]; N];
+        let mut vectors = [[T::zero(); N]; VECTORS];
+        let mut dependent = [0; R];
+        let workspace = Workspace::new(
+            columns.as_flattened_mut(),
+            vectors.as_flattened_mut(),
+            &mut dependent,
+        );
+        let mut acceleration = SVector::<T, N>::zeros();
+        (T::compiled().partition)(
+            (self.terms.mass.as_slice(), self.terms.force.as_slice()),
+            (jacobian.as_mut_slice(), &mut right),
+            &workspace,
+            acceleration.as_mut_slice(),
+        )
+        .map_err(|coordinate| DynamicsError::MassSingular {
+            t: state.t,
+            coordinate,
+            structure: mechanism.structure(),
+        })?;
+        Ok(acceleration)
     }
 }
 
-/// `q̈ₚ`: dependent coordinates from `p₂`, independent ones zero.
-fn particular<T: Real, const N: usize, const R: usize>(
-    eliminated: &Elimination<T, N, R>,
-) -> SVector<T, N> {
-    let mut particular = SVector::zeros();
-    for k in 0..eliminated.rank {
-        particular[eliminated.dependent[k]] = eliminated.offset[k];
+/// The acceleration by mass matrix and force, constraint rows and their right-hand sides,
+/// which are used up; or an independent coordinate along which there is no mass.
+pub(crate) fn partition<'a, T: Real>(
+    (mass, force): (&[T], &[T]),
+    (jacobian, right): (&'a mut [T], &'a mut [T]),
+    workspace: &Workspace<'a, T>,
+    acceleration: &mut [T],
+) -> Result<(), usize> {
+    let (n, rows) = (force.len(), right.len());
+    let columns = workspace.numbers(n * n);
+    let units = workspace.numbers(n);
+    set_units(mass, units);
+    let eliminated = Elimination::new(jacobian, right, units, workspace);
+    // `q̈ₚ`: dependent coordinates from `p₂`, independent ones zero.
+    for (j, offset) in eliminated.dependent.iter().zip(&*eliminated.offset) {
+        acceleration[*j] = *offset;
     }
-    particular
-}
-
-/// The coordinate that moves in a column of `D` and in no other.
-fn independent<T: Real, const N: usize, const R: usize>(
-    eliminated: &Elimination<T, N, R>,
-    column: usize,
-) -> usize {
-    let dependent = &eliminated.dependent[..eliminated.rank];
-    let mut independent = (0..N).filter(|j| !dependent.contains(j));
-    independent.nth(column).unwrap_or(column)
-}
-
-/// The columns of `D`, and how many there are.
-#[inline(never)]
-fn null_space<T: Real, const N: usize, const R: usize>(
-    eliminated: &Elimination<T, N, R>,
-) -> (SMatrix<T, N, N>, usize) {
-    let dependent = &eliminated.dependent[..eliminated.rank];
-    let mut columns = SMatrix::zeros();
+    let is_free = |j: &usize| !eliminated.dependent.contains(j);
     let mut count = 0;
-    for independent in (0..N).filter(|j| !dependent.contains(j)) {
-        columns[(independent, count)] = T::one();
-        for (k, &j) in dependent.iter().enumerate() {
-            columns[(j, count)] = -eliminated.table[(k, independent)];
+    for independent in (0..n).filter(is_free) {
+        let column = &mut columns[count * n..][..n];
+        column[independent] = T::one();
+        let table = &eliminated.table[independent * rows..][..rows];
+        for (j, entry) in eliminated.dependent.iter().zip(table) {
+            column[*j] = -*entry;
         }
         count += 1;
     }
-    (columns, count)
+    let rest = workspace.numbers(n);
+    rest.copy_from_slice(force);
+    for (j, entry) in acceleration.iter().enumerate() {
+        add_scaled(rest, -*entry, &mass[j * n..][..n]);
+    }
+    let columns = &mut columns[..count * n];
+    // What the weights were in is free.
+    add_along(mass, columns, rest, units, acceleration)
+        .map_err(|column| (0..n).filter(is_free).nth(column).unwrap_or(column))
 }

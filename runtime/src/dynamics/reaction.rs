@@ -5,11 +5,11 @@
 //!      `r = Aᵀλ`, as far as they are determined.
 
 use super::{ConstrainedSystem, Core, Source, Which};
-use crate::linalg::{column, dot};
+use crate::linalg::{add_scaled, dot};
 use crate::stack::with_room;
 use crate::system::escalating;
 use crate::tolerance::regular;
-use crate::{DynamicsError, Mechanism, Real, State};
+use crate::{DynamicsError, Mechanism, Real, State, Terms};
 use nalgebra::SVector;
 
 impl<M, T: Real, const N: usize, const R: usize> ConstrainedSystem<'_, M, T, N, R>
@@ -32,9 +32,8 @@ where
         let acceleration = self.acceleration(state)?;
         with_room::<T, _, N, R>(|| self.mechanism.terms(state, &mut self.solver.terms));
         let terms = &self.solver.terms;
-        // `M` is not copied, as `*` does.
         let mut reaction = terms.force;
-        reaction.gemv(-T::one(), &terms.mass, &acceleration, T::one());
+        subtract_image(reaction.as_mut_slice(), terms, &acceleration);
         Ok((acceleration, reaction))
     }
 
@@ -59,7 +58,7 @@ where
         state: &State<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         let charted = self.solver.session.chart.is_some();
-        let Some((sides, _)) = self.solver.conditions.made else {
+        let Some((sides, _)) = self.solver.conditions.decided.made else {
             return match charted {
                 true => self.solver.acceleration(self.mechanism, state),
                 false => self.acceleration(state),
@@ -105,27 +104,30 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         state: &State<T, N>,
         acceleration: &SVector<T, N>,
     ) -> SVector<T, N> {
-        let sides = self.terms.sides;
+        let terms = &mut self.terms;
+        let decided = &self.conditions.decided;
+        let sides = terms.sides;
         let mut below = sides;
-        let mut force = SVector::zeros();
-        let sliding = (0..self.conditions.list.len()).filter(|i| self.conditions.slides(*i));
+        let mut reaction = SVector::<T, N>::zeros();
+        let mut add = |sides, share| {
+            terms.sides = sides;
+            mechanism.terms(state, terms);
+            add_scaled(reaction.as_mut_slice(), share, terms.force.as_slice());
+        };
+        let sliding = (0..decided.list.len()).filter(|index| decided.slides(*index));
         for index in sliding.clone() {
             below.hold(index as u32, false);
         }
         for index in sliding {
             let mut above = below;
             above.hold(index as u32, true);
-            for (sides, share) in [(above, T::one()), (below, -T::one())] {
-                self.terms.sides = sides;
-                mechanism.terms(state, &mut self.terms);
-                force += self.terms.force * (share * self.conditions.shares[index]);
-            }
+            let share = decided.shares[index];
+            add(above, share);
+            add(below, -share);
         }
-        self.terms.sides = below;
-        mechanism.terms(state, &mut self.terms);
-        self.terms.sides = sides;
-        let mut reaction = force + self.terms.force;
-        reaction.gemv(-T::one(), &self.terms.mass, acceleration, T::one());
+        add(below, T::one());
+        terms.sides = sides;
+        subtract_image(reaction.as_mut_slice(), terms, acceleration);
         reaction
     }
 
@@ -142,23 +144,54 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let combined = self.combine(Source::Terms, Which::All, t)?;
         let mut lifted = reaction.data.0[0];
         self.metric.factor.forward(&mut lifted);
-        let mut multipliers = [T::zero(); R];
-        let mut shared = [false; R];
-        for (k, value) in combined.values.iter().enumerate() {
-            let left = &combined.left.data.0[k];
-            if *value > regular() {
-                let share = dot(&combined.directions.data.0[k], &lifted) / *value;
-                for (multiplier, part) in multipliers.iter_mut().zip(left) {
-                    *multiplier += *part * share;
-                }
-            } else {
-                for (shared, part) in shared.iter_mut().zip(left) {
-                    *shared |= part.abs() > regular();
-                }
+        let mut multipliers = [None; R];
+        share_out(
+            (combined.directions.as_slice(), combined.left.as_slice()),
+            &combined.values,
+            &lifted,
+            &mut multipliers,
+        );
+        for (row, multiplier) in multipliers.iter_mut().enumerate() {
+            if let Some(multiplier) = multiplier {
+                *multiplier *= self.rows.scale(row);
             }
         }
-        Ok(column(|row| {
-            (!shared[row]).then_some(multipliers[row] * self.rows.scale(row))
-        }))
+        Ok(multipliers)
+    }
+}
+
+/// Subtracts `M q̈`.
+fn subtract_image<T: Real, const N: usize, const R: usize>(
+    reaction: &mut [T],
+    terms: &Terms<T, N, R>,
+    acceleration: &SVector<T, N>,
+) {
+    for (column, acceleration) in terms.mass.data.0.iter().zip(acceleration.as_slice()) {
+        add_scaled(reaction, -*acceleration, column);
+    }
+}
+
+/// The `λ` of scaled rows, from directions that combinations of rows decide, those
+/// combinations, their singular values and the reaction; none for rows of which a
+/// combination decides nothing.
+fn share_out<T: Real>(
+    (directions, left): (&[T], &[T]),
+    values: &[T],
+    reaction: &[T],
+    multipliers: &mut [Option<T>],
+) {
+    let (n, rows) = (reaction.len(), values.len());
+    multipliers.fill(Some(T::zero()));
+    for (k, value) in values.iter().enumerate() {
+        let (direction, parts) = (&directions[k * n..][..n], &left[k * rows..][..rows]);
+        let decides = *value > regular();
+        let share = dot(direction, reaction) / *value;
+        for (multiplier, part) in multipliers.iter_mut().zip(parts) {
+            match multiplier {
+                Some(multiplier) if decides => *multiplier += *part * share,
+                Some(_) if part.abs() > regular() => *multiplier = None,
+                _ => {}
+            }
+        }
     }
 }

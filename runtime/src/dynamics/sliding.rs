@@ -11,129 +11,88 @@
 //! Source: Filippov, Differential Equations with Discontinuous Righthand Sides (1988),
 //! section 4.
 
-use super::Core;
-use super::switching::{earliest, values};
-use crate::crossing::{NODES, nodes};
 use crate::linalg::column;
-use crate::{DynamicsError, Mechanism, Real, Sides, State, Step};
-use nalgebra::SVector;
+use crate::{DynamicsError, Real, Sides, Switch};
 
 /// Conditions that a motion may slide along at a time.
-const ROOM: usize = 16;
+pub(super) const ROOM: usize = 16;
 
-impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
-    /// The acceleration with the conditions held, also where the motion slides along some.
-    #[inline(always)]
-    pub(super) fn held_acceleration<M: Mechanism<T, N, R> + ?Sized>(
-        &mut self,
-        mechanism: &M,
-        state: &State<T, N>,
-    ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        match self.conditions.sliding {
-            0 => self.acceleration(mechanism, state),
-            _ => self.sliding_acceleration(&mechanism, state),
+/// The conditions that a motion slides along.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slid {
+    list: [usize; ROOM],
+    count: usize,
+    /// All are held below zero, the others as they are.
+    below: Sides,
+}
+
+/// How much of the force above zero acts for each condition.
+pub(crate) type Shares<T> = [T; ROOM];
+
+/// An acceleration with the conditions held on these sides, which it writes, and the
+/// switching functions with their rates.
+pub(crate) type Accelerate<'a, T> =
+    &'a mut dyn FnMut(Sides, &mut [Switch<T>], &mut [T]) -> Result<(), DynamicsError<T>>;
+
+impl Slid {
+    /// None yet, the others held on these sides.
+    pub(super) fn new(below: Sides) -> Self {
+        Self {
+            list: [0; ROOM],
+            count: 0,
+            below,
         }
     }
 
-    /// The acceleration of a motion that slides.
-    #[inline(never)]
-    fn sliding_acceleration(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        state: &State<T, N>,
-    ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        let (list, count) = self.sliding_list(state)?;
-        let list = &list[..count];
-        let mut sides = self.conditions.sides;
-        for &index in list {
-            sides.hold(index as u32, false);
-        }
-        self.decide(sides);
-        let below = self.acceleration(mechanism, state)?;
-        let rates = values(mechanism, state, &below);
-        let mut changes = [SVector::<T, N>::zeros(); ROOM];
+    /// One more, if there is room for it.
+    pub(super) fn push(&mut self, index: usize) -> bool {
+        let Some(place) = self.list.get_mut(self.count) else {
+            return false;
+        };
+        *place = index;
+        self.count += 1;
+        self.below.hold(index as u32, false);
+        true
+    }
+
+    /// Their places among the conditions.
+    pub(super) fn list(&self) -> &[usize] {
+        &self.list[..self.count]
+    }
+
+    /// The acceleration of `n` coordinates, in the first of `ROOM + 1` vectors, and the
+    /// shares.
+    pub(crate) fn slide<T: Real>(
+        &self,
+        n: usize,
+        vectors: &mut [T],
+        accelerate: Accelerate<'_, T>,
+    ) -> Result<Shares<T>, DynamicsError<T>> {
+        let (below, above) = vectors.split_at_mut(n);
+        let mut rates = [Switch::default(); Sides::ROOM];
+        accelerate(self.below, &mut rates, below)?;
         // Row `j`: how the rate of function `j` changes with each share; what it lacks.
         let mut table = [[T::zero(); ROOM + 1]; ROOM];
-        for (row, &j) in table.iter_mut().zip(list) {
-            row[count] = -rates[j].rate;
+        for (row, &j) in table.iter_mut().zip(self.list()) {
+            row[self.count] = -rates[j].rate;
         }
-        for (i, &index) in list.iter().enumerate() {
-            let mut one = sides;
+        for (i, &index) in self.list().iter().enumerate() {
+            let mut one = self.below;
             one.hold(index as u32, true);
-            self.decide(one);
-            let above = self.acceleration(mechanism, state)?;
-            let changed = values(mechanism, state, &above);
-            for (row, &j) in table.iter_mut().zip(list) {
+            let mut changed = [Switch::default(); Sides::ROOM];
+            accelerate(one, &mut changed, &mut above[i * n..(i + 1) * n])?;
+            for (row, &j) in table.iter_mut().zip(self.list()) {
                 row[i] = changed[j].rate - rates[j].rate;
             }
-            changes[i] = above - below;
         }
-        let shares = solve(&mut table, count);
-        let mut acceleration = below;
-        for ((&index, share), change) in list.iter().zip(shares).zip(&changes) {
-            acceleration += change * share;
-            self.conditions.shares[index] = share;
-        }
-        self.decide(self.conditions.sides);
-        Ok(acceleration)
-    }
-
-    /// The conditions that the motion slides along.
-    #[inline(never)]
-    fn sliding_list(
-        &self,
-        state: &State<T, N>,
-    ) -> Result<([usize; ROOM], usize), DynamicsError<T>> {
-        let mut list = [0; ROOM];
-        let mut count = 0;
-        for (index, condition) in self.conditions.list.iter().enumerate().take(Sides::ROOM) {
-            if self.conditions.slides(index) {
-                if count == ROOM {
-                    return Err(DynamicsError::Sticks {
-                        t: state.t,
-                        condition,
-                    });
-                }
-                list[count] = index;
-                count += 1;
+        let shares = solve(&mut table, self.count);
+        for (j, sum) in below.iter_mut().enumerate() {
+            let held = *sum;
+            for (i, share) in shares[..self.count].iter().enumerate() {
+                *sum += (above[i * n + j] - held) * *share;
             }
         }
-        Ok((list, count))
-    }
-
-    /// When one side no longer pushes back within a step that slides along a condition.
-    #[inline(never)]
-    pub(super) fn end_of_sliding(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        step: &Step<T, N>,
-        index: usize,
-    ) -> Result<Option<T>, DynamicsError<T>> {
-        let times = nodes((step.start().t, step.end().t));
-        let noise = self.noise();
-        let mut first: Option<T> = None;
-        // What is left of either side's share.
-        for above in [true, false] {
-            let mut left = |t| {
-                self.held_acceleration(mechanism, &step.at(t))?;
-                let share = self.conditions.shares[index];
-                Ok(if above { T::one() - share } else { share })
-            };
-            let mut samples = [T::zero(); NODES];
-            for (sample, t) in samples.iter_mut().zip(times) {
-                *sample = left(t)?;
-            }
-            let found = earliest(&mut left, (times, samples), T::one(), noise)?;
-            first = match (first, found) {
-                (Some(a), Some(b)) => Some(a.min(b)),
-                (a, b) => a.or(b),
-            };
-        }
-        if let Some(t) = first {
-            // The shares there say which side it leaves to.
-            self.held_acceleration(mechanism, &step.at(t))?;
-        }
-        Ok(first)
+        Ok(shares)
     }
 }
 

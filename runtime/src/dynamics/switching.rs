@@ -1,22 +1,23 @@
-//! Forces that jump or kink: each step is made with the conditions held.
+//! Forces that jump or kink: where conditions change within an attempt at a step.
 //!
-//! In:  attempts at steps, made with the conditions that held at their start.
+//! In:  attempts at steps, made with the conditions that held at their start ([`Motion`]).
 //! Out: where the first of them changes; the conditions from there on.
 //!
 //! A condition hangs on the side of zero of a switching function. Held on its side, the
 //! forces are smooth over the step and beyond, so that the step's own interpolant tells
 //! when the function passes zero, and the step can be made again to end there. Where the
 //! motion is pushed back to zero from both sides, as by dry friction that holds, it slides
-//! along ([`super::sliding`]).
+//! along ([`super::sliding`]). All of that is over times and values, and compiled once for
+//! mechanisms of all sizes.
+//!
+//! Not here: how the conditions are held ([`super::locking`]).
 //!
 //! Source: Park & Barton, ACM Transactions on Modeling and Computer Simulation 6 (1996)
 //! 137–165 (discontinuity locking).
 
-use super::Core;
-use super::conditions::Aim;
+use super::conditions::{Aim, Decided};
 use crate::crossing::{Left, NODES, Samples, first_crossing, nodes, zero};
-use crate::{DynamicsError, Mechanism, Real, Sides, State, Step, Switch, Switching, Watched};
-use nalgebra::SVector;
+use crate::{DynamicsError, Real, Sides, Switch, Switching, Watched};
 
 /// Attempts to end a step where one function passes zero, after the first.
 const REFINEMENTS: u32 = 3;
@@ -24,10 +25,6 @@ const REFINEMENTS: u32 = 3;
 const AT_ONCE: usize = 8;
 /// Times closer than this multiple of the round-off of time are one.
 const SAME_TIME: f64 = 8.0;
-/// Functions of states within a step are off by this part of its accepted error.
-const NOISE: f64 = 0.01;
-/// The same in units of round-off, at least and with fixed steps.
-const NOISE_OF_FIXED: f64 = 4096.0;
 /// Conditions that change again after this part of an attempt at a step get nowhere.
 const HARDLY_LATER: f64 = 1e-6;
 /// Changes in a row that get nowhere, besides some for each condition there is.
@@ -36,66 +33,36 @@ const MOST_TURNS: usize = 100;
 /// trembles by as much as noise lets it, and a run would never end.
 const MOST_AT_ONCE: usize = 10_000;
 
-/// The values of all switching functions at a state.
-pub(super) type Values<T> = [Switch<T>; Sides::ROOM];
+/// The motion of a mechanism of any size in an attempt at a step.
+pub(crate) trait Motion<T> {
+    /// What is decided about its conditions.
+    fn decided(&mut self) -> &mut Decided<T>;
+    /// When the attempt begins and ends.
+    fn ends(&self) -> (T, T);
+    /// What functions are off by in between, relative to their size there.
+    fn noise(&self) -> T;
+    /// Writes the values of switching functions at a time, as many as there is room for.
+    fn values(&self, t: T, values: &mut [Switch<T>]);
+    /// The same with their rates, with the conditions held as was decided. Without room, no
+    /// more than the shares of the conditions that are slid along.
+    fn rates(&mut self, t: T, values: &mut [Switch<T>]) -> Result<(), DynamicsError<T>>;
+}
 
-impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
-    /// Hands the sides to everything that evaluates forces.
-    pub(super) fn decide(&mut self, sides: Sides) {
-        self.terms.sides = sides;
-        self.regular.sides = sides;
-    }
-
-    /// Lets the state decide the conditions.
-    pub(super) fn release(&mut self) {
-        if !self.conditions.list.is_empty() {
-            self.decide(Sides::FREE);
-        }
-    }
-
-    /// Holds the conditions as they are at the start of a step; whether there are any.
-    pub(super) fn hold(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) -> bool {
-        let count = self.conditions.list.len();
-        if count == 0 {
-            return false;
-        }
-        if self.conditions.at.as_ref() != Some(state) {
-            let values = values(mechanism, state, &SVector::zeros());
-            let conditions = &mut self.conditions;
-            for (index, switch) in (0..).zip(&values[..count]) {
-                // On the wrong side of zero for zero: the first step will show it.
-                conditions.sides.hold(index, switch.value >= T::zero());
-            }
-            (conditions.sliding, conditions.turns) = (0, 0);
-            (conditions.turned, conditions.attempt) = (state.t, T::zero());
-            conditions.burst = (state.t, 0);
-            conditions.aim = None;
-            conditions.at = Some(*state);
-        }
-        self.decide(self.conditions.sides);
-        true
-    }
-
+impl<T: Real> dyn Motion<T> + '_ {
     /// Where the first condition changes within a step that was made with those at its
     /// start.
-    pub(super) fn switch(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        step: &Step<T, N>,
-    ) -> Result<Switching<T>, DynamicsError<T>> {
-        if self.conditions.list.is_empty() {
-            return Ok(Switching::Nowhere);
-        }
-        self.conditions.made = Some((self.conditions.sides, self.conditions.sliding));
-        let (start, end) = (step.start().t, step.end().t);
+    pub(crate) fn switch(&mut self) -> Result<Switching<T>, DynamicsError<T>> {
+        let (start, end) = self.ends();
         let same = T::EPSILON * T::from_f64(SAME_TIME) * start.abs().max(end.abs());
-        self.conditions.attempt = self.conditions.attempt.max(end - start);
+        let decided = self.decided();
+        decided.made = Some((decided.sides, decided.sliding));
+        decided.attempt = decided.attempt.max(end - start);
         // An attempt that was too long for its tolerance ends earlier than it should.
-        let aim = self.conditions.aim.take();
+        let aim = decided.aim.take();
         let aim = aim.filter(|aim| end >= aim.t - same);
-        let index = match self.first_change(mechanism, step)? {
+        let index = match self.first_change()? {
             Some((index, t)) if t <= start + same => {
-                self.turn(mechanism, index, step.start())?;
+                self.turn(index, start)?;
                 return Ok(Switching::AtStart);
             }
             Some((index, t)) => {
@@ -105,152 +72,98 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
                     .filter(|aim| aim.index == index && near)
                     .map_or(0, |aim| aim.tries + 1);
                 if t < end - same && tries <= REFINEMENTS {
-                    self.conditions.aim = Some(Aim { index, t, tries });
+                    self.decided().aim = Some(Aim { index, t, tries });
                     return Ok(Switching::Within(t));
                 }
                 index
             }
             None => match aim {
                 None => {
-                    self.settle(step.end());
+                    self.decided().attempt = T::zero();
                     return Ok(Switching::Nowhere);
                 }
                 Some(aim) => {
-                    if let Some(t) = self.refined(mechanism, step, aim, same)? {
-                        self.conditions.aim = Some(Aim {
-                            t,
-                            tries: aim.tries + 1,
-                            ..aim
-                        });
+                    if let Some(t) = self.refined(aim, same)? {
+                        let tries = aim.tries + 1;
+                        self.decided().aim = Some(Aim { t, tries, ..aim });
                         return Ok(Switching::Within(t));
                     }
                     aim.index
                 }
             },
         };
-        self.turn(mechanism, index, step.end())?;
-        self.settle(step.end());
+        self.turn(index, end)?;
+        self.decided().attempt = T::zero();
         Ok(Switching::AtEnd)
-    }
-
-    /// What a function is off by within a step, relative to its size there.
-    pub(super) fn noise(&self) -> T {
-        let tolerance = self.session.tolerance.unwrap_or(T::zero());
-        (tolerance * T::from_f64(NOISE)).max(T::EPSILON * T::from_f64(NOISE_OF_FIXED))
-    }
-
-    /// Time has gone on to a state.
-    fn settle(&mut self, state: &State<T, N>) {
-        self.conditions.at = Some(*state);
-        self.conditions.attempt = T::zero();
     }
 
     /// A better time for a function to pass zero, by Newton's method from the end of an
     /// attempt; none if that was good enough.
-    #[inline(never)]
-    fn refined(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        step: &Step<T, N>,
-        aim: Aim<T>,
-        same: T,
-    ) -> Result<Option<T>, DynamicsError<T>> {
-        if aim.tries >= REFINEMENTS || self.conditions.slides(aim.index) {
+    fn refined(&mut self, aim: Aim<T>, same: T) -> Result<Option<T>, DynamicsError<T>> {
+        if aim.tries >= REFINEMENTS || self.decided().slides(aim.index) {
             return Ok(None);
         }
-        let acceleration = self.held_acceleration(mechanism, step.end())?;
-        let Switch { value, rate } = one(mechanism, step.end(), &acceleration, aim.index);
+        let (start, end) = self.ends();
+        let Switch { value, rate } = self.rate(end, aim.index)?;
         let change = -(value / rate);
         // False for NaN, too: a function that only just reaches zero.
-        let worth = change.abs() > same && change.abs() < step.length() * T::from_f64(0.1);
-        Ok(worth.then(|| step.end().t + change))
+        let worth = change.abs() > same && change.abs() < (end - start) * T::from_f64(0.1);
+        Ok(worth.then(|| end + change))
     }
 
-    /// Changes a condition at a state: to its other side, or to sliding if the motion is
+    /// Changes a condition at an end: to its other side, or to sliding if the motion is
     /// pushed back from there; off that again where one side no longer pushes.
-    #[inline(never)]
-    fn turn(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        index: usize,
-        state: &State<T, N>,
-    ) -> Result<(), DynamicsError<T>> {
-        self.count_turn(index, state.t)?;
+    fn turn(&mut self, index: usize, t: T) -> Result<(), DynamicsError<T>> {
+        let decided = self.decided();
+        decided.count_turn(index, t)?;
         let place = index as u32;
-        if self.conditions.slides(index) {
-            let above = self.conditions.shares[index] > T::from_f64(0.5);
-            self.conditions.sliding &= !(1 << index);
-            self.conditions.sides.hold(place, above);
-            self.decide(self.conditions.sides);
+        if decided.slides(index) {
+            let above = decided.shares[index] > T::from_f64(0.5);
+            decided.sliding &= !(1 << index);
+            decided.sides.hold(place, above);
             return Ok(());
         }
-        let side = self.conditions.side(index);
+        let side = decided.side(index);
         let mut pushes = [T::zero(); 2];
         for (push, above) in pushes.iter_mut().zip([side > T::zero(), side < T::zero()]) {
-            self.conditions.sides.hold(place, above);
-            self.decide(self.conditions.sides);
-            let acceleration = self.held_acceleration(mechanism, state)?;
-            *push = one(mechanism, state, &acceleration, index).rate * side;
+            self.decided().sides.hold(place, above);
+            *push = self.rate(t, index)?.rate * side;
         }
         let [leaves, returns] = [pushes[0] < T::zero(), pushes[1] > T::zero()];
-        if leaves && returns && !self.conditions.list[index].kinks {
-            self.conditions.sliding |= 1 << index;
-        }
-        Ok(())
-    }
-
-    /// Refuses conditions that change again and again while time hardly goes on.
-    fn count_turn(&mut self, index: usize, t: T) -> Result<(), DynamicsError<T>> {
-        let conditions = &mut self.conditions;
-        let later = t - conditions.turned > conditions.attempt * T::from_f64(HARDLY_LATER);
-        conditions.turned = t;
-        conditions.turns = if later { 0 } else { conditions.turns + 1 };
-        let (since, count) = conditions.burst;
-        conditions.burst = match t - since > conditions.attempt {
-            true => (t, 0),
-            false => (since, count + 1),
-        };
-        let most = MOST_TURNS + 2 * conditions.list.len();
-        if conditions.turns > most || conditions.burst.1 > MOST_AT_ONCE {
-            let condition = &conditions.list[index];
-            return Err(DynamicsError::Sticks { t, condition });
+        let decided = self.decided();
+        if leaves && returns && !decided.list[index].kinks {
+            decided.sliding |= 1 << index;
         }
         Ok(())
     }
 
     /// The first condition that changes within a step, and when.
-    #[inline(never)]
-    fn first_change(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        step: &Step<T, N>,
-    ) -> Result<Option<(usize, T)>, DynamicsError<T>> {
-        let list = self.conditions.list;
-        let still = SVector::zeros();
-        let times = nodes((step.start().t, step.end().t));
+    fn first_change(&mut self) -> Result<Option<(usize, T)>, DynamicsError<T>> {
+        let list = self.decided().list;
+        let ends = self.ends();
+        let times = nodes(ends);
         let mut sampled = [[T::zero(); NODES]; AT_ONCE];
         let mut first: Option<(usize, T)> = None;
-        for index in 0..list.len() {
+        for (index, condition) in list.iter().enumerate() {
             if index % AT_ONCE == 0 {
-                sample(mechanism, step, (&times, index), &mut sampled);
+                self.sample(&times, index, &mut sampled);
             }
-            let found = if self.conditions.slides(index) {
-                self.end_of_sliding(mechanism, step, index)?
+            let found = if self.decided().slides(index) {
+                self.end_of_sliding(index)?
             } else {
-                let side = self.conditions.side(index);
-                let defined = |t, value: T| {
-                    let undefined = DynamicsError::WatchedNotFinite {
-                        t,
-                        quantity: Watched::Condition(list[index].text),
-                    };
-                    value
-                        .partial_cmp(&T::zero())
-                        .map(|_| value)
-                        .ok_or(undefined)
+                let side = self.decided().side(index);
+                let quantity = Watched::Condition(condition.text);
+                let defined = |t, value: T| match value.partial_cmp(&T::zero()) {
+                    Some(_) => Ok(value),
+                    None => Err(DynamicsError::WatchedNotFinite { t, quantity }),
                 };
-                let mut value = |t| defined(t, one(mechanism, &step.at(t), &still, index).value);
+                let mut value = |t| {
+                    let mut values = [Switch::default(); Sides::ROOM];
+                    self.values(t, &mut values[..=index]);
+                    defined(t, values[index].value)
+                };
                 let samples = sampled[index % AT_ONCE];
-                defined(step.end().t, samples[NODES - 1])?;
+                defined(ends.1, samples[NODES - 1])?;
                 earliest(&mut value, (times, samples), side, self.noise())?
             };
             if let Some(t) = found {
@@ -262,10 +175,78 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         Ok(first)
     }
+
+    /// When one side no longer pushes back within a step that slides along a condition.
+    fn end_of_sliding(&mut self, index: usize) -> Result<Option<T>, DynamicsError<T>> {
+        let times = nodes(self.ends());
+        let noise = self.noise();
+        let mut first: Option<T> = None;
+        // What is left of either side's share.
+        for above in [true, false] {
+            let mut left = |t| {
+                self.rates(t, &mut [])?;
+                let share = self.decided().shares[index];
+                Ok(if above { T::one() - share } else { share })
+            };
+            let mut samples = [T::zero(); NODES];
+            for (sample, t) in samples.iter_mut().zip(times) {
+                *sample = left(t)?;
+            }
+            let found = earliest(&mut left, (times, samples), T::one(), noise)?;
+            first = match (first, found) {
+                (Some(a), Some(b)) => Some(a.min(b)),
+                (a, b) => a.or(b),
+            };
+        }
+        if let Some(t) = first {
+            // The shares there say which side it leaves to.
+            self.rates(t, &mut [])?;
+        }
+        Ok(first)
+    }
+
+    /// Samples some switching functions of a step, from one on.
+    fn sample(&self, times: &[T; NODES], first: usize, sampled: &mut [[T; NODES]; AT_ONCE]) {
+        let mut values = [Switch::default(); Sides::ROOM];
+        let values = &mut values[..(first + AT_ONCE).min(Sides::ROOM)];
+        for (k, t) in times.iter().enumerate() {
+            self.values(*t, values);
+            for (samples, switch) in sampled.iter_mut().zip(&values[first..]) {
+                samples[k] = switch.value;
+            }
+        }
+    }
+
+    /// One switching function at a time, with its rate.
+    fn rate(&mut self, t: T, index: usize) -> Result<Switch<T>, DynamicsError<T>> {
+        let mut values = [Switch::default(); Sides::ROOM];
+        self.rates(t, &mut values[..=index])?;
+        Ok(values[index])
+    }
+}
+
+impl<T: Real> Decided<T> {
+    /// Refuses conditions that change again and again while time hardly goes on.
+    fn count_turn(&mut self, index: usize, t: T) -> Result<(), DynamicsError<T>> {
+        let later = t - self.turned > self.attempt * T::from_f64(HARDLY_LATER);
+        self.turned = t;
+        self.turns = if later { 0 } else { self.turns + 1 };
+        let (since, count) = self.burst;
+        self.burst = match t - since > self.attempt {
+            true => (t, 0),
+            false => (since, count + 1),
+        };
+        let most = MOST_TURNS + 2 * self.list.len();
+        if self.turns > most || self.burst.1 > MOST_AT_ONCE {
+            let condition = &self.list[index];
+            return Err(DynamicsError::Sticks { t, condition });
+        }
+        Ok(())
+    }
 }
 
 /// When a sampled function leaves a side for the other one, if it does by more than noise.
-pub(super) fn earliest<T: Real>(
+fn earliest<T: Real>(
     function: &mut dyn FnMut(T) -> Result<T, DynamicsError<T>>,
     (times, mut values): ([T; NODES], [T; NODES]),
     side: T,
@@ -290,45 +271,4 @@ pub(super) fn earliest<T: Real>(
     }
     let t = zero(function, (from, before), (to, after))?;
     Ok(Some(t))
-}
-
-/// Samples some switching functions of a step, from one on.
-#[inline(never)]
-fn sample<T: Real, const N: usize, const R: usize>(
-    mechanism: &dyn Mechanism<T, N, R>,
-    step: &Step<T, N>,
-    (times, first): (&[T; NODES], usize),
-    sampled: &mut [[T; NODES]; AT_ONCE],
-) {
-    let mut values = [Switch::default(); Sides::ROOM];
-    let values = &mut values[..(first + AT_ONCE).min(Sides::ROOM)];
-    for (k, t) in times.iter().enumerate() {
-        mechanism.switches(&step.at(*t), &SVector::zeros(), values);
-        for (samples, switch) in sampled.iter_mut().zip(&values[first..]) {
-            samples[k] = switch.value;
-        }
-    }
-}
-
-/// The value of one switching function at a state.
-fn one<T: Real, const N: usize, const R: usize>(
-    mechanism: &dyn Mechanism<T, N, R>,
-    state: &State<T, N>,
-    acceleration: &SVector<T, N>,
-    index: usize,
-) -> Switch<T> {
-    let mut values = [Switch::default(); Sides::ROOM];
-    mechanism.switches(state, acceleration, &mut values[..=index]);
-    values[index]
-}
-
-/// The values of all switching functions at a state.
-pub(super) fn values<T: Real, const N: usize, const R: usize>(
-    mechanism: &dyn Mechanism<T, N, R>,
-    state: &State<T, N>,
-    acceleration: &SVector<T, N>,
-) -> Values<T> {
-    let mut values = [Switch::default(); Sides::ROOM];
-    mechanism.switches(state, acceleration, &mut values);
-    values
 }

@@ -26,7 +26,7 @@ const CORRECTIONS: usize = 3;
 
 /// What tells one method from another: the first digits of its nodes but for the last,
 /// which is one, and of the eigenvalues of its matrix, one of each complex pair.
-pub(super) struct Digits {
+pub(crate) struct Digits {
     pub(super) nodes: &'static [f64],
     real: f64,
     pairs: &'static [(f64, f64)],
@@ -55,7 +55,7 @@ pub(super) const FIVE: Digits = Digits {
 /// Radau IIA of order `2s − 1` with `s` stages, three or five; of lists with room for
 /// more, the first `s` entries are in use.
 #[derive(Clone, Debug)]
-pub(super) struct Collocation<T> {
+pub(crate) struct Collocation<T> {
     /// `s`.
     pub(super) stages: usize,
     /// `c_i`.
@@ -85,7 +85,7 @@ pub(super) struct Eigen<F> {
 
 impl<T: Real> Collocation<T> {
     #[inline(never)]
-    pub(super) fn new(digits: &Digits) -> Self {
+    pub(crate) fn new(digits: &Digits) -> Self {
         let stages = digits.nodes.len() + 1;
         let zero = [T::zero(); MOST_STAGES];
         let mut nodes = [T::one(); MOST_STAGES];

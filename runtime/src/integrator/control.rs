@@ -36,6 +36,14 @@ pub struct Tolerance<T, const N: usize> {
     v: SVector<T, N>,
 }
 
+/// The same over slices.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scale<'a, T> {
+    relative: T,
+    q: &'a [T],
+    v: &'a [T],
+}
+
 impl<T: Real, const N: usize> Tolerance<T, N> {
     /// The same absolute tolerance for every coordinate (m, rad) and every
     /// velocity (m/s, rad/s).
@@ -106,14 +114,34 @@ impl<T: Real, const N: usize> Tolerance<T, N> {
         start: &State<T, N>,
         end: &State<T, N>,
     ) -> T {
+        let error = (error.0.as_slice(), error.1.as_slice());
+        let (start, end) = (start.at(), end.at());
+        self.scale().norm(error, (start.q, start.v), (end.q, end.v))
+    }
+
+    /// The same over slices.
+    pub(crate) fn scale(&self) -> Scale<'_, T> {
+        Scale {
+            relative: self.relative,
+            q: self.q.as_slice(),
+            v: self.v.as_slice(),
+        }
+    }
+}
+
+impl<T: Real> Scale<'_, T> {
+    /// As [`Tolerance::norm`].
+    #[inline(always)]
+    pub(crate) fn norm(&self, error: (&[T], &[T]), start: (&[T], &[T]), end: (&[T], &[T])) -> T {
+        let n = self.q.len();
         let mut sum = T::zero();
-        for i in 0..N {
-            let q = self.q[i] + self.relative * start.q[i].abs().max(end.q[i].abs());
-            let v = self.v[i] + self.relative * start.v[i].abs().max(end.v[i].abs());
+        for i in 0..n {
+            let q = self.q[i] + self.relative * start.0[i].abs().max(end.0[i].abs());
+            let v = self.v[i] + self.relative * start.1[i].abs().max(end.1[i].abs());
             let (q, v) = (error.0[i] / q, error.1[i] / v);
             sum += q * q + v * v;
         }
-        (sum / T::from_f64(2.0 * N.max(1) as f64)).sqrt()
+        (sum / T::from_f64(2.0 * n.max(1) as f64)).sqrt()
     }
 }
 

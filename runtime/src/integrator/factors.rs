@@ -3,99 +3,148 @@
 //! In:  derivatives of the acceleration, the step length.
 //! Out: changes of the stages' accelerations.
 
-use super::collocation::{Collocation, MOST_PAIRS, MOST_STAGES};
-use super::lu::Lu;
-use crate::{AccelerationJacobian, Real};
-use nalgebra::{Complex, SVector};
+use super::collocation::{Collocation, MOST_PAIRS};
+use super::lu::{Entry, factorise, solve};
+use crate::Real;
+use crate::linalg::{Workspace, add_scaled};
+use core::ops::Mul;
+use nalgebra::Complex;
 
-/// A vector for each stage, with room for those of the largest method.
-pub(super) type StageVectors<T, const N: usize> = [SVector<T, N>; MOST_STAGES];
-
-/// `W` for the real and the complex eigenvalues at a step length.
+/// Memory for the factors of `W` for `N` coordinates.
 #[derive(Clone, Debug)]
-pub(super) struct Factors<T, const N: usize> {
-    /// The step length.
-    pub(super) h: T,
-    /// `W` of the real eigenvalue.
-    pub(super) real: Lu<T, N>,
-    complex: [Option<Lu<Complex<T>, N>>; MOST_PAIRS],
+pub(super) struct FactorRoom<T, const N: usize> {
+    real: [[T; N]; N],
+    complex: [[[Complex<T>; N]; N]; MOST_PAIRS],
+    orders: [[usize; N]; MOST_PAIRS + 1],
+    across: [[Complex<T>; N]; 2],
 }
 
-impl<T: Real, const N: usize> Factors<T, N> {
-    /// `None` where a matrix is singular.
-    #[inline(never)]
-    pub(super) fn new(
-        jacobian: &AccelerationJacobian<T, N>,
+/// `W` for the real and the complex eigenvalues at a step length, over slices.
+pub(super) struct Factors<'a, T> {
+    /// `W` of the real eigenvalue, by rows.
+    real: &'a mut [T],
+    /// Those of the complex ones.
+    complex: &'a mut [Complex<T>],
+    /// The orders of the rows of all.
+    orders: &'a mut [usize],
+    /// Room for two vectors.
+    across: &'a mut [Complex<T>],
+}
+
+impl<T: Real, const N: usize> FactorRoom<T, N> {
+    pub(super) fn new() -> Self {
+        let zero = Complex::new(T::zero(), T::zero());
+        Self {
+            real: [[T::zero(); N]; N],
+            complex: [[[zero; N]; N]; MOST_PAIRS],
+            orders: [[0; N]; MOST_PAIRS + 1],
+            across: [[zero; N]; 2],
+        }
+    }
+
+    pub(super) fn factors(&mut self) -> Factors<'_, T> {
+        Factors {
+            real: self.real.as_flattened_mut(),
+            complex: self.complex.as_flattened_mut().as_flattened_mut(),
+            orders: self.orders.as_flattened_mut(),
+            across: self.across.as_flattened_mut(),
+        }
+    }
+}
+
+impl<T: Real> Factors<'_, T> {
+    /// Factorises for a step length, from `∂q̈/∂q` and `∂q̈/∂q̇`, column by column; `false`
+    /// where a matrix is singular.
+    pub(super) fn factorise(
+        &mut self,
+        derivatives: (&[T], &[T]),
         h: T,
         coefficients: &Collocation<T>,
-    ) -> Option<Self> {
+        workspace: &Workspace<'_, T>,
+    ) -> bool {
+        let n = self.orders.len() / (MOST_PAIRS + 1);
+        let sizes = workspace.numbers(n);
+        let (zero, one) = (T::zero(), T::one());
+        let (order, orders) = self.orders.split_at_mut(n);
         let factor = coefficients.real.value * h;
-        let mut matrix = [[T::zero(); N]; N];
-        for (i, row) in matrix.iter_mut().enumerate() {
-            for (j, entry) in row.iter_mut().enumerate() {
-                let one = if i == j { T::one() } else { T::zero() };
-                let (by_q, by_v) = (jacobian.q[(i, j)], jacobian.v[(i, j)]);
-                *entry = one - by_v * factor - by_q * (factor * factor);
+        set_matrix(self.real, n, derivatives, factor, (zero, one));
+        if !factorise(self.real, order, sizes) {
+            return false;
+        }
+        let (zero, one) = (Complex::new(zero, zero), Complex::new(one, zero));
+        for (i, eigen) in coefficients.complex[..coefficients.pairs]
+            .iter()
+            .enumerate()
+        {
+            let matrix = &mut self.complex[i * n * n..][..n * n];
+            set_matrix(matrix, n, derivatives, eigen.value * h, (zero, one));
+            if !factorise(matrix, &mut orders[i * n..][..n], sizes) {
+                return false;
             }
         }
-        let real = Lu::new(matrix)?;
-        let mut complex = [const { None }; MOST_PAIRS];
-        let used = coefficients.complex.iter().take(coefficients.pairs);
-        for (place, eigen) in complex.iter_mut().zip(used) {
-            let factor = eigen.value * h;
-            let square = factor * factor;
-            let mut matrix = [[Complex::new(T::zero(), T::zero()); N]; N];
-            for (i, row) in matrix.iter_mut().enumerate() {
-                for (j, entry) in row.iter_mut().enumerate() {
-                    let one = if i == j { T::one() } else { T::zero() };
-                    let (by_q, by_v) = (jacobian.q[(i, j)], jacobian.v[(i, j)]);
-                    *entry = Complex::new(one, T::zero()) - factor * by_v - square * by_q;
-                }
-            }
-            *place = Some(Lu::new::<T>(matrix)?);
-        }
-        Some(Self { h, real, complex })
+        true
+    }
+
+    /// `x = W⁻¹ y` of the real eigenvalue.
+    pub(super) fn solve_real(&self, y: &[T], x: &mut [T]) {
+        solve(self.real, &self.orders[..y.len()], y, x);
     }
 
     /// The change of the stages' accelerations that removes what is left of their
-    /// equations.
-    #[inline(never)]
+    /// equations; with room for two vectors.
     pub(super) fn solve(
-        &self,
-        rest: &StageVectors<T, N>,
+        &mut self,
+        (rest, change): (&[T], &mut [T]),
+        (along, solved): (&mut [T], &mut [T]),
         coefficients: &Collocation<T>,
-    ) -> StageVectors<T, N> {
+    ) {
+        let n = along.len();
         let Collocation { real, complex, .. } = coefficients;
         let stages = coefficients.stages;
-        let mut along = [T::zero(); N];
-        for (left, rest) in real.left[..stages].iter().zip(rest) {
-            for k in 0..N {
-                along[k] += *left * rest[k];
-            }
+        along.fill(T::zero());
+        for (i, left) in real.left[..stages].iter().enumerate() {
+            add_scaled(along, *left, &rest[i * n..][..n]);
         }
-        let along = self.real.solve(&along);
-        let mut change = [SVector::zeros(); MOST_STAGES];
-        for (right, change) in real.right[..stages].iter().zip(&mut change) {
-            for k in 0..N {
-                change[k] = *right * along[k];
-            }
+        self.solve_real(along, solved);
+        change.fill(T::zero());
+        for (i, right) in real.right[..stages].iter().enumerate() {
+            add_scaled(&mut change[i * n..][..n], *right, solved);
         }
         // The other eigenvector of a pair is the conjugate.
         let two = T::from_f64(2.0);
-        for (eigen, factors) in complex.iter().zip(self.complex.iter().flatten()) {
-            let mut across = [Complex::new(T::zero(), T::zero()); N];
-            for (left, rest) in eigen.left[..stages].iter().zip(rest) {
-                for k in 0..N {
-                    across[k] += *left * rest[k];
+        let (across, solved) = self.across.split_at_mut(n);
+        for (k, eigen) in complex[..coefficients.pairs].iter().enumerate() {
+            across.fill(Complex::new(T::zero(), T::zero()));
+            for (i, left) in eigen.left[..stages].iter().enumerate() {
+                for (across, rest) in across.iter_mut().zip(&rest[i * n..][..n]) {
+                    *across += *left * *rest;
                 }
             }
-            let across = factors.solve::<T>(&across);
-            for (right, change) in eigen.right[..stages].iter().zip(&mut change) {
-                for k in 0..N {
-                    change[k] += (*right * across[k]).re * two;
+            let factors = &self.complex[k * n * n..][..n * n];
+            let order = &self.orders[(k + 1) * n..][..n];
+            solve::<T, _>(factors, order, across, solved);
+            for (i, right) in eigen.right[..stages].iter().enumerate() {
+                for (change, solved) in change[i * n..][..n].iter_mut().zip(&*solved) {
+                    *change += (*right * *solved).re * two;
                 }
             }
         }
-        change
+    }
+}
+
+/// `W(λ) = 1 − λ h ∂q̈/∂q̇ − λ² h² ∂q̈/∂q`, by rows, for `factor` = `λ h`.
+fn set_matrix<T: Real, F: Entry<T> + Mul<T, Output = F>>(
+    out: &mut [F],
+    n: usize,
+    (by_q, by_v): (&[T], &[T]),
+    factor: F,
+    (zero, one): (F, F),
+) {
+    let square = factor * factor;
+    for (place, entry) in out.iter_mut().enumerate() {
+        let (i, j) = (place / n, place % n);
+        let unit = if i == j { one } else { zero };
+        let (by_q, by_v) = (by_q[j * n + i], by_v[j * n + i]);
+        *entry = unit - factor * by_v - square * by_q;
     }
 }

@@ -62,23 +62,25 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
     }
 
     /// The polynomials through both ends and up to [`MOST_BETWEEN`] states between, at
-    /// fractions of the step.
+    /// fractions of the step, whose coordinates and velocities are used up.
     #[inline(never)]
     pub(crate) fn set_stages(
         &mut self,
         (start, end): (&State<T, N>, &State<T, N>),
         nodes: &[T],
-        states: &[State<T, N>],
+        (q, v): (&mut [T], &mut [T]),
     ) {
-        let mut values = [SVector::zeros(); MOST_BETWEEN];
-        for (value, state) in values.iter_mut().zip(states) {
-            *value = state.q;
+        let mut out = [[T::zero(); N]; MOST_BETWEEN + 2];
+        for (coefficients, ends, values) in [
+            (&mut self.q, (&start.q, &end.q), q),
+            (&mut self.v, (&start.v, &end.v), v),
+        ] {
+            let ends = (ends.0.as_slice(), ends.1.as_slice());
+            (T::compiled().set_through)(out.as_flattened_mut(), ends, nodes, values);
+            for (coefficient, column) in coefficients.iter_mut().zip(out) {
+                *coefficient = SVector::from(column);
+            }
         }
-        set_through(&mut self.q, (&start.q, &end.q), nodes, values);
-        for (value, state) in values.iter_mut().zip(states) {
-            *value = state.v;
-        }
-        set_through(&mut self.v, (&start.v, &end.v), nodes, values);
         self.used = nodes.len() + 2;
     }
 
@@ -122,27 +124,37 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
 
 /// The polynomial through both ends and values between, one coefficient after the
 /// other: each is the value that is left at an end, and is then divided out.
-fn set_through<T: Real, const N: usize>(
-    out: &mut [SVector<T, N>; COEFFICIENTS],
-    (start, end): (&SVector<T, N>, &SVector<T, N>),
+pub(crate) fn set_through<T: Real>(
+    out: &mut [T],
+    (start, end): (&[T], &[T]),
     nodes: &[T],
-    mut values: [SVector<T, N>; MOST_BETWEEN],
+    values: &mut [T],
 ) {
-    (out[0], out[1]) = (*start, end - start);
-    for (value, theta) in values.iter_mut().zip(nodes) {
-        *value = ((*value - start) / *theta - out[1]) / (T::one() - *theta);
+    let n = start.len();
+    let (ends, out) = out.split_at_mut(2 * n);
+    let (first, second) = ends.split_at_mut(n);
+    first.copy_from_slice(start);
+    second.copy_from_slice(end);
+    add_scaled(second, -T::one(), start);
+    for (j, theta) in nodes.iter().enumerate() {
+        let values = &mut values[j * n..][..n];
+        for ((value, start), slope) in values.iter_mut().zip(start).zip(&*second) {
+            *value = ((*value - *start) / *theta - *slope) / (T::one() - *theta);
+        }
     }
     for k in 0..nodes.len() {
         let at_end = k % 2 == 1;
         let place = if at_end { T::one() } else { T::zero() };
-        out[k + 2] = SVector::zeros();
-        for (j, value) in values[..nodes.len()].iter().enumerate() {
-            let share = cardinal(nodes, j, place);
-            add_scaled(out[k + 2].as_mut_slice(), share, value.as_slice());
+        let out = &mut out[k * n..][..n];
+        out.fill(T::zero());
+        for j in 0..nodes.len() {
+            add_scaled(out, cardinal(nodes, j, place), &values[j * n..][..n]);
         }
-        for (value, theta) in values.iter_mut().zip(nodes) {
+        for (j, theta) in nodes.iter().enumerate() {
             let over = if at_end { T::one() - *theta } else { *theta };
-            *value = (*value - out[k + 2]) / over;
+            for (value, out) in values[j * n..][..n].iter_mut().zip(&*out) {
+                *value = (*value - *out) / over;
+            }
         }
     }
 }

@@ -1,64 +1,71 @@
 //! How the acceleration changes with the state.
 //!
-//! In:  a system, a state and its acceleration.
+//! In:  a system of any size ([`Flow`]), a state and its acceleration.
 //! Out: `∂q̈/∂q` and `∂q̈/∂q̇`, from the system where it knows them, else by differences.
 //!
 //! The iteration that uses them needs no more than a few digits: they decide how
 //! fast it converges, not what it converges to.
 
-use crate::{AccelerationJacobian, DynamicsError, Real, State, System};
-use nalgebra::{SMatrix, SVector};
+use crate::equations::At;
+use crate::linalg::Workspace;
+use crate::{DynamicsError, Real};
 
 /// How far coordinates and velocities are varied, relative to their size, as a
 /// power of round-off: farther than the square root, because near singular
 /// positions accelerations carry more than round-off.
 const VARIATION: f64 = 0.4;
 
-/// The derivatives at a state with acceleration `a`, and how many accelerations were
-/// computed for them.
-pub(super) fn acceleration_jacobian<T: Real, const N: usize, Y: System<T, N> + ?Sized>(
-    system: &mut Y,
-    state: &State<T, N>,
-    a: &SVector<T, N>,
-) -> Result<(AccelerationJacobian<T, N>, u32), DynamicsError<T>> {
-    match system.acceleration_jacobian(state) {
-        Some(jacobian) if is_finite(&jacobian) => Ok((jacobian, 0)),
-        _ => Ok((differences(system, state, a)?, 2 * N as u32)),
+/// A system of any size.
+pub(crate) trait Flow<T> {
+    /// Writes the acceleration at a state.
+    fn accelerate(&mut self, at: At<'_, T>, out: &mut [T]) -> Result<(), DynamicsError<T>>;
+    /// Writes `∂q̈/∂q` and `∂q̈/∂q̇` at a state, column by column, if they are known; whether
+    /// they are.
+    fn derivatives(&mut self, at: At<'_, T>, by_q: &mut [T], by_v: &mut [T]) -> bool;
+}
+
+/// Writes the derivatives at a state with acceleration `a`, column by column.
+pub(super) fn differentiate<T: Real>(
+    flow: &mut dyn Flow<T>,
+    at: At<'_, T>,
+    a: &[T],
+    (by_q, by_v): (&mut [T], &mut [T]),
+    workspace: &Workspace<'_, T>,
+) -> Result<(), DynamicsError<T>> {
+    let is_known = flow.derivatives(at, by_q, by_v);
+    if is_known && by_q.iter().chain(&*by_v).all(|x| x.is_finite()) {
+        return Ok(());
     }
-}
-
-fn is_finite<T: Real, const N: usize>(jacobian: &AccelerationJacobian<T, N>) -> bool {
-    jacobian.q.iter().chain(&jacobian.v).all(|x| x.is_finite())
-}
-
-/// One-sided differences.
-#[inline(never)]
-fn differences<T: Real, const N: usize, Y: System<T, N> + ?Sized>(
-    system: &mut Y,
-    state: &State<T, N>,
-    a: &SVector<T, N>,
-) -> Result<AccelerationJacobian<T, N>, DynamicsError<T>> {
-    let mut jacobian = AccelerationJacobian {
-        q: SMatrix::zeros(),
-        v: SMatrix::zeros(),
-    };
-    // A coordinate that is zero has no size of its own; it is given that of the
-    // others.
-    let size = |x: &SVector<T, N>| {
-        let most = x.iter().fold(T::zero(), |most: T, x| most.max(x.abs()));
-        if most > T::zero() { most } else { T::one() }
-    };
+    // One-sided differences.
+    let n = a.len();
+    let near = workspace.numbers(n);
     let variation = T::EPSILON.powf(T::from_f64(VARIATION));
-    let (by_q, by_v) = (size(&state.q) * variation, size(&state.v) * variation);
-    for j in 0..N {
-        let mut near = *state;
-        near.q[j] += by_q;
-        let difference = near.q[j] - state.q[j];
-        jacobian.q.data.0[j] = ((system.acceleration(&near)? - a) / difference).data.0[0];
-        let mut near = *state;
-        near.v[j] += by_v;
-        let difference = near.v[j] - state.v[j];
-        jacobian.v.data.0[j] = ((system.acceleration(&near)? - a) / difference).data.0[0];
+    let (change_q, change_v) = (size(at.q) * variation, size(at.v) * variation);
+    for j in 0..n {
+        near.copy_from_slice(at.q);
+        near[j] += change_q;
+        let out = &mut by_q[j * n..][..n];
+        flow.accelerate(At { q: near, ..at }, out)?;
+        divide(out, a, near[j] - at.q[j]);
+        near.copy_from_slice(at.v);
+        near[j] += change_v;
+        let out = &mut by_v[j * n..][..n];
+        flow.accelerate(At { v: near, ..at }, out)?;
+        divide(out, a, near[j] - at.v[j]);
     }
-    Ok(jacobian)
+    Ok(())
+}
+
+/// The largest entry. A coordinate that is zero has no size of its own; it is given that of
+/// the others.
+fn size<T: Real>(x: &[T]) -> T {
+    let most = x.iter().fold(T::zero(), |most: T, x| most.max(x.abs()));
+    if most > T::zero() { most } else { T::one() }
+}
+
+/// The difference quotient.
+fn divide<T: Real>(near: &mut [T], here: &[T], difference: T) {
+    for (near, here) in near.iter_mut().zip(here) {
+        *near = (*near - *here) / difference;
+    }
 }

@@ -30,40 +30,8 @@ impl<T: Real> Entry<T> for Complex<T> {
     }
 }
 
-/// `P A = L U`, with `L` below and `U` on and above the diagonal of one matrix.
-#[derive(Clone, Debug)]
-pub(super) struct Lu<F, const N: usize> {
-    factors: [[F; N]; N],
-    order: [usize; N],
-}
-
-impl<F, const N: usize> Lu<F, N> {
-    /// Factorises; `None` if the matrix is singular or not finite.
-    pub(super) fn new<T: Real>(matrix: [[F; N]; N]) -> Option<Self>
-    where
-        F: Entry<T>,
-    {
-        let mut this = Self {
-            factors: matrix,
-            order: [0; N],
-        };
-        let mut sizes = [T::zero(); N];
-        let factors = this.factors.as_flattened_mut();
-        factorise(factors, &mut this.order, &mut sizes).then_some(this)
-    }
-
-    /// `A⁻¹ y`.
-    pub(super) fn solve<T: Real>(&self, y: &[F; N]) -> [F; N]
-    where
-        F: Entry<T>,
-    {
-        let mut x = *y;
-        solve(self.factors.as_flattened(), &self.order, y, &mut x);
-        x
-    }
-}
-
-/// Factorises a matrix in its place, with room for the order of its rows and their sizes;
+/// Factorises a matrix in its place, `P A = L U` with `L` below and `U` on and above the
+/// diagonal, with room for the order of its rows and their sizes;
 /// whether it is regular and finite.
 pub(super) fn factorise<T: Real, F: Entry<T>>(
     matrix: &mut [F],

@@ -69,8 +69,9 @@ impl<T: Real, const N: usize> Step<T, N> {
         self.span
     }
 
-    /// Joins both ends through states between, at fractions of the step.
-    pub(super) fn set_stages(&mut self, nodes: &[T], states: &[State<T, N>]) {
+    /// Joins both ends through states between, at fractions of the step, whose coordinates
+    /// and velocities are used up.
+    pub(super) fn set_stages(&mut self, nodes: &[T], states: (&mut [T], &mut [T])) {
         self.span = self.length();
         self.interpolant
             .set_stages((&self.start, &self.end), nodes, states);

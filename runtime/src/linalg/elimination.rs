@@ -1,88 +1,95 @@
 //! Gauss–Jordan elimination with complete pivoting.
 //!
-//! In:  `A`, `R × N`, and a right-hand side, `R`.
+//! In:  `A`, column by column, and a right-hand side.
 //! Out: a choice of dependent coordinates, and those as functions of the others:
 //!      `x_d = c − T x_i`.
 //!
 //! Not here: whether the choice is good enough. The caller measured that before.
 
+use super::Workspace;
 use crate::Real;
-use nalgebra::{SMatrix, SVector};
 
 /// The eliminated system. Row `k` belongs to the dependent coordinate
 /// `dependent[k]`.
-#[derive(Clone, Debug)]
-pub(crate) struct Elimination<T, const N: usize, const R: usize> {
+pub(crate) struct Elimination<'a, T> {
     /// `T` in the columns of independent coordinates, unit columns elsewhere.
-    pub(crate) table: SMatrix<T, R, N>,
+    pub(crate) table: &'a mut [T],
     /// `c`.
-    pub(crate) offset: SVector<T, R>,
-    /// The dependent coordinate of each row.
-    pub(crate) dependent: [usize; R],
-    /// How many rows were independent.
-    pub(crate) rank: usize,
+    pub(crate) offset: &'a mut [T],
+    /// The dependent coordinate of each row that was independent.
+    pub(crate) dependent: &'a [usize],
 }
 
-impl<T: Real, const N: usize, const R: usize> Elimination<T, N, R> {
-    /// Eliminates until no entry is left that differs from zero. Columns are
+impl<'a, T: Real> Elimination<'a, T> {
+    /// Eliminates in place until no entry is left that differs from zero. Columns are
     /// compared after multiplication with `weight`, so that the choice does not
     /// depend on the units of the coordinates.
     pub(crate) fn new(
-        matrix: &SMatrix<T, R, N>,
-        right: &SVector<T, R>,
-        weight: &SVector<T, N>,
+        table: &'a mut [T],
+        offset: &'a mut [T],
+        weight: &[T],
+        workspace: &Workspace<'a, T>,
     ) -> Self {
-        let mut this = Self {
-            table: *matrix,
-            offset: *right,
-            dependent: [0; R],
-            rank: 0,
-        };
-        while this.rank < R.min(N) {
-            let Some((row, column)) = this.largest(weight) else {
+        let most = offset.len().min(weight.len());
+        let dependent = workspace.indices(most);
+        let mut rank = 0;
+        while rank < most {
+            let Some((row, column)) = largest(table, offset.len(), rank, weight) else {
                 break;
             };
-            this.table.swap_rows(this.rank, row);
-            this.offset.swap_rows(this.rank, row);
-            this.dependent[this.rank] = column;
-            this.eliminate(this.rank, column);
-            this.rank += 1;
+            for entries in table.chunks_exact_mut(offset.len()) {
+                entries.swap(rank, row);
+            }
+            offset.swap(rank, row);
+            dependent[rank] = column;
+            eliminate(table, offset, rank, column);
+            rank += 1;
         }
-        this
+        Self {
+            table,
+            offset,
+            dependent: &dependent[..rank],
+        }
     }
+}
 
-    /// Where the largest weighted entry of the remaining rows is.
-    fn largest(&self, weight: &SVector<T, N>) -> Option<(usize, usize)> {
-        let mut most = T::zero();
-        let mut place = None;
-        for column in 0..N {
-            for row in self.rank..R {
-                let size = self.table[(row, column)].abs() * weight[column];
-                if size > most {
-                    most = size;
-                    place = Some((row, column));
-                }
+/// Where the largest weighted entry of the rows from `first` on is.
+fn largest<T: Real>(
+    table: &[T],
+    rows: usize,
+    first: usize,
+    weight: &[T],
+) -> Option<(usize, usize)> {
+    let mut most = T::zero();
+    let mut place = None;
+    for (column, (entries, weight)) in table.chunks_exact(rows).zip(weight).enumerate() {
+        for (row, entry) in entries.iter().enumerate().skip(first) {
+            let size = entry.abs() * *weight;
+            if size > most {
+                most = size;
+                place = Some((row, column));
             }
         }
-        place
     }
+    place
+}
 
-    /// Makes `column` the unit vector of `row`.
-    fn eliminate(&mut self, row: usize, column: usize) {
-        let inverse = T::one() / self.table[(row, column)];
-        for j in 0..N {
-            self.table[(row, j)] *= inverse;
+/// Makes `column` the unit vector of `row`.
+fn eliminate<T: Real>(table: &mut [T], offset: &mut [T], row: usize, column: usize) {
+    let rows = offset.len();
+    let inverse = T::one() / table[column * rows + row];
+    for entries in table.chunks_exact_mut(rows) {
+        entries[row] *= inverse;
+    }
+    offset[row] *= inverse;
+    for i in (0..rows).filter(|&i| i != row) {
+        let factor = table[column * rows + i];
+        for entries in table.chunks_exact_mut(rows) {
+            let change = factor * entries[row];
+            entries[i] -= change;
         }
-        self.offset[row] *= inverse;
-        for i in (0..R).filter(|&i| i != row) {
-            let factor = self.table[(i, column)];
-            for j in 0..N {
-                let change = factor * self.table[(row, j)];
-                self.table[(i, j)] -= change;
-            }
-            let change = factor * self.offset[row];
-            self.offset[i] -= change;
-            self.table[(i, column)] = T::zero();
-        }
+        let change = factor * offset[row];
+        offset[i] -= change;
+        table[column * rows + i] = T::zero();
     }
 }

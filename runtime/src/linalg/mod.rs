@@ -28,7 +28,7 @@ mod tests;
 mod triangle;
 mod workspace;
 
-pub(crate) use along::project_onto;
+pub(crate) use along::{add_along, project_onto};
 pub(crate) use block::Block;
 pub(crate) use cholesky::{
     Cholesky, NotDefinite, is_definite, multiply_upper, multiply_upper_transposed, solve_upper,

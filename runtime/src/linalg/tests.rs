@@ -197,12 +197,14 @@ fn row_by_row_least_squares_solves_the_normal_equations() {
     let left: SMatrix<f64, 9, 3> = random.matrix();
     let right: SMatrix<f64, 9, 3> = random.matrix();
     let values: SVector<f64, 9> = random.matrix();
-    let mut triangle = Triangle::default();
+    let mut numbers = [0.0; 3 * 9 + 2 * 3];
+    let mut triangle = Triangle::new(3, &Workspace::new(&mut numbers, &mut [], &mut []));
     for i in 0..9 {
-        let row = |m: &SMatrix<f64, 9, 3>| core::array::from_fn(|j| m[(i, j)]);
-        triangle.insert(row(&left), row(&right), values[i]);
+        let row = |m: &SMatrix<f64, 9, 3>| [m[(i, 0)], m[(i, 1)], m[(i, 2)]];
+        triangle.insert(&mut row(&left), &mut row(&right), values[i]);
     }
     let (x, y) = triangle.solve();
+    let [x, y] = [x, y].map(SVector::<f64, 3>::from_column_slice);
     let rest = left * x + right * y - values;
     assert!((left.transpose() * rest).amax() < 1e-13);
     assert!((right.transpose() * rest).amax() < 1e-13);
@@ -213,12 +215,18 @@ fn elimination_gives_coordinates_that_satisfy_the_rows() {
     let mut random = Matrices::seeded(SEED);
     let matrix: SMatrix<f64, 3, 5> = random.matrix();
     let right: SVector<f64, 3> = random.matrix();
-    let found = Elimination::new(&matrix, &right, &SVector::repeat(1.0));
-    assert_eq!(found.rank, 3);
+    let (mut table, mut offset, mut dependent) = (matrix, right, [0; 3]);
+    let found = Elimination::new(
+        table.as_mut_slice(),
+        offset.as_mut_slice(),
+        &[1.0; 5],
+        &Workspace::new(&mut [], &mut [], &mut dependent),
+    );
+    assert_eq!(found.dependent.len(), 3);
     let mut x: SVector<f64, 5> = random.matrix();
     for (k, &dependent) in found.dependent.iter().enumerate() {
         let others = (0..5).filter(|j| !found.dependent.contains(j));
-        let sum: f64 = others.map(|j| found.table[(k, j)] * x[j]).sum();
+        let sum: f64 = others.map(|j| found.table[3 * j + k] * x[j]).sum();
         x[dependent] = found.offset[k] - sum;
     }
     assert!((matrix * x - right).amax() < 1e-12);

@@ -1,70 +1,65 @@
-//! Least squares in `2N` unknowns, one row at a time.
+//! Least squares in `2n` unknowns, one row at a time.
 //!
 //! In:  rows `[a b | c]`, each standing for `aᵀx + bᵀy = c`.
-//! Out: the `x`, `y` (`N` each) of least squares.
+//! Out: the `x`, `y` (`n` each) of least squares.
 //!
 //! Every row is turned into a triangular factor by Givens rotations and then
 //! forgotten, so the number of rows needs no name and no product `BᵀB` squares
-//! the condition number. The factor is held in blocks because stable Rust cannot
-//! name a `2N × 2N` matrix.
+//! the condition number.
 
-use super::dot;
+use super::{Workspace, dot};
 use crate::Real;
-use nalgebra::{SMatrix, SVector};
 
-/// The triangular factor `[P Q; 0 S]` and the right-hand sides. Rows of the
-/// factor are columns here, so that they are contiguous.
-#[derive(Clone, Debug)]
-pub(crate) struct Triangle<T, const N: usize> {
-    p: SMatrix<T, N, N>,
-    q: SMatrix<T, N, N>,
-    s: SMatrix<T, N, N>,
-    upper: SVector<T, N>,
-    lower: SVector<T, N>,
+/// The triangular factor `[P Q; 0 S]`, its blocks by rows, and the right-hand sides.
+pub(crate) struct Triangle<'a, T> {
+    p: &'a mut [T],
+    q: &'a mut [T],
+    s: &'a mut [T],
+    upper: &'a mut [T],
+    lower: &'a mut [T],
 }
 
-impl<T: Real, const N: usize> Default for Triangle<T, N> {
-    fn default() -> Self {
-        let (p, q, s) = (SMatrix::zeros(), SMatrix::zeros(), SMatrix::zeros());
-        let (upper, lower) = (SVector::zeros(), SVector::zeros());
+impl<'a, T: Real> Triangle<'a, T> {
+    /// No rows yet.
+    pub(crate) fn new(n: usize, workspace: &Workspace<'a, T>) -> Self {
         Self {
-            p,
-            q,
-            s,
-            upper,
-            lower,
+            p: workspace.numbers(n * n),
+            q: workspace.numbers(n * n),
+            s: workspace.numbers(n * n),
+            upper: workspace.numbers(n),
+            lower: workspace.numbers(n),
         }
     }
-}
 
-impl<T: Real, const N: usize> Triangle<T, N> {
-    /// Adds the equation `aᵀx + bᵀy = c`.
-    pub(crate) fn insert(&mut self, mut a: [T; N], mut b: [T; N], mut c: T) {
-        for j in 0..N {
-            let row = &mut self.p.data.0[j];
-            if let Some((cos, sin)) = eliminate(row[j], a[j]) {
-                rotate(row, &mut a, cos, sin);
-                rotate(&mut self.q.data.0[j], &mut b, cos, sin);
-                rotate_pair(&mut self.upper[j], &mut c, cos, sin);
+    /// Adds the equation `aᵀx + bᵀy = c`, whose entries are used up.
+    pub(crate) fn insert(&mut self, a: &mut [T], b: &mut [T], mut c: T) {
+        let n = a.len();
+        for j in 0..n {
+            let row = &mut self.p[j * n..][..n];
+            if let Some(turn) = eliminate(row[j], a[j]) {
+                rotate(&mut row[j..], &mut a[j..], turn);
+                rotate(&mut self.q[j * n..][..n], b, turn);
+                rotate_pair(&mut self.upper[j], &mut c, turn);
             }
         }
-        for j in 0..N {
-            let row = &mut self.s.data.0[j];
-            if let Some((cos, sin)) = eliminate(row[j], b[j]) {
-                rotate(row, &mut b, cos, sin);
-                rotate_pair(&mut self.lower[j], &mut c, cos, sin);
+        for j in 0..n {
+            let row = &mut self.s[j * n..][..n];
+            if let Some(turn) = eliminate(row[j], b[j]) {
+                rotate(&mut row[j..], &mut b[j..], turn);
+                rotate_pair(&mut self.lower[j], &mut c, turn);
             }
         }
     }
 
     /// The unknowns `x`, `y`; not finite where the rows do not determine them.
-    pub(crate) fn solve(&self) -> (SVector<T, N>, SVector<T, N>) {
-        let y = back_substitute(&self.s.data.0, self.lower);
-        let mut upper = self.upper;
-        for j in 0..N {
-            upper[j] -= dot(&self.q.data.0[j], &y.data.0[0]);
+    pub(crate) fn solve(self) -> (&'a [T], &'a [T]) {
+        let n = self.upper.len();
+        back_substitute(self.s, self.lower);
+        for (j, entry) in self.upper.iter_mut().enumerate() {
+            *entry -= dot(&self.q[j * n..][..n], self.lower);
         }
-        (back_substitute(&self.p.data.0, upper), y)
+        back_substitute(self.p, self.upper);
+        (self.upper, self.lower)
     }
 }
 
@@ -77,26 +72,23 @@ fn eliminate<T: Real>(diagonal: T, entry: T) -> Option<(T, T)> {
     Some((diagonal / size, entry / size))
 }
 
-fn rotate<T: Real, const N: usize>(row: &mut [T; N], other: &mut [T; N], cos: T, sin: T) {
-    for i in 0..N {
-        rotate_pair(&mut row[i], &mut other[i], cos, sin);
+fn rotate<T: Real>(row: &mut [T], other: &mut [T], turn: (T, T)) {
+    for (x, y) in row.iter_mut().zip(other) {
+        rotate_pair(x, y, turn);
     }
 }
 
 #[inline(always)]
-fn rotate_pair<T: Real>(x: &mut T, y: &mut T, cos: T, sin: T) {
+fn rotate_pair<T: Real>(x: &mut T, y: &mut T, (cos, sin): (T, T)) {
     (*x, *y) = (cos * *x + sin * *y, cos * *y - sin * *x);
 }
 
 /// Solves with an upper triangular matrix given by rows.
-fn back_substitute<T: Real, const N: usize>(
-    rows: &[[T; N]; N],
-    mut x: SVector<T, N>,
-) -> SVector<T, N> {
-    let mut solved = SVector::zeros();
-    for j in (0..N).rev() {
-        x[j] -= dot(&rows[j], &solved.data.0[0]);
-        solved[j] = x[j] / rows[j][j];
+fn back_substitute<T: Real>(rows: &[T], x: &mut [T]) {
+    let n = x.len();
+    for j in (0..n).rev() {
+        let row = &rows[j * n..][..n];
+        let (now, solved) = x[j..].split_at_mut(1);
+        now[0] = (now[0] - dot(&row[j + 1..], solved)) / row[j];
     }
-    solved
 }

@@ -8,22 +8,25 @@
 //! time, with the function evaluated on states that are back on the constraints. An event
 //! whose function is zero at the start of a run has not happened; one that reaches zero
 //! has, even if it turns back.
+//!
+//! All of that is over times and values, and compiled once for mechanisms of all sizes.
 
 use super::SimulateError;
 use crate::crossing::{Left, NODES, Samples, first_crossing, nodes, zero};
 use crate::linalg::column;
-use crate::{
-    Direction, DynamicsError, Event, Interface, Occurrence, Probe, Real, State, Step, Watched,
-};
+use crate::{Direction, DynamicsError, Event, Occurrence, Probe, Real, State, Step, Watched};
 
 /// Events a mechanism may have.
-pub(super) const ROOM: usize = 64;
+const ROOM: usize = 64;
 /// Times closer than this multiple of the round-off of time are one.
 const SAME_TIME: f64 = 8.0;
 
+/// Writes the event functions of a mechanism at a state.
+pub(super) type Functions<'a, T, const N: usize> = &'a dyn Fn(&State<T, N>, &mut [T]);
+
 /// Watches the event functions of a mechanism.
 #[derive(Clone, Debug)]
-pub(super) struct Events<T> {
+pub(crate) struct Events<T> {
     events: &'static [Event],
     /// The signs that the functions had last; zero where they were zero.
     sides: [T; ROOM],
@@ -42,6 +45,33 @@ struct Next<T> {
     rising: bool,
 }
 
+/// An event that happened.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Happened<T> {
+    index: usize,
+    t: T,
+    rising: bool,
+}
+
+/// Which states within a step functions are evaluated at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum On {
+    /// Those of its interpolant.
+    Interpolant,
+    /// Those that are back on the constraints.
+    Constraints,
+}
+
+/// Writes all event functions at a time within a step.
+type Write<'a, T> = dyn FnMut(T, On, &mut [T]) -> Result<(), DynamicsError<T>> + 'a;
+
+/// The event functions along a step.
+pub(crate) struct Along<'a, T> {
+    /// Where the step begins and ends.
+    ends: (T, T),
+    write: &'a mut Write<'a, T>,
+}
+
 impl<T: Real> Default for Events<T> {
     fn default() -> Self {
         Self {
@@ -54,26 +84,33 @@ impl<T: Real> Default for Events<T> {
 
 impl<T: Real> Events<T> {
     /// Begins at the initial state.
-    pub(super) fn new<I, const N: usize>(
-        mechanism: &I,
+    pub(super) fn begin<const N: usize>(
+        &mut self,
+        functions: Functions<'_, T, N>,
         events: &'static [Event],
         state: &State<T, N>,
-    ) -> Result<Self, SimulateError<T>>
-    where
-        I: Interface<T, N> + ?Sized,
-    {
+    ) -> Result<(), SimulateError<T>> {
         if events.len() > ROOM {
             return Err(SimulateError::TooManyEvents {
                 events: events.len(),
                 room: ROOM,
             });
         }
-        let values = evaluate(mechanism, events, state).map_err(SimulateError::Observe)?;
-        Ok(Self {
-            events,
-            sides: column(|index| values[index].sign()),
-            next: [None; ROOM],
-        })
+        let mut write = |_, _, values: &mut [T]| {
+            functions(state, values);
+            Ok(())
+        };
+        let mut along = Along {
+            ends: (state.t, state.t),
+            write: &mut write,
+        };
+        self.events = events;
+        let values = along.values(events, state.t, On::Interpolant);
+        self.sides = values.map_err(SimulateError::Observe)?;
+        for side in &mut self.sides {
+            *side = side.sign();
+        }
+        Ok(())
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -81,40 +118,70 @@ impl<T: Real> Events<T> {
     }
 
     /// Looks for the first occurrence of each event in a step.
-    #[inline(never)]
-    pub(super) fn look<I, const N: usize>(
+    pub(super) fn look<const N: usize>(
         &mut self,
-        mechanism: &I,
+        functions: Functions<'_, T, N>,
         step: &Step<T, N>,
-    ) -> Result<(), DynamicsError<T>>
-    where
-        I: Interface<T, N> + ?Sized,
-    {
-        let times = nodes((step.start().t, step.end().t));
+    ) -> Result<(), DynamicsError<T>> {
+        let mut write = |t, _, values: &mut [T]| {
+            functions(&step.at(t), values);
+            Ok(())
+        };
+        let mut along = Along {
+            ends: (step.start().t, step.end().t),
+            write: &mut write,
+        };
+        (T::compiled().find_first)(self, &mut along)
+    }
+
+    /// The next occurrence of the step that was looked at, the earliest first.
+    pub(super) fn next<const N: usize>(
+        &mut self,
+        functions: Functions<'_, T, N>,
+        probe: &mut dyn Probe<T, N>,
+        step: &Step<T, N>,
+    ) -> Result<Option<Occurrence<T, N>>, DynamicsError<T>> {
+        let mut write = |t, on, values: &mut [T]| {
+            functions(&state_at(probe, step, t, on)?, values);
+            Ok(())
+        };
+        let mut along = Along {
+            ends: (step.start().t, step.end().t),
+            write: &mut write,
+        };
+        let happened = (T::compiled().take_first)(self, &mut along)?;
+        let Some(Happened { index, t, rising }) = happened else {
+            return Ok(None);
+        };
+        Ok(Some(Occurrence {
+            index,
+            event: &self.events[index],
+            rising,
+            state: state_at(probe, step, t, On::Constraints)?,
+        }))
+    }
+
+    /// The first occurrence of each event, over times and values.
+    pub(crate) fn find_first(&mut self, along: &mut Along<'_, T>) -> Result<(), DynamicsError<T>> {
+        let times = nodes(along.ends);
         let mut sampled = [[T::zero(); ROOM]; NODES];
         for (values, t) in sampled.iter_mut().zip(times) {
-            *values = evaluate(mechanism, self.events, &step.at(t))?;
+            *values = along.values(self.events, t, On::Interpolant)?;
         }
         let values_of = |index: usize| column(|node| sampled[node][index]);
         for index in 0..self.events.len() {
             let values = values_of(index);
             let samples = Samples { times, values };
-            self.next[index] = self.search(mechanism, step, index, samples)?;
+            self.next[index] = self.search(along, index, samples)?;
         }
         Ok(())
     }
 
-    /// The next occurrence of the step that was looked at, the earliest first.
-    #[inline(never)]
-    pub(super) fn next<I, const N: usize>(
+    /// The earliest of the next occurrences, after which that event is looked for again.
+    pub(crate) fn take_first(
         &mut self,
-        mechanism: &I,
-        probe: &mut dyn Probe<T, N>,
-        step: &Step<T, N>,
-    ) -> Result<Option<Occurrence<T, N>>, DynamicsError<T>>
-    where
-        I: Interface<T, N> + ?Sized,
-    {
+        along: &mut Along<'_, T>,
+    ) -> Result<Option<Happened<T>>, DynamicsError<T>> {
         let mut first: Option<(usize, Next<T>)> = None;
         for (index, next) in self.next.iter().enumerate() {
             if let Some(next) = *next
@@ -126,38 +193,26 @@ impl<T: Real> Events<T> {
         let Some((index, next)) = first else {
             return Ok(None);
         };
-        let t = self.polished(mechanism, probe, step, (index, next))?;
-        let occurrence = Occurrence {
-            index,
-            event: &self.events[index],
-            rising: next.rising,
-            state: on_constraints(probe, step, t)?,
-        };
-        let events = self.events;
-        let mut value = |t| Ok(evaluate(mechanism, events, &step.at(t))?[index]);
-        let left = rest(&mut value, (next.t.max(t), step.end().t))?;
+        let t = self.polished(along, (index, next))?;
+        let left = self.rest(along, index, next.t.max(t))?;
         self.next[index] = match left {
-            Some(samples) => self.search(mechanism, step, index, samples)?,
+            Some(samples) => self.search(along, index, samples)?,
             None => None,
         };
-        Ok(Some(occurrence))
+        let rising = next.rising;
+        Ok(Some(Happened { index, t, rising }))
     }
 
     /// Where an event happens first within what was sampled of a step.
-    #[inline(never)]
-    fn search<I, const N: usize>(
+    fn search(
         &mut self,
-        mechanism: &I,
-        step: &Step<T, N>,
+        along: &mut Along<'_, T>,
         index: usize,
         mut samples: Samples<T>,
-    ) -> Result<Option<Next<T>>, DynamicsError<T>>
-    where
-        I: Interface<T, N> + ?Sized,
-    {
-        let (events, end) = (self.events, step.end().t);
-        let mut value = |t| Ok(evaluate(mechanism, events, &step.at(t))?[index]);
+    ) -> Result<Option<Next<T>>, DynamicsError<T>> {
+        let events = self.events;
         loop {
+            let mut value = |t| along.value(events, t, On::Interpolant, index);
             let side = &mut self.sides[index];
             let found = first_crossing(&mut value, &samples, side, Left::AtZero)?;
             let Some((from, to)) = found else {
@@ -182,7 +237,7 @@ impl<T: Real> Events<T> {
                 let bracket = (from, to);
                 return Ok(Some(Next { t, bracket, rising }));
             }
-            match rest(&mut value, (t, end))? {
+            match self.rest(along, index, t)? {
                 Some(left) => samples = left,
                 None => return Ok(None),
             }
@@ -191,21 +246,12 @@ impl<T: Real> Events<T> {
 
     /// The time of an occurrence on states that are back on the constraints, if the
     /// function changes its sign there, too.
-    #[inline(never)]
-    fn polished<I, const N: usize>(
+    fn polished(
         &self,
-        mechanism: &I,
-        probe: &mut dyn Probe<T, N>,
-        step: &Step<T, N>,
+        along: &mut Along<'_, T>,
         (index, next): (usize, Next<T>),
-    ) -> Result<T, DynamicsError<T>>
-    where
-        I: Interface<T, N> + ?Sized,
-    {
-        let mut value = |t| {
-            let state = on_constraints(probe, step, t)?;
-            Ok(evaluate(mechanism, self.events, &state)?[index])
-        };
+    ) -> Result<T, DynamicsError<T>> {
+        let mut value = |t| along.value(self.events, t, On::Constraints, index);
         let (from, to) = next.bracket;
         let (before, after) = (value(from)?, value(to)?);
         if from < to && before != T::zero() && before.sign() != after.sign() {
@@ -214,51 +260,61 @@ impl<T: Real> Events<T> {
             Ok(next.t)
         }
     }
-}
 
-/// Samples of what is left of a step, if anything is.
-fn rest<T: Real>(
-    value: &mut dyn FnMut(T) -> Result<T, DynamicsError<T>>,
-    (from, to): (T, T),
-) -> Result<Option<Samples<T>>, DynamicsError<T>> {
-    let shortest = T::EPSILON * T::from_f64(SAME_TIME) * from.abs().max(to.abs());
-    if to - from <= shortest {
-        return Ok(None);
-    }
-    Samples::of(value, (from, to)).map(Some)
-}
-
-/// The event functions at a state, where all have a value. One that is infinite has a sign,
-/// one that is not a number would never change it.
-#[inline(never)]
-fn evaluate<T, I, const N: usize>(
-    mechanism: &I,
-    events: &[Event],
-    state: &State<T, N>,
-) -> Result<[T; ROOM], DynamicsError<T>>
-where
-    T: Real,
-    I: Interface<T, N> + ?Sized,
-{
-    let mut values = [T::zero(); ROOM];
-    mechanism.events(state, &mut values);
-    for (event, value) in events.iter().zip(&values) {
-        if value.partial_cmp(&T::zero()).is_none() {
-            let (t, quantity) = (state.t, Watched::Event(event.name));
-            return Err(DynamicsError::WatchedNotFinite { t, quantity });
+    /// Samples of a function in what is left of a step, if anything is.
+    fn rest(
+        &self,
+        along: &mut Along<'_, T>,
+        index: usize,
+        from: T,
+    ) -> Result<Option<Samples<T>>, DynamicsError<T>> {
+        let to = along.ends.1;
+        let shortest = T::EPSILON * T::from_f64(SAME_TIME) * from.abs().max(to.abs());
+        if to - from <= shortest {
+            return Ok(None);
         }
+        let mut value = |t| along.value(self.events, t, On::Interpolant, index);
+        Samples::of(&mut value, (from, to)).map(Some)
     }
-    Ok(values)
+}
+
+impl<T: Real> Along<'_, T> {
+    /// The event functions at a time, where all have a value. One that is infinite has a
+    /// sign, one that is not a number would never change it.
+    fn values(&mut self, events: &[Event], t: T, on: On) -> Result<[T; ROOM], DynamicsError<T>> {
+        let mut values = [T::zero(); ROOM];
+        (self.write)(t, on, &mut values)?;
+        for (event, value) in events.iter().zip(&values) {
+            if value.partial_cmp(&T::zero()).is_none() {
+                let quantity = Watched::Event(event.name);
+                return Err(DynamicsError::WatchedNotFinite { t, quantity });
+            }
+        }
+        Ok(values)
+    }
+
+    /// One of them.
+    fn value(
+        &mut self,
+        events: &[Event],
+        t: T,
+        on: On,
+        index: usize,
+    ) -> Result<T, DynamicsError<T>> {
+        Ok(self.values(events, t, on)?[index])
+    }
 }
 
 /// The state at a time within a step; the ends are on the constraints already.
-fn on_constraints<T: Real, const N: usize>(
+#[inline(never)]
+fn state_at<T: Real, const N: usize>(
     probe: &mut dyn Probe<T, N>,
     step: &Step<T, N>,
     t: T,
+    on: On,
 ) -> Result<State<T, N>, DynamicsError<T>> {
     let mut state = step.at(t);
-    if t > step.start().t && t < step.end().t {
+    if on == On::Constraints && t > step.start().t && t < step.end().t {
         probe.project(&mut state)?;
     }
     Ok(state)

@@ -17,6 +17,7 @@ mod summary;
 mod watch;
 
 pub use error::{Failure, SimulateError};
+pub(crate) use event::{Along, Events, Happened};
 pub use options::{Audit, Options, Origin, StepControl};
 pub use stepper::Stepper;
 pub use summary::Summary;
@@ -128,9 +129,8 @@ where
                 .keep(&state, energy)
                 .map_err(IntegrateError::Dynamics)?;
         }
-        let flow = self
-            .watchers
-            .begin(self.mechanism, &state, &mut self.probe)?;
+        let events = |state: &_, values: &mut _| self.mechanism.events(state, values);
+        let flow = self.watchers.begin(&events, &state, &mut self.probe)?;
         if let Some(origin) = &origin {
             self.watchers.go_on(origin);
         }
@@ -173,7 +173,8 @@ where
         self.done.count(step);
         self.probe.follow(self.system.system());
         let passages = self.system.system().passages();
+        let events = |state: &_, values: &mut _| self.mechanism.events(state, values);
         self.watchers
-            .show(self.mechanism, step, passages, &mut self.probe, self.done)
+            .show(&events, step, passages, &mut self.probe, self.done)
     }
 }

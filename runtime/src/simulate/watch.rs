@@ -3,12 +3,16 @@
 //! In:  accepted steps.
 //! Out: whether the run goes on.
 
-use super::event::Events;
+use super::event::{Events, Functions};
 use super::{Audit, Options, Origin, SimulateError, Summary};
 use crate::integrator::Inside;
 use crate::singular::Found;
-use crate::{ConstraintAudit, EnergyAudit, Interface, Observer, Probe, Real, State, Step};
+use crate::{ConstraintAudit, DynamicsError, EnergyAudit, Observer, Probe, Real, State, Step};
 use core::ops::ControlFlow;
+
+/// Does something with someone who watches.
+type Show<'a, T, const N: usize> =
+    dyn FnMut(&mut dyn Observer<T, N>) -> Result<ControlFlow<()>, DynamicsError<T>> + 'a;
 
 /// Audits, events and observers of a run.
 pub(super) struct Watchers<'a, 'b, T, const N: usize> {
@@ -43,29 +47,33 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
 
     /// Shows everyone the initial state.
     #[inline(never)]
-    pub(super) fn begin<I: Interface<T, N> + ?Sized>(
+    pub(super) fn begin(
         &mut self,
-        interface: &I,
+        functions: Functions<'_, T, N>,
         state: &State<T, N>,
         probe: &mut dyn Probe<T, N>,
     ) -> Result<ControlFlow<()>, SimulateError<T>> {
-        self.events = Events::new(interface, probe.structure().events, state)?;
+        let events = probe.structure().events;
+        self.events.begin(functions, events, state)?;
+        self.all(&mut |watcher| watcher.begin(state, probe))
+            .map_err(SimulateError::Observe)
+    }
+
+    /// Does something with all audits and observers; whether one of them broke off.
+    #[inline(never)]
+    fn all(&mut self, show: &mut Show<'_, T, N>) -> Result<ControlFlow<()>, DynamicsError<T>> {
         let mut flow = ControlFlow::Continue(());
-        let mut show = |watcher: &mut dyn Observer<T, N>| {
-            if watcher.begin(state, probe)?.is_break() {
-                flow = ControlFlow::Break(());
-            }
-            Ok(())
-        };
-        let observe = SimulateError::Observe;
+        // Audits never break off.
         if let Some(audit) = &mut self.constraints {
-            show(audit).map_err(observe)?;
+            let _: ControlFlow<()> = show(audit)?;
         }
         if let Some(audit) = &mut self.energy {
-            show(audit).map_err(observe)?;
+            let _: ControlFlow<()> = show(audit)?;
         }
         for observer in self.observers.iter_mut() {
-            show(*observer).map_err(observe)?;
+            if show(*observer)?.is_break() {
+                flow = ControlFlow::Break(());
+            }
         }
         Ok(flow)
     }
@@ -100,31 +108,27 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
 
     /// Shows everyone a step; `done.end` becomes its end.
     #[inline(never)]
-    pub(super) fn show<I: Interface<T, N> + ?Sized>(
+    pub(super) fn show(
         &mut self,
-        interface: &I,
+        functions: Functions<'_, T, N>,
         step: &Step<T, N>,
         passages: &Found<T>,
         probe: &mut dyn Probe<T, N>,
         done: &mut Summary<T, N>,
     ) -> Result<ControlFlow<()>, SimulateError<T>> {
         let mut flow = self.tell(passages);
-        let cut = self.occurrences(interface, step, probe, done)?;
+        let cut = match self.events.is_empty() {
+            true => None,
+            false => self
+                .occurrences(functions, step, probe, &mut done.events)
+                .map_err(SimulateError::Observe)?,
+        };
         let step = cut.as_ref().unwrap_or(step);
-        if cut.is_some() {
+        let shown = self
+            .all(&mut |watcher| watcher.step(step, probe))
+            .map_err(SimulateError::Observe)?;
+        if cut.is_some() || shown.is_break() {
             flow = ControlFlow::Break(());
-        }
-        let observe = SimulateError::Observe;
-        if let Some(audit) = &mut self.constraints {
-            let _: ControlFlow<()> = audit.step(step, probe).map_err(observe)?;
-        }
-        if let Some(audit) = &mut self.energy {
-            let _: ControlFlow<()> = audit.step(step, probe).map_err(observe)?;
-        }
-        for observer in self.observers.iter_mut() {
-            if observer.step(step, probe).map_err(observe)?.is_break() {
-                flow = ControlFlow::Break(());
-            }
         }
         done.end = *step.end();
         Ok(flow)
@@ -146,23 +150,19 @@ impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
         flow
     }
 
-    /// Locates the events of a step; the step up to the event at which an
+    /// Locates the events of a step and counts them; the step up to the event at which an
     /// observer broke off, if one did.
     #[inline(never)]
-    fn occurrences<I: Interface<T, N> + ?Sized>(
+    fn occurrences(
         &mut self,
-        interface: &I,
+        functions: Functions<'_, T, N>,
         step: &Step<T, N>,
         probe: &mut dyn Probe<T, N>,
-        done: &mut Summary<T, N>,
-    ) -> Result<Option<Step<T, N>>, SimulateError<T>> {
-        if self.events.is_empty() {
-            return Ok(None);
-        }
-        let observe = SimulateError::Observe;
-        self.events.look(interface, step).map_err(observe)?;
-        while let Some(occurrence) = self.events.next(interface, probe, step).map_err(observe)? {
-            done.events += 1;
+        count: &mut u64,
+    ) -> Result<Option<Step<T, N>>, DynamicsError<T>> {
+        self.events.look(functions, step)?;
+        while let Some(occurrence) = self.events.next(functions, probe, step)? {
+            *count += 1;
             let mut flow = ControlFlow::Continue(());
             for observer in self.observers.iter_mut() {
                 if observer.event(&occurrence).is_break() {

@@ -1,0 +1,175 @@
+//! Each step is made with the conditions of the forces held.
+//!
+//! In:  states, attempts at steps.
+//! Out: accelerations with the conditions held, also where the motion slides along some.
+//!
+//! A mechanism without conditions asks for nothing of this.
+//!
+//! Not here: where conditions change ([`super::switching`]).
+
+use super::Core;
+use super::conditions::Decided;
+use super::sliding::ROOM;
+use super::switching::Motion;
+use crate::{DynamicsError, Mechanism, Real, Sides, State, Step, Switch, Switching};
+use nalgebra::SVector;
+
+/// Functions of states within a step are off by this part of its accepted error.
+const NOISE: f64 = 0.01;
+/// The same in units of round-off, at least and with fixed steps.
+const NOISE_OF_FIXED: f64 = 4096.0;
+
+/// An attempt at a step, with who made it.
+struct Attempt<'a, T, const N: usize, const R: usize> {
+    core: &'a mut Core<T, N, R>,
+    mechanism: &'a dyn Mechanism<T, N, R>,
+    step: &'a Step<T, N>,
+}
+
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
+    /// Hands the sides to everything that evaluates forces.
+    pub(super) fn decide(&mut self, sides: Sides) {
+        self.terms.sides = sides;
+        self.regular.sides = sides;
+    }
+
+    /// Lets the state decide the conditions.
+    pub(super) fn release(&mut self) {
+        if !self.conditions.decided.list.is_empty() {
+            self.decide(Sides::FREE);
+        }
+    }
+
+    /// Holds the conditions as they are at the start of a step; whether there are any.
+    #[inline]
+    pub(super) fn hold(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) -> bool {
+        let some = !self.conditions.decided.list.is_empty();
+        if some {
+            self.hold_all(mechanism, state);
+        }
+        some
+    }
+
+    #[inline(never)]
+    fn hold_all(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) {
+        if self.conditions.at.as_ref() != Some(state) {
+            let mut values = [Switch::default(); Sides::ROOM];
+            let count = self.conditions.decided.list.len().min(Sides::ROOM);
+            let values = &mut values[..count];
+            mechanism.switches(state, &SVector::zeros(), values);
+            self.conditions.decided.begin(state.t, values);
+            self.conditions.at = Some(*state);
+        }
+        self.decide(self.conditions.decided.sides);
+    }
+
+    /// Where the first condition changes within a step that was made with those at its
+    /// start.
+    #[inline]
+    pub(super) fn switch(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        step: &Step<T, N>,
+    ) -> Result<Switching<T>, DynamicsError<T>> {
+        match self.conditions.decided.list.is_empty() {
+            true => Ok(Switching::Nowhere),
+            false => self.switch_some(mechanism, step),
+        }
+    }
+
+    #[inline(never)]
+    fn switch_some(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        step: &Step<T, N>,
+    ) -> Result<Switching<T>, DynamicsError<T>> {
+        let core = &mut *self;
+        let found = (T::compiled().switch)(&mut Attempt {
+            core,
+            mechanism,
+            step,
+        })?;
+        if matches!(found, Switching::Nowhere | Switching::AtEnd) {
+            self.conditions.at = Some(*step.end());
+        }
+        self.decide(self.conditions.decided.sides);
+        Ok(found)
+    }
+
+    /// The acceleration with the conditions held, also where the motion slides along some.
+    #[inline(always)]
+    pub(super) fn held_acceleration<M: Mechanism<T, N, R> + ?Sized>(
+        &mut self,
+        mechanism: &M,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        match self.conditions.decided.sliding {
+            0 => self.acceleration(mechanism, state),
+            _ => self.sliding_acceleration(&mechanism, state),
+        }
+    }
+
+    /// The acceleration of a motion that slides.
+    #[inline(never)]
+    fn sliding_acceleration(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &State<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        let slid = self.conditions.decided.slid(state.t)?;
+        let mut vectors = [[T::zero(); N]; ROOM + 1];
+        let room = vectors.as_flattened_mut();
+        let shares = (T::compiled().slide)(&slid, N, room, &mut |sides, rates, out| {
+            self.decide(sides);
+            let acceleration = self.acceleration(mechanism, state)?;
+            mechanism.switches(state, &acceleration, rates);
+            out.copy_from_slice(acceleration.as_slice());
+            Ok(())
+        })?;
+        for (&index, share) in slid.list().iter().zip(shares) {
+            self.conditions.decided.shares[index] = share;
+        }
+        self.decide(self.conditions.decided.sides);
+        Ok(SVector::from(vectors[0]))
+    }
+}
+
+impl<T: Real, const N: usize, const R: usize> Attempt<'_, T, N, R> {
+    /// The state at a time; at the ends those that the attempt began and ended with.
+    fn at(&self, t: T) -> State<T, N> {
+        match t >= self.step.end().t {
+            true => *self.step.end(),
+            false => self.step.at(t),
+        }
+    }
+}
+
+impl<T: Real, const N: usize, const R: usize> Motion<T> for Attempt<'_, T, N, R> {
+    fn decided(&mut self) -> &mut Decided<T> {
+        &mut self.core.conditions.decided
+    }
+
+    fn ends(&self) -> (T, T) {
+        (self.step.start().t, self.step.end().t)
+    }
+
+    fn noise(&self) -> T {
+        let tolerance = self.core.session.tolerance.unwrap_or(T::zero());
+        (tolerance * T::from_f64(NOISE)).max(T::EPSILON * T::from_f64(NOISE_OF_FIXED))
+    }
+
+    fn values(&self, t: T, values: &mut [Switch<T>]) {
+        let (state, still) = (self.at(t), SVector::zeros());
+        self.mechanism.switches(&state, &still, values);
+    }
+
+    fn rates(&mut self, t: T, values: &mut [Switch<T>]) -> Result<(), DynamicsError<T>> {
+        let state = self.at(t);
+        self.core.decide(self.core.conditions.decided.sides);
+        let acceleration = self.core.held_acceleration(self.mechanism, &state)?;
+        if !values.is_empty() {
+            self.mechanism.switches(&state, &acceleration, values);
+        }
+        Ok(())
+    }
+}
