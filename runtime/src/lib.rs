@@ -14,6 +14,7 @@ mod number;
 mod observer;
 mod projection;
 mod real;
+mod routines;
 mod sides;
 mod simulate;
 mod sincos;

@@ -5,8 +5,8 @@
 //! Not here: lanes, dual numbers and extended precision. A type joins by
 //! implementing this one trait; nothing else in the crate names a float type.
 
+use crate::routines::Routines;
 use crate::sincos;
-use crate::singular::Routines;
 use core::fmt::{Debug, Display};
 use core::ops::Neg;
 use nalgebra::Scalar;

@@ -7,7 +7,7 @@
 //! velocities are: a position that is given says nothing about velocities.
 
 use super::room::Room;
-use super::{AssemblyError, StartFault, position, velocity};
+use super::{AssemblyError, StartFault};
 use crate::stack::with_room;
 use crate::{Energy, Mechanism, Position, Real, Start, State, Structure, Terms};
 use nalgebra::{SMatrix, SVector};
@@ -93,6 +93,7 @@ where
     let v = SVector::from_fn(|i, _| start.v[i].value);
     let mut state = State { t, q, v };
     let [positions, velocities] = structures;
+    let routines = &T::routines().assembly;
     if P > 0 {
         let rows = Further::<M, R> {
             mechanism,
@@ -101,7 +102,8 @@ where
             velocities: false,
         };
         let held = start.q.map(|initial| initial.held);
-        position::assemble::<T, N, P>(&rows, &mut state, &mut Room::default(), &held)
+        Room::<T, N, P>::new()
+            .assemble(routines.positions, &rows, &mut state, &held)
             .map_err(|error| fault(error, t, positions))?;
     }
     if V > 0 {
@@ -112,7 +114,8 @@ where
             velocities: true,
         };
         let held = start.v.map(|initial| initial.held);
-        velocity::assemble::<T, N, V>(&rows, &mut state, &mut Room::default(), &held)
+        Room::<T, N, V>::new()
+            .assemble(routines.velocities, &rows, &mut state, &held)
             .map_err(|error| fault(error, t, velocities))?;
     }
     for i in 0..N {

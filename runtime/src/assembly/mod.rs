@@ -16,12 +16,15 @@
 //! ([`crate::projection`]).
 
 mod decomposition;
+mod draft;
 mod equations;
 mod error;
 mod fault;
 mod inertia;
+mod memory;
 mod position;
 mod room;
+mod routines;
 mod scales;
 mod vanishing;
 mod velocity;
@@ -29,10 +32,11 @@ mod velocity;
 pub use equations::{StartEquations, guess, meet};
 pub use error::AssemblyError;
 pub use fault::StartFault;
+pub(crate) use routines::Routines;
 
 use room::Room;
 
-use crate::linalg::Breakdown;
+use crate::linalg::{Breakdown, Workspace};
 use crate::stack::with_room;
 use crate::{Mechanism, Position, Real, Start, State, Terms};
 use nalgebra::SVector;
@@ -93,9 +97,10 @@ fn constrain<T: Real, const N: usize, const R: usize>(
 ) -> Result<(), AssemblyError<T, N, R>> {
     let held = start.q.map(|initial| initial.held);
     let held_velocities = start.v.map(|initial| initial.held);
-    let mut room = Room::default();
-    position::assemble(mechanism, state, &mut room, &held)?;
-    velocity::assemble(mechanism, state, &mut room, &held_velocities)
+    let mut room = Room::new();
+    let routines = &T::routines().assembly;
+    room.assemble(routines.positions, mechanism, state, &held)?;
+    room.assemble(routines.velocities, mechanism, state, &held_velocities)
 }
 
 /// Refuses a kinetic energy that is negative for some velocities, whether or not the
@@ -106,15 +111,24 @@ fn check_inertia<T: Real, const N: usize, const R: usize>(
     state: &State<T, N>,
 ) -> Result<(), AssemblyError<T, N, R>> {
     // Without constraints there are no projections, and nothing to tell of positions.
-    let negative = if R > 0 {
-        let mut at = Position::default();
+    let mass = if R > 0 {
+        let mut at = Position::<T, N, R>::default();
         mechanism.position(state, &mut at);
-        inertia::negative(&at.mass)
+        at.mass
     } else {
-        let mut at = Terms::default();
+        let mut at = Terms::<T, N, R>::default();
         mechanism.terms(state, &mut at);
-        inertia::negative(&at.mass)
+        at.mass
     };
+    let mut matrices = [[[T::zero(); N]; N]; inertia::MATRICES];
+    let mut vectors = [[T::zero(); N]; inertia::VECTORS];
+    let mut done = [0; N];
+    let workspace = Workspace::new(
+        matrices.as_flattened_mut().as_flattened_mut(),
+        vectors.as_flattened_mut(),
+        &mut done,
+    );
+    let negative = (T::routines().assembly.negative)(mass.as_slice(), N, &workspace);
     match negative {
         Ok(None) => Ok(()),
         Ok(Some(coordinate)) => Err(AssemblyError::NegativeInertia {
