@@ -34,6 +34,8 @@ impl<T: Real, const N: usize> State<T, N> {
 /// What is known of the constraints, over slices.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Constraints<'a, T> {
+    /// `M`, the metric of the projections, column by column.
+    pub(crate) mass: &'a [T],
     /// `g`.
     pub(crate) residual: &'a [T],
     /// `A`, column by column.
@@ -93,6 +95,7 @@ impl<T: Real, const N: usize, const R: usize> Equations<T> for Bound<'_, T, N, R
 
     fn constraints(&self) -> Constraints<'_, T> {
         Constraints {
+            mass: self.position.mass.as_slice(),
             residual: self.position.residual.as_slice(),
             jacobian: self.position.jacobian.as_slice(),
             drift: self.position.drift.as_slice(),

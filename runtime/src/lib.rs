@@ -3,7 +3,6 @@
 
 mod assembly;
 mod catalogue;
-mod compiled;
 mod crossing;
 mod dynamics;
 mod equations;
@@ -15,6 +14,7 @@ mod number;
 mod observer;
 mod projection;
 mod real;
+mod routines;
 mod sides;
 mod simulate;
 mod sincos;

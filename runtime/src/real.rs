@@ -5,9 +5,8 @@
 //! Not here: lanes, dual numbers and extended precision. A type joins by
 //! implementing this one trait; nothing else in the crate names a float type.
 
-use crate::compiled::Compiled;
+use crate::routines::Routines;
 use crate::sincos;
-use crate::singular::Routines;
 use core::fmt::{Debug, Display};
 use core::ops::Neg;
 use nalgebra::Scalar;
@@ -95,12 +94,6 @@ pub trait Real:
     fn routines() -> &'static Routines<Self> {
         const { &Routines::new() }
     }
-
-    /// What else is compiled where this is.
-    #[doc(hidden)]
-    fn compiled() -> &'static Compiled<Self> {
-        const { &Compiled::new() }
-    }
 }
 
 macro_rules! real_for_float {
@@ -113,10 +106,6 @@ macro_rules! real_for_float {
                 &ROUTINES
             }
 
-            fn compiled() -> &'static Compiled<Self> {
-                static COMPILED: Compiled<$float> = Compiled::new();
-                &COMPILED
-            }
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
                 value as $float

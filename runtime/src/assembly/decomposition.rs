@@ -8,62 +8,64 @@
 
 use super::scales::Scales;
 use crate::Real;
-use crate::linalg::{Breakdown, Products, add_scaled, dot, orthogonalise};
-use nalgebra::{SMatrix, SVector};
+use crate::linalg::{Breakdown, RowProducts, Workspace, add_scaled, dot, orthogonalise_slices};
 
 /// `Ĵ = rows · J · columns`, of which some rows are `U Σ Vᵀ`.
-#[derive(Clone, Debug)]
-pub(super) struct Decomposition<T, const N: usize, const R: usize> {
+#[derive(Debug)]
+pub(super) struct Decomposition<'a, T> {
+    /// The number of coordinates.
+    n: usize,
     /// `σ_i v_i` of the unsafe rows, largest first; then the safe rows as they are.
-    rows: SMatrix<T, N, R>,
+    rows: &'a mut [T],
     /// Which rows these are: first the unsafe ones.
-    order: [usize; R],
+    order: &'a mut [usize],
     /// How many rows are not safe.
     n_unsafe: usize,
     /// `u_i`.
-    left: SMatrix<T, R, R>,
+    left: &'a mut [T],
     /// `σ_i²`.
-    squares: SVector<T, R>,
-    safe: Products<T, R>,
+    squares: &'a mut [T],
+    safe: RowProducts<'a, T>,
+    /// What solutions of the safe rows are combined by.
+    multipliers: &'a mut [T],
     /// What is added to the squares of singular values.
     shift: T,
 }
 
-impl<T: Real, const N: usize, const R: usize> Default for Decomposition<T, N, R> {
-    fn default() -> Self {
+impl<'a, T: Real> Decomposition<'a, T> {
+    /// That of a matrix of zeros. It takes a matrix of `n_rows` by `n`, two square ones of all
+    /// rows, six vectors and three lists.
+    pub(super) fn new(n: usize, n_rows: usize, workspace: &Workspace<'a, T>) -> Self {
         Self {
-            rows: SMatrix::zeros(),
-            order: [0; R],
+            n,
+            rows: workspace.numbers(n * n_rows),
+            order: workspace.indices(n_rows),
             n_unsafe: 0,
-            left: SMatrix::zeros(),
-            squares: SVector::zeros(),
-            safe: Products::default(),
+            left: workspace.numbers(n_rows * n_rows),
+            squares: workspace.numbers(n_rows),
+            safe: RowProducts::new(n_rows, workspace),
+            multipliers: workspace.numbers(n_rows),
             shift: T::zero(),
         }
     }
-}
 
-impl<T: Real, const N: usize, const R: usize> Decomposition<T, N, R> {
     /// Decomposes a Jacobian in these scales.
-    ///
-    /// In place, as everything here is: of a large mechanism it takes a good part of a
-    /// stack.
     pub(super) fn decompose(
         &mut self,
-        jacobian: &SMatrix<T, R, N>,
-        scales: &Scales<T, N, R>,
+        jacobian: &[T],
+        scales: &Scales<'_, T>,
     ) -> Result<(), Breakdown> {
-        self.decompose_scaled(|k, j| scales.rows[k] * jacobian[(k, j)] * scales.columns[j])
+        let n_rows = self.order.len();
+        self.decompose_scaled(&|k, j| scales.rows[k] * jacobian[j * n_rows + k] * scales.columns[j])
     }
 
     /// Decomposes a matrix with these entries, which is scaled already.
-    #[inline(never)]
     pub(super) fn decompose_scaled(
         &mut self,
-        entry: impl Fn(usize, usize) -> T,
+        entry: &dyn Fn(usize, usize) -> T,
     ) -> Result<(), Breakdown> {
         self.shift = T::zero();
-        self.safe.compute(N, |j, column| {
+        self.safe.compute(self.n, &mut |j, column| {
             for (k, target) in column.iter_mut().enumerate() {
                 *target = entry(k, j);
             }
@@ -73,14 +75,17 @@ impl<T: Real, const N: usize, const R: usize> Decomposition<T, N, R> {
     }
 
     /// Lists the rows, those that are not safe first.
-    fn fill(&mut self, entry: impl Fn(usize, usize) -> T) {
-        (self.n_unsafe, self.squares) = (0, SVector::zeros());
+    fn fill(&mut self, entry: &dyn Fn(usize, usize) -> T) {
+        let (n, n_rows) = (self.n, self.order.len());
+        self.n_unsafe = 0;
         let mut place = 0;
         for safe in [false, true] {
-            for row in (0..R).filter(|row| self.safe.is_safe(*row) == safe) {
+            for row in (0..n_rows).filter(|row| self.safe.is_safe(*row) == safe) {
                 self.order[place] = row;
-                let target = self.rows.data.0[place].iter_mut().enumerate();
-                target.for_each(|(j, target)| *target = entry(row, j));
+                let target = &mut self.rows[place * n..(place + 1) * n];
+                for (j, target) in target.iter_mut().enumerate() {
+                    *target = entry(row, j);
+                }
                 place += 1;
                 self.n_unsafe += usize::from(!safe);
             }
@@ -89,17 +94,13 @@ impl<T: Real, const N: usize, const R: usize> Decomposition<T, N, R> {
 
     /// Decomposes the rows that are not safe by singular values.
     fn orthogonalise(&mut self) -> Result<(), Breakdown> {
-        let n = self.n_unsafe;
-        for (column, row) in self.left.data.0.iter_mut().zip(&self.order[..n]) {
-            *column = [T::zero(); R];
-            column[*row] = T::one();
+        let (count, n_rows) = (self.n_unsafe, self.order.len());
+        self.left.fill(T::zero());
+        for (i, row) in self.order[..count].iter().enumerate() {
+            self.left[i * n_rows + row] = T::one();
         }
-        let rows = &mut self.rows.data.0[..n];
-        orthogonalise(rows, &mut self.left.data.0[..n])?;
-        for (square, row) in self.squares.iter_mut().zip(rows) {
-            *square = dot(row, row);
-        }
-        Ok(())
+        let squares = &mut self.squares[..count];
+        orthogonalise_slices((self.rows, self.n), (self.left, n_rows), squares)
     }
 
     /// Damps solutions, relative to the square of the largest singular value.
@@ -113,73 +114,66 @@ impl<T: Real, const N: usize, const R: usize> Decomposition<T, N, R> {
     }
 
     /// The unknowns `x` of least norm that solve `Ĵ x = y` as well as the singular values
-    /// above `cut` can; and by how much `|y|²` falls to `|y − Ĵ x|²`.
-    pub(super) fn solve(&self, y: &SVector<T, R>, cut: T) -> (SVector<T, N>, T) {
-        let mut x = [T::zero(); N];
+    /// above `cut` can; returns by how much `|y|²` falls to `|y − Ĵ x|²`.
+    pub(super) fn solve(&mut self, y: &[T], cut: T, x: &mut [T]) -> T {
+        x.fill(T::zero());
         let mut fall = T::zero();
         for i in 0..self.n_singular(cut) {
             let square = self.squares[i];
-            let product = dot(&self.left.data.0[i], &y.data.0[0]);
+            let product = dot(self.left(i), y);
             let kept = self.shift / (square + self.shift);
             fall += product * product * (T::one() - kept * kept);
-            add_scaled(
-                &mut x,
-                product / (square + self.shift),
-                &self.rows.data.0[i],
-            );
+            add_scaled(x, product / (square + self.shift), self.row(i));
         }
-        let z = self.safe.solve(y);
-        for (row, vector) in self.safe_rows() {
-            let left = self.shift * z[row];
+        self.multipliers.copy_from_slice(y);
+        self.safe.solve(self.multipliers);
+        for i in self.n_unsafe..self.order.len() {
+            let row = self.order[i];
+            let z = self.multipliers[row];
+            let left = self.shift * z;
             fall += y[row] * y[row] - left * left;
-            add_scaled(&mut x, z[row], vector);
+            add_scaled(x, z, self.row(i));
         }
-        (SVector::from(x), fall)
+        fall
     }
 
-    /// `y` without what the singular values above `cut` can produce.
-    pub(super) fn unreachable(&self, y: &SVector<T, R>, cut: T) -> SVector<T, R> {
-        let mut rest = *y;
-        for (row, _) in self.safe_rows() {
-            rest[row] = T::zero();
+    /// Takes from `y` what the singular values above `cut` can produce.
+    pub(super) fn leave_unreachable(&self, y: &mut [T], cut: T) {
+        for row in &self.order[self.n_unsafe..] {
+            y[*row] = T::zero();
         }
-        let [entries] = &mut rest.data.0;
-        for left in &self.left.data.0[..self.n_singular(cut)] {
-            let share = dot(left, entries);
-            add_scaled(entries, -share, left);
-        }
-        rest
-    }
-
-    /// `x` without what changes `Ĵ x` by singular values above `cut`.
-    pub(super) fn ineffective(&self, x: &SVector<T, N>, cut: T) -> SVector<T, N> {
-        let [mut rest] = x.data.0;
         for i in 0..self.n_singular(cut) {
-            let row = &self.rows.data.0[i];
-            let share = dot(row, &rest) / self.squares[i];
-            add_scaled(&mut rest, -share, row);
+            let share = dot(self.left(i), y);
+            add_scaled(y, -share, self.left(i));
         }
-        let mut y = SVector::zeros();
-        for (row, vector) in self.safe_rows() {
-            y[row] = dot(vector, &rest);
+    }
+
+    /// Takes from `x` what changes `Ĵ x` by singular values above `cut`.
+    pub(super) fn leave_ineffective(&mut self, x: &mut [T], cut: T) {
+        for i in 0..self.n_singular(cut) {
+            let share = dot(self.row(i), x) / self.squares[i];
+            add_scaled(x, -share, self.row(i));
         }
-        let z = self.safe.solve(&y);
-        for (row, vector) in self.safe_rows() {
-            add_scaled(&mut rest, -z[row], vector);
+        self.multipliers.fill(T::zero());
+        for i in self.n_unsafe..self.order.len() {
+            self.multipliers[self.order[i]] = dot(self.row(i), x);
         }
-        SVector::from(rest)
+        self.safe.solve(self.multipliers);
+        for i in self.n_unsafe..self.order.len() {
+            add_scaled(x, -self.multipliers[self.order[i]], self.row(i));
+        }
     }
 
     /// The largest singular value, or a little more.
     pub(super) fn largest(&self) -> T {
-        let squares = self.squares.iter();
+        let squares = self.squares[..self.n_unsafe].iter();
         let most = squares.fold(self.safe.largest_square(), |most, x| most.max(*x));
         most.sqrt()
     }
 
     /// How many singular values are above `cut`.
     pub(super) fn rank(&self, cut: T) -> usize {
-        R - self.n_unsafe + self.n_singular(cut)
+        self.order.len() - self.n_unsafe + self.n_singular(cut)
     }
 
     /// How many of the singular values that were computed are above `cut`.
@@ -188,10 +182,15 @@ impl<T: Real, const N: usize, const R: usize> Decomposition<T, N, R> {
         (0..self.n_unsafe).take_while(above).count()
     }
 
-    /// The safe rows, with what they are in the scales.
-    fn safe_rows(&self) -> impl Iterator<Item = (usize, &[T; N])> {
-        let rows = self.order.iter().copied().zip(&self.rows.data.0);
-        rows.skip(self.n_unsafe)
+    /// A row of the decomposition.
+    fn row(&self, i: usize) -> &[T] {
+        &self.rows[i * self.n..(i + 1) * self.n]
+    }
+
+    /// The combination of rows that one of those that are not safe is, at length one.
+    fn left(&self, i: usize) -> &[T] {
+        let n_rows = self.order.len();
+        &self.left[i * n_rows..(i + 1) * n_rows]
     }
 }
 
@@ -199,15 +198,40 @@ impl<T: Real, const N: usize, const R: usize> Decomposition<T, N, R> {
 mod tests {
     use super::*;
     use crate::linalg::norm;
+    use nalgebra::SVector;
 
     const CUT: f64 = 1e-6;
 
+    /// Room for the decompositions of a test.
+    fn workspace() -> Workspace<'static, f64> {
+        let numbers = vec![0.0; 100_000].leak();
+        Workspace::new(numbers, &mut [], vec![0; 1_000].leak())
+    }
+
     fn decomposed<const N: usize, const R: usize>(
         entry: impl Fn(usize, usize) -> f64,
-    ) -> Decomposition<f64, N, R> {
-        let mut decomposition = Decomposition::default();
-        assert_eq!(decomposition.decompose_scaled(entry), Ok(()));
+    ) -> Decomposition<'static, f64> {
+        let mut decomposition = Decomposition::new(N, R, &workspace());
+        assert_eq!(decomposition.decompose_scaled(&entry), Ok(()));
         decomposition
+    }
+
+    impl Decomposition<'_, f64> {
+        fn solution<const N: usize>(&mut self, y: &[f64]) -> (SVector<f64, N>, f64) {
+            let mut x = SVector::<f64, N>::zeros();
+            let fall = self.solve(y, CUT, x.as_mut_slice());
+            (x, fall)
+        }
+
+        fn unreachable<const R: usize>(&self, mut y: SVector<f64, R>) -> SVector<f64, R> {
+            self.leave_unreachable(y.as_mut_slice(), CUT);
+            y
+        }
+
+        fn ineffective<const N: usize>(&mut self, mut x: SVector<f64, N>) -> SVector<f64, N> {
+            self.leave_ineffective(x.as_mut_slice(), CUT);
+            x
+        }
     }
 
     /// Rows of two blocks, one of which has an entry of each coordinate twice.
@@ -238,17 +262,17 @@ mod tests {
 
     #[test]
     fn solutions_are_of_least_norm_and_leave_what_no_solution_reaches() {
-        let decomposition = decomposed::<8, 6>(blocks);
+        let mut decomposition = decomposed::<8, 6>(blocks);
         let y = SVector::from([0.3, -1.1, 0.4, 0.9, -0.2, 0.5]);
-        let (x, fall) = decomposition.solve(&y, CUT);
+        let (x, fall) = decomposition.solution::<8>(y.as_slice());
         let left = error(blocks, &x, &y);
         // The halves of the difference of two rows that are the same.
         let unreachable = SVector::from([0.0, 0.0, 0.0, 0.2, 0.0, -0.2]);
         assert!((left - unreachable).amax() < 1e-12, "{left}");
-        assert!((decomposition.unreachable(&y, CUT) - unreachable).amax() < 1e-12);
+        assert!((decomposition.unreachable(y) - unreachable).amax() < 1e-12);
         assert!((fall - (y.norm_squared() - left.norm_squared())).abs() < 1e-12);
-        assert!(decomposition.ineffective(&x, CUT).amax() < 1e-12, "{x}");
-        let free = decomposition.ineffective(&SVector::from([1.0; 8]), CUT);
+        assert!(decomposition.ineffective(x).amax() < 1e-12, "{x}");
+        let free = decomposition.ineffective(SVector::from([1.0; 8]));
         assert!(
             free.amax() > 0.1 && error::<8, 6>(blocks, &free, &SVector::zeros()).amax() < 1e-12
         );
@@ -260,7 +284,7 @@ mod tests {
         let y = SVector::from([0.3, -1.1, 0.4, 0.9, -0.2, 0.5]);
         decomposition.damp(0.01);
         let shift = 0.01 * decomposition.largest().powi(2);
-        let (x, fall) = decomposition.solve(&y, CUT);
+        let (x, fall) = decomposition.solution::<8>(y.as_slice());
         let left = error(blocks, &x, &y);
         // Where half of |Jx − y|² + s|x|² is least, Jᵀ(y − Jx) = s x.
         for j in 0..8 {
@@ -269,8 +293,8 @@ mod tests {
         }
         assert!((fall - (y.norm_squared() - left.norm_squared())).abs() < 1e-12);
         decomposition.damp(0.0);
-        let undamped = decomposed::<8, 6>(blocks).solve(&y, CUT).0;
-        assert!((decomposition.solve(&y, CUT).0 - undamped).amax() < 1e-15);
+        let undamped = decomposed::<8, 6>(blocks).solution::<8>(y.as_slice()).0;
+        assert!((decomposition.solution(y.as_slice()).0 - undamped).amax() < 1e-15);
     }
 
     #[test]
@@ -294,10 +318,10 @@ mod tests {
             1 => -0.8,
             _ => 0.0,
         };
-        let decomposition = decomposed::<101, 100>(entry);
+        let mut decomposition = decomposed::<101, 100>(entry);
         assert_eq!(decomposition.n_unsafe, 0);
-        let y = SVector::from_fn(|k, _| (k as f64).sin());
-        let (x, _) = decomposition.solve(&y, CUT);
+        let y = SVector::<f64, 100>::from_fn(|k, _| (k as f64).sin());
+        let (x, _) = decomposition.solution::<101>(y.as_slice());
         let [left] = error(entry, &x, &y).data.0;
         assert!(norm(&left) < 1e-12);
     }
@@ -305,9 +329,9 @@ mod tests {
     #[test]
     fn what_is_not_finite_is_no_matrix() {
         for bad in [f64::NAN, f64::INFINITY] {
-            let mut decomposition = Decomposition::<f64, 2, 2>::default();
+            let mut decomposition = Decomposition::new(2, 2, &workspace());
             let entry = |k: usize, j: usize| if k == 1 && j == 1 { bad } else { 1.0 };
-            assert_eq!(decomposition.decompose_scaled(entry), Err(Breakdown));
+            assert_eq!(decomposition.decompose_scaled(&entry), Err(Breakdown));
         }
     }
 }

@@ -7,7 +7,7 @@
 //! velocities are: a position that is given says nothing about velocities.
 
 use super::room::Room;
-use super::{AssemblyError, StartFault, position, velocity};
+use super::{AssemblyError, StartFault, given, held};
 use crate::stack::with_room;
 use crate::{Energy, Mechanism, Position, Real, Start, State, Structure, Terms};
 use nalgebra::{SMatrix, SVector};
@@ -89,10 +89,9 @@ where
     T: Real,
     M: Mechanism<T, N, R> + StartEquations<T, N>,
 {
-    let q = SVector::from_fn(|i, _| start.q[i].value);
-    let v = SVector::from_fn(|i, _| start.v[i].value);
-    let mut state = State { t, q, v };
+    let mut state = given(start, t);
     let [positions, velocities] = structures;
+    let routines = &T::routines().assembly;
     if P > 0 {
         let rows = Further::<M, R> {
             mechanism,
@@ -100,8 +99,8 @@ where
             own,
             velocities: false,
         };
-        let held = start.q.map(|initial| initial.held);
-        position::assemble::<T, N, P>(&rows, &mut state, &mut Room::default(), &held)
+        Room::<T, N, P>::new()
+            .assemble(routines.positions, &rows, &mut state, &held(&start.q))
             .map_err(|error| fault(error, t, positions))?;
     }
     if V > 0 {
@@ -111,8 +110,8 @@ where
             own,
             velocities: true,
         };
-        let held = start.v.map(|initial| initial.held);
-        velocity::assemble::<T, N, V>(&rows, &mut state, &mut Room::default(), &held)
+        Room::<T, N, V>::new()
+            .assemble(routines.velocities, &rows, &mut state, &held(&start.v))
             .map_err(|error| fault(error, t, velocities))?;
     }
     for i in 0..N {

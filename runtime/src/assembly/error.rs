@@ -68,36 +68,23 @@ pub enum AssemblyError<T, const N: usize, const R: usize> {
 impl<T: Real, const N: usize, const R: usize> Display for AssemblyError<T, N, R> {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
         match self {
-            Self::NotFinite { t } => write!(
-                f,
-                "the start at t = {t} s, or a constraint or the mass matrix there, is infinite or NaN; \
-                 check the values in `start` and the parameters",
-                t = Number(t)
-            ),
+            Self::NotFinite { t } => not_finite(f, *t),
             Self::Positions {
                 structure,
                 residual,
                 conflicting,
-            } => {
-                f.write_str("no position near the start satisfies the constraints:")?;
-                rows(f, structure, residual, "")?;
-                advice(f, structure.coordinates, conflicting, ("", ""))
-            }
+            } => contradiction(f, structure, residual.as_slice(), (conflicting, false)),
             Self::Velocities {
                 structure,
                 residual,
                 conflicting,
-            } => {
-                f.write_str("no velocities near the start satisfy the constraints:")?;
-                rows(f, structure, residual, " per second")?;
-                advice(f, structure.coordinates, conflicting, ("der(", ")"))
-            }
+            } => contradiction(f, structure, residual.as_slice(), (conflicting, true)),
             Self::NoBranch { structure, held } => {
                 f.write_str(
                     "the start is a singular position, and no branch of the motion through it \
                      has the held velocities",
                 )?;
-                advice(f, structure.coordinates, held, ("der(", ")"))
+                advice(f, structure.coordinates, held, true)
             }
             Self::Vanishing { structure, row } => vanishing(f, structure, *row),
             Self::Start(fault) => fault.fmt(f),
@@ -105,20 +92,52 @@ impl<T: Real, const N: usize, const R: usize> Display for AssemblyError<T, N, R>
                 t,
                 structure,
                 coordinate,
-            } => {
-                write!(
-                    f,
-                    "at t = {t} s the kinetic energy is negative where ",
-                    t = Number(t)
-                )?;
-                structure.write_coordinate(f, *coordinate)?;
-                f.write_str(
-                    " moves; check the signs of masses and moments of inertia among the \
-                     parameters, and of the terms of `kinetic`",
-                )
-            }
+            } => negative_inertia(f, *t, structure, *coordinate),
         }
     }
+}
+
+fn not_finite<T: Real>(f: &mut Formatter<'_>, t: T) -> Result {
+    write!(
+        f,
+        "the start at t = {t} s, or a constraint or the mass matrix there, is infinite or NaN; \
+         check the values in `start` and the parameters",
+        t = Number(&t)
+    )
+}
+
+/// Of positions, or of velocities.
+fn contradiction<T: Real>(
+    f: &mut Formatter<'_>,
+    structure: &Structure,
+    residual: &[T],
+    (conflicting, velocities): (&[bool], bool),
+) -> Result {
+    let (what, per) = match velocities {
+        true => ("velocities near the start satisfy", " per second"),
+        false => ("position near the start satisfies", ""),
+    };
+    write!(f, "no {what} the constraints:")?;
+    rows(f, structure, residual, per)?;
+    advice(f, structure.coordinates, conflicting, velocities)
+}
+
+fn negative_inertia<T: Real>(
+    f: &mut Formatter<'_>,
+    t: T,
+    structure: &Structure,
+    coordinate: usize,
+) -> Result {
+    write!(
+        f,
+        "at t = {t} s the kinetic energy is negative where ",
+        t = Number(&t)
+    )?;
+    structure.write_coordinate(f, coordinate)?;
+    f.write_str(
+        " moves; check the signs of masses and moments of inertia among the parameters, and of \
+         the terms of `kinetic`",
+    )
 }
 
 fn vanishing(f: &mut Formatter<'_>, structure: &Structure, row: usize) -> Result {
@@ -134,10 +153,10 @@ fn vanishing(f: &mut Formatter<'_>, structure: &Structure, row: usize) -> Result
 const HARMLESS: f64 = 1e-6;
 
 /// One clause per constraint equation that is not satisfied.
-fn rows<T: Real, const R: usize>(
+fn rows<T: Real>(
     f: &mut Formatter<'_>,
     structure: &Structure,
-    residual: &SVector<T, R>,
+    residual: &[T],
     per: &str,
 ) -> Result {
     let worst = residual

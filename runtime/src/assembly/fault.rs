@@ -25,43 +25,59 @@ pub struct StartFault<T, const N: usize> {
 impl<T: Real, const N: usize> Display for StartFault<T, N> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let Some((row, error)) = self.farthest else {
-            return write!(
-                f,
-                "an equation of `start`, or a constraint or the mass matrix, is infinite or NaN at \
-                 t = {t} s; check the values in `start` and the parameters",
-                t = Number(&self.t)
-            );
+            return not_finite(f, self.t);
         };
-        let (what, hold, per, around) = match self.velocities {
-            true => ("velocities", "satisfy", " per second", ("der(", ")")),
-            false => ("position", "satisfies", "", ("", "")),
-        };
-        write!(
-            f,
-            "no {what} near the start {hold} the constraints and the equations of `start`: "
-        )?;
-        self.structure.write_constraint(f, row)?;
-        let holonomic = self.structure.constraints.get(row);
-        let per = match holonomic.is_some_and(|row| row.holonomic) {
-            true => per,
-            false => "",
-        };
-        write!(f, " is off by {error}{per}", error = Number(&error))?;
-        advice(f, self.structure.coordinates, &self.conflicting, around)
+        let left = (row, error, self.velocities);
+        contradiction(f, self.structure, left, &self.conflicting)
     }
 }
 
+fn not_finite<T: Real>(f: &mut Formatter<'_>, t: T) -> fmt::Result {
+    write!(
+        f,
+        "an equation of `start`, or a constraint or the mass matrix, is infinite or NaN at \
+         t = {t} s; check the values in `start` and the parameters",
+        t = Number(&t)
+    )
+}
+
+/// Of positions, or of velocities.
+fn contradiction<T: Real>(
+    f: &mut Formatter<'_>,
+    structure: &Structure,
+    (row, error, velocities): (usize, T, bool),
+    conflicting: &[bool],
+) -> fmt::Result {
+    let (what, hold) = match velocities {
+        true => ("velocities", "satisfy"),
+        false => ("position", "satisfies"),
+    };
+    write!(
+        f,
+        "no {what} near the start {hold} the constraints and the equations of `start`: "
+    )?;
+    structure.write_constraint(f, row)?;
+    let row = structure.constraints.get(row);
+    let per = match velocities && row.is_some_and(|row| row.holonomic) {
+        true => " per second",
+        false => "",
+    };
+    write!(f, " is off by {error}{per}", error = Number(&error))?;
+    advice(f, structure.coordinates, conflicting, velocities)
+}
+
 /// What to write instead.
-pub(super) fn advice<const N: usize>(
+pub(super) fn advice(
     f: &mut Formatter<'_>,
     coordinates: &[Quantity],
-    conflicting: &[bool; N],
-    (before, after): (&str, &str),
+    conflicting: &[bool],
+    velocities: bool,
 ) -> fmt::Result {
     if conflicting.iter().all(|x| !x) {
         return f.write_str("; check the parameters, or give guesses (`~`) that are nearer");
     }
     f.write_str("; these held values contradict each other or the parameters:")?;
+    let (before, after) = if velocities { ("der(", ")") } else { ("", "") };
     let mut separator = " ";
     for (i, _) in conflicting
         .iter()

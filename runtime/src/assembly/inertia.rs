@@ -8,120 +8,167 @@
 //! positive any more.
 
 use crate::Real;
-use crate::linalg::Breakdown;
-use nalgebra::{SMatrix, SVector};
+use crate::linalg::{Breakdown, Workspace, add_scaled, dot, pair};
+
+/// Square matrices of all coordinates that it takes.
+pub(super) const MATRICES: usize = 2;
+/// Vectors of all coordinates.
+pub(super) const VECTORS: usize = 2;
 
 /// What is left of a semidefinite matrix is round-off up to this multiple of its largest
 /// entry.
 const ROUND_OFF: f64 = 4096.0;
 
 /// The coordinate that makes the kinetic energy negative, if it can be; unless the mass
-/// matrix is not finite.
-#[inline(never)]
-pub(super) fn negative<T: Real, const N: usize>(
-    mass: &SMatrix<T, N, N>,
+/// matrix of these many coordinates is not finite. With room for one list of them.
+pub(super) fn negative<T: Real>(
+    mass: &[T],
+    n: usize,
+    workspace: &Workspace<'_, T>,
 ) -> Result<Option<usize>, Breakdown> {
     if mass.iter().any(|x| !x.is_finite()) {
         return Err(Breakdown);
     }
+    let mut reduced = Reduced {
+        n,
+        rest: workspace.numbers(n * n),
+        directions: workspace.numbers(n * n),
+        done: workspace.indices(n),
+    };
     // Each coordinate in a unit of its own, in which its inertia is one.
-    let mut directions = SMatrix::<T, N, N>::zeros();
-    for i in 0..N {
-        let inertia = mass[(i, i)].abs();
-        directions[(i, i)] = match inertia > T::zero() {
+    for i in 0..n {
+        let inertia = mass[i * n + i].abs();
+        reduced.directions[i * n + i] = match inertia > T::zero() {
             true => T::one() / inertia.sqrt(),
             false => T::one(),
         };
     }
-    let mut rest = SMatrix::<T, N, N>::zeros();
-    for j in 0..N {
-        for i in 0..N {
-            rest[(i, j)] = directions[(i, i)] * (mass[(i, j)] * directions[(j, j)]);
+    let unit = |i: usize| reduced.directions[i * n + i];
+    for j in 0..n {
+        for i in 0..n {
+            reduced.rest[j * n + i] = unit(i) * (mass[j * n + i] * unit(j));
         }
     }
-    Ok(found(mass, &mut rest, &mut directions))
+    let direction = workspace.numbers(n);
+    if !reduced.find(direction, workspace.numbers(n)) {
+        return Ok(None);
+    }
+    let share = |i: usize| direction[i] * dot(&mass[i * n..(i + 1) * n], direction);
+    Ok((0..n).reduce(|least, i| if share(i) < share(least) { i } else { least }))
 }
 
-/// The same, with the mass matrix in directions that have an inertia of one.
-fn found<T: Real, const N: usize>(
-    mass: &SMatrix<T, N, N>,
-    rest: &mut SMatrix<T, N, N>,
-    directions: &mut SMatrix<T, N, N>,
-) -> Option<usize> {
-    let largest = rest.iter().fold(T::zero(), |most: T, x| most.max(x.abs()));
-    let floor = largest * T::EPSILON * T::from_f64(ROUND_OFF);
-    let mut done = [false; N];
-    for _ in 0..N {
-        let left = (0..N).filter(|i| !done[*i]);
-        let pivot = left.reduce(|p, i| if rest[(i, i)] > rest[(p, p)] { i } else { p })?;
-        if rest[(pivot, pivot)] <= floor {
-            break;
-        }
-        done[pivot] = true;
-        eliminate(rest, directions, pivot, &done);
-    }
-    let (direction, least) = least(rest, directions, &done)?;
-    if least >= -floor {
-        return None;
-    }
-    let momentum = mass * direction;
-    let share = |i: usize| direction[i] * momentum[i];
-    (0..N).reduce(|least, i| if share(i) < share(least) { i } else { least })
+/// The mass matrix in directions that have an inertia of one.
+struct Reduced<'a, T> {
+    n: usize,
+    /// What is left of it, column by column.
+    rest: &'a mut [T],
+    directions: &'a mut [T],
+    /// Which directions are eliminated: those that are not zero.
+    done: &'a mut [usize],
 }
 
-/// Makes the other directions orthogonal to the pivot's in the kinetic metric.
-fn eliminate<T: Real, const N: usize>(
-    rest: &mut SMatrix<T, N, N>,
-    directions: &mut SMatrix<T, N, N>,
-    pivot: usize,
-    done: &[bool; N],
-) {
-    let row = SVector::<T, N>::from_fn(|j, _| rest[(pivot, j)]);
-    let along = directions.column(pivot).into_owned();
-    // Most coordinates share no inertia.
-    for j in (0..N).filter(|j| !done[*j] && row[*j] != T::zero()) {
-        let factor = row[j] / row[pivot];
-        for i in 0..N {
-            directions[(i, j)] -= factor * along[i];
+impl<T: Real> Reduced<'_, T> {
+    /// Whether there is a direction of negative energy, and which; with room for a row.
+    fn find(&mut self, direction: &mut [T], row: &mut [T]) -> bool {
+        let largest = self
+            .rest
+            .iter()
+            .fold(T::zero(), |most: T, x| most.max(x.abs()));
+        let floor = largest * T::EPSILON * T::from_f64(ROUND_OFF);
+        for _ in 0..self.n {
+            let larger = |p: usize, i: usize| if self.at(i, i) > self.at(p, p) { i } else { p };
+            let Some(pivot) = self.left().reduce(larger) else {
+                break;
+            };
+            if self.at(pivot, pivot) <= floor {
+                break;
+            }
+            self.done[pivot] = 1;
+            self.eliminate(pivot, row);
         }
-        for i in (0..N).filter(|i| !done[*i]) {
-            rest[(i, j)] -= factor * row[i];
-        }
+        self.least(direction).is_some_and(|least| least < -floor)
     }
-}
 
-/// The direction of least energy among what is left and the differences and sums of two,
-/// and twice that energy.
-fn least<T: Real, const N: usize>(
-    rest: &SMatrix<T, N, N>,
-    directions: &SMatrix<T, N, N>,
-    done: &[bool; N],
-) -> Option<(SVector<T, N>, T)> {
-    let mut least: Option<(SVector<T, N>, T)> = None;
-    let mut take = |direction: SVector<T, N>, energy: T| {
-        if least.as_ref().is_none_or(|(_, known)| energy < *known) {
-            least = Some((direction, energy));
+    /// An entry of what is left.
+    fn at(&self, i: usize, j: usize) -> T {
+        self.rest[j * self.n + i]
+    }
+
+    /// Directions that are not eliminated.
+    fn left(&self) -> impl Iterator<Item = usize> {
+        (0..self.n).filter(|i| self.done[*i] == 0)
+    }
+
+    /// Makes the other directions orthogonal to the pivot's in the kinetic metric.
+    fn eliminate(&mut self, pivot: usize, row: &mut [T]) {
+        let n = self.n;
+        for (j, entry) in row.iter_mut().enumerate() {
+            *entry = self.at(pivot, j);
         }
-    };
-    for i in (0..N).filter(|i| !done[*i]) {
-        take(directions.column(i).into_owned(), rest[(i, i)]);
-        for j in (0..i).filter(|j| !done[*j]) {
-            let (own, mixed) = (rest[(i, i)] + rest[(j, j)], rest[(i, j)]);
-            let (first, second) = (directions.column(i), directions.column(j));
-            if mixed > T::zero() {
-                take(first - second, own - mixed - mixed);
-            } else {
-                take(first + second, own + mixed + mixed);
+        for j in 0..n {
+            // Most coordinates share no inertia.
+            if self.done[j] != 0 || row[j] == T::zero() {
+                continue;
+            }
+            let factor = row[j] / row[pivot];
+            let [along, direction] = pair(self.directions, n, pivot, j);
+            add_scaled(direction, -factor, along);
+            let rest = self.rest[j * n..].iter_mut().zip(&*row);
+            for ((entry, change), done) in rest.zip(&*self.done) {
+                if *done == 0 {
+                    *entry -= factor * *change;
+                }
             }
         }
     }
-    least
+
+    /// The direction of least energy among what is left and the differences and sums of two;
+    /// returns twice that energy.
+    fn least(&self, direction: &mut [T]) -> Option<T> {
+        let mut least: Option<(T, [usize; 2], T)> = None;
+        let mut take = |energy: T, of: [usize; 2], factor: T| {
+            if least.is_none_or(|(known, ..)| energy < known) {
+                least = Some((energy, of, factor));
+            }
+        };
+        for i in self.left() {
+            take(self.at(i, i), [i, i], T::zero());
+            for j in self.left().take_while(|j| *j < i) {
+                let (own, mixed) = (self.at(i, i) + self.at(j, j), self.at(i, j));
+                let twice = mixed.abs() + mixed.abs();
+                let factor = if mixed > T::zero() {
+                    -T::one()
+                } else {
+                    T::one()
+                };
+                take(own - twice, [i, j], factor);
+            }
+        }
+        let (energy, [i, j], factor) = least?;
+        direction.copy_from_slice(&self.directions[i * self.n..(i + 1) * self.n]);
+        add_scaled(
+            direction,
+            factor,
+            &self.directions[j * self.n..(j + 1) * self.n],
+        );
+        Some(energy)
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::negative;
-    use nalgebra::{Matrix2, Matrix3};
+    use crate::linalg::{Breakdown, Workspace};
+    use nalgebra::{Matrix2, Matrix3, SMatrix};
+
+    fn negative<const N: usize>(mass: &SMatrix<f64, N, N>) -> Result<Option<usize>, Breakdown> {
+        let mut matrices = [0.0; 64];
+        let mut done = [0; N];
+        super::negative(
+            mass.as_slice(),
+            N,
+            &Workspace::new(&mut matrices, &mut [], &mut done),
+        )
+    }
 
     #[test]
     fn a_negative_energy_is_found_wherever_it_hides() {

@@ -16,12 +16,15 @@
 //! ([`crate::projection`]).
 
 mod decomposition;
+mod draft;
 mod equations;
 mod error;
 mod fault;
 mod inertia;
+mod memory;
 mod position;
 mod room;
+mod routines;
 mod scales;
 mod vanishing;
 mod velocity;
@@ -29,13 +32,14 @@ mod velocity;
 pub use equations::{StartEquations, guess, meet};
 pub use error::AssemblyError;
 pub use fault::StartFault;
+pub(crate) use routines::Routines;
 
 use room::Room;
 
-use crate::linalg::Breakdown;
+use crate::linalg::{Breakdown, Workspace, column};
 use crate::stack::with_room;
-use crate::{Mechanism, Position, Real, Start, State, Terms};
-use nalgebra::SVector;
+use crate::{Initial, Mechanism, Position, Real, Start, State, Terms};
+use nalgebra::SMatrix;
 
 /// Finds the state at time `t` (s) that keeps the held values of `start` and is
 /// near its guesses.
@@ -64,23 +68,45 @@ where
     T: Real,
     M: Mechanism<T, N, R> + ?Sized,
 {
-    let q = SVector::from_fn(|i, _| start.q[i].value);
-    let v = SVector::from_fn(|i, _| start.v[i].value);
-    let mut state = State { t, q, v };
-    if !state.is_finite() {
+    consistent(&mechanism, start, t)
+}
+
+/// The same, whatever the mechanism is besides its sizes.
+fn consistent<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Mechanism<T, N, R>,
+    start: &Start<T, N>,
+    t: T,
+) -> Result<State<T, N>, AssemblyError<T, N, R>> {
+    if !given(start, t).is_finite() {
         return Err(AssemblyError::NotFinite { t });
     }
     with_room::<T, _, N, R>(|| {
         let mut met = *start;
         mechanism.begin(&mut met, t).map_err(AssemblyError::Start)?;
-        state.q = SVector::from_fn(|i, _| met.q[i].value);
-        state.v = SVector::from_fn(|i, _| met.v[i].value);
+        let mut state = given(&met, t);
         if R > 0 {
-            constrain(&mechanism, &mut state, start)?;
+            constrain(mechanism, &mut state, start)?;
         }
-        check_inertia(&mechanism, &state)?;
+        check_inertia(mechanism, &state)?;
         Ok(state)
     })
+}
+
+/// The state of the values of a start.
+fn given<T: Real, const N: usize>(start: &Start<T, N>, t: T) -> State<T, N> {
+    let mut state = State {
+        t,
+        ..State::default()
+    };
+    for i in 0..N {
+        (state.q[i], state.v[i]) = (start.q[i].value, start.v[i].value);
+    }
+    state
+}
+
+/// Which of these values are held.
+fn held<T: Real, const N: usize>(values: &[Initial<T>; N]) -> [bool; N] {
+    column(|i| values[i].held)
 }
 
 /// Moves what is not held onto the constraints. Not inlined, as what comes after it: both
@@ -91,11 +117,10 @@ fn constrain<T: Real, const N: usize, const R: usize>(
     state: &mut State<T, N>,
     start: &Start<T, N>,
 ) -> Result<(), AssemblyError<T, N, R>> {
-    let held = start.q.map(|initial| initial.held);
-    let held_velocities = start.v.map(|initial| initial.held);
-    let mut room = Room::default();
-    position::assemble(mechanism, state, &mut room, &held)?;
-    velocity::assemble(mechanism, state, &mut room, &held_velocities)
+    let mut room = Room::new();
+    let routines = &T::routines().assembly;
+    room.assemble(routines.positions, mechanism, state, &held(&start.q))?;
+    room.assemble(routines.velocities, mechanism, state, &held(&start.v))
 }
 
 /// Refuses a kinetic energy that is negative for some velocities, whether or not the
@@ -109,11 +134,11 @@ fn check_inertia<T: Real, const N: usize, const R: usize>(
     let negative = if R > 0 {
         let mut at = Position::default();
         mechanism.position(state, &mut at);
-        inertia::negative(&at.mass)
+        negative(&at.mass)
     } else {
         let mut at = Terms::default();
         mechanism.terms(state, &mut at);
-        inertia::negative(&at.mass)
+        negative(&at.mass)
     };
     match negative {
         Ok(None) => Ok(()),
@@ -124,4 +149,18 @@ fn check_inertia<T: Real, const N: usize, const R: usize>(
         }),
         Err(Breakdown) => Err(AssemblyError::NotFinite { t: state.t }),
     }
+}
+
+/// The coordinate that makes the kinetic energy negative, if it can be.
+#[inline(never)]
+fn negative<T: Real, const N: usize>(mass: &SMatrix<T, N, N>) -> Result<Option<usize>, Breakdown> {
+    let mut matrices = [[[T::zero(); N]; N]; inertia::MATRICES];
+    let mut vectors = [[T::zero(); N]; inertia::VECTORS];
+    let mut done = [0; N];
+    let workspace = Workspace::new(
+        matrices.as_flattened_mut().as_flattened_mut(),
+        vectors.as_flattened_mut(),
+        &mut done,
+    );
+    (T::routines().assembly.negative)(mass.as_slice(), N, &workspace)
 }

@@ -7,16 +7,16 @@
 //! Marquardt do wherever the linear model promises more than it keeps.
 //! Source: Moré, Lecture Notes in Mathematics 630 (1978) 105–116.
 
-use super::AssemblyError;
 use super::decomposition::Decomposition;
-use super::room::Room;
-use super::scales::{Scales, disturbed};
+use super::draft::{Draft, Refusal};
+use super::scales::{Scales, disturb};
 use super::vanishing::vanishing_row;
-use crate::linalg::Breakdown;
+use crate::Real;
+use crate::equations::Equations;
+use crate::linalg::Workspace;
 use crate::tolerance::negligible;
-use crate::{Mechanism, Position, Real, State};
+use core::mem::swap;
 use core::ops::Range;
-use nalgebra::SVector;
 
 /// Constraint errors up to this multiple of the round-off of an equation's terms
 /// are no contradiction. The iteration doesn't stop here: it ends where nothing
@@ -38,106 +38,126 @@ const DOUBLE_ROOT: (f64, f64) = (0.1, 0.4);
 const DISTURBANCES: [f64; 5] = [0.0, 1e-3, 1e-2, 0.1, 1.0];
 
 /// Moves the coordinates that are not held onto the constraints.
-pub(super) fn assemble<T: Real, const N: usize, const R: usize>(
-    mechanism: &dyn Mechanism<T, N, R>,
-    state: &mut State<T, N>,
-    Room { at, matrix }: &mut Room<T, N, R>,
-    held: &[bool; N],
-) -> Result<(), AssemblyError<T, N, R>> {
-    let guess = state.q;
-    let mut measured = Scales::measure(mechanism, state, at);
-    measured.leave_out_velocities(mechanism.structure().constraints);
-    let mut scales = measured.clone();
-    scales.hold(held);
-    let mut best: Option<(T, State<T, N>)> = None;
+pub(super) fn assemble<T: Real>(
+    equations: &mut dyn Equations<T>,
+    draft: Draft<'_, T>,
+    workspace: &Workspace<'_, T>,
+) -> Result<(), Refusal> {
+    let constraints = equations.structure().constraints;
+    let measured = Scales::measure(equations, (draft.t, draft.q), None, workspace)
+        .leave_out_velocities(constraints, workspace);
+    let scales = measured.hold(draft.held, workspace);
+    let guess = workspace.numbers(draft.q.len());
+    guess.copy_from_slice(draft.q);
+    let closest = workspace.numbers(guess.len());
+    let mut least: Option<T> = None;
+    let mut descent = Descent::new(equations, draft.t, scales, workspace);
     for disturbance in DISTURBANCES {
-        let distance = SVector::from_fn(|i, _| match held[i] {
+        let distance = |i: usize| match draft.held[i] {
             true => T::zero(),
             false => scales.sizes[i] * T::from_f64(disturbance),
-        });
-        state.q = disturbed(&guess, &distance);
-        let mut descent = Descent::new(mechanism, state, (at, matrix), &scales)?;
+        };
+        disturb(guess, distance, descent.q);
         descent.run()?;
-        let (merit, reached) = (descent.merit, descent.state);
-        *state = reached;
-        if is_satisfied(&descent.residual, &scales) {
-            return check_gradients(mechanism, state, at, &measured);
+        if is_satisfied(descent.residual, &scales) {
+            draft.q.copy_from_slice(descent.q);
+            return check_gradients(equations, (draft.t, draft.q), &measured, workspace);
         }
-        if best.as_ref().is_none_or(|(least, _)| merit < *least) {
-            best = Some((merit, reached));
+        if least.is_none_or(|least| descent.merit < least) {
+            least = Some(descent.merit);
+            closest.copy_from_slice(descent.q);
         }
     }
-    match best {
-        Some((_, closest)) => {
-            mechanism.position(&closest, at);
-            Err(contradiction(mechanism, at, &measured, held))
-        }
-        None => Ok(()),
+    equations.locate(draft.t, closest);
+    let at = equations.constraints();
+    for (k, target) in draft.residual.iter_mut().enumerate() {
+        *target = contradiction(at.residual[k], measured.reach[k]);
     }
+    measured.influential(at.jacobian, draft.residual, draft.held, draft.conflicting);
+    Err(Refusal::Positions)
 }
 
 /// One descent of the constraint error.
-struct Descent<'a, T, const N: usize, const R: usize> {
-    mechanism: &'a dyn Mechanism<T, N, R>,
-    scales: &'a Scales<T, N, R>,
+struct Descent<'e, 'a, T> {
+    equations: &'e mut dyn Equations<T>,
+    scales: Scales<'a, T>,
+    t: T,
     /// Where the descent is.
-    state: State<T, N>,
+    q: &'a mut [T],
     /// The constraint errors there.
-    residual: SVector<T, R>,
+    residual: &'a mut [T],
     /// Sum of the squares of the scaled constraint errors.
     merit: T,
     damping: T,
-    /// What the mechanism was evaluated into last, here or at a trial.
-    at: &'a mut Position<T, N, R>,
-    matrix: &'a mut Decomposition<T, N, R>,
+    matrix: Decomposition<'a, T>,
+    /// What a step removes, the step, and where it leads.
+    target: &'a mut [T],
+    step: &'a mut [T],
+    trial: &'a mut [T],
+    twice: &'a mut [T],
 }
 
-impl<'a, T: Real, const N: usize, const R: usize> Descent<'a, T, N, R> {
+impl<'e, 'a, T: Real> Descent<'e, 'a, T> {
     fn new(
-        mechanism: &'a dyn Mechanism<T, N, R>,
-        state: &State<T, N>,
-        (at, matrix): (&'a mut Position<T, N, R>, &'a mut Decomposition<T, N, R>),
-        scales: &'a Scales<T, N, R>,
-    ) -> Result<Self, AssemblyError<T, N, R>> {
-        mechanism.position(state, at);
-        let merit = merit(at, scales);
-        if !merit.is_finite() {
-            return Err(AssemblyError::NotFinite { t: state.t });
-        }
-        Ok(Self {
-            mechanism,
+        equations: &'e mut dyn Equations<T>,
+        t: T,
+        scales: Scales<'a, T>,
+        workspace: &Workspace<'a, T>,
+    ) -> Self {
+        let (n, n_rows) = (scales.columns.len(), scales.rows.len());
+        Self {
+            equations,
             scales,
-            state: *state,
-            residual: at.residual,
-            merit,
+            t,
+            q: workspace.numbers(n),
+            residual: workspace.numbers(n_rows),
+            merit: T::zero(),
             damping: T::zero(),
-            at,
-            matrix,
-        })
+            matrix: Decomposition::new(n, n_rows, workspace),
+            target: workspace.numbers(n_rows),
+            step: workspace.numbers(n),
+            trial: workspace.numbers(n),
+            twice: workspace.numbers(n),
+        }
     }
 
-    /// Descends until nothing improves.
-    fn run(&mut self) -> Result<(), AssemblyError<T, N, R>> {
+    /// Descends from where it is until nothing improves.
+    fn run(&mut self) -> Result<(), Refusal> {
+        self.merit = merit(self.equations, (self.t, self.q), &self.scales);
+        if !self.merit.is_finite() {
+            return Err(Refusal::NotFinite);
+        }
+        self.arrive();
+        self.damping = T::zero();
         let mut trials = 0..MOST_TRIALS;
         while self.merit > T::zero() && self.advances(&mut trials)? {}
         Ok(())
     }
 
+    /// Takes note of the constraint errors where they were evaluated last.
+    fn arrive(&mut self) {
+        let residual = self.equations.constraints().residual;
+        self.residual.copy_from_slice(residual);
+    }
+
     /// Goes one step, the first that improves among those of rising damping; whether there
     /// was one.
-    fn advances(&mut self, trials: &mut Range<usize>) -> Result<bool, AssemblyError<T, N, R>> {
-        let failure = AssemblyError::NotFinite { t: self.state.t };
-        let decomposed = self.matrix.decompose(&self.at.jacobian, self.scales);
-        decomposed.map_err(|Breakdown| failure)?;
-        let target = -self.residual.component_mul(&self.scales.rows);
+    fn advances(&mut self, trials: &mut Range<usize>) -> Result<bool, Refusal> {
+        let jacobian = self.equations.constraints().jacobian;
+        self.matrix.decompose(jacobian, &self.scales)?;
+        for (k, target) in self.target.iter_mut().enumerate() {
+            *target = -(self.residual[k] * self.scales.rows[k]);
+        }
         while self.damping <= T::from_f64(MOST_DAMPING) && trials.next().is_some() {
             self.matrix.damp(self.damping);
-            let (step, fall) = self.matrix.solve(&target, negligible());
-            let step = step.component_mul(&self.scales.columns);
-            if self.improves(&step, fall) {
+            let fall = self.matrix.solve(self.target, negligible(), self.step);
+            for (step, scale) in self.step.iter_mut().zip(self.scales.columns) {
+                *step *= *scale;
+            }
+            if self.improves(fall) {
                 return Ok(true);
             }
-            if self.damping == T::zero() && is_satisfied(&self.residual, self.scales) {
+            if self.damping == T::zero() && is_satisfied(self.residual, &self.scales) {
                 return Ok(false);
             }
             self.damping = (self.damping * T::from_f64(DAMPING_FACTOR)).max(least_damping());
@@ -145,98 +165,72 @@ impl<'a, T: Real, const N: usize, const R: usize> Descent<'a, T, N, R> {
         Ok(false)
     }
 
-    /// Tries a step that promises to reduce the merit by `fall`, and goes there
-    /// if the promise is kept.
-    fn improves(&mut self, step: &SVector<T, N>, fall: T) -> bool {
+    /// Tries the step, which promises to reduce the merit by `fall`, and goes there if the
+    /// promise is kept.
+    fn improves(&mut self, fall: T) -> bool {
         let from = self.merit;
-        let mut trial = self.state;
-        trial.q += step;
-        let mut to = self.merit_at(&trial);
+        add(self.q, self.step, self.trial);
+        let mut to = merit(self.equations, (self.t, self.trial), &self.scales);
         if !(to < from && from - to >= fall * T::from_f64(KEPT_PROMISE)) {
             return false;
         }
         let left = (to / from).sqrt().to_f64();
         if left > DOUBLE_ROOT.0 && left < DOUBLE_ROOT.1 {
-            let mut twice = trial;
-            twice.q += step;
-            let beyond = self.merit_at(&twice);
+            add(self.trial, self.step, self.twice);
+            let beyond = merit(self.equations, (self.t, self.twice), &self.scales);
             if beyond < to {
-                (trial, to) = (twice, beyond);
+                swap(&mut self.trial, &mut self.twice);
+                to = beyond;
             } else {
-                self.merit_at(&trial);
+                self.equations.locate(self.t, self.trial);
             }
         }
-        (self.state, self.merit) = (trial, to);
-        self.residual = self.at.residual;
+        swap(&mut self.q, &mut self.trial);
+        self.merit = to;
+        self.arrive();
         self.damping /= T::from_f64(DAMPING_FACTOR);
         if self.damping < least_damping() {
             self.damping = T::zero();
         }
         true
     }
+}
 
-    /// The merit at another state, which the mechanism is evaluated at.
-    fn merit_at(&mut self, state: &State<T, N>) -> T {
-        self.mechanism.position(state, self.at);
-        merit(self.at, self.scales)
+/// `sum := a + b`.
+fn add<T: Real>(a: &[T], b: &[T], sum: &mut [T]) {
+    for (sum, (a, b)) in sum.iter_mut().zip(a.iter().zip(b)) {
+        *sum = *a + *b;
     }
 }
 
 /// Refuses a constraint that lost its gradient on the way and can't be crossed here.
-fn check_gradients<T: Real, const N: usize, const R: usize>(
-    mechanism: &dyn Mechanism<T, N, R>,
-    state: &State<T, N>,
-    at: &mut Position<T, N, R>,
-    measured: &Scales<T, N, R>,
-) -> Result<(), AssemblyError<T, N, R>> {
+fn check_gradients<T: Real>(
+    equations: &mut dyn Equations<T>,
+    (t, q): (T, &[T]),
+    measured: &Scales<'_, T>,
+    workspace: &Workspace<'_, T>,
+) -> Result<(), Refusal> {
     let round_off = T::EPSILON * T::from_f64(CONTRADICTION);
-    mechanism.position(state, at);
-    match vanishing_row(mechanism, state, at, measured, round_off) {
-        Some(row) => Err(AssemblyError::Vanishing {
-            structure: mechanism.structure(),
-            row,
-        }),
+    equations.locate(t, q);
+    match vanishing_row(equations, (t, q), measured, round_off, workspace) {
+        Some(row) => Err(Refusal::Vanishing(row)),
         None => Ok(()),
     }
 }
 
 /// Whether every constraint error is down to round-off.
-fn is_satisfied<T: Real, const N: usize, const R: usize>(
-    residual: &SVector<T, R>,
-    scales: &Scales<T, N, R>,
-) -> bool {
-    let left = contradictions(residual, scales);
-    left.iter().all(|x| *x == T::zero())
+fn is_satisfied<T: Real>(residual: &[T], scales: &Scales<'_, T>) -> bool {
+    let mut errors = residual.iter().zip(scales.reach);
+    errors.all(|(error, reach)| contradiction(*error, *reach) == T::zero())
 }
 
-/// Constraint errors that are more than round-off; zero for the others.
-fn contradictions<T: Real, const N: usize, const R: usize>(
-    residual: &SVector<T, R>,
-    scales: &Scales<T, N, R>,
-) -> SVector<T, R> {
+/// A constraint error that is more than round-off; else zero.
+fn contradiction<T: Real>(error: T, reach: T) -> T {
     let round_off = T::EPSILON * T::from_f64(CONTRADICTION);
-    residual.zip_map(&scales.reach, |error, reach| {
-        if error.abs() <= round_off * reach {
-            T::zero()
-        } else {
-            error
-        }
-    })
-}
-
-/// The error that tells which constraints and which held values contradict.
-fn contradiction<T: Real, const N: usize, const R: usize>(
-    mechanism: &dyn Mechanism<T, N, R>,
-    at: &Position<T, N, R>,
-    measured: &Scales<T, N, R>,
-    held: &[bool; N],
-) -> AssemblyError<T, N, R> {
-    let residual = contradictions(&at.residual, measured);
-    let conflicting = measured.influential(&at.jacobian, &residual, held);
-    AssemblyError::Positions {
-        structure: mechanism.structure(),
-        residual,
-        conflicting,
+    if error.abs() <= round_off * reach {
+        T::zero()
+    } else {
+        error
     }
 }
 
@@ -247,16 +241,17 @@ fn least_damping<T: Real>() -> T {
     negligible::<T>() * negligible()
 }
 
-/// Sum of the squares of the scaled constraint errors.
-fn merit<T: Real, const N: usize, const R: usize>(
-    at: &Position<T, N, R>,
-    scales: &Scales<T, N, R>,
+/// Sum of the squares of the scaled constraint errors at a position, where the constraints
+/// are evaluated.
+fn merit<T: Real>(
+    equations: &mut dyn Equations<T>,
+    (t, q): (T, &[T]),
+    scales: &Scales<'_, T>,
 ) -> T {
-    at.residual
-        .iter()
-        .zip(scales.rows.iter())
-        .fold(T::zero(), |sum, (error, scale)| {
-            let scaled = *error * *scale;
-            sum + scaled * scaled
-        })
+    equations.locate(t, q);
+    let errors = equations.constraints().residual.iter().zip(scales.rows);
+    errors.fold(T::zero(), |sum, (error, scale)| {
+        let scaled = *error * *scale;
+        sum + scaled * scaled
+    })
 }

@@ -1,22 +1,79 @@
-//! What positions and velocities are assembled in.
+//! What positions and velocities of a mechanism of known sizes are assembled in.
 //!
-//! Out: buffers, one of each kind.
+//! In:  a mechanism, a state, what is held.
+//! Out: the state on the constraints, or [`AssemblyError`].
 
-use super::decomposition::Decomposition;
-use crate::{Position, Real};
+use super::AssemblyError;
+use super::draft::{Draft, Refusal};
+use super::memory::Memory;
+use super::routines::Assemble;
+use crate::equations::Bound;
+use crate::{Mechanism, Position, Real, State, Terms};
+use nalgebra::SVector;
 
 /// One for positions and velocities, since it takes a good part of the stack where a
 /// mechanism is large.
 pub(super) struct Room<T, const N: usize, const R: usize> {
-    pub(super) at: Position<T, N, R>,
-    pub(super) matrix: Decomposition<T, N, R>,
+    position: Position<T, N, R>,
+    terms: Terms<T, N, R>,
+    memory: Memory<T, N, R>,
 }
 
-impl<T: Real, const N: usize, const R: usize> Default for Room<T, N, R> {
-    fn default() -> Self {
+impl<T: Real, const N: usize, const R: usize> Room<T, N, R> {
+    pub(super) fn new() -> Self {
         Self {
-            at: Position::default(),
-            matrix: Decomposition::default(),
+            position: Position::default(),
+            terms: Terms::default(),
+            memory: Memory::new(),
         }
+    }
+
+    /// Moves what is not held onto the constraints: coordinates or velocities, by one of the
+    /// routines of the scalar.
+    #[inline(never)]
+    pub(super) fn assemble(
+        &mut self,
+        routine: Assemble<T>,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &mut State<T, N>,
+        held: &[bool; N],
+    ) -> Result<(), AssemblyError<T, N, R>> {
+        let mut equations = Bound {
+            mechanism,
+            position: &mut self.position,
+            terms: &mut self.terms,
+        };
+        let mut residual = SVector::<T, R>::zeros();
+        let mut conflicting = [false; N];
+        let draft = Draft {
+            t: state.t,
+            q: state.q.as_mut_slice(),
+            v: state.v.as_mut_slice(),
+            held,
+            residual: residual.as_mut_slice(),
+            conflicting: &mut conflicting,
+        };
+        let Err(refusal) = routine(&mut equations, draft, &self.memory.workspace()) else {
+            return Ok(());
+        };
+        let structure = mechanism.structure();
+        Err(match refusal {
+            Refusal::NotFinite => AssemblyError::NotFinite { t: state.t },
+            Refusal::Positions => AssemblyError::Positions {
+                structure,
+                residual,
+                conflicting,
+            },
+            Refusal::Velocities => AssemblyError::Velocities {
+                structure,
+                residual,
+                conflicting,
+            },
+            Refusal::NoBranch => AssemblyError::NoBranch {
+                structure,
+                held: *held,
+            },
+            Refusal::Vanishing(row) => AssemblyError::Vanishing { structure, row },
+        })
     }
 }

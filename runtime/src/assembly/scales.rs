@@ -7,8 +7,9 @@
 //! a singular one a whole row may vanish. They are measured there and at two
 //! positions in the neighbourhood.
 
-use crate::{ConstraintRow, Mechanism, Position, Quantity, Real, State};
-use nalgebra::{SMatrix, SVector};
+use crate::equations::Equations;
+use crate::linalg::Workspace;
+use crate::{ConstraintRow, Quantity, Real};
 
 /// Units of coordinates that are angles, whose natural size is one. The others
 /// are as large as the largest of them.
@@ -21,64 +22,59 @@ const NEIGHBOURHOOD: [f64; 3] = [0.0, 0.3, -0.2];
 const INFLUENCE: f64 = 1e-3;
 
 /// Scales of coordinates and equations.
-#[derive(Clone, Debug)]
-pub(super) struct Scales<T, const N: usize, const R: usize> {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scales<'a, T> {
     /// `1/√M_ii`: what one unit of the scaled unknown is in units of the
     /// coordinate; one where there is no inertia.
-    pub(super) columns: SVector<T, N>,
+    pub(super) columns: &'a [T],
     /// What one unit of the equation is in units of the scaled equation: the
     /// norm of its row is about one in the kinetic metric.
-    pub(super) rows: SVector<T, R>,
+    pub(super) rows: &'a [T],
     /// How large each coordinate is, at least: 1 rad, or the largest length.
-    pub(super) sizes: SVector<T, N>,
+    pub(super) sizes: &'a [T],
     /// How much each equation changes when the coordinates change by their sizes.
-    pub(super) reach: SVector<T, R>,
+    pub(super) reach: &'a [T],
 }
 
-impl<T: Real, const N: usize, const R: usize> Scales<T, N, R> {
-    /// Measures the mechanism around a state; `at` is a buffer.
+impl<'a, T: Real> Scales<'a, T> {
+    /// Measures the mechanism around a position, by what those coordinates can do that are
+    /// not held, if any are. Of masses that are unlike each other, those that are held may be
+    /// the lightest.
     pub(super) fn measure(
-        mechanism: &dyn Mechanism<T, N, R>,
-        state: &State<T, N>,
-        at: &mut Position<T, N, R>,
+        equations: &mut dyn Equations<T>,
+        (t, q): (T, &[T]),
+        held: Option<&[bool]>,
+        workspace: &Workspace<'a, T>,
     ) -> Self {
-        Self::measure_free(mechanism, state, &[false; N], at)
-    }
-
-    /// The same for the coordinates that are not held: rows are measured by what these can
-    /// do. Of masses that are unlike each other, those that are held may be the lightest.
-    #[inline(never)]
-    pub(super) fn measure_free(
-        mechanism: &dyn Mechanism<T, N, R>,
-        state: &State<T, N>,
-        held: &[bool; N],
-        at: &mut Position<T, N, R>,
-    ) -> Self {
-        let sizes = sizes(mechanism.structure().coordinates, &state.q);
-        mechanism.position(state, at);
-        let columns = SVector::from_fn(|i, _| {
-            let inertia: T = at.mass[(i, i)];
-            if held[i] {
-                T::zero()
-            } else if inertia > T::zero() {
-                T::one() / inertia.sqrt()
-            } else {
-                T::one()
-            }
-        });
-        let mut norms = SVector::<T, R>::zeros();
-        let mut reach = norms;
+        let n = q.len();
+        let (sizes, columns) = (workspace.numbers(n), workspace.numbers(n));
+        measure_sizes(equations.structure().coordinates, q, sizes);
+        equations.locate(t, q);
+        let at = equations.constraints();
+        let n_rows = at.residual.len();
+        for (i, (column, inertia)) in columns
+            .iter_mut()
+            .zip(at.mass.iter().step_by(n + 1))
+            .enumerate()
+        {
+            *column = match held.is_some_and(|held| held[i]) {
+                true => T::zero(),
+                false => inverse(inertia.max(T::zero()).sqrt()),
+            };
+        }
+        let (norms, reach) = (workspace.numbers(n_rows), workspace.numbers(n_rows));
+        let near = workspace.numbers(n);
         for distance in NEIGHBOURHOOD {
-            let mut near = *state;
-            near.q = disturbed(&state.q, &(sizes * T::from_f64(distance)));
-            mechanism.position(&near, at);
-            for k in 0..R {
-                let row = |j: usize, scale: &SVector<T, N>| at.jacobian[(k, j)].abs() * scale[j];
-                let square = (0..N).fold(T::zero(), |sum, j| {
-                    let entry = row(j, &columns);
-                    sum + entry * entry
-                });
-                let length = (0..N).fold(T::zero(), |sum, j| sum + row(j, &sizes));
+            disturb(q, |i| sizes[i] * T::from_f64(distance), near);
+            equations.locate(t, near);
+            let jacobian = equations.constraints().jacobian;
+            for k in 0..n_rows {
+                let (mut square, mut length) = (T::zero(), T::zero());
+                for (j, entry) in jacobian.iter().skip(k).step_by(n_rows).enumerate() {
+                    let scaled = entry.abs() * columns[j];
+                    square += scaled * scaled;
+                    length += entry.abs() * sizes[j];
+                }
                 // A neighbour outside the domain of a root tells nothing.
                 if square.is_finite() && length.is_finite() {
                     norms[k] = norms[k].max(square.sqrt());
@@ -86,90 +82,103 @@ impl<T: Real, const N: usize, const R: usize> Scales<T, N, R> {
                 }
             }
         }
-        let inverse = |x: T| {
-            if x > T::zero() {
-                T::one() / x
-            } else {
-                T::one()
-            }
-        };
+        for norm in norms.iter_mut() {
+            *norm = inverse(*norm);
+        }
         Self {
             columns,
-            rows: norms.map(inverse),
+            rows: norms,
             sizes,
             reach,
         }
     }
 
-    /// Takes what is held out of the unknowns.
-    pub(super) fn hold(&mut self, held: &[bool; N]) {
-        for (column, held) in self.columns.iter_mut().zip(held) {
-            if *held {
-                *column = T::zero();
-            }
+    /// The same with what is held taken out of the unknowns.
+    pub(super) fn hold(self, held: &[bool], workspace: &Workspace<'a, T>) -> Self {
+        let columns = workspace.numbers(held.len());
+        for (j, column) in columns.iter_mut().enumerate().filter(|(j, _)| !held[*j]) {
+            *column = self.columns[j];
         }
+        Self { columns, ..self }
     }
 
-    /// Leaves the velocity constraints out.
-    pub(super) fn leave_out_velocities(&mut self, rows: &[ConstraintRow]) {
-        for (scale, row) in self.rows.iter_mut().zip(rows) {
+    /// The same without the velocity constraints.
+    pub(super) fn leave_out_velocities(
+        self,
+        constraints: &[ConstraintRow],
+        workspace: &Workspace<'a, T>,
+    ) -> Self {
+        let rows = workspace.numbers(self.rows.len());
+        rows.copy_from_slice(self.rows);
+        for (scale, row) in rows.iter_mut().zip(constraints) {
             if !row.holonomic {
                 *scale = T::zero();
             }
         }
+        Self { rows, ..self }
     }
 
     /// Which of the held values could reduce the error if they were free.
     pub(super) fn influential(
         &self,
-        jacobian: &SMatrix<T, R, N>,
-        residual: &SVector<T, R>,
-        held: &[bool; N],
-    ) -> [bool; N] {
-        let influence: [T; N] = core::array::from_fn(|j| {
-            let slope = (0..R).fold(T::zero(), |sum, k| {
-                sum + self.rows[k] * self.rows[k] * jacobian[(k, j)] * residual[k]
-            });
-            if held[j] {
-                (slope * self.columns[j]).abs()
-            } else {
-                T::zero()
+        jacobian: &[T],
+        residual: &[T],
+        held: &[bool],
+        conflicting: &mut [bool],
+    ) {
+        let influence = |j: usize| {
+            let entries = jacobian.iter().skip(j * residual.len());
+            let rows = self.rows.iter().zip(residual);
+            let slope = rows
+                .zip(entries)
+                .fold(T::zero(), |sum, ((row, error), entry)| {
+                    sum + *row * *row * *entry * *error
+                });
+            match held[j] {
+                true => (slope * self.columns[j]).abs(),
+                false => T::zero(),
             }
-        });
-        let most = influence.iter().fold(T::zero(), |most: T, x| most.max(*x));
-        influence.map(|x| x > most * T::from_f64(INFLUENCE))
+        };
+        let most = (0..held.len()).fold(T::zero(), |most: T, j| most.max(influence(j)));
+        for (j, conflicting) in conflicting.iter_mut().enumerate() {
+            *conflicting = influence(j) > most * T::from_f64(INFLUENCE);
+        }
+    }
+}
+
+/// `1/x`; one where there is nothing to divide by.
+fn inverse<T: Real>(x: T) -> T {
+    match x > T::zero() {
+        true => T::one() / x,
+        false => T::one(),
     }
 }
 
 /// How large each coordinate is, at least.
-fn sizes<T: Real, const N: usize>(coordinates: &[Quantity], q: &SVector<T, N>) -> SVector<T, N> {
+fn measure_sizes<T: Real>(coordinates: &[Quantity], q: &[T], sizes: &mut [T]) {
     let is_angle = |i: usize| {
         coordinates
             .get(i)
             .is_none_or(|quantity| ANGLES.contains(&quantity.unit))
     };
-    let longest = (0..N)
+    let longest = (0..q.len())
         .filter(|i| !is_angle(*i))
         .fold(T::zero(), |most: T, i| most.max(q[i].abs()));
-    SVector::from_fn(|i, _| {
-        if is_angle(i) || longest == T::zero() {
-            T::one()
-        } else {
-            longest
-        }
-    })
+    for (i, size) in sizes.iter_mut().enumerate() {
+        *size = match is_angle(i) || longest == T::zero() {
+            true => T::one(),
+            false => longest,
+        };
+    }
 }
 
 /// Every coordinate moved by an irregular part of a distance.
-pub(super) fn disturbed<T: Real, const N: usize>(
-    q: &SVector<T, N>,
-    distance: &SVector<T, N>,
-) -> SVector<T, N> {
+pub(super) fn disturb<T: Real>(q: &[T], distance: impl Fn(usize) -> T, disturbed: &mut [T]) {
     // Multiples of the golden ratio, modulo one, fill the interval evenly and
     // never repeat.
     let golden = 0.618_033_988_749_894_9;
-    SVector::from_fn(|i, _| {
+    for (i, (target, q)) in disturbed.iter_mut().zip(q).enumerate() {
         let part = (golden * (i as f64 + 1.0)) % 1.0 + 0.5;
-        q[i] + distance[i] * T::from_f64(part)
-    })
+        *target = *q + distance(i) * T::from_f64(part);
+    }
 }

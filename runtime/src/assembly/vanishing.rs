@@ -8,64 +8,70 @@
 //! the root of round-off: a run would go on in steps as small as that.
 
 use super::scales::Scales;
+use crate::Real;
+use crate::equations::Equations;
+use crate::linalg::Workspace;
 use crate::tolerance::regular;
-use crate::{Mechanism, Position, Real, State};
 
 /// How far around a position the sign of a constraint is looked at, in sizes of the
 /// coordinates.
 const AROUND: f64 = 1e-2;
 
-/// A constraint equation whose gradient is as good as none at a position, compared with
-/// what it was around the guess, and whose error has one sign wherever it is looked at
-/// around the position; `at` is that position, and used up, `round_off` what errors of one
-/// unit of [`Scales::reach`] have.
-pub(super) fn vanishing_row<T: Real, const N: usize, const R: usize>(
-    mechanism: &dyn Mechanism<T, N, R>,
-    state: &State<T, N>,
-    at: &mut Position<T, N, R>,
-    scales: &Scales<T, N, R>,
+/// A constraint equation whose gradient is as good as none at the position where the
+/// constraints were evaluated last, compared with what it was around the guess, and whose
+/// error has one sign wherever it is looked at around that position; `round_off` is what
+/// errors of one unit of [`Scales::reach`] have.
+pub(super) fn vanishing_row<T: Real>(
+    equations: &mut dyn Equations<T>,
+    (t, q): (T, &[T]),
+    scales: &Scales<'_, T>,
     round_off: T,
+    workspace: &Workspace<'_, T>,
 ) -> Option<usize> {
-    let lost: [bool; R] = core::array::from_fn(|row| {
-        let entries = at.jacobian.row(row);
-        let lengths = entries.iter().zip(scales.columns.iter());
+    let n_rows = scales.rows.len();
+    let moved = workspace.numbers(q.len());
+    (0..n_rows).find(|row| {
+        let entries = equations.constraints().jacobian.iter();
+        let lengths = entries.skip(*row).step_by(n_rows).zip(scales.columns);
         let square = lengths.fold(T::zero(), |sum, (a, c)| sum + *a * *a * *c * *c);
-        let size = square.sqrt() * scales.rows[row];
-        scales.rows[row] > T::zero() && size <= regular()
-    });
-    (0..R).filter(|row| lost[*row]).find(|row| {
+        let size = square.sqrt() * scales.rows[*row];
+        if !(scales.rows[*row] > T::zero() && size <= regular()) {
+            return false;
+        }
         let noise = round_off * scales.reach[*row];
-        has_one_sign(mechanism, (state, at), scales, *row, noise)
+        let found = has_one_sign(equations, (t, q, &mut *moved), scales, (*row, noise));
+        equations.locate(t, q);
+        found
     })
 }
 
 /// Whether the error of a constraint is nowhere positive or nowhere negative around a
-/// position, along each coordinate and between each two; `at` is a buffer.
-fn has_one_sign<T: Real, const N: usize, const R: usize>(
-    mechanism: &dyn Mechanism<T, N, R>,
-    (state, at): (&State<T, N>, &mut Position<T, N, R>),
-    scales: &Scales<T, N, R>,
-    row: usize,
-    noise: T,
+/// position, along each coordinate and between each two; with room for another position.
+fn has_one_sign<T: Real>(
+    equations: &mut dyn Equations<T>,
+    (t, q, moved): (T, &[T], &mut [T]),
+    scales: &Scales<'_, T>,
+    (row, noise): (usize, T),
 ) -> bool {
     let (mut above, mut below) = (false, false);
-    let mut look = |moved: &State<T, N>| {
-        mechanism.position(moved, at);
-        above |= at.residual[row] > noise;
-        below |= at.residual[row] < -noise;
+    let mut look = |moved: &[T]| {
+        equations.locate(t, moved);
+        let error = equations.constraints().residual[row];
+        above |= error > noise;
+        below |= error < -noise;
     };
     let distance = |i: usize, sign: f64| scales.sizes[i] * T::from_f64(AROUND * sign);
-    for i in 0..N {
+    for i in 0..q.len() {
         for sign in [1.0, -1.0] {
-            let mut moved = *state;
-            moved.q[i] += distance(i, sign);
-            look(&moved);
+            moved.copy_from_slice(q);
+            moved[i] += distance(i, sign);
+            look(moved);
             for j in 0..i {
                 for other in [1.0, -1.0] {
-                    let mut both = moved;
-                    both.q[j] += distance(j, other);
-                    look(&both);
+                    moved[j] = q[j] + distance(j, other);
+                    look(moved);
                 }
+                moved[j] = q[j];
             }
         }
     }

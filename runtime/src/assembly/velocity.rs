@@ -8,14 +8,13 @@
 //! no acceleration would satisfy the constraints. It is quadratic in `q̇`; its
 //! solutions are the velocities along the branches that meet there.
 
-use super::AssemblyError;
 use super::decomposition::Decomposition;
-use super::room::Room;
+use super::draft::{Draft, Refusal};
 use super::scales::Scales;
-use crate::linalg::{Breakdown, norm};
+use crate::Real;
+use crate::equations::{At, Equations};
+use crate::linalg::{Workspace, add_scaled, is_zero, norm};
 use crate::tolerance::regular;
-use crate::{Mechanism, Position, Real, State, Terms};
-use nalgebra::{SMatrix, SVector};
 
 /// Velocity errors up to this multiple of the round-off of an equation's terms
 /// are no contradiction.
@@ -30,101 +29,92 @@ const ON_BRANCH: f64 = 1e-9;
 const EFFECTIVE: f64 = 1e-6;
 
 /// Moves the velocities that are not held onto the constraints.
-pub(super) fn assemble<T: Real, const N: usize, const R: usize>(
-    mechanism: &dyn Mechanism<T, N, R>,
-    state: &mut State<T, N>,
-    Room { at, matrix }: &mut Room<T, N, R>,
-    held: &[bool; N],
-) -> Result<(), AssemblyError<T, N, R>> {
-    let failure = AssemblyError::NotFinite { t: state.t };
-    let broken = |Breakdown| failure;
-    let measured = Scales::measure(mechanism, state, at);
-    let guessed = speed(&state.v, &measured);
-    let scales = Scales::measure_free(mechanism, state, held, at);
-    mechanism.position(state, at);
-    matrix.decompose(&at.jacobian, &scales).map_err(broken)?;
-    correct(state, at, &scales, matrix);
-    if !state.is_finite() {
-        return Err(failure);
+pub(super) fn assemble<T: Real>(
+    equations: &mut dyn Equations<T>,
+    mut draft: Draft<'_, T>,
+    workspace: &Workspace<'_, T>,
+) -> Result<(), Refusal> {
+    let place = (draft.t, &*draft.q);
+    let measured = Scales::measure(equations, place, None, workspace);
+    let guessed = speed(draft.v, &measured);
+    let scales = Scales::measure(equations, place, Some(draft.held), workspace);
+    equations.locate(draft.t, draft.q);
+    let (n, n_rows) = (draft.q.len(), draft.residual.len());
+    let mut free = Decomposition::new(n, n_rows, workspace);
+    free.decompose(equations.constraints().jacobian, &scales)?;
+    correct(draft.v, equations, &scales, &mut free, workspace);
+    if !draft.v.iter().all(|v| v.is_finite()) {
+        return Err(Refusal::NotFinite);
     }
     // The corrections are as good as the velocities are that they begin with, which may be
     // far larger than those that they end with.
-    let speed = guessed.max(speed(&state.v, &measured));
-    check(mechanism, (state, speed), at, &measured, held)?;
-    matrix.decompose(&at.jacobian, &measured).map_err(broken)?;
-    if matrix.rank(regular()) == R {
+    let speed = guessed.max(speed(draft.v, &measured));
+    check(&mut draft, speed, equations, &measured)?;
+    let mut whole = Decomposition::new(n, n_rows, workspace);
+    whole.decompose(equations.constraints().jacobian, &measured)?;
+    if whole.rank(regular()) == n_rows {
         return Ok(());
     }
-    let followed = follow_branch(mechanism, state, (at, matrix), [&measured, &scales]);
-    match followed.map_err(broken)? {
-        true => Ok(()),
-        false => Err(AssemblyError::NoBranch {
-            structure: mechanism.structure(),
-            held: *held,
-        }),
-    }
-}
-
-/// Moves the free velocities at a singular position to those of the nearest branch, if there
-/// is one; with the decomposition of all rows. Apart from what a regular position takes,
-/// because its matrices are large.
-#[cold]
-#[inline(never)]
-fn follow_branch<T: Real, const N: usize, const R: usize>(
-    mechanism: &dyn Mechanism<T, N, R>,
-    state: &mut State<T, N>,
-    (at, whole): (&Position<T, N, R>, &Decomposition<T, N, R>),
-    [measured, scales]: [&Scales<T, N, R>; 2],
-) -> Result<bool, Breakdown> {
-    let mut free = Decomposition::default();
-    free.decompose(&at.jacobian, scales)?;
-    let branches = Branches {
-        mechanism,
+    let mut branches = Branches {
+        equations,
+        position: (draft.t, draft.q),
         measured,
         scales,
-        free: &free,
-        whole,
+        free: &mut free,
+        whole: &whole,
     };
-    let found = branches.choose(state)?;
-    if found {
-        correct(state, at, scales, &free);
+    match branches.choose(draft.v, workspace)? {
+        true => correct(draft.v, equations, &scales, &mut free, workspace),
+        false => return Err(Refusal::NoBranch),
     }
-    Ok(found)
+    Ok(())
 }
 
 /// Moves the free velocities to `A q̇ + b = 0`, as little as they can. Twice: the
 /// second correction takes the round-off of the first.
-fn correct<T: Real, const N: usize, const R: usize>(
-    state: &mut State<T, N>,
-    at: &Position<T, N, R>,
-    scales: &Scales<T, N, R>,
-    free: &Decomposition<T, N, R>,
+fn correct<T: Real>(
+    v: &mut [T],
+    equations: &dyn Equations<T>,
+    scales: &Scales<'_, T>,
+    free: &mut Decomposition<'_, T>,
+    workspace: &Workspace<'_, T>,
 ) {
-    for _ in 0..2 {
-        let error = opening(at, &state.v).component_mul(&scales.rows);
-        let (step, _) = free.solve(&-error, regular());
-        state.v += step.component_mul(&scales.columns);
+    workspace.scope(|workspace| {
+        let error = workspace.numbers(scales.rows.len());
+        let step = workspace.numbers(v.len());
+        for _ in 0..2 {
+            opening(equations, v, error);
+            for (error, scale) in error.iter_mut().zip(scales.rows) {
+                *error = -(*error * *scale);
+            }
+            free.solve(error, regular(), step);
+            move_by(v, step, scales);
+        }
+    });
+}
+
+/// Adds a scaled step to velocities.
+fn move_by<T: Real>(v: &mut [T], step: &[T], scales: &Scales<'_, T>) {
+    for (v, (step, scale)) in v.iter_mut().zip(step.iter().zip(scales.columns)) {
+        *v += *step * *scale;
     }
 }
 
-/// `A q̇ + b`; `A` is not copied, as `*` does.
-fn opening<T: Real, const N: usize, const R: usize>(
-    at: &Position<T, N, R>,
-    v: &SVector<T, N>,
-) -> SVector<T, R> {
-    let mut opening = at.drift;
-    opening.gemv(T::one(), &at.jacobian, v, T::one());
-    opening
+/// `A q̇ + b`.
+fn opening<T: Real>(equations: &dyn Equations<T>, v: &[T], opening: &mut [T]) {
+    let at = equations.constraints();
+    opening.copy_from_slice(at.drift);
+    for (column, v) in at.jacobian.chunks_exact(opening.len()).zip(v) {
+        add_scaled(opening, *v, column);
+    }
 }
 
 /// The size of velocities in the kinetic metric, where a row of norm one turns a speed of
 /// one into an error of one.
-fn speed<T: Real, const N: usize, const R: usize>(
-    v: &SVector<T, N>,
-    measured: &Scales<T, N, R>,
-) -> T {
-    let squares = (0..N).fold(T::zero(), |sum, j| {
-        let x = v[j] / measured.columns[j];
+fn speed<T: Real>(v: &[T], measured: &Scales<'_, T>) -> T {
+    let scaled = v.iter().zip(measured.columns);
+    let squares = scaled.fold(T::zero(), |sum, (v, scale)| {
+        let x = *v / *scale;
         sum + x * x
     });
     squares.sqrt()
@@ -132,132 +122,134 @@ fn speed<T: Real, const N: usize, const R: usize>(
 
 /// Refuses velocities that contradict the constraints. The speed is the largest that took
 /// part in finding them.
-fn check<T: Real, const N: usize, const R: usize>(
-    mechanism: &dyn Mechanism<T, N, R>,
-    (state, speed): (&State<T, N>, T),
-    at: &Position<T, N, R>,
-    measured: &Scales<T, N, R>,
-    held: &[bool; N],
-) -> Result<(), AssemblyError<T, N, R>> {
-    let error = opening(at, &state.v);
+fn check<T: Real>(
+    draft: &mut Draft<'_, T>,
+    speed: T,
+    equations: &dyn Equations<T>,
+    measured: &Scales<'_, T>,
+) -> Result<(), Refusal> {
+    opening(equations, draft.v, draft.residual);
     // Rows that count as dependent may be off by what they are.
     let slack = T::EPSILON * T::from_f64(CONTRADICTION) + regular();
-    let residual = SVector::<T, R>::from_fn(|k, _| {
+    let at = equations.constraints();
+    for (k, error) in draft.residual.iter_mut().enumerate() {
         let most = slack * (speed / measured.rows[k] + at.drift[k].abs());
-        if error[k].abs() <= most {
-            T::zero()
-        } else {
-            error[k]
+        if error.abs() <= most {
+            *error = T::zero();
         }
-    });
-    if residual.iter().all(|x| *x == T::zero()) {
+    }
+    if is_zero(draft.residual) {
         return Ok(());
     }
-    let conflicting = measured.influential(&at.jacobian, &residual, held);
-    Err(AssemblyError::Velocities {
-        structure: mechanism.structure(),
-        residual,
-        conflicting,
-    })
+    measured.influential(at.jacobian, draft.residual, draft.held, draft.conflicting);
+    Err(Refusal::Velocities)
 }
 
 /// The branches that meet at a singular position.
-struct Branches<'a, T, const N: usize, const R: usize> {
-    mechanism: &'a dyn Mechanism<T, N, R>,
-    measured: &'a Scales<T, N, R>,
+struct Branches<'b, 'a, T> {
+    equations: &'b mut dyn Equations<T>,
+    position: (T, &'b [T]),
+    measured: Scales<'a, T>,
     /// The same, with what is held taken out.
-    scales: &'a Scales<T, N, R>,
+    scales: Scales<'a, T>,
     /// What the velocities that aren't held can do.
-    free: &'a Decomposition<T, N, R>,
+    free: &'b mut Decomposition<'a, T>,
     /// What all velocities can do.
-    whole: &'a Decomposition<T, N, R>,
+    whole: &'b Decomposition<'a, T>,
 }
 
-impl<T: Real, const N: usize, const R: usize> Branches<'_, T, N, R> {
+impl<T: Real> Branches<'_, '_, T> {
     /// Newton's method towards the nearest branch, along the directions that
     /// the constraints leave free; whether one was reached.
-    fn choose(&self, state: &mut State<T, N>) -> Result<bool, Breakdown> {
+    fn choose(&mut self, v: &mut [T], workspace: &Workspace<'_, T>) -> Result<bool, Refusal> {
+        let (n, n_rows) = (v.len(), self.scales.rows.len());
+        let mut towards = Decomposition::new(n, n_rows, workspace);
+        let slopes = workspace.numbers(n_rows * n);
+        let (bias, rest) = (workspace.numbers(n_rows), workspace.numbers(n_rows));
+        let (moved, step) = (workspace.numbers(n), workspace.numbers(n));
         for _ in 0..MOST_STEPS {
-            let bias = self.bias(state, state.v);
-            let rest = self.whole.unreachable(&bias, regular());
-            let slopes = self.slopes(state);
-            let size = self.size(&bias, &state.v, &slopes);
-            let reached = norm(&rest.data.0[0]) <= size * T::from_f64(ON_BRANCH);
-            if norm(&rest.data.0[0]) > T::zero() {
+            self.bias(v, bias);
+            rest.copy_from_slice(bias);
+            self.whole.leave_unreachable(rest, regular());
+            let size = norm(bias) + self.slopes(v, slopes, (bias, moved));
+            let reached = norm(rest) <= size * T::from_f64(ON_BRANCH);
+            if norm(rest) > T::zero() {
                 // Also where the branch is reached: the last step squares the
                 // error.
-                let step = self.step(&slopes, &rest)?;
-                state.v += step.component_mul(&self.scales.columns);
+                self.make_effective(slopes, moved);
+                towards.decompose_scaled(&|k, j| slopes[j * n_rows + k])?;
+                let cut = towards.largest() * T::from_f64(EFFECTIVE);
+                rest.iter_mut().for_each(|rest| *rest = -*rest);
+                towards.solve(rest, cut, step);
+                self.keep_free(step);
+                move_by(v, step, &self.scales);
             }
-            if reached || !state.is_finite() {
-                return Ok(reached && state.is_finite());
+            let finite = v.iter().all(|v| v.is_finite());
+            if reached || !finite {
+                return Ok(reached && finite);
             }
         }
         Ok(false)
     }
 
     /// `p₂` at a velocity, scaled.
-    fn bias(&self, state: &State<T, N>, v: SVector<T, N>) -> SVector<T, R> {
-        let mut terms = Terms::default();
-        self.mechanism.terms(&State { v, ..*state }, &mut terms);
-        terms.bias.component_mul(&self.measured.rows)
+    fn bias(&mut self, v: &[T], bias: &mut [T]) {
+        let (t, q) = self.position;
+        self.equations.evaluate(At { t, q, v });
+        let terms = self.equations.constraints().bias;
+        for (k, target) in bias.iter_mut().enumerate() {
+            *target = terms[k] * self.measured.rows[k];
+        }
     }
 
-    /// How `p₂` changes with each scaled velocity, held or not. `p₂` is quadratic
-    /// in the velocities, so that central differences are exact.
-    fn slopes(&self, state: &State<T, N>) -> SMatrix<T, R, N> {
-        let mut slopes = SMatrix::<T, R, N>::zeros();
+    /// How `p₂` changes with each scaled velocity, held or not; returns how large the terms
+    /// are by that, whose sum `p₂` is. `p₂` is quadratic in the velocities, so that central
+    /// differences are exact. With room for a bias and a velocity.
+    fn slopes(&mut self, v: &[T], slopes: &mut [T], (bias, moved): (&mut [T], &mut [T])) -> T {
         let two = T::from_f64(2.0);
-        for j in 0..N {
-            let (mut more, mut less) = (state.v, state.v);
-            more[j] += self.measured.columns[j];
-            less[j] -= self.measured.columns[j];
-            let slope = (self.bias(state, more) - self.bias(state, less)) / two;
-            slopes.set_column(j, &slope);
+        let mut size = T::zero();
+        moved.copy_from_slice(v);
+        for (j, slope) in slopes.chunks_exact_mut(bias.len()).enumerate() {
+            let scale = self.measured.columns[j];
+            moved[j] = v[j] + scale;
+            self.bias(moved, slope);
+            moved[j] = v[j] - scale;
+            self.bias(moved, bias);
+            moved[j] = v[j];
+            for (slope, less) in slope.iter_mut().zip(&*bias) {
+                *slope = (*slope - *less) / two;
+            }
+            size += norm(slope) * (v[j] / scale).abs();
         }
-        slopes
+        size
     }
 
-    /// How large the terms are whose sum `p₂` is.
-    fn size(&self, bias: &SVector<T, R>, v: &SVector<T, N>, slopes: &SMatrix<T, R, N>) -> T {
-        let scaled = v.component_div(&self.measured.columns);
-        (0..N).fold(norm(&bias.data.0[0]), |sum, j| {
-            sum + norm(&slopes.data.0[j]) * scaled[j].abs()
-        })
+    /// Leaves of the slopes what velocities change that are free, and of that what all rows
+    /// can't produce. With room for a row.
+    fn make_effective(&mut self, slopes: &mut [T], row: &mut [T]) {
+        let n_rows = self.scales.rows.len();
+        for k in 0..n_rows {
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry = slopes[j * n_rows + k];
+            }
+            self.keep_free(row);
+            for (j, entry) in row.iter().enumerate() {
+                slopes[j * n_rows + k] = *entry;
+            }
+        }
+        for column in slopes.chunks_exact_mut(n_rows) {
+            self.whole.leave_unreachable(column, regular());
+        }
     }
 
-    /// The step that removes the rest, in scaled velocities: of least norm,
-    /// along what the constraints leave free.
-    fn step(
-        &self,
-        slopes: &SMatrix<T, R, N>,
-        rest: &SVector<T, R>,
-    ) -> Result<SVector<T, N>, Breakdown> {
-        let mut along = slopes.transpose();
-        for column in along.data.0.iter_mut() {
-            *column = self.along_free(&SVector::from(*column)).data.0[0];
-        }
-        let mut along = along.transpose();
-        for column in along.data.0.iter_mut() {
-            let reached = SVector::from(*column);
-            *column = self.whole.unreachable(&reached, regular()).data.0[0];
-        }
-        let mut towards = Decomposition::<T, N, R>::default();
-        towards.decompose_scaled(|k, j| along[(k, j)])?;
-        let cut = towards.largest() * T::from_f64(EFFECTIVE);
-        let (step, _) = towards.solve(&-rest, cut);
-        Ok(self.along_free(&step))
-    }
-
-    /// The part of a scaled velocity that the constraints leave free and nobody holds.
-    fn along_free(&self, velocity: &SVector<T, N>) -> SVector<T, N> {
-        let mut along = self.free.ineffective(velocity, regular());
-        for (entry, scale) in along.iter_mut().zip(self.scales.columns.iter()) {
+    /// Takes from a scaled velocity what the constraints don't leave free or somebody holds.
+    fn keep_free(&mut self, velocity: &mut [T]) {
+        self.free.leave_ineffective(velocity, regular());
+        for (entry, scale) in velocity.iter_mut().zip(self.scales.columns) {
             if *scale == T::zero() {
                 // Held: free of the constraints, but not free.
                 *entry = T::zero();
             }
         }
-        along
     }
 }

@@ -64,7 +64,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             &mut [],
         );
         let mut acceleration = SVector::<T, N>::zeros();
-        (T::compiled().least_squares)(&squares, &workspace, acceleration.as_mut_slice());
+        (T::routines().least_squares)(&squares, &workspace, acceleration.as_mut_slice());
         Ok(self.stabilised(acceleration, state, &point))
     }
 }

@@ -84,7 +84,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         step: &Step<T, N>,
     ) -> Result<Switching<T>, DynamicsError<T>> {
         let core = &mut *self;
-        let found = (T::compiled().switch)(&mut Attempt {
+        let found = (T::routines().switch)(&mut Attempt {
             core,
             mechanism,
             step,
@@ -119,7 +119,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let slid = self.conditions.decided.slid(state.t)?;
         let mut vectors = [[T::zero(); N]; ROOM + 1];
         let room = vectors.as_flattened_mut();
-        let shares = (T::compiled().slide)(&slid, N, room, &mut |sides, rates, out| {
+        let shares = (T::routines().slide)(&slid, N, room, &mut |sides, rates, out| {
             self.decide(sides);
             let acceleration = self.acceleration(mechanism, state)?;
             mechanism.switches(state, &acceleration, rates);

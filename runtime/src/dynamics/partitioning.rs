@@ -45,7 +45,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             &mut dependent,
         );
         let mut acceleration = SVector::<T, N>::zeros();
-        (T::compiled().partition)(
+        (T::routines().partition)(
             (self.terms.mass.as_slice(), self.terms.force.as_slice()),
             (jacobian.as_mut_slice(), &mut right),
             &workspace,

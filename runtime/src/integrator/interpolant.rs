@@ -76,7 +76,7 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
             (&mut self.v, (&start.v, &end.v), v),
         ] {
             let ends = (ends.0.as_slice(), ends.1.as_slice());
-            (T::compiled().set_through)(out.as_flattened_mut(), ends, nodes, values);
+            (T::routines().set_through)(out.as_flattened_mut(), ends, nodes, values);
             for (coefficient, column) in coefficients.iter_mut().zip(out) {
                 *coefficient = SVector::from(column);
             }

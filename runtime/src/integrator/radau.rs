@@ -94,7 +94,7 @@ impl<T: Real, const N: usize> Radau<T, N> {
                 (Tolerance::round_off(FIXED_PACE), T::EPSILON.sqrt() / unit)
             }
         };
-        let coefficients = (T::compiled().collocation)(digits);
+        let coefficients = (T::routines().collocation)(digits);
         Self {
             course: Course::new(coefficients, tolerance.part(NEWTON_PART), tolerable),
             tolerance,
@@ -133,7 +133,7 @@ impl<T: Real, const N: usize> Radau<T, N> {
         };
         let mut vectors = [[T::zero(); N]; VECTORS];
         let workspace = Workspace::new(vectors.as_flattened_mut(), &mut [], &mut []);
-        (T::compiled().attempt)(&mut newton, flow, start.at(), (end, again), &workspace)?;
+        (T::routines().attempt)(&mut newton, flow, start.at(), (end, again), &workspace)?;
         Ok(last)
     }
 

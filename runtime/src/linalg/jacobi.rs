@@ -31,11 +31,27 @@ pub(crate) fn orthogonalise<T: Real, const K: usize, const N: usize>(
     v: &mut [[T; N]],
 ) -> Result<(), Breakdown> {
     let count = g.len().min(v.len()).min(N);
+    let squares = &mut [T::zero(); N][..count];
+    orthogonalise_slices(
+        (g.as_flattened_mut(), K),
+        (v.as_flattened_mut(), N),
+        squares,
+    )
+}
+
+/// The same for columns that lie one after the other, with their lengths; as many as there
+/// are `squares`, which become those of the columns of `g`.
+pub(crate) fn orthogonalise_slices<T: Real>(
+    (g, of_g): (&mut [T], usize),
+    (v, of_v): (&mut [T], usize),
+    squares: &mut [T],
+) -> Result<(), Breakdown> {
+    let count = squares.len();
     let mut pair = Pair {
-        g: g.as_flattened_mut(),
-        v: v.as_flattened_mut(),
-        squares: &mut [T::zero(); N],
-        lengths: (K, N),
+        g,
+        v,
+        squares,
+        lengths: (of_g, of_v),
         count,
     };
     pair.orthogonalise()

@@ -10,22 +10,28 @@
 //! operations that grows with the entries that are not zero, and singular values the cube of
 //! the number of coordinates.
 
-use super::{Breakdown, dot};
+use super::{Breakdown, Workspace, dot};
 use crate::Real;
-use nalgebra::{SMatrix, SVector};
+use core::marker::PhantomData;
 
-/// Products of the rows of a Jacobian and their factor.
-#[derive(Clone, Debug)]
-pub(crate) struct Products<T, const R: usize> {
-    /// Products of different rows above the diagonal, Cholesky's factor on and below it.
-    entries: SMatrix<T, R, R>,
+/// Products of the rows of a Jacobian and their factor, over slices.
+#[derive(Debug)]
+pub(crate) struct RowProducts<'a, T> {
+    /// Products of different rows above the diagonal, Cholesky's factor on and below it,
+    /// column by column.
+    entries: &'a mut [T],
     /// Squares of the rows.
-    squares: SVector<T, R>,
+    squares: &'a mut [T],
     /// For each row one of those that it is connected with by coordinates, the same for all
     /// of them.
-    component: [usize; R],
-    /// Whether a row and all that it is connected with are safely independent.
-    safe: [bool; R],
+    component: &'a mut [usize],
+    /// For each component, whether its rows are left to singular values: not zero then.
+    unsafe_components: &'a mut [usize],
+    /// A column of the Jacobian, or a unit vector.
+    column: &'a mut [T],
+    /// Of each component, the squares of the entries of `L⁻¹`, and the largest of its rows.
+    inverse: &'a mut [T],
+    largest: &'a mut [T],
 }
 
 /// What the sum of the squares of the inverse singular values may be, relative to the largest
@@ -35,33 +41,42 @@ fn most_inverse<T: Real>() -> T {
     T::one() / T::EPSILON.sqrt()
 }
 
-impl<T: Real, const R: usize> Default for Products<T, R> {
-    fn default() -> Self {
+impl<'a, T: Real> RowProducts<'a, T> {
+    /// Those of no rows yet. They take a square matrix of all rows, four vectors and two
+    /// lists.
+    pub(crate) fn new(rows: usize, workspace: &Workspace<'a, T>) -> Self {
         Self {
-            entries: SMatrix::zeros(),
-            squares: SVector::zeros(),
-            component: [0; R],
-            safe: [false; R],
+            entries: workspace.numbers(rows * rows),
+            squares: workspace.numbers(rows),
+            component: workspace.indices(rows),
+            unsafe_components: workspace.indices(rows),
+            column: workspace.numbers(rows),
+            inverse: workspace.numbers(rows),
+            largest: workspace.numbers(rows),
         }
     }
-}
 
-impl<T: Real, const R: usize> Products<T, R> {
+    fn rows(&self) -> usize {
+        self.squares.len()
+    }
+
     /// Multiplies and judges the rows of a matrix of `n` columns, each of which is written by
     /// `column`.
     pub(crate) fn compute(
         &mut self,
         n: usize,
-        mut column: impl FnMut(usize, &mut [T; R]),
+        column: &mut dyn FnMut(usize, &mut [T]),
     ) -> Result<(), Breakdown> {
         self.entries.fill(T::zero());
         self.squares.fill(T::zero());
-        self.component = core::array::from_fn(|row| row);
-        self.safe = [true; R];
-        let mut entries = [T::zero(); R];
+        self.unsafe_components.fill(0);
+        for (row, component) in self.component.iter_mut().enumerate() {
+            *component = row;
+        }
+        self.column.fill(T::zero());
         for j in 0..n {
-            column(j, &mut entries);
-            self.add(&entries);
+            column(j, self.column);
+            self.add();
         }
         let sum = self.squares.iter().fold(T::zero(), |sum, x| sum + *x);
         if !sum.is_finite() {
@@ -74,16 +89,18 @@ impl<T: Real, const R: usize> Products<T, R> {
 
     /// Whether a row and all that it is connected with are safely independent.
     pub(crate) fn is_safe(&self, row: usize) -> bool {
-        self.safe[row]
+        self.unsafe_components[self.component[row]] == 0
     }
 
     /// An upper bound of the largest squared singular value of the safe rows.
     pub(crate) fn largest_square(&self) -> T {
-        let safe = (0..R).filter(|row| self.safe[*row]);
+        let count = self.rows();
+        let safe = (0..count).filter(|row| self.is_safe(*row));
         safe.fold(T::zero(), |most: T, row| {
-            let others = (0..R).filter(|other| *other != row);
+            let others = (0..count).filter(|other| *other != row);
             let sum = others.fold(self.squares[row], |sum, other| {
-                sum + self.entries[(row.min(other), row.max(other))].abs()
+                let (first, second) = (row.min(other), row.max(other));
+                sum + self.entries[second * count + first].abs()
             });
             most.max(sum)
         })
@@ -92,76 +109,69 @@ impl<T: Real, const R: usize> Products<T, R> {
     /// Replaces the factor by that of `Ĵ Ĵᵀ + s`. What has no positive pivot, with all that
     /// it is connected with, is not safe.
     pub(crate) fn factorise(&mut self, s: T) {
-        for j in 0..R {
-            let mut column = [T::zero(); R];
-            column[j] = self.squares[j] + s;
-            for (i, entry) in column.iter_mut().enumerate().skip(j + 1) {
-                *entry = self.entries[(j, i)];
+        let count = self.rows();
+        for j in 0..count {
+            let (earlier, rest) = self.entries.split_at_mut(j * count);
+            // The factor begins as the products that are above the diagonal.
+            rest[j] = self.squares[j] + s;
+            for i in j + 1..count {
+                rest[i] = rest[(i - j) * count + j];
             }
-            for earlier in &self.entries.data.0[..j] {
+            let column = &mut rest[j..count];
+            for earlier in earlier.chunks_exact(count) {
                 let factor = earlier[j];
                 if factor != T::zero() {
-                    let below = earlier[j..].iter();
-                    for (entry, above) in column[j..].iter_mut().zip(below) {
+                    for (entry, above) in column.iter_mut().zip(&earlier[j..]) {
                         *entry -= factor * *above;
                     }
                 }
             }
-            let pivot = column[j];
+            let pivot = column[0];
             // False for NaN, too.
             let is_large = pivot * most_inverse() > self.squares[j].max(T::one());
+            let component = self.component[j];
             if !is_large {
-                self.give_up(self.component[j]);
+                self.unsafe_components[component] = 1;
             }
-            if self.safe[j] {
+            if self.unsafe_components[component] == 0 {
                 let inverse = T::one() / pivot.sqrt();
-                (j..R).for_each(|i| column[i] *= inverse);
+                column.iter_mut().for_each(|entry| *entry *= inverse);
             } else {
-                column = [T::zero(); R];
-                column[j] = T::one();
+                column.fill(T::zero());
+                column[0] = T::one();
             }
-            self.entries.data.0[j][j..].copy_from_slice(&column[j..]);
         }
     }
 
-    /// The `z` of the safe rows with `(Ĵ Ĵᵀ + s) z = y`; zero in the others.
-    pub(crate) fn solve(&self, y: &SVector<T, R>) -> [T; R] {
-        let mut z = core::array::from_fn(|row| match self.safe[row] {
-            true => y[row],
-            false => T::zero(),
-        });
-        self.forward(&mut z, 0);
-        let factor = &self.entries.data.0;
-        for j in (0..R).rev() {
+    /// Turns `y` into the `z` of the safe rows with `(Ĵ Ĵᵀ + s) z = y`; zero in the others.
+    pub(crate) fn solve(&self, z: &mut [T]) {
+        let count = self.rows();
+        for (row, entry) in z.iter_mut().enumerate() {
+            if !self.is_safe(row) {
+                *entry = T::zero();
+            }
+        }
+        forward(self.entries, z, 0);
+        for j in (0..count).rev() {
+            let factor = &self.entries[j * count..(j + 1) * count];
             let mut value = z[j];
-            for i in j + 1..R {
-                value -= factor[j][i] * z[i];
+            for i in j + 1..count {
+                value -= factor[i] * z[i];
             }
-            z[j] = value / factor[j][j];
-        }
-        z
-    }
-
-    /// `x := L⁻¹ x`, of which the entries before the first are zero.
-    fn forward(&self, x: &mut [T; R], first: usize) {
-        let factor = &self.entries.data.0;
-        for j in first..R {
-            if x[j] != T::zero() {
-                x[j] /= factor[j][j];
-                let value = x[j];
-                let below = factor[j][j + 1..].iter();
-                for (entry, below) in x[j + 1..].iter_mut().zip(below) {
-                    *entry -= value * *below;
-                }
-            }
+            z[j] = value / factor[j];
         }
     }
 
-    /// Adds what the entries of a column contribute.
-    fn add(&mut self, column: &[T; R]) {
+    /// Adds what the entries of the column contribute.
+    fn add(&mut self) {
+        let count = self.rows();
         let mut first = None;
-        for i in (0..R).filter(|i| column[*i] != T::zero()) {
-            self.squares[i] += column[i] * column[i];
+        for i in 0..count {
+            let entry = self.column[i];
+            if entry == T::zero() {
+                continue;
+            }
+            self.squares[i] += entry * entry;
             let Some(first) = first else {
                 first = Some(i);
                 continue;
@@ -169,7 +179,7 @@ impl<T: Real, const R: usize> Products<T, R> {
             self.connect(first, i);
             // The rows before this one that the column meets.
             for k in first..i {
-                self.entries[(k, i)] += column[k] * column[i];
+                self.entries[i * count + k] += self.column[k] * entry;
             }
         }
     }
@@ -187,27 +197,85 @@ impl<T: Real, const R: usize> Products<T, R> {
     /// Leaves those components to singular values whose rows are near-dependent: the squares
     /// of the inverse singular values add up to those of the entries of `L⁻¹`.
     fn judge(&mut self) {
-        let mut inverse = [T::zero(); R];
-        let mut largest = [T::one(); R];
-        for row in (0..R).filter(|row| self.safe[*row]) {
-            let mut unit = [T::zero(); R];
-            unit[row] = T::one();
-            self.forward(&mut unit, row);
+        self.inverse.fill(T::zero());
+        self.largest.fill(T::one());
+        for row in 0..self.rows() {
+            if !self.is_safe(row) {
+                continue;
+            }
+            self.column.fill(T::zero());
+            self.column[row] = T::one();
+            forward(self.entries, self.column, row);
             let component = self.component[row];
-            inverse[component] += dot(&unit, &unit);
-            largest[component] = largest[component].max(self.squares[row]);
+            self.inverse[component] += dot(self.column, self.column);
+            self.largest[component] = self.largest[component].max(self.squares[row]);
         }
-        for component in 0..R {
-            let is_regular = inverse[component] * largest[component] <= most_inverse();
+        for component in 0..self.rows() {
+            let is_regular = self.inverse[component] * self.largest[component] <= most_inverse();
             if !is_regular {
-                self.give_up(component);
+                self.unsafe_components[component] = 1;
             }
         }
     }
+}
 
-    fn give_up(&mut self, component: usize) {
-        for row in 0..R {
-            self.safe[row] &= self.component[row] != component;
+/// `x := L⁻¹ x`, of which the entries before the first are zero.
+fn forward<T: Real>(factor: &[T], x: &mut [T], first: usize) {
+    let count = x.len();
+    for j in first..count {
+        if x[j] != T::zero() {
+            let column = &factor[j * count..(j + 1) * count];
+            x[j] /= column[j];
+            let value = x[j];
+            for (entry, below) in x[j + 1..].iter_mut().zip(&column[j + 1..]) {
+                *entry -= value * *below;
+            }
         }
+    }
+}
+
+/// Which rows are safely independent, of a number that is known.
+#[derive(Clone, Debug)]
+pub(crate) struct Products<T, const R: usize> {
+    safe: [bool; R],
+    scalar: PhantomData<T>,
+}
+
+impl<T, const R: usize> Default for Products<T, R> {
+    fn default() -> Self {
+        Self {
+            safe: [false; R],
+            scalar: PhantomData,
+        }
+    }
+}
+
+impl<T: Real, const R: usize> Products<T, R> {
+    /// Multiplies and judges the rows of a matrix of `n` columns, each of which is written by
+    /// `column`.
+    pub(crate) fn compute(
+        &mut self,
+        n: usize,
+        mut column: impl FnMut(usize, &mut [T]),
+    ) -> Result<(), Breakdown> {
+        let mut entries = [[T::zero(); R]; R];
+        let mut vectors = [[T::zero(); R]; 4];
+        let mut lists = [[0; R]; 2];
+        let workspace = Workspace::new(
+            entries.as_flattened_mut(),
+            vectors.as_flattened_mut(),
+            lists.as_flattened_mut(),
+        );
+        let mut products = RowProducts::new(R, &workspace);
+        products.compute(n, &mut column)?;
+        for (row, safe) in self.safe.iter_mut().enumerate() {
+            *safe = products.is_safe(row);
+        }
+        Ok(())
+    }
+
+    /// Whether a row and all that it is connected with are safely independent.
+    pub(crate) fn is_safe(&self, row: usize) -> bool {
+        self.safe[row]
     }
 }

@@ -10,10 +10,12 @@
 use crate::Real;
 use core::cell::Cell;
 
+/// Pieces of memory that numbers are cut from.
+const PIECES: usize = 4;
+
 /// What is free of some memory.
 pub(crate) struct Workspace<'a, T> {
-    first: Cell<&'a mut [T]>,
-    second: Cell<&'a mut [T]>,
+    numbers: [Cell<&'a mut [T]>; PIECES],
     indices: Cell<&'a mut [usize]>,
 }
 
@@ -21,16 +23,21 @@ impl<'a, T: Real> Workspace<'a, T> {
     /// Numbers are cut from the first piece of memory, and from the second where that is
     /// not enough.
     pub(crate) fn new(first: &'a mut [T], second: &'a mut [T], indices: &'a mut [usize]) -> Self {
+        Self::of([first, second, &mut [], &mut []], indices)
+    }
+
+    /// The same of more pieces. What is left of one when a matrix no longer fits is there for
+    /// vectors.
+    pub(crate) fn of(numbers: [&'a mut [T]; PIECES], indices: &'a mut [usize]) -> Self {
         Self {
-            first: Cell::new(first),
-            second: Cell::new(second),
+            numbers: numbers.map(Cell::new),
             indices: Cell::new(indices),
         }
     }
 
     /// So many zeros.
     pub(crate) fn numbers(&self, count: usize) -> &'a mut [T] {
-        let taken = cut(&self.first, count).or_else(|| cut(&self.second, count));
+        let taken = self.numbers.iter().find_map(|piece| cut(piece, count));
         debug_assert!(taken.is_some(), "no room for {count} numbers");
         let taken = taken.unwrap_or_default();
         taken.fill(T::zero());
@@ -48,11 +55,13 @@ impl<'a, T: Real> Workspace<'a, T> {
 
     /// Does something with what is free, all of which is free again afterwards.
     pub(crate) fn scope<V>(&self, work: impl FnOnce(&Workspace<'_, T>) -> V) -> V {
-        let (first, second) = (self.first.take(), self.second.take());
+        let mut numbers = self.numbers.each_ref().map(Cell::take);
         let indices = self.indices.take();
-        let done = work(&Workspace::new(first, second, indices));
-        self.first.set(first);
-        self.second.set(second);
+        let lent = numbers.each_mut().map(|piece| &mut **piece);
+        let done = work(&Workspace::of(lent, indices));
+        for (piece, taken) in self.numbers.iter().zip(numbers) {
+            piece.set(taken);
+        }
         self.indices.set(indices);
         done
     }

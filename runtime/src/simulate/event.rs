@@ -131,7 +131,7 @@ impl<T: Real> Events<T> {
             ends: (step.start().t, step.end().t),
             write: &mut write,
         };
-        (T::compiled().find_first)(self, &mut along)
+        (T::routines().find_first)(self, &mut along)
     }
 
     /// The next occurrence of the step that was looked at, the earliest first.
@@ -149,7 +149,7 @@ impl<T: Real> Events<T> {
             ends: (step.start().t, step.end().t),
             write: &mut write,
         };
-        let happened = (T::compiled().take_first)(self, &mut along)?;
+        let happened = (T::routines().take_first)(self, &mut along)?;
         let Some(Happened { index, t, rising }) = happened else {
             return Ok(None);
         };

@@ -33,8 +33,7 @@ pub(crate) use obstacle::Obstacle;
 pub(crate) use passage::Found;
 pub use passage::Passage;
 pub(crate) use place::Placement;
-#[doc(hidden)]
-pub use routines::Routines;
+pub(crate) use routines::Routines;
 pub(crate) use session::{Placed, Session};
 pub(crate) use sheet::{Point, Sheet};
 pub(crate) use start::Start;

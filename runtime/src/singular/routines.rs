@@ -1,9 +1,6 @@
-//! What is compiled once for each scalar: everything that works on a [`Sheet`].
+//! What works on a [`Sheet`] of a mechanism of any size.
 //!
-//! Out: [`Routines`], of which each scalar has one table.
-//!
-//! Generic functions are compiled where they are called, in the crate of every mechanism.
-//! The tables of `f64` and `f32` are part of this crate, and so is the code behind them.
+//! Out: [`Routines`], which are part of the table of a scalar.
 
 use super::obstacle::Obstacle;
 use super::passage::{Found, Reference};
@@ -30,7 +27,7 @@ type SignChanges<T> =
 
 /// The routines of a scalar.
 #[derive(Debug)]
-pub struct Routines<T> {
+pub(crate) struct Routines<T> {
     place: Place<T>,
     measure_here: MeasureHere<T>,
     passages: Passages<T>,
@@ -39,8 +36,7 @@ pub struct Routines<T> {
 }
 
 impl<T: Real> Routines<T> {
-    /// Those of any scalar.
-    pub const fn new() -> Self {
+    pub(crate) const fn new() -> Self {
         Self {
             place: |sheet, state, point, workspace| sheet.place(state, point, workspace),
             measure_here: |sheet, state, point| sheet.measure_here(state, point),
@@ -62,7 +58,7 @@ impl<T: Real> Sheet<'_, T> {
         point: &mut PointView<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> Result<Placement<T>, Obstacle> {
-        (T::routines().place)(self, state, point, workspace)
+        (T::routines().sheet.place)(self, state, point, workspace)
     }
 
     /// The geometry at a state as it is.
@@ -71,7 +67,7 @@ impl<T: Real> Sheet<'_, T> {
         state: At<'_, T>,
         point: &mut PointView<'_, T>,
     ) -> Result<(), Obstacle> {
-        (T::routines().measure_here)(self, state, point)
+        (T::routines().sheet.measure_here)(self, state, point)
     }
 
     /// The passages of a step of this length whose positions are `at`.
@@ -82,7 +78,7 @@ impl<T: Real> Sheet<'_, T> {
         at: &dyn Fn(T, &mut [T]),
         workspace: &Workspace<'_, T>,
     ) -> Found<T> {
-        (T::routines().passages)(self, start, length, at, workspace)
+        (T::routines().sheet.passages)(self, start, length, at, workspace)
     }
 
     /// What states of a step that begins here are compared with; `None` where the
@@ -92,7 +88,7 @@ impl<T: Real> Sheet<'_, T> {
         start: At<'_, T>,
         workspace: &Workspace<'b, T>,
     ) -> Option<Reference<'b, T>> {
-        (T::routines().reference)(self, start, workspace)
+        (T::routines().sheet.reference)(self, start, workspace)
     }
 
     /// How many sheets are crossed on the way to a state; `None` where that can't be told.
@@ -102,6 +98,6 @@ impl<T: Real> Sheet<'_, T> {
         to: At<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> Option<usize> {
-        (T::routines().sign_changes)(self, from, to, workspace)
+        (T::routines().sheet.sign_changes)(self, from, to, workspace)
     }
 }

@@ -1,18 +1,16 @@
 //! What is compiled once for each scalar, whatever the sizes of mechanisms are.
 //!
-//! Out: [`Compiled`], of which each scalar has one.
+//! Out: [`Routines`], of which each scalar has one table.
 //!
 //! Generic functions are compiled where they are called, in the crate of every mechanism.
 //! The tables of `f64` and `f32` are part of this crate, and so is the code behind them.
-//!
-//! Not here: what works on sheets of the constraint set ([`crate::singular`]).
 
 use crate::dynamics::{Accelerate, Motion, Shares, Slid, Squares, partition};
 use crate::equations::At;
 use crate::integrator::{Collocation, Digits, Flow, Newton, set_through};
 use crate::linalg::Workspace;
 use crate::simulate::{Along, Events, Happened};
-use crate::{DynamicsError, IntegrateError, Real, Switching};
+use crate::{DynamicsError, IntegrateError, Real, Switching, assembly, singular};
 
 type TakeFirst<T> = fn(&mut Events<T>, &mut Along<'_, T>) -> Done<T, Option<Happened<T>>>;
 type Slide<T> = fn(&Slid, usize, &mut [T], Accelerate<'_, T>) -> Done<T, Shares<T>>;
@@ -34,7 +32,11 @@ type Done<T, V> = Result<V, DynamicsError<T>>;
 
 /// The routines of a scalar.
 #[derive(Debug)]
-pub struct Compiled<T> {
+pub struct Routines<T> {
+    /// What works on sheets of the constraint set.
+    pub(crate) sheet: singular::Routines<T>,
+    /// What assembles consistent states.
+    pub(crate) assembly: assembly::Routines<T>,
     pub(crate) find_first: fn(&mut Events<T>, &mut Along<'_, T>) -> Done<T, ()>,
     pub(crate) take_first: TakeFirst<T>,
     pub(crate) switch: fn(&mut (dyn Motion<T> + '_)) -> Done<T, Switching<T>>,
@@ -46,10 +48,12 @@ pub struct Compiled<T> {
     pub(crate) set_through: SetThrough<T>,
 }
 
-impl<T: Real> Compiled<T> {
+impl<T: Real> Routines<T> {
     /// Those of any scalar.
     pub const fn new() -> Self {
         Self {
+            sheet: singular::Routines::new(),
+            assembly: assembly::Routines::new(),
             find_first: |events, along| events.find_first(along),
             take_first: |events, along| events.take_first(along),
             switch: |motion| motion.switch(),

@@ -1,0 +1,42 @@
+//! A state that is being assembled, over slices.
+//!
+//! In:  a start, which of its values are held.
+//! Out: [`Draft`], and why it can't be finished ([`Refusal`]).
+
+use crate::linalg::Breakdown;
+
+/// A state that is being assembled.
+#[derive(Debug)]
+pub(crate) struct Draft<'a, T> {
+    /// Time (s).
+    pub(super) t: T,
+    pub(super) q: &'a mut [T],
+    pub(super) v: &'a mut [T],
+    /// Which coordinates are held, or which velocities.
+    pub(super) held: &'a [bool],
+    /// The error of each equation where there is a contradiction.
+    pub(super) residual: &'a mut [T],
+    /// Which held values stand in the way then.
+    pub(super) conflicting: &'a mut [bool],
+}
+
+/// Why no consistent state could be found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Refusal {
+    /// Something is infinite or NaN.
+    NotFinite,
+    /// No position near the guesses satisfies the constraints; with their errors in the draft.
+    Positions,
+    /// No velocity satisfies the constraints, likewise.
+    Velocities,
+    /// No branch through the singular position has the held velocities.
+    NoBranch,
+    /// This equation has no gradient where it holds.
+    Vanishing(usize),
+}
+
+impl From<Breakdown> for Refusal {
+    fn from(Breakdown: Breakdown) -> Self {
+        Self::NotFinite
+    }
+}
