@@ -34,6 +34,8 @@ impl<T: Real, const N: usize> State<T, N> {
 /// What is known of the constraints, over slices.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Constraints<'a, T> {
+    /// `M`, where the constraints were evaluated last.
+    pub(crate) mass: &'a [T],
     /// `g`.
     pub(crate) residual: &'a [T],
     /// `A`, column by column.
@@ -64,7 +66,7 @@ pub(crate) struct Bound<'a, T, const N: usize, const R: usize> {
 }
 
 /// A state of fixed size. What has another length is cut off, or filled with zeros.
-fn sized<T: Real, const N: usize>(t: T, q: &[T], v: &[T]) -> State<T, N> {
+pub(crate) fn sized<T: Real, const N: usize>(t: T, q: &[T], v: &[T]) -> State<T, N> {
     let mut state = State {
         t,
         ..State::default()
@@ -92,6 +94,7 @@ impl<T: Real, const N: usize, const R: usize> Equations<T> for Bound<'_, T, N, R
 
     fn constraints(&self) -> Constraints<'_, T> {
         Constraints {
+            mass: self.position.mass.as_slice(),
             residual: self.position.residual.as_slice(),
             jacobian: self.position.jacobian.as_slice(),
             drift: self.position.drift.as_slice(),

@@ -180,14 +180,14 @@ where
                 sine: squared.sqrt(),
             });
         }
-        let combined = solver.combine(Source::Position, Which::All, state.t)?;
-        let values = &combined.values[..full];
-        Ok(Rank {
-            rank: count_above(values, regular()),
-            regular: full,
-            sine: values
-                .iter()
-                .fold(T::one(), |least, value| least.min(*value)),
+        solver.combine(Source::Position, state.t, |combined| {
+            let values = &combined.values[..full];
+            let smaller = |least: T, value: &T| least.min(*value);
+            Rank {
+                rank: count_above(values, regular()),
+                regular: full,
+                sine: values.iter().fold(T::one(), smaller),
+            }
         })
     }
 

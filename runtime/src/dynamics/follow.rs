@@ -6,8 +6,8 @@
 //! Far from singular configurations nothing of this is needed. A step that turns out to
 //! come near one is taken again with a chart.
 
-use super::{Core, Source, Which};
-use crate::linalg::{count_above, project_onto};
+use super::{Core, Source};
+use crate::linalg::project_onto;
 use crate::singular::{Obstacle, Placed, Placement, Point, Start};
 use crate::state::all_finite;
 use crate::tolerance::{regular, resolvable, round_off, window};
@@ -149,10 +149,12 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<DynamicsError<T>, DynamicsError<T>> {
         mechanism.position(state, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, state.t)?;
-        let combined = self.combine(Source::Position, Which::All, state.t)?;
+        let rank = self.combine(Source::Position, state.t, |combined| {
+            combined.above(window())
+        })?;
         Ok(DynamicsError::NotRegular {
             t: state.t,
-            rank: count_above(&combined.values, window()),
+            rank,
             structure: mechanism.structure(),
         })
     }

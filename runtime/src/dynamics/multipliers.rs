@@ -6,8 +6,8 @@
 //! Source: Phong & Hoang (2012), eq. 2.10. The matrix is singular where rows of
 //! `A` are dependent; a Schur complement of all rows shows how near that is.
 
-use super::{Core, Source, Which};
-use crate::linalg::{column, count_above};
+use super::{Core, Source};
+use crate::linalg::column;
 use crate::tolerance::{passes, window};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
@@ -48,11 +48,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if passes(squared, window()) {
             return Ok(());
         }
-        let combined = self.combine(Source::Terms, Which::All, state.t)?;
+        let rank = self.combine(Source::Terms, state.t, |combined| combined.above(window()))?;
         Err(DynamicsError::SingularPosition {
             t: state.t,
             form: self.settings.form,
-            rank: count_above(&combined.values, window()),
+            rank,
             structure: mechanism.structure(),
         })
     }

@@ -4,11 +4,10 @@
 //! Out: the generalized reaction forces `r = p₁ − M q̈`, the multipliers `λ` of
 //!      `r = Aᵀλ`, as far as they are determined.
 
-use super::{ConstrainedSystem, Core, Source, Which};
-use crate::linalg::{column, dot};
+use super::{ConstrainedSystem, Core, Source};
+use crate::linalg::column;
 use crate::stack::with_room;
 use crate::system::escalating;
-use crate::tolerance::regular;
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
 
@@ -139,24 +138,12 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<[Option<T>; R], DynamicsError<T>> {
         self.safe = None;
         self.factorise_metric(mechanism, Source::Terms, t)?;
-        let combined = self.combine(Source::Terms, Which::All, t)?;
         let mut lifted = reaction.data.0[0];
         self.metric.factor.forward(&mut lifted);
-        let mut multipliers = [T::zero(); R];
-        let mut shared = [false; R];
-        for (k, value) in combined.values.iter().enumerate() {
-            let left = &combined.left.data.0[k];
-            if *value > regular() {
-                let share = dot(&combined.directions.data.0[k], &lifted) / *value;
-                for (multiplier, part) in multipliers.iter_mut().zip(left) {
-                    *multiplier += *part * share;
-                }
-            } else {
-                for (shared, part) in shared.iter_mut().zip(left) {
-                    *shared |= part.abs() > regular();
-                }
-            }
-        }
+        let (mut multipliers, mut shared) = ([T::zero(); R], [false; R]);
+        self.combine(Source::Terms, t, |combined| {
+            combined.share(&lifted, &mut multipliers, &mut shared);
+        })?;
         Ok(column(|row| {
             (!shared[row]).then_some(multipliers[row] * self.rows.scale(row))
         }))

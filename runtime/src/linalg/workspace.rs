@@ -14,6 +14,7 @@ use core::cell::Cell;
 pub(crate) struct Workspace<'a, T> {
     first: Cell<&'a mut [T]>,
     second: Cell<&'a mut [T]>,
+    third: Cell<&'a mut [T]>,
     indices: Cell<&'a mut [usize]>,
 }
 
@@ -24,13 +25,21 @@ impl<'a, T: Real> Workspace<'a, T> {
         Self {
             first: Cell::new(first),
             second: Cell::new(second),
+            third: Cell::default(),
             indices: Cell::new(indices),
         }
     }
 
+    /// The same with a third piece, for what is in neither.
+    pub(crate) fn and(self, third: &'a mut [T]) -> Self {
+        self.third.set(third);
+        self
+    }
+
     /// So many zeros.
     pub(crate) fn numbers(&self, count: usize) -> &'a mut [T] {
-        let taken = cut(&self.first, count).or_else(|| cut(&self.second, count));
+        let pieces = [&self.first, &self.second, &self.third];
+        let taken = pieces.into_iter().find_map(|piece| cut(piece, count));
         debug_assert!(taken.is_some(), "no room for {count} numbers");
         let taken = taken.unwrap_or_default();
         taken.fill(T::zero());
@@ -46,15 +55,37 @@ impl<'a, T: Real> Workspace<'a, T> {
         taken
     }
 
+    /// Takes all that is free.
+    pub(crate) fn all(&self) -> Free<'a, T> {
+        Free {
+            numbers: [&self.first, &self.second, &self.third].map(Cell::take),
+            indices: self.indices.take(),
+        }
+    }
+
     /// Does something with what is free, all of which is free again afterwards.
     pub(crate) fn scope<V>(&self, work: impl FnOnce(&Workspace<'_, T>) -> V) -> V {
         let (first, second) = (self.first.take(), self.second.take());
-        let indices = self.indices.take();
-        let done = work(&Workspace::new(first, second, indices));
+        let (third, indices) = (self.third.take(), self.indices.take());
+        let done = work(&Workspace::new(first, second, indices).and(third));
         self.first.set(first);
         self.second.set(second);
+        self.third.set(third);
         self.indices.set(indices);
         done
+    }
+}
+
+/// All that was free of some memory: a workspace for those who hold borrows of their own.
+pub(crate) struct Free<'a, T> {
+    numbers: [&'a mut [T]; 3],
+    indices: &'a mut [usize],
+}
+
+impl<T: Real> Free<'_, T> {
+    pub(crate) fn workspace(&mut self) -> Workspace<'_, T> {
+        let [first, second, third] = &mut self.numbers;
+        Workspace::new(first, second, self.indices).and(third)
     }
 }
 

@@ -19,7 +19,7 @@ use crate::{Mechanism, Real, State};
 struct Evaluator<'a, T, const N: usize, const R: usize> {
     equations: Bound<'a, T, N, R>,
     nodes: &'a mut Nodes<T, N>,
-    memory: &'a mut Memory<T, N>,
+    memory: &'a mut Memory<T, N, R>,
     weakest: &'a mut usize,
     holonomic: bool,
 }

@@ -16,6 +16,7 @@ mod chart;
 mod direction;
 mod evaluate;
 mod kept;
+mod meant;
 mod memory;
 mod nodes;
 mod obstacle;
@@ -28,6 +29,7 @@ mod sheet;
 mod start;
 
 pub(crate) use chart::Chart;
+pub(crate) use kept::Nodes;
 pub(crate) use memory::Memory;
 pub(crate) use obstacle::Obstacle;
 pub(crate) use passage::Found;

@@ -1,17 +1,19 @@
-//! What is compiled once for each scalar: everything that works on a [`Sheet`].
+//! What is compiled once for each scalar: what works on a [`Sheet`], and what finds one.
 //!
 //! Out: [`Routines`], of which each scalar has one table.
 //!
 //! Generic functions are compiled where they are called, in the crate of every mechanism.
 //! The tables of `f64` and `f32` are part of this crate, and so is the code behind them.
 
+use super::meant::{singular_tangent, span_free};
 use super::obstacle::Obstacle;
 use super::passage::{Found, Reference};
 use super::place::Placement;
 use super::sheet::{PointView, Sheet};
-use crate::Real;
+use crate::dynamics::{Constrained, RowRoutines};
 use crate::equations::At;
 use crate::linalg::Workspace;
+use crate::{DynamicsError, Real};
 
 type Place<T> = fn(
     &mut Sheet<'_, T>,
@@ -27,6 +29,13 @@ type Refer<T> =
     for<'b> fn(&mut Sheet<'_, T>, At<'_, T>, &Workspace<'b, T>) -> Option<Reference<'b, T>>;
 type SignChanges<T> =
     fn(&mut Sheet<'_, T>, &Reference<'_, T>, At<'_, T>, &Workspace<'_, T>) -> Option<usize>;
+type SpanFree<T> = fn(&[T], &mut [T], usize, &dyn Fn(&mut [T]), &Workspace<'_, T>);
+type Tangent<T> = fn(
+    &mut dyn Constrained<T>,
+    At<'_, T>,
+    &mut [T],
+    &Workspace<'_, T>,
+) -> Result<bool, DynamicsError<T>>;
 
 /// The routines of a scalar.
 #[derive(Debug)]
@@ -36,6 +45,10 @@ pub struct Routines<T> {
     passages: Passages<T>,
     reference: Refer<T>,
     sign_changes: SignChanges<T>,
+    pub(super) span_free: SpanFree<T>,
+    pub(super) tangent: Tangent<T>,
+    /// What is learned of the constraint rows.
+    pub(crate) rows: RowRoutines<T>,
 }
 
 impl<T: Real> Routines<T> {
@@ -49,6 +62,13 @@ impl<T: Real> Routines<T> {
             },
             reference: |sheet, start, workspace| sheet.reference(start, workspace),
             sign_changes: |sheet, from, to, workspace| sheet.sign_changes(from, to, workspace),
+            span_free: |factor, free, n, remove, workspace| {
+                span_free(factor, free, n, remove, workspace);
+            },
+            tangent: |solver, state, tangent, workspace| {
+                singular_tangent(solver, state, tangent, workspace)
+            },
+            rows: RowRoutines::new(),
         }
     }
 }
