@@ -201,18 +201,31 @@ fn make_symmetric<T: Real>(matrix: &mut [T], n: usize) {
 }
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
-    /// Combines the rows of a Jacobian in the metric at hand.
-    pub(crate) fn combine<V>(
+    /// Combines the rows of a Jacobian in the metric at hand, and does something with them.
+    #[inline(never)]
+    pub(crate) fn combine(
         &mut self,
         source: Source,
         t: T,
-        work: impl FnOnce(&Combined<'_, T>) -> V,
-    ) -> Result<V, DynamicsError<T>> {
+        work: &mut dyn FnMut(&Combined<'_, T>),
+    ) -> Result<(), DynamicsError<T>> {
         self.counters.rank_decisions += 1;
         let (known, jacobian, workspace) = self.known(source);
-        match (T::routines().rows.combine)(jacobian, known, &workspace) {
-            Ok(combined) => Ok(work(&combined)),
-            Err(Breakdown) => Err(DynamicsError::NotFinite { t }),
-        }
+        let combined = (T::routines().rows.combine)(jacobian, known, &workspace);
+        combined
+            .map(|combined| work(&combined))
+            .map_err(|Breakdown| DynamicsError::NotFinite { t })
+    }
+
+    /// How many singular values are above a bound.
+    pub(crate) fn rank_above(
+        &mut self,
+        source: Source,
+        t: T,
+        least: T,
+    ) -> Result<usize, DynamicsError<T>> {
+        let mut rank = 0;
+        self.combine(source, t, &mut |combined| rank = combined.above(least))?;
+        Ok(rank)
     }
 }

@@ -8,7 +8,7 @@
 
 use super::{Core, Source};
 use crate::linalg::project_onto;
-use crate::singular::{Obstacle, Placed, Placement, Point, Start};
+use crate::singular::{Found, Obstacle, Placed, Placement, Point, Start};
 use crate::state::all_finite;
 use crate::tolerance::{regular, resolvable, round_off, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State, Step};
@@ -149,9 +149,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<DynamicsError<T>, DynamicsError<T>> {
         mechanism.position(state, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, state.t)?;
-        let rank = self.combine(Source::Position, state.t, |combined| {
-            combined.above(window())
-        })?;
+        let rank = self.rank_above(Source::Position, state.t, window())?;
         Ok(DynamicsError::NotRegular {
             t: state.t,
             rank,
@@ -317,9 +315,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if self.seeks_passages {
             let at = |t, q: &mut [T]| q.copy_from_slice(step.inside_at(t).q.as_slice());
             let (start, length) = (step.start.at(), step.end.t - step.start.t);
-            self.session.passages = self.on_sheet(mechanism, &chart, |sheet, workspace| {
-                sheet.find_passages(start, length, &at, workspace)
+            let mut passages = Found::new();
+            self.on_sheet(mechanism, &chart, &mut |sheet, workspace| {
+                passages = sheet.find_passages(start, length, &at, workspace);
             });
+            self.session.passages = passages;
         }
         self.session.used = Some(chart);
     }

@@ -13,7 +13,7 @@ use super::rows::{Rows, RowsView, Which};
 use super::solver::{Source, factorise};
 use crate::equations::{At, Bound, Constraints, Equations};
 use crate::linalg::{Breakdown, Workspace, orthogonalise, solve_upper_transposed};
-use crate::singular::Nodes;
+use crate::singular::{Chart, Nodes, Session};
 use crate::{Counters, DynamicsError, Mechanism, Real, Structure};
 use nalgebra::SMatrix;
 
@@ -110,20 +110,29 @@ pub(crate) struct Lent<'a, T, const N: usize, const R: usize> {
     pub(crate) counters: &'a mut Counters,
     pub(crate) nodes: &'a mut Nodes<T, N>,
     pub(crate) weakest: &'a mut usize,
+    expected: &'a mut bool,
     pub(crate) reach: T,
     pub(crate) sizes: &'a [T; N],
     pub(crate) accepted: T,
 }
 
+/// A solver, memory, and a chart.
+type Loan<'a, T, const N: usize, const R: usize> = (
+    Lent<'a, T, N, R>,
+    Workspace<'a, T>,
+    Option<&'a Chart<T, N, R>>,
+);
+
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
-    /// Lends the solver, and memory to work in.
+    /// Lends the solver, memory to work in, and the chart at hand.
+    #[inline(never)]
     pub(crate) fn lend<'a>(
         &'a mut self,
         mechanism: &'a dyn Mechanism<T, N, R>,
-    ) -> (Lent<'a, T, N, R>, Workspace<'a, T>) {
-        self.expected = false;
+    ) -> Loan<'a, T, N, R> {
+        let accepted = self.accepted();
+        let Session { nodes, chart, .. } = &mut self.session;
         let lent = Lent {
-            accepted: self.accepted(),
             equations: Bound {
                 mechanism,
                 position: &mut self.position,
@@ -132,12 +141,14 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             metric: &mut self.metric,
             rows: &mut self.rows,
             counters: &mut self.counters,
-            nodes: &mut self.session.nodes,
+            nodes,
             weakest: &mut self.weakest,
+            expected: &mut self.expected,
             reach: self.reach,
             sizes: &self.sizes,
+            accepted,
         };
-        (lent, self.memory.workspace())
+        (lent, self.memory.workspace(), chart.as_ref())
     }
 
     /// What is known of the metric and the rows, the Jacobian in a buffer, and memory to work
@@ -203,6 +214,7 @@ impl<T: Real, const N: usize, const R: usize> Equations<T> for Lent<'_, T, N, R>
 
 impl<T: Real, const N: usize, const R: usize> Constrained<T> for Lent<'_, T, N, R> {
     fn factorise(&mut self, t: T) -> Result<(), DynamicsError<T>> {
+        *self.expected = false;
         let Bound {
             mechanism,
             position,

@@ -52,7 +52,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             }
             return Ok(());
         }
-        let (mut solver, workspace) = self.lend(mechanism);
+        let (mut solver, workspace, _) = self.lend(mechanism);
         (T::routines().rows.learn_rank)(&mut solver, state.at(), &workspace)
     }
 
@@ -87,7 +87,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let right = self.scaled(&bias);
         let mut w = self.free_acceleration(&bias);
         let limit = self.rows.regular(Which::All);
-        self.combine(Source::Terms, state.t, |combined| {
+        self.combine(Source::Terms, state.t, &mut |combined| {
             combined.decide(limit, negligible(), &right, &mut w);
         })?;
         Ok(self.lower(w))

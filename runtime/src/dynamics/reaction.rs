@@ -141,7 +141,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let mut lifted = reaction.data.0[0];
         self.metric.factor.forward(&mut lifted);
         let (mut multipliers, mut shared) = ([T::zero(); R], [false; R]);
-        self.combine(Source::Terms, t, |combined| {
+        self.combine(Source::Terms, t, &mut |combined| {
             combined.share(&lifted, &mut multipliers, &mut shared);
         })?;
         Ok(column(|row| {

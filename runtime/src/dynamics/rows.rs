@@ -9,9 +9,9 @@
 //! nothing, and comparing it with other rows would compare metres with radians.
 //! It is compared with the largest size it had so far.
 
-use crate::Real;
-use crate::linalg::{Workspace, column, independent_columns};
+use crate::linalg::{Workspace, independent_columns};
 use crate::tolerance::{disproportionate, negligible};
+use crate::{ConstraintRow, Real};
 
 /// Sizes, weights and choice of rows.
 #[derive(Clone, Debug)]
@@ -40,24 +40,28 @@ pub(crate) struct Rows<T, const R: usize> {
 }
 
 impl<T: Real, const R: usize> Rows<T, R> {
-    /// Rows of which nothing is known but which of them restrict positions, and whether they
-    /// are independent by their form.
-    pub(crate) fn new(holonomic: impl Fn(usize) -> bool, by_form: bool) -> Self {
-        Self {
+    /// Rows of which nothing is known but which of them restrict positions, all of those that
+    /// are not listed, and whether they are independent by their form.
+    pub(crate) fn new(constraints: &[ConstraintRow], by_form: bool) -> Self {
+        let mut rows = Self {
             size: [T::zero(); R],
             coupling: [T::from_f64(f64::INFINITY); R],
             inverse_size: [T::one() / T::zero(); R],
             scale: [T::zero(); R],
             weight: [T::zero(); R],
             uneven: false,
-            holonomic: column(holonomic),
+            holonomic: [true; R],
             by_form,
-            active: column(|row| row),
+            active: [0; R],
             active_count: 0,
             holonomic_count: 0,
             regular: 0,
             holonomic_regular: 0,
+        };
+        for (holonomic, constraint) in rows.holonomic.iter_mut().zip(constraints) {
+            *holonomic = constraint.holonomic;
         }
+        rows
     }
 
     /// Whether the rows are independent at all positions, by their form.
@@ -75,8 +79,14 @@ impl<T: Real, const R: usize> Rows<T, R> {
                 true => alone(),
                 false => T::zero(),
             };
-            self.view().observe(row, size, alone);
+            self.grow(row, size, alone);
         }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn grow(&mut self, row: usize, size: T, alone: T) {
+        self.view().observe(row, size, alone);
     }
 
     /// Squared reference size of a row.
@@ -182,7 +192,7 @@ impl<T: Real, const R: usize> Rows<T, R> {
     }
 
     /// What rows are multiplied by to have size one, and which of them restrict positions.
-    pub(crate) fn scales(&self) -> (&[T], &[bool]) {
+    pub(crate) fn scales(&self) -> (&[T; R], &[bool]) {
         (&self.scale, &self.holonomic)
     }
 }
@@ -206,7 +216,6 @@ pub(crate) struct RowsView<'a, T> {
 impl<T: Real> RowsView<'_, T> {
     /// Takes note of the squared size of a row, and of that in the metric of each coordinate
     /// alone.
-    #[cold]
     pub(crate) fn observe(&mut self, row: usize, size: T, alone: T) {
         let coupling = self.coupling[row];
         let size = match coupling.is_finite() {

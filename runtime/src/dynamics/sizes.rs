@@ -33,7 +33,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     #[inline(never)]
     pub(super) fn sample_sizes(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) {
         let by_form = self.rows.are_independent_by_form();
-        let (mut solver, workspace) = self.lend(mechanism);
+        let (mut solver, workspace, _) = self.lend(mechanism);
         (T::routines().rows.sample_sizes)(&mut solver, state.at(), by_form, &workspace);
     }
 }

@@ -80,7 +80,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             terms: Terms::default(),
             position: Position::default(),
             metric: Metric::default(),
-            rows: Rows::new(|_| true, false),
+            rows: Rows::new(&[], false),
             lifted: Lifted::default(),
             memory: Memory::new(),
             weakest: 0,
@@ -170,9 +170,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             return Ok(());
         }
         let structure = mechanism.structure();
-        let constraints = structure.constraints;
-        let holonomic = |row: usize| constraints.get(row).is_none_or(|c| c.holonomic);
-        self.rows = Rows::new(holonomic, structure.independent);
+        self.rows = Rows::new(structure.constraints, structure.independent);
         self.sample_sizes(mechanism, state);
         mechanism.position(state, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, state.t)?;

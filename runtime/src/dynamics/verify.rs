@@ -13,11 +13,6 @@ use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
 /// A sine that falls below this part of what it is at both ends of a step may have been
 /// zero between.
 const FALL: f64 = 0.9;
-/// Looks into a step without a chart that came nearer to a singular configuration: it may
-/// have crossed two.
-const LOOKS: usize = 4;
-/// Halvings of a step in the search for a singular configuration.
-const BISECTIONS: usize = 20;
 /// Energy that a step may lose, in units of its accepted error.
 const ENERGY: f64 = 1e3;
 /// Energy that a step of fixed length may lose, relative to the kinetic energy.
@@ -117,14 +112,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let Start::Sheet(chart) = self.start_at(mechanism, end)? else {
             return self.want_chart(mechanism, end.t);
         };
-        let stays = self.on_sheet(mechanism, &chart, |sheet, workspace| {
-            let reference = sheet.refer_to(start.at(), workspace);
-            reference.is_some_and(|reference| {
-                (1..=LOOKS).all(|k| {
-                    let there = start.towards(end, T::from_f64(k as f64 / LOOKS as f64));
-                    sheet.count_crossed(&reference, there.at(), workspace) == Some(0)
-                })
-            })
+        let mut stays = false;
+        self.on_sheet(mechanism, &chart, &mut |sheet, workspace| {
+            stays = sheet.stays_between((start.at(), end.at()), workspace);
         });
         if !stays {
             return self.want_chart(mechanism, end.t);
@@ -161,9 +151,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         self.session.trial.chart = None;
-        let changes = self.on_sheet(mechanism, chart, |sheet, workspace| {
-            let reference = sheet.refer_to(start.at(), workspace)?;
-            sheet.count_crossed(&reference, end.at(), workspace)
+        let mut changes = None;
+        self.on_sheet(mechanism, chart, &mut |sheet, workspace| {
+            changes = sheet.count_crossed((start.at(), end.at()), workspace);
         });
         if changes != Some(0) && mechanism.structure().regular {
             return Err(self.not_regular(mechanism, end)?);
@@ -233,21 +223,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         chart: &Chart<T, N, R>,
         (start, end): (&State<T, N>, &State<T, N>),
     ) -> Result<(), DynamicsError<T>> {
-        let beyond = self.on_sheet(mechanism, chart, |sheet, workspace| {
-            let reference = sheet.refer_to(start.at(), workspace);
-            let (mut before, mut after) = (T::zero(), T::one());
-            for _ in 0..BISECTIONS {
-                let middle = (before + after) * T::from_f64(0.5);
-                let there = start.towards(end, middle);
-                let changes = reference
-                    .as_ref()
-                    .and_then(|from| sheet.count_crossed(from, there.at(), workspace));
-                match changes {
-                    Some(0) => before = middle,
-                    _ => after = middle,
-                }
-            }
-            after
+        let mut beyond = T::zero();
+        self.on_sheet(mechanism, chart, &mut |sheet, workspace| {
+            beyond = sheet.find_crossed((start.at(), end.at()), workspace);
         });
         let mut point = Point::zeros();
         let there = start.towards(end, beyond);

@@ -72,7 +72,7 @@ fn eliminate_definite<T: Real>(matrix: &[T], rest: &mut [T], n: usize, open: &mu
 const LONG: usize = 16;
 
 /// The upper factor `U`; entries below the diagonal are not used.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Cholesky<T, const N: usize> {
     upper: SMatrix<T, N, N>,
 }
@@ -202,12 +202,6 @@ impl<T: Real, const N: usize> Cholesky<T, N> {
             }
             x[j] = value / upper[j][j];
         }
-    }
-
-    /// A diagonal entry of `M`.
-    pub(crate) fn diagonal(&self, j: usize) -> T {
-        let row = (j..N).map(|i| self.upper[(j, i)]);
-        row.fold(T::zero(), |sum, entry| sum + entry * entry)
     }
 
     /// `√(xᵀ M x)`, the length of `x` in the metric of the matrix.

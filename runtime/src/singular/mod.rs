@@ -12,6 +12,7 @@
 //! Not here: forces and masses ([`crate::dynamics`]), and how far a step goes
 //! ([`crate::integrator`]).
 
+mod between;
 mod chart;
 mod direction;
 mod evaluate;

@@ -7,7 +7,7 @@
 
 use super::meant::{singular_tangent, span_free};
 use super::obstacle::Obstacle;
-use super::passage::{Found, Reference};
+use super::passage::Found;
 use super::place::Placement;
 use super::sheet::{PointView, Sheet};
 use crate::dynamics::{Constrained, RowRoutines};
@@ -25,10 +25,7 @@ type MeasureHere<T> =
     fn(&mut Sheet<'_, T>, At<'_, T>, &mut PointView<'_, T>) -> Result<(), Obstacle>;
 type Passages<T> =
     fn(&mut Sheet<'_, T>, At<'_, T>, T, &dyn Fn(T, &mut [T]), &Workspace<'_, T>) -> Found<T>;
-type Refer<T> =
-    for<'b> fn(&mut Sheet<'_, T>, At<'_, T>, &Workspace<'b, T>) -> Option<Reference<'b, T>>;
-type SignChanges<T> =
-    fn(&mut Sheet<'_, T>, &Reference<'_, T>, At<'_, T>, &Workspace<'_, T>) -> Option<usize>;
+type Between<T, V> = fn(&mut Sheet<'_, T>, (At<'_, T>, At<'_, T>), &Workspace<'_, T>) -> V;
 type SpanFree<T> = fn(&[T], &mut [T], usize, &dyn Fn(&mut [T]), &Workspace<'_, T>);
 type Tangent<T> = fn(
     &mut dyn Constrained<T>,
@@ -43,8 +40,9 @@ pub struct Routines<T> {
     place: Place<T>,
     measure_here: MeasureHere<T>,
     passages: Passages<T>,
-    reference: Refer<T>,
-    sign_changes: SignChanges<T>,
+    crossed: Between<T, Option<usize>>,
+    stays: Between<T, bool>,
+    first_crossed: Between<T, T>,
     pub(super) span_free: SpanFree<T>,
     pub(super) tangent: Tangent<T>,
     /// What is learned of the constraint rows.
@@ -60,8 +58,9 @@ impl<T: Real> Routines<T> {
             passages: |sheet, start, length, at, workspace| {
                 sheet.passages(start, length, at, workspace)
             },
-            reference: |sheet, start, workspace| sheet.reference(start, workspace),
-            sign_changes: |sheet, from, to, workspace| sheet.sign_changes(from, to, workspace),
+            crossed: |sheet, ends, workspace| sheet.crossed(ends, workspace),
+            stays: |sheet, ends, workspace| sheet.stays(ends, workspace),
+            first_crossed: |sheet, ends, workspace| sheet.first_crossed(ends, workspace),
             span_free: |factor, free, n, remove, workspace| {
                 span_free(factor, free, n, remove, workspace);
             },
@@ -105,23 +104,30 @@ impl<T: Real> Sheet<'_, T> {
         (T::routines().passages)(self, start, length, at, workspace)
     }
 
-    /// What states of a step that begins here are compared with; `None` where the
-    /// constraints can't be eliminated.
-    pub(crate) fn refer_to<'b>(
-        &mut self,
-        start: At<'_, T>,
-        workspace: &Workspace<'b, T>,
-    ) -> Option<Reference<'b, T>> {
-        (T::routines().reference)(self, start, workspace)
-    }
-
-    /// How many sheets are crossed on the way to a state; `None` where that can't be told.
+    /// How many sheets are crossed between two states; `None` where that can't be told.
     pub(crate) fn count_crossed(
         &mut self,
-        from: &Reference<'_, T>,
-        to: At<'_, T>,
+        ends: (At<'_, T>, At<'_, T>),
         workspace: &Workspace<'_, T>,
     ) -> Option<usize> {
-        (T::routines().sign_changes)(self, from, to, workspace)
+        (T::routines().crossed)(self, ends, workspace)
+    }
+
+    /// Whether no sheet is seen to be crossed between two states.
+    pub(crate) fn stays_between(
+        &mut self,
+        ends: (At<'_, T>, At<'_, T>),
+        workspace: &Workspace<'_, T>,
+    ) -> bool {
+        (T::routines().stays)(self, ends, workspace)
+    }
+
+    /// The part of the way between two states after which a sheet is crossed.
+    pub(crate) fn find_crossed(
+        &mut self,
+        ends: (At<'_, T>, At<'_, T>),
+        workspace: &Workspace<'_, T>,
+    ) -> T {
+        (T::routines().first_crossed)(self, ends, workspace)
     }
 }

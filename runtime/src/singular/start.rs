@@ -11,9 +11,8 @@
 //! where it is off one of them.
 
 use super::chart::Chart;
-use super::obstacle::Obstacle;
 use super::place::Placement;
-use super::sheet::{Point, Sheet};
+use super::sheet::Point;
 use crate::dynamics::{Core, Lent, Source, Which};
 use crate::equations::{At, sized};
 use crate::linalg::{Workspace, is_zero};
@@ -51,12 +50,12 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if passes(squared, window()) {
             self.null_space(free);
         } else {
-            let (mut solver, workspace) = self.lend(mechanism);
+            let (mut solver, workspace, _) = self.lend(mechanism);
             if !(T::routines().tangent)(&mut solver, state.at(), free, &workspace)? {
                 return Ok(Start::Undetermined);
             }
         }
-        let (mut solver, workspace) = self.lend(mechanism);
+        let (mut solver, workspace, _) = self.lend(mechanism);
         Ok(match solver.chart(state, tangent, freedoms, &workspace) {
             Some(chart) => Start::Sheet(chart),
             None => Start::Undetermined,
@@ -65,7 +64,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// Chooses an independent subset of the rows at the position in the buffer.
     fn choose_rows(&mut self, mechanism: &dyn Mechanism<T, N, R>) {
-        let (mut solver, workspace) = self.lend(mechanism);
+        let (mut solver, workspace, _) = self.lend(mechanism);
         (T::routines().rows.choose_rows)(&mut solver, &workspace);
     }
 
@@ -108,32 +107,6 @@ impl<T: Real, const N: usize, const R: usize> Lent<'_, T, N, R> {
             }
         }
         Some(chart)
-    }
-
-    /// Puts a state onto the sheet of a chart.
-    fn place(
-        &mut self,
-        chart: &Chart<T, N, R>,
-        state: &State<T, N>,
-        point: &mut Point<T, N>,
-        workspace: &Workspace<'_, T>,
-    ) -> Result<Placement<T>, Obstacle> {
-        workspace.scope(|workspace| {
-            let mut free = workspace.all();
-            let workspace = free.workspace();
-            let mut sheet = Sheet::new(
-                &mut self.equations,
-                chart.view(),
-                self.nodes.view(),
-                self.rows.any_holonomic(),
-                &workspace,
-            );
-            let placed = point.change(chart.freedoms, |point| {
-                sheet.put(state.at(), point, &workspace)
-            });
-            *self.weakest = sheet.weakest_row();
-            placed
-        })
     }
 
     /// How far a state, at which the metric is factorised, is off the sheet with this tangent
