@@ -20,6 +20,24 @@ pub(crate) struct At<'a, T> {
     pub(crate) v: &'a [T],
 }
 
+impl<T: Real> At<'_, T> {
+    /// The time and the position at a part of the way to another state, by the cubic
+    /// polynomial through both positions and velocities.
+    pub(crate) fn towards(&self, end: At<'_, T>, part: T, q: &mut [T]) -> T {
+        let h = end.t - self.t;
+        let (rest, two) = (T::one() - part, T::from_f64(2.0));
+        let first = rest * rest * (T::one() + two * part);
+        let last = part * part * (T::one() + two * rest);
+        let (leave, arrive) = (part * rest * rest * h, -(part * part * rest * h));
+        let ends = self.q.iter().zip(end.q);
+        let speeds = self.v.iter().zip(end.v);
+        for (target, ((a, b), (v, w))) in q.iter_mut().zip(ends.zip(speeds)) {
+            *target = *a * first + *b * last + *v * leave + *w * arrive;
+        }
+        self.t + h * part
+    }
+}
+
 impl<T: Real, const N: usize> State<T, N> {
     /// The same over slices.
     pub(crate) fn at(&self) -> At<'_, T> {

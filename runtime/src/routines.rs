@@ -5,7 +5,7 @@
 //! Generic functions are compiled where they are called, in the crate of every mechanism.
 //! The tables of `f64` and `f32` are part of this crate, and so is the code behind them.
 
-use crate::dynamics::{Accelerate, Motion, Shares, Slid, Squares, partition};
+use crate::dynamics::{Accelerate, Motion, RowRoutines, Shares, Slid, Squares, partition};
 use crate::equations::At;
 use crate::integrator::{Collocation, Digits, Flow, Newton, set_through};
 use crate::linalg::Workspace;
@@ -35,6 +35,8 @@ type Done<T, V> = Result<V, DynamicsError<T>>;
 pub struct Routines<T> {
     /// What works on sheets of the constraint set.
     pub(crate) sheet: singular::Routines<T>,
+    /// What is learned of the constraint rows.
+    pub(crate) rows: RowRoutines<T>,
     /// What assembles consistent states.
     pub(crate) assembly: assembly::Routines<T>,
     pub(crate) find_first: fn(&mut Events<T>, &mut Along<'_, T>) -> Done<T, ()>,
@@ -53,6 +55,7 @@ impl<T: Real> Routines<T> {
     pub const fn new() -> Self {
         Self {
             sheet: singular::Routines::new(),
+            rows: RowRoutines::new(),
             assembly: assembly::Routines::new(),
             find_first: |events, along| events.find_first(along),
             take_first: |events, along| events.take_first(along),

@@ -33,15 +33,12 @@ impl<T: Real, const N: usize> State<T, N> {
     /// The state at a part of the way to another, by the cubic polynomial through both
     /// positions and velocities.
     pub(crate) fn towards(&self, end: &Self, part: T) -> Self {
-        let h = end.t - self.t;
-        let (rest, two) = (T::one() - part, T::from_f64(2.0));
-        let first = rest * rest * (T::one() + two * part);
-        let last = part * part * (T::one() + two * rest);
-        let (leave, arrive) = (part * rest * rest * h, -(part * part * rest * h));
+        let mut q = SVector::<T, N>::zeros();
+        let t = self.at().towards(end.at(), part, q.as_mut_slice());
         Self {
-            t: self.t + h * part,
-            q: self.q * first + end.q * last + self.v * leave + end.v * arrive,
-            v: self.v * rest + end.v * part,
+            t,
+            q,
+            v: self.v * (T::one() - part) + end.v * part,
         }
     }
 

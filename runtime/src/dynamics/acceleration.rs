@@ -6,7 +6,6 @@
 //! Not here: the forms, which have a file each.
 
 use super::{Core, Source};
-use crate::linalg::column;
 use crate::state::all_finite;
 use crate::tolerance::{passes, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
@@ -124,7 +123,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// The right-hand sides of rows scaled to size one.
     pub(crate) fn scaled(&self, right: &SVector<T, R>) -> [T; R] {
-        column(|row| self.rows.scale(row) * right[row])
+        let mut scaled = *self.rows.scales().0;
+        for (scale, right) in scaled.iter_mut().zip(right) {
+            *scale *= *right;
+        }
+        scaled
     }
 
     /// Whether the general factors at hand belong to this position.

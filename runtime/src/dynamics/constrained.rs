@@ -4,7 +4,6 @@
 //! Out: accelerations, reactions, projections, rank, constraint errors.
 
 use super::{Core, Source, Which};
-use crate::linalg::count_above;
 use crate::singular::Found;
 use crate::stack::with_room;
 use crate::system::escalating;
@@ -180,14 +179,17 @@ where
                 sine: squared.sqrt(),
             });
         }
-        let combined = solver.combine(Source::Position, Which::All, state.t)?;
-        let values = &combined.values[..full];
+        let (mut rank, mut sine) = (0, T::one());
+        solver.combine(Source::Position, state.t, &mut |combined| {
+            rank = combined.above(regular()).min(full);
+            for value in &combined.values[..full] {
+                sine = sine.min(*value);
+            }
+        })?;
         Ok(Rank {
-            rank: count_above(values, regular()),
+            rank,
             regular: full,
-            sine: values
-                .iter()
-                .fold(T::one(), |least, value| least.min(*value)),
+            sine,
         })
     }
 
@@ -210,7 +212,7 @@ where
         let chart = there.session.used.as_ref().or(there.session.chart.as_ref());
         if here.session.chart.is_some() || chart.is_some() {
             here.session.base = there.session.base;
-            here.session.chart = chart.cloned();
+            here.session.chart = chart.copied();
             here.rows.clone_from(&there.rows);
             here.reach = there.reach;
             here.adopt(there);

@@ -6,9 +6,9 @@
 //! Far from singular configurations nothing of this is needed. A step that turns out to
 //! come near one is taken again with a chart.
 
-use super::{Core, Source, Which};
-use crate::linalg::{count_above, project_onto};
-use crate::singular::{Obstacle, Placed, Placement, Point, Start};
+use super::{Core, Source};
+use crate::linalg::project_onto;
+use crate::singular::{Found, Obstacle, Placed, Placement, Point, Start};
 use crate::state::all_finite;
 use crate::tolerance::{regular, resolvable, round_off, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State, Step};
@@ -149,10 +149,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<DynamicsError<T>, DynamicsError<T>> {
         mechanism.position(state, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, state.t)?;
-        let combined = self.combine(Source::Position, Which::All, state.t)?;
+        let rank = self.rank_above(Source::Position, state.t, window())?;
         Ok(DynamicsError::NotRegular {
             t: state.t,
-            rank: count_above(&combined.values, window()),
+            rank,
             structure: mechanism.structure(),
         })
     }
@@ -315,9 +315,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if self.seeks_passages {
             let at = |t, q: &mut [T]| q.copy_from_slice(step.inside_at(t).q.as_slice());
             let (start, length) = (step.start.at(), step.end.t - step.start.t);
-            self.session.passages = self.on_sheet(mechanism, &chart, |sheet, workspace| {
-                sheet.find_passages(start, length, &at, workspace)
+            let mut passages = Found::new();
+            self.on_sheet(mechanism, &chart, &mut |sheet, workspace| {
+                passages = sheet.find_passages(start, length, &at, workspace);
             });
+            self.session.passages = passages;
         }
         self.session.used = Some(chart);
     }

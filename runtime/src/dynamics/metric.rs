@@ -28,68 +28,22 @@ enum Takes {
     All,
 }
 
-/// The factorised metric.
+/// What takes part in the metric.
 #[derive(Clone, Debug)]
-pub(crate) struct Metric<T, const N: usize> {
-    pub(crate) factor: Cholesky<T, N>,
+pub(crate) struct Parts {
     /// Which constraints take part. Once they had to, they always do: the metric must
     /// not change back and forth along a motion.
     takes: Takes,
     /// The rows that the mechanism names.
     named: &'static [usize],
-    /// Whether `factor` belongs to the mass matrix of this binding.
+    /// Whether the factor belongs to the mass matrix of this binding.
     current: bool,
-    /// The largest inertia that each coordinate had: that of an Euler parameter
-    /// vanishes at some positions, which says nothing about its scale.
-    inertia: [T; N],
 }
 
-impl<T: Real, const N: usize> Default for Metric<T, N> {
-    fn default() -> Self {
-        Self {
-            factor: Cholesky::default(),
-            takes: Takes::None,
-            named: &[],
-            current: false,
-            inertia: [T::zero(); N],
-        }
-    }
-}
-
-impl<T: Real, const N: usize> Metric<T, N> {
-    /// Begins anew, with the named rows in it.
-    pub(crate) fn begin(&mut self, named: &'static [usize]) {
-        self.takes = match named {
-            [] => Takes::None,
-            _ => Takes::Named,
-        };
-        self.named = named;
-        self.current = false;
-        self.inertia = [T::zero(); N];
-    }
-
+impl Parts {
     /// Lets all constraints take part from now on.
     pub(crate) fn augment(&mut self) {
         self.takes = Takes::All;
-    }
-
-    /// Takes note of how much inertia the coordinates have.
-    pub(crate) fn observe(&mut self, mass: &SMatrix<T, N, N>) {
-        for (j, inertia) in self.inertia.iter_mut().enumerate() {
-            if mass[(j, j)] > *inertia && mass[(j, j)].is_finite() {
-                *inertia = mass[(j, j)];
-            }
-        }
-    }
-
-    /// The largest inertia that each coordinate had.
-    pub(crate) fn inertia(&self) -> &[T; N] {
-        &self.inertia
-    }
-
-    /// Whether it is the one that emitted code uses.
-    pub(crate) fn is_emitted(&self) -> bool {
-        self.takes != Takes::All
     }
 
     /// Whether it is `M` alone.
@@ -98,7 +52,7 @@ impl<T: Real, const N: usize> Metric<T, N> {
     }
 
     /// Whether a constraint row takes part.
-    fn takes(&self, row: usize) -> bool {
+    fn take(&self, row: usize) -> bool {
         match self.takes {
             Takes::None => false,
             Takes::Named => self.named.contains(&row),
@@ -106,9 +60,107 @@ impl<T: Real, const N: usize> Metric<T, N> {
         }
     }
 
+    /// Adds `AᵀWA` of the rows that take part to `M`.
+    fn add_to<T: Real>(&self, sum: &mut [T], jacobian: &[T], weights: &[T]) {
+        let r = weights.len();
+        let n = jacobian.len() / r;
+        for (row, weight) in weights.iter().enumerate() {
+            if !self.take(row) {
+                continue;
+            }
+            let columns = || jacobian.chunks_exact(r);
+            for (sums, levers) in sum.chunks_exact_mut(n).zip(columns()) {
+                let share = *weight * levers[row];
+                for (sum, levers) in sums.iter_mut().zip(columns()) {
+                    *sum += share * levers[row];
+                }
+            }
+        }
+    }
+}
+
+/// Notes how much inertia coordinates have, if it is more than they had.
+fn observe<T: Real>(inertia: &mut [T], mass: &[T]) {
+    let diagonal = mass.iter().step_by(inertia.len() + 1);
+    for (inertia, mass) in inertia.iter_mut().zip(diagonal) {
+        if *mass > *inertia && mass.is_finite() {
+            *inertia = *mass;
+        }
+    }
+}
+
+/// The factorised metric.
+#[derive(Clone, Debug)]
+pub(crate) struct Metric<T, const N: usize> {
+    pub(crate) factor: Cholesky<T, N>,
+    parts: Parts,
+    /// The largest inertia that each coordinate had: that of an Euler parameter
+    /// vanishes at some positions, which says nothing about its scale.
+    inertia: [T; N],
+}
+
+/// What is known of the metric, over slices, to be changed.
+pub(crate) struct MetricView<'a, T> {
+    pub(crate) parts: &'a mut Parts,
+    inertia: &'a mut [T],
+}
+
+impl<T: Real> MetricView<'_, T> {
+    /// Begins anew, with the named rows in it.
+    pub(crate) fn begin(&mut self, named: &'static [usize]) {
+        *self.parts = Parts {
+            takes: match named {
+                [] => Takes::None,
+                _ => Takes::Named,
+            },
+            named,
+            current: false,
+        };
+        self.inertia.fill(T::zero());
+    }
+
+    /// Takes note of how much inertia the coordinates have.
+    pub(crate) fn observe(&mut self, mass: &[T]) {
+        observe(self.inertia, mass);
+    }
+
+    /// The largest inertia that each coordinate had.
+    pub(crate) fn inertia(&self) -> &[T] {
+        self.inertia
+    }
+}
+
+impl<T: Real, const N: usize> Default for Metric<T, N> {
+    fn default() -> Self {
+        Self {
+            factor: Cholesky::default(),
+            parts: Parts {
+                takes: Takes::None,
+                named: &[],
+                current: false,
+            },
+            inertia: [T::zero(); N],
+        }
+    }
+}
+
+impl<T: Real, const N: usize> Metric<T, N> {
+    /// What is known, over slices.
+    pub(crate) fn view(&mut self) -> MetricView<'_, T> {
+        MetricView {
+            parts: &mut self.parts,
+            inertia: &mut self.inertia,
+        }
+    }
+
+    /// Whether it is the one that emitted code uses.
+    pub(crate) fn is_emitted(&self) -> bool {
+        self.parts.takes != Takes::All
+    }
+
     /// Forgets a constant mass matrix, whose parameters may have changed.
     pub(crate) fn forget(&mut self) {
-        self.current = false;
+        self.parts.current = false;
     }
 
     /// Factorises the metric; once only if `constant` says that `M` never changes.
@@ -120,25 +172,25 @@ impl<T: Real, const N: usize> Metric<T, N> {
         constant: bool,
         counters: &mut Counters,
     ) -> Result<(), NotDefinite> {
-        if constant && self.current && self.takes == Takes::None {
+        if constant && self.parts.current && self.parts.takes == Takes::None {
             return Ok(());
         }
         counters.mass_factorisations += 1;
-        if self.takes == Takes::None {
+        if self.parts.takes == Takes::None {
             match self.factor.factorise(mass) {
                 Ok(()) => {
-                    self.current = true;
+                    self.parts.current = true;
                     return Ok(());
                 }
                 Err(error) if R == 0 => return Err(error),
-                Err(_) => self.augment(),
+                Err(_) => self.parts.augment(),
             }
         }
-        self.observe(mass);
-        rows.weigh(&self.inertia, jacobian);
+        observe(&mut self.inertia, mass.as_slice());
+        rows.weigh(&self.inertia, jacobian.as_slice());
         match self.factor.factorise(&self.sum(mass, jacobian, rows)) {
-            Err(_) if self.takes == Takes::Named => {
-                self.augment();
+            Err(_) if self.parts.takes == Takes::Named => {
+                self.parts.augment();
                 self.factor.factorise(&self.sum(mass, jacobian, rows))
             }
             result => result,
@@ -154,14 +206,9 @@ impl<T: Real, const N: usize> Metric<T, N> {
         rows: &Rows<T, R>,
     ) -> SMatrix<T, N, N> {
         let mut sum = *mass;
-        for row in (0..R).filter(|row| self.takes(*row)) {
-            for j in 0..N {
-                let share = rows.weight(row) * jacobian[(row, j)];
-                for i in 0..N {
-                    sum[(i, j)] += share * jacobian[(row, i)];
-                }
-            }
-        }
+        let weights = rows.weights();
+        self.parts
+            .add_to(sum.as_mut_slice(), jacobian.as_slice(), &weights);
         sum
     }
 
@@ -175,8 +222,8 @@ impl<T: Real, const N: usize> Metric<T, N> {
         rows: &Rows<T, R>,
     ) -> [T; N] {
         let mut force = force.data.0[0];
-        if self.takes != Takes::None {
-            for row in (0..R).filter(|row| self.takes(*row)) {
+        if self.parts.takes != Takes::None {
+            for row in (0..R).filter(|row| self.parts.take(*row)) {
                 let share = rows.weight(row) * bias[row];
                 for (j, entry) in force.iter_mut().enumerate() {
                     *entry += share * jacobian[(row, j)];

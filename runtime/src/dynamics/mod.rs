@@ -12,12 +12,14 @@
 
 mod acceleration;
 mod acceleration_jacobian;
+mod combined;
 mod conditions;
 mod constrained;
 mod emitted;
 mod follow;
 mod full;
 mod held;
+mod lent;
 mod lifted;
 mod locking;
 mod metric;
@@ -26,11 +28,13 @@ mod partitioning;
 mod rank;
 mod reaction;
 mod reduced;
+mod routines;
 mod rows;
 mod settings;
 mod sizes;
 mod sliding;
 mod solver;
+mod square;
 mod switching;
 mod verify;
 
@@ -39,12 +43,14 @@ pub use held::Solver;
 pub use settings::{Counters, Form, Settings, Stabilisation};
 pub(crate) use solver::Core;
 
+pub(crate) use combined::{Combined, second_derivatives};
 pub(crate) use emitted::MAX_ITERATIONS;
 pub(crate) use full::Squares;
+pub(crate) use lent::{Constrained, Lent};
 pub(crate) use lifted::Lifted;
 pub(crate) use metric::Metric;
 pub(crate) use partitioning::partition;
-pub(crate) use rank::Combined;
+pub(crate) use routines::RowRoutines;
 pub(crate) use rows::{Rows, Which};
 pub(crate) use sliding::{Accelerate, Shares, Slid};
 pub(crate) use solver::Source;

@@ -6,8 +6,7 @@
 //! Source: Phong & Hoang (2012), eq. 2.10. The matrix is singular where rows of
 //! `A` are dependent; a Schur complement of all rows shows how near that is.
 
-use super::{Core, Source, Which};
-use crate::linalg::{column, count_above};
+use super::{Core, Source};
 use crate::tolerance::{passes, window};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
@@ -40,19 +39,22 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.safe = None;
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
         self.counters.constraint_factorisations += 1;
-        let every_row = (column(|row| row), R);
+        let mut every_row = [0; R];
+        for (row, index) in every_row.iter_mut().enumerate() {
+            *index = row;
+        }
         let jacobian = &self.terms.jacobian;
         let squared = self
             .lifted
-            .factorise(&self.metric, jacobian, &self.rows, every_row);
+            .factorise(&self.metric, jacobian, &self.rows, (every_row, R));
         if passes(squared, window()) {
             return Ok(());
         }
-        let combined = self.combine(Source::Terms, Which::All, state.t)?;
+        let rank = self.rank_above(Source::Terms, state.t, window())?;
         Err(DynamicsError::SingularPosition {
             t: state.t,
             form: self.settings.form,
-            rank: count_above(&combined.values, window()),
+            rank,
             structure: mechanism.structure(),
         })
     }

@@ -1,14 +1,18 @@
 //! How many constraint equations are independent.
 //!
 //! In:  the constraint Jacobian at positions on the constraints.
-//! Out: its rank at regular configurations, an independent subset of its rows, its
-//!      singular values; the null-space form by a rank decision alone.
+//! Out: its rank at regular configurations, an independent subset of its rows; the
+//!      null-space form by a rank decision alone.
+//!
+//! Not here: singular values ([`super::combined`]), and constraints whose gradient vanishes
+//! wherever they hold ([`super::square`]).
 
+use super::combined::{Combined, lift, lift_rows};
+use super::lent::{Constrained, known};
+use super::square::is_square;
 use super::{Core, Source, Which};
-use crate::linalg::{
-    Breakdown, Products, add_scaled, count_above, dot, eigen, norm, orthogonalise, orthonormal,
-    remove, scaled,
-};
+use crate::equations::At;
+use crate::linalg::{Products, Workspace, add_scaled, multiply_upper_transposed, norm};
 use crate::tolerance::{difference, negligible, regular};
 use crate::{DynamicsError, Mechanism, Real, Singularity, State};
 use nalgebra::{SMatrix, SVector};
@@ -20,72 +24,21 @@ const RETURNS: f64 = 1e-2;
 /// vanishes wherever they hold, each halves the distance, and the gradient with it.
 const CORRECTIONS: usize = 16;
 
-/// Second derivatives below this part of the largest count as zero.
-const FLAT: f64 = 1e-3;
-/// How far, relative to the coordinates, the neighbours lie that tell whether constraints
-/// that touch zero go through it.
-const ASIDE: f64 = 1e-2;
-
-/// Rows in the metric, combined until they are orthogonal.
-pub(crate) struct Combined<T, const N: usize, const R: usize> {
-    /// The directions that the combinations decide, of length one, largest first.
-    pub(crate) directions: SMatrix<T, N, R>,
-    /// The combinations, as columns.
-    pub(crate) left: SMatrix<T, R, R>,
-    /// Singular values.
-    pub(crate) values: [T; R],
-}
-
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
-    /// The rows of a Jacobian in the metric at hand, scaled to size one.
-    #[inline(never)]
+    /// The rows of the Jacobian in the metric at hand, scaled to size one.
     fn lift_rows(&self, source: Source, which: Which) -> SMatrix<T, N, R> {
         let jacobian = match source {
             Source::Terms => &self.terms.jacobian,
             Source::Position => &self.position.jacobian,
         };
-        let mut rows: SMatrix<T, N, R> = SMatrix::zeros();
-        for (row, column) in rows.data.0.iter_mut().enumerate() {
-            if self.rows.takes_part(row, which) {
-                let vector = self.metric.lift(jacobian, row);
-                *column = scaled(self.rows.scale(row), &vector);
-            }
-        }
+        let mut rows = SMatrix::<T, N, R>::zeros();
+        let known = known(&self.metric, &self.rows, self.reach);
+        lift_rows(jacobian.as_slice(), known, which, rows.as_mut_slice());
         rows
-    }
-
-    /// Combines the rows of a Jacobian in the metric at hand.
-    #[inline(never)]
-    pub(crate) fn combine(
-        &mut self,
-        source: Source,
-        which: Which,
-        t: T,
-    ) -> Result<Combined<T, N, R>, DynamicsError<T>> {
-        self.counters.rank_decisions += 1;
-        let mut directions = self.lift_rows(source, which);
-        let mut left: SMatrix<T, R, R> = SMatrix::identity();
-        orthogonalise(&mut directions.data.0, &mut left.data.0)
-            .map_err(|Breakdown| DynamicsError::NotFinite { t })?;
-        let mut values = [T::zero(); R];
-        for (value, column) in values.iter_mut().zip(&mut directions.data.0) {
-            *value = norm(column);
-            if *value > T::zero() {
-                *column = scaled(T::one() / *value, column);
-            }
-        }
-        Ok(Combined {
-            directions,
-            left,
-            values,
-        })
     }
 
     /// Learns the rank at regular configurations from a state on the constraints whose
     /// position terms are in the buffer and factorised, and chooses independent rows.
-    ///
-    /// Where the state itself may be singular, its neighbours tell: along the velocity, or
-    /// in the directions that its constraints leave free.
     #[inline(never)]
     pub(crate) fn learn_rank(
         &mut self,
@@ -94,25 +47,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<(), DynamicsError<T>> {
         if self.rows.are_independent_by_form() || self.is_safely_regular() {
             for which in [Which::Holonomic, Which::All] {
-                self.rows.observe_rank(self.rows.count(which), which);
+                let count = self.rows.count(which);
+                self.rows.view().observe_rank(count, which);
             }
             return Ok(());
         }
-        let mut regular_at = state.q;
-        for which in [Which::Holonomic, Which::All] {
-            let (rank, q) = self.rank_nearby(mechanism, state, which)?;
-            self.rows.observe_rank(rank, which);
-            regular_at = q;
-        }
-        let moved = State {
-            q: regular_at,
-            ..*state
-        };
-        mechanism.position(&moved, &mut self.position);
-        self.factorise_metric(mechanism, Source::Position, state.t)?;
-        self.choose_rows();
-        mechanism.position(state, &mut self.position);
-        self.factorise_metric(mechanism, Source::Position, state.t)
+        let (mut solver, workspace, _) = self.lend(mechanism);
+        (T::routines().rows.learn_rank)(&mut solver, state.at(), &workspace)
     }
 
     /// Whether all rows are safely independent at the position in the buffer. It takes one
@@ -130,190 +71,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         judged.is_ok() && (0..R).all(|row| products.is_safe(row))
     }
 
-    /// The rank at a state, or next to it if it is higher there, and where.
-    #[inline(never)]
-    fn rank_nearby(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        state: &State<T, N>,
-        which: Which,
-    ) -> Result<(usize, SVector<T, N>), DynamicsError<T>> {
-        mechanism.position(state, &mut self.position);
-        self.factorise_metric(mechanism, Source::Position, state.t)?;
-        let (rank_here, combined) = self.rank_here(which, regular(), state.t)?;
-        if rank_here == self.rows.count(which) {
-            return Ok((rank_here, state.q));
-        }
-        let vanishing = self.vanishing_row(which);
-        let mut lost = None;
-        let ahead = self.ahead(state);
-        let around = self.neighbours(state, &combined);
-        for q in core::iter::once(ahead).chain(around).flatten() {
-            let moved = State { q, ..*state };
-            mechanism.position(&moved, &mut self.position);
-            self.factorise_metric(mechanism, Source::Position, state.t)?;
-            let least = difference::<T>() * T::from_f64(RETURNS);
-            let (rank, _) = self.rank_here(which, least, state.t)?;
-            if rank <= rank_here {
-                continue;
-            }
-            if vanishing.is_none() || self.stays(mechanism, moved, which, (rank, least))? {
-                return Ok((rank, q));
-            }
-            lost = lost.or(vanishing.map(|row| (row, (rank, q))));
-        }
-        mechanism.position(state, &mut self.position);
-        self.factorise_metric(mechanism, Source::Position, state.t)?;
-        match lost {
-            Some((row, _)) if self.is_square(mechanism, state, &combined, rank_here) => {
-                Err(DynamicsError::SingularConfiguration {
-                    t: state.t,
-                    kind: Singularity::Vanishing,
-                    row,
-                    structure: mechanism.structure(),
-                })
-            }
-            Some((_, elsewhere)) => Ok(elsewhere),
-            None => Ok((rank_here, state.q)),
-        }
-    }
-
-    /// Whether the combination of rows that loses its gradient at a state is like a square
-    /// that vanishes along a line, or a sum of squares that vanishes at a point: its second
-    /// derivatives have one sign but for directions along which it is flat, and there it
-    /// does not become negative.
-    #[inline(never)]
-    fn is_square(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        state: &State<T, N>,
-        combined: &Combined<T, N, R>,
-        rank: usize,
-    ) -> bool {
-        let count = N - rank;
-        let strong = &combined.directions.data.0[..rank];
-        let kernel = orthonormal(count, |axis| remove(axis, strong));
-        let second = self.second_derivatives(mechanism, state, combined, &kernel, count);
-        let (values, vectors) = eigen(second, count);
-        let most = (0..count).fold(T::zero(), |most: T, k| most.max(values[k].abs()));
-        let flat = |k: &usize| values[*k].abs() <= most * T::from_f64(FLAT);
-        let mut steep = (0..count).filter(|k| !flat(k)).map(|k| values[k].sign());
-        let Some(sign) = steep
-            .next()
-            .filter(|first| steep.all(|other| other == *first))
-        else {
-            return false;
-        };
-        let value_at = |solver: &mut Self, q: SVector<T, N>| {
-            mechanism.position(&State { q, ..*state }, &mut solver.position);
-            let right = solver.scaled(&solver.position.residual);
-            dot(&combined.left.data.0[rank], &right) * sign
-        };
-        for k in (0..count).filter(flat) {
-            let mut along = [T::zero(); N];
-            for (share, axis) in vectors[k].iter().zip(&kernel.data.0[..count]) {
-                add_scaled(&mut along, *share, axis);
-            }
-            let moved = self.lower(along) * (self.reach * T::from_f64(ASIDE));
-            for q in [state.q + moved, state.q - moved] {
-                if value_at(self, q) < -T::EPSILON * self.reach {
-                    return false;
-                }
-            }
-        }
-        true
-    }
-
-    /// Whether a rank next to a state is still there where the constraints hold.
-    #[inline(never)]
-    fn stays(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        mut state: State<T, N>,
-        which: Which,
-        (wanted, least): (usize, T),
-    ) -> Result<bool, DynamicsError<T>> {
-        for _ in 0..CORRECTIONS {
-            mechanism.position(&state, &mut self.position);
-            self.factorise_metric(mechanism, Source::Position, state.t)?;
-            let (rank, combined) = self.rank_here(which, least, state.t)?;
-            if rank < wanted {
-                return Ok(false);
-            }
-            let right = self.scaled(&-self.position.residual);
-            let mut w = [T::zero(); N];
-            for (k, value) in combined.values.iter().enumerate().take(rank) {
-                let share = dot(&combined.left.data.0[k], &right) / *value;
-                add_scaled(&mut w, share, &combined.directions.data.0[k]);
-            }
-            state.q += self.lower(w);
-        }
-        Ok(true)
-    }
-
-    /// A row whose gradient vanishes at the position in the buffer, if there is one.
-    #[inline(never)]
-    fn vanishing_row(&self, which: Which) -> Option<usize> {
-        let rows = self.lift_rows(Source::Position, which);
-        let vanishes = |row: &usize| norm(&rows.data.0[*row]) <= regular();
-        (0..R).find(|row| self.rows.takes_part(*row, which) && vanishes(row))
-    }
-
-    /// How many singular values are above a bound at the position in the buffer.
-    fn rank_here(
-        &mut self,
-        which: Which,
-        least: T,
-        t: T,
-    ) -> Result<(usize, Combined<T, N, R>), DynamicsError<T>> {
-        let combined = self.combine(Source::Position, which, t)?;
-        Ok((count_above(&combined.values, least), combined))
-    }
-
-    /// The position next to a state along its velocity, if it moves.
-    fn ahead(&self, state: &State<T, N>) -> Option<SVector<T, N>> {
-        let speed = self.metric.factor.length(&state.v.data.0[0]);
-        let distance = difference::<T>() * self.reach;
-        (speed > T::zero()).then(|| state.q + state.v * (distance / speed))
-    }
-
-    /// Positions next to a state, wherever the constraints let it go.
-    #[inline(never)]
-    fn neighbours(
-        &self,
-        state: &State<T, N>,
-        combined: &Combined<T, N, R>,
-    ) -> [Option<SVector<T, N>>; N] {
-        let distance = difference::<T>() * self.reach;
-        let mut neighbours = [None; N];
-        for (j, neighbour) in neighbours.iter_mut().enumerate() {
-            let mut axis = [T::zero(); N];
-            axis[j] = T::one();
-            for (direction, value) in combined.directions.data.0.iter().zip(&combined.values) {
-                if *value > regular() {
-                    let share = dot(direction, &axis);
-                    add_scaled(&mut axis, -share, direction);
-                }
-            }
-            let size = norm(&axis);
-            if size > regular() {
-                let moved = self.lower(scaled(distance / size, &axis));
-                *neighbour = Some(state.q + moved);
-            }
-        }
-        neighbours
-    }
-
-    /// Chooses an independent subset of the rows at the position in the buffer.
-    #[inline(never)]
-    pub(crate) fn choose_rows(&mut self) {
-        if self.rows.regular(Which::All) < R {
-            self.counters.row_choices += 1;
-            let rows = self.lift_rows(Source::Position, Which::All);
-            self.rows.choose(rows);
-        }
-    }
-
     /// The acceleration by the null space of the rows that are not zero to round-off: the
     /// form as it was published. Source: Phong & Hoang (2012), section 3.
     #[inline(never)]
@@ -327,18 +84,185 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let bias = self.stabilised_bias(mechanism, state);
         self.safe = None;
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
-        let combined = self.combine(Source::Terms, Which::All, state.t)?;
         let right = self.scaled(&bias);
         let mut w = self.free_acceleration(&bias);
         let limit = self.rows.regular(Which::All);
-        for (k, value) in combined.values.iter().enumerate().take(limit) {
-            if *value > negligible() {
-                let direction = &combined.directions.data.0[k];
-                let wanted = dot(&combined.left.data.0[k], &right) / *value;
-                let share = wanted - dot(direction, &w);
-                add_scaled(&mut w, share, direction);
-            }
-        }
+        self.combine(Source::Terms, state.t, &mut |combined| {
+            combined.decide(limit, negligible(), &right, &mut w);
+        })?;
         Ok(self.lower(w))
     }
+}
+
+/// Learns the rank at regular configurations.
+///
+/// Where the state itself may be singular, its neighbours tell: along the velocity, or
+/// in the directions that its constraints leave free.
+pub(super) fn learn_rank<T: Real>(
+    solver: &mut dyn Constrained<T>,
+    state: At<'_, T>,
+    workspace: &Workspace<'_, T>,
+) -> Result<(), DynamicsError<T>> {
+    let regular_at = workspace.numbers(state.q.len());
+    for which in [Which::Holonomic, Which::All] {
+        let rank = workspace
+            .scope(|workspace| rank_nearby(solver, state, which, regular_at, workspace))?;
+        solver.learn().rows.observe_rank(rank, which);
+    }
+    solver.visit(state.t, regular_at)?;
+    choose_rows(solver, workspace);
+    solver.visit(state.t, state.q)
+}
+
+/// Chooses an independent subset of the rows where the constraints were evaluated last.
+pub(super) fn choose_rows<T: Real>(solver: &mut dyn Constrained<T>, workspace: &Workspace<'_, T>) {
+    if solver.learn().rows.all_independent() {
+        return;
+    }
+    workspace.scope(|workspace| {
+        let jacobian = solver.constraints().jacobian;
+        let rows = workspace.numbers(jacobian.len());
+        lift_rows(jacobian, solver.known(), Which::All, rows);
+        let n = rows.len() / solver.known().r();
+        let mut learning = solver.learn();
+        learning.counters.row_choices += 1;
+        learning.rows.choose(rows, n, workspace);
+    });
+}
+
+/// The rank at a state, or next to it if it is higher there, and where.
+fn rank_nearby<T: Real>(
+    solver: &mut dyn Constrained<T>,
+    state: At<'_, T>,
+    which: Which,
+    regular_at: &mut [T],
+    workspace: &Workspace<'_, T>,
+) -> Result<usize, DynamicsError<T>> {
+    solver.visit(state.t, state.q)?;
+    let combined = Combined::here(solver, which, state.t, workspace)?;
+    let rank_here = combined.above(regular());
+    regular_at.copy_from_slice(state.q);
+    if rank_here == solver.known().count(which) {
+        return Ok(rank_here);
+    }
+    let vanishing = vanishing_row(solver, which, workspace);
+    let mut lost = None;
+    let least = difference::<T>() * T::from_f64(RETURNS);
+    for q in neighbours(solver, state, &combined, workspace) {
+        solver.visit(state.t, q)?;
+        let rank = workspace.scope(|workspace| {
+            let combined = Combined::here(solver, which, state.t, workspace)?;
+            Ok(combined.above(least))
+        })?;
+        if rank <= rank_here {
+            continue;
+        }
+        let there = (state.t, &*q);
+        if vanishing.is_none() || stays(solver, there, which, (rank, least), workspace)? {
+            regular_at.copy_from_slice(q);
+            return Ok(rank);
+        }
+        if let (None, Some(row)) = (lost, vanishing) {
+            lost = Some((row, rank));
+            regular_at.copy_from_slice(q);
+        }
+    }
+    solver.visit(state.t, state.q)?;
+    let Some((row, rank)) = lost else {
+        return Ok(rank_here);
+    };
+    if is_square(solver, state, &combined, rank_here, workspace) {
+        return Err(DynamicsError::SingularConfiguration {
+            t: state.t,
+            kind: Singularity::Vanishing,
+            row,
+            structure: solver.structure(),
+        });
+    }
+    Ok(rank)
+}
+
+/// Whether a rank next to a state is still there where the constraints hold.
+fn stays<T: Real>(
+    solver: &mut dyn Constrained<T>,
+    (t, q): (T, &[T]),
+    which: Which,
+    (wanted, least): (usize, T),
+    workspace: &Workspace<'_, T>,
+) -> Result<bool, DynamicsError<T>> {
+    workspace.scope(|workspace| {
+        let (moved, w) = (workspace.numbers(q.len()), workspace.numbers(q.len()));
+        let right = workspace.numbers(solver.known().r());
+        moved.copy_from_slice(q);
+        for _ in 0..CORRECTIONS {
+            solver.visit(t, moved)?;
+            w.fill(T::zero());
+            let stays = workspace.scope(|workspace| {
+                let combined = Combined::here(solver, which, t, workspace)?;
+                let rank = combined.above(least);
+                solver.known().scaled(solver.constraints().residual, right);
+                combined.decide(rank, least, right, w);
+                Ok(rank >= wanted)
+            })?;
+            if !stays {
+                return Ok(false);
+            }
+            solver.known().lower(w);
+            add_scaled(moved, -T::one(), w);
+        }
+        Ok(true)
+    })
+}
+
+/// A row whose gradient vanishes where the constraints were evaluated last, if there is one.
+fn vanishing_row<T: Real>(
+    solver: &dyn Constrained<T>,
+    which: Which,
+    workspace: &Workspace<'_, T>,
+) -> Option<usize> {
+    let (known, jacobian) = (solver.known(), solver.constraints().jacobian);
+    workspace.scope(|workspace| {
+        let lifted = workspace.numbers(jacobian.len() / known.r());
+        (0..known.r()).find(|&row| {
+            lift(jacobian, known, row, lifted);
+            known.takes_part(row, which) && known.scale[row] * norm(lifted) <= regular()
+        })
+    })
+}
+
+/// Positions next to a state: along its velocity, if it moves, and wherever the constraints
+/// let it go.
+fn neighbours<'a, T: Real>(
+    solver: &dyn Constrained<T>,
+    state: At<'_, T>,
+    combined: &Combined<'_, T>,
+    workspace: &Workspace<'a, T>,
+) -> core::slice::ChunksExactMut<'a, T> {
+    let (n, known) = (state.q.len(), solver.known());
+    let distance = difference::<T>() * known.reach;
+    let positions = workspace.numbers((n + 1) * n);
+    let mut count = 0;
+    let mut add = |size: T, direction: &[T]| {
+        let position = &mut positions[count * n..][..n];
+        position.copy_from_slice(state.q);
+        add_scaled(position, distance / size, direction);
+        count += 1;
+    };
+    let axis = workspace.numbers(n);
+    multiply_upper_transposed(known.factor, state.v, axis);
+    let speed = norm(axis);
+    if speed > T::zero() {
+        add(speed, state.v);
+    }
+    for j in 0..n {
+        axis.fill(T::zero());
+        axis[j] = T::one();
+        combined.remove_from(axis);
+        let size = norm(axis);
+        if size > regular() {
+            known.lower(axis);
+            add(size, axis);
+        }
+    }
+    positions[..count * n].chunks_exact_mut(n)
 }

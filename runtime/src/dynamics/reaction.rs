@@ -4,11 +4,10 @@
 //! Out: the generalized reaction forces `r = p₁ − M q̈`, the multipliers `λ` of
 //!      `r = Aᵀλ`, as far as they are determined.
 
-use super::{ConstrainedSystem, Core, Source, Which};
-use crate::linalg::{add_scaled, dot};
+use super::{ConstrainedSystem, Core, Source};
+use crate::linalg::{add_scaled, column};
 use crate::stack::with_room;
 use crate::system::escalating;
-use crate::tolerance::regular;
 use crate::{DynamicsError, Mechanism, Real, State, Terms};
 use nalgebra::SVector;
 
@@ -141,22 +140,15 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<[Option<T>; R], DynamicsError<T>> {
         self.safe = None;
         self.factorise_metric(mechanism, Source::Terms, t)?;
-        let combined = self.combine(Source::Terms, Which::All, t)?;
         let mut lifted = reaction.data.0[0];
         self.metric.factor.forward(&mut lifted);
-        let mut multipliers = [None; R];
-        share_out(
-            (combined.directions.as_slice(), combined.left.as_slice()),
-            &combined.values,
-            &lifted,
-            &mut multipliers,
-        );
-        for (row, multiplier) in multipliers.iter_mut().enumerate() {
-            if let Some(multiplier) = multiplier {
-                *multiplier *= self.rows.scale(row);
-            }
-        }
-        Ok(multipliers)
+        let (mut multipliers, mut shared) = ([T::zero(); R], [false; R]);
+        self.combine(Source::Terms, t, &mut |combined| {
+            combined.share(&lifted, &mut multipliers, &mut shared);
+        })?;
+        Ok(column(|row| {
+            (!shared[row]).then_some(multipliers[row] * self.rows.scale(row))
+        }))
     }
 }
 
@@ -168,30 +160,5 @@ fn subtract_image<T: Real, const N: usize, const R: usize>(
 ) {
     for (column, acceleration) in terms.mass.data.0.iter().zip(acceleration.as_slice()) {
         add_scaled(reaction, -*acceleration, column);
-    }
-}
-
-/// The `λ` of scaled rows, from directions that combinations of rows decide, those
-/// combinations, their singular values and the reaction; none for rows of which a
-/// combination decides nothing.
-fn share_out<T: Real>(
-    (directions, left): (&[T], &[T]),
-    values: &[T],
-    reaction: &[T],
-    multipliers: &mut [Option<T>],
-) {
-    let (n, rows) = (reaction.len(), values.len());
-    multipliers.fill(Some(T::zero()));
-    for (k, value) in values.iter().enumerate() {
-        let (direction, parts) = (&directions[k * n..][..n], &left[k * rows..][..rows]);
-        let decides = *value > regular();
-        let share = dot(direction, reaction) / *value;
-        for (multiplier, part) in multipliers.iter_mut().zip(parts) {
-            match multiplier {
-                Some(multiplier) if decides => *multiplier += *part * share,
-                Some(_) if part.abs() > regular() => *multiplier = None,
-                _ => {}
-            }
-        }
     }
 }

@@ -9,10 +9,9 @@
 //! nothing, and comparing it with other rows would compare metres with radians.
 //! It is compared with the largest size it had so far.
 
-use crate::Real;
-use crate::linalg::{column, independent_rows};
+use crate::linalg::{Workspace, independent_columns};
 use crate::tolerance::{disproportionate, negligible};
-use nalgebra::SMatrix;
+use crate::{ConstraintRow, Real};
 
 /// Sizes, weights and choice of rows.
 #[derive(Clone, Debug)]
@@ -41,24 +40,28 @@ pub(crate) struct Rows<T, const R: usize> {
 }
 
 impl<T: Real, const R: usize> Rows<T, R> {
-    /// Rows of which nothing is known but which of them restrict positions, and whether they
-    /// are independent by their form.
-    pub(crate) fn new(holonomic: impl Fn(usize) -> bool, by_form: bool) -> Self {
-        Self {
+    /// Rows of which nothing is known but which of them restrict positions, all of those that
+    /// are not listed, and whether they are independent by their form.
+    pub(crate) fn new(constraints: &[ConstraintRow], by_form: bool) -> Self {
+        let mut rows = Self {
             size: [T::zero(); R],
             coupling: [T::from_f64(f64::INFINITY); R],
             inverse_size: [T::one() / T::zero(); R],
             scale: [T::zero(); R],
             weight: [T::zero(); R],
             uneven: false,
-            holonomic: column(holonomic),
+            holonomic: [true; R],
             by_form,
-            active: column(|row| row),
+            active: [0; R],
             active_count: 0,
             holonomic_count: 0,
             regular: 0,
             holonomic_regular: 0,
+        };
+        for (holonomic, constraint) in rows.holonomic.iter_mut().zip(constraints) {
+            *holonomic = constraint.holonomic;
         }
+        rows
     }
 
     /// Whether the rows are independent at all positions, by their form.
@@ -72,30 +75,18 @@ impl<T: Real, const R: usize> Rows<T, R> {
     #[inline]
     pub(crate) fn observe(&mut self, row: usize, size: T, alone: impl FnOnce() -> T) {
         if size > self.size[row] {
-            let coupling = self.coupling[row];
-            self.grow(
-                row,
-                match coupling.is_finite() {
-                    true => size.min(coupling * alone()),
-                    false => size,
-                },
-            );
+            let alone = match self.coupling[row].is_finite() {
+                true => alone(),
+                false => T::zero(),
+            };
+            self.grow(row, size, alone);
         }
-    }
-
-    /// The squared size of a row beyond this many times that in the metric of each
-    /// coordinate alone is due to a mass matrix that is nearly singular, and does not count.
-    pub(crate) fn expect_coupling(&mut self, row: usize, coupling: T) {
-        self.coupling[row] = coupling;
     }
 
     #[cold]
-    fn grow(&mut self, row: usize, size: T) {
-        if size.is_finite() && size > self.size[row] {
-            self.size[row] = size;
-            self.inverse_size[row] = T::one() / size;
-            self.scale[row] = T::one() / size.sqrt();
-        }
+    #[inline(never)]
+    fn grow(&mut self, row: usize, size: T, alone: T) {
+        self.view().observe(row, size, alone);
     }
 
     /// Squared reference size of a row.
@@ -131,11 +122,6 @@ impl<T: Real, const R: usize> Rows<T, R> {
         }
     }
 
-    /// Whether all rows restrict positions.
-    pub(crate) fn all_holonomic(&self) -> bool {
-        self.holonomic.iter().all(|holonomic| *holonomic)
-    }
-
     /// Whether any row restricts positions.
     pub(crate) fn any_holonomic(&self) -> bool {
         self.holonomic.iter().any(|holonomic| *holonomic)
@@ -169,56 +155,6 @@ impl<T: Real, const R: usize> Rows<T, R> {
         (self.active_count == self.regular && self.regular > 0).then_some((self.active, count))
     }
 
-    /// Takes note that this many rows are independent.
-    #[inline(never)]
-    pub(crate) fn observe_rank(&mut self, rank: usize, which: Which) {
-        match which {
-            Which::All => self.regular = rank,
-            Which::Holonomic => self.holonomic_regular = rank,
-        }
-        if self.regular == R {
-            // Holonomic rows come first.
-            self.active_count = 0;
-            for holonomic in [true, false] {
-                for row in 0..R {
-                    if self.holonomic[row] == holonomic {
-                        self.active[self.active_count] = row;
-                        self.active_count += 1;
-                    }
-                }
-            }
-            self.count_holonomic();
-        }
-    }
-
-    /// Chooses the active subset from `vectors`, the rows in the metric and scaled
-    /// to size one, at a regular position. Holonomic rows come first, so that the
-    /// first of the active rows span the holonomic ones.
-    #[inline(never)]
-    pub(crate) fn choose<const N: usize>(&mut self, mut vectors: SMatrix<T, N, R>) {
-        let holonomic = self.holonomic;
-        let mut chosen = [0; R];
-        let first = |row: usize| holonomic[row];
-        let count = independent_rows(
-            &mut vectors,
-            self.regular,
-            &first,
-            negligible(),
-            &mut chosen,
-        );
-        // In a singular configuration there are too few; those of before serve on.
-        if count == self.regular {
-            (self.active, self.active_count) = (chosen, count);
-            self.count_holonomic();
-        }
-    }
-
-    fn count_holonomic(&mut self) {
-        let active = &self.active[..self.active_count];
-        self.holonomic_count = active.iter().filter(|&&row| self.holonomic[row]).count();
-        self.holonomic_regular = self.holonomic_regular.max(self.holonomic_count);
-    }
-
     /// The weights of the rows in an augmented metric.
     pub(crate) fn weights(&self) -> [T; R] {
         self.weight
@@ -230,76 +166,207 @@ impl<T: Real, const R: usize> Rows<T, R> {
         self.weight[row]
     }
 
+    /// Takes note of the weights of rows in an augmented metric.
+    pub(crate) fn weigh(&mut self, inertia: &[T], jacobian: &[T]) {
+        if !self.uneven {
+            weigh(&mut self.weight, inertia, jacobian);
+        }
+    }
+
+    /// The same over slices.
+    pub(crate) fn view(&mut self) -> RowsView<'_, T> {
+        RowsView {
+            size: &mut self.size,
+            coupling: &mut self.coupling,
+            inverse_size: &mut self.inverse_size,
+            scale: &mut self.scale,
+            weight: &mut self.weight,
+            uneven: &mut self.uneven,
+            holonomic: &self.holonomic,
+            active: &mut self.active,
+            active_count: &mut self.active_count,
+            holonomic_count: &mut self.holonomic_count,
+            regular: &mut self.regular,
+            holonomic_regular: &mut self.holonomic_regular,
+        }
+    }
+
+    /// What rows are multiplied by to have size one, and which of them restrict positions.
+    pub(crate) fn scales(&self) -> (&[T; R], &[bool]) {
+        (&self.scale, &self.holonomic)
+    }
+}
+
+/// [`Rows`] over slices, to be changed.
+pub(crate) struct RowsView<'a, T> {
+    size: &'a mut [T],
+    coupling: &'a mut [T],
+    inverse_size: &'a mut [T],
+    scale: &'a mut [T],
+    weight: &'a mut [T],
+    uneven: &'a mut bool,
+    holonomic: &'a [bool],
+    active: &'a mut [usize],
+    active_count: &'a mut usize,
+    holonomic_count: &'a mut usize,
+    regular: &'a mut usize,
+    holonomic_regular: &'a mut usize,
+}
+
+impl<T: Real> RowsView<'_, T> {
+    /// Takes note of the squared size of a row, and of that in the metric of each coordinate
+    /// alone.
+    pub(crate) fn observe(&mut self, row: usize, size: T, alone: T) {
+        let coupling = self.coupling[row];
+        let size = match coupling.is_finite() {
+            true => size.min(coupling * alone),
+            false => size,
+        };
+        if size.is_finite() && size > self.size[row] {
+            self.size[row] = size;
+            self.inverse_size[row] = T::one() / size;
+            self.scale[row] = T::one() / size.sqrt();
+        }
+    }
+
+    /// The squared size of a row beyond this many times that in the metric of each
+    /// coordinate alone is due to a mass matrix that is nearly singular, and does not count.
+    pub(crate) fn expect_coupling(&mut self, row: usize, coupling: T) {
+        self.coupling[row] = coupling;
+    }
+
+    /// Whether all rows are independent at regular positions.
+    pub(crate) fn all_independent(&self) -> bool {
+        *self.regular == self.holonomic.len()
+    }
+
+    /// Takes note that this many rows are independent.
+    pub(crate) fn observe_rank(&mut self, rank: usize, which: Which) {
+        match which {
+            Which::All => *self.regular = rank,
+            Which::Holonomic => *self.holonomic_regular = rank,
+        }
+        if self.all_independent() {
+            // Holonomic rows come first.
+            *self.active_count = 0;
+            for wanted in [true, false] {
+                for (row, holonomic) in self.holonomic.iter().enumerate() {
+                    if *holonomic == wanted {
+                        self.active[*self.active_count] = row;
+                        *self.active_count += 1;
+                    }
+                }
+            }
+            self.count_holonomic();
+        }
+    }
+
+    /// Chooses the active subset from vectors of length `n`, the rows in the metric and
+    /// scaled to size one, at a regular position. Holonomic rows come first, so that the
+    /// first of the active rows span the holonomic ones.
+    pub(crate) fn choose(&mut self, vectors: &mut [T], n: usize, workspace: &Workspace<'_, T>) {
+        workspace.scope(|workspace| {
+            let chosen = workspace.indices(*self.regular);
+            let first = |row: usize| self.holonomic[row];
+            let count = independent_columns(vectors, n, &first, negligible(), chosen);
+            // In a singular configuration there are too few; those of before serve on.
+            if count == *self.regular {
+                self.active[..count].copy_from_slice(chosen);
+                *self.active_count = count;
+                self.count_holonomic();
+            }
+        });
+    }
+
+    fn count_holonomic(&mut self) {
+        let active = &self.active[..*self.active_count];
+        let count = active.iter().filter(|&&row| self.holonomic[row]).count();
+        *self.holonomic_count = count;
+        *self.holonomic_regular = count.max(*self.holonomic_regular);
+    }
+
     /// Gives rows the weights of the heaviest masses, if the masses differ so much that
     /// rows look dependent which are not. From the squares of the entries of `A` and the
     /// inertia of the coordinates.
-    #[inline(never)]
-    pub(crate) fn weigh_unevenly<const N: usize>(
+    pub(crate) fn weigh_unevenly(
         &mut self,
-        levers: &SMatrix<T, R, N>,
-        inertia: &[T; N],
+        levers: &[T],
+        inertia: &[T],
+        workspace: &Workspace<'_, T>,
     ) -> bool {
-        let share = |row: usize, j: usize| levers[(row, j)] / inertia[j];
-        let most = |row: usize| (0..N).fold(T::zero(), |most: T, j| most.max(share(row, j)));
-        let largest: [T; R] = column(most);
-        let mut least = T::one();
-        for j in 0..N {
-            // Next to others a lever may be short, so the row counts in which it matters.
-            let shares = (0..R).filter(|row| largest[*row] > T::zero());
-            let best = shares.fold(T::zero(), |best: T, row| {
-                best.max(share(row, j) / largest[row])
-            });
-            // A lever that is round-off says nothing.
-            if best > T::EPSILON * T::EPSILON {
-                least = least.min(best);
+        workspace.scope(|workspace| {
+            let r = self.weight.len();
+            let largest = workspace.numbers(r);
+            for (levers, inertia) in levers.chunks_exact(r).zip(inertia) {
+                for (largest, lever) in largest.iter_mut().zip(levers) {
+                    *largest = largest.max(*lever / *inertia);
+                }
+            }
+            let mut least = T::one();
+            for (levers, inertia) in levers.chunks_exact(r).zip(inertia) {
+                // Next to others a lever may be short, so the row counts in which it matters.
+                let mut best = T::zero();
+                for (largest, lever) in largest.iter().zip(levers) {
+                    if *largest > T::zero() {
+                        best = best.max(*lever / *inertia / *largest);
+                    }
+                }
+                // A lever that is round-off says nothing.
+                if best > T::EPSILON * T::EPSILON {
+                    least = least.min(best);
+                }
+            }
+            self.weigh_down(largest, least);
+        });
+        *self.uneven
+    }
+
+    /// The weights of the heaviest masses, from the largest shares of the rows and the least
+    /// part of one that matters.
+    fn weigh_down(&mut self, largest: &[T], least: T) {
+        *self.uneven = least < disproportionate::<T>() * disproportionate();
+        if *self.uneven {
+            let least = least.max(T::EPSILON.sqrt());
+            for (weight, largest) in self.weight.iter_mut().zip(largest) {
+                *weight = match *largest > T::zero() {
+                    true => disproportionate::<T>() / (least * *largest),
+                    false => T::zero(),
+                };
             }
         }
-        self.uneven = least < disproportionate::<T>() * disproportionate();
-        if self.uneven {
-            let least = least.max(T::EPSILON.sqrt());
-            self.weight = column(|row| match largest[row] > T::zero() {
-                true => disproportionate::<T>() / (least * largest[row]),
-                false => T::zero(),
-            });
-        }
-        self.uneven
     }
 
     /// Forgets the weights of the heaviest masses.
     pub(crate) fn weigh_evenly(&mut self) {
-        self.uneven = false;
-        self.weight = [T::zero(); R];
+        *self.uneven = false;
+        self.weight.fill(T::zero());
     }
+}
 
-    /// Takes note of weights: `1 / Σ aⱼ²/mⱼⱼ` over the coordinates with inertia, so
-    /// that the row weighs as much as the masses it connects. Where a row vanishes
-    /// the weight stays what it was.
-    #[inline(never)]
-    pub(crate) fn weigh<const N: usize>(&mut self, inertia: &[T; N], jacobian: &SMatrix<T, R, N>) {
-        if self.uneven {
-            return;
+/// Gives rows the weights `1 / Σ aⱼ²/mⱼⱼ` over the coordinates with inertia, so that the row
+/// weighs as much as the masses it connects. Where a row vanishes the weight stays what it was.
+fn weigh<T: Real>(weights: &mut [T], inertia: &[T], jacobian: &[T]) {
+    let r = weights.len();
+    let heaviest = inertia.iter().fold(T::zero(), |most: T, m| most.max(*m));
+    for (row, known) in weights.iter_mut().enumerate() {
+        let (mut with, mut without) = (T::zero(), T::zero());
+        for (levers, inertia) in jacobian.chunks_exact(r).zip(inertia) {
+            let square = levers[row] * levers[row];
+            without += square;
+            if *inertia > T::zero() {
+                with += square / *inertia;
+            }
         }
-        for row in 0..R {
-            let (mut with, mut without, mut heaviest) = (T::zero(), T::zero(), T::zero());
-            for j in 0..N {
-                let square = jacobian[(row, j)] * jacobian[(row, j)];
-                without += square;
-                heaviest = heaviest.max(inertia[j]);
-                if inertia[j] > T::zero() {
-                    with += square / inertia[j];
-                }
-            }
-            let weight = if with > T::zero() {
-                T::one() / with
-            } else if heaviest > T::zero() {
-                heaviest / without
-            } else {
-                T::one() / without
-            };
-            let known = self.weight[row] > T::zero();
-            if weight.is_finite() && !(known && self.weight[row] < weight) {
-                self.weight[row] = weight;
-            }
+        let weight = if with > T::zero() {
+            T::one() / with
+        } else if heaviest > T::zero() {
+            heaviest / without
+        } else {
+            T::one() / without
+        };
+        let lighter = *known > T::zero() && *known < weight;
+        if weight.is_finite() && !lighter {
+            *known = weight;
         }
     }
 }

@@ -10,11 +10,12 @@
 //! its turning is evidence only for rows that vanish at the first state.
 
 use super::Core;
-use super::solver::Source;
-use crate::linalg::{column, dot, independent_rows, is_definite, norm, scaled};
+use super::combined::lift;
+use super::lent::Constrained;
+use crate::equations::At;
+use crate::linalg::{Workspace, dot, independent_columns, is_definite, norm, scale};
 use crate::tolerance::{hull, regular, spacing};
 use crate::{Mechanism, Position, Quantity, Real, State};
-use nalgebra::SMatrix;
 
 /// How many times the angles are turned.
 const SAMPLES: usize = 8;
@@ -27,152 +28,194 @@ const STRIDES: [f64; 2] = [0.618_033_988_749_894_9, 0.414_213_562_373_095];
 /// large as one likes. One that is constant is not.
 const UNUSUAL: f64 = 4.0;
 
-/// The squared size of a row.
-#[derive(Clone, Copy, Default)]
-struct RowSize<T> {
-    /// In the metric of the kinetic energy.
-    whole: T,
-    /// In that of each coordinate alone.
-    alone: T,
-}
-
-impl<T: Real> RowSize<T> {
-    /// How much the coupling of the masses adds; infinite where the row restricts a
-    /// coordinate without inertia.
-    fn coupling(self) -> T {
-        match self.alone.is_finite() {
-            true => self.whole / self.alone,
-            false => self.alone,
-        }
-    }
-}
-
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Takes note of the mean sizes of the rows over some turned positions.
     #[inline(never)]
     pub(super) fn sample_sizes(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) {
-        let coordinates = mechanism.structure().coordinates;
-        let sure = coordinates.iter().all(|c| !c.unit.is_empty());
-        self.sample_mass(mechanism, state);
-        let here = self.sizes(mechanism, state);
-        if self.rows.are_independent_by_form() {
-            // No row vanishes anywhere, so that this state is as good as others.
-            for (row, size) in here.iter().enumerate() {
-                self.rows.observe(row, size.whole, || size.alone);
-            }
+        let by_form = self.rows.are_independent_by_form();
+        let (mut solver, workspace, _) = self.lend(mechanism);
+        (T::routines().rows.sample_sizes)(&mut solver, state.at(), by_form, &workspace);
+    }
+}
+
+/// The squared sizes of rows, one position after the other.
+struct Sizes<'a, T> {
+    /// In the metric of the kinetic energy.
+    whole: &'a mut [T],
+    /// In that of each coordinate alone.
+    alone: &'a mut [T],
+}
+
+impl<'a, T: Real> Sizes<'a, T> {
+    /// Room for so many.
+    fn new(count: usize, workspace: &Workspace<'a, T>) -> Self {
+        Self {
+            whole: workspace.numbers(count),
+            alone: workspace.numbers(count),
+        }
+    }
+
+    /// How much the coupling of the masses adds; infinite where the row restricts a
+    /// coordinate without inertia.
+    fn coupling(&self, index: usize) -> T {
+        match self.alone[index].is_finite() {
+            true => self.whole[index] / self.alone[index],
+            false => self.alone[index],
+        }
+    }
+
+    /// The sizes of all rows at a position, from a place on; zero where they are not finite or
+    /// have no metric.
+    fn measure(
+        &mut self,
+        solver: &mut dyn Constrained<T>,
+        (t, q): (T, &[T]),
+        first: usize,
+        workspace: &Workspace<'_, T>,
+    ) {
+        if solver.visit(t, q).is_err() {
             return;
         }
-        let mut samples = [[RowSize::default(); R]; SAMPLES];
-        for (sample, sizes) in samples.iter_mut().enumerate() {
-            *sizes = self.sizes(mechanism, &turned(state, coordinates, sample + 1));
-        }
-        let constant = mechanism.structure().constant_mass && self.metric.is_mass_matrix();
-        for row in 0..R {
-            let of_row: [RowSize<T>; SAMPLES] = column(|sample| samples[sample][row]);
-            if !constant {
-                let coupling = median(column(|sample| of_row[sample].coupling()));
-                self.rows
-                    .expect_coupling(row, coupling * T::from_f64(UNUSUAL));
-            }
-            let mean = |part: fn(&RowSize<T>) -> T| {
-                let sum = of_row.iter().fold(T::zero(), |sum, size| sum + part(size));
-                sum / T::from_f64(SAMPLES as f64)
-            };
-            let (whole, alone) = (mean(|size| size.whole), mean(|size| size.alone));
-            let vanishes = here[row].whole <= regular::<T>() * regular::<T>() * whole;
-            self.rows.observe(row, here[row].whole, || here[row].alone);
-            if sure || vanishes {
-                self.rows.observe(row, whole, || alone);
-            }
-        }
-    }
-
-    /// Finds out whether the mass matrix is a metric at any turned position, and one in
-    /// which the rows can be told apart.
-    #[inline(never)]
-    fn sample_mass(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) {
-        let coordinates = mechanism.structure().coordinates;
-        let named = mechanism.structure().weighed;
-        self.metric.begin(named);
-        let mut definite = !named.is_empty();
-        let mut levers = SMatrix::<T, R, N>::zeros();
-        for sample in 1..=SAMPLES {
-            let turned = turned(state, coordinates, sample);
-            mechanism.position(&turned, &mut self.position);
-            self.metric.observe(&self.position.mass);
-            definite = definite || is_definite(&self.position.mass);
-            for (most, entry) in levers.iter_mut().zip(&self.position.jacobian) {
-                let square = *entry * *entry;
-                if square > *most && square.is_finite() {
-                    *most = square;
-                }
-            }
-        }
-        let mut uneven = self.rows.weigh_unevenly(&levers, self.metric.inertia());
-        let mut apart = |sample| {
-            mechanism.position(&turned(state, coordinates, sample), &mut self.position);
-            self.rows_are_apart()
-        };
-        if uneven && (1..=SAMPLES).all(&mut apart) {
-            self.rows.weigh_evenly();
-            uneven = false;
-        }
-        if !definite || uneven {
-            self.metric.augment();
-        }
-    }
-
-    /// Whether the masses let all rows at the position in the buffer be told apart: by sines
-    /// as they are beyond the reach of any singular configuration.
-    #[inline(never)]
-    fn rows_are_apart(&mut self) -> bool {
-        let Position { mass, jacobian, .. } = &self.position;
-        if self.metric.factor.factorise(mass).is_err() {
-            return false;
-        }
-        let mut vectors: SMatrix<T, N, R> = SMatrix::zeros();
-        for (row, vector) in vectors.data.0.iter_mut().enumerate() {
-            let lifted = self.metric.lift(jacobian, row);
-            *vector = scaled(T::one() / norm(&lifted), &lifted);
-        }
-        independent_rows(
-            &mut vectors,
-            R,
-            &|_| true,
-            spacing::<T>() * hull(5),
-            &mut [0; R],
-        ) == R
-    }
-
-    /// The sizes of all rows at a position; zero where they are not finite or have no
-    /// metric.
-    #[inline(never)]
-    fn sizes(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        state: &State<T, N>,
-    ) -> [RowSize<T>; R] {
-        let mut sizes = [RowSize::default(); R];
-        mechanism.position(state, &mut self.position);
-        let t = state.t;
-        if self
-            .factorise_metric(mechanism, Source::Position, t)
-            .is_ok()
-        {
-            let alone = self.position.rows_alone();
-            for (row, size) in sizes.iter_mut().enumerate() {
-                let vector = self.metric.lift(&self.position.jacobian, row);
-                let square = dot(&vector, &vector);
+        workspace.scope(|workspace| {
+            let (at, known) = (solver.constraints(), solver.known());
+            let (alone, lifted) = (workspace.numbers(known.r()), workspace.numbers(q.len()));
+            rows_alone(at.mass, at.jacobian, alone);
+            for (row, alone) in alone.iter().enumerate() {
+                lift(at.jacobian, known, row, lifted);
+                let square = dot(lifted, lifted);
                 if square.is_finite() {
-                    *size = RowSize {
-                        whole: square,
-                        alone: alone[row],
-                    };
+                    self.whole[first + row] = square;
+                    self.alone[first + row] = *alone;
                 }
             }
-        }
-        sizes
+        });
     }
+}
+
+/// Takes note of the mean sizes of the rows over some turned positions.
+pub(super) fn sample_sizes<T: Real>(
+    solver: &mut dyn Constrained<T>,
+    state: At<'_, T>,
+    by_form: bool,
+    workspace: &Workspace<'_, T>,
+) {
+    let r = solver.known().r();
+    let turned = workspace.numbers(state.q.len());
+    workspace.scope(|workspace| sample_mass(solver, state, turned, workspace));
+    let mut here = Sizes::new(r, workspace);
+    here.measure(solver, (state.t, state.q), 0, workspace);
+    let mut samples = Sizes::new(r * SAMPLES, workspace);
+    // If no row vanishes anywhere, this state is as good as others.
+    if !by_form {
+        for sample in 0..SAMPLES {
+            turn(solver, state.q, sample + 1, turned);
+            samples.measure(solver, (state.t, turned), sample * r, workspace);
+        }
+    }
+    for row in 0..r {
+        if by_form {
+            let mut rows = solver.learn().rows;
+            rows.observe(row, here.whole[row], here.alone[row]);
+        } else {
+            observe(solver, row, &here, &samples);
+        }
+    }
+}
+
+/// Takes note of the size of a row at a state and of its mean over samples.
+fn observe<T: Real>(
+    solver: &mut dyn Constrained<T>,
+    row: usize,
+    here: &Sizes<'_, T>,
+    samples: &Sizes<'_, T>,
+) {
+    let r = here.whole.len();
+    let structure = solver.structure();
+    let sure = structure.coordinates.iter().all(|c| !c.unit.is_empty());
+    let mut learning = solver.learn();
+    if !structure.constant_mass || !learning.metric.parts.is_mass_matrix() {
+        let mut couplings = [T::zero(); SAMPLES];
+        for (sample, coupling) in couplings.iter_mut().enumerate() {
+            *coupling = samples.coupling(sample * r + row);
+        }
+        let coupling = median(couplings) * T::from_f64(UNUSUAL);
+        learning.rows.expect_coupling(row, coupling);
+    }
+    let mean = |sizes: &[T]| {
+        let of_row = sizes.iter().skip(row).step_by(r);
+        of_row.fold(T::zero(), |sum, size| sum + *size) / T::from_f64(SAMPLES as f64)
+    };
+    let (whole, alone) = (mean(samples.whole), mean(samples.alone));
+    let vanishes = here.whole[row] <= regular::<T>() * regular::<T>() * whole;
+    learning.rows.observe(row, here.whole[row], here.alone[row]);
+    if sure || vanishes {
+        learning.rows.observe(row, whole, alone);
+    }
+}
+
+/// Finds out whether the mass matrix is a metric at any turned position, and one in
+/// which the rows can be told apart.
+fn sample_mass<T: Real>(
+    solver: &mut dyn Constrained<T>,
+    state: At<'_, T>,
+    turned: &mut [T],
+    workspace: &Workspace<'_, T>,
+) {
+    let named = solver.structure().weighed;
+    solver.learn().metric.begin(named);
+    let mut definite = !named.is_empty();
+    let levers = workspace.numbers(solver.constraints().jacobian.len());
+    for sample in 1..=SAMPLES {
+        turn(solver, state.q, sample, turned);
+        solver.locate(state.t, turned);
+        let mut learning = solver.learn();
+        let mass = learning.at.mass;
+        learning.metric.observe(mass);
+        definite = definite || is_definite(mass, turned.len(), workspace);
+        for (most, entry) in levers.iter_mut().zip(learning.at.jacobian) {
+            let square = *entry * *entry;
+            if square > *most && square.is_finite() {
+                *most = square;
+            }
+        }
+    }
+    let mut learning = solver.learn();
+    let inertia = learning.metric.inertia();
+    let mut uneven = learning.rows.weigh_unevenly(levers, inertia, workspace);
+    let mut apart = |sample| {
+        turn(solver, state.q, sample, turned);
+        solver.locate(state.t, turned);
+        rows_are_apart(solver, workspace)
+    };
+    if uneven && (1..=SAMPLES).all(&mut apart) {
+        solver.learn().rows.weigh_evenly();
+        uneven = false;
+    }
+    if !definite || uneven {
+        solver.learn().metric.parts.augment();
+    }
+}
+
+/// Whether the masses let all rows where the constraints were evaluated last be told apart: by
+/// sines as they are beyond the reach of any singular configuration.
+fn rows_are_apart<T: Real>(solver: &mut dyn Constrained<T>, workspace: &Workspace<'_, T>) -> bool {
+    if !solver.factorise_mass() {
+        return false;
+    }
+    let (known, jacobian) = (solver.known(), solver.constraints().jacobian);
+    let r = known.r();
+    let n = jacobian.len() / r;
+    // More rows than coordinates never are.
+    r <= n
+        && workspace.scope(|workspace| {
+            let vectors = workspace.numbers(jacobian.len());
+            for (row, vector) in vectors.chunks_exact_mut(n).enumerate() {
+                lift(jacobian, known, row, vector);
+                scale(vector, T::one() / norm(vector));
+            }
+            let least = spacing::<T>() * hull(5);
+            independent_columns(vectors, n, &|_| true, least, workspace.indices(r)) == r
+        })
 }
 
 impl<T: Real, const N: usize, const R: usize> Position<T, N, R> {
@@ -180,36 +223,36 @@ impl<T: Real, const N: usize, const R: usize> Position<T, N, R> {
     /// infinite for one that restricts a coordinate without inertia.
     pub(super) fn rows_alone(&self) -> [T; R] {
         let mut alone = [T::zero(); R];
-        for (j, levers) in self.jacobian.data.0.iter().enumerate() {
-            let mass = self.mass[(j, j)].max(T::zero());
-            for (sum, lever) in alone.iter_mut().zip(levers) {
-                if *lever != T::zero() {
-                    *sum += *lever * *lever / mass;
-                }
-            }
-        }
+        rows_alone(self.mass.as_slice(), self.jacobian.as_slice(), &mut alone);
         alone
     }
 }
 
-/// The state with every angle turned by a different amount.
-fn turned<T: Real, const N: usize>(
-    state: &State<T, N>,
-    coordinates: &[Quantity],
-    sample: usize,
-) -> State<T, N> {
-    let mut turned = *state;
-    for (j, coordinate) in coordinates.iter().enumerate().take(N) {
-        if coordinate.may_be_angle() {
-            let share = STRIDES[0] * sample as f64 + STRIDES[1] * (j * sample) as f64;
-            turned.q[j] += T::from_f64(core::f64::consts::TAU * (share % 1.0));
+fn rows_alone<T: Real>(mass: &[T], jacobian: &[T], alone: &mut [T]) {
+    let (r, diagonal) = (alone.len(), mass.iter());
+    let n = jacobian.len() / r;
+    for (levers, mass) in jacobian.chunks_exact(r).zip(diagonal.step_by(n + 1)) {
+        for (sum, lever) in alone.iter_mut().zip(levers) {
+            if *lever != T::zero() {
+                *sum += *lever * *lever / mass.max(T::zero());
+            }
         }
     }
-    turned
+}
+
+/// A position with every angle turned by a different amount.
+fn turn<T: Real>(solver: &dyn Constrained<T>, q: &[T], sample: usize, turned: &mut [T]) {
+    turned.copy_from_slice(q);
+    let coordinates: &[Quantity] = solver.structure().coordinates;
+    for (j, (q, coordinate)) in turned.iter_mut().zip(coordinates).enumerate() {
+        if coordinate.may_be_angle() {
+            let share = STRIDES[0] * sample as f64 + STRIDES[1] * (j * sample) as f64;
+            *q += T::from_f64(core::f64::consts::TAU * (share % 1.0));
+        }
+    }
 }
 
 /// The median of the numbers that are finite; infinite if there is none.
-#[inline(never)]
 fn median<T: Real>(numbers: [T; SAMPLES]) -> T {
     let mut sorted = [T::from_f64(f64::INFINITY); SAMPLES];
     let mut count = 0;

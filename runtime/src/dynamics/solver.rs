@@ -14,9 +14,9 @@ use crate::linalg::NotDefinite;
 use crate::singular::{Memory, Obstacle, Session};
 use crate::{
     Correction, Counters, DynamicsError, Mechanism, Position, Real, Regular, Settings, Singularity,
-    State, Terms,
+    State, Structure, Terms,
 };
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 /// By which factor a coordinate grows before the length of the coordinates is measured
 /// again: round-off is needed to no more digits.
@@ -37,8 +37,8 @@ pub(crate) struct Core<T, const N: usize, const R: usize> {
     pub(crate) metric: Metric<T, N>,
     pub(crate) rows: Rows<T, R>,
     pub(crate) lifted: Lifted<T, N, R>,
-    /// What sheets are evaluated in.
-    pub(crate) memory: Memory<T, N>,
+    /// What cold code works in.
+    pub(crate) memory: Memory<T, N, R>,
     /// The row that came last when one was, by its place among the independent ones.
     pub(crate) weakest: usize,
     pub(crate) regular: Regular<T, N, R>,
@@ -80,7 +80,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             terms: Terms::default(),
             position: Position::default(),
             metric: Metric::default(),
-            rows: Rows::new(|_| true, false),
+            rows: Rows::new(&[], false),
             lifted: Lifted::default(),
             memory: Memory::new(),
             weakest: 0,
@@ -118,7 +118,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 
     /// Factorises the metric at the state whose terms are in a buffer.
-    #[inline(never)]
     pub(crate) fn factorise_metric(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
@@ -126,27 +125,16 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         t: T,
     ) -> Result<(), DynamicsError<T>> {
         self.expected = false;
-        let structure = mechanism.structure();
-        let constant = structure.constant_mass;
         let (mass, jacobian) = match source {
             Source::Terms => (&self.terms.mass, &self.terms.jacobian),
             Source::Position => (&self.position.mass, &self.position.jacobian),
         };
-        let (rows, counters) = (&mut self.rows, &mut self.counters);
-        let result = self
-            .metric
-            .factorise(mass, jacobian, rows, constant, counters);
-        result.map_err(|NotDefinite { row }| {
-            if mass.iter().chain(jacobian.iter()).all(|x| x.is_finite()) {
-                DynamicsError::MassSingular {
-                    t,
-                    coordinate: row,
-                    structure,
-                }
-            } else {
-                DynamicsError::NotFinite { t }
-            }
-        })
+        factorise(
+            (&mut self.metric, &mut self.rows, &mut self.counters),
+            (mass, jacobian),
+            mechanism.structure(),
+            t,
+        )
     }
 
     /// Factorises independent constraints in the metric and returns the smallest
@@ -182,9 +170,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             return Ok(());
         }
         let structure = mechanism.structure();
-        let constraints = structure.constraints;
-        let holonomic = |row: usize| constraints.get(row).is_none_or(|c| c.holonomic);
-        self.rows = Rows::new(holonomic, structure.independent);
+        self.rows = Rows::new(structure.constraints, structure.independent);
         self.sample_sizes(mechanism, state);
         mechanism.position(state, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, state.t)?;
@@ -266,4 +252,26 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             structure,
         }
     }
+}
+
+/// Factorises a metric.
+#[inline(never)]
+pub(super) fn factorise<T: Real, const N: usize, const R: usize>(
+    (metric, rows, counters): (&mut Metric<T, N>, &mut Rows<T, R>, &mut Counters),
+    (mass, jacobian): (&SMatrix<T, N, N>, &SMatrix<T, R, N>),
+    structure: &'static Structure,
+    t: T,
+) -> Result<(), DynamicsError<T>> {
+    let result = metric.factorise(mass, jacobian, rows, structure.constant_mass, counters);
+    result.map_err(|NotDefinite { row }| {
+        if mass.iter().chain(jacobian.iter()).all(|x| x.is_finite()) {
+            DynamicsError::MassSingular {
+                t,
+                coordinate: row,
+                structure,
+            }
+        } else {
+            DynamicsError::NotFinite { t }
+        }
+    })
 }

@@ -6,18 +6,13 @@
 
 use super::{Core, Source, Which};
 use crate::linalg::is_zero;
-use crate::singular::{Chart, Obstacle, Placed, Placement, Point, Sheet, Start};
+use crate::singular::{Chart, Obstacle, Placed, Placement, Point, Start};
 use crate::tolerance::{negligible, safe_steps, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
 
 /// A sine that falls below this part of what it is at both ends of a step may have been
 /// zero between.
 const FALL: f64 = 0.9;
-/// Looks into a step without a chart that came nearer to a singular configuration: it may
-/// have crossed two.
-const LOOKS: usize = 4;
-/// Halvings of a step in the search for a singular configuration.
-const BISECTIONS: usize = 20;
 /// Energy that a step may lose, in units of its accepted error.
 const ENERGY: f64 = 1e3;
 /// Energy that a step of fixed length may lose, relative to the kinetic energy.
@@ -117,14 +112,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let Start::Sheet(chart) = self.start_at(mechanism, end)? else {
             return self.want_chart(mechanism, end.t);
         };
-        let stays = self.on_sheet(mechanism, &chart, |sheet, workspace| {
-            let reference = sheet.refer_to(start.at(), workspace);
-            reference.is_some_and(|reference| {
-                (1..=LOOKS).all(|k| {
-                    let there = start.towards(end, T::from_f64(k as f64 / LOOKS as f64));
-                    sheet.count_crossed(&reference, there.at(), workspace) == Some(0)
-                })
-            })
+        let mut stays = false;
+        self.on_sheet(mechanism, &chart, &mut |sheet, workspace| {
+            stays = sheet.stays_between((start.at(), end.at()), workspace);
         });
         if !stays {
             return self.want_chart(mechanism, end.t);
@@ -163,16 +153,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.session.trial.chart = None;
         let (form, structure) = (self.settings.form, mechanism.structure());
         let seeks = form.passes() && !structure.regular && !self.session.trial.crosses;
-        let (changes, beyond) = self.on_sheet(mechanism, chart, |sheet, workspace| {
-            let reference = sheet.refer_to(start.at(), workspace);
-            let changed_at = |sheet: &mut Sheet<'_, T>, state: &State<T, N>| {
-                let reference = reference.as_ref()?;
-                sheet.count_crossed(reference, state.at(), workspace)
-            };
-            let changes = changed_at(sheet, end);
-            let crosses = |state: &State<T, N>| changed_at(sheet, state) != Some(0);
-            let beyond = (seeks && changes != Some(0)).then(|| bisect((start, end), crosses));
-            (changes, beyond)
+        let (mut changes, mut part) = (None, T::one());
+        self.on_sheet(mechanism, chart, &mut |sheet, workspace| {
+            let ends = (start.at(), end.at());
+            (changes, part) = sheet.count_crossed(ends, seeks, workspace);
         });
         if changes != Some(0) && structure.regular {
             return Err(self.not_regular(mechanism, end)?);
@@ -186,8 +170,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
                 structure,
             });
         }
-        if let Some(beyond) = beyond {
-            self.verify_crossing(mechanism, chart, &beyond)?;
+        if seeks && changes != Some(0) {
+            self.verify_crossing(mechanism, chart, &start.towards(end, part))?;
         }
         self.verify_energy(mechanism, start, end)?;
         let Some(placed) = self.session.trial.placed.take() else {
@@ -302,20 +286,4 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             Err(self.refusal(mechanism, Obstacle::LeftSheet, end.t))
         }
     }
-}
-
-/// The first state of a step that is beyond something, which its end is.
-fn bisect<T: Real, const N: usize>(
-    (start, end): (&State<T, N>, &State<T, N>),
-    mut is_beyond: impl FnMut(&State<T, N>) -> bool,
-) -> State<T, N> {
-    let (mut before, mut after) = (T::zero(), T::one());
-    for _ in 0..BISECTIONS {
-        let middle = (before + after) * T::from_f64(0.5);
-        match is_beyond(&start.towards(end, middle)) {
-            true => after = middle,
-            false => before = middle,
-        }
-    }
-    start.towards(end, after)
 }

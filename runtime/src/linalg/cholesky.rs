@@ -12,7 +12,7 @@
 //!
 //! Not here: what to do with a matrix that is only semi-definite.
 
-use super::{add_scaled, dot, norm};
+use super::{Workspace, add_scaled, dot, norm};
 use crate::Real;
 use crate::tolerance::definite;
 use nalgebra::SMatrix;
@@ -23,35 +23,45 @@ use nalgebra::SMatrix;
 /// [`Cholesky::factorise`] takes the rows as they come. Of a semi-definite matrix with
 /// a tiny diagonal entry it divides round-off by that entry, and sees no pivot vanish.
 /// Here the largest pivot, relative to its diagonal entry, goes first.
-#[inline(never)]
-pub(crate) fn is_definite<T: Real, const N: usize>(matrix: &SMatrix<T, N, N>) -> bool {
-    let mut rest = *matrix;
-    let mut done = [false; N];
-    for _ in 0..N {
-        let ratio = |j: &usize| rest[(*j, *j)] / matrix[(*j, *j)];
-        let larger = |best: Option<usize>, j: usize| match best {
-            Some(b) if ratio(&b) >= ratio(&j) => Some(b),
-            _ => Some(j),
-        };
-        let open = (0..N).filter(|&j| !done[j]);
-        let Some(next) = open.fold(None, larger) else {
-            break;
-        };
-        let pivot = rest[(next, next)];
+pub(crate) fn is_definite<T: Real>(matrix: &[T], n: usize, workspace: &Workspace<'_, T>) -> bool {
+    workspace.scope(|workspace| {
+        let rest = workspace.numbers(n * n);
+        rest.copy_from_slice(matrix);
+        eliminate_definite(matrix, rest, n, workspace.indices(n))
+    })
+}
+
+/// Eliminates what is to be the `rest` of a matrix; whether all its pivots are positive.
+fn eliminate_definite<T: Real>(matrix: &[T], rest: &mut [T], n: usize, open: &mut [usize]) -> bool {
+    for (j, index) in open.iter_mut().enumerate() {
+        *index = j;
+    }
+    for left in (1..=n).rev() {
+        let ratio = |j: usize| rest[j * (n + 1)] / matrix[j * (n + 1)];
+        let mut best = 0;
+        for place in 1..left {
+            // NaN gives way.
+            let stays = ratio(open[best]) >= ratio(open[place]);
+            if !stays {
+                best = place;
+            }
+        }
+        let next = open[best];
+        // In their order, so that of equal ones the first is taken.
+        open[best..left].rotate_left(1);
+        let pivot = rest[next * (n + 1)];
         // False for NaN, too.
-        let is_large = pivot > definite::<T>() * matrix[(next, next)];
+        let is_large = pivot > definite::<T>() * matrix[next * (n + 1)];
         if !is_large {
             return false;
         }
-        done[next] = true;
-        for j in (0..N).filter(|&j| !done[j]) {
-            let share = rest[(next, j)] / pivot;
-            if is_skipped::<T, N>(share) {
-                continue;
-            }
-            for i in (0..N).filter(|&i| !done[i]) {
-                let change = share * rest[(next, i)];
-                rest[(i, j)] -= change;
+        for &j in &open[..left - 1] {
+            let share = rest[j * n + next] / pivot;
+            if share != T::zero() {
+                for &i in &open[..left - 1] {
+                    let change = share * rest[i * n + next];
+                    rest[j * n + i] -= change;
+                }
             }
         }
     }
@@ -62,7 +72,7 @@ pub(crate) fn is_definite<T: Real, const N: usize>(matrix: &SMatrix<T, N, N>) ->
 const LONG: usize = 16;
 
 /// The upper factor `U`; entries below the diagonal are not used.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Cholesky<T, const N: usize> {
     upper: SMatrix<T, N, N>,
 }
@@ -192,12 +202,6 @@ impl<T: Real, const N: usize> Cholesky<T, N> {
             }
             x[j] = value / upper[j][j];
         }
-    }
-
-    /// A diagonal entry of `M`.
-    pub(crate) fn diagonal(&self, j: usize) -> T {
-        let row = (j..N).map(|i| self.upper[(j, i)]);
-        row.fold(T::zero(), |sum, entry| sum + entry * entry)
     }
 
     /// `√(xᵀ M x)`, the length of `x` in the metric of the matrix.

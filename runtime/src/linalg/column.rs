@@ -95,12 +95,10 @@ pub(crate) fn column<E: Copy + Default, const L: usize>(
     column
 }
 
-/// `factor · column`.
+/// `column := factor · column`.
 #[inline]
-pub(crate) fn scaled<T: Real, const L: usize>(factor: T, column: &[T; L]) -> [T; L] {
-    let mut scaled = *column;
-    for entry in &mut scaled {
+pub(crate) fn scale<T: Real>(column: &mut [T], factor: T) {
+    for entry in column {
         *entry = factor * *entry;
     }
-    scaled
 }

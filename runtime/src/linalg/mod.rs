@@ -34,14 +34,14 @@ pub(crate) use cholesky::{
     Cholesky, NotDefinite, is_definite, multiply_upper, multiply_upper_transposed, solve_upper,
     solve_upper_transposed,
 };
-pub(crate) use column::{add_scaled, column, count_above, dot, is_zero, norm, pair, scaled};
+pub(crate) use column::{add_scaled, column, count_above, dot, is_zero, norm, pair, scale};
 pub(crate) use complement::{orthonormal, remove};
 pub(crate) use elimination::Elimination;
 pub(crate) use frame::{Eliminated, Frame, by_first_row};
 pub(crate) use gram::Gram;
 pub(crate) use jacobi::{Breakdown, orthogonalise, orthogonalise_slices};
 pub(crate) use products::{Products, RowProducts};
-pub(crate) use subset::independent_rows;
-pub(crate) use symmetric::eigen;
+pub(crate) use subset::independent_columns;
+pub(crate) use symmetric::diagonalise;
 pub(crate) use triangle::Triangle;
 pub(crate) use workspace::Workspace;

@@ -1,6 +1,6 @@
 //! A well-conditioned independent subset of vectors.
 //!
-//! In:  `R` vectors of length `N`, how many are wanted, and which come first.
+//! In:  vectors of one length, how many are wanted, and which come first.
 //! Out: their indices.
 //!
 //! Not here: how many are independent. That needs singular values.
@@ -8,27 +8,14 @@
 use super::column::pair;
 use super::{add_scaled, dot};
 use crate::Real;
-use nalgebra::SMatrix;
 
-/// Chooses `count` columns of `vectors`, each the one farthest from the span of
-/// those before it, and returns how many were found; their indices are the first
-/// entries of `chosen`.
+/// Chooses columns of length `n` in `x`, as many as there is room for, each the one farthest
+/// from the span of those before it, and returns how many were found; their indices are the
+/// first entries of `chosen`.
 ///
 /// Columns with `first` are taken before all others while one of them is farther
-/// than `threshold` from the span. `vectors` is used up.
-pub(crate) fn independent_rows<T: Real, const N: usize, const R: usize>(
-    vectors: &mut SMatrix<T, N, R>,
-    count: usize,
-    first: &dyn Fn(usize) -> bool,
-    threshold: T,
-    chosen: &mut [usize; R],
-) -> usize {
-    let chosen = &mut chosen[..count.min(R)];
-    choose(vectors.as_mut_slice(), N, first, threshold, chosen)
-}
-
-/// The same among columns of length `n`, as many as there is room for.
-fn choose<T: Real>(
+/// than `threshold` from the span. `x` is used up.
+pub(crate) fn independent_columns<T: Real>(
     x: &mut [T],
     n: usize,
     first: &dyn Fn(usize) -> bool,

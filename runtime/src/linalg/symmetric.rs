@@ -11,32 +11,17 @@ use crate::Real;
 /// Sweeps after which rotations stop. Convergence is quadratic.
 const MAX_SWEEPS: usize = 40;
 
-/// The eigenvalues of the first `count` rows and columns, and the eigenvectors as
-/// columns of `vectors`.
-pub(crate) fn eigen<T: Real, const N: usize>(
-    mut matrix: [[T; N]; N],
-    count: usize,
-) -> ([T; N], [[T; N]; N]) {
-    let mut vectors = [[T::zero(); N]; N];
-    for (i, vector) in vectors.iter_mut().enumerate() {
-        vector[i] = T::one();
+/// Turns the axes of a matrix of `n` rows until the entries between them vanish: leaves the
+/// eigenvalues on its diagonal, and the eigenvectors as columns of `vectors`.
+pub(crate) fn diagonalise<T: Real>(matrix: &mut [T], vectors: &mut [T], n: usize) {
+    vectors.fill(T::zero());
+    for entry in vectors.iter_mut().step_by(n + 1) {
+        *entry = T::one();
     }
-    let (entries, columns) = (matrix.as_flattened_mut(), vectors.as_flattened_mut());
-    diagonalise(entries, columns, N, count);
-    let mut values = [T::zero(); N];
-    for (i, value) in values.iter_mut().enumerate() {
-        *value = matrix[i][i];
-    }
-    (values, vectors)
-}
-
-/// Turns the first `count` axes until the entries between them vanish, in a matrix of `n`
-/// rows.
-fn diagonalise<T: Real>(matrix: &mut [T], vectors: &mut [T], n: usize, count: usize) {
     for _ in 0..MAX_SWEEPS {
         let mut turned = false;
-        for i in 0..count {
-            for j in i + 1..count {
+        for i in 0..n {
+            for j in i + 1..n {
                 turned |= eliminate(matrix, vectors, n, (i, j));
             }
         }

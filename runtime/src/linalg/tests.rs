@@ -182,7 +182,9 @@ fn independent_rows_span_what_all_span() {
     let half: SMatrix<f64, 5, 3> = random.matrix();
     let mix: SMatrix<f64, 3, 6> = random.matrix();
     let mut chosen = [0; 6];
-    let found = independent_rows(&mut (half * mix), 6, &|row| row == 4, 1e-9, &mut chosen);
+    let mut columns = half * mix;
+    let first = |column| column == 4;
+    let found = independent_columns(columns.as_mut_slice(), 5, &first, 1e-9, &mut chosen);
     assert_eq!(found, 3);
     assert_eq!(chosen[0], 4, "the row that was to come first did not");
     let mut distinct = chosen[..3].to_vec();

@@ -35,6 +35,12 @@ impl<'a, T: Real> Workspace<'a, T> {
         }
     }
 
+    /// The same with a third piece, for what is in neither.
+    pub(crate) fn and(self, third: &'a mut [T]) -> Self {
+        self.numbers[2].set(third);
+        self
+    }
+
     /// So many zeros.
     pub(crate) fn numbers(&self, count: usize) -> &'a mut [T] {
         let taken = self.numbers.iter().find_map(|piece| cut(piece, count));
@@ -53,6 +59,14 @@ impl<'a, T: Real> Workspace<'a, T> {
         taken
     }
 
+    /// Takes all that is free.
+    pub(crate) fn all(&self) -> Free<'a, T> {
+        Free {
+            numbers: self.numbers.each_ref().map(Cell::take),
+            indices: self.indices.take(),
+        }
+    }
+
     /// Does something with what is free, all of which is free again afterwards.
     pub(crate) fn scope<V>(&self, work: impl FnOnce(&Workspace<'_, T>) -> V) -> V {
         let mut numbers = self.numbers.each_ref().map(Cell::take);
@@ -64,6 +78,19 @@ impl<'a, T: Real> Workspace<'a, T> {
         }
         self.indices.set(indices);
         done
+    }
+}
+
+/// All that was free of some memory: a workspace for those who hold borrows of their own.
+pub(crate) struct Free<'a, T> {
+    numbers: [&'a mut [T]; PIECES],
+    indices: &'a mut [usize],
+}
+
+impl<T: Real> Free<'_, T> {
+    pub(crate) fn workspace(&mut self) -> Workspace<'_, T> {
+        let lent = self.numbers.each_mut().map(|piece| &mut **piece);
+        Workspace::of(lent, self.indices)
     }
 }
 

@@ -12,14 +12,14 @@
 use crate::dynamics::{Metric, Rows, Which};
 use crate::equations::At;
 use crate::linalg::{
-    Cholesky, add_scaled, by_first_row, column, dot, multiply_upper, multiply_upper_transposed,
-    norm, pair, solve_upper_transposed,
+    Cholesky, add_scaled, by_first_row, dot, multiply_upper, multiply_upper_transposed, norm, pair,
+    solve_upper_transposed,
 };
 use crate::{Real, State};
 use nalgebra::{SMatrix, SVector};
 
 /// A chart of the sheet on which the motion lives.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Chart<T, const N: usize, const R: usize> {
     /// `D`: orthonormal in the metric, in the first `freedoms` columns.
     tangent: SMatrix<T, N, N>,
@@ -88,6 +88,8 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             &mut column_places,
             &mut [0; N],
         );
+        let mut column_scale = [T::zero(); N];
+        scale_columns(factor, &mut column_scale);
         Some(Self {
             tangent,
             dual,
@@ -98,9 +100,9 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             rows: list,
             places,
             column_places,
-            factor: metric.factor.clone(),
-            row_scale: column(|row| rows.scale(row)),
-            column_scale: column(|j| T::one() / metric.factor.diagonal(j).sqrt()),
+            factor: metric.factor,
+            row_scale: *rows.scales().0,
+            column_scale,
             reach,
             sizes: *sizes,
             spacing: T::zero(),
@@ -136,6 +138,19 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             accepted: self.accepted,
             gap: self.gap,
         }
+    }
+}
+
+/// What columns are multiplied by to have size one in the diagonal of a metric `U Uᵀ`.
+fn scale_columns<T: Real>(factor: &[T], scales: &mut [T]) {
+    let n = scales.len();
+    for (j, column) in factor.chunks_exact(n).enumerate() {
+        for (square, entry) in scales.iter_mut().zip(&column[..=j]) {
+            *square += *entry * *entry;
+        }
+    }
+    for scale in scales {
+        *scale = T::one() / scale.sqrt();
     }
 }
 

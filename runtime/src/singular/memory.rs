@@ -1,17 +1,18 @@
-//! The memory in which sheets are evaluated.
+//! The memory in which sheets are evaluated, and ranks are decided.
 //!
-//! Out: a [`Workspace`] for a mechanism with `N` coordinates.
+//! Out: a [`Workspace`] for a mechanism with `N` coordinates and `R` constraint equations.
 //!
 //! That of small mechanisms is part of their solver. Large ones, with the standard library,
-//! take theirs from the heap, once: when they first come near a singular configuration,
-//! which many never do.
+//! take theirs from the heap, once, when it is first needed: pages that are never touched
+//! cost nothing.
 
 use crate::Real;
 use crate::linalg::Workspace;
 
 /// Square matrices of all coordinates that there is room for. A sheet takes two for its
 /// frame, and others as the block of near-dependent rows is large: fourteen to interpolate,
-/// and one for each look into a step, of which there may be forty.
+/// and one for each look into a step, of which there may be forty. The start of a motion takes
+/// seven besides those that interpolate.
 const MATRICES: usize = 64;
 /// Vectors of all coordinates that there is room for, of which an interpolation takes 250:
 /// with the standard library the matrices of small mechanisms among them.
@@ -21,33 +22,42 @@ const VECTORS: usize = 288
     } else {
         0
     };
+/// Square matrices of all rows that there is room for where there are more rows than
+/// coordinates, or many of both. A rank decision looks at two sets of combined rows, each a
+/// matrix of all rows and one of rows and coordinates, which is the smaller one then.
+const COMBINED: usize = 3;
 /// Lists of indices.
 const LISTS: usize = 16;
-/// Coordinates up to which a mechanism is small.
+/// Coordinates up to which a mechanism is small, and redundant rows.
 const SMALL: usize = 8;
 
 /// The matrices of large mechanisms.
 #[cfg(feature = "std")]
-type Matrices<T, const N: usize> = Vec<T>;
+type Matrices<T, const L: usize, const COUNT: usize> = Vec<T>;
 #[cfg(not(feature = "std"))]
-type Matrices<T, const N: usize> = [[[T; N]; N]; MATRICES];
+type Matrices<T, const L: usize, const COUNT: usize> = [[[T; L]; L]; COUNT];
 
-/// Memory for a mechanism with `N` coordinates.
+/// Memory for a mechanism with `N` coordinates and `R` constraint equations.
 #[derive(Clone, Debug)]
-pub(crate) struct Memory<T, const N: usize> {
+pub(crate) struct Memory<T, const N: usize, const R: usize> {
     vectors: [[T; N]; VECTORS],
-    matrices: Matrices<T, N>,
+    matrices: Matrices<T, N, MATRICES>,
+    combined: Matrices<T, R, COMBINED>,
     indices: [[usize; N]; LISTS],
 }
 
-impl<T: Real, const N: usize> Memory<T, N> {
+impl<T: Real, const N: usize, const R: usize> Memory<T, N, R> {
     pub(crate) fn new() -> Self {
         Self {
             vectors: [[T::zero(); N]; VECTORS],
             #[cfg(feature = "std")]
             matrices: Vec::new(),
+            #[cfg(feature = "std")]
+            combined: Vec::new(),
             #[cfg(not(feature = "std"))]
             matrices: [[[T::zero(); N]; N]; MATRICES],
+            #[cfg(not(feature = "std"))]
+            combined: [[[T::zero(); R]; R]; COMBINED],
             indices: [[0; N]; LISTS],
         }
     }
@@ -55,15 +65,75 @@ impl<T: Real, const N: usize> Memory<T, N> {
     /// All of it.
     pub(crate) fn workspace(&mut self) -> Workspace<'_, T> {
         #[cfg(feature = "std")]
-        if N > SMALL && self.matrices.is_empty() {
+        if (N > SMALL || R > N + SMALL) && self.matrices.is_empty() {
             // Of zeros, which the system gives without a page being touched.
             self.matrices = vec![T::zero(); MATRICES * N * N];
+            self.combined = vec![T::zero(); COMBINED * R * R];
         }
         #[cfg(feature = "std")]
-        let matrices = &mut self.matrices;
+        let (matrices, combined) = (&mut self.matrices, &mut self.combined);
         #[cfg(not(feature = "std"))]
-        let matrices = self.matrices.as_flattened_mut().as_flattened_mut();
+        let (matrices, combined) = (
+            self.matrices.as_flattened_mut().as_flattened_mut(),
+            self.combined.as_flattened_mut().as_flattened_mut(),
+        );
         let vectors = self.vectors.as_flattened_mut();
-        Workspace::new(vectors, matrices, self.indices.as_flattened_mut())
+        Workspace::new(vectors, matrices, self.indices.as_flattened_mut()).and(combined)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether there is room for what is taken at the same time: so many times each of some
+    /// counts of numbers.
+    fn check<const N: usize, const R: usize>() {
+        let mut memory = Memory::<f64, N, R>::new();
+        let combined = [(1, N * R), (1, R * R), (1, R)];
+        let decision = [combined, combined, [(1, N * N + N), (6, N), (6, R)]];
+        let start = [
+            combined,
+            [(7, N * N), (8, N), (1, R)],
+            [(16, N * N), (250, N), (0, 0)],
+        ];
+        let sizes = [
+            [(3, 8 * R), (1, N * R), (2, N * N)],
+            [(9, R), (9, N), (0, 0)],
+        ];
+        for taken in [
+            decision.as_flattened(),
+            start.as_flattened(),
+            sizes.as_flattened(),
+        ] {
+            let workspace = memory.workspace();
+            for (times, count) in taken {
+                for _ in 0..*times {
+                    assert_eq!(workspace.numbers(*count).len(), *count, "{N}, {R}");
+                }
+            }
+        }
+        let is_small = N <= SMALL && R <= N + SMALL;
+        #[cfg(feature = "std")]
+        assert_eq!(memory.matrices.is_empty(), is_small);
+        #[cfg(not(feature = "std"))]
+        let _ = is_small;
+    }
+
+    #[test]
+    fn there_is_room_for_any_number_of_redundant_rows() {
+        check::<1, 1>();
+        check::<1, 9>();
+        check::<1, 10>();
+        check::<1, 40>();
+        check::<2, 31>();
+        check::<3, 4>();
+        check::<4, 9>();
+        check::<8, 16>();
+        check::<8, 17>();
+        check::<5, 60>();
+        check::<9, 1>();
+        check::<12, 30>();
+        check::<20, 20>();
     }
 }

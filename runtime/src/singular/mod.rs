@@ -12,10 +12,12 @@
 //! Not here: forces and masses ([`crate::dynamics`]), and how far a step goes
 //! ([`crate::integrator`]).
 
+mod between;
 mod chart;
 mod direction;
 mod evaluate;
 mod kept;
+mod meant;
 mod memory;
 mod nodes;
 mod obstacle;
@@ -28,6 +30,7 @@ mod sheet;
 mod start;
 
 pub(crate) use chart::Chart;
+pub(crate) use kept::Nodes;
 pub(crate) use memory::Memory;
 pub(crate) use obstacle::Obstacle;
 pub(crate) use passage::Found;
@@ -35,5 +38,5 @@ pub use passage::Passage;
 pub(crate) use place::Placement;
 pub(crate) use routines::Routines;
 pub(crate) use session::{Placed, Session};
-pub(crate) use sheet::{Point, Sheet};
+pub(crate) use sheet::Point;
 pub(crate) use start::Start;

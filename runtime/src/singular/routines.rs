@@ -1,14 +1,16 @@
-//! What works on a [`Sheet`] of a mechanism of any size.
+//! What is compiled once for each scalar: what works on a [`Sheet`], and what finds one.
 //!
 //! Out: [`Routines`], which are part of the table of a scalar.
 
+use super::meant::{singular_tangent, span_free};
 use super::obstacle::Obstacle;
-use super::passage::{Found, Reference};
+use super::passage::Found;
 use super::place::Placement;
 use super::sheet::{PointView, Sheet};
-use crate::Real;
+use crate::dynamics::Constrained;
 use crate::equations::At;
 use crate::linalg::Workspace;
+use crate::{DynamicsError, Real};
 
 type Place<T> = fn(
     &mut Sheet<'_, T>,
@@ -20,10 +22,16 @@ type MeasureHere<T> =
     fn(&mut Sheet<'_, T>, At<'_, T>, &mut PointView<'_, T>) -> Result<(), Obstacle>;
 type Passages<T> =
     fn(&mut Sheet<'_, T>, At<'_, T>, T, &dyn Fn(T, &mut [T]), &Workspace<'_, T>) -> Found<T>;
-type Refer<T> =
-    for<'b> fn(&mut Sheet<'_, T>, At<'_, T>, &Workspace<'b, T>) -> Option<Reference<'b, T>>;
-type SignChanges<T> =
-    fn(&mut Sheet<'_, T>, &Reference<'_, T>, At<'_, T>, &Workspace<'_, T>) -> Option<usize>;
+type Crossed<T> =
+    fn(&mut Sheet<'_, T>, (At<'_, T>, At<'_, T>), bool, &Workspace<'_, T>) -> (Option<usize>, T);
+type Stays<T> = fn(&mut Sheet<'_, T>, (At<'_, T>, At<'_, T>), &Workspace<'_, T>) -> bool;
+type SpanFree<T> = fn(&[T], &mut [T], usize, &dyn Fn(&mut [T]), &Workspace<'_, T>);
+type Tangent<T> = fn(
+    &mut dyn Constrained<T>,
+    At<'_, T>,
+    &mut [T],
+    &Workspace<'_, T>,
+) -> Result<bool, DynamicsError<T>>;
 
 /// The routines of a scalar.
 #[derive(Debug)]
@@ -31,8 +39,10 @@ pub(crate) struct Routines<T> {
     place: Place<T>,
     measure_here: MeasureHere<T>,
     passages: Passages<T>,
-    reference: Refer<T>,
-    sign_changes: SignChanges<T>,
+    crossed: Crossed<T>,
+    stays: Stays<T>,
+    pub(super) span_free: SpanFree<T>,
+    pub(super) tangent: Tangent<T>,
 }
 
 impl<T: Real> Routines<T> {
@@ -43,8 +53,14 @@ impl<T: Real> Routines<T> {
             passages: |sheet, start, length, at, workspace| {
                 sheet.passages(start, length, at, workspace)
             },
-            reference: |sheet, start, workspace| sheet.reference(start, workspace),
-            sign_changes: |sheet, from, to, workspace| sheet.sign_changes(from, to, workspace),
+            crossed: |sheet, ends, seeks, workspace| sheet.crossed(ends, seeks, workspace),
+            stays: |sheet, ends, workspace| sheet.stays(ends, workspace),
+            span_free: |factor, free, n, remove, workspace| {
+                span_free(factor, free, n, remove, workspace);
+            },
+            tangent: |solver, state, tangent, workspace| {
+                singular_tangent(solver, state, tangent, workspace)
+            },
         }
     }
 }
@@ -81,23 +97,23 @@ impl<T: Real> Sheet<'_, T> {
         (T::routines().sheet.passages)(self, start, length, at, workspace)
     }
 
-    /// What states of a step that begins here are compared with; `None` where the
-    /// constraints can't be eliminated.
-    pub(crate) fn refer_to<'b>(
-        &mut self,
-        start: At<'_, T>,
-        workspace: &Workspace<'b, T>,
-    ) -> Option<Reference<'b, T>> {
-        (T::routines().sheet.reference)(self, start, workspace)
-    }
-
-    /// How many sheets are crossed on the way to a state; `None` where that can't be told.
+    /// How many sheets are crossed between two states, `None` where that can't be told, and
+    /// after which part of the way if that is sought.
     pub(crate) fn count_crossed(
         &mut self,
-        from: &Reference<'_, T>,
-        to: At<'_, T>,
+        ends: (At<'_, T>, At<'_, T>),
+        seeks: bool,
         workspace: &Workspace<'_, T>,
-    ) -> Option<usize> {
-        (T::routines().sheet.sign_changes)(self, from, to, workspace)
+    ) -> (Option<usize>, T) {
+        (T::routines().sheet.crossed)(self, ends, seeks, workspace)
+    }
+
+    /// Whether no sheet is seen to be crossed between two states.
+    pub(crate) fn stays_between(
+        &mut self,
+        ends: (At<'_, T>, At<'_, T>),
+        workspace: &Workspace<'_, T>,
+    ) -> bool {
+        (T::routines().sheet.stays)(self, ends, workspace)
     }
 }

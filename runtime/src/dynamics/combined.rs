@@ -1,0 +1,231 @@
+//! Constraint rows in the metric, combined until they are orthogonal.
+//!
+//! In:  a Jacobian, and what is known of the metric and the rows.
+//! Out: [`Combined`]: singular values, and the directions that the combinations decide;
+//!      the second derivatives of the one that loses its gradient.
+//!
+//! Not here: what follows for the rank ([`super::rank`]).
+
+use super::Core;
+use super::lent::{Constrained, Known};
+use super::rows::Which;
+use super::solver::Source;
+use crate::equations::At;
+use crate::linalg::{
+    Breakdown, Workspace, add_scaled, count_above, dot, norm, remove, scale, solve_upper,
+};
+use crate::tolerance::{difference, regular};
+use crate::{DynamicsError, Real};
+
+/// Rows in the metric, combined until they are orthogonal.
+#[derive(Debug)]
+pub(crate) struct Combined<'a, T> {
+    /// The directions that the combinations decide, of length one, largest first.
+    directions: &'a mut [T],
+    /// The combinations, as columns.
+    left: &'a mut [T],
+    /// Singular values.
+    pub(crate) values: &'a mut [T],
+    /// How many coordinates there are.
+    n: usize,
+}
+
+impl<'a, T: Real> Combined<'a, T> {
+    /// Combines the rows of a Jacobian.
+    pub(crate) fn new(
+        jacobian: &[T],
+        known: Known<'_, T>,
+        which: Which,
+        workspace: &Workspace<'a, T>,
+    ) -> Result<Self, Breakdown> {
+        let r = known.r();
+        let n = jacobian.len() / r;
+        let directions = workspace.numbers(n * r);
+        let left = workspace.numbers(r * r);
+        let values = workspace.numbers(r);
+        lift_rows(jacobian, known, which, directions);
+        for entry in left.iter_mut().step_by(r + 1) {
+            *entry = T::one();
+        }
+        (known.orthogonalise)(directions, left)?;
+        for (value, column) in values.iter_mut().zip(directions.chunks_exact_mut(n)) {
+            *value = norm(column);
+            if *value > T::zero() {
+                scale(column, T::one() / *value);
+            }
+        }
+        Ok(Self {
+            directions,
+            left,
+            values,
+            n,
+        })
+    }
+
+    /// Combines the rows of the Jacobian where the constraints were evaluated last.
+    pub(crate) fn here(
+        solver: &mut dyn Constrained<T>,
+        which: Which,
+        t: T,
+        workspace: &Workspace<'a, T>,
+    ) -> Result<Self, DynamicsError<T>> {
+        solver.learn().counters.rank_decisions += 1;
+        let (jacobian, known) = (solver.constraints().jacobian, solver.known());
+        let combined = Self::new(jacobian, known, which, workspace);
+        combined.map_err(|Breakdown| DynamicsError::NotFinite { t })
+    }
+
+    /// How many singular values are above a bound.
+    pub(crate) fn above(&self, least: T) -> usize {
+        count_above(self.values, least)
+    }
+
+    /// The directions of the largest singular values, one after the other.
+    pub(crate) fn decided(&self, count: usize) -> &[T] {
+        &self.directions[..count * self.n]
+    }
+
+    /// A combination of rows.
+    pub(crate) fn left(&self, k: usize) -> &[T] {
+        let r = self.values.len();
+        &self.left[k * r..(k + 1) * r]
+    }
+
+    /// Adds to `w` what some of the combinations demand for this right-hand side: where their
+    /// directions have a part in `w`, the rest.
+    pub(crate) fn decide(&self, count: usize, least: T, right: &[T], w: &mut [T]) {
+        let directions = self.directions.chunks_exact(self.n);
+        for (k, (value, direction)) in self.values.iter().zip(directions).enumerate().take(count) {
+            if *value > least {
+                let wanted = dot(self.left(k), right) / *value;
+                let share = wanted - dot(direction, w);
+                add_scaled(w, share, direction);
+            }
+        }
+    }
+
+    /// The part of a vector that the combinations leave free.
+    pub(crate) fn remove_from(&self, w: &mut [T]) {
+        remove(w, self.decided(self.above(regular())));
+    }
+
+    /// How the rows share a lifted force, and for which of them nothing tells.
+    pub(crate) fn share(&self, lifted: &[T], shares: &mut [T], unknown: &mut [bool]) {
+        let directions = self.directions.chunks_exact(self.n);
+        for (k, (value, direction)) in self.values.iter().zip(directions).enumerate() {
+            if *value > regular() {
+                add_scaled(shares, dot(direction, lifted) / *value, self.left(k));
+                continue;
+            }
+            for (unknown, part) in unknown.iter_mut().zip(self.left(k)) {
+                *unknown |= part.abs() > regular();
+            }
+        }
+    }
+}
+
+/// The rows of a Jacobian in the metric, scaled to size one.
+pub(super) fn lift_rows<T: Real>(
+    jacobian: &[T],
+    known: Known<'_, T>,
+    which: Which,
+    rows: &mut [T],
+) {
+    let r = known.r();
+    for (row, vector) in rows.chunks_exact_mut(jacobian.len() / r).enumerate() {
+        if known.takes_part(row, which) {
+            lift(jacobian, known, row, vector);
+            scale(vector, known.scale[row]);
+        }
+    }
+}
+
+/// `U⁻¹aᵀ` for one row `a` of a Jacobian.
+pub(super) fn lift<T: Real>(jacobian: &[T], known: Known<'_, T>, row: usize, lifted: &mut [T]) {
+    for (entry, levers) in lifted.iter_mut().zip(jacobian.chunks_exact(known.r())) {
+        *entry = levers[row];
+    }
+    solve_upper(known.factor, lifted);
+}
+
+/// The second derivatives, along some directions, of the combination of rows that loses its
+/// gradient; leaves the constraints evaluated at the state.
+pub(crate) fn second_derivatives<T: Real>(
+    solver: &mut dyn Constrained<T>,
+    state: At<'_, T>,
+    combination: &[T],
+    kernel: &[T],
+    second: &mut [T],
+    workspace: &Workspace<'_, T>,
+) {
+    let n = state.q.len();
+    let count = kernel.len() / n;
+    let distance = difference::<T>() * solver.known().reach;
+    workspace.scope(|workspace| {
+        let lowered = workspace.numbers(kernel.len());
+        lowered.copy_from_slice(kernel);
+        for column in lowered.chunks_exact_mut(n) {
+            solver.known().lower(column);
+        }
+        let (moved, gradient) = (workspace.numbers(n), workspace.numbers(n));
+        for (i, second) in second.chunks_exact_mut(count).enumerate() {
+            for sign in [T::one(), -T::one()] {
+                moved.copy_from_slice(state.q);
+                add_scaled(moved, sign * distance, &lowered[i * n..][..n]);
+                solver.locate(state.t, moved);
+                let (jacobian, scale) = (solver.constraints().jacobian, solver.known().scale);
+                for (entry, levers) in gradient.iter_mut().zip(jacobian.chunks_exact(scale.len())) {
+                    *entry = T::zero();
+                    for (lever, (part, scale)) in levers.iter().zip(combination.iter().zip(scale)) {
+                        *entry += *part * *scale * sign * *lever;
+                    }
+                }
+                for (entry, column) in second.iter_mut().zip(lowered.chunks_exact(n)) {
+                    *entry += dot(gradient, column) / (distance + distance);
+                }
+            }
+        }
+    });
+    solver.locate(state.t, state.q);
+    make_symmetric(second, count);
+}
+
+/// Takes the mean of a matrix of `n` rows and its transpose.
+fn make_symmetric<T: Real>(matrix: &mut [T], n: usize) {
+    for i in 0..n {
+        for j in 0..i {
+            let mean = (matrix[i * n + j] + matrix[j * n + i]) * T::from_f64(0.5);
+            (matrix[i * n + j], matrix[j * n + i]) = (mean, mean);
+        }
+    }
+}
+
+impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
+    /// Combines the rows of a Jacobian in the metric at hand, and does something with them.
+    #[inline(never)]
+    pub(crate) fn combine(
+        &mut self,
+        source: Source,
+        t: T,
+        work: &mut dyn FnMut(&Combined<'_, T>),
+    ) -> Result<(), DynamicsError<T>> {
+        self.counters.rank_decisions += 1;
+        let (known, jacobian, workspace) = self.known(source);
+        let combined = (T::routines().rows.combine)(jacobian, known, &workspace);
+        combined
+            .map(|combined| work(&combined))
+            .map_err(|Breakdown| DynamicsError::NotFinite { t })
+    }
+
+    /// How many singular values are above a bound.
+    pub(crate) fn rank_above(
+        &mut self,
+        source: Source,
+        t: T,
+        least: T,
+    ) -> Result<usize, DynamicsError<T>> {
+        let mut rank = 0;
+        self.combine(source, t, &mut |combined| rank = combined.above(least))?;
+        Ok(rank)
+    }
+}

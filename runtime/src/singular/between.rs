@@ -1,0 +1,71 @@
+//! How many sheets are crossed between two states.
+//!
+//! In:  the ends of a step, a [`Sheet`].
+//! Out: whether the step stays on its sheet, or else where it leaves it.
+//!
+//! Not here: when exactly sheets cross ([`super::passage`]).
+
+use super::sheet::Sheet;
+use crate::Real;
+use crate::equations::At;
+use crate::linalg::Workspace;
+
+/// Looks into a step without a chart that came nearer to a singular configuration: it may
+/// have crossed two.
+const LOOKS: usize = 4;
+/// Halvings of a step in the search for a singular configuration.
+const BISECTIONS: usize = 20;
+
+impl<T: Real> Sheet<'_, T> {
+    /// How many sheets are crossed on the way from one state to another, `None` where that
+    /// can't be told; and after which part of the way, if that is sought, where it is not
+    /// clear that none is.
+    pub(super) fn crossed(
+        &mut self,
+        (start, end): (At<'_, T>, At<'_, T>),
+        seeks: bool,
+        workspace: &Workspace<'_, T>,
+    ) -> (Option<usize>, T) {
+        workspace.scope(|workspace| {
+            let reference = self.reference(start, workspace);
+            let mut changes_at = |there: At<'_, T>| {
+                let reference = reference.as_ref()?;
+                self.sign_changes(reference, there, workspace)
+            };
+            let changes = changes_at(end);
+            let (mut before, mut after) = (T::zero(), T::one());
+            if !seeks || changes == Some(0) {
+                return (changes, after);
+            }
+            let q = workspace.numbers(start.q.len());
+            for _ in 0..BISECTIONS {
+                let middle = (before + after) * T::from_f64(0.5);
+                let t = start.towards(end, middle, q);
+                match changes_at(At { t, q, v: end.v }) {
+                    Some(0) => before = middle,
+                    _ => after = middle,
+                }
+            }
+            (changes, after)
+        })
+    }
+
+    /// Whether no sheet is seen to be crossed on the way from one state to another.
+    pub(super) fn stays(
+        &mut self,
+        (start, end): (At<'_, T>, At<'_, T>),
+        workspace: &Workspace<'_, T>,
+    ) -> bool {
+        workspace.scope(|workspace| {
+            let q = workspace.numbers(start.q.len());
+            let Some(reference) = self.reference(start, workspace) else {
+                return false;
+            };
+            (1..=LOOKS).all(|k| {
+                let t = start.towards(end, T::from_f64(k as f64 / LOOKS as f64), q);
+                let there = At { t, q, v: end.v };
+                self.sign_changes(&reference, there, workspace) == Some(0)
+            })
+        })
+    }
+}
