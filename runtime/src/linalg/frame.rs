@@ -20,6 +20,9 @@ use super::{add_scaled, dot, is_zero, pair};
 use crate::Real;
 use core::ops::Range;
 
+/// Rows from which on it pays to look for zeros.
+const LONG: usize = 16;
+
 /// The factors of a square system.
 #[derive(Debug)]
 pub(crate) struct Frame<'a, T> {
@@ -124,8 +127,22 @@ impl<'a, T: Real> Frame<'a, T> {
         }
     }
 
-    /// Begins anew, with rows of zeros.
+    /// A row of a short frame, to be given all of its entries, by columns in their places.
+    pub(crate) fn short_row(&mut self, row: usize) -> &mut [T] {
+        &mut self.upper[row * self.n..(row + 1) * self.n]
+    }
+
+    /// Whether it pays to look for zeros.
+    pub(crate) fn is_long(&self) -> bool {
+        self.n >= LONG
+    }
+
+    /// Begins anew: a long frame with rows of zeros.
     pub(crate) fn clear(&mut self) {
+        if !self.is_long() {
+            self.changed.fill(0);
+            return;
+        }
         for row in 0..self.n {
             let (span, first) = (self.span(row), self.changed[row]);
             let entries = row * self.n..(row + 1) * self.n;
@@ -207,10 +224,29 @@ impl<'a, T: Real> Frame<'a, T> {
 
     /// Subtracts from a row what makes its entries in some pivot columns vanish.
     fn reduce(&mut self, row: usize, steps: Range<usize>) {
+        if !self.is_long() {
+            return self.reduce_short(row, steps);
+        }
         let mut next = steps.start;
         while let Some(step) = self.next_shared(row, next..steps.end) {
             self.eliminate(row, step);
             next = step + 1;
+        }
+    }
+
+    /// The same in a short frame.
+    fn reduce_short(&mut self, row: usize, steps: Range<usize>) {
+        let n = self.n;
+        let order = self.order.rows[steps.clone()].iter();
+        let columns = &self.order.columns[steps.clone()];
+        let lower = &mut self.lower[row * n..(row + 1) * n][steps];
+        for ((above, column), lower) in order.zip(columns).zip(lower) {
+            let [target, pivot] = pair(self.upper, n, row, *above);
+            *lower = target[*column] / pivot[*column];
+            if *lower != T::zero() {
+                add_scaled(target, -*lower, pivot);
+                target[*column] = T::zero();
+            }
         }
     }
 
@@ -256,6 +292,9 @@ impl<'a, T: Real> Frame<'a, T> {
     /// The largest entry of a row that is reduced, and its size; columns of pivots hold
     /// zeros.
     fn largest(&self, row: usize) -> (usize, T) {
+        if !self.is_long() {
+            return largest_of(&self.upper[row * self.n..(row + 1) * self.n]);
+        }
         let span = self.span(row);
         if span.is_empty() {
             return (0, T::zero());
@@ -484,8 +523,10 @@ impl<'a, T: Real> Frame<'a, T> {
         for step in (0..steps).rev() {
             let (row, column) = (self.order.rows[step], self.order.columns[step]);
             let upper = &self.upper[row * self.n..][..self.n];
-            let span = self.span(row);
-            let known = dot(&upper[span.clone()], &self.backward[span]);
+            let known = match self.is_long() {
+                true => dot(&upper[self.span(row)], &self.backward[self.span(row)]),
+                false => dot(upper, self.backward),
+            };
             self.backward[column] = (self.forward[step] - known) / upper[column];
         }
         for (x, place) in x.iter_mut().zip(self.places) {

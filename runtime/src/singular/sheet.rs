@@ -215,6 +215,35 @@ impl<'a, T: Real> Sheet<'a, T> {
     fn load(&mut self, t: T, q: &[T]) {
         self.equations.locate(t, q);
         self.frame.clear();
+        match self.frame.is_long() {
+            true => self.load_sparse(),
+            false => self.load_all(),
+        }
+    }
+
+    /// Takes all entries of the constraint rows and the duals.
+    fn load_all(&mut self) {
+        let chart = &self.chart;
+        let jacobian = self.equations.constraints().jacobian;
+        let columns = chart.column_places.iter().zip(chart.column_scale);
+        for (place, &row) in chart.rows.iter().enumerate() {
+            let scale = chart.row_scale[row];
+            let entries = jacobian[row..].iter().step_by(chart.row_scale.len());
+            let target = self.frame.short_row(place);
+            for (entry, (column, size)) in entries.zip(columns.clone()) {
+                target[*column] = scale * *entry * *size;
+            }
+        }
+        for (i, dual) in chart.dual.chunks_exact(chart.n()).enumerate() {
+            let target = self.frame.short_row(chart.rows.len() + i);
+            for (entry, (column, size)) in dual.iter().zip(columns.clone()) {
+                target[*column] = *entry * *size;
+            }
+        }
+    }
+
+    /// Takes those that are not zero.
+    fn load_sparse(&mut self) {
         let chart = &self.chart;
         let jacobian = self.equations.constraints().jacobian;
         let columns = jacobian.chunks_exact(chart.row_scale.len());
