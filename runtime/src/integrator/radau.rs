@@ -56,6 +56,8 @@ pub(crate) struct Radau<T, const N: usize> {
     before: StageVectors<T, N>,
     /// Error estimate of the trial step.
     estimate: (SVector<T, N>, SVector<T, N>),
+    /// What an attempt needs room for.
+    room: [[T; N]; VECTORS],
 }
 
 /// A system, and how many accelerations were computed.
@@ -104,6 +106,7 @@ impl<T: Real, const N: usize> Radau<T, N> {
             a: [[T::zero(); N]; MOST_STAGES],
             before: [[T::zero(); N]; MOST_STAGES],
             estimate: (SVector::zeros(), SVector::zeros()),
+            room: [[T::zero(); N]; VECTORS],
         }
     }
 
@@ -131,8 +134,7 @@ impl<T: Real, const N: usize> Radau<T, N> {
                 self.estimate.1.as_mut_slice(),
             ),
         };
-        let mut vectors = [[T::zero(); N]; VECTORS];
-        let workspace = Workspace::new(vectors.as_flattened_mut(), &mut [], &mut []);
+        let workspace = Workspace::new(self.room.as_flattened_mut(), &mut [], &mut []);
         (T::compiled().attempt)(&mut newton, flow, start.at(), (end, again), &workspace)?;
         Ok(last)
     }
