@@ -16,7 +16,6 @@ pub(super) struct FactorRoom<T, const N: usize> {
     real: [[T; N]; N],
     complex: [[[Complex<T>; N]; N]; MOST_PAIRS],
     orders: [[usize; N]; MOST_PAIRS + 1],
-    across: [[Complex<T>; N]; 2],
 }
 
 /// `W` for the real and the complex eigenvalues at a step length, over slices.
@@ -38,16 +37,16 @@ impl<T: Real, const N: usize> FactorRoom<T, N> {
             real: [[T::zero(); N]; N],
             complex: [[[zero; N]; N]; MOST_PAIRS],
             orders: [[0; N]; MOST_PAIRS + 1],
-            across: [[zero; N]; 2],
         }
     }
 
-    pub(super) fn factors(&mut self) -> Factors<'_, T> {
+    /// The same over slices, with room for two vectors.
+    pub(super) fn factors<'a>(&'a mut self, across: &'a mut [Complex<T>]) -> Factors<'a, T> {
         Factors {
             real: self.real.as_flattened_mut(),
             complex: self.complex.as_flattened_mut().as_flattened_mut(),
             orders: self.orders.as_flattened_mut(),
-            across: self.across.as_flattened_mut(),
+            across,
         }
     }
 }

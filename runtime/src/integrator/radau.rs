@@ -25,7 +25,7 @@ use super::step_control::{Inside, Trial};
 use crate::equations::{At, sized};
 use crate::linalg::Workspace;
 use crate::{DynamicsError, Real, State, System};
-use nalgebra::SVector;
+use nalgebra::{Complex, SVector};
 
 /// Newton's iteration ends when what is left is this part of the tolerance.
 const NEWTON_PART: f64 = 0.01;
@@ -56,8 +56,6 @@ pub(crate) struct Radau<T, const N: usize> {
     before: StageVectors<T, N>,
     /// Error estimate of the trial step.
     estimate: (SVector<T, N>, SVector<T, N>),
-    /// What an attempt needs room for.
-    room: [[T; N]; VECTORS],
 }
 
 /// A system, and how many accelerations were computed.
@@ -106,7 +104,6 @@ impl<T: Real, const N: usize> Radau<T, N> {
             a: [[T::zero(); N]; MOST_STAGES],
             before: [[T::zero(); N]; MOST_STAGES],
             estimate: (SVector::zeros(), SVector::zeros()),
-            room: [[T::zero(); N]; VECTORS],
         }
     }
 
@@ -120,11 +117,12 @@ impl<T: Real, const N: usize> Radau<T, N> {
     ) -> Result<State<T, N>, IntegrateError<T>> {
         let mut last = State { t: end, ..*start };
         let [by_q, by_v] = &mut self.derivatives;
+        let mut across = [[Complex::new(T::zero(), T::zero()); N]; 2];
         let mut newton = Newton {
             course: &mut self.course,
             scale: self.tolerance.scale(),
             derivatives: (by_q.as_flattened_mut(), by_v.as_flattened_mut()),
-            factors: self.factors.factors(),
+            factors: self.factors.factors(across.as_flattened_mut()),
             first: self.first.as_slice(),
             a: self.a.as_flattened_mut(),
             before: self.before.as_flattened(),
@@ -134,7 +132,8 @@ impl<T: Real, const N: usize> Radau<T, N> {
                 self.estimate.1.as_mut_slice(),
             ),
         };
-        let workspace = Workspace::new(self.room.as_flattened_mut(), &mut [], &mut []);
+        let mut vectors = [[T::zero(); N]; VECTORS];
+        let workspace = Workspace::new(vectors.as_flattened_mut(), &mut [], &mut []);
         (T::compiled().attempt)(&mut newton, flow, start.at(), (end, again), &workspace)?;
         Ok(last)
     }
