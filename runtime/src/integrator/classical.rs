@@ -78,28 +78,26 @@ impl<T: Real, const N: usize> Rk4<T, N> {
         Ok(switches)
     }
 
-    /// Makes the step again until it ends where the equations first change.
+    /// Where the step is to be made again to, because the equations change before; none where
+    /// it stands.
     #[cold]
+    #[inline(never)]
     fn switch<Y: System<T, N> + ?Sized>(
         &mut self,
         system: &mut Y,
-        state: &State<T, N>,
-    ) -> Result<(), IntegrateError<T>> {
-        let mut bound = self.step.end.t;
-        loop {
-            match system.switch(&self.step)? {
-                Switching::Nowhere => return Ok(()),
-                Switching::AtEnd => {
-                    self.forget();
-                    return Ok(());
-                }
-                Switching::Within(t) => bound = t,
-                Switching::AtStart => {}
+    ) -> Result<Option<T>, DynamicsError<T>> {
+        let again = match system.switch(&self.step)? {
+            Switching::Nowhere => return Ok(None),
+            Switching::AtEnd => {
+                self.forget();
+                return Ok(None);
             }
-            self.step.rejected += 1;
-            self.step.evaluations += STAGES + 1;
-            self.go(system, state, None, bound)?;
-        }
+            Switching::Within(t) => t,
+            Switching::AtStart => self.step.end.t,
+        };
+        self.step.rejected += 1;
+        self.step.evaluations += STAGES + 1;
+        Ok(Some(again))
     }
 
     /// The polynomials between the ends, if anyone wants them.
@@ -146,12 +144,15 @@ impl<T: Real, const N: usize> Rk4<T, N> {
         bound: T,
     ) -> Result<(), IntegrateError<T>> {
         check_bound(state.t, bound)?;
-        let known = self.last.take().filter(|_| self.step.end == *state);
+        let mut known = self.last.take().filter(|_| self.step.end == *state);
         self.step.evaluations = STAGES + u32::from(known.is_none());
         self.step.rejected = 0;
-        let switches = self.go(system, state, known, bound)?;
-        if switches {
-            self.switch(system, state)?;
+        let mut bound = bound;
+        while self.go(system, state, known, bound)? {
+            match self.switch(system)? {
+                Some(again) => (bound, known) = (again, None),
+                None => break,
+            }
         }
         system.commit(&self.step)?;
         Ok(())

@@ -138,6 +138,29 @@ pub(super) fn cardinal<T: Real>(nodes: &[T], j: usize, x: T) -> T {
     product
 }
 
+/// The vectors of all stages, which are one after the other.
+#[inline(always)]
+pub(super) fn by_stage<T>(vectors: &[T], n: usize) -> [&[T]; MOST_STAGES] {
+    // Written out, so that the compiler knows that all are of one length.
+    let of = |stage: usize| &vectors[stage * n..][..n];
+    [of(0), of(1), of(2), of(3), of(4)]
+}
+
+/// One component of the vectors' weighted sum, with what is there before; what is not in use
+/// has no weight.
+#[inline(always)]
+pub(super) fn weigh<T: Real>(
+    weights: &[T; MOST_STAGES],
+    vectors: &[&[T]; MOST_STAGES],
+    k: usize,
+    before: T,
+) -> T {
+    let pairs = weights.iter().zip(vectors);
+    pairs.fold(before, |sum, (weight, vector)| {
+        weight.mul_add(vector[k], sum)
+    })
+}
+
 /// The weight of a node in the quadrature of the method (Radau's, of degree 2s − 2).
 fn weight<T: Real>(c: T, s: usize) -> T {
     let n = T::from_f64(s as f64);

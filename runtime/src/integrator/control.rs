@@ -134,6 +134,7 @@ impl<T: Real> Scale<'_, T> {
     #[inline(always)]
     pub(crate) fn norm(&self, error: (&[T], &[T]), start: (&[T], &[T]), end: (&[T], &[T])) -> T {
         let n = self.q.len();
+        let [error, start, end] = [error, start, end].map(|(q, v)| (&q[..n], &v[..n]));
         let mut sum = T::zero();
         for i in 0..n {
             let q = self.q[i] + self.relative * start.0[i].abs().max(end.0[i].abs());

@@ -3,10 +3,10 @@
 //! In:  derivatives of the acceleration, the step length.
 //! Out: changes of the stages' accelerations.
 
-use super::collocation::{Collocation, MOST_PAIRS};
+use super::collocation::{Collocation, MOST_PAIRS, by_stage, weigh};
 use super::lu::{Entry, factorise, solve};
 use crate::Real;
-use crate::linalg::{Workspace, add_scaled};
+use crate::linalg::Workspace;
 use core::ops::Mul;
 use nalgebra::Complex;
 
@@ -16,7 +16,6 @@ pub(super) struct FactorRoom<T, const N: usize> {
     real: [[T; N]; N],
     complex: [[[Complex<T>; N]; N]; MOST_PAIRS],
     orders: [[usize; N]; MOST_PAIRS + 1],
-    across: [[Complex<T>; N]; 2],
 }
 
 /// `W` for the real and the complex eigenvalues at a step length, over slices.
@@ -38,16 +37,16 @@ impl<T: Real, const N: usize> FactorRoom<T, N> {
             real: [[T::zero(); N]; N],
             complex: [[[zero; N]; N]; MOST_PAIRS],
             orders: [[0; N]; MOST_PAIRS + 1],
-            across: [[zero; N]; 2],
         }
     }
 
-    pub(super) fn factors(&mut self) -> Factors<'_, T> {
+    /// The same over slices, with room for two vectors.
+    pub(super) fn factors<'a>(&'a mut self, across: &'a mut [Complex<T>]) -> Factors<'a, T> {
         Factors {
             real: self.real.as_flattened_mut(),
             complex: self.complex.as_flattened_mut().as_flattened_mut(),
             orders: self.orders.as_flattened_mut(),
-            across: self.across.as_flattened_mut(),
+            across,
         }
     }
 }
@@ -101,27 +100,28 @@ impl<T: Real> Factors<'_, T> {
         let n = along.len();
         let Collocation { real, complex, .. } = coefficients;
         let stages = coefficients.stages;
-        along.fill(T::zero());
-        for (i, left) in real.left[..stages].iter().enumerate() {
-            add_scaled(along, *left, &rest[i * n..][..n]);
+        let rest = by_stage(rest, n);
+        for (k, along) in along.iter_mut().enumerate() {
+            *along = weigh(&real.left, &rest, k, T::zero());
         }
         self.solve_real(along, solved);
-        change.fill(T::zero());
         for (i, right) in real.right[..stages].iter().enumerate() {
-            add_scaled(&mut change[i * n..][..n], *right, solved);
+            for (change, solved) in change[i * n..][..n].iter_mut().zip(&*solved) {
+                *change = *right * *solved;
+            }
         }
         // The other eigenvector of a pair is the conjugate.
         let two = T::from_f64(2.0);
         let (across, solved) = self.across.split_at_mut(n);
-        for (k, eigen) in complex[..coefficients.pairs].iter().enumerate() {
-            across.fill(Complex::new(T::zero(), T::zero()));
-            for (i, left) in eigen.left[..stages].iter().enumerate() {
-                for (across, rest) in across.iter_mut().zip(&rest[i * n..][..n]) {
-                    *across += *left * *rest;
+        for (pair, eigen) in complex[..coefficients.pairs].iter().enumerate() {
+            for (k, across) in across.iter_mut().enumerate() {
+                *across = Complex::new(T::zero(), T::zero());
+                for (left, rest) in eigen.left.iter().zip(&rest) {
+                    *across += *left * rest[k];
                 }
             }
-            let factors = &self.complex[k * n * n..][..n * n];
-            let order = &self.orders[(k + 1) * n..][..n];
+            let factors = &self.complex[pair * n * n..][..n * n];
+            let order = &self.orders[(pair + 1) * n..][..n];
             solve::<T, _>(factors, order, across, solved);
             for (i, right) in eigen.right[..stages].iter().enumerate() {
                 for (change, solved) in change[i * n..][..n].iter_mut().zip(&*solved) {
@@ -141,10 +141,10 @@ fn set_matrix<T: Real, F: Entry<T> + Mul<T, Output = F>>(
     (zero, one): (F, F),
 ) {
     let square = factor * factor;
-    for (place, entry) in out.iter_mut().enumerate() {
-        let (i, j) = (place / n, place % n);
-        let unit = if i == j { one } else { zero };
-        let (by_q, by_v) = (by_q[j * n + i], by_v[j * n + i]);
-        *entry = unit - factor * by_v - square * by_q;
+    for (i, row) in out.chunks_exact_mut(n.max(1)).enumerate() {
+        for (j, entry) in row.iter_mut().enumerate() {
+            let unit = if i == j { one } else { zero };
+            *entry = unit - factor * by_v[j * n + i] - square * by_q[j * n + i];
+        }
     }
 }

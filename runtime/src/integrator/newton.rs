@@ -11,13 +11,13 @@
 //! section IV.8.
 
 use super::IntegrateError;
-use super::collocation::{Collocation, MOST_STAGES, cardinal};
+use super::collocation::{Collocation, MOST_STAGES, by_stage, cardinal, weigh};
 use super::control::Scale;
 use super::factors::Factors;
 use super::jacobian::{Flow, differentiate};
 use crate::Real;
 use crate::equations::At;
-use crate::linalg::{Workspace, add_scaled};
+use crate::linalg::{Workspace, add_scaled, scaled};
 
 /// Vectors of all coordinates that an attempt at a step takes room for.
 pub(super) const VECTORS: usize = 6 * MOST_STAGES + 5;
@@ -116,20 +116,16 @@ impl<T: Real> Collocation<T> {
     /// Writes the states of the stages of a step of length `h` with these accelerations.
     pub(super) fn set_states(&self, start: At<'_, T>, a: &[T], h: T, (q, v): (&mut [T], &mut [T])) {
         let n = start.q.len();
+        let (start_q, start_v) = (&start.q[..n], &start.v[..n]);
+        let a = by_stage(a, n);
         for i in 0..self.stages {
+            let (node, row) = (self.nodes[i], &self.matrix[i]);
+            let square = scaled(h, &self.square[i]);
             let (q, v) = (&mut q[i * n..][..n], &mut v[i * n..][..n]);
-            q.fill(T::zero());
-            v.fill(T::zero());
-            add_scaled(q, self.nodes[i], start.v);
-            for j in 0..self.stages {
-                let a = &a[j * n..][..n];
-                add_scaled(q, h * self.square[i][j], a);
-                add_scaled(v, self.matrix[i][j], a);
-            }
-            for (entries, start) in [(q, start.q), (v, start.v)] {
-                for (entry, start) in entries.iter_mut().zip(start) {
-                    *entry = h.mul_add(*entry, *start);
-                }
+            for k in 0..n {
+                let moved = weigh(&square, &a, k, node * start_v[k]);
+                q[k] = h.mul_add(moved, start_q[k]);
+                v[k] = h.mul_add(weigh(row, &a, k, T::zero()), start_v[k]);
             }
         }
     }
@@ -281,16 +277,20 @@ impl<T: Real> Newton<'_, T> {
             ..
         } = &*self.course;
         let nodes = &coefficients.nodes[..coefficients.stages];
+        let before = by_stage(self.before, n);
         for (i, node) in nodes.iter().enumerate() {
             let guess = &mut self.a[i * n..][..n];
             if *length <= T::zero() {
                 guess.copy_from_slice(self.first);
                 continue;
             }
-            guess.fill(T::zero());
             let x = T::one() + *node * h / *length;
-            for j in 0..nodes.len() {
-                add_scaled(guess, cardinal(nodes, j, x), &self.before[j * n..][..n]);
+            let mut weights = [T::zero(); MOST_STAGES];
+            for (j, weight) in weights.iter_mut().enumerate().take(nodes.len()) {
+                *weight = cardinal(nodes, j, x);
+            }
+            for (k, guess) in guess.iter_mut().enumerate() {
+                *guess = weigh(&weights, &before, k, T::zero());
             }
         }
     }
@@ -326,11 +326,12 @@ impl<T: Real> Newton<'_, T> {
         }
         let pair = (&mut *pair.0, &mut *pair.1);
         self.factors.solve((rest, change), pair, coefficients);
-        add_scaled(self.a, T::one(), change);
+        let used = ..coefficients.stages * n;
+        add_scaled(&mut self.a[used], T::one(), change);
         after.set(coefficients, start, self.a, h);
         // The changes, in place of the states before.
-        add_scaled(before.q, -T::one(), after.q);
-        add_scaled(before.v, -T::one(), after.v);
+        add_scaled(&mut before.q[used], -T::one(), after.q);
+        add_scaled(&mut before.v[used], -T::one(), after.v);
         let mut sum = T::zero();
         for i in 0..coefficients.stages {
             let stage = i * n..(i + 1) * n;
@@ -356,13 +357,11 @@ impl<T: Real> Newton<'_, T> {
         let coefficients = &self.course.coefficients;
         let factor = coefficients.real.value * h;
         let (dq, dv) = (&mut *self.estimate.0, &mut *self.estimate.1);
-        dq.fill(T::zero());
-        dv.fill(T::zero());
-        add_scaled(dq, factor, v);
-        add_scaled(dv, factor, a);
-        for (i, share) in coefficients.start[..coefficients.stages].iter().enumerate() {
-            add_scaled(dq, -(*share * factor), &velocities[i * n..][..n]);
-            add_scaled(dv, -(*share * factor), &self.a[i * n..][..n]);
+        let shares = scaled(-factor, &coefficients.start);
+        let (velocities, others) = (by_stage(velocities, n), by_stage(self.a, n));
+        for k in 0..n {
+            dq[k] = weigh(&shares, &velocities, k, factor * v[k]);
+            dv[k] = weigh(&shares, &others, k, factor * a[k]);
         }
         // Filtered, so that it stays small where stiff parts have died out.
         right.fill(T::zero());

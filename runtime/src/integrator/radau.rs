@@ -25,7 +25,7 @@ use super::step_control::{Inside, Trial};
 use crate::equations::{At, sized};
 use crate::linalg::Workspace;
 use crate::{DynamicsError, Real, State, System};
-use nalgebra::SVector;
+use nalgebra::{Complex, SVector};
 
 /// Newton's iteration ends when what is left is this part of the tolerance.
 const NEWTON_PART: f64 = 0.01;
@@ -117,11 +117,12 @@ impl<T: Real, const N: usize> Radau<T, N> {
     ) -> Result<State<T, N>, IntegrateError<T>> {
         let mut last = State { t: end, ..*start };
         let [by_q, by_v] = &mut self.derivatives;
+        let mut across = [[Complex::new(T::zero(), T::zero()); N]; 2];
         let mut newton = Newton {
             course: &mut self.course,
             scale: self.tolerance.scale(),
             derivatives: (by_q.as_flattened_mut(), by_v.as_flattened_mut()),
-            factors: self.factors.factors(),
+            factors: self.factors.factors(across.as_flattened_mut()),
             first: self.first.as_slice(),
             a: self.a.as_flattened_mut(),
             before: self.before.as_flattened(),

@@ -30,8 +30,8 @@ use watch::Watchers;
 use crate::dynamics::Core;
 use crate::stack::with_room;
 use crate::{
-    ConstrainedSystem, IntegrateError, Integrator, Interface, Mechanism, Observer, Real, State,
-    Tolerance,
+    ConstrainedSystem, DynamicsError, IntegrateError, Integrator, Interface, Mechanism, Observer,
+    Real, State, Tolerance,
 };
 use core::ops::ControlFlow;
 
@@ -115,20 +115,11 @@ where
         let begun = origin.map_or(state.t, |origin| origin.t);
         let grid = Grid::new(begun, until, step_control)?;
         let first = grid.first_after(state.t);
-        self.system
-            .start(&mut state, tolerance.as_ref().map(Tolerance::relative))
-            .map_err(IntegrateError::Dynamics)?;
-        self.done.end = state;
-        self.probe.follow(self.system.system());
-        if self.options.keep_energy {
-            if !self.mechanism.structure().conservative {
-                return Err(SimulateError::NotConservative);
-            }
-            let energy = origin.map(|origin| origin.energy);
-            self.system
-                .keep(&state, energy)
-                .map_err(IntegrateError::Dynamics)?;
+        if self.options.keep_energy && !self.mechanism.structure().conservative {
+            return Err(SimulateError::NotConservative);
         }
+        self.begin(&mut state, tolerance.as_ref().map(Tolerance::relative))
+            .map_err(IntegrateError::Dynamics)?;
         let events = |state: &_, values: &mut _| self.mechanism.events(state, values);
         let flow = self.watchers.begin(&events, &state, &mut self.probe)?;
         if let Some(origin) = &origin {
@@ -149,6 +140,22 @@ where
                     return Ok(());
                 }
             }
+        }
+        Ok(())
+    }
+
+    /// Puts the start onto the constraints.
+    fn begin(
+        &mut self,
+        state: &mut State<T, N>,
+        tolerance: Option<T>,
+    ) -> Result<(), DynamicsError<T>> {
+        self.system.start(state, tolerance)?;
+        self.done.end = *state;
+        self.probe.follow(self.system.system());
+        if self.options.keep_energy {
+            let energy = self.options.origin.map(|origin| origin.energy);
+            self.system.keep(state, energy)?;
         }
         Ok(())
     }
