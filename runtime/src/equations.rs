@@ -6,6 +6,7 @@
 //! What is not called in every evaluation works on these, so that it is compiled once,
 //! whatever the sizes of mechanisms are.
 
+use crate::linalg::add_product;
 use crate::{Mechanism, Position, Real, State, Structure, Terms};
 use nalgebra::SVector;
 
@@ -123,5 +124,23 @@ impl<T: Real, const N: usize, const R: usize> Equations<T> for Bound<'_, T, N, R
     fn evaluate(&mut self, state: At<'_, T>) {
         let state = sized(state.t, state.q, state.v);
         self.mechanism.terms(&state, self.terms);
+    }
+}
+
+impl<T: Real, const N: usize, const R: usize> Position<T, N, R> {
+    /// `A q̇ + b`.
+    pub(crate) fn speed(&self, v: &SVector<T, N>) -> SVector<T, R> {
+        let mut speed = self.drift;
+        let jacobian = self.jacobian.as_slice();
+        add_product(speed.as_mut_slice(), T::one(), jacobian, v.as_slice());
+        speed
+    }
+}
+
+impl<T: Real, const N: usize, const R: usize> Terms<T, N, R> {
+    /// Subtracts `M q̈` from a force.
+    pub(crate) fn take_inertia(&self, force: &mut SVector<T, N>, acceleration: &SVector<T, N>) {
+        let (mass, acceleration) = (self.mass.as_slice(), acceleration.as_slice());
+        add_product(force.as_mut_slice(), -T::one(), mass, acceleration);
     }
 }

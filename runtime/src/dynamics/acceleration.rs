@@ -99,7 +99,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             return self.terms.bias;
         };
         mechanism.position(state, &mut self.position);
-        let velocity = self.position.jacobian * state.v + self.position.drift;
+        let velocity = self.position.speed(&state.v);
         self.terms.bias - velocity * (alpha + alpha) - self.position.residual * (beta * beta)
     }
 

@@ -36,10 +36,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let eliminated = Elimination::new(&jacobian, &right, &self.units());
         let particular = particular(&eliminated);
         let (null_space, free) = null_space(&eliminated);
-        let force = self.terms.force - self.terms.mass * particular;
+        let mut force = self.terms.force;
+        self.terms.take_inertia(&mut force, &particular);
+        let (mass, along) = (self.terms.mass.as_slice(), force.as_mut_slice());
+        let null_space = &null_space.as_slice()[..N * free];
         let t = state.t;
-        project_onto(&self.terms.mass, &null_space, free, &force)
-            .map(|change| particular + change)
+        project_onto(mass, null_space, along, &self.memory.workspace())
+            .map(|()| particular + force)
             .map_err(|column| DynamicsError::MassSingular {
                 t,
                 coordinate: independent(&eliminated, column),

@@ -12,7 +12,7 @@ use super::lent::{Constrained, known};
 use super::square::is_square;
 use super::{Core, Source, Which};
 use crate::equations::At;
-use crate::linalg::{Products, Workspace, add_scaled, multiply_upper_transposed, norm};
+use crate::linalg::{Products, Workspace, add_scaled, length, norm};
 use crate::tolerance::{difference, negligible, regular};
 use crate::{DynamicsError, Mechanism, Real, Singularity, State};
 use nalgebra::{SMatrix, SVector};
@@ -249,8 +249,7 @@ fn neighbours<'a, T: Real>(
         count += 1;
     };
     let axis = workspace.numbers(n);
-    multiply_upper_transposed(known.factor, state.v, axis);
-    let speed = norm(axis);
+    let speed = length(known.factor, state.v);
     if speed > T::zero() {
         add(speed, state.v);
     }

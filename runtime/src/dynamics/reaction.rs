@@ -30,10 +30,8 @@ where
     ) -> Result<(SVector<T, N>, SVector<T, N>), DynamicsError<T>> {
         let acceleration = self.acceleration(state)?;
         with_room::<T, _, N, R>(|| self.mechanism.terms(state, &mut self.solver.terms));
-        let terms = &self.solver.terms;
-        // `M` is not copied, as `*` does.
-        let mut reaction = terms.force;
-        reaction.gemv(-T::one(), &terms.mass, &acceleration, T::one());
+        let mut reaction = self.solver.terms.force;
+        self.solver.terms.take_inertia(&mut reaction, &acceleration);
         Ok((acceleration, reaction))
     }
 
@@ -124,7 +122,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism.terms(state, &mut self.terms);
         self.terms.sides = sides;
         let mut reaction = force + self.terms.force;
-        reaction.gemv(-T::one(), &self.terms.mass, acceleration, T::one());
+        self.terms.take_inertia(&mut reaction, acceleration);
         reaction
     }
 

@@ -73,6 +73,14 @@ pub(crate) fn add_scaled<T: Real>(target: &mut [T], factor: T, column: &[T]) {
     }
 }
 
+/// `target += factor · matrix · x`, for a matrix of any size, column by column.
+pub(crate) fn add_product<T: Real>(target: &mut [T], factor: T, matrix: &[T], x: &[T]) {
+    // A matrix without rows has no columns, either.
+    for (column, x) in matrix.chunks_exact(target.len().max(1)).zip(x) {
+        add_scaled(target, factor * *x, column);
+    }
+}
+
 /// Two of some columns of one length, to be changed.
 pub(crate) fn pair<T>(columns: &mut [T], length: usize, i: usize, j: usize) -> [&mut [T]; 2] {
     let (low, high) = (i.min(j), i.max(j));
