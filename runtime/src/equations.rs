@@ -86,17 +86,16 @@ pub(crate) struct Bound<'a, T, const N: usize, const R: usize> {
 
 /// A state of fixed size. What has another length is cut off, or filled with zeros.
 pub(crate) fn sized<T: Real, const N: usize>(t: T, q: &[T], v: &[T]) -> State<T, N> {
-    let mut state = State {
+    let mut state: State<T, N> = State {
         t,
         ..State::default()
     };
-    for (target, source) in [(&mut state.q, q), (&mut state.v, v)] {
-        copy(target, source);
-    }
+    copy(state.q.as_mut_slice(), q);
+    copy(state.v.as_mut_slice(), v);
     state
 }
 
-fn copy<T: Real, const N: usize>(target: &mut SVector<T, N>, source: &[T]) {
+fn copy<T: Real>(target: &mut [T], source: &[T]) {
     for (target, source) in target.iter_mut().zip(source) {
         *target = *source;
     }

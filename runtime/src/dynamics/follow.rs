@@ -7,7 +7,7 @@
 //! come near one is taken again with a chart.
 
 use super::{Core, Source};
-use crate::linalg::project_onto;
+use crate::linalg::{is_finite, project_onto};
 use crate::singular::{Found, Obstacle, Placed, Placement, Point, Start};
 use crate::state::all_finite;
 use crate::tolerance::{regular, resolvable, round_off, window};
@@ -253,7 +253,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         match projected {
             Ok(()) if all_finite(&force) => Ok(point.particular + force),
             // The metric is definite, and so is the mass along what is a tangent space.
-            Err(_) if self.terms.mass.iter().all(|entry| entry.is_finite()) => {
+            Err(_) if is_finite(self.terms.mass.as_slice()) => {
                 Err(self.refusal(mechanism, Obstacle::NotContracting, t))
             }
             _ => Err(DynamicsError::NotFinite { t }),

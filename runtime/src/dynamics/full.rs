@@ -10,8 +10,9 @@
 //! mass matrix, so that the result does not depend on units.
 
 use super::Core;
-use crate::linalg::{Triangle, column};
-use crate::singular::Point;
+use super::partitioning::units;
+use crate::linalg::{Triangle, Workspace, add_scaled};
+use crate::singular::{Obstacle, Point};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
 
@@ -33,81 +34,88 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         self.counters.robust_accelerations += 1;
         mechanism.terms(&point.state, &mut self.terms);
-        let unit = self.units();
-        let mut triangle = Triangle::default();
-        self.insert_motion(&mut triangle, &unit);
-        self.insert_decided(&mut triangle, &unit, &point);
-        self.insert_ideality(&mut triangle, &unit, &point);
-        let (scaled, _reaction) = triangle.solve();
-        Ok(self.stabilised(scaled.component_mul(&unit), state, &point))
-    }
-
-    /// What one unit of each scaled acceleration is worth: `1/√mⱼⱼ`, or one for a
-    /// coordinate without inertia.
-    pub(super) fn units(&self) -> SVector<T, N> {
-        let unit = |j: usize| {
-            let mass = self.terms.mass[(j, j)];
-            if mass > T::zero() {
-                T::one() / mass.sqrt()
-            } else {
-                T::one()
-            }
-        };
-        SVector::from(column(unit))
-    }
-
-    /// `M q̈ + r = p₁`.
-    #[inline(never)]
-    fn insert_motion(&self, triangle: &mut Triangle<T, N>, unit: &SVector<T, N>) {
-        for i in 0..N {
-            let row = column(|j| unit[i] * self.terms.mass[(i, j)] * unit[j]);
-            let mut identity = [T::zero(); N];
-            identity[i] = T::one();
-            triangle.insert(row, identity, unit[i] * self.terms.force[i]);
-        }
-    }
-
-    /// What the constraints decide: `q̈ − aₚ` lies in the tangent space. The projection
-    /// `1 − D̃D*` onto the complement has as many rows as there are coordinates.
-    #[inline(never)]
-    fn insert_decided(
-        &self,
-        triangle: &mut Triangle<T, N>,
-        unit: &SVector<T, N>,
-        point: &Point<T, N>,
-    ) {
         let Some(chart) = &self.session.chart else {
-            return;
+            return Err(self.refusal(mechanism, Obstacle::Undetermined, state.t));
         };
-        for i in 0..N {
-            let mut row = [T::zero(); N];
-            row[i] = T::one();
-            for k in 0..chart.freedoms {
-                let share = point.tangent[(i, k)];
-                for (entry, dual) in row.iter_mut().zip(&chart.dual.data.0[k]) {
-                    *entry -= share * *dual;
-                }
-            }
-            let mut value = T::zero();
-            for (j, entry) in row.iter_mut().enumerate() {
-                *entry *= unit[j] / unit[i];
-                value += *entry / unit[j] * point.particular[j];
-            }
-            triangle.insert(row, [T::zero(); N], value);
-        }
+        let sheet = Tangent {
+            tangent: &point.tangent.as_slice()[..N * chart.freedoms],
+            dual: &chart.dual.as_slice()[..N * chart.freedoms],
+            particular: point.particular.as_slice(),
+        };
+        let mut acceleration = self.terms.force;
+        let (mass, force) = (self.terms.mass.as_slice(), acceleration.as_mut_slice());
+        solve(mass, &sheet, force, &self.memory.workspace());
+        Ok(self.stabilised(acceleration, state, &point))
     }
+}
 
-    /// `D̃ᵀr = 0`: ideal constraints do no work in the free directions.
-    #[inline(never)]
-    fn insert_ideality(
-        &self,
-        triangle: &mut Triangle<T, N>,
-        unit: &SVector<T, N>,
-        point: &Point<T, N>,
-    ) {
-        for k in 0..self.freedoms() {
-            let row = column(|j| point.tangent[(j, k)] / unit[j]);
-            triangle.insert([T::zero(); N], row, T::zero());
+/// What the constraints decide at a point of a sheet.
+struct Tangent<'a, T> {
+    tangent: &'a [T],
+    dual: &'a [T],
+    particular: &'a [T],
+}
+
+/// Replaces a force by the acceleration.
+fn solve<T: Real>(
+    mass: &[T],
+    sheet: &Tangent<'_, T>,
+    force: &mut [T],
+    workspace: &Workspace<'_, T>,
+) {
+    let n = force.len();
+    let unit = workspace.numbers(n);
+    units(mass, unit);
+    let mut triangle = Triangle::zeros(n, workspace);
+    insert_motion(&mut triangle, mass, unit, force);
+    insert_decided(&mut triangle, unit, sheet, workspace.numbers(n));
+    // `D̃ᵀr = 0`: ideal constraints do no work in the free directions.
+    for tangent in sheet.tangent.chunks_exact(n) {
+        for ((_, b), (entry, unit)) in triangle.row().zip(tangent.iter().zip(&*unit)) {
+            *b = *entry / *unit;
         }
+        triangle.insert(T::zero());
+    }
+    let (scaled, _reaction) = triangle.solve();
+    for (entry, (scaled, unit)) in force.iter_mut().zip(scaled.iter().zip(unit)) {
+        *entry = *scaled * *unit;
+    }
+}
+
+/// `M q̈ + r = p₁`.
+fn insert_motion<T: Real>(triangle: &mut Triangle<'_, T>, mass: &[T], unit: &[T], force: &[T]) {
+    for (i, column) in mass.chunks_exact(unit.len()).enumerate() {
+        for (j, (a, b)) in triangle.row().enumerate() {
+            *a = unit[i] * column[j] * unit[j];
+            if j == i {
+                *b = T::one();
+            }
+        }
+        triangle.insert(unit[i] * force[i]);
+    }
+}
+
+/// What the constraints decide: `q̈ − aₚ` lies in the tangent space. The projection
+/// `1 − D̃D*` onto the complement has as many rows as there are coordinates.
+fn insert_decided<T: Real>(
+    triangle: &mut Triangle<'_, T>,
+    unit: &[T],
+    sheet: &Tangent<'_, T>,
+    row: &mut [T],
+) {
+    let n = unit.len();
+    for i in 0..n {
+        row.fill(T::zero());
+        row[i] = T::one();
+        let duals = sheet.dual.chunks_exact(n);
+        for (tangent, dual) in sheet.tangent.chunks_exact(n).zip(duals) {
+            add_scaled(row, -tangent[i], dual);
+        }
+        let mut value = T::zero();
+        for (j, (a, _)) in triangle.row().enumerate() {
+            *a = row[j] * (unit[j] / unit[i]);
+            value += *a / unit[j] * sheet.particular[j];
+        }
+        triangle.insert(value);
     }
 }

@@ -9,9 +9,9 @@
 //! `A_d` is as well conditioned as the position allows.
 
 use super::Core;
-use crate::linalg::{Elimination, project_onto};
+use crate::linalg::{Elimination, Workspace, add_product, project_onto};
 use crate::{DynamicsError, Mechanism, Real, State};
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The acceleration, by elimination of the dependent coordinates.
@@ -25,67 +25,81 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let bias = self.stabilised_bias(mechanism, state);
         self.require_independent_rows(mechanism, state)?;
         self.counters.cheap_accelerations += 1;
-        let mut jacobian = self.terms.jacobian;
-        for row in 0..R {
-            jacobian
-                .row_mut(row)
-                .iter_mut()
-                .for_each(|x| *x *= self.rows.scale(row));
-        }
-        let right = SVector::from(self.scaled(&bias));
-        let eliminated = Elimination::new(&jacobian, &right, &self.units());
-        let particular = particular(&eliminated);
-        let (null_space, free) = null_space(&eliminated);
-        let mut force = self.terms.force;
-        self.terms.take_inertia(&mut force, &particular);
-        let (mass, along) = (self.terms.mass.as_slice(), force.as_mut_slice());
-        let null_space = &null_space.as_slice()[..N * free];
-        let t = state.t;
-        project_onto(mass, null_space, along, &self.memory.workspace())
-            .map(|()| particular + force)
-            .map_err(|column| DynamicsError::MassSingular {
-                t,
-                coordinate: independent(&eliminated, column),
+        let right = self.scaled(&bias);
+        let mut acceleration = self.terms.force;
+        let solved = solve(
+            self.terms.mass.as_slice(),
+            (self.terms.jacobian.as_slice(), self.rows.scales().0),
+            &right,
+            acceleration.as_mut_slice(),
+            &self.memory.workspace(),
+        );
+        match solved {
+            Ok(()) => Ok(acceleration),
+            Err(coordinate) => Err(DynamicsError::MassSingular {
+                t: state.t,
+                coordinate,
                 structure: mechanism.structure(),
-            })
-    }
-}
-
-/// `q̈ₚ`: dependent coordinates from `p₂`, independent ones zero.
-fn particular<T: Real, const N: usize, const R: usize>(
-    eliminated: &Elimination<T, N, R>,
-) -> SVector<T, N> {
-    let mut particular = SVector::zeros();
-    for k in 0..eliminated.rank {
-        particular[eliminated.dependent[k]] = eliminated.offset[k];
-    }
-    particular
-}
-
-/// The coordinate that moves in a column of `D` and in no other.
-fn independent<T: Real, const N: usize, const R: usize>(
-    eliminated: &Elimination<T, N, R>,
-    column: usize,
-) -> usize {
-    let dependent = &eliminated.dependent[..eliminated.rank];
-    let mut independent = (0..N).filter(|j| !dependent.contains(j));
-    independent.nth(column).unwrap_or(column)
-}
-
-/// The columns of `D`, and how many there are.
-#[inline(never)]
-fn null_space<T: Real, const N: usize, const R: usize>(
-    eliminated: &Elimination<T, N, R>,
-) -> (SMatrix<T, N, N>, usize) {
-    let dependent = &eliminated.dependent[..eliminated.rank];
-    let mut columns = SMatrix::zeros();
-    let mut count = 0;
-    for independent in (0..N).filter(|j| !dependent.contains(j)) {
-        columns[(independent, count)] = T::one();
-        for (k, &j) in dependent.iter().enumerate() {
-            columns[(j, count)] = -eliminated.table[(k, independent)];
+            }),
         }
-        count += 1;
     }
-    (columns, count)
+}
+
+/// Replaces a force by the acceleration; the coordinate along which the mass matrix is
+/// singular, where there is one.
+fn solve<T: Real>(
+    mass: &[T],
+    (jacobian, scale): (&[T], &[T]),
+    right: &[T],
+    force: &mut [T],
+    workspace: &Workspace<'_, T>,
+) -> Result<(), usize> {
+    let (n, r) = (force.len(), right.len());
+    let (table, offset) = (workspace.numbers(n * r), workspace.numbers(r));
+    for (entry, (lever, scale)) in table
+        .iter_mut()
+        .zip(jacobian.iter().zip(scale.iter().cycle()))
+    {
+        *entry = *lever * *scale;
+    }
+    offset.copy_from_slice(right);
+    let (unit, particular) = (workspace.numbers(n), workspace.numbers(n));
+    units(mass, unit);
+    let eliminated = Elimination::new(table, offset, unit, workspace);
+    // `q̈ₚ`: dependent coordinates from `p₂`, independent ones zero.
+    for (j, offset) in eliminated.dependent.iter().zip(&*eliminated.offset) {
+        particular[*j] = *offset;
+    }
+    let columns = workspace.numbers(n * (n - eliminated.dependent.len()));
+    for (column, independent) in columns.chunks_exact_mut(n).zip(independent(&eliminated, n)) {
+        column[independent] = T::one();
+        for (k, &j) in eliminated.dependent.iter().enumerate() {
+            column[j] = -eliminated.entry(k, independent);
+        }
+    }
+    add_product(force, -T::one(), mass, particular);
+    project_onto(mass, columns, force, workspace)
+        .map_err(|column| independent(&eliminated, n).nth(column).unwrap_or(column))?;
+    for (entry, particular) in force.iter_mut().zip(particular) {
+        *entry += *particular;
+    }
+    Ok(())
+}
+
+/// The coordinates that are not dependent, of `n`: those that move in a column of `D` and in
+/// no other.
+fn independent<T: Real>(eliminated: &Elimination<'_, T>, n: usize) -> impl Iterator<Item = usize> {
+    (0..n).filter(|j| !eliminated.dependent.contains(j))
+}
+
+/// What one unit of each scaled acceleration is worth: `1/√mⱼⱼ`, or one for a
+/// coordinate without inertia.
+pub(super) fn units<T: Real>(mass: &[T], units: &mut [T]) {
+    let diagonal = mass.iter().step_by(units.len() + 1);
+    for (unit, mass) in units.iter_mut().zip(diagonal) {
+        *unit = match *mass > T::zero() {
+            true => T::one() / mass.sqrt(),
+            false => T::one(),
+        };
+    }
 }

@@ -46,10 +46,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         if self.rows.are_independent_by_form() || self.is_safely_regular() {
-            for which in [Which::Holonomic, Which::All] {
-                let count = self.rows.count(which);
-                self.rows.view().observe_rank(count, which);
-            }
+            self.rows.view().observe_all();
             return Ok(());
         }
         let (mut solver, workspace, _) = self.lend(mechanism);

@@ -10,7 +10,7 @@
 
 use super::conditions::Conditions;
 use super::{Lifted, Metric, Rows, Which};
-use crate::linalg::{NotDefinite, length};
+use crate::linalg::{NotDefinite, is_finite, length};
 use crate::singular::{Memory, Obstacle, Session};
 use crate::{
     Correction, Counters, DynamicsError, Mechanism, Position, Real, Regular, Settings, Singularity,
@@ -200,13 +200,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     fn extend_reach(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) {
         let [mut q] = state.q.data.0;
         let factor = self.metric.factor.as_slice();
-        let moved = self.weights.iter().any(|weight| *weight > T::zero());
         let known = (&mut self.sizes[..], &mut self.weights[..]);
-        let reach = reach(mechanism.structure(), factor, &mut q, known);
-        self.reach = match moved {
-            true => self.reach.max(reach),
-            false => reach,
-        };
+        self.reach = reach(mechanism.structure(), factor, &mut q, known, self.reach);
     }
 
     /// What a run is told of an obstacle.
@@ -234,14 +229,16 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 }
 
-/// The length of coordinates `q`, which are used up, and up to which sizes it is not measured
-/// again. Functions of an angle have the round-off of an angle of one, however small it is.
+/// The largest length of coordinates so far, with `q`, which are used up, and up to which sizes
+/// it is not measured again. Functions of an angle have the round-off of an angle of one, however small it is.
 fn reach<T: Real>(
     structure: &Structure,
     factor: &[T],
     q: &mut [T],
     (sizes, weights): (&mut [T], &mut [T]),
+    before: T,
 ) -> T {
+    let moved = weights.iter().any(|weight| *weight > T::zero());
     let lengths = q.len().saturating_sub(structure.states);
     // Integrals of states are no lengths.
     q[lengths..].fill(T::zero());
@@ -258,13 +255,16 @@ fn reach<T: Real>(
             *weight = T::one() / (*known * *known);
         }
     }
-    let reach = length(factor, q);
-    if reach != T::zero() {
-        return reach;
+    let mut reach = length(factor, q);
+    if reach == T::zero() {
+        // Where all are lengths of zero, one unit stands for them until they move.
+        q.fill(T::one());
+        reach = length(factor, q);
     }
-    // Where all are lengths of zero, one unit stands for them until they move.
-    q.fill(T::one());
-    length(factor, q)
+    match moved {
+        true => before.max(reach),
+        false => reach,
+    }
 }
 
 /// Factorises a metric.
@@ -277,14 +277,13 @@ pub(super) fn factorise<T: Real, const N: usize, const R: usize>(
 ) -> Result<(), DynamicsError<T>> {
     let result = metric.factorise(mass, jacobian, rows, structure.constant_mass, counters);
     result.map_err(|NotDefinite { row }| {
-        if mass.iter().chain(jacobian.iter()).all(|x| x.is_finite()) {
-            DynamicsError::MassSingular {
+        match is_finite(mass.as_slice()) && is_finite(jacobian.as_slice()) {
+            true => DynamicsError::MassSingular {
                 t,
                 coordinate: row,
                 structure,
-            }
-        } else {
-            DynamicsError::NotFinite { t }
+            },
+            false => DynamicsError::NotFinite { t },
         }
     })
 }

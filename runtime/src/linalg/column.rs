@@ -54,6 +54,11 @@ pub(crate) fn is_zero<T: Real>(entries: &[T]) -> bool {
     !entries.iter().fold(false, differs)
 }
 
+/// Whether all entries are finite.
+pub(crate) fn is_finite<T: Real>(entries: &[T]) -> bool {
+    entries.iter().all(|entry| entry.is_finite())
+}
+
 /// How many entries are above a bound.
 #[inline(never)]
 pub(crate) fn count_above<T: Real>(entries: &[T], least: T) -> usize {

@@ -1,63 +1,71 @@
 //! Gauss–Jordan elimination with complete pivoting.
 //!
-//! In:  `A`, `R × N`, and a right-hand side, `R`.
+//! In:  `A`, `R × N`, column by column, and a right-hand side, `R`.
 //! Out: a choice of dependent coordinates, and those as functions of the others:
 //!      `x_d = c − T x_i`.
 //!
 //! Not here: whether the choice is good enough. The caller measured that before.
 
+use super::{Workspace, pair};
 use crate::Real;
-use nalgebra::{SMatrix, SVector};
 
 /// The eliminated system. Row `k` belongs to the dependent coordinate
 /// `dependent[k]`.
-#[derive(Clone, Debug)]
-pub(crate) struct Elimination<T, const N: usize, const R: usize> {
+#[derive(Debug)]
+pub(crate) struct Elimination<'a, T> {
     /// `T` in the columns of independent coordinates, unit columns elsewhere.
-    pub(crate) table: SMatrix<T, R, N>,
+    table: &'a mut [T],
     /// `c`.
-    pub(crate) offset: SVector<T, R>,
-    /// The dependent coordinate of each row.
-    pub(crate) dependent: [usize; R],
-    /// How many rows were independent.
-    pub(crate) rank: usize,
+    pub(crate) offset: &'a mut [T],
+    /// The dependent coordinate of each row, as many as rows were independent.
+    pub(crate) dependent: &'a mut [usize],
 }
 
-impl<T: Real, const N: usize, const R: usize> Elimination<T, N, R> {
-    /// Eliminates until no entry is left that differs from zero. Columns are
+impl<'a, T: Real> Elimination<'a, T> {
+    /// Eliminates in place until no entry is left that differs from zero. Columns are
     /// compared after multiplication with `weight`, so that the choice does not
     /// depend on the units of the coordinates.
     pub(crate) fn new(
-        matrix: &SMatrix<T, R, N>,
-        right: &SVector<T, R>,
-        weight: &SVector<T, N>,
+        table: &'a mut [T],
+        offset: &'a mut [T],
+        weight: &[T],
+        workspace: &Workspace<'a, T>,
     ) -> Self {
+        let dependent = workspace.indices(offset.len().min(weight.len()));
         let mut this = Self {
-            table: *matrix,
-            offset: *right,
-            dependent: [0; R],
-            rank: 0,
+            table,
+            offset,
+            dependent: &mut [],
         };
-        while this.rank < R.min(N) {
-            let Some((row, column)) = this.largest(weight) else {
+        let mut rank = 0;
+        while rank < dependent.len() {
+            let Some((row, column)) = this.largest(rank, weight) else {
                 break;
             };
-            this.table.swap_rows(this.rank, row);
-            this.offset.swap_rows(this.rank, row);
-            this.dependent[this.rank] = column;
-            this.eliminate(this.rank, column);
-            this.rank += 1;
+            for column in this.table.chunks_exact_mut(this.offset.len()) {
+                column.swap(rank, row);
+            }
+            this.offset.swap(rank, row);
+            dependent[rank] = column;
+            this.eliminate(rank, column);
+            rank += 1;
         }
+        this.dependent = &mut dependent[..rank];
         this
     }
 
-    /// Where the largest weighted entry of the remaining rows is.
-    fn largest(&self, weight: &SVector<T, N>) -> Option<(usize, usize)> {
+    /// What a dependent coordinate takes of another one.
+    pub(crate) fn entry(&self, row: usize, column: usize) -> T {
+        self.table[column * self.offset.len() + row]
+    }
+
+    /// Where the largest weighted entry of the rows from `first` on is.
+    fn largest(&self, first: usize, weight: &[T]) -> Option<(usize, usize)> {
         let mut most = T::zero();
         let mut place = None;
-        for column in 0..N {
-            for row in self.rank..R {
-                let size = self.table[(row, column)].abs() * weight[column];
+        for (column, weight) in weight.iter().enumerate() {
+            for row in first..self.offset.len() {
+                let size = self.entry(row, column).abs() * *weight;
                 if size > most {
                     most = size;
                     place = Some((row, column));
@@ -69,20 +77,33 @@ impl<T: Real, const N: usize, const R: usize> Elimination<T, N, R> {
 
     /// Makes `column` the unit vector of `row`.
     fn eliminate(&mut self, row: usize, column: usize) {
-        let inverse = T::one() / self.table[(row, column)];
-        for j in 0..N {
-            self.table[(row, j)] *= inverse;
+        let r = self.offset.len();
+        let inverse = T::one() / self.entry(row, column);
+        for j in 0..self.table.len() / r {
+            if j != column {
+                self.eliminate_from(j, row, column, inverse);
+            }
         }
         self.offset[row] *= inverse;
-        for i in (0..R).filter(|&i| i != row) {
-            let factor = self.table[(i, column)];
-            for j in 0..N {
-                let change = factor * self.table[(row, j)];
-                self.table[(i, j)] -= change;
-            }
-            let change = factor * self.offset[row];
+        for i in (0..r).filter(|&i| i != row) {
+            let change = self.entry(i, column) * self.offset[row];
             self.offset[i] -= change;
-            self.table[(i, column)] = T::zero();
+        }
+        let column = &mut self.table[column * r..][..r];
+        column.fill(T::zero());
+        column[row] = T::one();
+    }
+
+    /// What that makes of another column.
+    fn eliminate_from(&mut self, j: usize, row: usize, column: usize, inverse: T) {
+        let r = self.offset.len();
+        let [target, factors] = pair(self.table, r, j, column);
+        target[row] *= inverse;
+        let pivot = target[row];
+        for (i, (entry, factor)) in target.iter_mut().zip(factors).enumerate() {
+            if i != row {
+                *entry -= *factor * pivot;
+            }
         }
     }
 }

@@ -35,7 +35,7 @@ pub(crate) use cholesky::{
     solve_upper, solve_upper_transposed,
 };
 pub(crate) use column::{
-    add_product, add_scaled, column, count_above, dot, is_zero, norm, pair, scale,
+    add_product, add_scaled, column, count_above, dot, is_finite, is_zero, norm, pair, scale,
 };
 pub(crate) use complement::{orthonormal, remove};
 pub(crate) use elimination::Elimination;

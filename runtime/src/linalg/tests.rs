@@ -200,12 +200,17 @@ fn row_by_row_least_squares_solves_the_normal_equations() {
     let left: SMatrix<f64, 9, 3> = random.matrix();
     let right: SMatrix<f64, 9, 3> = random.matrix();
     let values: SVector<f64, 9> = random.matrix();
-    let mut triangle = Triangle::default();
+    let mut numbers = [0.0; 60];
+    let workspace = Workspace::new(&mut numbers, &mut [], &mut []);
+    let mut triangle = Triangle::zeros(3, &workspace);
     for i in 0..9 {
-        let row = |m: &SMatrix<f64, 9, 3>| core::array::from_fn(|j| m[(i, j)]);
-        triangle.insert(row(&left), row(&right), values[i]);
+        for (j, (a, b)) in triangle.row().enumerate() {
+            (*a, *b) = (left[(i, j)], right[(i, j)]);
+        }
+        triangle.insert(values[i]);
     }
     let (x, y) = triangle.solve();
+    let (x, y) = (SVector::from_column_slice(x), SVector::from_column_slice(y));
     let rest = left * x + right * y - values;
     assert!((left.transpose() * rest).amax() < 1e-13);
     assert!((right.transpose() * rest).amax() < 1e-13);
@@ -216,12 +221,15 @@ fn elimination_gives_coordinates_that_satisfy_the_rows() {
     let mut random = Matrices::seeded(SEED);
     let matrix: SMatrix<f64, 3, 5> = random.matrix();
     let right: SVector<f64, 3> = random.matrix();
-    let found = Elimination::new(&matrix, &right, &SVector::repeat(1.0));
-    assert_eq!(found.rank, 3);
+    let (mut table, mut offset, mut indices) = (matrix, right, [0; 3]);
+    let workspace = Workspace::new(&mut [], &mut [], &mut indices);
+    let (table, offset) = (table.as_mut_slice(), offset.as_mut_slice());
+    let found = Elimination::new(table, offset, &[1.0; 5], &workspace);
+    assert_eq!(found.dependent.len(), 3);
     let mut x: SVector<f64, 5> = random.matrix();
     for (k, &dependent) in found.dependent.iter().enumerate() {
         let others = (0..5).filter(|j| !found.dependent.contains(j));
-        let sum: f64 = others.map(|j| found.table[(k, j)] * x[j]).sum();
+        let sum: f64 = others.map(|j| found.entry(k, j) * x[j]).sum();
         x[dependent] = found.offset[k] - sum;
     }
     assert!((matrix * x - right).amax() < 1e-12);

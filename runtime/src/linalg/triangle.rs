@@ -5,66 +5,73 @@
 //!
 //! Every row is turned into a triangular factor by Givens rotations and then
 //! forgotten, so the number of rows needs no name and no product `BᵀB` squares
-//! the condition number. The factor is held in blocks because stable Rust cannot
-//! name a `2N × 2N` matrix.
+//! the condition number.
 
-use super::dot;
+use super::{Workspace, dot};
 use crate::Real;
-use nalgebra::{SMatrix, SVector};
 
-/// The triangular factor `[P Q; 0 S]` and the right-hand sides. Rows of the
-/// factor are columns here, so that they are contiguous.
-#[derive(Clone, Debug)]
-pub(crate) struct Triangle<T, const N: usize> {
-    p: SMatrix<T, N, N>,
-    q: SMatrix<T, N, N>,
-    s: SMatrix<T, N, N>,
-    upper: SVector<T, N>,
-    lower: SVector<T, N>,
+/// The triangular factor `[P Q; 0 S]` and the right-hand sides, row by row.
+#[derive(Debug)]
+pub(crate) struct Triangle<'a, T> {
+    p: &'a mut [T],
+    q: &'a mut [T],
+    s: &'a mut [T],
+    upper: &'a mut [T],
+    lower: &'a mut [T],
+    /// The row that comes next.
+    a: &'a mut [T],
+    b: &'a mut [T],
 }
 
-impl<T: Real, const N: usize> Default for Triangle<T, N> {
-    fn default() -> Self {
-        let (p, q, s) = (SMatrix::zeros(), SMatrix::zeros(), SMatrix::zeros());
-        let (upper, lower) = (SVector::zeros(), SVector::zeros());
+impl<'a, T: Real> Triangle<'a, T> {
+    /// One of no equation.
+    pub(crate) fn zeros(n: usize, workspace: &Workspace<'a, T>) -> Self {
         Self {
-            p,
-            q,
-            s,
-            upper,
-            lower,
+            p: workspace.numbers(n * n),
+            q: workspace.numbers(n * n),
+            s: workspace.numbers(n * n),
+            upper: workspace.numbers(n),
+            lower: workspace.numbers(n),
+            a: workspace.numbers(n),
+            b: workspace.numbers(n),
         }
     }
-}
 
-impl<T: Real, const N: usize> Triangle<T, N> {
+    /// The entries of `a` and `b` that come next, to be written: all zeros.
+    pub(crate) fn row(&mut self) -> impl Iterator<Item = (&mut T, &mut T)> {
+        self.a.fill(T::zero());
+        self.b.fill(T::zero());
+        self.a.iter_mut().zip(self.b.iter_mut())
+    }
+
     /// Adds the equation `aᵀx + bᵀy = c`.
-    pub(crate) fn insert(&mut self, mut a: [T; N], mut b: [T; N], mut c: T) {
-        for j in 0..N {
-            let row = &mut self.p.data.0[j];
-            if let Some((cos, sin)) = eliminate(row[j], a[j]) {
-                rotate(row, &mut a, cos, sin);
-                rotate(&mut self.q.data.0[j], &mut b, cos, sin);
-                rotate_pair(&mut self.upper[j], &mut c, cos, sin);
+    pub(crate) fn insert(&mut self, mut c: T) {
+        let n = self.a.len();
+        for j in 0..n {
+            let row = &mut self.p[j * n..][..n];
+            if let Some(turn) = eliminate(row[j], self.a[j]) {
+                rotate(row, self.a, turn);
+                rotate(&mut self.q[j * n..][..n], self.b, turn);
+                rotate_pair(&mut self.upper[j], &mut c, turn);
             }
         }
-        for j in 0..N {
-            let row = &mut self.s.data.0[j];
-            if let Some((cos, sin)) = eliminate(row[j], b[j]) {
-                rotate(row, &mut b, cos, sin);
-                rotate_pair(&mut self.lower[j], &mut c, cos, sin);
+        for j in 0..n {
+            let row = &mut self.s[j * n..][..n];
+            if let Some(turn) = eliminate(row[j], self.b[j]) {
+                rotate(row, self.b, turn);
+                rotate_pair(&mut self.lower[j], &mut c, turn);
             }
         }
     }
 
     /// The unknowns `x`, `y`; not finite where the rows do not determine them.
-    pub(crate) fn solve(&self) -> (SVector<T, N>, SVector<T, N>) {
-        let y = back_substitute(&self.s.data.0, self.lower);
-        let mut upper = self.upper;
-        for j in 0..N {
-            upper[j] -= dot(&self.q.data.0[j], &y.data.0[0]);
+    pub(crate) fn solve(self) -> (&'a [T], &'a [T]) {
+        back_substitute(self.s, self.lower, self.b);
+        for (right, row) in self.upper.iter_mut().zip(self.q.chunks_exact(self.b.len())) {
+            *right -= dot(row, self.b);
         }
-        (back_substitute(&self.p.data.0, upper), y)
+        back_substitute(self.p, self.upper, self.a);
+        (self.a, self.b)
     }
 }
 
@@ -77,26 +84,22 @@ fn eliminate<T: Real>(diagonal: T, entry: T) -> Option<(T, T)> {
     Some((diagonal / size, entry / size))
 }
 
-fn rotate<T: Real, const N: usize>(row: &mut [T; N], other: &mut [T; N], cos: T, sin: T) {
-    for i in 0..N {
-        rotate_pair(&mut row[i], &mut other[i], cos, sin);
+fn rotate<T: Real>(row: &mut [T], other: &mut [T], turn: (T, T)) {
+    for (x, y) in row.iter_mut().zip(other) {
+        rotate_pair(x, y, turn);
     }
 }
 
 #[inline(always)]
-fn rotate_pair<T: Real>(x: &mut T, y: &mut T, cos: T, sin: T) {
+fn rotate_pair<T: Real>(x: &mut T, y: &mut T, (cos, sin): (T, T)) {
     (*x, *y) = (cos * *x + sin * *y, cos * *y - sin * *x);
 }
 
 /// Solves with an upper triangular matrix given by rows.
-fn back_substitute<T: Real, const N: usize>(
-    rows: &[[T; N]; N],
-    mut x: SVector<T, N>,
-) -> SVector<T, N> {
-    let mut solved = SVector::zeros();
-    for j in (0..N).rev() {
-        x[j] -= dot(&rows[j], &solved.data.0[0]);
-        solved[j] = x[j] / rows[j][j];
+fn back_substitute<T: Real>(rows: &[T], right: &[T], x: &mut [T]) {
+    let n = x.len();
+    x.fill(T::zero());
+    for (j, row) in rows.chunks_exact(n).enumerate().rev() {
+        x[j] = (right[j] - dot(row, x)) / row[j];
     }
-    solved
 }
