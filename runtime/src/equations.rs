@@ -6,6 +6,7 @@
 //! What is not called in every evaluation works on these, so that it is compiled once,
 //! whatever the sizes of mechanisms are.
 
+use crate::linalg::add_product;
 use crate::{Mechanism, Position, Real, State, Structure, Terms};
 use nalgebra::SVector;
 
@@ -85,17 +86,16 @@ pub(crate) struct Bound<'a, T, const N: usize, const R: usize> {
 
 /// A state of fixed size. What has another length is cut off, or filled with zeros.
 pub(crate) fn sized<T: Real, const N: usize>(at: At<'_, T>) -> State<T, N> {
-    let mut state = State {
+    let mut state: State<T, N> = State {
         t: at.t,
         ..State::default()
     };
-    for (target, source) in [(&mut state.q, at.q), (&mut state.v, at.v)] {
-        copy(target, source);
-    }
+    copy(state.q.as_mut_slice(), at.q);
+    copy(state.v.as_mut_slice(), at.v);
     state
 }
 
-fn copy<T: Real, const N: usize>(target: &mut SVector<T, N>, source: &[T]) {
+fn copy<T: Real>(target: &mut [T], source: &[T]) {
     for (target, source) in target.iter_mut().zip(source) {
         *target = *source;
     }
@@ -123,5 +123,23 @@ impl<T: Real, const N: usize, const R: usize> Equations<T> for Bound<'_, T, N, R
 
     fn evaluate(&mut self, state: At<'_, T>) {
         self.mechanism.terms(&sized(state), self.terms);
+    }
+}
+
+impl<T: Real, const N: usize, const R: usize> Position<T, N, R> {
+    /// `A q̇ + b`.
+    pub(crate) fn speed(&self, v: &SVector<T, N>) -> SVector<T, R> {
+        let mut speed = self.drift;
+        let jacobian = self.jacobian.as_slice();
+        add_product(speed.as_mut_slice(), T::one(), jacobian, v.as_slice());
+        speed
+    }
+}
+
+impl<T: Real, const N: usize, const R: usize> Terms<T, N, R> {
+    /// Subtracts `M q̈` from a force.
+    pub(crate) fn take_inertia(&self, force: &mut SVector<T, N>, acceleration: &SVector<T, N>) {
+        let (mass, acceleration) = (self.mass.as_slice(), acceleration.as_slice());
+        add_product(force.as_mut_slice(), -T::one(), mass, acceleration);
     }
 }

@@ -118,7 +118,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// One linear solve for `A q̇ + b = 0` with the factors of the position in the
     /// buffer, which are kept.
     fn project_velocity(&mut self, state: &mut State<T, N>) {
-        let gap = -(self.position.jacobian * state.v + self.position.drift);
+        let gap = -self.position.speed(&state.v);
         let mut w = [T::zero(); N];
         self.lifted.correct(&mut w, &gap);
         state.v += self.lower(w);

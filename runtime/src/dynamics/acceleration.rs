@@ -99,7 +99,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             return self.terms.bias;
         };
         mechanism.position(state, &mut self.position);
-        let velocity = self.position.jacobian * state.v + self.position.drift;
+        let velocity = self.position.speed(&state.v);
         self.terms.bias - velocity * (alpha + alpha) - self.position.residual * (beta * beta)
     }
 
@@ -124,7 +124,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The right-hand sides of rows scaled to size one.
     pub(crate) fn scaled(&self, right: &SVector<T, R>) -> [T; R] {
         let mut scaled = *self.rows.scales().0;
-        for (scale, right) in scaled.iter_mut().zip(right) {
+        for (scale, right) in scaled.iter_mut().zip(right.as_slice()) {
             *scale *= *right;
         }
         scaled

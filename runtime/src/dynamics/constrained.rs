@@ -243,9 +243,7 @@ where
         }
         let position = &mut self.solver.position;
         with_room::<T, _, N, R>(|| self.mechanism.position(state, position));
-        // `A` is not copied, as `*` does.
-        let mut velocity = position.drift;
-        velocity.gemv(T::one(), &position.jacobian, &state.v, T::one());
+        let velocity = position.speed(&state.v);
         for row in 0..R {
             error.position = error.position.max(position.residual[row].abs());
             error.velocity = error.velocity.max(velocity[row].abs());

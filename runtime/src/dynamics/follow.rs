@@ -7,7 +7,7 @@
 //! come near one is taken again with a chart.
 
 use super::{Core, Source};
-use crate::linalg::project_onto;
+use crate::linalg::{is_finite, project_onto};
 use crate::singular::{Found, Obstacle, Placed, Placement, Point, Start};
 use crate::state::all_finite;
 use crate::tolerance::{regular, resolvable, round_off, window};
@@ -59,8 +59,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<(), DynamicsError<T>> {
         mechanism.position(state, &mut self.position);
         let (worst, _) = self.residual(&self.position.residual);
-        let speed = self.position.jacobian * state.v + self.position.drift;
-        let (fastest, _) = self.residual(&speed);
+        let (fastest, _) = self.residual(&self.position.speed(&state.v));
         let rate = self.metric.factor.length(&state.v.data.0[0]);
         let most = T::from_f64(MOST_ROUND_OFF) * round_off();
         // False for NaN, too.
@@ -242,13 +241,19 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         mechanism.terms(&point.state, &mut self.terms);
         let freedoms = self.freedoms();
-        let force = self.terms.force - self.terms.mass * point.particular;
+        let mut force = self.terms.force;
+        self.terms.take_inertia(&mut force, &point.particular);
+        let projected = project_onto(
+            self.terms.mass.as_slice(),
+            &point.tangent.as_slice()[..N * freedoms],
+            force.as_mut_slice(),
+            &self.memory.workspace(),
+        );
         let t = point.state.t;
-        let along = project_onto(&self.terms.mass, &point.tangent, freedoms, &force);
-        match along {
-            Ok(along) if all_finite(&along) => Ok(point.particular + along),
+        match projected {
+            Ok(()) if all_finite(&force) => Ok(point.particular + force),
             // The metric is definite, and so is the mass along what is a tangent space.
-            Err(_) if self.terms.mass.iter().all(|entry| entry.is_finite()) => {
+            Err(_) if is_finite(self.terms.mass.as_slice()) => {
                 Err(self.refusal(mechanism, Obstacle::NotContracting, t))
             }
             _ => Err(DynamicsError::NotFinite { t }),

@@ -12,7 +12,7 @@ use super::lent::{Constrained, known};
 use super::square::is_square;
 use super::{Core, Source, Which};
 use crate::equations::At;
-use crate::linalg::{Products, Workspace, add_scaled, multiply_upper_transposed, norm};
+use crate::linalg::{Products, Workspace, add_scaled, length, norm};
 use crate::tolerance::{difference, negligible, regular};
 use crate::{DynamicsError, Mechanism, Real, Singularity, State};
 use nalgebra::{SMatrix, SVector};
@@ -46,10 +46,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         if self.rows.are_independent_by_form() || self.is_safely_regular() {
-            for which in [Which::Holonomic, Which::All] {
-                let count = self.rows.count(which);
-                self.rows.view().observe_rank(count, which);
-            }
+            self.rows.view().observe_all();
             return Ok(());
         }
         let (mut solver, workspace, _) = self.lend(mechanism);
@@ -249,8 +246,7 @@ fn neighbours<'a, T: Real>(
         count += 1;
     };
     let axis = workspace.numbers(n);
-    multiply_upper_transposed(known.factor, state.v, axis);
-    let speed = norm(axis);
+    let speed = length(known.factor, state.v);
     if speed > T::zero() {
         add(speed, state.v);
     }

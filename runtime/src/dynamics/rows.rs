@@ -108,12 +108,6 @@ impl<T: Real, const R: usize> Rows<T, R> {
         self.scale[row]
     }
 
-    /// Whether a row is among those that are meant.
-    #[inline]
-    pub(crate) fn takes_part(&self, row: usize, which: Which) -> bool {
-        which == Which::All || self.holonomic[row]
-    }
-
     /// Rank at regular positions.
     pub(crate) fn regular(&self, which: Which) -> usize {
         match which {
@@ -125,11 +119,6 @@ impl<T: Real, const R: usize> Rows<T, R> {
     /// Whether any row restricts positions.
     pub(crate) fn any_holonomic(&self) -> bool {
         self.holonomic.iter().any(|holonomic| *holonomic)
-    }
-
-    /// How many rows are meant.
-    pub(crate) fn count(&self, which: Which) -> usize {
-        (0..R).filter(|&row| self.takes_part(row, which)).count()
     }
 
     /// A row of the active subset, by its place there; the first row if there is none.
@@ -238,6 +227,13 @@ impl<T: Real> RowsView<'_, T> {
     /// Whether all rows are independent at regular positions.
     pub(crate) fn all_independent(&self) -> bool {
         *self.regular == self.holonomic.len()
+    }
+
+    /// Takes note that all rows are.
+    pub(crate) fn observe_all(&mut self) {
+        let holonomic = self.holonomic.iter().filter(|holonomic| **holonomic);
+        self.observe_rank(holonomic.count(), Which::Holonomic);
+        self.observe_rank(self.holonomic.len(), Which::All);
     }
 
     /// Takes note that this many rows are independent.

@@ -10,7 +10,7 @@
 
 use super::conditions::Conditions;
 use super::{Lifted, Metric, Rows, Which};
-use crate::linalg::NotDefinite;
+use crate::linalg::{NotDefinite, is_finite, length};
 use crate::singular::{Memory, Obstacle, Session};
 use crate::{
     Correction, Counters, DynamicsError, Mechanism, Position, Real, Regular, Settings, Singularity,
@@ -195,38 +195,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
     }
 
-    /// Functions of an angle have the round-off of an angle of one, however small it is.
+    /// Measures that length.
     #[inline(never)]
     fn extend_reach(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) {
-        let mut sizes = state.q;
-        let structure = mechanism.structure();
-        for i in N.saturating_sub(structure.states)..N {
-            // Integrals of states are no lengths.
-            (sizes[i], self.sizes[i]) = (T::zero(), T::from_f64(f64::INFINITY));
-        }
-        for (size, coordinate) in sizes.iter_mut().zip(structure.freedoms()) {
-            *size = size.abs();
-            if coordinate.may_be_angle() {
-                *size = size.max(T::one());
-            }
-        }
-        let moved = self.weights.iter().any(|weight| *weight > T::zero());
-        let known = self.sizes.iter_mut().zip(&mut self.weights);
-        for ((known, weight), size) in known.zip(&sizes) {
-            *known = known.max(*size * T::from_f64(REACH_STEP));
-            if *known > T::zero() {
-                *weight = T::one() / (*known * *known);
-            }
-        }
-        let mut reach = self.metric.factor.length(&sizes.data.0[0]);
-        if reach == T::zero() {
-            // Where all are lengths of zero, one unit stands for them until they move.
-            reach = self.metric.factor.length(&[T::one(); N]);
-        }
-        self.reach = match moved {
-            true => self.reach.max(reach),
-            false => reach,
-        };
+        let [mut q] = state.q.data.0;
+        let factor = self.metric.factor.as_slice();
+        let known = (&mut self.sizes[..], &mut self.weights[..]);
+        self.reach = reach(mechanism.structure(), factor, &mut q, known, self.reach);
     }
 
     /// What a run is told of an obstacle.
@@ -254,6 +229,44 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 }
 
+/// The largest length of coordinates so far, with `q`, which are used up, and up to which sizes
+/// it is not measured again. Functions of an angle have the round-off of an angle of one, however small it is.
+fn reach<T: Real>(
+    structure: &Structure,
+    factor: &[T],
+    q: &mut [T],
+    (sizes, weights): (&mut [T], &mut [T]),
+    before: T,
+) -> T {
+    let moved = weights.iter().any(|weight| *weight > T::zero());
+    let lengths = q.len().saturating_sub(structure.states);
+    // Integrals of states are no lengths.
+    q[lengths..].fill(T::zero());
+    sizes[lengths..].fill(T::from_f64(f64::INFINITY));
+    for (size, coordinate) in q.iter_mut().zip(structure.freedoms()) {
+        *size = size.abs();
+        if coordinate.may_be_angle() {
+            *size = size.max(T::one());
+        }
+    }
+    for ((known, weight), size) in sizes.iter_mut().zip(weights).zip(&*q) {
+        *known = known.max(*size * T::from_f64(REACH_STEP));
+        if *known > T::zero() {
+            *weight = T::one() / (*known * *known);
+        }
+    }
+    let mut reach = length(factor, q);
+    if reach == T::zero() {
+        // Where all are lengths of zero, one unit stands for them until they move.
+        q.fill(T::one());
+        reach = length(factor, q);
+    }
+    match moved {
+        true => before.max(reach),
+        false => reach,
+    }
+}
+
 /// Factorises a metric.
 #[inline(never)]
 pub(super) fn factorise<T: Real, const N: usize, const R: usize>(
@@ -264,14 +277,13 @@ pub(super) fn factorise<T: Real, const N: usize, const R: usize>(
 ) -> Result<(), DynamicsError<T>> {
     let result = metric.factorise(mass, jacobian, rows, structure.constant_mass, counters);
     result.map_err(|NotDefinite { row }| {
-        if mass.iter().chain(jacobian.iter()).all(|x| x.is_finite()) {
-            DynamicsError::MassSingular {
+        match is_finite(mass.as_slice()) && is_finite(jacobian.as_slice()) {
+            true => DynamicsError::MassSingular {
                 t,
                 coordinate: row,
                 structure,
-            }
-        } else {
-            DynamicsError::NotFinite { t }
+            },
+            false => DynamicsError::NotFinite { t },
         }
     })
 }

@@ -6,24 +6,27 @@
 //! The columns are made orthogonal in the matrix one after the other, which is the
 //! Cholesky factorisation of `DᵀMD` without a matrix of its size.
 
-use super::{add_scaled, dot};
+use super::{Workspace, add_product, add_scaled, dot};
 use crate::Real;
-use nalgebra::{SMatrix, SVector};
 
-/// `D z` for the first `count` columns, or the column at which `DᵀMD` is not definite.
-#[inline(never)]
-pub(crate) fn project_onto<T: Real, const N: usize>(
-    mass: &SMatrix<T, N, N>,
-    columns: &SMatrix<T, N, N>,
-    count: usize,
-    force: &SVector<T, N>,
-) -> Result<SVector<T, N>, usize> {
-    let mut directions = *columns;
-    let directions = &mut directions.as_mut_slice()[..N * count];
-    let (mut sum, mut image) = (SVector::<T, N>::zeros(), [T::zero(); N]);
-    let (mass, force) = (mass.as_slice(), force.as_slice());
-    add_along(mass, directions, force, &mut image, sum.as_mut_slice())?;
-    Ok(sum)
+/// Replaces a force by `D z`; the column at which `DᵀMD` is not definite, where one is.
+pub(crate) fn project_onto<T: Real>(
+    mass: &[T],
+    columns: &[T],
+    force: &mut [T],
+    workspace: &Workspace<'_, T>,
+) -> Result<(), usize> {
+    workspace.scope(|workspace| {
+        let directions = workspace.numbers(columns.len());
+        directions.copy_from_slice(columns);
+        let (image, sum) = (
+            workspace.numbers(force.len()),
+            workspace.numbers(force.len()),
+        );
+        add_along(mass, directions, force, image, sum)?;
+        force.copy_from_slice(sum);
+        Ok(())
+    })
 }
 
 /// Adds `D z` to a sum, with room for a vector; `D` is used up.
@@ -39,9 +42,7 @@ pub(crate) fn add_along<T: Real>(
     for k in 0..directions.len() / n {
         let (direction, later) = directions[k * n..].split_at_mut(n);
         image.fill(T::zero());
-        for (column, entry) in mass.chunks_exact(n).zip(&*direction) {
-            add_scaled(image, *entry, column);
-        }
+        add_product(image, T::one(), mass, direction);
         let square = dot(direction, image);
         if square <= T::zero() {
             return Err(k);

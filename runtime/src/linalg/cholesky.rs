@@ -12,7 +12,7 @@
 //!
 //! Not here: what to do with a matrix that is only semi-definite.
 
-use super::{Workspace, add_scaled, dot, norm};
+use super::{Workspace, add_scaled, dot};
 use crate::Real;
 use crate::tolerance::definite;
 use nalgebra::SMatrix;
@@ -135,6 +135,16 @@ pub(crate) fn multiply_upper_transposed<T: Real>(upper: &[T], x: &[T], product: 
     }
 }
 
+/// `√(xᵀ U Uᵀ x)`, the length of `x` in the metric of a factor of any size.
+pub(crate) fn length<T: Real>(upper: &[T], x: &[T]) -> T {
+    let mut sum = T::zero();
+    for (j, column) in upper.chunks_exact(x.len()).enumerate() {
+        let part = dot(&column[..=j], &x[..=j]);
+        sum += part * part;
+    }
+    sum.sqrt()
+}
+
 impl<T: Real, const N: usize> Cholesky<T, N> {
     /// Factorises `matrix`, of which the upper triangle is read.
     ///
@@ -206,17 +216,6 @@ impl<T: Real, const N: usize> Cholesky<T, N> {
 
     /// `√(xᵀ M x)`, the length of `x` in the metric of the matrix.
     pub(crate) fn length(&self, x: &[T; N]) -> T {
-        norm(&self.transposed_product(x))
-    }
-
-    /// `Uᵀ x`.
-    pub(crate) fn transposed_product(&self, x: &[T; N]) -> [T; N] {
-        let mut product = [T::zero(); N];
-        for (j, column) in self.upper.data.0.iter().enumerate() {
-            for i in 0..=j {
-                product[j] += column[i] * x[i];
-            }
-        }
-        product
+        length(self.upper.as_slice(), x)
     }
 }

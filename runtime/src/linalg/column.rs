@@ -54,6 +54,11 @@ pub(crate) fn is_zero<T: Real>(entries: &[T]) -> bool {
     !entries.iter().fold(false, differs)
 }
 
+/// Whether all entries are finite.
+pub(crate) fn is_finite<T: Real>(entries: &[T]) -> bool {
+    entries.iter().all(|entry| entry.is_finite())
+}
+
 /// How many entries are above a bound.
 #[inline(never)]
 pub(crate) fn count_above<T: Real>(entries: &[T], least: T) -> usize {
@@ -73,6 +78,14 @@ pub(crate) fn add_scaled<T: Real>(target: &mut [T], factor: T, column: &[T]) {
     }
 }
 
+/// `target += factor · matrix · x`, for a matrix of any size, column by column.
+pub(crate) fn add_product<T: Real>(target: &mut [T], factor: T, matrix: &[T], x: &[T]) {
+    // A matrix without rows has no columns, either.
+    for (column, x) in matrix.chunks_exact(target.len().max(1)).zip(x) {
+        add_scaled(target, factor * *x, column);
+    }
+}
+
 /// Two of some columns of one length, to be changed.
 pub(crate) fn pair<T>(columns: &mut [T], length: usize, i: usize, j: usize) -> [&mut [T]; 2] {
     let (low, high) = (i.min(j), i.max(j));
@@ -80,6 +93,16 @@ pub(crate) fn pair<T>(columns: &mut [T], length: usize, i: usize, j: usize) -> [
     let low = &mut before[low * length..(low + 1) * length];
     let high = &mut rest[..length];
     if i < j { [low, high] } else { [high, low] }
+}
+
+/// `factor · column`.
+#[inline]
+pub(crate) fn scaled<T: Real, const L: usize>(factor: T, column: &[T; L]) -> [T; L] {
+    let mut scaled = *column;
+    for entry in &mut scaled {
+        *entry = factor * *entry;
+    }
+    scaled
 }
 
 /// A column by its entries. For the compiler this is a tenth of

@@ -31,10 +31,13 @@ mod workspace;
 pub(crate) use along::{add_along, project_onto};
 pub(crate) use block::Block;
 pub(crate) use cholesky::{
-    Cholesky, NotDefinite, is_definite, multiply_upper, multiply_upper_transposed, solve_upper,
-    solve_upper_transposed,
+    Cholesky, NotDefinite, is_definite, length, multiply_upper, multiply_upper_transposed,
+    solve_upper, solve_upper_transposed,
 };
-pub(crate) use column::{add_scaled, column, count_above, dot, is_zero, norm, pair, scale};
+pub(crate) use column::{
+    add_product, add_scaled, column, count_above, dot, is_finite, is_zero, norm, pair, scale,
+    scaled,
+};
 pub(crate) use complement::{orthonormal, remove};
 pub(crate) use elimination::Elimination;
 pub(crate) use frame::{Eliminated, Frame, by_first_row};

@@ -38,7 +38,8 @@ fn cholesky_gives_the_matrix_back() {
         let mut cholesky = Cholesky::default();
         cholesky.factorise(&matrix).unwrap();
         let x: SVector<f64, 6> = random.matrix();
-        let lifted = cholesky.transposed_product(&x.data.0[0]);
+        let mut lifted = [0.0; 6];
+        multiply_upper_transposed(cholesky.as_slice(), x.as_slice(), &mut lifted);
         let mut image = SVector::from(lifted);
         multiply_upper(cholesky.as_slice(), image.as_mut_slice());
         assert!((image - matrix * x).amax() < 1e-13, "seed {SEED} + {round}");

@@ -4,7 +4,7 @@
 //! Out: energies, constraint errors, rank, reactions.
 
 use crate::dynamics::ConstrainedSystem;
-use crate::linalg::is_zero;
+use crate::linalg::{dot, is_zero};
 use crate::{
     ConstraintError, DynamicsError, Energy, Interface, Mechanism, Position, Rank, Real, State,
     Structure,
@@ -100,7 +100,7 @@ where
         }
         let reaction = Probe::reaction(self, state)?;
         // The reactions stand on the left: M q̈ + r = p₁.
-        Ok(supplied - reaction.dot(&state.v))
+        Ok(supplied - dot(reaction.as_slice(), state.v.as_slice()))
     }
 
     fn constraint_error(&mut self, state: &State<T, N>) -> ConstraintError<T> {

@@ -6,8 +6,8 @@
 use crate::dynamics::{Combined, Constrained, Which, second_derivatives};
 use crate::equations::At;
 use crate::linalg::{
-    Workspace, add_scaled, count_above, diagonalise, dot, is_zero, multiply_upper_transposed, norm,
-    orthonormal, remove, solve_upper_transposed,
+    Workspace, add_scaled, count_above, diagonalise, dot, is_zero, length,
+    multiply_upper_transposed, norm, orthonormal, remove, solve_upper_transposed,
 };
 use crate::tolerance::{critical, difference, regular, round_off, window};
 use crate::{DynamicsError, Real};
@@ -75,8 +75,7 @@ fn tangent_along<T: Real>(
     let n = state.q.len();
     let count = n - tangent.len() / n;
     let moved = workspace.numbers(n);
-    multiply_upper_transposed(solver.known().factor, state.v, moved);
-    let speed = norm(moved);
+    let speed = length(solver.known().factor, state.v);
     if speed == T::zero() {
         return Ok(false);
     }

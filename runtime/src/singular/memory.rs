@@ -38,12 +38,30 @@ type Matrices<T, const L: usize, const COUNT: usize> = Vec<T>;
 type Matrices<T, const L: usize, const COUNT: usize> = [[[T; L]; L]; COUNT];
 
 /// Memory for a mechanism with `N` coordinates and `R` constraint equations.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Memory<T, const N: usize, const R: usize> {
     vectors: [[T; N]; VECTORS],
     matrices: Matrices<T, N, MATRICES>,
     combined: Matrices<T, R, COMBINED>,
     indices: [[usize; N]; LISTS],
+}
+
+/// What is in memory is nobody's: that on the heap is not copied.
+impl<T: Clone, const N: usize, const R: usize> Clone for Memory<T, N, R> {
+    fn clone(&self) -> Self {
+        Self {
+            vectors: self.vectors.clone(),
+            #[cfg(feature = "std")]
+            matrices: Vec::new(),
+            #[cfg(feature = "std")]
+            combined: Vec::new(),
+            #[cfg(not(feature = "std"))]
+            matrices: self.matrices.clone(),
+            #[cfg(not(feature = "std"))]
+            combined: self.combined.clone(),
+            indices: self.indices,
+        }
+    }
 }
 
 impl<T: Real, const N: usize, const R: usize> Memory<T, N, R> {
