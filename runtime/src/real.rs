@@ -5,7 +5,6 @@
 //! Not here: lanes, dual numbers and extended precision. A type joins by
 //! implementing this one trait; nothing else in the crate names a float type.
 
-use crate::routines::Routines;
 use crate::sincos;
 use core::fmt::{Debug, Display};
 use core::ops::Neg;
@@ -22,6 +21,9 @@ pub trait Real:
 {
     /// The distance from 1 to the next larger number.
     const EPSILON: Self;
+    /// Whether what works on slices of these numbers is compiled with this crate.
+    #[doc(hidden)]
+    const IS_COMPILED_HERE: bool = false;
 
     /// The nearest number to an `f64`.
     fn from_f64(value: f64) -> Self;
@@ -88,23 +90,13 @@ pub trait Real:
     fn min(self, other: Self) -> Self;
     /// The larger of two numbers; NaN if one of them is NaN (unlike `f64::max`).
     fn max(self, other: Self) -> Self;
-
-    /// What works on numbers of this kind in slices, and is compiled where this is.
-    #[doc(hidden)]
-    fn routines() -> &'static Routines<Self> {
-        const { &Routines::new() }
-    }
 }
 
 macro_rules! real_for_float {
-    ($float:ident) => {
+    ($float:ident, $is_compiled_here:literal) => {
         impl Real for $float {
             const EPSILON: Self = $float::EPSILON;
-
-            fn routines() -> &'static Routines<Self> {
-                static ROUTINES: Routines<$float> = Routines::new();
-                &ROUTINES
-            }
+            const IS_COMPILED_HERE: bool = $is_compiled_here;
 
             #[inline(always)]
             fn from_f64(value: f64) -> Self {
@@ -202,8 +194,8 @@ macro_rules! real_for_float {
     }};
 }
 
-real_for_float!(f64);
-real_for_float!(f32);
+real_for_float!(f64, true);
+real_for_float!(f32, false);
 
 #[cfg(test)]
 mod tests {

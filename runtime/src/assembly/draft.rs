@@ -3,7 +3,12 @@
 //! In:  a start, which of its values are held.
 //! Out: [`Draft`], and why it can't be finished ([`Refusal`]).
 
-use crate::linalg::Breakdown;
+use crate::equations::Equations;
+use crate::linalg::{Breakdown, Workspace};
+
+/// What moves a draft onto the constraints.
+pub(super) type Assemble<T> =
+    fn(&mut dyn Equations<T>, Draft<'_, T>, &Workspace<'_, T>) -> Result<(), Refusal>;
 
 /// A state that is being assembled.
 #[derive(Debug)]

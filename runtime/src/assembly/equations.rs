@@ -7,7 +7,7 @@
 //! velocities are: a position that is given says nothing about velocities.
 
 use super::room::Room;
-use super::{AssemblyError, StartFault, given, held};
+use super::{AssemblyError, StartFault, given, held, position, velocity};
 use crate::stack::with_room;
 use crate::{Energy, Mechanism, Position, Real, Start, State, Structure, Terms};
 use nalgebra::{SMatrix, SVector};
@@ -91,7 +91,6 @@ where
 {
     let mut state = given(start, t);
     let [positions, velocities] = structures;
-    let routines = &T::routines().assembly;
     if P > 0 {
         let rows = Further::<M, R> {
             mechanism,
@@ -100,7 +99,7 @@ where
             velocities: false,
         };
         Room::<T, N, P>::new()
-            .assemble(routines.positions, &rows, &mut state, &held(&start.q))
+            .assemble(position::positions(), &rows, &mut state, &held(&start.q))
             .map_err(|error| fault(error, t, positions))?;
     }
     if V > 0 {
@@ -111,7 +110,7 @@ where
             velocities: true,
         };
         Room::<T, N, V>::new()
-            .assemble(routines.velocities, &rows, &mut state, &held(&start.v))
+            .assemble(velocity::velocities(), &rows, &mut state, &held(&start.v))
             .map_err(|error| fault(error, t, velocities))?;
     }
     for i in 0..N {

@@ -9,6 +9,7 @@
 
 use crate::Real;
 use crate::linalg::{Breakdown, Workspace, add_scaled, dot, pair};
+use crate::once::compiled_once;
 
 /// Square matrices of all coordinates that it takes.
 pub(super) const MATRICES: usize = 2;
@@ -153,6 +154,13 @@ impl<T: Real> Reduced<'_, T> {
         );
         Some(energy)
     }
+}
+
+compiled_once! {
+    /// [`negative`].
+    pub(super) fn negating<T>:
+        fn(&[T], usize, &Workspace<'_, T>) -> Result<Option<usize>, Breakdown> =
+        |mass, n, workspace| negative(mass, n, workspace);
 }
 
 #[cfg(test)]

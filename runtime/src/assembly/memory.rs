@@ -104,8 +104,10 @@ impl<T: Real, const N: usize, const R: usize> Memory<T, N, R> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::position::positions;
     use super::super::room::Room;
-    use crate::{Energy, Mechanism, Position, Real, State, Structure, Terms};
+    use super::super::velocity::velocities;
+    use crate::{Energy, Mechanism, Position, State, Structure, Terms};
     use nalgebra::SMatrix;
 
     /// Rows all of which say that the first coordinate is as large as the last one: where
@@ -144,8 +146,7 @@ mod tests {
         state.v[N - 1] = 0.3;
         state.v[0] = 1.0;
         let mut room = Room::<f64, N, R>::new();
-        let routines = &f64::routines().assembly;
-        for routine in [routines.positions, routines.velocities] {
+        for routine in [positions::<f64>(), velocities()] {
             let result = room.assemble(routine, &Crossing, &mut state, &[false; N]);
             assert_eq!(result, Ok(()), "{N} {R}");
         }

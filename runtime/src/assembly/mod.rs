@@ -24,7 +24,6 @@ mod inertia;
 mod memory;
 mod position;
 mod room;
-mod routines;
 mod scales;
 mod vanishing;
 mod velocity;
@@ -32,7 +31,6 @@ mod velocity;
 pub use equations::{StartEquations, guess, meet};
 pub use error::AssemblyError;
 pub use fault::StartFault;
-pub(crate) use routines::Routines;
 
 use room::Room;
 
@@ -118,9 +116,8 @@ fn constrain<T: Real, const N: usize, const R: usize>(
     start: &Start<T, N>,
 ) -> Result<(), AssemblyError<T, N, R>> {
     let mut room = Room::new();
-    let routines = &T::routines().assembly;
-    room.assemble(routines.positions, mechanism, state, &held(&start.q))?;
-    room.assemble(routines.velocities, mechanism, state, &held(&start.v))
+    room.assemble(position::positions(), mechanism, state, &held(&start.q))?;
+    room.assemble(velocity::velocities(), mechanism, state, &held(&start.v))
 }
 
 /// Refuses a kinetic energy that is negative for some velocities, whether or not the
@@ -162,5 +159,5 @@ fn negative<T: Real, const N: usize>(mass: &SMatrix<T, N, N>) -> Result<Option<u
         vectors.as_flattened_mut(),
         &mut done,
     );
-    (T::routines().assembly.negative)(mass.as_slice(), N, &workspace)
+    inertia::negating()(mass.as_slice(), N, &workspace)
 }

@@ -8,12 +8,13 @@
 //! Source: Moré, Lecture Notes in Mathematics 630 (1978) 105–116.
 
 use super::decomposition::Decomposition;
-use super::draft::{Draft, Refusal};
+use super::draft::{Assemble, Draft, Refusal};
 use super::scales::{Scales, disturb};
 use super::vanishing::vanishing_row;
 use crate::Real;
 use crate::equations::Equations;
 use crate::linalg::Workspace;
+use crate::once::compiled_once;
 use crate::tolerance::negligible;
 use core::mem::swap;
 use core::ops::Range;
@@ -254,4 +255,10 @@ fn merit<T: Real>(
         let scaled = *error * *scale;
         sum + scaled * scaled
     })
+}
+
+compiled_once! {
+    /// [`assemble`].
+    pub(super) fn positions<T>: Assemble<T> =
+        |equations, draft, workspace| assemble(equations, draft, workspace);
 }

@@ -4,9 +4,8 @@
 //! Out: the state on the constraints, or [`AssemblyError`].
 
 use super::AssemblyError;
-use super::draft::{Draft, Refusal};
+use super::draft::{Assemble, Draft, Refusal};
 use super::memory::Memory;
-use super::routines::Assemble;
 use crate::equations::Bound;
 use crate::{Mechanism, Position, Real, State, Terms};
 use nalgebra::SVector;
@@ -28,8 +27,8 @@ impl<T: Real, const N: usize, const R: usize> Room<T, N, R> {
         }
     }
 
-    /// Moves what is not held onto the constraints: coordinates or velocities, by one of the
-    /// routines of the scalar.
+    /// Moves what is not held onto the constraints: coordinates or velocities, by a
+    /// routine for any size.
     #[inline(never)]
     pub(super) fn assemble(
         &mut self,

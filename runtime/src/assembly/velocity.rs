@@ -9,11 +9,12 @@
 //! solutions are the velocities along the branches that meet there.
 
 use super::decomposition::Decomposition;
-use super::draft::{Draft, Refusal};
+use super::draft::{Assemble, Draft, Refusal};
 use super::scales::Scales;
 use crate::Real;
 use crate::equations::{At, Equations};
 use crate::linalg::{Workspace, add_scaled, is_zero, norm};
+use crate::once::compiled_once;
 use crate::tolerance::regular;
 
 /// Velocity errors up to this multiple of the round-off of an equation's terms
@@ -252,4 +253,10 @@ impl<T: Real> Branches<'_, '_, T> {
             }
         }
     }
+}
+
+compiled_once! {
+    /// [`assemble`].
+    pub(super) fn velocities<T>: Assemble<T> =
+        |equations, draft, workspace| assemble(equations, draft, workspace);
 }

@@ -14,6 +14,7 @@ use crate::equations::At;
 use crate::linalg::{
     Breakdown, Workspace, add_scaled, count_above, dot, norm, remove, scale, solve_upper,
 };
+use crate::once::compiled_once;
 use crate::tolerance::{difference, regular};
 use crate::{DynamicsError, Real};
 
@@ -211,7 +212,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<(), DynamicsError<T>> {
         self.counters.rank_decisions += 1;
         let (known, jacobian, workspace) = self.known(source);
-        let combined = (T::routines().rows.combine)(jacobian, known, &workspace);
+        let combined = combining()(jacobian, known, &workspace);
         combined
             .map(|combined| work(&combined))
             .map_err(|Breakdown| DynamicsError::NotFinite { t })
@@ -228,4 +229,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.combine(source, t, &mut |combined| rank = combined.above(least))?;
         Ok(rank)
     }
+}
+
+compiled_once! {
+    fn combining<T>: for<'b> fn(
+        &[T],
+        Known<'_, T>,
+        &Workspace<'b, T>,
+    ) -> Result<Combined<'b, T>, Breakdown> =
+        |jacobian, known, workspace| Combined::new(jacobian, known, Which::All, workspace);
 }

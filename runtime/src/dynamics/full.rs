@@ -11,6 +11,7 @@
 
 use super::Core;
 use crate::linalg::{Triangle, Workspace, add_scaled};
+use crate::once::compiled_once;
 use crate::singular::Point;
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
@@ -64,7 +65,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             &mut [],
         );
         let mut acceleration = SVector::<T, N>::zeros();
-        (T::routines().least_squares)(&squares, &workspace, acceleration.as_mut_slice());
+        least_squares()(&squares, &workspace, acceleration.as_mut_slice());
         Ok(self.stabilised(acceleration, state, &point))
     }
 }
@@ -157,4 +158,9 @@ impl<T: Real> Squares<'_, T> {
             triangle.insert(a, b, T::zero());
         }
     }
+}
+
+compiled_once! {
+    fn least_squares<T>: fn(&Squares<'_, T>, &Workspace<'_, T>, &mut [T]) =
+        |squares, workspace, acceleration| squares.solve(workspace, acceleration);
 }

@@ -9,8 +9,8 @@
 
 use super::Core;
 use super::conditions::Decided;
-use super::sliding::ROOM;
-use super::switching::Motion;
+use super::sliding::{ROOM, sliding};
+use super::switching::{Motion, switching};
 use crate::{DynamicsError, Mechanism, Real, Sides, State, Step, Switch, Switching};
 use nalgebra::SVector;
 
@@ -84,7 +84,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         step: &Step<T, N>,
     ) -> Result<Switching<T>, DynamicsError<T>> {
         let core = &mut *self;
-        let found = (T::routines().switch)(&mut Attempt {
+        let found = switching()(&mut Attempt {
             core,
             mechanism,
             step,
@@ -119,7 +119,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let slid = self.conditions.decided.slid(state.t)?;
         let mut vectors = [[T::zero(); N]; ROOM + 1];
         let room = vectors.as_flattened_mut();
-        let shares = (T::routines().slide)(&slid, N, room, &mut |sides, rates, out| {
+        let shares = sliding()(&slid, N, room, &mut |sides, rates, out| {
             self.decide(sides);
             let acceleration = self.acceleration(mechanism, state)?;
             mechanism.switches(state, &acceleration, rates);

@@ -11,6 +11,7 @@
 use super::Core;
 use super::full::set_units;
 use crate::linalg::{Elimination, Workspace, add_along, add_scaled};
+use crate::once::compiled_once;
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
 
@@ -45,7 +46,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             &mut dependent,
         );
         let mut acceleration = SVector::<T, N>::zeros();
-        (T::routines().partition)(
+        partitioned()(
             (self.terms.mass.as_slice(), self.terms.force.as_slice()),
             (jacobian.as_mut_slice(), &mut right),
             &workspace,
@@ -97,4 +98,15 @@ pub(crate) fn partition<'a, T: Real>(
     // What the weights were in is free.
     add_along(mass, columns, rest, units, acceleration)
         .map_err(|column| (0..n).filter(is_free).nth(column).unwrap_or(column))
+}
+
+compiled_once! {
+    fn partitioned<T>: for<'a> fn(
+        (&[T], &[T]),
+        (&'a mut [T], &'a mut [T]),
+        &Workspace<'a, T>,
+        &mut [T],
+    ) -> Result<(), usize> = |inertia, rows, workspace, acceleration| {
+        partition(inertia, rows, workspace, acceleration)
+    };
 }

@@ -13,6 +13,7 @@ use super::square::is_square;
 use super::{Core, Source, Which};
 use crate::equations::At;
 use crate::linalg::{Products, Workspace, add_scaled, length, norm};
+use crate::once::compiled_once;
 use crate::tolerance::{difference, negligible, regular};
 use crate::{DynamicsError, Mechanism, Real, Singularity, State};
 use nalgebra::{SMatrix, SVector};
@@ -50,7 +51,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             return Ok(());
         }
         let (mut solver, workspace, _) = self.lend(mechanism);
-        (T::routines().rows.learn_rank)(&mut solver, state.at(), &workspace)
+        learning()(&mut solver, state.at(), &workspace)
     }
 
     /// Whether all rows are safely independent at the position in the buffer. It takes one
@@ -261,4 +262,15 @@ fn neighbours<'a, T: Real>(
         }
     }
     positions[..count * n].chunks_exact_mut(n)
+}
+
+compiled_once! {
+    fn learning<T>:
+        fn(&mut dyn Constrained<T>, At<'_, T>, &Workspace<'_, T>) -> Result<(), DynamicsError<T>> =
+        |solver, state, workspace| learn_rank(solver, state, workspace);
+}
+compiled_once! {
+    /// [`choose_rows`].
+    pub(crate) fn choosing<T>: fn(&mut dyn Constrained<T>, &Workspace<'_, T>) =
+        |solver, workspace| choose_rows(solver, workspace);
 }

@@ -14,6 +14,7 @@ use super::combined::lift;
 use super::lent::Constrained;
 use crate::equations::At;
 use crate::linalg::{Workspace, dot, independent_columns, is_definite, norm, scale};
+use crate::once::compiled_once;
 use crate::tolerance::{hull, regular, spacing};
 use crate::{Mechanism, Position, Quantity, Real, State};
 
@@ -34,7 +35,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     pub(super) fn sample_sizes(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) {
         let by_form = self.rows.are_independent_by_form();
         let (mut solver, workspace, _) = self.lend(mechanism);
-        (T::routines().rows.sample_sizes)(&mut solver, state.at(), by_form, &workspace);
+        sampling()(&mut solver, state.at(), by_form, &workspace);
     }
 }
 
@@ -268,4 +269,9 @@ fn median<T: Real>(numbers: [T; SAMPLES]) -> T {
         }
     }
     sorted[count / 2]
+}
+
+compiled_once! {
+    fn sampling<T>: fn(&mut dyn Constrained<T>, At<'_, T>, bool, &Workspace<'_, T>) =
+        |solver, state, by_form, workspace| sample_sizes(solver, state, by_form, workspace);
 }

@@ -12,6 +12,7 @@
 //! section 4.
 
 use crate::linalg::column;
+use crate::once::compiled_once;
 use crate::{DynamicsError, Real, Sides, Switch};
 
 /// Conditions that a motion may slide along at a time.
@@ -124,4 +125,11 @@ fn solve<T: Real>(table: &mut [[T; ROOM + 1]; ROOM], count: usize) -> [T; ROOM] 
         true => table[k][count] / table[k][k],
         false => T::zero(),
     })
+}
+
+compiled_once! {
+    /// [`Slid::slide`].
+    pub(super) fn sliding<T>:
+        fn(&Slid, usize, &mut [T], Accelerate<'_, T>) -> Result<Shares<T>, DynamicsError<T>> =
+        |slid, n, vectors, accelerate| slid.slide(n, vectors, accelerate);
 }

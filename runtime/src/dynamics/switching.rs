@@ -17,6 +17,7 @@
 
 use super::conditions::{Aim, Decided};
 use crate::crossing::{Left, NODES, Samples, first_crossing, nodes, zero};
+use crate::once::compiled_once;
 use crate::{DynamicsError, Real, Sides, Switch, Switching, Watched};
 
 /// Attempts to end a step where one function passes zero, after the first.
@@ -271,4 +272,10 @@ fn earliest<T: Real>(
     }
     let t = zero(function, (from, before), (to, after))?;
     Ok(Some(t))
+}
+
+compiled_once! {
+    /// [`Motion::switch`].
+    pub(super) fn switching<T>: fn(&mut (dyn Motion<T> + '_)) -> Result<Switching<T>, DynamicsError<T>> =
+        |motion| motion.switch();
 }

@@ -14,6 +14,7 @@
 use super::lu::{factorise, solve};
 use crate::Real;
 use crate::linalg::column;
+use crate::once::compiled_once;
 use nalgebra::Complex;
 
 /// Stages that the largest method has.
@@ -299,4 +300,9 @@ fn eigenvector<T: Real>(nodes: &[T], scaled: &[T], value: Complex<T>, out: &mut 
             *entry = *entry * *node / T::from_f64((k + 1) as f64) + coefficients[k];
         }
     }
+}
+
+compiled_once! {
+    /// [`Collocation::new`].
+    pub(super) fn collocation<T>: fn(&Digits) -> Collocation<T> = |digits| Collocation::new(digits);
 }

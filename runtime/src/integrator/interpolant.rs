@@ -15,6 +15,7 @@
 
 use super::collocation::cardinal;
 use crate::linalg::add_scaled;
+use crate::once::compiled_once;
 use crate::{Real, State};
 use nalgebra::SVector;
 
@@ -76,7 +77,7 @@ impl<T: Real, const N: usize> Interpolant<T, N> {
             (&mut self.v, (&start.v, &end.v), v),
         ] {
             let ends = (ends.0.as_slice(), ends.1.as_slice());
-            (T::routines().set_through)(out.as_flattened_mut(), ends, nodes, values);
+            through()(out.as_flattened_mut(), ends, nodes, values);
             for (coefficient, column) in coefficients.iter_mut().zip(out) {
                 *coefficient = SVector::from(column);
             }
@@ -171,4 +172,9 @@ fn set_cubic<T: Real, const N: usize>(
     out[1] = difference;
     out[2] = start.1 * h - difference;
     out[3] = difference - end.1 * h - out[2];
+}
+
+compiled_once! {
+    fn through<T>: fn(&mut [T], (&[T], &[T]), &[T], &mut [T]) =
+        |out, ends, nodes, values| set_through(out, ends, nodes, values);
 }

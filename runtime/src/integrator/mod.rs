@@ -33,16 +33,12 @@ mod step_control;
 mod tableau;
 
 pub use classical::Rk4;
-pub(crate) use collocation::{Collocation, Digits};
 pub use control::Tolerance;
 pub use error::IntegrateError;
 pub(crate) use explicit::Explicit;
-pub(crate) use interpolant::set_through;
-pub(crate) use jacobian::Flow;
 pub use method::Method;
 pub use methods::{Dop853, Dp5, Radau5, Radau9};
 pub(crate) use methods::{dop853, dp5, radau5, radau9};
-pub(crate) use newton::Newton;
 pub(crate) use radau::Radau;
 pub use step::Step;
 pub(crate) use step_control::{Controlled, Inside};

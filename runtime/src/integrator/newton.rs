@@ -18,6 +18,7 @@ use super::jacobian::{Flow, differentiate};
 use crate::Real;
 use crate::equations::At;
 use crate::linalg::{Workspace, add_scaled, scaled};
+use crate::once::compiled_once;
 
 /// Vectors of all coordinates that an attempt at a step takes room for.
 pub(super) const VECTORS: usize = 6 * MOST_STAGES + 5;
@@ -375,4 +376,16 @@ impl<T: Real> Newton<'_, T> {
         dv.copy_from_slice(solved);
         add_scaled(dq, factor, dv);
     }
+}
+
+compiled_once! {
+    /// [`Newton::attempt`].
+    pub(super) fn attempting<T>: fn(
+        &mut Newton<'_, T>,
+        &mut dyn Flow<T>,
+        At<'_, T>,
+        (T, bool),
+        &Workspace<'_, T>,
+    ) -> Result<(), IntegrateError<T>> =
+        |newton, flow, start, end, workspace| newton.attempt(flow, start, end, workspace);
 }

@@ -15,11 +15,11 @@
 //! section IV.8.
 
 use super::IntegrateError;
-use super::collocation::{Digits, MOST_STAGES};
+use super::collocation::{Digits, MOST_STAGES, collocation};
 use super::control::Tolerance;
 use super::factors::FactorRoom;
 use super::jacobian::Flow;
-use super::newton::{Course, Newton, VECTORS};
+use super::newton::{Course, Newton, VECTORS, attempting};
 use super::step::Step;
 use super::step_control::{Inside, Trial};
 use crate::equations::{At, sized};
@@ -94,7 +94,7 @@ impl<T: Real, const N: usize> Radau<T, N> {
                 (Tolerance::round_off(FIXED_PACE), T::EPSILON.sqrt() / unit)
             }
         };
-        let coefficients = (T::routines().collocation)(digits);
+        let coefficients = collocation()(digits);
         Self {
             course: Course::new(coefficients, tolerance.part(NEWTON_PART), tolerable),
             tolerance,
@@ -134,7 +134,7 @@ impl<T: Real, const N: usize> Radau<T, N> {
         };
         let mut vectors = [[T::zero(); N]; VECTORS];
         let workspace = Workspace::new(vectors.as_flattened_mut(), &mut [], &mut []);
-        (T::routines().attempt)(&mut newton, flow, start.at(), (end, again), &workspace)?;
+        attempting()(&mut newton, flow, start.at(), (end, again), &workspace)?;
         Ok(last)
     }
 

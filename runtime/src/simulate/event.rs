@@ -14,6 +14,7 @@
 use super::SimulateError;
 use crate::crossing::{Left, NODES, Samples, first_crossing, nodes, zero};
 use crate::linalg::column;
+use crate::once::compiled_once;
 use crate::{Direction, DynamicsError, Event, Occurrence, Probe, Real, State, Step, Watched};
 
 /// Events a mechanism may have.
@@ -131,7 +132,7 @@ impl<T: Real> Events<T> {
             ends: (step.start().t, step.end().t),
             write: &mut write,
         };
-        (T::routines().find_first)(self, &mut along)
+        find_first()(self, &mut along)
     }
 
     /// The next occurrence of the step that was looked at, the earliest first.
@@ -149,7 +150,7 @@ impl<T: Real> Events<T> {
             ends: (step.start().t, step.end().t),
             write: &mut write,
         };
-        let happened = (T::routines().take_first)(self, &mut along)?;
+        let happened = take_first()(self, &mut along)?;
         let Some(Happened { index, t, rising }) = happened else {
             return Ok(None);
         };
@@ -318,4 +319,14 @@ fn state_at<T: Real, const N: usize>(
         probe.project(&mut state)?;
     }
     Ok(state)
+}
+
+compiled_once! {
+    fn find_first<T>: fn(&mut Events<T>, &mut Along<'_, T>) -> Result<(), DynamicsError<T>> =
+        |events, along| events.find_first(along);
+}
+compiled_once! {
+    fn take_first<T>:
+        fn(&mut Events<T>, &mut Along<'_, T>) -> Result<Option<Happened<T>>, DynamicsError<T>> =
+        |events, along| events.take_first(along);
 }

@@ -17,7 +17,6 @@ mod summary;
 mod watch;
 
 pub use error::{Failure, SimulateError};
-pub(crate) use event::{Along, Events, Happened};
 pub use options::{Audit, Options, Origin, StepControl};
 pub use stepper::Stepper;
 pub use summary::Summary;

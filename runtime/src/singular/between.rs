@@ -9,6 +9,7 @@ use super::sheet::Sheet;
 use crate::Real;
 use crate::equations::At;
 use crate::linalg::Workspace;
+use crate::once::compiled_once;
 
 /// Looks into a step without a chart that came nearer to a singular configuration: it may
 /// have crossed two.
@@ -68,4 +69,40 @@ impl<T: Real> Sheet<'_, T> {
             })
         })
     }
+}
+
+impl<T: Real> Sheet<'_, T> {
+    /// How many sheets are crossed between two states, `None` where that can't be told, and
+    /// after which part of the way if that is sought.
+    pub(crate) fn count_crossed(
+        &mut self,
+        ends: (At<'_, T>, At<'_, T>),
+        seeks: bool,
+        workspace: &Workspace<'_, T>,
+    ) -> (Option<usize>, T) {
+        counting()(self, ends, seeks, workspace)
+    }
+
+    /// Whether no sheet is seen to be crossed between two states.
+    pub(crate) fn stays_between(
+        &mut self,
+        ends: (At<'_, T>, At<'_, T>),
+        workspace: &Workspace<'_, T>,
+    ) -> bool {
+        staying()(self, ends, workspace)
+    }
+}
+
+compiled_once! {
+    fn counting<T>: fn(
+        &mut Sheet<'_, T>,
+        (At<'_, T>, At<'_, T>),
+        bool,
+        &Workspace<'_, T>,
+    ) -> (Option<usize>, T) =
+        |sheet, ends, seeks, workspace| sheet.crossed(ends, seeks, workspace);
+}
+compiled_once! {
+    fn staying<T>: fn(&mut Sheet<'_, T>, (At<'_, T>, At<'_, T>), &Workspace<'_, T>) -> bool =
+        |sheet, ends, workspace| sheet.stays(ends, workspace);
 }

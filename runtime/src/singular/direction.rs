@@ -123,10 +123,10 @@ impl<T: Real> Sheet<'_, T> {
         let mut direction = Direction::new(self.chart.n(), workspace);
         let mut change = Block::zeros(1, workspace);
         let gradient = workspace.numbers(search.dimension);
-        for i in 0..search.dimension {
+        for (i, entry) in gradient.iter_mut().enumerate() {
             self.set_axis(search, i, &mut direction, workspace);
             self.change(search, &direction, &mut change, workspace)?;
-            gradient[i] = change.first();
+            *entry = change.first();
         }
         let size = norm(gradient);
         // False for NaN, too.

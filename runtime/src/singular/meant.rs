@@ -9,6 +9,7 @@ use crate::linalg::{
     Workspace, add_scaled, count_above, diagonalise, dot, is_zero, length,
     multiply_upper_transposed, norm, orthonormal, remove, solve_upper_transposed,
 };
+use crate::once::compiled_once;
 use crate::tolerance::{critical, difference, regular, round_off, window};
 use crate::{DynamicsError, Real};
 
@@ -242,4 +243,21 @@ fn nearer<T: Real>([first, second]: [T; 2], factor: T) -> Option<usize> {
     } else {
         None
     }
+}
+
+compiled_once! {
+    /// [`span_free`].
+    pub(super) fn spanning<T>:
+        fn(&[T], &mut [T], usize, &dyn Fn(&mut [T]), &Workspace<'_, T>) =
+        |factor, free, n, remove, workspace| span_free(factor, free, n, remove, workspace);
+}
+compiled_once! {
+    /// [`singular_tangent`].
+    pub(super) fn finding_tangent<T>: fn(
+        &mut dyn Constrained<T>,
+        At<'_, T>,
+        &mut [T],
+        &Workspace<'_, T>,
+    ) -> Result<bool, DynamicsError<T>> =
+        |solver, state, tangent, workspace| singular_tangent(solver, state, tangent, workspace);
 }

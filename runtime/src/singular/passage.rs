@@ -8,6 +8,7 @@ use super::sheet::Sheet;
 use crate::Real;
 use crate::equations::At;
 use crate::linalg::{Block, Eliminated, Frame, Workspace};
+use crate::once::compiled_once;
 
 /// Passages that are kept of one step.
 const ROOM: usize = 8;
@@ -469,4 +470,29 @@ fn lowest_of_cubic<T: Real>(ends: [T; 2], rates: [T; 2]) -> (T, T) {
         let here = value(x);
         if here < lowest.1 { (x, here) } else { lowest }
     })
+}
+
+impl<T: Real> Sheet<'_, T> {
+    /// The passages of a step of this length whose positions are `at`.
+    pub(crate) fn find_passages(
+        &mut self,
+        start: At<'_, T>,
+        length: T,
+        at: &dyn Fn(T, &mut [T]),
+        workspace: &Workspace<'_, T>,
+    ) -> Found<T> {
+        finding()(self, start, length, at, workspace)
+    }
+}
+
+compiled_once! {
+    fn finding<T>: fn(
+        &mut Sheet<'_, T>,
+        At<'_, T>,
+        T,
+        &dyn Fn(T, &mut [T]),
+        &Workspace<'_, T>,
+    ) -> Found<T> = |sheet, start, length, at, workspace| {
+        sheet.passages(start, length, at, workspace)
+    };
 }

@@ -15,6 +15,7 @@ use super::sheet::{PointView, Sheet};
 use crate::Real;
 use crate::equations::At;
 use crate::linalg::{Eliminated, Workspace, add_scaled, norm, solve_upper};
+use crate::once::compiled_once;
 use crate::tolerance::{
     critical, hull, negligible, noisy, resolvable, resolved, round_off, spacing, window,
 };
@@ -40,14 +41,6 @@ pub(crate) enum Placement<T> {
     /// Where the constraints are regular, next to a configuration where they are nearly
     /// singular: a gap keeps the sheets apart.
     Gap,
-}
-
-/// Where a state is better placed.
-enum Nodes<'a, T> {
-    /// Between these.
-    Found(Interpolated<'a, T>),
-    /// Without any.
-    Without(Placement<T>),
 }
 
 impl<T: Real> Sheet<'_, T> {
@@ -101,8 +94,8 @@ impl<T: Real> Sheet<'_, T> {
         let best = match self.recall(state, workspace) {
             Some(best) => best,
             None => match self.find_nodes(state, like, workspace)? {
-                Nodes::Found(best) => best,
-                Nodes::Without(placement) => return Ok(placement),
+                Ok(best) => best,
+                Err(placement) => return Ok(placement),
             },
         };
         let [sum, ..] = &best.sums;
@@ -128,13 +121,13 @@ impl<T: Real> Sheet<'_, T> {
         state: At<'_, T>,
         like: &Eliminated<'_, T>,
         workspace: &Workspace<'b, T>,
-    ) -> Result<Nodes<'b, T>, Obstacle> {
+    ) -> Result<Result<Interpolated<'b, T>, Placement<T>>, Obstacle> {
         let direction = self.direction(state, like, workspace)?;
         let Some(best) = self.search(state, like, &direction, workspace)? else {
             return Err(Obstacle::Unresolved);
         };
         if !workspace.scope(|inner| self.is_crossing(state, like, &direction, &best, inner)) {
-            return Ok(Nodes::Without(Placement::Gap));
+            return Ok(Err(Placement::Gap));
         }
         // Rows are no more exact than the coordinates, whose round-off grows with their size.
         let magnified = best.noise * (direction.rate * self.chart.reach).max(T::one());
@@ -145,10 +138,10 @@ impl<T: Real> Sheet<'_, T> {
         // Where neither is as good as wanted, the better one.
         let sine = like.smallest();
         if best.error > self.chart.accepted && best.error * sine * sine > T::EPSILON {
-            return Ok(Nodes::Without(Placement::Regular));
+            return Ok(Err(Placement::Regular));
         }
         self.remember(state, &direction, &best);
-        Ok(Nodes::Found(best))
+        Ok(Ok(best))
     }
 
     /// Tries spacings; `None` if the state is outside the nodes of all that are narrow
@@ -365,4 +358,26 @@ impl<T: Real> Sheet<'_, T> {
 fn is_finite<T: Real>(state: At<'_, T>) -> bool {
     let numbers = state.q.iter().chain(state.v);
     state.t.is_finite() && numbers.into_iter().all(|x| x.is_finite())
+}
+
+impl<T: Real> Sheet<'_, T> {
+    /// Puts a state onto its sheet.
+    pub(crate) fn put(
+        &mut self,
+        state: At<'_, T>,
+        point: &mut PointView<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Result<Placement<T>, Obstacle> {
+        placing()(self, state, point, workspace)
+    }
+}
+
+compiled_once! {
+    fn placing<T>: fn(
+        &mut Sheet<'_, T>,
+        At<'_, T>,
+        &mut PointView<'_, T>,
+        &Workspace<'_, T>,
+    ) -> Result<Placement<T>, Obstacle> =
+        |sheet, state, point, workspace| sheet.place(state, point, workspace);
 }

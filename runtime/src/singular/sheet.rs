@@ -15,6 +15,7 @@ use super::kept::NodesView;
 use super::obstacle::Obstacle;
 use crate::equations::{At, Equations};
 use crate::linalg::{Eliminated, Frame, Workspace, add_scaled, is_zero};
+use crate::once::compiled_once;
 use crate::tolerance::{contraction, critical, near_dependent, round_off};
 use crate::{Real, State};
 use nalgebra::{SMatrix, SVector};
@@ -441,4 +442,21 @@ fn scale_rows<T: Real>(chart: &ChartView<'_, T>, sign: T, right: &[T], scaled: &
     for (target, &row) in scaled.iter_mut().zip(chart.rows) {
         *target = sign * chart.row_scale[row] * right[row];
     }
+}
+
+impl<T: Real> Sheet<'_, T> {
+    /// The geometry at a state as it is.
+    pub(crate) fn look_at(
+        &mut self,
+        state: At<'_, T>,
+        point: &mut PointView<'_, T>,
+    ) -> Result<(), Obstacle> {
+        measuring()(self, state, point)
+    }
+}
+
+compiled_once! {
+    fn measuring<T>:
+        fn(&mut Sheet<'_, T>, At<'_, T>, &mut PointView<'_, T>) -> Result<(), Obstacle> =
+        |sheet, state, point| sheet.measure_here(state, point);
 }

@@ -11,9 +11,10 @@
 //! where it is off one of them.
 
 use super::chart::Chart;
+use super::meant::{finding_tangent, spanning};
 use super::place::Placement;
 use super::sheet::Point;
-use crate::dynamics::{Core, Lent, Source, Which};
+use crate::dynamics::{Core, Lent, Source, Which, choosing};
 use crate::equations::{At, sized};
 use crate::linalg::{Workspace, is_zero};
 use crate::tolerance::{passes, window};
@@ -51,7 +52,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             self.null_space(free);
         } else {
             let (mut solver, workspace, _) = self.lend(mechanism);
-            if !(T::routines().sheet.tangent)(&mut solver, state.at(), free, &workspace)? {
+            if !finding_tangent()(&mut solver, state.at(), free, &workspace)? {
                 return Ok(Start::Undetermined);
             }
         }
@@ -65,7 +66,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Chooses an independent subset of the rows at the position in the buffer.
     fn choose_rows(&mut self, mechanism: &dyn Mechanism<T, N, R>) {
         let (mut solver, workspace, _) = self.lend(mechanism);
-        (T::routines().rows.choose_rows)(&mut solver, &workspace);
+        choosing()(&mut solver, &workspace);
     }
 
     /// Fills columns with what the factorised constraints leave free.
@@ -77,13 +78,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             }
         };
         let workspace = self.memory.workspace();
-        (T::routines().sheet.span_free)(
-            self.metric.factor.as_slice(),
-            free,
-            N,
-            &correct,
-            &workspace,
-        );
+        spanning()(self.metric.factor.as_slice(), free, N, &correct, &workspace);
     }
 }
 

@@ -1,0 +1,28 @@
+//! Where the columns of a sparse matrix are kept.
+//!
+//! In:  a matrix, the order in which its rows are eliminated.
+//! Out: places in which rows have their entries close to one another.
+
+use crate::Real;
+
+/// Places for the columns of a sparse matrix, given column by column, some rows of which are
+/// eliminated in their order: by the first of these that has an entry there. `first` is room
+/// for as many.
+#[inline(never)]
+pub(crate) fn by_first_row<T: Real>(
+    matrix: &[T],
+    rows: &[usize],
+    places: &mut [usize],
+    first: &mut [usize],
+) {
+    let n = places.len();
+    for (column, first) in first.iter_mut().enumerate() {
+        let entries = &matrix[column * (matrix.len() / n)..];
+        let occupied = |row: &usize| entries[*row] != T::zero();
+        *first = rows.iter().position(occupied).unwrap_or(rows.len()) * n + column;
+    }
+    first.sort_unstable();
+    for (place, key) in first.iter().enumerate() {
+        places[key % n] = place;
+    }
+}
