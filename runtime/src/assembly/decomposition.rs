@@ -8,7 +8,7 @@
 
 use super::scales::Scales;
 use crate::Real;
-use crate::linalg::{Breakdown, RowProducts, Workspace, add_scaled, dot, orthogonalise_slices};
+use crate::linalg::{Breakdown, RowProducts, Workspace, add_scaled, dot, orthogonalise};
 
 /// `Ĵ = rows · J · columns`, of which some rows are `U Σ Vᵀ`.
 #[derive(Debug)]
@@ -100,7 +100,7 @@ impl<'a, T: Real> Decomposition<'a, T> {
             self.left[i * n_rows + row] = T::one();
         }
         let squares = &mut self.squares[..count];
-        orthogonalise_slices((self.rows, self.n), (self.left, n_rows), squares)
+        orthogonalise((self.rows, self.n), (self.left, n_rows), squares)
     }
 
     /// Damps solutions, relative to the square of the largest singular value.

@@ -12,7 +12,8 @@ use super::rows::Which;
 use super::solver::Source;
 use crate::equations::At;
 use crate::linalg::{
-    Breakdown, Workspace, add_scaled, count_above, dot, norm, remove, scale, solve_upper,
+    Breakdown, Workspace, add_scaled, count_above, dot, norm, orthogonalise, remove, scale,
+    solve_upper,
 };
 use crate::once::compiled_once;
 use crate::tolerance::{difference, regular};
@@ -48,7 +49,7 @@ impl<'a, T: Real> Combined<'a, T> {
         for entry in left.iter_mut().step_by(r + 1) {
             *entry = T::one();
         }
-        (known.orthogonalise)(directions, left)?;
+        orthogonalise((directions, n), (left, r), values)?;
         for (value, column) in values.iter_mut().zip(directions.chunks_exact_mut(n)) {
             *value = norm(column);
             if *value > T::zero() {

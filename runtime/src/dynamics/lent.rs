@@ -12,10 +12,9 @@ use super::metric::{Metric, MetricView};
 use super::rows::{Rows, RowsView, Which};
 use super::solver::{Source, factorise};
 use crate::equations::{At, Bound, Constraints, Equations};
-use crate::linalg::{Breakdown, Workspace, orthogonalise, solve_upper_transposed};
+use crate::linalg::{Workspace, solve_upper_transposed};
 use crate::singular::{Chart, Nodes, Session};
 use crate::{Counters, DynamicsError, Mechanism, Real, Structure};
-use nalgebra::SMatrix;
 
 /// Equations with a metric, and with what is known of the constraint rows.
 pub(crate) trait Constrained<T: Real>: Equations<T> {
@@ -48,11 +47,7 @@ pub(crate) struct Known<'a, T> {
     pub(crate) holonomic: &'a [bool],
     /// The length of the coordinates in the metric.
     pub(crate) reach: T,
-    /// Rotates so many columns of coordinates, and of rows, as there are rows.
-    pub(crate) orthogonalise: Orthogonalise<T>,
 }
-
-type Orthogonalise<T> = fn(&mut [T], &mut [T]) -> Result<(), Breakdown>;
 
 /// What is known of the metric and the rows, to be changed.
 pub(crate) struct Learning<'a, T> {
@@ -175,23 +170,7 @@ pub(super) fn known<'a, T: Real, const N: usize, const R: usize>(
         scale,
         holonomic,
         reach,
-        orthogonalise: orthogonalise_sized::<T, N, R>,
     }
-}
-
-/// Rotates columns of known sizes.
-fn orthogonalise_sized<T: Real, const N: usize, const R: usize>(
-    directions: &mut [T],
-    left: &mut [T],
-) -> Result<(), Breakdown> {
-    let mut g = SMatrix::<T, N, R>::zeros();
-    let mut v = SMatrix::<T, R, R>::zeros();
-    g.as_mut_slice().copy_from_slice(directions);
-    v.as_mut_slice().copy_from_slice(left);
-    let result = orthogonalise(&mut g.data.0, &mut v.data.0);
-    directions.copy_from_slice(g.as_slice());
-    left.copy_from_slice(v.as_slice());
-    result
 }
 
 impl<T: Real, const N: usize, const R: usize> Equations<T> for Lent<'_, T, N, R> {

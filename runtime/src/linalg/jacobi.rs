@@ -22,26 +22,13 @@ const MAX_SWEEPS: usize = 40;
 pub(crate) struct Breakdown;
 
 /// Rotates the columns of `g` until they are orthogonal, and those of `v` with
-/// them; then sorts both by falling norm. There are no more columns than `v` has rows.
+/// them; then sorts both by falling norm. Columns, of the lengths that are given, lie one
+/// after the other, as many as there are `squares`, which become those of the columns of `g`.
+/// There are no more columns than `v` has rows.
 ///
 /// Columns below the round-off of the largest are left as they are: they are
 /// zero but for noise.
-pub(crate) fn orthogonalise<T: Real, const K: usize, const N: usize>(
-    g: &mut [[T; K]],
-    v: &mut [[T; N]],
-) -> Result<(), Breakdown> {
-    let count = g.len().min(v.len()).min(N);
-    let squares = &mut [T::zero(); N][..count];
-    orthogonalise_slices(
-        (g.as_flattened_mut(), K),
-        (v.as_flattened_mut(), N),
-        squares,
-    )
-}
-
-/// The same for columns that lie one after the other, with their lengths; as many as there
-/// are `squares`, which become those of the columns of `g`.
-pub(crate) fn orthogonalise_slices<T: Real>(
+pub(crate) fn orthogonalise<T: Real>(
     (g, of_g): (&mut [T], usize),
     (v, of_v): (&mut [T], usize),
     squares: &mut [T],

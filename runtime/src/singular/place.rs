@@ -153,12 +153,7 @@ impl<T: Real> Sheet<'_, T> {
         direction: &Direction<'_, T>,
         workspace: &Workspace<'b, T>,
     ) -> Result<Option<Interpolated<'b, T>>, Obstacle> {
-        let mut width = (spacing::<T>() * self.chart.reach * direction.rate).min(spacing());
-        // Mostly the last spacing serves again, or that of the last passage.
-        let known = match self.chart.spacing > T::zero() {
-            true => self.chart.spacing,
-            false => self.nodes.quality.spacing.min(width),
-        };
+        let (known, mut width) = self.spacings(direction);
         let mut tried = None;
         let mut last = Interpolated::new(&self.chart, workspace);
         if known > T::zero() {
@@ -168,9 +163,6 @@ impl<T: Real> Sheet<'_, T> {
                 return Ok(Some(last));
             }
             tried = Some(inside);
-            if self.chart.spacing > T::zero() {
-                width = width.min(known * T::from_f64(4.0));
-            }
         }
         let mut found = Interpolated::new(&self.chart, workspace);
         let mut best = Interpolated::new(&self.chart, workspace);
@@ -207,6 +199,17 @@ impl<T: Real> Sheet<'_, T> {
             (Some(_), _) => Ok(Some(best)),
             (None, Some(why)) => Err(why),
             (None, None) => Ok(None),
+        }
+    }
+
+    /// The spacing that is tried first, zero for none, and the widest of the others. Mostly the
+    /// last one serves again, or that of the last passage.
+    fn spacings(&self, direction: &Direction<'_, T>) -> (T, T) {
+        let widest = (spacing::<T>() * self.chart.reach * direction.rate).min(spacing());
+        let known = self.chart.spacing;
+        match known > T::zero() {
+            true => (known, widest.min(known * T::from_f64(4.0))),
+            false => (self.nodes.quality.spacing.min(widest), widest),
         }
     }
 

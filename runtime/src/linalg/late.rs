@@ -3,10 +3,10 @@
 //! In:  rows that are reduced by all others.
 //! Out: their block, and its factors, the largest entry first.
 
-use super::{Frame, NotRegular};
+use super::block::{largest_of, peak_of};
+use super::frame::{Frame, NotRegular};
+use super::{add_scaled, is_zero, pair};
 use crate::Real;
-use crate::linalg::block::{largest_of, peak_of};
-use crate::linalg::{add_scaled, is_zero, pair};
 
 impl<T: Real> Frame<'_, T> {
     /// Keeps the block of the near-dependent rows, which are reduced by all others, and

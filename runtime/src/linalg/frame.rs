@@ -14,11 +14,6 @@
 //! so that what is local in a chain of loops stays local. Columns are kept in an order in
 //! which rows have their entries close to one another ([`by_first_row`]).
 
-mod late;
-mod places;
-
-pub(crate) use places::by_first_row;
-
 use super::block::{Block, largest_of};
 use super::workspace::Workspace;
 use super::{add_scaled, dot, pair};
@@ -31,42 +26,42 @@ const LONG: usize = 16;
 /// The factors of a square system.
 #[derive(Debug)]
 pub(crate) struct Frame<'a, T> {
-    n: usize,
+    pub(super) n: usize,
     /// Where each column is kept.
     places: &'a [usize],
     /// What is left of each row when the rows before it are eliminated, row by row.
-    upper: &'a mut [T],
+    pub(super) upper: &'a mut [T],
     /// How much of each row before it a row loses, in the order of elimination.
-    lower: &'a mut [T],
+    pub(super) lower: &'a mut [T],
     /// The columns between which a row has entries.
-    spans: &'a mut [usize],
+    pub(super) spans: &'a mut [usize],
     /// The first elimination that changed a row.
-    changed: &'a mut [usize],
+    pub(super) changed: &'a mut [usize],
     /// In which step a column is eliminated, counted from one; zero for none yet.
     step_of: &'a mut [usize],
-    order: Order<'a>,
-    block: Block<'a, T>,
-    smallest: T,
+    pub(super) order: Order<'a>,
+    pub(super) block: Block<'a, T>,
+    pub(super) smallest: T,
     /// Solutions on the way.
     forward: &'a mut [T],
     backward: &'a mut [T],
     /// Marks of rows or columns.
-    marks: &'a mut [usize],
+    pub(super) marks: &'a mut [usize],
     /// The block while it is eliminated, and the largest entry of each of its rows.
-    late: &'a mut [T],
-    peaks: &'a mut [T],
+    pub(super) late: &'a mut [T],
+    pub(super) peaks: &'a mut [T],
 }
 
 /// The order of an elimination.
 #[derive(Debug)]
-struct Order<'a> {
+pub(super) struct Order<'a> {
     /// Rows in the order of elimination, and the column of each one's pivot.
-    rows: &'a mut [usize],
-    columns: &'a mut [usize],
+    pub(super) rows: &'a mut [usize],
+    pub(super) columns: &'a mut [usize],
     /// How many rows come before the near-dependent ones.
-    independent: usize,
+    pub(super) independent: usize,
     /// How many rows are constraint rows.
-    constraints: usize,
+    pub(super) constraints: usize,
 }
 
 /// An elimination that others are compared with.
@@ -173,7 +168,7 @@ impl<'a, T: Real> Frame<'a, T> {
         span[1] = span[1].max(place + 1);
     }
 
-    fn entry(&self, row: usize, column: usize) -> T {
+    pub(super) fn entry(&self, row: usize, column: usize) -> T {
         self.upper[row * self.n + column]
     }
 
@@ -274,7 +269,7 @@ impl<'a, T: Real> Frame<'a, T> {
     }
 
     /// Subtracts from a row what makes its entry in the pivot column of a step vanish.
-    fn eliminate(&mut self, row: usize, step: usize) {
+    pub(super) fn eliminate(&mut self, row: usize, step: usize) {
         let (above, column) = (self.order.rows[step], self.order.columns[step]);
         let span = self.span(above);
         let [target, pivot] = pair(self.upper, self.n, row, above);
@@ -296,7 +291,7 @@ impl<'a, T: Real> Frame<'a, T> {
 
     /// The largest entry of a row that is reduced, and its size; columns of pivots hold
     /// zeros.
-    fn largest(&self, row: usize) -> (usize, T) {
+    pub(super) fn largest(&self, row: usize) -> (usize, T) {
         if !self.is_long() {
             return largest_of(&self.upper[row * self.n..(row + 1) * self.n]);
         }
@@ -309,7 +304,12 @@ impl<'a, T: Real> Frame<'a, T> {
         (start + column, size)
     }
 
-    fn take(&mut self, step: usize, row: usize, column: usize) -> Result<(), NotRegular> {
+    pub(super) fn take(
+        &mut self,
+        step: usize,
+        row: usize,
+        column: usize,
+    ) -> Result<(), NotRegular> {
         let pivot = self.upper.get(row * self.n + column).copied();
         let pivot = pivot.unwrap_or_default();
         if pivot == T::zero() || !pivot.is_finite() {
