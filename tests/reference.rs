@@ -118,7 +118,7 @@ fn most_accelerations_take_the_cheap_path() {
     ] {
         let counters = run(name, &Options::rk4(until, STEP)).counters;
         let cheap = counters.cheap_accelerations;
-        let robust = counters.landed_accelerations + counters.robust_accelerations;
+        let robust = counters.beside_accelerations + counters.robust_accelerations;
         let share = cheap as f64 / (cheap + robust) as f64;
         assert!(
             share >= 0.95,

@@ -193,7 +193,7 @@ fn passage(entry: &Value) -> Option<Passage<f64>> {
 fn counts(counters: &Counters) -> [u64; 11] {
     [
         counters.cheap_accelerations,
-        counters.landed_accelerations,
+        counters.beside_accelerations,
         counters.robust_accelerations,
         counters.rank_decisions,
         counters.undetermined,
@@ -211,7 +211,7 @@ fn counters(value: &Value) -> Option<Counters> {
     let counts: [u64; 11] = counts?.try_into().ok()?;
     let [
         cheap,
-        landed,
+        beside,
         robust,
         decisions,
         undetermined,
@@ -222,7 +222,7 @@ fn counters(value: &Value) -> Option<Counters> {
     ] = counts;
     Some(Counters {
         cheap_accelerations: cheap,
-        landed_accelerations: landed,
+        beside_accelerations: beside,
         robust_accelerations: robust,
         rank_decisions: decisions,
         undetermined,

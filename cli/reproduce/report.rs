@@ -188,7 +188,7 @@ pub fn work(outcomes: &[Outcome]) -> String {
         let report = &outcome.report;
         let counters = &report.counters;
         let total = counters.cheap_accelerations
-            + counters.landed_accelerations
+            + counters.beside_accelerations
             + counters.robust_accelerations;
         vec![
             outcome.experiment.title.to_string(),

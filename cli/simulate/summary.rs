@@ -87,7 +87,7 @@ pub fn json(report: &Report, structure: &Structure, error: Option<&CommandError>
         "events": events,
         "accelerations": {
             "cheap": report.counters.cheap_accelerations,
-            "beside_singular_positions": report.counters.landed_accelerations,
+            "beside_singular_positions": report.counters.beside_accelerations,
             "across_singular_positions": report.counters.robust_accelerations,
         },
         "rank_decisions": report.counters.rank_decisions,
@@ -157,17 +157,17 @@ fn undetermined(counters: &Counters) -> Option<[String; 2]> {
 fn work(counters: &Counters) -> Vec<[String; 2]> {
     let Counters {
         cheap_accelerations: cheap,
-        landed_accelerations: landed,
+        beside_accelerations: beside,
         robust_accelerations: robust,
         ..
     } = *counters;
-    let total = (cheap + landed + robust).max(1);
+    let total = (cheap + beside + robust).max(1);
     let share = 100.0 * cheap as f64 / total as f64;
     vec![
         [
             "accelerations".to_string(),
             format!(
-                "{cheap} by the cheap path ({share:.1} %), {landed} beside singular positions, \
+                "{cheap} by the cheap path ({share:.1} %), {beside} beside singular positions, \
                  {robust} across them"
             ),
         ],

@@ -168,7 +168,7 @@ fn redundant_constraints_are_cheap_after_a_choice_of_rows() {
         state = *method.step(&mut system, &state, bound).unwrap().end();
     }
     let done = system.counters();
-    let all = done.cheap_accelerations + done.landed_accelerations + done.robust_accelerations;
+    let all = done.cheap_accelerations + done.beside_accelerations + done.robust_accelerations;
     assert!(
         done.cheap_accelerations as f64 > 0.95 * all as f64,
         "{done:?}"

@@ -2,8 +2,8 @@
 
 mod allocation;
 mod assembly;
-mod bridge;
 mod conserve;
+mod curves;
 mod deadline;
 mod dynamics;
 mod finite;

@@ -75,7 +75,7 @@ records! {
     Origin<f64> { t, energy, supplied }
     Passage<f64> { t, sine, rank, regular }
     Counters {
-        cheap_accelerations, landed_accelerations, robust_accelerations, rank_decisions,
+        cheap_accelerations, beside_accelerations, robust_accelerations, rank_decisions,
         undetermined, mass_factorisations, constraint_factorisations, row_choices,
         projections, projection_iterations, robust_projections
     }

@@ -71,7 +71,7 @@ impl<T: Real> Loop<T> {
     /// Accelerations next to singular positions, which the motion passes.
     pub fn beside(&self) -> u64 {
         let counters = self.stepper.counters();
-        counters.landed_accelerations + counters.robust_accelerations
+        counters.beside_accelerations + counters.robust_accelerations
     }
 }
 

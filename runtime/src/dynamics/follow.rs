@@ -168,7 +168,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let placement = self.place(mechanism, state, &mut point)?;
         match placement {
             Placement::Crossing { .. } => self.counters.robust_accelerations += 1,
-            _ => self.counters.landed_accelerations += 1,
+            _ => self.counters.beside_accelerations += 1,
         }
         let acceleration = self.accelerate(mechanism, &point)?;
         Ok(self.stabilised(acceleration, state, &point))

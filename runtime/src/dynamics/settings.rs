@@ -96,7 +96,7 @@ pub struct Counters {
     pub cheap_accelerations: u64,
     /// Accelerations on the sheet of the constraint set on which the motion lives, at
     /// regular states of a step near a singular configuration.
-    pub landed_accelerations: u64,
+    pub beside_accelerations: u64,
     /// Accelerations where constraint rows are too weak for that: interpolated across a
     /// singular configuration or, in the form as published, with a rank decision.
     pub robust_accelerations: u64,
@@ -123,7 +123,7 @@ pub struct Counters {
 impl core::ops::AddAssign for Counters {
     fn add_assign(&mut self, more: Self) {
         self.cheap_accelerations += more.cheap_accelerations;
-        self.landed_accelerations += more.landed_accelerations;
+        self.beside_accelerations += more.beside_accelerations;
         self.robust_accelerations += more.robust_accelerations;
         self.rank_decisions += more.rank_decisions;
         self.undetermined += more.undetermined;
