@@ -50,6 +50,16 @@ impl<'a, T: Real> Workspace<'a, T> {
         taken
     }
 
+    /// Whether there is room for so many numbers in one piece.
+    pub(crate) fn has_room(&self, count: usize) -> bool {
+        self.numbers.iter().any(|piece| {
+            let free = piece.take();
+            let room = free.len() >= count;
+            piece.set(free);
+            room
+        })
+    }
+
     /// So many indices, all of them zero.
     pub(crate) fn indices(&self, count: usize) -> &'a mut [usize] {
         let taken = cut(&self.indices, count);

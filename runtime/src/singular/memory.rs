@@ -11,12 +11,12 @@ use crate::linalg::Workspace;
 
 /// Square matrices of all coordinates that there is room for. A sheet takes two for its
 /// frame, and others as the block of near-dependent rows is large: fourteen to interpolate,
-/// and one for each look into a step, of which there may be forty. The start of a motion takes
-/// seven besides those that interpolate.
-const MATRICES: usize = 64;
-/// Vectors of all coordinates that there is room for, of which an interpolation takes 250:
+/// and one for each look into a step, as long as there is room for more. The start of a motion
+/// takes seven besides those that interpolate.
+const MATRICES: usize = 32;
+/// Vectors of all coordinates that there is room for, of which an interpolation takes 185:
 /// with the standard library the matrices of small mechanisms among them.
-const VECTORS: usize = 288
+const VECTORS: usize = 200
     + if cfg!(feature = "std") {
         SMALL * MATRICES
     } else {
@@ -113,7 +113,7 @@ mod tests {
         let start = [
             combined,
             [(7, N * N), (8, N), (1, R)],
-            [(16, N * N), (250, N), (0, 0)],
+            [(16, N * N), (185, N), (0, 0)],
         ];
         let sizes = [
             [(3, 8 * R), (1, N * R), (2, N * N)],

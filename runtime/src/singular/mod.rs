@@ -14,6 +14,7 @@
 
 mod between;
 mod chart;
+mod cubic;
 mod direction;
 mod evaluate;
 mod kept;

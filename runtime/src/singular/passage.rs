@@ -4,6 +4,7 @@
 //! Out: [`Passage`]s: where the constraints become singular and the motion goes on to the
 //!      other side.
 
+use super::cubic::lowest_of_cubic;
 use super::sheet::Sheet;
 use crate::Real;
 use crate::equations::At;
@@ -12,6 +13,8 @@ use crate::once::compiled_once;
 
 /// Passages that are kept of one step.
 const ROOM: usize = 8;
+/// Blocks of near-dependent rows that a look takes, and what follows from it.
+const BLOCKS: usize = 6;
 /// Steps of the search for the time of a passage.
 const MOST_STEPS: usize = 60;
 /// Looks into a step, equally far apart, its start among them.
@@ -28,8 +31,6 @@ const DEEPENINGS: usize = 26;
 /// Halvings after which it is given up where the determinant, at twice the rate at which it
 /// falls, would still not reach zero.
 const DEEP: usize = 4;
-/// Places at which a polynomial is evaluated.
-const SAMPLES: usize = 16;
 
 /// A passage through a singular configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -288,6 +289,10 @@ impl<T: Real> Sheet<'_, T> {
             _ if halve => Some((from.t + to.t) * half),
             _ => Some(beside(from, to, changes, at_once)),
         };
+        // A look and those within it need room for a few blocks.
+        let size = view.like.block().size();
+        let room = BLOCKS * size * size + self.chart.n();
+        let middle = middle.filter(|_| workspace.has_room(room));
         workspace.scope(|workspace| {
             let middle = middle.and_then(|t| self.look(view, t, workspace));
             let Some(middle) = middle else {
@@ -451,24 +456,6 @@ fn rates<T: Real>(looks: &[Option<Look<'_, T>>; LOOKS], part: T) -> [Option<T>; 
             .zip(values)
             .map(|(weight, value)| T::from_f64(*weight) * value);
         Some(terms.fold(T::zero(), |sum, term| sum + term) / (part * T::from_f64(12.0)))
-    })
-}
-
-/// Where a cubic polynomial on [0, 1] with these values and rates at the ends is lowest,
-/// and its value there.
-fn lowest_of_cubic<T: Real>(ends: [T; 2], rates: [T; 2]) -> (T, T) {
-    let number = T::from_f64;
-    let value = |x: T| {
-        let rest = T::one() - x;
-        ends[0] * rest * rest * (T::one() + number(2.0) * x)
-            + ends[1] * x * x * (T::one() + number(2.0) * rest)
-            + rates[0] * x * rest * rest
-            - rates[1] * x * x * rest
-    };
-    let samples = (1..SAMPLES).map(|k| number(k as f64 / SAMPLES as f64));
-    samples.fold((number(0.5), value(number(0.5))), |lowest, x| {
-        let here = value(x);
-        if here < lowest.1 { (x, here) } else { lowest }
     })
 }
 
