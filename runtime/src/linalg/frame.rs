@@ -15,6 +15,7 @@
 //! which rows have their entries close to one another ([`by_first_row`]).
 
 use super::block::{Block, largest_of};
+use super::short::sized;
 use super::workspace::Workspace;
 use super::{add_scaled, dot, pair};
 use crate::Real;
@@ -28,7 +29,7 @@ const LONG: usize = 16;
 pub(crate) struct Frame<'a, T> {
     pub(super) n: usize,
     /// Where each column is kept.
-    places: &'a [usize],
+    pub(super) places: &'a [usize],
     /// What is left of each row when the rows before it are eliminated, row by row.
     pub(super) upper: &'a mut [T],
     /// How much of each row before it a row loses, in the order of elimination.
@@ -43,7 +44,7 @@ pub(crate) struct Frame<'a, T> {
     pub(super) block: Block<'a, T>,
     pub(super) smallest: T,
     /// Solutions on the way.
-    forward: &'a mut [T],
+    pub(super) forward: &'a mut [T],
     backward: &'a mut [T],
     /// Marks of rows or columns.
     pub(super) marks: &'a mut [usize],
@@ -225,7 +226,7 @@ impl<'a, T: Real> Frame<'a, T> {
     /// Subtracts from a row what makes its entries in some pivot columns vanish.
     fn reduce(&mut self, row: usize, steps: Range<usize>) {
         if !self.is_long() {
-            return self.reduce_short(row, steps);
+            return sized!(self.reduce_in(row, steps), self.reduce_short(row, steps));
         }
         let mut next = steps.start;
         while let Some(step) = self.next_shared(row, next..steps.end) {
@@ -393,6 +394,13 @@ impl<'a, T: Real> Frame<'a, T> {
     }
 
     fn go_forward(&mut self, right: &[T], steps: usize) {
+        sized!(
+            self.go_forward_in(right, steps),
+            self.go_forward_any(right, steps)
+        );
+    }
+
+    fn go_forward_any(&mut self, right: &[T], steps: usize) {
         for step in 0..steps {
             let row = self.order.rows[step];
             let first = self.changed[row].min(step);
@@ -406,6 +414,13 @@ impl<'a, T: Real> Frame<'a, T> {
     }
 
     fn go_backward(&mut self, steps: usize, x: &mut [T]) {
+        sized!(
+            self.go_backward_in(steps, x),
+            self.go_backward_any(steps, x)
+        );
+    }
+
+    fn go_backward_any(&mut self, steps: usize, x: &mut [T]) {
         self.backward.fill(T::zero());
         for step in (0..steps).rev() {
             let (row, column) = (self.order.rows[step], self.order.columns[step]);

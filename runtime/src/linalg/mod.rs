@@ -23,6 +23,7 @@ mod jacobi;
 mod late;
 mod places;
 mod products;
+mod short;
 mod subset;
 mod symmetric;
 #[cfg(test)]
