@@ -26,41 +26,27 @@ const PREDICTORS: usize = 5;
 /// The interpolations that are compared leave out this many pairs of nodes.
 pub(super) const SETS: usize = 3;
 
-/// What is interpolated: vectors one after the other.
-#[derive(Debug)]
-pub(super) struct Sum<'a, T> {
+/// What is interpolated: vectors one after the other, of one node or summed up.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Geometry<'a, T> {
     /// From the state that is asked for to the sheet, along the chart's complement.
-    pub(super) offset: &'a mut [T],
-    pub(super) tangent: &'a mut [T],
-    pub(super) drift: &'a mut [T],
-    pub(super) particular: &'a mut [T],
+    pub(super) offset: &'a [T],
+    pub(super) drift: &'a [T],
+    pub(super) particular: &'a [T],
+    pub(super) tangent: &'a [T],
 }
 
-impl<'a, T: Real> Sum<'a, T> {
-    fn new(chart: &ChartView<'_, T>, workspace: &Workspace<'a, T>) -> Self {
-        let n = chart.n();
+impl<'a, T> Geometry<'a, T> {
+    /// That of `n` coordinates.
+    fn of(vectors: &'a [T], n: usize) -> Self {
+        let (offset, rest) = vectors.split_at(n);
+        let (drift, rest) = rest.split_at(n);
+        let (particular, tangent) = rest.split_at(n);
         Self {
-            offset: workspace.numbers(n),
-            tangent: workspace.numbers(n * chart.freedoms),
-            drift: workspace.numbers(n),
-            particular: workspace.numbers(n),
-        }
-    }
-
-    fn clear(&mut self) {
-        self.offset.fill(T::zero());
-        self.tangent.fill(T::zero());
-        self.drift.fill(T::zero());
-        self.particular.fill(T::zero());
-    }
-
-    /// Adds what a node says, so much of it.
-    pub(super) fn add(&mut self, weight: T, offset: &[T], point: &PointView<'_, T>) {
-        if weight != T::zero() {
-            add_scaled(self.offset, weight, offset);
-            add_scaled(self.drift, weight, point.drift);
-            add_scaled(self.particular, weight, point.particular);
-            add_scaled(self.tangent, weight, point.tangent);
+            offset,
+            drift,
+            particular,
+            tangent,
         }
     }
 }
@@ -70,15 +56,11 @@ impl<'a, T: Real> Sum<'a, T> {
 pub(super) struct Interpolated<'a, T> {
     n: usize,
     /// By all nodes, and by one and two pairs fewer.
-    pub(super) sums: [Sum<'a, T>; SETS],
-    /// The offsets of the nodes, one after the other, and their places in units of the
+    sums: &'a mut [T],
+    /// What is known of the nodes, one after the other, and their places in units of the
     /// spacing.
-    offsets: &'a mut [T],
+    nodes: &'a mut [T],
     pub(super) places: [T; NODES],
-    /// The tangents of the nodes, of the first coordinate of the chart, and the accelerations
-    /// that the constraints demand there.
-    tangents: &'a mut [T],
-    demanded: &'a mut [T],
     /// How the round-off of each node is magnified by what is solved there.
     pub(super) noises: [T; NODES],
     bend: Bend<'a, T>,
@@ -117,11 +99,9 @@ impl<'a, T: Real> Interpolated<'a, T> {
         let n = chart.n();
         Self {
             n,
-            sums: core::array::from_fn(|_| Sum::new(chart, workspace)),
-            offsets: workspace.numbers(n * NODES),
+            sums: workspace.numbers((3 + chart.freedoms) * n * SETS),
+            nodes: workspace.numbers((3 + chart.freedoms) * n * NODES),
             places: [T::zero(); NODES],
-            tangents: workspace.numbers(n * NODES),
-            demanded: workspace.numbers(n * NODES),
             noises: [T::zero(); NODES],
             bend: Bend {
                 whole: workspace.numbers(n),
@@ -135,29 +115,39 @@ impl<'a, T: Real> Interpolated<'a, T> {
         }
     }
 
-    /// Begins anew.
-    pub(super) fn clear(&mut self) {
-        for sum in &mut self.sums {
-            sum.clear();
+    /// The vectors of a node or a sum, one after the other.
+    fn row(&self) -> usize {
+        self.sums.len() / SETS
+    }
+
+    /// What is interpolated by a set of nodes.
+    pub(super) fn sum(&self, set: usize) -> Geometry<'_, T> {
+        Geometry::of(&self.sums[set * self.row()..][..self.row()], self.n)
+    }
+
+    /// What is known of a node.
+    pub(super) fn node(&self, node: usize) -> Geometry<'_, T> {
+        Geometry::of(&self.nodes[node * self.row()..][..self.row()], self.n)
+    }
+
+    /// The vectors of a node, to be filled: the offset, the drift, the particular acceleration,
+    /// the tangents.
+    pub(super) fn node_mut(&mut self, node: usize) -> &mut [T] {
+        let row = self.row();
+        &mut self.nodes[node * row..(node + 1) * row]
+    }
+
+    /// Sums up what is known of the nodes, with the weights of each set.
+    pub(super) fn sum_up(&mut self, sets: &[[T; NODES]; SETS]) {
+        let row = self.row();
+        self.sums.fill(T::zero());
+        for (sum, weights) in self.sums.chunks_exact_mut(row).zip(sets) {
+            for (node, weight) in self.nodes.chunks_exact(row).zip(weights) {
+                if *weight != T::zero() {
+                    add_scaled(sum, *weight, node);
+                }
+            }
         }
-        self.noise = T::zero();
-    }
-
-    /// A vector of a node, of those that are one after the other.
-    fn of_node(vectors: &[T], n: usize, node: usize) -> &[T] {
-        &vectors[node * n..(node + 1) * n]
-    }
-
-    pub(super) fn offset(&self, node: usize) -> &[T] {
-        Self::of_node(self.offsets, self.n, node)
-    }
-
-    pub(super) fn tangent(&self, node: usize) -> &[T] {
-        Self::of_node(self.tangents, self.n, node)
-    }
-
-    pub(super) fn demanded(&self, node: usize) -> &[T] {
-        Self::of_node(self.demanded, self.n, node)
     }
 
     /// Adds the offset of the sheet at another place of the line.
@@ -165,29 +155,21 @@ impl<'a, T: Real> Interpolated<'a, T> {
         let mut weights = [T::zero(); NODES];
         weigh(&self.places, |_| true, place, &mut weights);
         for (node, weight) in weights.iter().enumerate() {
-            add_scaled(target, *weight, self.offset(node));
+            add_scaled(target, *weight, self.node(node).offset);
         }
     }
 
-    /// Keeps what was found at a node, and adds it to the sums.
-    fn keep(
-        &mut self,
-        node: usize,
-        moved: &[T],
-        point: &PointView<'_, T>,
-        sets: &[[T; NODES]; SETS],
-    ) {
-        let range = node * self.n..(node + 1) * self.n;
-        let offset = &mut self.offsets[range.clone()];
+    /// Keeps what was found at a node.
+    fn keep(&mut self, node: usize, moved: &[T], point: &PointView<'_, T>) {
+        let (offset, rest) = self.node_mut(node).split_at_mut(moved.len());
         offset.copy_from_slice(point.q);
         add_scaled(offset, -T::one(), moved);
-        for (sum, weights) in self.sums.iter_mut().zip(sets) {
-            sum.add(weights[node], offset, point);
-        }
-        self.tangents[range.clone()].copy_from_slice(&point.tangent[..self.n]);
-        self.demanded[range].copy_from_slice(point.particular);
+        let (drift, rest) = rest.split_at_mut(moved.len());
+        drift.copy_from_slice(point.drift);
+        let (particular, tangent) = rest.split_at_mut(moved.len());
+        particular.copy_from_slice(point.particular);
+        tangent.copy_from_slice(point.tangent);
         self.noises[node] = T::one() / (point.sine * point.sine);
-        self.noise += sets[0][node].abs() * self.noises[node];
     }
 
     /// Whether sheets cross between the nodes next to the singular configuration.
@@ -221,7 +203,7 @@ impl<'a, T: Real> Interpolated<'a, T> {
         weigh(&places, known, place, &mut weights);
         self.bend.add(T::one(), place - here, q);
         for (k, weight) in (first..node).zip(weights) {
-            add_scaled(q, weight, self.offset(k));
+            add_scaled(q, weight, self.node(k).offset);
             self.bend.add(-weight, self.places[k] - here, q);
         }
     }
@@ -278,7 +260,6 @@ impl<T: Real> Sheet<'_, T> {
         } else {
             T::one()
         };
-        found.clear();
         found.places = column(|node| sign * T::from_f64(ORDER[node]));
         let sets = weights_of_sets(&found.places, here);
         self.bend(state, direction, step, &mut found.bend, workspace);
@@ -304,11 +285,16 @@ impl<T: Real> Sheet<'_, T> {
                 return Err(Obstacle::Unresolved);
             }
             self.measure(Some(along), &mut point);
-            found.keep(node, moved, &point, &sets);
+            found.keep(node, moved, &point);
             if ORDER[node].abs() == 1.0 {
                 blocks[usize::from(node > 0)].set(self.frame.block());
             }
         }
+        found.sum_up(&sets);
+        let noises = found.noises.iter().zip(&sets[0]);
+        found.noise = noises.fold(T::zero(), |sum, (noise, weight)| {
+            sum + weight.abs() * *noise
+        });
         found.judge(&blocks, direction.is_of_time, workspace)
     }
 

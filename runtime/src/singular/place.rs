@@ -98,7 +98,7 @@ impl<T: Real> Sheet<'_, T> {
                 Err(placement) => return Ok(placement),
             },
         };
-        let [sum, ..] = &best.sums;
+        let sum = best.sum(0);
         point.tangent.copy_from_slice(sum.tangent);
         point.drift.copy_from_slice(sum.drift);
         point.particular.copy_from_slice(sum.particular);
@@ -247,7 +247,7 @@ impl<T: Real> Sheet<'_, T> {
     #[inline(never)]
     pub(super) fn judge(&self, state: At<'_, T>, rate: T, found: &mut Interpolated<'_, T>) {
         let chart = &self.chart;
-        let [all, fewer, fewest] = &found.sums;
+        let [all, fewer, fewest] = [0, 1, 2].map(|set| found.sum(set));
         let speed = chart.length(state.v);
         let bend = chart.length(all.particular) + speed * speed * rate;
         let mut differences = [T::zero(); 2];
@@ -331,7 +331,7 @@ impl<T: Real> Sheet<'_, T> {
         let q = workspace.numbers(self.chart.n());
         let place = direction.centre + best.spacing / direction.rate * best.places[0];
         let t = direction.moved(state, place, q);
-        add_scaled(q, T::one(), best.offset(0));
+        add_scaled(q, T::one(), best.node(0).offset);
         self.equations.locate(t, q);
         let chart = &self.chart;
         let jacobian = self.equations.constraints().jacobian;

@@ -12,7 +12,7 @@
 use super::direction::Direction;
 use super::kept::{NODES, SIDE};
 use super::nodes::{BEYOND, Interpolated, weights_of_sets};
-use super::sheet::{PointView, Sheet};
+use super::sheet::Sheet;
 use crate::Real;
 use crate::equations::At;
 use crate::linalg::{Workspace, add_scaled, dot};
@@ -53,9 +53,10 @@ impl<T: Real> Sheet<'_, T> {
             let (tangent, demanded) = rest.split_at_mut(n);
             let place = direction.centre + step * best.places[node];
             direction.moved(state, place, position);
-            add_scaled(position, T::one(), best.offset(node));
-            tangent.copy_from_slice(best.tangent(node));
-            for (target, entry) in demanded.iter_mut().zip(best.demanded(node)) {
+            let known = best.node(node);
+            add_scaled(position, T::one(), known.offset);
+            tangent.copy_from_slice(known.tangent);
+            for (target, entry) in demanded.iter_mut().zip(known.particular) {
                 *target = *entry / square;
             }
         }
@@ -96,28 +97,23 @@ impl<T: Real> Sheet<'_, T> {
         let sets = weights_of_sets(&places, T::zero());
         let speed = self.along(state.v);
         let mut found = Interpolated::new(&self.chart, workspace);
-        let point = PointView::new(&self.chart, workspace);
         for (node, kept) in self.nodes.points.chunks_exact(3 * n).enumerate() {
             let (q, rest) = kept.split_at(n);
             let (tangent, demanded) = rest.split_at(n);
             let length = self.along(tangent);
-            for (target, entry) in point.tangent.iter_mut().zip(tangent) {
-                *target = *entry / length;
-            }
             let share: T = speed / length;
-            point.particular.copy_from_slice(demanded);
-            add_scaled(point.particular, -self.along(demanded), point.tangent);
-            for entry in &mut *point.particular {
-                *entry *= share * share;
-            }
-            offset.copy_from_slice(q);
-            add_scaled(offset, -T::one(), state.q);
-            add_scaled(offset, -places[node], &self.chart.tangent[..n]);
-            for (sum, weights) in found.sums.iter_mut().zip(&sets) {
-                sum.add(weights[node], offset, &point);
+            let square = share * share;
+            let turned = self.along(demanded) / length;
+            let (offset, rest) = found.node_mut(node).split_at_mut(n);
+            let (particular, target) = rest[n..].split_at_mut(n);
+            for i in 0..n {
+                offset[i] = q[i] - state.q[i] - places[node] * self.chart.tangent[i];
+                target[i] = tangent[i] / length;
+                particular[i] = (demanded[i] - tangent[i] * turned) * square;
             }
             found.noise += sets[0][node].abs() * quality.noise[node];
         }
+        found.sum_up(&sets);
         found.spacing = quality.spacing;
         self.judge(state, quality.rate, &mut found);
         let as_before = found.score <= quality.score;
