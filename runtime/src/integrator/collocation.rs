@@ -130,6 +130,12 @@ impl<T: Real> Collocation<T> {
 /// The polynomial that is one at node `j` and zero at the others, at `x`.
 #[inline(never)]
 pub(super) fn cardinal<T: Real>(nodes: &[T], j: usize, x: T) -> T {
+    product(nodes, j, x)
+}
+
+/// As [`cardinal`], where the number of nodes is known.
+#[inline(always)]
+pub(super) fn product<T: Real>(nodes: &[T], j: usize, x: T) -> T {
     let mut product = T::one();
     for k in 0..nodes.len() {
         if k != j {

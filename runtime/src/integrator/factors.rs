@@ -62,7 +62,7 @@ impl<T: Real> Factors<'_, T> {
         workspace: &Workspace<'_, T>,
     ) -> bool {
         let n = self.orders.len() / (MOST_PAIRS + 1);
-        let sizes = workspace.numbers(n);
+        let sizes = workspace.any(n);
         let (zero, one) = (T::zero(), T::one());
         let (order, orders) = self.orders.split_at_mut(n);
         let factor = coefficients.real.value * h;

@@ -46,21 +46,25 @@ pub(super) fn factorise<T: Real, F: Entry<T>>(
         sizes[i] = row.fold(T::zero(), |most: T, entry| most.max(entry.size()));
     }
     for k in 0..n {
-        let mut pivot = k;
-        for i in k + 1..n {
-            if matrix[i * n + k].size() / sizes[i] > matrix[pivot * n + k].size() / sizes[pivot] {
-                pivot = i;
+        let (mut pivot, mut size) = (k, matrix[k * n + k].size());
+        if k + 1 < n {
+            let mut most = size / sizes[k];
+            for i in k + 1..n {
+                let other = matrix[i * n + k].size();
+                let ratio = other / sizes[i];
+                if ratio > most {
+                    (pivot, size, most) = (i, other, ratio);
+                }
             }
         }
-        let size = matrix[pivot * n + k].size();
         if !size.is_finite() || size == T::zero() {
             return false;
         }
-        order.swap(k, pivot);
-        sizes.swap(k, pivot);
         let (above, below) = matrix.split_at_mut((k + 1) * n);
         let row = &mut above[k * n..];
         if pivot != k {
+            order.swap(k, pivot);
+            sizes.swap(k, pivot);
             row.swap_with_slice(&mut below[(pivot - k - 1) * n..][..n]);
         }
         let row = &row[k..];
@@ -82,18 +86,19 @@ pub(super) fn solve<T: Real, F: Entry<T>>(factors: &[F], order: &[usize], y: &[F
     let n = order.len();
     let (y, x) = (&y[..n], &mut x[..n]);
     for i in 0..n {
+        let row = &factors[i * n..][..n];
         let mut value = y[order[i]];
-        for (factor, x) in factors[i * n..][..i].iter().zip(&*x) {
-            value = value - *factor * *x;
+        for j in 0..i {
+            value = value - row[j] * x[j];
         }
         x[i] = value;
     }
     for i in (0..n).rev() {
-        let row = &factors[i * n + i..][..n - i];
+        let row = &factors[i * n..][..n];
         let mut value = x[i];
-        for (factor, x) in row[1..].iter().zip(&x[i + 1..]) {
-            value = value - *factor * *x;
+        for j in i + 1..n {
+            value = value - row[j] * x[j];
         }
-        x[i] = value / row[0];
+        x[i] = value / row[i];
     }
 }

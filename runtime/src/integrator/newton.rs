@@ -11,7 +11,7 @@
 //! section IV.8.
 
 use super::IntegrateError;
-use super::collocation::{Collocation, MOST_STAGES, by_stage, cardinal, weigh};
+use super::collocation::{Collocation, MOST_STAGES, by_stage, product, weigh};
 use super::control::Scale;
 use super::factors::{Changes, Factors};
 use super::jacobian::{Flow, differentiate};
@@ -114,7 +114,7 @@ impl<'a, T: Real> Room<'a, T> {
     /// For so many stages of `n` coordinates.
     fn new(stages: usize, n: usize, workspace: &Workspace<'a, T>) -> Self {
         // Taken at once, since there is a price for each piece.
-        let all = workspace.numbers((3 * stages + 2) * n);
+        let all = workspace.any((3 * stages + 2) * n);
         let (q, all) = all.split_at_mut(stages * n);
         let (v, all) = all.split_at_mut(stages * n);
         let (found, pair) = all.split_at_mut(stages * n);
@@ -150,7 +150,7 @@ impl<T: Real> Newton<'_, T> {
         let first = self.course.before <= T::zero();
         if (first || again) && self.size(start) >= T::one() {
             // Stiff parts that are not in balance yet look like errors.
-            let (q, v) = (workspace.numbers(n), workspace.numbers(n));
+            let (q, v) = (workspace.any(n), workspace.any(n));
             q.copy_from_slice(start.q);
             v.copy_from_slice(start.v);
             add_scaled(q, T::one(), self.estimate.0);
@@ -251,7 +251,7 @@ impl<T: Real> Newton<'_, T> {
             let x = T::one() + *node * rule.h / length;
             let mut weights = [T::zero(); MOST_STAGES];
             for (j, weight) in weights.iter_mut().enumerate().take(S) {
-                *weight = cardinal(nodes, j, x);
+                *weight = product(nodes, j, x);
             }
             for (k, guess) in guess.iter_mut().enumerate() {
                 *guess = weigh::<T, S>(&weights, &column(|j| before[j][k]), T::zero());
@@ -300,27 +300,27 @@ impl<T: Real> Newton<'_, T> {
     ) {
         let n = v.len();
         let coefficients = &self.course.coefficients;
-        let (right, solved) = (&mut *room.pair.0, &mut *room.pair.1);
+        let right = &mut *room.pair.0;
         let factor = coefficients.real.value * rule.h;
         let (dq, dv) = (&mut *self.estimate.0, &mut *self.estimate.1);
         let shares = scaled(-factor, &coefficients.start);
         let velocities = by_stage::<T, S>(room.v, n);
         let others = by_stage::<T, S>(self.a, n);
-        let (to_q, to_v, a) = (&mut dq[..n], &mut dv[..n], &a[..n]);
+        let (dq, dv, a, right) = (&mut dq[..n], &mut dv[..n], &a[..n], &mut right[..n]);
         for k in 0..n {
-            to_q[k] = weigh::<T, S>(&shares, &column(|j| velocities[j][k]), factor * v[k]);
-            to_v[k] = weigh::<T, S>(&shares, &column(|j| others[j][k]), factor * a[k]);
+            dq[k] = weigh::<T, S>(&shares, &column(|j| velocities[j][k]), factor * v[k]);
+            dv[k] = weigh::<T, S>(&shares, &column(|j| others[j][k]), factor * a[k]);
         }
         // Filtered, so that it stays small where stiff parts have died out.
-        right.fill(T::zero());
-        for (column, dq) in self.derivatives.0.chunks_exact(n.max(1)).zip(&*dq) {
-            add_scaled(right, *dq, column);
+        let by_q = &self.derivatives.0[..n * n];
+        for k in 0..n {
+            let mut sum = T::zero();
+            for (j, dq) in dq.iter().enumerate() {
+                sum = dq.mul_add(by_q[j * n + k], sum);
+            }
+            right[k] = factor.mul_add(sum, dv[k]);
         }
-        for (right, dv) in right.iter_mut().zip(&*dv) {
-            *right = factor.mul_add(*right, *dv);
-        }
-        self.factors.solve_real(right, solved);
-        dv.copy_from_slice(solved);
+        self.factors.solve_real(right, dv);
         add_scaled(dq, factor, dv);
     }
 }
