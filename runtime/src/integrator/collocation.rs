@@ -130,6 +130,12 @@ impl<T: Real> Collocation<T> {
 /// The polynomial that is one at node `j` and zero at the others, at `x`.
 #[inline(never)]
 pub(super) fn cardinal<T: Real>(nodes: &[T], j: usize, x: T) -> T {
+    product(nodes, j, x)
+}
+
+/// As [`cardinal`], where the number of nodes is known.
+#[inline(always)]
+pub(super) fn product<T: Real>(nodes: &[T], j: usize, x: T) -> T {
     let mut product = T::one();
     for k in 0..nodes.len() {
         if k != j {
@@ -139,26 +145,26 @@ pub(super) fn cardinal<T: Real>(nodes: &[T], j: usize, x: T) -> T {
     product
 }
 
-/// The vectors of all stages, which are one after the other.
+/// The vectors of `S` stages, which are one after the other.
 #[inline(always)]
-pub(super) fn by_stage<T>(vectors: &[T], n: usize) -> [&[T]; MOST_STAGES] {
-    // Written out, so that the compiler knows that all are of one length.
-    let of = |stage: usize| &vectors[stage * n..][..n];
-    [of(0), of(1), of(2), of(3), of(4)]
+pub(super) fn by_stage<T, const S: usize>(mut vectors: &[T], n: usize) -> [&[T]; S] {
+    let mut stages: [&[T]; S] = [&[]; S];
+    for stage in &mut stages {
+        (*stage, vectors) = vectors.split_at(n);
+    }
+    stages
 }
 
-/// One component of the vectors' weighted sum, with what is there before; what is not in use
-/// has no weight.
+/// One component of the vectors' sum with the first `S` weights, and what is there before.
 #[inline(always)]
-pub(super) fn weigh<T: Real>(
+pub(super) fn weigh<T: Real, const S: usize>(
     weights: &[T; MOST_STAGES],
-    vectors: &[&[T]; MOST_STAGES],
-    k: usize,
+    components: &[T; S],
     before: T,
 ) -> T {
-    let pairs = weights.iter().zip(vectors);
-    pairs.fold(before, |sum, (weight, vector)| {
-        weight.mul_add(vector[k], sum)
+    let pairs = weights.iter().zip(components);
+    pairs.fold(before, |sum, (weight, component)| {
+        weight.mul_add(*component, sum)
     })
 }
 

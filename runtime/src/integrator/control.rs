@@ -135,14 +135,38 @@ impl<T: Real> Scale<'_, T> {
     pub(crate) fn norm(&self, error: (&[T], &[T]), start: (&[T], &[T]), end: (&[T], &[T])) -> T {
         let n = self.q.len();
         let [error, start, end] = [error, start, end].map(|(q, v)| (&q[..n], &v[..n]));
+        let scale = self.first(n);
         let mut sum = T::zero();
-        for i in 0..n {
-            let q = self.q[i] + self.relative * start.0[i].abs().max(end.0[i].abs());
-            let v = self.v[i] + self.relative * start.1[i].abs().max(end.1[i].abs());
-            let (q, v) = (error.0[i] / q, error.1[i] / v);
-            sum += q * q + v * v;
+        for k in 0..n {
+            let (start, end) = ((start.0[k], start.1[k]), (end.0[k], end.1[k]));
+            sum += scale.square(k, (error.0[k], error.1[k]), start, end);
         }
-        (sum / T::from_f64(2.0 * n.max(1) as f64)).sqrt()
+        scale.mean(sum)
+    }
+
+    /// The same for `n` coordinates, which all are, so that the compiler knows their number.
+    #[inline(always)]
+    pub(crate) fn first(&self, n: usize) -> Self {
+        Self {
+            q: &self.q[..n],
+            v: &self.v[..n],
+            ..*self
+        }
+    }
+
+    /// What coordinate `k` and its velocity add to the sum of squares.
+    #[inline(always)]
+    pub(crate) fn square(&self, k: usize, error: (T, T), start: (T, T), end: (T, T)) -> T {
+        let q = self.q[k] + self.relative * start.0.abs().max(end.0.abs());
+        let v = self.v[k] + self.relative * start.1.abs().max(end.1.abs());
+        let (q, v) = (error.0 / q, error.1 / v);
+        q * q + v * v
+    }
+
+    /// The root mean square of that sum.
+    #[inline(always)]
+    pub(crate) fn mean(&self, sum: T) -> T {
+        (sum / T::from_f64(2.0 * self.q.len().max(1) as f64)).sqrt()
     }
 }
 

@@ -3,10 +3,10 @@
 //! In:  derivatives of the acceleration, the step length.
 //! Out: changes of the stages' accelerations.
 
-use super::collocation::{Collocation, MOST_PAIRS, by_stage, weigh};
+use super::collocation::{Collocation, Eigen, MOST_PAIRS, by_stage, weigh};
 use super::lu::{Entry, factorise, solve};
 use crate::Real;
-use crate::linalg::Workspace;
+use crate::linalg::{Workspace, column};
 use core::ops::Mul;
 use nalgebra::Complex;
 
@@ -26,7 +26,7 @@ pub(super) struct Factors<'a, T> {
     complex: &'a mut [Complex<T>],
     /// The orders of the rows of all.
     orders: &'a mut [usize],
-    /// Room for two vectors.
+    /// Room for two vectors for each.
     across: &'a mut [Complex<T>],
 }
 
@@ -40,7 +40,7 @@ impl<T: Real, const N: usize> FactorRoom<T, N> {
         }
     }
 
-    /// The same over slices, with room for two vectors.
+    /// The same over slices, with room for two vectors for each complex eigenvalue.
     pub(super) fn factors<'a>(&'a mut self, across: &'a mut [Complex<T>]) -> Factors<'a, T> {
         Factors {
             real: self.real.as_flattened_mut(),
@@ -62,7 +62,7 @@ impl<T: Real> Factors<'_, T> {
         workspace: &Workspace<'_, T>,
     ) -> bool {
         let n = self.orders.len() / (MOST_PAIRS + 1);
-        let sizes = workspace.numbers(n);
+        let sizes = workspace.any(n);
         let (zero, one) = (T::zero(), T::one());
         let (order, orders) = self.orders.split_at_mut(n);
         let factor = coefficients.real.value * h;
@@ -89,47 +89,81 @@ impl<T: Real> Factors<'_, T> {
         solve(self.real, &self.orders[..y.len()], y, x);
     }
 
-    /// The change of the stages' accelerations that removes what is left of their
-    /// equations; with room for two vectors.
-    pub(super) fn solve(
-        &mut self,
-        (rest, change): (&[T], &mut [T]),
-        (along, solved): (&mut [T], &mut [T]),
-        coefficients: &Collocation<T>,
-    ) {
-        let n = along.len();
+    /// The change of the accelerations `a` of `S` stages that removes what is left of their
+    /// equations, where the states of the stages have the accelerations `found`; with room
+    /// for two vectors.
+    #[inline(always)]
+    pub(super) fn solve<'b, const S: usize>(
+        &'b mut self,
+        (a, found): (&[T], &[T]),
+        (along, solved): (&mut [T], &'b mut [T]),
+        coefficients: &'b Collocation<T>,
+    ) -> Changes<'b, T> {
+        let n = solved.len();
+        let along = &mut along[..n];
         let Collocation { real, complex, .. } = coefficients;
-        let stages = coefficients.stages;
-        let rest = by_stage(rest, n);
-        for (k, along) in along.iter_mut().enumerate() {
-            *along = weigh(&real.left, &rest, k, T::zero());
-        }
-        self.solve_real(along, solved);
-        for (i, right) in real.right[..stages].iter().enumerate() {
-            for (change, solved) in change[i * n..][..n].iter_mut().zip(&*solved) {
-                *change = *right * *solved;
+        let (across, out) = self.across.split_at_mut(MOST_PAIRS * n);
+        let (first, second) = across.split_at_mut(n);
+        let (a, found) = (by_stage::<T, S>(a, n), by_stage::<T, S>(found, n));
+        for k in 0..n {
+            let rest: [T; S] = column(|i| found[i][k] - a[i][k]);
+            along[k] = weigh(&real.left, &rest, T::zero());
+            first[k] = share(&complex[0], &rest);
+            if S > 3 {
+                second[k] = share(&complex[1], &rest);
             }
         }
-        // The other eigenvector of a pair is the conjugate.
-        let two = T::from_f64(2.0);
-        let (across, solved) = self.across.split_at_mut(n);
-        for (pair, eigen) in complex[..coefficients.pairs].iter().enumerate() {
-            for (k, across) in across.iter_mut().enumerate() {
-                *across = Complex::new(T::zero(), T::zero());
-                for (left, rest) in eigen.left.iter().zip(&rest) {
-                    *across += *left * rest[k];
-                }
-            }
+        solve(self.real, &self.orders[..n], along, solved);
+        for pair in 0..S / 2 {
             let factors = &self.complex[pair * n * n..][..n * n];
             let order = &self.orders[(pair + 1) * n..][..n];
-            solve::<T, _>(factors, order, across, solved);
-            for (i, right) in eigen.right[..stages].iter().enumerate() {
-                for (change, solved) in change[i * n..][..n].iter_mut().zip(&*solved) {
-                    *change += (*right * *solved).re * two;
-                }
-            }
+            let (across, out) = (&across[pair * n..], &mut out[pair * n..]);
+            solve::<T, _>(factors, order, across, out);
+        }
+        let (first, second) = out.split_at(n);
+        Changes {
+            coefficients,
+            real: solved,
+            complex: [first, &second[..n]],
         }
     }
+}
+
+/// Changes of the accelerations of all stages, along the eigenvectors.
+pub(super) struct Changes<'a, T> {
+    coefficients: &'a Collocation<T>,
+    real: &'a [T],
+    complex: [&'a [Complex<T>]; MOST_PAIRS],
+}
+
+impl<T: Real> Changes<'_, T> {
+    /// What is added to component `k` of the accelerations.
+    #[inline(always)]
+    pub(super) fn at<const S: usize>(&self, k: usize) -> [T; S] {
+        let Collocation { real, complex, .. } = self.coefficients;
+        let two = T::from_f64(2.0);
+        let mut change = [T::zero(); S];
+        for (change, right) in change.iter_mut().zip(&real.right) {
+            *change = *right * self.real[k];
+        }
+        // The other eigenvector of a pair is the conjugate.
+        for (eigen, solved) in complex.iter().zip(&self.complex).take(S / 2) {
+            for (change, right) in change.iter_mut().zip(&eigen.right) {
+                *change += (*right * solved[k]).re * two;
+            }
+        }
+        change
+    }
+}
+
+/// The share of an eigenvector in one component of all stages.
+#[inline(always)]
+fn share<T: Real, const S: usize>(eigen: &Eigen<Complex<T>>, rest: &[T; S]) -> Complex<T> {
+    let mut sum = Complex::new(T::zero(), T::zero());
+    for (left, rest) in eigen.left.iter().zip(rest) {
+        sum += *left * *rest;
+    }
+    sum
 }
 
 /// `W(λ) = 1 − λ h ∂q̈/∂q̇ − λ² h² ∂q̈/∂q`, by rows, for `factor` = `λ h`.
@@ -141,10 +175,11 @@ fn set_matrix<T: Real, F: Entry<T> + Mul<T, Output = F>>(
     (zero, one): (F, F),
 ) {
     let square = factor * factor;
-    for (i, row) in out.chunks_exact_mut(n.max(1)).enumerate() {
-        for (j, entry) in row.iter_mut().enumerate() {
+    for j in 0..n {
+        let (by_q, by_v) = (&by_q[j * n..][..n], &by_v[j * n..][..n]);
+        for i in 0..n {
             let unit = if i == j { one } else { zero };
-            *entry = unit - factor * by_v[j * n + i] - square * by_q[j * n + i];
+            out[i * n + j] = unit - factor * by_v[i] - square * by_q[i];
         }
     }
 }

@@ -38,7 +38,7 @@ pub(super) fn differentiate<T: Real>(
     }
     // One-sided differences.
     let n = a.len();
-    let near = workspace.numbers(n);
+    let near = workspace.any(n);
     let variation = T::EPSILON.powf(T::from_f64(VARIATION));
     let (change_q, change_v) = (size(at.q) * variation, size(at.v) * variation);
     for j in 0..n {

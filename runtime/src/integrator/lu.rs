@@ -39,34 +39,41 @@ pub(super) fn factorise<T: Real, F: Entry<T>>(
     sizes: &mut [T],
 ) -> bool {
     let n = order.len();
+    let sizes = &mut sizes[..n];
     for i in 0..n {
         order[i] = i;
-        sizes[i] = T::zero();
-        for entry in &matrix[i * n..(i + 1) * n] {
-            sizes[i] = sizes[i].max(entry.size());
-        }
+        let row = matrix[i * n..][..n].iter();
+        sizes[i] = row.fold(T::zero(), |most: T, entry| most.max(entry.size()));
     }
     for k in 0..n {
-        let mut pivot = k;
-        for i in k + 1..n {
-            if matrix[i * n + k].size() / sizes[i] > matrix[pivot * n + k].size() / sizes[pivot] {
-                pivot = i;
+        let (mut pivot, mut size) = (k, matrix[k * n + k].size());
+        if k + 1 < n {
+            let mut most = size / sizes[k];
+            for i in k + 1..n {
+                let other = matrix[i * n + k].size();
+                let ratio = other / sizes[i];
+                if ratio > most {
+                    (pivot, size, most) = (i, other, ratio);
+                }
             }
         }
-        let size = matrix[pivot * n + k].size();
         if !size.is_finite() || size == T::zero() {
             return false;
         }
-        order.swap(k, pivot);
-        sizes.swap(k, pivot);
-        for j in 0..n {
-            matrix.swap(k * n + j, pivot * n + j);
+        let (above, below) = matrix.split_at_mut((k + 1) * n);
+        let row = &mut above[k * n..];
+        if pivot != k {
+            order.swap(k, pivot);
+            sizes.swap(k, pivot);
+            row.swap_with_slice(&mut below[(pivot - k - 1) * n..][..n]);
         }
-        for i in k + 1..n {
-            let factor = matrix[i * n + k] / matrix[k * n + k];
-            matrix[i * n + k] = factor;
-            for j in k + 1..n {
-                matrix[i * n + j] = matrix[i * n + j] - factor * matrix[k * n + j];
+        let row = &row[k..];
+        for i in 0..n - k - 1 {
+            let other = &mut below[i * n + k..][..row.len()];
+            let factor = other[0] / row[0];
+            other[0] = factor;
+            for (entry, above) in other[1..].iter_mut().zip(&row[1..]) {
+                *entry = *entry - factor * *above;
             }
         }
     }
@@ -74,18 +81,24 @@ pub(super) fn factorise<T: Real, F: Entry<T>>(
 }
 
 /// `x = A⁻¹ y` with the factors and the order of the rows.
+#[inline]
 pub(super) fn solve<T: Real, F: Entry<T>>(factors: &[F], order: &[usize], y: &[F], x: &mut [F]) {
     let n = order.len();
+    let (y, x) = (&y[..n], &mut x[..n]);
     for i in 0..n {
-        x[i] = y[order[i]];
+        let row = &factors[i * n..][..n];
+        let mut value = y[order[i]];
         for j in 0..i {
-            x[i] = x[i] - factors[i * n + j] * x[j];
+            value = value - row[j] * x[j];
         }
+        x[i] = value;
     }
     for i in (0..n).rev() {
+        let row = &factors[i * n..][..n];
+        let mut value = x[i];
         for j in i + 1..n {
-            x[i] = x[i] - factors[i * n + j] * x[j];
+            value = value - row[j] * x[j];
         }
-        x[i] = x[i] / factors[i * n + i];
+        x[i] = value / row[i];
     }
 }

@@ -27,6 +27,7 @@ mod method;
 mod methods;
 mod newton;
 mod radau;
+mod rule;
 mod stages;
 mod step;
 mod step_control;

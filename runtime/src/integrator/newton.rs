@@ -4,24 +4,25 @@
 //! Out: accelerations of the stages, the end of the step before its projection, an error
 //!      estimate.
 //!
-//! Everything is over slices, and compiled once for mechanisms of all sizes. Vectors of
-//! several stages are one after the other.
+//! Everything is over slices, and compiled once for mechanisms of all sizes, for three stages
+//! and for five. Vectors of several stages are one after the other.
 //!
 //! Source: Hairer & Wanner, Solving Ordinary Differential Equations II (1996),
 //! section IV.8.
 
 use super::IntegrateError;
-use super::collocation::{Collocation, MOST_STAGES, by_stage, cardinal, weigh};
+use super::collocation::{Collocation, MOST_STAGES, by_stage, product, weigh};
 use super::control::Scale;
-use super::factors::Factors;
+use super::factors::{Changes, Factors};
 use super::jacobian::{Flow, differentiate};
+use super::rule::{Rule, by_stage_mut};
 use crate::Real;
 use crate::equations::At;
-use crate::linalg::{Workspace, add_scaled, scaled};
+use crate::linalg::{Workspace, add_scaled, column, scaled};
 use crate::once::compiled_once;
 
 /// Vectors of all coordinates that an attempt at a step takes room for.
-pub(super) const VECTORS: usize = 6 * MOST_STAGES + 5;
+pub(super) const VECTORS: usize = 3 * MOST_STAGES + 5;
 
 /// Iterations after which a step is given up.
 const MOST_ITERATIONS: usize = 10;
@@ -72,18 +73,14 @@ pub(crate) struct Newton<'a, T> {
     pub(super) estimate: (&'a mut [T], &'a mut [T]),
 }
 
-/// Coordinates and velocities of the stages.
-struct Stages<'a, T> {
-    q: &'a mut [T],
-    v: &'a mut [T],
-}
-
 /// What an iteration needs room for.
 struct Room<'a, T> {
-    before: Stages<'a, T>,
-    after: Stages<'a, T>,
-    rest: &'a mut [T],
-    change: &'a mut [T],
+    /// Coordinates of the stages.
+    q: &'a mut [T],
+    /// Their velocities.
+    v: &'a mut [T],
+    /// The accelerations that follow from them.
+    found: &'a mut [T],
     pair: (&'a mut [T], &'a mut [T]),
 }
 
@@ -113,86 +110,54 @@ impl<T: Real> Course<T> {
     }
 }
 
-impl<T: Real> Collocation<T> {
-    /// Writes the states of the stages of a step of length `h` with these accelerations.
-    pub(super) fn set_states(&self, start: At<'_, T>, a: &[T], h: T, (q, v): (&mut [T], &mut [T])) {
-        let n = start.q.len();
-        let (start_q, start_v) = (&start.q[..n], &start.v[..n]);
-        let a = by_stage(a, n);
-        for i in 0..self.stages {
-            let (node, row) = (self.nodes[i], &self.matrix[i]);
-            let square = scaled(h, &self.square[i]);
-            let (q, v) = (&mut q[i * n..][..n], &mut v[i * n..][..n]);
-            for k in 0..n {
-                let moved = weigh(&square, &a, k, node * start_v[k]);
-                q[k] = h.mul_add(moved, start_q[k]);
-                v[k] = h.mul_add(weigh(row, &a, k, T::zero()), start_v[k]);
-            }
-        }
-    }
-}
-
-impl<'a, T: Real> Stages<'a, T> {
-    fn new(size: usize, workspace: &Workspace<'a, T>) -> Self {
-        Self {
-            q: workspace.numbers(size),
-            v: workspace.numbers(size),
-        }
-    }
-
-    fn set(&mut self, coefficients: &Collocation<T>, start: At<'_, T>, a: &[T], h: T) {
-        coefficients.set_states(start, a, h, (self.q, self.v));
+impl<'a, T: Real> Room<'a, T> {
+    /// For so many stages of `n` coordinates.
+    fn new(stages: usize, n: usize, workspace: &Workspace<'a, T>) -> Self {
+        // Taken at once, since there is a price for each piece.
+        let all = workspace.any((3 * stages + 2) * n);
+        let (q, all) = all.split_at_mut(stages * n);
+        let (v, all) = all.split_at_mut(stages * n);
+        let (found, pair) = all.split_at_mut(stages * n);
+        let pair = pair.split_at_mut(n);
+        Self { q, v, found, pair }
     }
 }
 
 impl<T: Real> Newton<'_, T> {
-    /// Makes a trial step to the time `end`; `again` after others from the same start.
-    pub(crate) fn attempt(
+    /// Makes a trial step to the time `end` with a method of `S` stages; `again` after others
+    /// from the same start.
+    fn attempt<const S: usize>(
         &mut self,
         flow: &mut dyn Flow<T>,
         start: At<'_, T>,
         (end, again): (T, bool),
         workspace: &Workspace<'_, T>,
     ) -> Result<(), IntegrateError<T>> {
-        let h = end - start.t;
-        let (n, size) = (start.q.len(), self.a.len());
-        let mut room = Room {
-            before: Stages::new(size, workspace),
-            after: Stages::new(size, workspace),
-            rest: workspace.numbers(size),
-            change: workspace.numbers(size),
-            pair: (workspace.numbers(n), workspace.numbers(n)),
-        };
+        let n = start.q.len();
+        let rule = Rule::<T, S>::new(&self.course.coefficients, end - start.t);
+        let mut room = Room::new(S, n, workspace);
         let fresh = !self.course.differentiated;
-        let mut result = self.solve(flow, start, h, &mut room, workspace);
+        let mut result = self.solve(flow, start, &rule, &mut room, workspace);
         if result.is_err() && !fresh {
             self.course.differentiated = false;
-            result = self.solve(flow, start, h, &mut room, workspace);
+            result = self.solve(flow, start, &rule, &mut room, workspace);
         }
         result?;
-        let Room {
-            before: states,
-            change: a,
-            pair: (right, solved),
-            ..
-        } = room;
-        let coefficients = &self.course.coefficients;
-        coefficients.set_states(start, self.a, h, (states.q, states.v));
-        let last = (coefficients.stages - 1) * n;
-        self.end.0.copy_from_slice(&states.q[last..][..n]);
-        self.end.1.copy_from_slice(&states.v[last..][..n]);
-        self.look_back(states.v, h, (start.v, self.first), (right, solved));
+        let last = (S - 1) * n;
+        self.end.0.copy_from_slice(&room.q[last..][..n]);
+        self.end.1.copy_from_slice(&room.v[last..][..n]);
+        self.look_back(&rule, (start.v, self.first), &mut room);
         let first = self.course.before <= T::zero();
         if (first || again) && self.size(start) >= T::one() {
             // Stiff parts that are not in balance yet look like errors.
-            let (q, v) = (workspace.numbers(n), workspace.numbers(n));
+            let (q, v) = (workspace.any(n), workspace.any(n));
             q.copy_from_slice(start.q);
             v.copy_from_slice(start.v);
             add_scaled(q, T::one(), self.estimate.0);
             add_scaled(v, T::one(), self.estimate.1);
-            let (t, a) = (start.t, &mut a[..n]);
+            let (t, a) = (start.t, workspace.numbers(n));
             flow.accelerate(At { t, q, v }, a)?;
-            self.look_back(states.v, h, (v, a), (right, solved));
+            self.look_back(&rule, (v, a), &mut room);
         }
         Ok(())
     }
@@ -230,15 +195,16 @@ impl<T: Real> Newton<'_, T> {
         Ok(())
     }
 
-    /// Newton's iteration for all stages of a step of length `h`.
-    fn solve(
+    /// Newton's iteration for all stages of a step; the room has their states afterwards.
+    fn solve<const S: usize>(
         &mut self,
         flow: &mut dyn Flow<T>,
         start: At<'_, T>,
-        h: T,
+        rule: &Rule<T, S>,
         room: &mut Room<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> Result<(), IntegrateError<T>> {
+        let h = rule.h;
         self.prepare(flow, start, h, workspace)?;
         let failure = IntegrateError::NewtonDiverged { t: start.t, h };
         // The rate of the last step until this one has shown its own.
@@ -248,10 +214,11 @@ impl<T: Real> Newton<'_, T> {
             .max(T::from_f64(BEST_RATE))
             .min(T::from_f64(UNKNOWN_RATE));
         self.course.rate = T::zero();
-        self.guess(h);
+        self.guess(rule);
+        rule.set_states(start, self.a, (room.q, room.v));
         let mut before: Option<T> = None;
         for _ in 0..MOST_ITERATIONS {
-            let size = self.iterate(flow, start, h, room)?;
+            let size = self.iterate(flow, start, rule, room)?;
             let rate = before.map_or(expected, |before| size / before);
             if before.is_some() {
                 self.course.rate = self.course.rate.max(rate);
@@ -270,116 +237,131 @@ impl<T: Real> Newton<'_, T> {
 
     /// Accelerations to begin the iteration with: those of the last step's
     /// stages, extrapolated.
-    fn guess(&mut self, h: T) {
+    fn guess<const S: usize>(&mut self, rule: &Rule<T, S>) {
         let n = self.first.len();
-        let Course {
-            coefficients,
-            before: length,
-            ..
-        } = &*self.course;
-        let nodes = &coefficients.nodes[..coefficients.stages];
-        let before = by_stage(self.before, n);
+        let length = self.course.before;
+        let nodes = &rule.nodes;
+        let before = by_stage::<T, S>(self.before, n);
         for (i, node) in nodes.iter().enumerate() {
             let guess = &mut self.a[i * n..][..n];
-            if *length <= T::zero() {
+            if length <= T::zero() {
                 guess.copy_from_slice(self.first);
                 continue;
             }
-            let x = T::one() + *node * h / *length;
+            let x = T::one() + *node * rule.h / length;
             let mut weights = [T::zero(); MOST_STAGES];
-            for (j, weight) in weights.iter_mut().enumerate().take(nodes.len()) {
-                *weight = cardinal(nodes, j, x);
+            for (j, weight) in weights.iter_mut().enumerate().take(S) {
+                *weight = product(nodes, j, x);
             }
             for (k, guess) in guess.iter_mut().enumerate() {
-                *guess = weigh(&weights, &before, k, T::zero());
+                *guess = weigh::<T, S>(&weights, &column(|j| before[j][k]), T::zero());
             }
         }
     }
 
     /// One iteration; the size of the change in units of the tolerance.
-    fn iterate(
+    #[inline(always)]
+    fn iterate<const S: usize>(
         &mut self,
         flow: &mut dyn Flow<T>,
         start: At<'_, T>,
-        h: T,
+        rule: &Rule<T, S>,
         room: &mut Room<'_, T>,
     ) -> Result<T, IntegrateError<T>> {
         let n = start.q.len();
-        let coefficients = &self.course.coefficients;
-        let Room {
-            before,
-            after,
-            rest,
-            change,
-            pair,
-        } = room;
-        before.set(coefficients, start, self.a, h);
-        for (i, node) in coefficients.nodes[..coefficients.stages].iter().enumerate() {
+        for (i, node) in rule.nodes.iter().enumerate() {
             let stage = i * n..(i + 1) * n;
             let at = At {
-                t: start.t + h * *node,
-                q: &before.q[stage.clone()],
-                v: &before.v[stage.clone()],
+                t: start.t + rule.h * *node,
+                q: &room.q[stage.clone()],
+                v: &room.v[stage.clone()],
             };
-            let rest = &mut rest[stage.clone()];
-            flow.accelerate(at, rest)?;
-            add_scaled(rest, -T::one(), &self.a[stage]);
+            flow.accelerate(at, &mut room.found[stage])?;
         }
-        let pair = (&mut *pair.0, &mut *pair.1);
-        self.factors.solve((rest, change), pair, coefficients);
-        let used = ..coefficients.stages * n;
-        add_scaled(&mut self.a[used], T::one(), change);
-        after.set(coefficients, start, self.a, h);
-        // The changes, in place of the states before.
-        add_scaled(&mut before.q[used], -T::one(), after.q);
-        add_scaled(&mut before.v[used], -T::one(), after.v);
-        let mut sum = T::zero();
-        for i in 0..coefficients.stages {
-            let stage = i * n..(i + 1) * n;
-            let error = (&before.q[stage.clone()], &before.v[stage.clone()]);
-            let end = (&after.q[stage.clone()], &after.v[stage]);
-            let size = self.scale.norm(error, (start.q, start.v), end);
-            sum += size * size;
-        }
-        Ok((sum / T::from_f64(coefficients.stages as f64)).sqrt())
+        let pair = (&mut *room.pair.0, &mut *room.pair.1);
+        let (a, coefficients) = (&mut *self.a, &self.course.coefficients);
+        let changes = self.factors.solve::<S>((a, room.found), pair, coefficients);
+        Ok(correct(
+            (a, room.q, room.v),
+            &changes,
+            (start, rule),
+            &self.scale,
+        ))
     }
 
     /// The error estimate of a step (IV.8.19), with the derivatives at the start, or
     /// near it for a second look (IV.8.20): the derivatives are compared with those that
     /// the stages lead back to.
-    fn look_back(
+    fn look_back<const S: usize>(
         &mut self,
-        velocities: &[T],
-        h: T,
+        rule: &Rule<T, S>,
         (v, a): (&[T], &[T]),
-        (right, solved): (&mut [T], &mut [T]),
+        room: &mut Room<'_, T>,
     ) {
         let n = v.len();
         let coefficients = &self.course.coefficients;
-        let factor = coefficients.real.value * h;
+        let right = &mut *room.pair.0;
+        let factor = coefficients.real.value * rule.h;
         let (dq, dv) = (&mut *self.estimate.0, &mut *self.estimate.1);
         let shares = scaled(-factor, &coefficients.start);
-        let (velocities, others) = (by_stage(velocities, n), by_stage(self.a, n));
+        let velocities = by_stage::<T, S>(room.v, n);
+        let others = by_stage::<T, S>(self.a, n);
+        let (dq, dv, a, right) = (&mut dq[..n], &mut dv[..n], &a[..n], &mut right[..n]);
         for k in 0..n {
-            dq[k] = weigh(&shares, &velocities, k, factor * v[k]);
-            dv[k] = weigh(&shares, &others, k, factor * a[k]);
+            dq[k] = weigh::<T, S>(&shares, &column(|j| velocities[j][k]), factor * v[k]);
+            dv[k] = weigh::<T, S>(&shares, &column(|j| others[j][k]), factor * a[k]);
         }
         // Filtered, so that it stays small where stiff parts have died out.
-        right.fill(T::zero());
-        for (column, dq) in self.derivatives.0.chunks_exact(n.max(1)).zip(&*dq) {
-            add_scaled(right, *dq, column);
+        let by_q = &self.derivatives.0[..n * n];
+        for k in 0..n {
+            let mut sum = T::zero();
+            for (j, dq) in dq.iter().enumerate() {
+                sum = dq.mul_add(by_q[j * n + k], sum);
+            }
+            right[k] = factor.mul_add(sum, dv[k]);
         }
-        for (right, dv) in right.iter_mut().zip(&*dv) {
-            *right = factor.mul_add(*right, *dv);
-        }
-        self.factors.solve_real(right, solved);
-        dv.copy_from_slice(solved);
+        self.factors.solve_real(right, dv);
         add_scaled(dq, factor, dv);
     }
 }
 
+/// Adds changes to the accelerations of all stages, and writes the states that follow; the
+/// size of the change of the states in units of the tolerance.
+#[inline(always)]
+fn correct<T: Real, const S: usize>(
+    (a, q, v): (&mut [T], &mut [T], &mut [T]),
+    changes: &Changes<'_, T>,
+    (start, rule): (At<'_, T>, &Rule<T, S>),
+    scale: &Scale<'_, T>,
+) -> T {
+    let n = start.q.len();
+    let (start_q, start_v, scale) = (&start.q[..n], &start.v[..n], scale.first(n));
+    let mut a = by_stage_mut::<T, S>(a, n);
+    let (q, v) = (by_stage_mut::<T, S>(q, n), by_stage_mut::<T, S>(v, n));
+    let mut sums = [T::zero(); S];
+    for k in 0..n {
+        let start = (start_q[k], start_v[k]);
+        let mut next = changes.at::<S>(k);
+        for (next, a) in next.iter_mut().zip(&mut a) {
+            *next += a[k];
+            a[k] = *next;
+        }
+        for i in 0..S {
+            let end = rule.state(i, start, &next);
+            let change = (q[i][k] - end.0, v[i][k] - end.1);
+            sums[i] += scale.square(k, change, start, end);
+            (q[i][k], v[i][k]) = end;
+        }
+    }
+    let sum = sums.iter().fold(T::zero(), |sum, squares| {
+        let size = scale.mean(*squares);
+        sum + size * size
+    });
+    (sum / T::from_f64(S as f64)).sqrt()
+}
+
 compiled_once! {
-    /// [`Newton::attempt`].
+    /// [`Newton::attempt`] with the number of stages that there are.
     pub(super) fn attempting<T>: fn(
         &mut Newton<'_, T>,
         &mut dyn Flow<T>,
@@ -387,5 +369,8 @@ compiled_once! {
         (T, bool),
         &Workspace<'_, T>,
     ) -> Result<(), IntegrateError<T>> =
-        |newton, flow, start, end, workspace| newton.attempt(flow, start, end, workspace);
+        |newton, flow, start, end, workspace| match newton.course.coefficients.stages {
+            3 => newton.attempt::<3>(flow, start, end, workspace),
+            _ => newton.attempt::<5>(flow, start, end, workspace),
+        };
 }

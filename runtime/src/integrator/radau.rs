@@ -15,11 +15,12 @@
 //! section IV.8.
 
 use super::IntegrateError;
-use super::collocation::{Digits, MOST_STAGES, collocation};
+use super::collocation::{Digits, MOST_PAIRS, MOST_STAGES, collocation};
 use super::control::Tolerance;
 use super::factors::FactorRoom;
 use super::jacobian::Flow;
 use super::newton::{Course, Newton, VECTORS, attempting};
+use super::rule::setting_states;
 use super::step::Step;
 use super::step_control::{Inside, Trial};
 use crate::equations::{At, sized};
@@ -117,7 +118,7 @@ impl<T: Real, const N: usize> Radau<T, N> {
     ) -> Result<State<T, N>, IntegrateError<T>> {
         let mut last = State { t: end, ..*start };
         let [by_q, by_v] = &mut self.derivatives;
-        let mut across = [[Complex::new(T::zero(), T::zero()); N]; 2];
+        let mut across = [[Complex::new(T::zero(), T::zero()); N]; 2 * MOST_PAIRS];
         let mut newton = Newton {
             course: &mut self.course,
             scale: self.tolerance.scale(),
@@ -146,7 +147,7 @@ impl<T: Real, const N: usize> Radau<T, N> {
         let mut v = q;
         let (q, v) = (q.as_flattened_mut(), v.as_flattened_mut());
         let (start, a) = (step.start.at(), self.a.as_flattened());
-        coefficients.set_states(start, a, step.length(), (q, v));
+        setting_states()(coefficients, start, a, step.length(), (q, v));
         step.set_stages(&coefficients.nodes[..coefficients.stages - 1], (q, v));
     }
 }

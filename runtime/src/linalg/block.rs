@@ -26,14 +26,14 @@ impl<'a, T: Real> Block<'a, T> {
     /// An empty block with room for one of this size.
     pub(crate) fn with_capacity(size: usize, workspace: &Workspace<'a, T>) -> Self {
         Self {
-            entries: workspace.numbers(size * size),
+            entries: workspace.any(size * size),
             size: 0,
         }
     }
 
     /// A copy elsewhere.
     pub(crate) fn copy<'b>(&self, workspace: &Workspace<'b, T>) -> Block<'b, T> {
-        let mut copy = Block::zeros(self.size, workspace);
+        let mut copy = Block::with_capacity(self.size, workspace);
         copy.set(self);
         copy
     }

@@ -24,6 +24,14 @@ use core::ops::Range;
 /// Rows from which on it pays to look for zeros.
 const LONG: usize = 16;
 
+/// Room for the entries of a square matrix, zeros where only some are set later.
+fn entries<'a, T: Real>(n: usize, workspace: &Workspace<'a, T>) -> &'a mut [T] {
+    match n < LONG {
+        true => workspace.any(n * n),
+        false => workspace.numbers(n * n),
+    }
+}
+
 /// The factors of a square system.
 #[derive(Debug)]
 pub(crate) struct Frame<'a, T> {
@@ -101,19 +109,19 @@ impl<'a, T: Real> Frame<'a, T> {
         Self {
             n,
             places,
-            upper: workspace.numbers(n * n),
-            lower: workspace.numbers(n * n),
+            upper: entries(n, workspace),
+            lower: entries(n, workspace),
             spans: workspace.indices(2 * n),
             changed: workspace.indices(n),
             step_of: workspace.indices(n),
             order: Order::new(n, workspace),
             block: Block::with_capacity(constraints, workspace),
             smallest: T::zero(),
-            forward: workspace.numbers(n),
-            backward: workspace.numbers(n),
+            forward: workspace.any(n),
+            backward: workspace.any(n),
             marks: workspace.indices(n),
-            late: workspace.numbers(constraints * constraints),
-            peaks: workspace.numbers(constraints),
+            late: workspace.any(constraints * constraints),
+            peaks: workspace.any(constraints),
         }
     }
 

@@ -113,15 +113,15 @@ impl<T: Real> Frame<'_, T> {
             return Err(NotRegular);
         }
         for (k, entries) in rest.chunks_exact_mut(size).enumerate() {
-            if entries[local] == T::zero() {
-                continue;
-            }
             let row = self.order.rows[first + step + 1 + k];
             let share = entries[local] / pivot[local];
+            self.lower[row * self.n + first + step] = share;
+            if share == T::zero() {
+                continue;
+            }
             add_scaled(entries, -share, pivot);
             entries[local] = T::zero();
             self.peaks[step + 1 + k] = peak_of(entries);
-            self.lower[row * self.n + first + step] = share;
             self.changed[row] = self.changed[row].min(first + step);
         }
         Ok(())

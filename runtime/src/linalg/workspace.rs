@@ -1,7 +1,7 @@
 //! Memory for vectors and matrices whose sizes are data.
 //!
 //! In:  memory of fixed size, or from the heap, that its owner keeps.
-//! Out: slices of it, all zeros, for as long as a scope lasts.
+//! Out: slices of it, all zeros unless anything will do, for as long as a scope lasts.
 //!
 //! What is written over slices is compiled once, whatever the sizes of mechanisms are.
 //! Nothing is allocated here: slices are cut from the front of what is free, and all that a
@@ -43,9 +43,7 @@ impl<'a, T: Real> Workspace<'a, T> {
 
     /// So many zeros.
     pub(crate) fn numbers(&self, count: usize) -> &'a mut [T] {
-        let taken = self.numbers.iter().find_map(|piece| cut(piece, count));
-        debug_assert!(taken.is_some(), "no room for {count} numbers");
-        let taken = taken.unwrap_or_default();
+        let taken = self.any(count);
         taken.fill(T::zero());
         taken
     }
@@ -58,6 +56,13 @@ impl<'a, T: Real> Workspace<'a, T> {
             piece.set(free);
             room
         })
+    }
+
+    /// So many numbers, for what is written before it is read.
+    pub(crate) fn any(&self, count: usize) -> &'a mut [T] {
+        let taken = self.numbers.iter().find_map(|piece| cut(piece, count));
+        debug_assert!(taken.is_some(), "no room for {count} numbers");
+        taken.unwrap_or_default()
     }
 
     /// So many indices, all of them zero.

@@ -99,12 +99,12 @@ impl<'a, T: Real> Interpolated<'a, T> {
         let n = chart.n();
         Self {
             n,
-            sums: workspace.numbers((3 + chart.freedoms) * n * SETS),
-            nodes: workspace.numbers((3 + chart.freedoms) * n * NODES),
+            sums: workspace.any((3 + chart.freedoms) * n * SETS),
+            nodes: workspace.any((3 + chart.freedoms) * n * NODES),
             places: [T::zero(); NODES],
             noises: [T::zero(); NODES],
             bend: Bend {
-                whole: workspace.numbers(n),
+                whole: workspace.any(n),
                 share: T::zero(),
             },
             noise: T::zero(),

@@ -105,7 +105,9 @@ impl<T: Real> Sheet<'_, T> {
             let square = share * share;
             let turned = self.along(demanded) / length;
             let (offset, rest) = found.node_mut(node).split_at_mut(n);
-            let (particular, target) = rest[n..].split_at_mut(n);
+            let (drift, rest) = rest.split_at_mut(n);
+            let (particular, target) = rest.split_at_mut(n);
+            drift.fill(T::zero());
             for i in 0..n {
                 offset[i] = q[i] - state.q[i] - places[node] * self.chart.tangent[i];
                 target[i] = tangent[i] / length;

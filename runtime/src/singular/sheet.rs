@@ -95,11 +95,11 @@ impl<'a, T: Real> PointView<'a, T> {
         let n = chart.n();
         Self {
             t: T::zero(),
-            q: workspace.numbers(n),
-            v: workspace.numbers(n),
-            tangent: workspace.numbers(n * chart.freedoms),
-            drift: workspace.numbers(n),
-            particular: workspace.numbers(n),
+            q: workspace.any(n),
+            v: workspace.any(n),
+            tangent: workspace.any(n * chart.freedoms),
+            drift: workspace.any(n),
+            particular: workspace.any(n),
             sine: T::zero(),
         }
     }
@@ -171,8 +171,8 @@ impl<'a, T: Real> Sheet<'a, T> {
             frame: Frame::new(chart.column_places, chart.rows.len(), workspace),
             nodes,
             holonomic,
-            right: workspace.numbers(n),
-            solution: workspace.numbers(n),
+            right: workspace.any(n),
+            solution: workspace.any(n),
         }
     }
 
