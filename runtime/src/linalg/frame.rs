@@ -15,11 +15,28 @@
 //! which rows have their entries close to one another ([`by_first_row`]).
 
 use super::block::{Block, largest_of};
-use super::short::sized;
 use super::workspace::Workspace;
 use super::{add_scaled, dot, pair};
 use crate::Real;
 use core::ops::Range;
+
+/// Calls the method of short frames for the size of a frame, or does something else where it
+/// has none.
+macro_rules! sized {
+    ($frame:ident.$method:ident($($argument:expr),*), $otherwise:expr) => {
+        match $frame.n {
+            1 => $frame.$method::<1>($($argument),*),
+            2 => $frame.$method::<2>($($argument),*),
+            3 => $frame.$method::<3>($($argument),*),
+            4 => $frame.$method::<4>($($argument),*),
+            5 => $frame.$method::<5>($($argument),*),
+            6 => $frame.$method::<6>($($argument),*),
+            7 => $frame.$method::<7>($($argument),*),
+            8 => $frame.$method::<8>($($argument),*),
+            _ => $otherwise,
+        }
+    };
+}
 
 /// Rows from which on it pays to look for zeros.
 const LONG: usize = 16;

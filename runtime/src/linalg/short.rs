@@ -7,24 +7,6 @@ use super::frame::Frame;
 use crate::Real;
 use core::ops::Range;
 
-/// Calls a method for the size of a frame, or does something else where it has none.
-macro_rules! sized {
-    ($frame:ident.$method:ident($($argument:expr),*), $otherwise:expr) => {
-        match $frame.n {
-            1 => $frame.$method::<1>($($argument),*),
-            2 => $frame.$method::<2>($($argument),*),
-            3 => $frame.$method::<3>($($argument),*),
-            4 => $frame.$method::<4>($($argument),*),
-            5 => $frame.$method::<5>($($argument),*),
-            6 => $frame.$method::<6>($($argument),*),
-            7 => $frame.$method::<7>($($argument),*),
-            8 => $frame.$method::<8>($($argument),*),
-            _ => $otherwise,
-        }
-    };
-}
-pub(super) use sized;
-
 impl<T: Real> Frame<'_, T> {
     /// Subtracts from a row what makes its entries in some pivot columns vanish.
     pub(super) fn reduce_in<const N: usize>(&mut self, row: usize, steps: Range<usize>) {
