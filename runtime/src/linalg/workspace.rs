@@ -35,12 +35,6 @@ impl<'a, T: Real> Workspace<'a, T> {
         }
     }
 
-    /// The same with a third piece, for what is in neither.
-    pub(crate) fn and(self, third: &'a mut [T]) -> Self {
-        self.numbers[2].set(third);
-        self
-    }
-
     /// So many zeros.
     pub(crate) fn numbers(&self, count: usize) -> &'a mut [T] {
         let taken = self.any(count);

@@ -96,7 +96,10 @@ impl<T: Real, const N: usize, const R: usize> Memory<T, N, R> {
             self.combined.as_flattened_mut().as_flattened_mut(),
         );
         let vectors = self.vectors.as_flattened_mut();
-        Workspace::new(vectors, matrices, self.indices.as_flattened_mut()).and(combined)
+        Workspace::of(
+            [vectors, matrices, combined, &mut []],
+            self.indices.as_flattened_mut(),
+        )
     }
 }
 

@@ -14,7 +14,7 @@ use super::obstacle::Obstacle;
 use super::sheet::{PointView, Sheet};
 use crate::Real;
 use crate::equations::At;
-use crate::linalg::{Eliminated, Workspace, add_scaled, norm, solve_upper};
+use crate::linalg::{Eliminated, Workspace, add_scaled, is_finite, norm, solve_upper};
 use crate::once::compiled_once;
 use crate::tolerance::{
     critical, hull, negligible, noisy, resolvable, resolved, round_off, spacing, window,
@@ -51,7 +51,7 @@ impl<T: Real> Sheet<'_, T> {
         point: &mut PointView<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> Result<Placement<T>, Obstacle> {
-        if !is_finite(state) {
+        if !(state.t.is_finite() && is_finite(state.q) && is_finite(state.v)) {
             return Err(Obstacle::NotFinite);
         }
         let here = (state.t, state.q);
@@ -355,12 +355,6 @@ impl<T: Real> Sheet<'_, T> {
         }
         most.min(chart.reach)
     }
-}
-
-/// Whether every number of a state is finite.
-fn is_finite<T: Real>(state: At<'_, T>) -> bool {
-    let numbers = state.q.iter().chain(state.v);
-    state.t.is_finite() && numbers.into_iter().all(|x| x.is_finite())
 }
 
 impl<T: Real> Sheet<'_, T> {
