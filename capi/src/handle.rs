@@ -98,9 +98,18 @@ impl<M, const N: usize, const R: usize> Body<M, N, R> {
         // SAFETY: `busy` was false and is true until the end of this call, so that no other
         // borrow of the engine exists.
         let engine = unsafe { &mut *self.engine.get() };
-        let status = caught(|| match act(engine) {
-            Ok(()) => Status::Ok,
-            Err(status) => status,
+        let status = caught(|| {
+            engine.text.is_new = false;
+            match act(engine) {
+                Ok(()) => Status::Ok,
+                Err(status) => {
+                    // The message of an earlier call would mislead.
+                    if !engine.text.is_new {
+                        engine.text.say(&status.words().to_string_lossy());
+                    }
+                    status
+                }
+            }
         });
         if status == Status::Panic {
             self.broken.store(true, Ordering::Relaxed);

@@ -43,24 +43,15 @@ pub enum Status {
 }
 
 impl Status {
-    /// What it means, in words.
+    /// What it means, in words, where nothing more is said; empty for those that always come
+    /// with a reason.
     pub fn words(self) -> &'static CStr {
         match self {
-            Self::Ok => c"done",
-            Self::Stopped => c"the run was stopped before its end",
-            Self::Full => c"the run ended early: the rows are full",
             Self::Null => c"a pointer that has to lead somewhere is null",
-            Self::Length => c"an array has another length than the mechanism wants",
-            Self::Index => c"there is nothing at this index",
-            Self::Name => c"there is nothing of this name",
-            Self::NotFinite => c"a number that was given is infinite or NaN",
-            Self::Argument => c"a value makes no sense",
             Self::Order => c"there is no state yet: call bricard_assemble or bricard_set_state",
             Self::Busy => c"another call is at work on the same mechanism",
-            Self::Assembly => c"no consistent initial state was found",
-            Self::Run => c"the motion could not be computed",
-            Self::Callback => c"a callback failed",
             Self::Panic => c"internal error, please report; the mechanism can only be freed",
+            _ => c"",
         }
     }
 

@@ -14,6 +14,8 @@ const ROOM: usize = 2048;
 pub(crate) struct Text {
     bytes: [u8; ROOM],
     length: usize,
+    /// Whether it is of the call that is at work.
+    pub(crate) is_new: bool,
 }
 
 impl Text {
@@ -22,6 +24,7 @@ impl Text {
         Self {
             bytes: [0; ROOM],
             length: 0,
+            is_new: false,
         }
     }
 
@@ -34,6 +37,7 @@ impl Text {
     /// Replaces the message; what there is no room for is left out.
     pub(crate) fn say(&mut self, message: &dyn Display) {
         self.clear();
+        self.is_new = true;
         let _cut_off = write!(self, "{message}");
     }
 
