@@ -30,12 +30,14 @@ mod new;
 mod number;
 mod output;
 mod page;
+#[cfg_attr(not(feature = "parquet"), path = "without_parquet.rs")]
 mod parquet;
 mod passage;
 mod plot;
 mod progress;
 mod raster;
 mod reproduce;
+mod rows;
 mod run;
 mod scene;
 mod show;

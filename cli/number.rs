@@ -20,7 +20,21 @@ pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::largest;
+    use super::{exact, largest};
+    use bricard_testkit::Random;
+
+    #[test]
+    fn printed_numbers_read_back_to_the_same_bits() {
+        let mut random = Random::seeded(1);
+        let values = (0..10_000).map(|_| f64::from_bits(random.bits()));
+        for value in values.filter(|value| value.is_finite()) {
+            let read: f64 = exact(value).parse().unwrap_or(f64::NAN);
+            assert_eq!(read.to_bits(), value.to_bits(), "{value:?}");
+        }
+        assert_eq!(exact(-0.0), "-0");
+        assert_eq!(exact(4.0), "4");
+        assert_eq!(exact(1e-300), "1e-300");
+    }
 
     #[test]
     fn the_largest_of_numbers_is_nan_if_one_is_nan() {

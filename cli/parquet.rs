@@ -8,6 +8,7 @@
 
 use crate::error::CommandError;
 use crate::output::probe;
+use crate::rows::RowWriter;
 use parquet::data_type::DoubleType;
 use parquet::errors::ParquetError;
 use parquet::file::properties::WriterProperties;
@@ -18,11 +19,15 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+/// Why no file in this format can be written: it can be here, but a command that was built
+/// without the feature `parquet` has [another module](../without_parquet.rs) in this place.
+pub const MISSING: Option<&str> = None;
+
 /// Rows in a block.
 const BLOCK: usize = 1 << 16;
 
 /// Rows of numbers on their way to a Parquet file.
-pub struct ParquetWriter {
+struct ParquetWriter {
     path: PathBuf,
     /// Opened when the first block is full or the rows end, so that a run that can't
     /// begin harms no file of the same name.
@@ -32,28 +37,23 @@ pub struct ParquetWriter {
     block: Vec<Vec<f64>>,
 }
 
-impl ParquetWriter {
-    /// Rows for a file, which is replaced.
-    ///
-    /// # Errors
-    ///
-    /// [`CommandError::Write`] if the file can't be written.
-    pub fn new(path: &Path, header: &[String]) -> Result<Self, CommandError> {
-        probe(path)?;
-        Ok(Self {
-            path: path.to_path_buf(),
-            out: None,
-            header: header.to_vec(),
-            block: vec![Vec::new(); header.len()],
-        })
-    }
+/// Rows for a file, which is replaced.
+///
+/// # Errors
+///
+/// [`CommandError::Write`] if the file can't be written.
+pub fn writer(path: &Path, header: &[String]) -> Result<Box<dyn RowWriter>, CommandError> {
+    probe(path)?;
+    Ok(Box::new(ParquetWriter {
+        path: path.to_path_buf(),
+        out: None,
+        header: header.to_vec(),
+        block: vec![Vec::new(); header.len()],
+    }))
+}
 
-    /// Writes a row.
-    ///
-    /// # Errors
-    ///
-    /// [`CommandError::Write`].
-    pub fn row(&mut self, values: &[f64]) -> Result<(), CommandError> {
+impl RowWriter for ParquetWriter {
+    fn row(&mut self, values: &[f64]) -> Result<(), CommandError> {
         for (column, value) in self.block.iter_mut().zip(values) {
             column.push(*value);
         }
@@ -66,11 +66,7 @@ impl ParquetWriter {
     }
 
     /// Writes the last rows and the end of the file.
-    ///
-    /// # Errors
-    ///
-    /// As [`row`](Self::row).
-    pub fn finish(&mut self) -> Result<(), CommandError> {
+    fn finish(&mut self) -> Result<(), CommandError> {
         let written = self.write_block().and_then(|()| match self.out.take() {
             Some(out) => out.close().map(|_| ()),
             None => Ok(()),
@@ -78,11 +74,12 @@ impl ParquetWriter {
         written.map_err(|error| self.failed(&error))
     }
 
-    /// Where the rows go, as a message names it.
-    pub fn destination(&self) -> String {
+    fn destination(&self) -> String {
         self.path.display().to_string()
     }
+}
 
+impl ParquetWriter {
     fn write_block(&mut self) -> Result<(), ParquetError> {
         if self.block.iter().all(Vec::is_empty) {
             return Ok(());

@@ -212,14 +212,6 @@ fn files_that_cannot_be_written_are_found_out_before_the_run() {
     check_refused(&missing, 1, &["could not write /nonexistent/run.csv"]);
     let missing = [&name[..], &["--plot", "/nonexistent/run.svg"]].concat();
     check_refused(&missing, 1, &["could not write /nonexistent/run.svg"]);
-    let missing = [&name[..], &["--out", "/nonexistent/run.parquet"]].concat();
-    check_refused(&missing, 1, &["could not write /nonexistent/run.parquet"]);
-    let resumed = [
-        &name[..],
-        &["--out", "run.parquet", "--checkpoint", "run.json"],
-    ]
-    .concat();
-    check_refused(&resumed, 2, &["run.parquet", "checkpoint", "--out run.csv"]);
     let bmp = [&name[..], &["--plot", "run.bmp"]].concat();
     check_refused(&bmp, 2, &["run.bmp", "--plot run.svg", "--plot run.html"]);
     let phase = [&name[..], &["--plot", "run.html", "--phase", "q1,q2"]].concat();

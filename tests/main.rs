@@ -29,6 +29,8 @@ mod messages;
 mod motion;
 mod order;
 mod pages;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod passage;
 mod readme;
 mod reduction;

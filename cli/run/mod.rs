@@ -109,7 +109,7 @@ fn checkpoint(
     report: &Report,
     sink: &mut dyn RowSink,
 ) -> Result<Checkpoint, CommandError> {
-    let rows = sink.settle()?;
+    let rows = sink.flush()?;
     Ok(Checkpoint {
         origin: reached.origin,
         state: reached.state,

@@ -64,7 +64,7 @@ pub trait RowSink {
     /// # Errors
     ///
     /// As [`row`](Self::row).
-    fn settle(&mut self) -> Result<Rows, CommandError> {
+    fn flush(&mut self) -> Result<Rows, CommandError> {
         Ok(Rows::default())
     }
 }

@@ -4,6 +4,7 @@ use super::record::is_parquet;
 use crate::arguments::{MethodName, Simulate};
 use crate::error::CommandError;
 use crate::page::is_page;
+use crate::parquet::MISSING;
 use crate::run::Plan;
 use bricard_codegen::internals::diagnostic::figure;
 use bricard_runtime::{Options, Settings, StepControl};
@@ -170,34 +171,7 @@ fn positive(option: &'static str, value: Option<f64>) -> Result<Option<f64>, Com
 pub fn check_files(arguments: &Simulate) -> Result<(), CommandError> {
     different(arguments)?;
     wide(arguments).and_then(|()| live(arguments))?;
-    let kind = |path: &Path| path.extension().map(|kind| kind.to_ascii_lowercase());
-    let refuse = |path: &Path, instead| {
-        Err(CommandError::FileKind {
-            path: path.to_path_buf(),
-            instead,
-        })
-    };
-    if let Some(out) = &arguments.out
-        && kind(out).is_some_and(|kind| !ROWS.iter().any(|known| *known == kind))
-    {
-        return refuse(
-            out,
-            "rows are written as CSV or as Parquet; write `--out run.csv` or `--out run.parquet`",
-        );
-    }
-    let unfinished = arguments.checkpoint.is_some() || arguments.resume.is_some();
-    if let Some(out) = &arguments.out
-        && is_parquet(out)
-        && unfinished
-    {
-        return refuse(
-            out,
-            "rows can't be added to Parquet after a checkpoint; write `--out run.csv`",
-        );
-    }
-    let is_of = |path: &Path, kinds: &[&str]| {
-        kind(path).is_some_and(|kind| kinds.iter().any(|known| kind == *known))
-    };
+    rows(arguments)?;
     if let Some(plot) = &arguments.plot
         && !is_of(plot, &PLOTS)
     {
@@ -228,6 +202,41 @@ pub fn check_files(arguments: &Simulate) -> Result<(), CommandError> {
     Ok(())
 }
 
+/// Refuses rows in a kind of file that can't be written.
+fn rows(arguments: &Simulate) -> Result<(), CommandError> {
+    let Some(out) = &arguments.out else {
+        return Ok(());
+    };
+    if out.extension().is_some() && !is_of(out, &ROWS) {
+        return refuse(
+            out,
+            "rows are written as CSV or as Parquet; write `--out run.csv` or `--out run.parquet`",
+        );
+    }
+    let unfinished = arguments.checkpoint.is_some() || arguments.resume.is_some();
+    match (is_parquet(out), MISSING) {
+        (true, Some(missing)) => refuse(out, missing),
+        (true, None) if unfinished => refuse(
+            out,
+            "rows can't be added to Parquet after a checkpoint; write `--out run.csv`",
+        ),
+        _ => Ok(()),
+    }
+}
+
+fn refuse(path: &Path, instead: &'static str) -> Result<(), CommandError> {
+    Err(CommandError::FileKind {
+        path: path.to_path_buf(),
+        instead,
+    })
+}
+
+/// Whether a file is of one of some kinds, by its ending.
+fn is_of(path: &Path, kinds: &[&str]) -> bool {
+    let kind = path.extension();
+    kind.is_some_and(|kind| kinds.iter().any(|known| kind.eq_ignore_ascii_case(known)))
+}
+
 /// Refuses sliders where there is no page.
 fn live(arguments: &Simulate) -> Result<(), CommandError> {
     match arguments.live && !arguments.plot.as_deref().is_some_and(is_page) {
@@ -249,11 +258,7 @@ fn wide(arguments: &Simulate) -> Result<(), CommandError> {
             instead,
         })
     };
-    let is_gif = |path: &Path| {
-        path.extension()
-            .is_some_and(|kind| kind.eq_ignore_ascii_case("gif"))
-    };
-    let for_print = |path: &&PathBuf| !is_page(path) && !is_gif(path);
+    let for_print = |path: &&PathBuf| !is_page(path) && !is_of(path, &["gif"]);
     let mut pictures = arguments.plot.iter().chain(&arguments.film);
     match (arguments.width, pictures.clone().next()) {
         (None, _) => Ok(()),

@@ -7,46 +7,19 @@ use crate::arguments::Simulate;
 use crate::checkpoint::{Checkpoint, Rows};
 use crate::column::{Column, header};
 use crate::error::CommandError;
-use crate::output::{CsvWriter, probe};
-use crate::parquet::ParquetWriter;
+use crate::output::probe;
+use crate::parquet;
+use crate::rows::{CsvWriter, RowWriter};
 use crate::run::RowSink;
 use bricard_runtime::Structure;
 use std::mem;
 use std::path::Path;
 
-/// A table on its way out.
-enum Table {
-    Csv(CsvWriter),
-    Parquet(ParquetWriter),
-}
-
-impl Table {
-    fn new(path: Option<&Path>, header: &[String]) -> Result<Self, CommandError> {
-        match path {
-            Some(path) if is_parquet(path) => Ok(Self::Parquet(ParquetWriter::new(path, header)?)),
-            path => Ok(Self::Csv(CsvWriter::new(path, header)?)),
-        }
-    }
-
-    fn row(&mut self, values: &[f64]) -> Result<(), CommandError> {
-        match self {
-            Self::Csv(writer) => writer.row(values),
-            Self::Parquet(writer) => writer.row(values),
-        }
-    }
-
-    fn finish(&mut self) -> Result<(), CommandError> {
-        match self {
-            Self::Csv(writer) => writer.finish(),
-            Self::Parquet(writer) => writer.finish(),
-        }
-    }
-
-    fn destination(&self) -> String {
-        match self {
-            Self::Csv(writer) => writer.destination(),
-            Self::Parquet(writer) => writer.destination(),
-        }
+/// What writes rows to a file, by its name, or to standard output.
+fn writer(path: Option<&Path>, header: &[String]) -> Result<Box<dyn RowWriter>, CommandError> {
+    match path {
+        Some(path) if is_parquet(path) => parquet::writer(path, header),
+        path => Ok(Box::new(CsvWriter::new(path, header)?)),
     }
 }
 
@@ -58,7 +31,7 @@ pub fn is_parquet(path: &Path) -> bool {
 
 /// Where the rows go.
 pub struct Record {
-    table: Option<Table>,
+    table: Option<Box<dyn RowWriter>>,
     /// What tells the rows of several runs apart, before each row of the table.
     value: Option<f64>,
     /// Numbers of a row that the table gets: a picture may want more.
@@ -87,7 +60,7 @@ impl Record {
         let header = header(structure, columns);
         let width = header.len();
         let all: Vec<String> = varied.into_iter().chain(header).collect();
-        let open = || Table::new(arguments.out.as_deref(), &all);
+        let open = || writer(arguments.out.as_deref(), &all);
         Ok(Self {
             table: wanted.then(open).transpose()?,
             value: None,
@@ -111,8 +84,8 @@ impl Record {
     /// Goes on after the rows of a checkpoint.
     pub fn go_on(&mut self, checkpoint: &Checkpoint) {
         self.count = usize::try_from(checkpoint.rows.count).unwrap_or(usize::MAX);
-        if let Some(Table::Csv(csv)) = &mut self.table {
-            csv.go_on(checkpoint.rows);
+        if let Some(table) = &mut self.table {
+            table.go_on(checkpoint.rows);
         }
     }
 
@@ -128,8 +101,8 @@ impl Record {
     ) -> Result<String, CommandError> {
         let mut places = Vec::new();
         // A reader of the rows that has gone is no reason not to draw the picture.
-        let finished = self.table.as_mut().map_or(Ok(()), Table::finish);
-        places.extend(self.table.as_ref().map(Table::destination));
+        let finished = self.table.as_mut().map_or(Ok(()), |table| table.finish());
+        places.extend(self.table.as_ref().map(|table| table.destination()));
         if let Some(rows) = self.rows.take()
             && self.count > 0
         {
@@ -169,11 +142,10 @@ impl RowSink for Record {
         Ok(())
     }
 
-    fn settle(&mut self) -> Result<Rows, CommandError> {
+    fn flush(&mut self) -> Result<Rows, CommandError> {
         match &mut self.table {
-            Some(Table::Csv(csv)) => csv.settle(),
-            // Checkpoints of a run that writes Parquet are refused.
-            Some(Table::Parquet(_)) | None => Ok(Rows::default()),
+            Some(table) => table.flush(),
+            None => Ok(Rows::default()),
         }
     }
 }

@@ -1,0 +1,162 @@
+//! Rows of numbers that leave the program, as CSV.
+//!
+//! In:  rows of numbers.
+//! Out: standard output, CSV files. Not here: Parquet.
+
+use crate::checkpoint::Rows;
+use crate::error::CommandError;
+use crate::number::exact;
+use crate::output::{STANDARD_OUTPUT, probe};
+use csv::{ErrorKind, Writer};
+use std::fs::{self, File};
+use std::io::{self, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+/// Writes rows to a file or to standard output.
+pub trait RowWriter {
+    /// Writes a row.
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::WriteRows`] where what was written before stays, else
+    /// [`CommandError::Write`].
+    fn row(&mut self, values: &[f64]) -> Result<(), CommandError>;
+
+    /// Writes what is still to be written.
+    ///
+    /// # Errors
+    ///
+    /// As [`row`](Self::row).
+    fn finish(&mut self) -> Result<(), CommandError>;
+
+    /// Where the rows go, as a message names it.
+    fn destination(&self) -> String;
+
+    /// Goes on after rows of an earlier part of the run. What a file has after them is
+    /// cut off. Nothing to do where checkpoints are refused.
+    fn go_on(&mut self, _rows: Rows) {}
+
+    /// Hands rows over, and says what is there.
+    ///
+    /// # Errors
+    ///
+    /// As [`row`](Self::row).
+    fn flush(&mut self) -> Result<Rows, CommandError> {
+        Ok(Rows::default())
+    }
+}
+
+/// Rows of numbers on their way to a CSV file or to standard output.
+pub struct CsvWriter {
+    path: Option<PathBuf>,
+    /// Opened when the first row comes, so that a run that can't begin harms no
+    /// file of the same name.
+    out: Option<Writer<Box<dyn Write>>>,
+    header: Vec<String>,
+    rows: usize,
+    /// The length at which rows are added to a file.
+    tail: Option<u64>,
+}
+
+impl CsvWriter {
+    /// Rows for a file, which is replaced when the first one comes, or for
+    /// standard output (`None`, `-`).
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Write`] if the file can't be written.
+    pub fn new(path: Option<&Path>, header: &[String]) -> Result<Self, CommandError> {
+        let path = path.filter(|path| *path != Path::new("-"));
+        path.map(probe).transpose()?;
+        Ok(Self {
+            path: path.map(Path::to_path_buf),
+            out: None,
+            header: header.to_vec(),
+            rows: 0,
+            tail: None,
+        })
+    }
+
+    fn write(&mut self, values: &[f64]) -> csv::Result<()> {
+        let out = match &mut self.out {
+            Some(out) => out,
+            None => {
+                let sink: Box<dyn Write> = match &self.path {
+                    Some(path) => Box::new(opened(path, self.tail)?),
+                    None => Box::new(io::stdout()),
+                };
+                let out = self.out.insert(Writer::from_writer(sink));
+                if !self.header.is_empty() {
+                    out.write_record(&self.header)?;
+                }
+                out
+            }
+        };
+        out.write_record(values.iter().map(|value| exact(*value)))
+    }
+
+    fn failed(&self, error: io::Error) -> CommandError {
+        CommandError::write_rows(Path::new(&self.destination()), self.rows, error)
+    }
+}
+
+impl RowWriter for CsvWriter {
+    fn row(&mut self, values: &[f64]) -> Result<(), CommandError> {
+        let written = self.write(values);
+        written.map_err(|error| self.failed(system(error)))?;
+        self.rows += 1;
+        Ok(())
+    }
+
+    fn finish(&mut self) -> Result<(), CommandError> {
+        let flushed = self.out.as_mut().map_or(Ok(()), |out| out.flush());
+        flushed.map_err(|error| self.failed(error))
+    }
+
+    fn destination(&self) -> String {
+        let path = self.path.as_ref().map(|path| path.display().to_string());
+        path.unwrap_or_else(|| STANDARD_OUTPUT.to_string())
+    }
+
+    fn go_on(&mut self, rows: Rows) {
+        self.rows = usize::try_from(rows.count).unwrap_or(usize::MAX);
+        self.tail = rows.bytes;
+        if self.path.is_none() || rows.bytes.is_some() {
+            self.header.clear();
+        }
+    }
+
+    fn flush(&mut self) -> Result<Rows, CommandError> {
+        self.finish()?;
+        let file = self.path.as_ref().and_then(|path| fs::metadata(path).ok());
+        let bytes = file.filter(|file| file.is_file()).map(|file| file.len());
+        Ok(Rows {
+            count: self.rows as u64,
+            bytes,
+        })
+    }
+}
+
+/// A new file, or one that goes on after a length.
+fn opened(path: &Path, tail: Option<u64>) -> io::Result<File> {
+    let Some(length) = tail else {
+        return File::create(path);
+    };
+    let mut file = File::options().write(true).open(path)?;
+    if file.metadata()?.len() < length {
+        return Err(io::Error::other("it has lost rows since the checkpoint"));
+    }
+    file.set_len(length)?;
+    file.seek(SeekFrom::End(0))?;
+    Ok(file)
+}
+
+/// What the system says of a failed row. As an `io::Error` of its own a CSV error
+/// would no longer tell a reader that has gone from other causes.
+fn system(error: csv::Error) -> io::Error {
+    let text = error.to_string();
+    match error.into_kind() {
+        ErrorKind::Io(error) => error,
+        _ => io::Error::other(text),
+    }
+}
