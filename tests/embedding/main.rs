@@ -3,6 +3,7 @@
 
 mod allocation;
 mod header;
+mod messages;
 mod motion;
 mod program;
 mod slopes;

@@ -5,6 +5,7 @@ pub mod page;
 pub mod placement;
 mod random;
 mod reduction;
+pub mod sentences;
 
 pub use random::Random;
 pub use reduction::{Motion, Reduction};

@@ -5,6 +5,10 @@
 
 use std::fs;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+/// Tests of one program write sections of the same page, each a part of what it read.
+static WRITING: Mutex<()> = Mutex::new(());
 
 /// Holds a section of a page, from its heading to the next of the same rank, against a
 /// text, or writes it there with `BRICARD_BLESS=1`.
@@ -13,6 +17,7 @@ use std::path::Path;
 ///
 /// If the page lacks the section, or has another one.
 pub fn hold_section(page: &Path, heading: &str, found: &str) {
+    let _alone = WRITING.lock().unwrap_or_else(PoisonError::into_inner);
     let name = page.display();
     let text = fs::read_to_string(page).unwrap_or_else(|error| panic!("{name}: {error}"));
     let begin = format!("## {heading}\n");

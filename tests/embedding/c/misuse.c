@@ -1,5 +1,7 @@
 /* Does everything wrong that can be done wrong within the rules of bricard.h, and expects to
-   be told so. Correct C99, and correct C++. */
+   be told so; prints each status, what brought it about in Markdown, and the message, with tabs between
+   them. Correct C99, and correct C++. */
+#include "double_pendulum.h"
 #include "engine.h"
 
 #include "check.h"
@@ -14,8 +16,8 @@ static double not_a_number(void)
     return NOTHING / NOTHING;
 }
 
-/* A refusal with a word of its message. */
-#define REFUSED(m, call, status, word)                                                  \
+/* A refusal with a word of its message, and what brings it about. */
+#define REFUSED_AS(how, m, call, status, word)                                          \
     do {                                                                                \
         bricard_status refused_ = (call);                                               \
         if (refused_ != (status) || !strstr(bricard_message(m), word)) {                \
@@ -23,7 +25,12 @@ static double not_a_number(void)
                     (int)refused_, bricard_message(m));                                 \
             exit(1);                                                                    \
         }                                                                               \
+        printf("%s\t%s\t%s\n", #status, how, bricard_message(m));                       \
     } while (0)
+
+#define REFUSED(m, call, status, word) REFUSED_AS("`" #call "`", m, call, status, word)
+
+#define IS_NULL(m, call) REFUSED_AS("`" #call "`", m, call, BRICARD_ERROR_NULL, "null")
 
 static void nulls(bricard *m)
 {
@@ -32,23 +39,22 @@ static void nulls(bricard *m)
     CHECK(engine_create(NULL) == BRICARD_ERROR_NULL);
     CHECK(engine_interface(BRICARD_ABI + 1) == NULL);
     CHECK(bricard_clone(NULL, &none) == BRICARD_ERROR_NULL);
-    CHECK(bricard_clone(m, NULL) == BRICARD_ERROR_NULL);
-    CHECK(bricard_assign(m, NULL) == BRICARD_ERROR_NULL);
     bricard_free(NULL);
     bricard_free(&none);
-    CHECK(strlen(bricard_message(NULL)) > 0);
     CHECK(bricard_name(NULL, 0, 0) == NULL);
-    CHECK(bricard_step(NULL, 1.0) == BRICARD_ERROR_NULL);
-    CHECK(bricard_run(NULL, 1.0, NULL, NULL) == BRICARD_ERROR_NULL);
-    CHECK(bricard_parameter(m, 0, NULL) == BRICARD_ERROR_NULL);
-    CHECK(bricard_find(m, BRICARD_PARAMETERS, NULL, NULL) == BRICARD_ERROR_NULL);
-    CHECK(bricard_find(m, BRICARD_PARAMETERS, "L", NULL) == BRICARD_ERROR_NULL);
-    CHECK(bricard_set_state(m, 0.0, NULL, &x, ENGINE_N) == BRICARD_ERROR_NULL);
-    CHECK(bricard_evaluate(m, BRICARD_ENERGY, NULL, NULL, 4) < 0);
-    CHECK(bricard_drive_input(m, 0, NULL, NULL) == BRICARD_ERROR_NULL);
-    CHECK(bricard_get_options(m, NULL) == BRICARD_ERROR_NULL);
-    CHECK(bricard_set_options(m, NULL) == BRICARD_ERROR_NULL);
-    CHECK(bricard_failed_at(m, &x) == BRICARD_ERROR_ORDER);
+    REFUSED(NULL, bricard_step(NULL, 1.0), BRICARD_ERROR_NULL, "NULL");
+    REFUSED(NULL, bricard_run(NULL, 1.0, NULL, NULL), BRICARD_ERROR_NULL, "NULL");
+    REFUSED(m, bricard_failed_at(m, &x), BRICARD_ERROR_ORDER, "no motion");
+    IS_NULL(m, bricard_parameter(m, 0, NULL));
+    IS_NULL(m, bricard_clone(m, NULL));
+    IS_NULL(m, bricard_assign(m, NULL));
+    IS_NULL(m, bricard_find(m, BRICARD_PARAMETERS, NULL, NULL));
+    IS_NULL(m, bricard_find(m, BRICARD_PARAMETERS, "L", NULL));
+    IS_NULL(m, bricard_set_state(m, 0.0, NULL, &x, ENGINE_N));
+    IS_NULL(m, bricard_evaluate(m, BRICARD_ENERGY, NULL, NULL, 4));
+    IS_NULL(m, bricard_drive_input(m, 0, NULL, NULL));
+    IS_NULL(m, bricard_get_options(m, NULL));
+    IS_NULL(m, bricard_set_options(m, NULL));
 }
 
 static void names(bricard *m)
@@ -101,6 +107,34 @@ static void numbers(bricard *m)
     REFUSED(m, bricard_evaluate(m, BRICARD_MASS, &at, out, 9), BRICARD_ERROR_LENGTH, "3");
     REFUSED(m, bricard_load(m, out, 9), BRICARD_ERROR_LENGTH, "not 9");
     REFUSED(m, bricard_save(m, out, 9), BRICARD_ERROR_LENGTH, "not 9");
+    q[0] = nan;
+    REFUSED_AS("`bricard_project` of a state with NaN", m,
+               bricard_project(m, 0.0, q, v, ENGINE_N), BRICARD_ERROR_NOT_FINITE, "NaN");
+}
+
+/* A saved mechanism with a number that is none. */
+static void saved(bricard *m)
+{
+    double kept[99] = {0};
+    size_t n = 0;
+    DONE(m, bricard_size(m, BRICARD_SAVED, &n));
+    CHECK(n <= 99);
+    DONE(m, bricard_save(m, kept, n));
+    kept[1] = not_a_number();
+    REFUSED_AS("`bricard_load` of NaN", m, bricard_load(m, kept, n), BRICARD_ERROR_NOT_FINITE,
+               "NaN");
+}
+
+/* A mechanism of another kind. */
+static void strangers(bricard *m)
+{
+    bricard *pendulum = NULL;
+    CHECK(double_pendulum_create(&pendulum) == BRICARD_OK);
+    REFUSED_AS("`bricard_assign` of another kind", m, bricard_assign(m, pendulum),
+               BRICARD_ERROR_ARGUMENT, "kind");
+    REFUSED_AS("`bricard_hold_input` of a mechanism without inputs", pendulum,
+               bricard_hold_input(pendulum, 0, 1.0), BRICARD_ERROR_INDEX, "no input");
+    bricard_free(&pendulum);
 }
 
 static void order(bricard *m)
@@ -116,34 +150,33 @@ static void order(bricard *m)
     DONE(m, bricard_assemble(m, 0.0));
 }
 
+/* Options that are refused for one that differs. */
+#define CHOOSE(m, change, word)                                                         \
+    do {                                                                                \
+        options = before;                                                               \
+        options.change;                                                                 \
+        REFUSED_AS("`bricard_set_options` with `" #change "`", m,                              \
+                   bricard_set_options(m, &options), BRICARD_ERROR_ARGUMENT, word);     \
+    } while (0)
+
 static void options(bricard *m)
 {
     bricard_options options, before;
-    memset(&options, 0, sizeof options);
-    REFUSED(m, bricard_set_options(m, &options), BRICARD_ERROR_ARGUMENT, "size");
     DONE(m, bricard_get_options(m, &before));
-    options = before;
-    options.method = 5;
-    REFUSED(m, bricard_set_options(m, &options), BRICARD_ERROR_ARGUMENT, "method");
-    options = before;
-    options.rtol = 0.0;
-    REFUSED(m, bricard_set_options(m, &options), BRICARD_ERROR_ARGUMENT, "tolerance");
-    options = before;
-    options.rtol = not_a_number();
-    CHECK(bricard_set_options(m, &options) == BRICARD_ERROR_ARGUMENT);
-    options = before;
-    options.step = -1.0;
-    REFUSED(m, bricard_set_options(m, &options), BRICARD_ERROR_ARGUMENT, "positive");
-    options = before;
-    options.method = BRICARD_RK4;
-    REFUSED(m, bricard_set_options(m, &options), BRICARD_ERROR_ARGUMENT, "error estimate");
-    options = before;
-    options.stabilisation = BRICARD_BAUMGARTE;
-    REFUSED(m, bricard_set_options(m, &options), BRICARD_ERROR_ARGUMENT, "gains");
+    CHOOSE(m, size = 0, "size");
+    CHOOSE(m, method = 5, "method");
+    CHOOSE(m, form = -1, "form");
+    CHOOSE(m, rtol = 0.0, "tolerance");
+    CHOOSE(m, rtol = not_a_number(), "tolerance");
+    CHOOSE(m, step = -1.0, "positive");
+    CHOOSE(m, method = BRICARD_RK4, "error estimate");
+    CHOOSE(m, stabilisation = 3, "stabilisation");
+    CHOOSE(m, stabilisation = BRICARD_BAUMGARTE, "gains");
     options = before;
     options.keep_energy = 1;
     DONE(m, bricard_set_options(m, &options));
-    REFUSED(m, bricard_run(m, 1.0, NULL, NULL), BRICARD_ERROR_ARGUMENT, "energy");
+    REFUSED_AS("`bricard_run` with `keep_energy = 1`", m, bricard_run(m, 1.0, NULL, NULL),
+               BRICARD_ERROR_ARGUMENT, "energy");
     DONE(m, bricard_set_options(m, &before));
     REFUSED(m, bricard_run(m, -1.0, NULL, NULL), BRICARD_ERROR_ARGUMENT, "earlier");
     REFUSED(m, bricard_run(m, not_a_number(), NULL, NULL), BRICARD_ERROR_ARGUMENT, "end");
@@ -170,6 +203,15 @@ static int stop_at_event(void *user, size_t index, int rising, double t, const d
     return 1;
 }
 
+/* A watch that is refused for what it wants. */
+#define WATCHED(m, wish, status, word)                                                  \
+    do {                                                                                \
+        watch = bricard_watch_nothing();                                                \
+        watch.wish;                                                                     \
+        REFUSED_AS("`bricard_run` with a watch of `" #wish "`", m,                             \
+                   bricard_run(m, 1.0, &watch, NULL), status, word);                    \
+    } while (0)
+
 static void watches(bricard *m)
 {
     double rows[20] = {0}, t = 0.0, end = 0.0;
@@ -177,24 +219,12 @@ static void watches(bricard *m)
     int asked = 0;
     bricard *copy = NULL;
     bricard_watch watch;
-    memset(&watch, 0, sizeof watch);
-    REFUSED(m, bricard_run(m, 1.0, &watch, NULL), BRICARD_ERROR_ARGUMENT, "size");
-    watch = bricard_watch_nothing();
-    watch.every = -1.0;
-    REFUSED(m, bricard_run(m, 1.0, &watch, NULL), BRICARD_ERROR_ARGUMENT, "distance");
-    watch = bricard_watch_nothing();
-    watch.columns = 1u << 31;
-    REFUSED(m, bricard_run(m, 1.0, &watch, NULL), BRICARD_ERROR_ARGUMENT, "columns");
-    watch = bricard_watch_nothing();
-    watch.rows = rows;
-    watch.room = 6;
-    REFUSED(m, bricard_run(m, 1.0, &watch, NULL), BRICARD_ERROR_ARGUMENT, "room");
-    watch.rows = NULL;
-    watch.room = 20;
-    REFUSED(m, bricard_run(m, 1.0, &watch, NULL), BRICARD_ERROR_NULL, "place");
-    watch = bricard_watch_nothing();
-    watch.inside = 33;
-    REFUSED(m, bricard_run(m, 1.0, &watch, NULL), BRICARD_ERROR_ARGUMENT, "32");
+    WATCHED(m, size = 0, BRICARD_ERROR_ARGUMENT, "size");
+    WATCHED(m, every = -1.0, BRICARD_ERROR_ARGUMENT, "distance");
+    WATCHED(m, columns = 1u << 31, BRICARD_ERROR_ARGUMENT, "columns");
+    WATCHED(m, room = 6; watch.rows = rows, BRICARD_ERROR_ARGUMENT, "room");
+    WATCHED(m, room = 20; watch.rows = NULL, BRICARD_ERROR_NULL, "place");
+    WATCHED(m, inside = 33, BRICARD_ERROR_ARGUMENT, "32");
 
     /* Two rows fit; the third ends the run. */
     DONE(m, bricard_clone(m, &copy));
@@ -250,10 +280,12 @@ static int again(void *user, double t, const double *q, const double *v, double 
 {
     bricard *m = *(bricard **)user;
     double out[3] = {0};
-    (void)t;
     (void)q;
     (void)v;
     *value = 0.0;
+    if (t == 0.0)
+        REFUSED_AS("a call by the function of an input", m, bricard_step(m, 0.1),
+                   BRICARD_ERROR_BUSY, "at work");
     CHECK(bricard_step(m, 0.1) == BRICARD_ERROR_BUSY);
     CHECK(bricard_evaluate(m, BRICARD_ACCELERATION, NULL, out, 3) == BRICARD_ERROR_BUSY);
     CHECK(bricard_assign(m, m) == BRICARD_OK);
@@ -263,14 +295,23 @@ static int again(void *user, double t, const double *q, const double *v, double 
 
 static void callbacks(bricard *m)
 {
-    double t = 0.0, at = 0.0, q[ENGINE_N] = {0}, v[ENGINE_N] = {0};
+    double t = 0.0, at = 0.0, q[ENGINE_N] = {0}, v[ENGINE_N] = {0}, force[ENGINE_N] = {0};
     bricard *copy = NULL;
+    bricard_point point;
     DONE(m, bricard_clone(m, &copy));
     DONE(copy, bricard_drive_input(copy, 0, fails, NULL));
-    REFUSED(copy, bricard_run(copy, 1.0, NULL, NULL), BRICARD_ERROR_CALLBACK, "`torque` failed");
+    REFUSED_AS("`bricard_run` with a function of an input that fails", copy,
+               bricard_run(copy, 1.0, NULL, NULL), BRICARD_ERROR_CALLBACK, "`torque` failed");
     DONE(copy, bricard_failed_at(copy, &at));
     DONE(copy, bricard_state(copy, &t, q, v, ENGINE_N));
     CHECK(t >= 0.0 && t <= 0.5 && at >= t);
+    point.t = 0.75;
+    point.q = q;
+    point.v = v;
+    point.n = ENGINE_N;
+    REFUSED_AS("`bricard_evaluate` with a function of an input that fails", copy,
+               bricard_evaluate(copy, BRICARD_FORCE, &point, force, ENGINE_N),
+               BRICARD_ERROR_CALLBACK, "an input failed");
     /* It goes on from the last good state. */
     DONE(copy, bricard_release_input(copy, 0));
     DONE(copy, bricard_run(copy, 1.0, NULL, NULL));
@@ -278,8 +319,12 @@ static void callbacks(bricard *m)
 
     DONE(m, bricard_clone(m, &copy));
     DONE(copy, bricard_drive_input(copy, 0, nonsense, NULL));
-    REFUSED(copy, bricard_run(copy, 1.0, NULL, NULL), BRICARD_ERROR_RUN, "NaN");
+    REFUSED_AS("`bricard_run` with a function of an input that gives NaN", copy,
+               bricard_run(copy, 1.0, NULL, NULL), BRICARD_ERROR_RUN, "NaN");
     REFUSED(copy, bricard_step(copy, 1.0), BRICARD_ERROR_RUN, "NaN");
+    REFUSED_AS("`bricard_evaluate` with a function of an input that gives NaN", copy,
+               bricard_evaluate(copy, BRICARD_FORCE, &point, force, ENGINE_N),
+               BRICARD_ERROR_RUN, "result");
     bricard_free(&copy);
 
     DONE(m, bricard_clone(m, &copy));
@@ -289,6 +334,23 @@ static void callbacks(bricard *m)
     bricard_free(&copy);
 }
 
+/* The slider over the bearing, where two constraints depend on one another. */
+static void singular(bricard *m)
+{
+    const double right = 1.5707963267948966;
+    double q[ENGINE_N] = {0}, v[ENGINE_N] = {0}, slopes[ENGINE_N * (2 * ENGINE_N + 1)];
+    bricard_point point;
+    q[ENGINE_Q_crank] = right;
+    q[ENGINE_Q_rod] = right;
+    point.t = 0.0;
+    point.q = q;
+    point.v = v;
+    point.n = ENGINE_N;
+    REFUSED_AS("`bricard_evaluate` of `BRICARD_SLOPE` at a singular position", m,
+               bricard_evaluate(m, BRICARD_SLOPE, &point, slopes, sizeof slopes / sizeof *slopes),
+               BRICARD_ERROR_RUN, "no derivatives");
+}
+
 int main(void)
 {
     bricard *m = NULL;
@@ -296,10 +358,13 @@ int main(void)
     nulls(m);
     names(m);
     numbers(m);
+    saved(m);
+    strangers(m);
     order(m);
     options(m);
     watches(m);
     callbacks(m);
+    singular(m);
     bricard_free(&m);
     return 0;
 }

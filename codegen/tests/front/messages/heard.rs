@@ -5,12 +5,12 @@
 
 use super::super::with;
 use super::statements::{DESCRIPTIONS, STATEMENTS};
-use super::templates::files;
 use crate::symbolic::limits::chain;
 use bricard_codegen::internals::diagnostic::{Diagnostic, Severity};
 use bricard_codegen::internals::examine;
 use bricard_codegen::{Model, Settings};
 use bricard_testkit::page::code;
+use bricard_testkit::sentences::files;
 use std::fs;
 use std::path::Path;
 

@@ -4,16 +4,18 @@
 //! The texts are the sentences among the literals of its sources; what is said about the
 //! descriptions of `tests/wrong` and about those of [`statements`] has to show each of them.
 
+mod build;
 mod heard;
 mod page;
 mod statements;
 mod templates;
 
 use bricard_testkit::page::hold_section;
+use bricard_testkit::sentences::Sentence;
 use heard::{Heard, Hearing};
 use std::path::Path;
 use std::sync::LazyLock;
-use templates::{Template, templates};
+use templates::templates;
 
 /// A text that nothing brings about: the scanner has taken out what the lexer refuses.
 const NEVER: &str = "this can't be read";
@@ -22,9 +24,9 @@ const NEVER: &str = "this can't be read";
 static SAID: LazyLock<Vec<Heard>> = LazyLock::new(|| Hearing::all().0);
 
 /// The sentences that the front end may say.
-fn sentences() -> Vec<Template> {
+fn sentences() -> Vec<Sentence> {
     let mut sentences = templates();
-    sentences.retain(Template::is_sentence);
+    sentences.retain(Sentence::is_whole);
     sentences
 }
 

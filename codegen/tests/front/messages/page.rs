@@ -4,8 +4,9 @@
 //!      and the shortest input that brings it about.
 
 use super::heard::Heard;
-use super::templates::{STAGES, Template};
+use super::templates::{STAGES, stage};
 use bricard_testkit::page::{prose, row};
+use bricard_testkit::sentences::Sentence;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The longest input that a reader is shown, in characters.
@@ -32,7 +33,7 @@ Behind a message stands in brackets what is said of places in the description. \
 ";
 
 /// The template that says most of a text.
-fn source<'a>(templates: &'a [Template], text: &str) -> Option<&'a Template> {
+fn source<'a>(templates: &'a [Sentence], text: &str) -> Option<&'a Sentence> {
     let found = templates.iter().filter(|template| template.is_in(text));
     // Of equal ones the first.
     found.rev().max_by_key(|template| template.length())
@@ -53,16 +54,16 @@ fn rank(heard: &Heard) -> (bool, usize, usize, &str, &str) {
 
 /// One of all that is said for each message with each help, and for each text that stands
 /// in none of these.
-fn examples<'a>(templates: &[Template], said: &'a [Heard]) -> Vec<(&'static str, &'a Heard)> {
+fn examples<'a>(templates: &[Sentence], said: &'a [Heard]) -> Vec<(&'static str, &'a Heard)> {
     let mut best: BTreeMap<_, (&'static str, &Heard)> = BTreeMap::new();
     for heard in said {
         let message = source(templates, &heard.message);
-        let stage = message.map_or(STAGES[0], |template| template.stage);
+        let stage = message.map_or(STAGES[0], stage);
         let help = heard
             .help
             .as_deref()
             .and_then(|text| source(templates, text));
-        let place = |template: Option<&Template>| template.map(|found| found.place.clone());
+        let place = |template: Option<&Sentence>| template.map(|found| found.place.clone());
         let key = (place(message), place(help));
         let entry = best.entry(key).or_insert((stage, heard));
         if rank(heard) < rank(entry.1) {
@@ -70,7 +71,7 @@ fn examples<'a>(templates: &[Template], said: &'a [Heard]) -> Vec<(&'static str,
         }
     }
     let mut examples: Vec<_> = best.into_values().collect();
-    for template in templates.iter().filter(|template| template.is_sentence()) {
+    for template in templates.iter().filter(|template| template.is_whole()) {
         let has = |heard: &Heard| heard.texts().any(|text| template.is_in(text));
         if examples.iter().any(|(_, heard)| has(heard)) {
             continue;
@@ -79,7 +80,7 @@ fn examples<'a>(templates: &[Template], said: &'a [Heard]) -> Vec<(&'static str,
             .iter()
             .filter(|heard| has(heard))
             .min_by_key(|heard| rank(heard));
-        examples.extend(shortest.map(|heard| (template.stage, heard)));
+        examples.extend(shortest.map(|heard| (stage(template), heard)));
     }
     examples
 }
@@ -96,7 +97,7 @@ fn printed(heard: &Heard) -> String {
 }
 
 /// The section of the page.
-pub fn page(templates: &[Template], said: &[Heard]) -> String {
+pub fn page(templates: &[Sentence], said: &[Heard]) -> String {
     let examples = examples(templates, said);
     for (_, heard) in &examples {
         assert!(

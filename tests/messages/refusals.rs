@@ -1,0 +1,246 @@
+//! The refusals of the command, each with a command line that brings it about.
+
+/// A reason, the words of a command line, the exit status, and what is said, with `…` for
+/// what depends on the machine.
+pub type Case = (&'static str, &'static str, i32, &'static str);
+
+/// Nothing here is compiled.
+pub const CASES: &[Case] = &[
+    (
+        "UnknownName",
+        "show slider_cranc",
+        2,
+        "there is no mechanism `slider_cranc`; did you mean `slider_crank`?\nthere are: …",
+    ),
+    (
+        "NoColumn",
+        "simulate slider_crank --columns L1",
+        2,
+        "`L1` is a parameter, which stays as it is; leave it out",
+    ),
+    (
+        "OutOfRange",
+        "simulate slider_crank --step 0",
+        2,
+        "--step must be a positive number, not 0",
+    ),
+    (
+        "Twice",
+        "simulate slider_crank --set m1=2 --set m1=3",
+        2,
+        "--set gives `m1` two values; leave one out",
+    ),
+    (
+        "Law",
+        "simulate slider_crank --set m1=sin(t)",
+        2,
+        "`--set m1=…`: `t` has no value here; the constants are `pi` and `deg`; a parameter is a \
+         number",
+    ),
+    (
+        "TwoLists",
+        "simulate slider_crank --set L1=0.4,0.5 --set L2=1,2",
+        2,
+        "`--set L1` and `--set L2` have several values each, and runs are compared by one of \
+         them; give the other a single value",
+    ),
+    (
+        "Runs",
+        "simulate slider_crank --set L1=0.4,0.5 --film x.gif",
+        2,
+        "--film shows one run, and `--set L1` asks for 2; give it one value",
+    ),
+    (
+        "SameFile",
+        "simulate slider_crank --out x.svg --plot x.svg",
+        2,
+        "--out and --plot can't both be written to x.svg; give them different names",
+    ),
+    (
+        "UselessOption",
+        "simulate slider_crank --method rk4 --rtol 1e-6",
+        2,
+        "rk4 has no use for --rtol; give --step, or take --method dp5, dop853, radau5 or radau9",
+    ),
+    (
+        "FileKind",
+        "simulate slider_crank --film run.mp4",
+        2,
+        "run.mp4 can't be written: films are GIF, strips of configurations SVG, PNG or PDF; write \
+         `--film run.gif` or `--film run.svg`",
+    ),
+    (
+        "Read",
+        "check brocken.mech",
+        1,
+        "could not read brocken.mech: …; did you mean `broken.mech`?",
+    ),
+    (
+        "Write",
+        "simulate slider_crank --out missing/run.csv",
+        1,
+        "could not write missing/run.csv: there is no folder missing; make it, or name another file",
+    ),
+    (
+        "Description",
+        "check broken.mech",
+        1,
+        "the description is wrong\n\nbroken.mech:1:42: error: `L9` is not declared\n…",
+    ),
+    (
+        "Run",
+        "simulate slider_crank --form multipliers --until 2 --out run.csv",
+        1,
+        "at t = 0.… s only 1 of the 2 constraint equations is independent: `L1*cos(q1) + \
+         L2*cos(q2) = q3` (line …), `L1*sin(q1) = L2*sin(q2)` (line …), and the form \
+         `multipliers` cannot pass a singular position; use the form `reduced` or `full`\nthe … \
+         rows computed before, up to t = 0.… s, are kept: run.csv",
+    ),
+    (
+        "Checkpoint",
+        "simulate slider_crank --resume broken.mech",
+        2,
+        "can't go on from broken.mech: it is no checkpoint; give a file that --checkpoint wrote",
+    ),
+    (
+        "NoFile",
+        "check slider_crank",
+        2,
+        "`slider_crank` is a name, and this takes the file of a description, such as \
+         `./slider_crank.mech`",
+    ),
+    (
+        "Watch",
+        "watch missing/x.mech",
+        1,
+        "can't watch missing/x.mech: there is no folder missing",
+    ),
+    (
+        "Compile",
+        "cache",
+        1,
+        "there is no folder for compiled descriptions; name one with XDG_CACHE_HOME",
+    ),
+    (
+        "Exists",
+        "new crane",
+        1,
+        "crane is there already, and nothing in it was changed; choose another name",
+    ),
+    (
+        "Name",
+        "new Crane",
+        2,
+        "a crate can't be called `Crane`: it begins with a lower-case letter and goes on with these, \
+         digits, `-` and `_`",
+    ),
+    (
+        "NoColumn",
+        "simulate slider_crank --columns q1",
+        2,
+        "`q1` is in every row; `--columns` adds others",
+    ),
+    (
+        "OutOfRange",
+        "simulate slider_crank --rtol 2",
+        2,
+        "--rtol must be less than 1: it is the part of a value that may be wrong, not 2",
+    ),
+    (
+        "Runs",
+        "simulate slider_crank --set L1=0.4,0.5 --plot run.html --live",
+        2,
+        "--live moves one run, and `--set L1` asks for 2; give it one value, which a slider \
+         changes, or compare the runs without --live",
+    ),
+    (
+        "Runs",
+        "simulate slider_crank --set L1=0.4,0.5 --out run.csv --checkpoint c.json",
+        2,
+        "--checkpoint is of one run, and `--set L1` asks for 2; give it one value",
+    ),
+    (
+        "Runs",
+        "simulate slider_crank --set L1=1,2,3,4,5,6,7,8 --plot run.svg",
+        2,
+        "a picture has colours for seven runs, and `--set L1` asks for 8; give it fewer values, \
+         or write the rows by --out alone",
+    ),
+    (
+        "UselessOption",
+        "simulate slider_crank --plot run.svg --live",
+        2,
+        "a plot that is no page has no use for --live; write `--plot run.html`",
+    ),
+    (
+        "UselessOption",
+        "simulate slider_crank --width 88mm",
+        2,
+        "a run without a picture has no use for --width; add `--plot run.pdf`",
+    ),
+    (
+        "UselessOption",
+        "simulate slider_crank --width 88mm --film run.gif",
+        2,
+        "what moves has no use for --width; write `--plot run.pdf` or `--film run.pdf`, or \
+         another name in .svg or .png",
+    ),
+    (
+        "FileKind",
+        "simulate slider_crank --out run.xlsx",
+        2,
+        "run.xlsx can't be written: rows are written as CSV or as Parquet; write `--out run.csv` \
+         or `--out run.parquet`",
+    ),
+    (
+        "FileKind",
+        "simulate slider_crank --plot run.txt",
+        2,
+        "run.txt can't be written: plots are pages, SVG, PNG or PDF; write `--plot run.html`, \
+         `--plot run.svg`, `--plot run.png` or `--plot run.pdf`",
+    ),
+    (
+        "FileKind",
+        "simulate slider_crank --plot run.html --phase q1,q2",
+        2,
+        "run.html can't be written: one quantity over another is drawn as SVG, PNG or PDF; write \
+         `--plot run.svg`",
+    ),
+    (
+        "SameFile",
+        "simulate slider_crank --json",
+        2,
+        "--json and --out can't both be written to standard output; give them different names",
+    ),
+    (
+        "Name",
+        "new crane__1",
+        2,
+        "a crate can't be called `crane__1`: `-` and `_` stand alone and between letters",
+    ),
+    (
+        "Name",
+        "new match",
+        2,
+        "a crate can't be called `match`: it means something in Rust or to cargo",
+    ),
+    ("Said", "check --json broken.mech", 1, ""),
+];
+
+/// What is said of Parquet files.
+pub const PARQUET: Case = (
+    "FileKind",
+    "simulate slider_crank --out run.parquet --checkpoint c.json",
+    2,
+    "run.parquet can't be written: rows can't be added to Parquet after a checkpoint; write \
+     `--out run.csv`",
+);
+
+/// The same by a command that was built without them.
+pub const WITHOUT_PARQUET: Case = (
+    "FileKind",
+    "simulate slider_crank --out run.parquet",
+    2,
+    "run.parquet can't be written: this bricard was built without Parquet; write `--out run.csv`, \
+     or build it with its default features",
+);
