@@ -6,13 +6,13 @@
 //! The command is not in the help: it writes the gallery of the documentation.
 
 use crate::arguments::Gallery;
+use crate::captions::{counted, first_sentence};
 use crate::error::CommandError;
 use crate::mechanism::find;
 use crate::output::{say, write};
 use crate::plot::{Shape, moving_svg};
 use crate::run::{Plan, RowSink, run};
 use crate::scene::{is_spatial, shapes};
-use crate::words::{counted, first_sentence};
 use bricard_driver::AnyMechanism;
 use bricard_runtime::{Options, Structure};
 use std::fs;

@@ -1,10 +1,10 @@
 //! `bricard list`: the mechanisms of the library and of the benchmark problems.
 
+use crate::captions::first_sentence;
 use crate::error::CommandError;
 use crate::mechanism::find;
 use crate::output::print;
 use crate::table::{Align, headed};
-use crate::words::first_sentence;
 
 /// Prints name, sizes and the first sentence about each mechanism; those of the
 /// benchmark problems in a table of their own.

@@ -9,6 +9,7 @@
 
 mod arguments;
 mod cache;
+mod captions;
 mod changes;
 mod check;
 mod checkpoint;
@@ -45,7 +46,6 @@ mod simulate;
 mod table;
 mod validate;
 mod watch;
-mod words;
 mod workprecision;
 
 use arguments::{Arguments, Command};

@@ -3,10 +3,10 @@
 //! In:  what the command line calls it.
 //! Out: [`AnyMechanism`], on which the commands work.
 
+use crate::captions::freedom;
 use crate::compiled;
 use crate::description::{Description, read};
 use crate::error::CommandError;
-use crate::words::freedom;
 use bricard_driver::{AnyMechanism, Precise};
 use bricard_runtime::Structure;
 use std::path::{self, Path};

@@ -47,7 +47,9 @@ pub fn evaluate<D: Dual>(graph: &Graph, root: ExprId, values: &dyn Fn(Symbol) ->
     known[&root]
 }
 
-fn call<D: Dual>(function: Function, x: D) -> D {
+/// A function of the language, with as many derivatives as the number carries; at a kink those
+/// of one side.
+pub fn call<D: Dual>(function: Function, x: D) -> D {
     match function {
         Function::Sin => x.sin(),
         Function::Cos => x.cos(),

@@ -5,7 +5,7 @@
 //! the files; the difference is then reviewed like code.
 
 use crate::source::root;
-use bricard_codegen::{Settings, compile_source};
+use bricard_codegen::{CompileSettings, compile_source};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
@@ -13,8 +13,8 @@ use std::sync::LazyLock;
 use std::{env, fs};
 
 /// What the library is compiled with.
-fn settings() -> Settings {
-    let mut settings = Settings::default();
+fn settings() -> CompileSettings {
+    let mut settings = CompileSettings::default();
     settings.options.coriolis_matrix = true;
     settings
 }

@@ -1,10 +1,10 @@
 //! The descriptions that are tested: those of the library, and fixtures that hold
 //! what no mechanism of the library has.
 
-use bricard_codegen::Settings;
+use bricard_codegen::CompileSettings;
 use bricard_codegen::internals::analyse;
 use bricard_codegen::internals::derive::{
-    Equations, Linearised, Matrix, derive, linearise, mass_matrix,
+    Equations, Linearisation, Matrix, derive, linearise, mass_matrix,
 };
 use bricard_codegen::internals::expr::{ExprId, Symbol};
 use bricard_codegen::internals::model;
@@ -18,7 +18,7 @@ pub struct Derived {
     pub equations: Equations,
     /// `M`, also where equations do without its entries.
     pub mass: Matrix,
-    pub linearised: Linearised,
+    pub linearised: Linearisation,
 }
 
 /// Values of every symbol of a mechanism.
@@ -37,7 +37,7 @@ pub struct Point {
 
 /// Checks and derives a description.
 pub fn derived(name: &str, source: &str) -> Derived {
-    let analysed = analyse(source, &Settings::default());
+    let analysed = analyse(source, &CompileSettings::default());
     let (mut mechanism, _) =
         analysed.unwrap_or_else(|errors| panic!("{}", errors.render(name, source)));
     let equations = derive(&mut mechanism).expect("equations of a usual length");

@@ -1,7 +1,7 @@
 //! What a description doesn't need is left out of its program, and `bricard show` says
 //! so: each on a pair of descriptions that differ in that one thing.
 
-use bricard_codegen::{Settings, compile_source};
+use bricard_codegen::{CompileSettings, compile_source};
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -24,7 +24,7 @@ fn left_out(test: &str, source: &str) -> String {
 }
 
 fn code(source: &str) -> String {
-    let compiled = compile_source(source, "pair", "pair.mech", &Settings::default());
+    let compiled = compile_source(source, "pair", "pair.mech", &CompileSettings::default());
     let compiled = compiled.unwrap_or_else(|errors| panic!("{}", errors.render("pair", source)));
     compiled.code
 }

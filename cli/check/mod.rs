@@ -7,12 +7,12 @@
 mod json;
 
 use crate::arguments::Check;
+use crate::captions::sizes;
 use crate::description::read;
 use crate::error::CommandError;
 use crate::mechanism::names;
 use crate::output::{print, say};
-use crate::words::sizes;
-use bricard_codegen::Settings;
+use bricard_codegen::CompileSettings;
 use bricard_codegen::internals::examine;
 use bricard_codegen::internals::model::Mechanism;
 
@@ -23,7 +23,7 @@ pub fn check(arguments: &Check) -> Result<(), CommandError> {
         return Err(CommandError::NoFile(file));
     }
     let source = read(&arguments.file)?;
-    let examined = examine(&source, &Settings::beside(&arguments.file));
+    let examined = examine(&source, &CompileSettings::beside(&arguments.file));
     if arguments.json {
         print(&json::report(&file, &examined))?;
         return examined.map(|_| ()).map_err(|_| CommandError::Said);

@@ -28,7 +28,7 @@ pub use library::{Library, generate, library, module_of};
 use crate::description::read;
 use crate::error::CommandError;
 use crate::output::say;
-use bricard_codegen::Settings;
+use bricard_codegen::CompileSettings;
 use bricard_codegen::internals::examine;
 use bricard_driver::{Link, PreciseLink};
 use cache::{Cache, Digits, Version};
@@ -102,7 +102,7 @@ fn program(file: &Path, source: &str, digits: Digits) -> Result<PathBuf, Command
 /// [`CommandError::Description`].
 fn warn(file: &Path, source: &str) -> Result<(), CommandError> {
     let shown = file.display().to_string();
-    let examined = examine(source, &Settings::beside(file));
+    let examined = examine(source, &CompileSettings::beside(file));
     let (_, warnings) =
         examined.map_err(|errors| CommandError::Description(errors.render(&shown, source)))?;
     if !warnings.is_empty() {

@@ -14,12 +14,12 @@ mod sections;
 mod skipped;
 
 use crate::arguments::Show;
+use crate::captions::{first_sentence, freedom, sizes};
 use crate::description::Description;
 use crate::error::CommandError;
 use crate::mechanism::{description, freedom_at_start};
 use crate::output::print;
-use crate::words::{first_sentence, freedom, sizes};
-use bricard_codegen::Settings;
+use bricard_codegen::CompileSettings;
 use bricard_codegen::internals::expr::Symbol;
 use bricard_codegen::internals::model::{Described, Mechanism};
 use bricard_codegen::internals::optimise::{Besides, Programs, cost as operations, programs};
@@ -32,8 +32,11 @@ pub fn show(arguments: &Show) -> Result<(), CommandError> {
     let rendered = |errors: bricard_codegen::Diagnostics| {
         CommandError::Description(errors.render(&subject.file, &subject.source))
     };
-    let (mut mechanism, _warnings) =
-        analyse(&subject.source, &Settings::beside(Path::new(&subject.file))).map_err(rendered)?;
+    let (mut mechanism, _warnings) = analyse(
+        &subject.source,
+        &CompileSettings::beside(Path::new(&subject.file)),
+    )
+    .map_err(rendered)?;
     if arguments.eliminate {
         mechanism = derive::eliminate(mechanism).map_err(rendered)?;
     }
@@ -86,7 +89,7 @@ pub type Array = (&'static str, Vec<[String; 2]>);
 
 /// The equations of motion of the description in a file; `None` if it is wrong.
 pub fn equations(file: &Path, source: &str) -> Option<Vec<Array>> {
-    let (mut mechanism, _warnings) = analyse(source, &Settings::beside(file)).ok()?;
+    let (mut mechanism, _warnings) = analyse(source, &CompileSettings::beside(file)).ok()?;
     let equations = derive::derive(&mut mechanism).ok()?;
     let sections = sections::sections(&mut mechanism, &equations);
     let mut graph = std::mem::take(&mut mechanism.graph);

@@ -9,7 +9,7 @@
 //!
 //! and in the crate `bricard_runtime::include_mechanism!("four_bar");`.
 
-use crate::compile::{Compiled, Settings, compile_source};
+use crate::compile::{CompileSettings, Compiled, compile_source};
 use crate::emit;
 use crate::syntax::{Model, ModelError};
 use std::collections::BTreeMap;
@@ -39,7 +39,7 @@ pub fn compile_dir(folder: impl AsRef<Path>) -> Result<(), BuildError> {
 /// Compilation with other than the default settings.
 #[derive(Clone, Debug, Default)]
 pub struct Builder {
-    settings: Settings,
+    settings: CompileSettings,
     out_dir: Option<PathBuf>,
 }
 
@@ -235,7 +235,7 @@ impl Builder {
         let file_error = |error| BuildError::File(description.to_path_buf(), error);
         let source = read_description(description).map_err(file_error)?;
         let folder = description.parent().map(Path::to_path_buf);
-        let settings = Settings {
+        let settings = CompileSettings {
             folder,
             ..self.settings.clone()
         };
@@ -269,7 +269,7 @@ fn text(
     source: &str,
     stem: &str,
     file: &str,
-    settings: &Settings,
+    settings: &CompileSettings,
 ) -> Result<(Compiled, String), BuildError> {
     let compiled = compile_source(source, stem, file, settings)
         .map_err(|errors| BuildError::Description(errors.render(file, source)))?;

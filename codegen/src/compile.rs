@@ -2,7 +2,7 @@
 
 use crate::derive::{self, Equations};
 use crate::diagnostic::Diagnostics;
-use crate::emit::{self, Options, Origin};
+use crate::emit::{self, EmitOptions, Provenance};
 use crate::lint;
 use crate::model::{self, Mechanism};
 use crate::optimise::{self, Besides, Programs};
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 /// What to do differently from the defaults.
 #[derive(Clone, Debug, Default)]
 #[non_exhaustive]
-pub struct Settings {
+pub struct CompileSettings {
     /// Constants with another value than the description gives them.
     pub constants: Vec<(String, f64)>,
     /// Parameters that become constants at their default.
@@ -21,12 +21,12 @@ pub struct Settings {
     /// Whether dependent coordinates, which constraints give explicitly, are eliminated.
     pub eliminate: bool,
     /// What to emit besides the necessary.
-    pub options: Options,
+    pub options: EmitOptions,
     /// The folder of the description, in which files of tables are looked for.
     pub folder: Option<PathBuf>,
 }
 
-impl Settings {
+impl CompileSettings {
     /// The defaults, for a description in a file.
     pub fn beside(description: &Path) -> Self {
         Self {
@@ -69,10 +69,10 @@ pub fn compile_source(
     source: &str,
     module: &str,
     file: &str,
-    settings: &Settings,
+    settings: &CompileSettings,
 ) -> Result<Compiled, Diagnostics> {
     let options = settings.options;
-    let origin = Origin {
+    let provenance = Provenance {
         module,
         file,
         source,
@@ -88,7 +88,7 @@ pub fn compile_source(
         partials: options.c_interface,
     };
     let programs: Programs = optimise::programs(&mut mechanism, &equations, besides);
-    let code: TokenStream = emit::module(&mechanism, &equations, &programs, origin, options);
+    let code: TokenStream = emit::module(&mechanism, &equations, &programs, provenance, options);
 
     Ok(Compiled {
         c_header: emit::c_header(&mechanism, module),
@@ -107,7 +107,10 @@ pub fn compile_source(
 /// # Errors
 ///
 /// As [`compile_source`].
-pub fn analyse(source: &str, settings: &Settings) -> Result<(Mechanism, Diagnostics), Diagnostics> {
+pub fn analyse(
+    source: &str,
+    settings: &CompileSettings,
+) -> Result<(Mechanism, Diagnostics), Diagnostics> {
     lower(syntax::read(source), settings)
 }
 
@@ -117,7 +120,10 @@ pub fn analyse(source: &str, settings: &Settings) -> Result<(Mechanism, Diagnost
 /// # Errors
 ///
 /// As [`compile_source`].
-pub fn examine(source: &str, settings: &Settings) -> Result<(Mechanism, Diagnostics), Diagnostics> {
+pub fn examine(
+    source: &str,
+    settings: &CompileSettings,
+) -> Result<(Mechanism, Diagnostics), Diagnostics> {
     let (mechanism, mut warnings) = analyse(source, settings)?;
     let mut derived = mechanism.clone();
     let equations = derive::derive(&mut derived)?;
@@ -131,7 +137,7 @@ pub fn examine(source: &str, settings: &Settings) -> Result<(Mechanism, Diagnost
 
 /// The mechanism of a tree, and what is doubtful in it. Where statements can't be read,
 /// those that can have mistakes of their own, which are told with theirs.
-fn lower(read: Read, settings: &Settings) -> Result<(Mechanism, Diagnostics), Diagnostics> {
+fn lower(read: Read, settings: &CompileSettings) -> Result<(Mechanism, Diagnostics), Diagnostics> {
     let (tree, mut wrong) = read;
     let Some(tree) = tree else {
         return Err(wrong);

@@ -29,9 +29,9 @@ mod optimise;
 mod syntax;
 
 pub use build::{BuildError, Builder, compile, compile_dir};
-pub use compile::{Compiled, Settings, compile_source};
+pub use compile::{CompileSettings, Compiled, compile_source};
 pub use diagnostic::Diagnostics;
-pub use emit::Options;
+pub use emit::EmitOptions;
 pub use syntax::ast::{Crossing, Drawing};
 pub use syntax::{Formula, Model, ModelError};
 

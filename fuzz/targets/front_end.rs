@@ -4,7 +4,7 @@
 #![no_main]
 
 use bricard_codegen::internals::analyse;
-use bricard_codegen::{Settings, compile_source};
+use bricard_codegen::{CompileSettings, compile_source};
 use libfuzzer_sys::fuzz_target;
 
 /// Texts beyond this are slow, not new.
@@ -14,7 +14,7 @@ fuzz_target!(|source: &str| {
     if source.len() > LONGEST {
         return;
     }
-    let settings = Settings::default();
+    let settings = CompileSettings::default();
     match analyse(source, &settings) {
         Err(errors) => {
             assert!(errors.error_count() > 0, "refused without a word");

@@ -298,6 +298,7 @@ fn fused(a: f64, b: f64, c: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bricard_testkit::Random;
 
     /// Distance in units in the last place of the second.
     fn ulps(value: f64, exact: f64) -> f64 {
@@ -315,11 +316,10 @@ mod tests {
 
     #[test]
     fn random_angles_are_within_two_units_of_the_library() {
-        let mut seed: u64 = 20_260_707;
+        let mut random = Random::seeded(20_260_707);
         let mut worst: f64 = 0.0;
         for _ in 0..1_000_000 {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            let x = ((seed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * 2.0 * LARGEST;
+            let x = random.within(LARGEST);
             worst = worst.max(check(x)).max(check(x * 1e-5));
         }
         assert!(worst <= WORST, "{worst} units");

@@ -21,7 +21,7 @@ use crate::description::Description;
 use crate::error::CommandError;
 use crate::output::print;
 use bricard_codegen::internals::analyse;
-use bricard_codegen::{Compiled, Settings};
+use bricard_codegen::{CompileSettings, Compiled};
 use description::{About, description};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -63,7 +63,7 @@ fn files(subject: &Description, version: Version, module: &str) -> Result<Files,
     let Description { file, source } = subject;
     let compiled = generate(file, source, true)?;
     let shown = file.display().to_string();
-    let (mechanism, _) = analyse(source, &Settings::beside(file))
+    let (mechanism, _) = analyse(source, &CompileSettings::beside(file))
         .map_err(|errors| CommandError::Description(errors.render(&shown, source)))?;
     let identity = identity(file, source);
     let functions = [INSTANCE, version.functions().1, HEADER];

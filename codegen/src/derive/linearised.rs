@@ -15,7 +15,7 @@ use crate::model::{Input, Mechanism};
 
 /// Derivatives of what is left of the equations of motion.
 #[derive(Clone, Debug)]
-pub struct Linearised {
+pub struct Linearisation {
     /// `∂(p₁ − M q̈ − Aᵀλ)/∂q`, `N × N`.
     pub force_by_position: Matrix,
     /// `∂p₁/∂q̇`, `N × N`.
@@ -31,7 +31,7 @@ const EXPRESSIONS_MAX: usize = 30_000;
 
 /// Linearises the equations of motion of a mechanism; none if that takes more
 /// expressions than a function should have.
-pub fn linearise(mechanism: &mut Mechanism, equations: &Equations) -> Option<Linearised> {
+pub fn linearise(mechanism: &mut Mechanism, equations: &Equations) -> Option<Linearisation> {
     let (n, _) = equations.sizes();
     let Mechanism { graph, inputs, .. } = mechanism;
     let forces = forces_left(graph, equations);
@@ -41,7 +41,7 @@ pub fn linearise(mechanism: &mut Mechanism, equations: &Equations) -> Option<Lin
     let (force_by_position, row_by_position) = (by_position(&forces)?, by_position(&rows)?);
     let mut by_velocity = |left| partials(graph, inputs, left, velocities(n), most);
     let (force_by_velocity, row_by_velocity) = (by_velocity(&forces)?, by_velocity(&rows)?);
-    Some(Linearised {
+    Some(Linearisation {
         force_by_position,
         force_by_velocity,
         row_by_position,

@@ -33,7 +33,7 @@ mod weighed;
 pub use christoffel::coriolis_matrix;
 pub use eliminate::eliminate;
 pub use equations::{Energies, Equations, Matrix, StartRows};
-pub use linearised::{Linearised, Partials, differentiate, linearise};
+pub use linearised::{Linearisation, Partials, differentiate, linearise};
 pub use mass::mass_matrix;
 pub use shared::{Shared, shared};
 pub use swell::{EXPRESSIONS_MAX, SWELL, swell};

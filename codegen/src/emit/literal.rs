@@ -38,17 +38,16 @@ fn float(value: f64) -> TokenStream {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bricard_testkit::Random;
 
     #[test]
     fn float_literals_read_back_to_the_same_bits() {
-        let mut bits: u64 = 0x9E37_79B9_7F4A_7C15;
-        for _ in 0..10_000 {
-            bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-            let value = f64::from_bits(bits);
-            if value.is_finite() {
-                let text = float(value).to_string().replace(' ', "");
-                assert_eq!(text.parse::<f64>().map(f64::to_bits), Ok(bits), "{text}");
-            }
+        let mut random = Random::seeded(1);
+        let values = (0..10_000).map(|_| f64::from_bits(random.bits()));
+        for value in values.filter(|value| value.is_finite()) {
+            let text = float(value).to_string().replace(' ', "");
+            let read = text.parse::<f64>().map(f64::to_bits);
+            assert_eq!(read, Ok(value.to_bits()), "{text}");
         }
     }
 }

@@ -35,7 +35,7 @@ mod write;
 
 pub use c::c_header;
 pub use name::{module_name, type_name};
-pub use subject::{Options, Origin};
+pub use subject::{EmitOptions, Provenance};
 pub use write::{catalogue, render, write_if_changed};
 
 use crate::derive::Equations;
@@ -55,22 +55,22 @@ pub fn module(
     mechanism: &Mechanism,
     equations: &Equations,
     programs: &Programs,
-    origin: Origin,
-    options: Options,
+    provenance: Provenance,
+    options: EmitOptions,
 ) -> TokenStream {
     let subject = Subject {
         mechanism,
         equations,
         programs,
         names: SymbolNames::of(mechanism),
-        file: origin.file,
+        file: provenance.file,
         options,
     };
-    let docs = module_docs(&subject, origin);
-    let module = Ident::new(&module_name(origin.module), Span::call_site());
+    let docs = module_docs(&subject, provenance);
+    let module = Ident::new(&module_name(provenance.module), Span::call_site());
     let imports = imports(&subject);
     let format = Literal::u32_unsuffixed(FORMAT);
-    let source = origin.source;
+    let source = provenance.source;
     let structure = structure::structure(&subject);
     let conditions = switches::table(&subject);
     let tables = tables::tables(&subject);
@@ -84,7 +84,7 @@ pub fn module(
     let derivatives = partials::derivatives(&subject);
     let export = options
         .c_interface
-        .then(|| c::export(mechanism, origin.module));
+        .then(|| c::export(mechanism, provenance.module));
     quote! {
         #(#[doc = #docs])*
         pub mod #module {
@@ -112,7 +112,7 @@ pub fn module(
     }
 }
 
-fn module_docs(subject: &Subject, origin: Origin) -> Vec<String> {
+fn module_docs(subject: &Subject, provenance: Provenance) -> Vec<String> {
     let Mechanism {
         name,
         docs,
@@ -134,7 +134,7 @@ fn module_docs(subject: &Subject, origin: Origin) -> Vec<String> {
     lines.push(String::new());
     lines.push(format!(
         " Generated from `{}`: {n} coordinates{states}, {r} constraint equations.",
-        origin.file
+        provenance.file
     ));
     if let Some(eliminated) = described::docs(subject) {
         lines.extend([String::new(), eliminated]);
@@ -155,12 +155,12 @@ fn module_docs(subject: &Subject, origin: Origin) -> Vec<String> {
             format!(" Folded constants: {}.", folded.join(", ")),
         ]);
     }
-    if !origin.frozen.is_empty() {
+    if !provenance.frozen.is_empty() {
         lines.extend([
             String::new(),
             format!(
                 " Parameters frozen at their defaults: `{}`.",
-                origin.frozen.join("`, `")
+                provenance.frozen.join("`, `")
             ),
         ]);
     }

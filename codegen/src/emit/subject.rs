@@ -13,7 +13,7 @@ use quote::quote;
 /// What to emit besides the necessary.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Options {
+pub struct EmitOptions {
     /// Emit the Coriolis matrix `C` as a function of its own.
     pub coriolis_matrix: bool,
     /// The constraints are declared to be regular: runs end with an error where they are
@@ -25,7 +25,7 @@ pub struct Options {
 
 /// A description in its own words, for the emitted documentation.
 #[derive(Clone, Copy, Debug)]
-pub struct Origin<'a> {
+pub struct Provenance<'a> {
     /// The module's name: the stem of the description's file.
     pub module: &'a str,
     /// The description's file, as given to the generator.
@@ -43,7 +43,7 @@ pub(super) struct Subject<'a> {
     pub programs: &'a Programs,
     pub names: SymbolNames,
     pub file: &'a str,
-    pub options: Options,
+    pub options: EmitOptions,
 }
 
 /// A function body and what its signature needs to know.

@@ -16,11 +16,14 @@ const LEAST_DAMPING: f64 = 1e-13;
 const MOST_DAMPING: f64 = 1e12;
 
 /// Values of functions, and their derivatives row by row.
-pub type Linearised = (Vec<f64>, Vec<Vec<f64>>);
+pub type ValuesAndJacobian = (Vec<f64>, Vec<Vec<f64>>);
 
 /// The point near a guess where the sum of squares has a minimum; `None` if the
 /// functions are not finite at the guess.
-pub fn minimise(guess: &[f64], functions: &dyn Fn(&[f64]) -> Linearised) -> Option<Vec<f64>> {
+pub fn minimise(
+    guess: &[f64],
+    functions: &dyn Fn(&[f64]) -> ValuesAndJacobian,
+) -> Option<Vec<f64>> {
     let mut x = guess.to_vec();
     let (mut values, mut slopes) = functions(&x);
     let mut size = finite(&values, &slopes)?;

@@ -4,7 +4,7 @@
 //! In:  a mechanism and its equations.
 //! Out: values at places that hold the constraints, or do not.
 
-use super::least_squares::{Linearised, minimise};
+use super::least_squares::{ValuesAndJacobian, minimise};
 use crate::derive::{Equations, Matrix};
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::model::{Constraint, Mechanism};
@@ -245,7 +245,12 @@ impl<'a> Numbers<'a> {
 
     /// The equations for positions among `rows`, linearised in the coordinates
     /// `free`.
-    pub fn linearised(&self, rows: &[usize], free: &[usize], place: &Place) -> Linearised {
+    pub fn values_and_jacobian(
+        &self,
+        rows: &[usize],
+        free: &[usize],
+        place: &Place,
+    ) -> ValuesAndJacobian {
         let chosen = || rows.iter().map(|&row| &self.rows[row]);
         let residuals: Vec<ExprId> = chosen().map(|row| row.constraint.residual).collect();
         let slopes: Vec<&[ExprId]> = chosen().map(|row| row.slopes).collect();
@@ -264,21 +269,21 @@ impl<'a> Numbers<'a> {
     }
 
     /// Moves free coordinates until equations hold, as far as that is possible.
-    pub fn settle(&self, rows: &[usize], free: &[usize], from: &Place) -> Option<Place> {
+    pub fn assemble(&self, rows: &[usize], free: &[usize], from: &Place) -> Option<Place> {
         let at = |x: &[f64]| {
             let mut place = from.clone();
             free.iter().zip(x).for_each(|(&j, x)| place.q[j] = *x);
             place
         };
         let guess: Vec<f64> = free.iter().map(|&j| from.q[j]).collect();
-        let functions = |x: &[f64]| self.linearised(rows, free, &at(x));
+        let functions = |x: &[f64]| self.values_and_jacobian(rows, free, &at(x));
         minimise(&guess, &functions).map(|x| at(&x))
     }
 
     /// The errors of equations at a place, and whether they hold.
     pub fn errors(&self, rows: &[usize], place: &Place) -> (Vec<f64>, bool) {
         let all: Vec<usize> = (0..place.q.len()).collect();
-        let (values, slopes) = self.linearised(rows, &all, place);
+        let (values, slopes) = self.values_and_jacobian(rows, &all, place);
         let holds = values.iter().zip(&slopes).all(|(value, row)| {
             let terms = row
                 .iter()
@@ -289,7 +294,7 @@ impl<'a> Numbers<'a> {
         (values, holds)
     }
 
-    /// The position of the start block, unsettled, with what is held in it.
+    /// The position of the start block, not assembled, with what is held in it.
     pub fn start(&self) -> (Place, Vec<bool>) {
         let n = self.mechanism.coordinates.len();
         let mut place = Place {
@@ -304,7 +309,7 @@ impl<'a> Numbers<'a> {
         (place, held)
     }
 
-    /// The position of the start block, settled; `None` where it can't be.
+    /// The position of the start block, assembled; `None` where it can't be.
     pub fn assembled(&self) -> Option<Place> {
         let (guess, held) = self.start();
         let rows = self.positions();
@@ -312,7 +317,7 @@ impl<'a> Numbers<'a> {
             return Some(guess);
         }
         let free: Vec<usize> = (0..held.len()).filter(|&i| !held[i]).collect();
-        let end = self.settle(&rows, &free, &guess)?;
+        let end = self.assemble(&rows, &free, &guess)?;
         self.errors(&rows, &end).1.then_some(end)
     }
 
@@ -323,14 +328,14 @@ impl<'a> Numbers<'a> {
             self.positions(),
             (0..self.mechanism.coordinates.len()).collect::<Vec<_>>(),
         );
-        let settled = |place: Place| match rows.as_slice() {
+        let assembled = |place: Place| match rows.as_slice() {
             [] => Some(place),
             rows => self
-                .settle(rows, &free, &place)
+                .assemble(rows, &free, &place)
                 .filter(|place| self.errors(rows, place).1),
         };
         (1..=POSITIONS)
-            .filter_map(|seed| settled(self.random(seed)))
+            .filter_map(|seed| assembled(self.random(seed)))
             .collect()
     }
 

@@ -33,8 +33,8 @@ fn is_flat(numbers: &Numbers, row: usize) -> bool {
 /// holds; `None` if there is none.
 fn flattens(numbers: &Numbers, row: usize, start: &Place) -> Option<bool> {
     let all: Vec<usize> = (0..start.q.len()).collect();
-    let slope = |place: &Place| norm(&numbers.linearised(&[row], &all, place).1[0]);
-    let end = numbers.settle(&[row], &all, start)?;
+    let slope = |place: &Place| norm(&numbers.values_and_jacobian(&[row], &all, place).1[0]);
+    let end = numbers.assemble(&[row], &all, start)?;
     let holds = numbers.errors(&[row], &end).1;
     holds.then(|| slope(&end) <= VANISHED * slope(start))
 }

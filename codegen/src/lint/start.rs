@@ -46,7 +46,7 @@ pub fn unassembled(numbers: &Numbers, found: &mut Diagnostics) {
     });
     let mut best: Option<(f64, Vec<f64>)> = None;
     for place in [guess.clone()].into_iter().chain(disturbed) {
-        let Some(end) = numbers.settle(&rows, &free, &place) else {
+        let Some(end) = numbers.assemble(&rows, &free, &place) else {
             continue;
         };
         let (errors, holds) = numbers.errors(&rows, &end);

@@ -7,7 +7,7 @@ use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::Number;
 use crate::syntax::ast::{Expr, Name, Range};
-use crate::syntax::words::LARGE_AND_SMALL;
+use crate::syntax::messages::LARGE_AND_SMALL;
 
 /// The largest exponent that can be written.
 const EXPONENT: f64 = 1000.0;

@@ -3,14 +3,14 @@
 use super::evaluate::Evaluator;
 use super::language::{ELSEWHERE, OTHERS, other_functions};
 use super::linear::transposed;
+use super::messages::{count, takes_others};
 use super::scope::Kind;
 use super::unit::{PER_SECOND, Unit};
 use super::value::{Matrix, Scalar, Value};
-use super::words::{count, takes_others};
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::expr::{Function, Function2};
 use crate::syntax::ast::{Expr, ExprKind, Name};
-use crate::syntax::words::did_you_mean;
+use crate::syntax::messages::did_you_mean;
 
 impl Evaluator {
     /// `function(arguments)`

@@ -4,8 +4,8 @@
 //! Out: expressions that select; where a condition is known now, one of the formulas.
 
 use super::evaluate::Evaluator;
+use super::messages::{ONE_SIZE, sides_differ};
 use super::value::{Scalar, Value};
-use super::words::{ONE_SIZE, sides_differ};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::{Comparison, ExprId};
 use crate::syntax::ast::{Condition, Expr};

@@ -8,7 +8,7 @@ use crate::diagnostic::{Diagnostic, nearest};
 use crate::expr::{ExprId, Number, Symbol};
 use crate::syntax::Model;
 use crate::syntax::ast::{Declaration, Declared, ExprKind, Item, ItemKind};
-use crate::syntax::words::did_you_mean;
+use crate::syntax::messages::did_you_mean;
 
 impl Lowering<'_> {
     /// Checks that the build script changes what there is: whole constants and parameters,

@@ -4,9 +4,9 @@
 //!      them, if there is one, a row of names. Empty lines and what follows `#` are left out.
 //! Out: pairs of two columns, or what is wrong, with line and column.
 
-use super::words::not_rising;
+use super::messages::not_rising;
 use crate::diagnostic::nearest;
-use crate::syntax::words::{NUMBERS, did_you_mean};
+use crate::syntax::messages::{NUMBERS, did_you_mean};
 use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;

@@ -278,7 +278,8 @@ impl<'a> Lowering<'a> {
         }
         for i in sorted {
             let name = &names[i];
-            self.evaluator.settle(&name.text, Kind::Quantity, name.span);
+            self.evaluator
+                .evaluate_waiting(&name.text, Kind::Quantity, name.span);
         }
         self.evaluator.parts.waiting.clear();
     }

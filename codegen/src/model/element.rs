@@ -1,11 +1,11 @@
 //! Vectors and matrices written out, components, elements.
 
 use super::evaluate::Evaluator;
+use super::messages::{are, elements_differ};
 use super::value::{AXES, Array, Matrix, Value};
-use super::words::{are, elements_differ};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::ast::{Expr, Name, Range};
-use crate::syntax::words::NO_ELEMENTS;
+use crate::syntax::messages::NO_ELEMENTS;
 use std::rc::Rc;
 
 impl Evaluator {

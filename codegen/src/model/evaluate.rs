@@ -16,7 +16,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest};
 use crate::expr::{Direction, ExprId, Function, Graph, Number, Symbol, Table};
 use crate::syntax::NESTING;
 use crate::syntax::ast::{Expr, ExprKind, Range};
-use crate::syntax::words::{DECLARED, NO_QUOTES, did_you_mean};
+use crate::syntax::messages::{DECLARED, NO_QUOTES, did_you_mean};
 use std::path::PathBuf;
 
 /// The most formulas that are evaluated for one description, loops unrolled.
@@ -188,7 +188,7 @@ impl Evaluator {
         let (kind, place) = (entry.kind, entry.name.span);
         if entry.value.is_none() {
             let full = entry.name.text.clone();
-            self.settle(&full, kind, span);
+            self.evaluate_waiting(&full, kind, span);
         }
         let value = self.scope.look_up(name, full)?.value.clone();
         match self.constant {

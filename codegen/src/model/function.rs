@@ -10,16 +10,16 @@ use super::declared::Known;
 use super::evaluate::Evaluator;
 use super::language::known;
 use super::lowering::Lowering;
+use super::messages::{count, part_of_library, takes_others};
 use super::order::{Definition, Mention, collect, order};
 use super::scope::{Kind, twice};
 use super::unit::{NONE, Unit};
 use super::unit_names;
 use super::value::{Scalar, Value};
-use super::words::{count, part_of_library, takes_others};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr;
 use crate::syntax::ast::{Argument, Expr, Function, Item, ItemKind, Name, UnitExpr};
-use crate::syntax::words::{DECLARED, REMOVE, RENAME};
+use crate::syntax::messages::{DECLARED, REMOVE, RENAME};
 use rustc_hash::FxHashMap;
 use std::rc::Rc;
 

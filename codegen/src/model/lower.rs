@@ -11,7 +11,7 @@ use super::scope::{Entry, Kind};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::syntax::ast::{Item, ItemKind};
-use crate::syntax::words::REMOVE;
+use crate::syntax::messages::REMOVE;
 use crate::syntax::{self, Model};
 use rustc_hash::FxHashMap;
 use std::path::Path;

@@ -11,7 +11,7 @@ use super::scope::Kind;
 use super::value::{Bare, Value};
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::syntax::ast::{Argument, Expr, ExprKind, Let, Name};
-use crate::syntax::words::{COMPONENT, did_you_mean, no_axis};
+use crate::syntax::messages::{COMPONENT, did_you_mean, no_axis};
 
 impl Evaluator {
     /// Whether a formula names a part or an array of them.
@@ -119,7 +119,7 @@ impl Evaluator {
     }
 
     /// Evaluates a quantity that waits for its value.
-    pub fn settle(&mut self, full: &str, kind: Kind, span: Span) {
+    pub fn evaluate_waiting(&mut self, full: &str, kind: Kind, span: Span) {
         if kind == Kind::Part {
             let message = format!("`{full}` is a part");
             let error = Diagnostic::error(span, message);
@@ -148,7 +148,7 @@ impl Evaluator {
         });
         (self.gains, self.constant) = (gains, constant);
         self.parts.open.pop();
-        self.scope.settle(full, value, bare);
+        self.scope.define(full, value, bare);
     }
 
     /// Does something where names are looked up in a frame.

@@ -24,6 +24,7 @@ mod linear;
 mod lower;
 mod lowering;
 mod member;
+mod messages;
 mod order;
 mod part;
 mod rotation;
@@ -37,7 +38,6 @@ mod unit;
 mod unit_names;
 mod validity;
 mod value;
-mod words;
 
 pub(crate) use language::other_functions;
 pub use lower::lower;

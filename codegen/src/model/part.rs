@@ -7,13 +7,13 @@
 
 use super::declared::{Frame, Waiting};
 use super::lowering::Lowering;
+use super::messages::part_of_library;
 use super::order::{Mention, collect};
 use super::scope::{Kind, built_in, twice};
 use super::value::Value;
-use super::words::part_of_library;
 use crate::diagnostic::{Diagnostic, Label, Span};
 use crate::syntax::ast::{Argument, Declared, Expr, ExprKind, Item, ItemKind, Let, Name, Part};
-use crate::syntax::words::{DECLARED, REMOVE};
+use crate::syntax::messages::{DECLARED, REMOVE};
 use std::rc::Rc;
 
 /// A statement and where its names are looked up.
@@ -185,7 +185,7 @@ impl<'a> Lowering<'a> {
                 this.declare_as(&argument.name, kind);
                 let full = this.evaluator.scope.full(&argument.name.text);
                 match value {
-                    Some(value) => this.evaluator.scope.settle(&full, value, None),
+                    Some(value) => this.evaluator.scope.define(&full, value, None),
                     None => this.waits(full, waiting(argument, e, &frame, index, part)),
                 }
             }

@@ -6,7 +6,7 @@
 use super::value::{Bare, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::ast::Name;
-use crate::syntax::words::{DECLARED, RENAME, RENAME_ONE};
+use crate::syntax::messages::{DECLARED, RENAME, RENAME_ONE};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What a name stands for.
@@ -150,7 +150,7 @@ impl Scope {
     }
 
     /// Gives a declared name, in full, its value and the number without unit in it.
-    pub fn settle(&mut self, full: &str, value: Option<Value>, bare: Option<Bare>) {
+    pub fn define(&mut self, full: &str, value: Option<Value>, bare: Option<Bare>) {
         if let Some(&i) = self.index.get(full) {
             (self.entries[i].value, self.entries[i].bare) = (value, bare);
         }

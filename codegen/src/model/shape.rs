@@ -6,13 +6,13 @@
 
 use super::evaluate::Evaluator;
 use super::lowering::Lowering;
+use super::messages::elements_differ;
 use super::unit::Unit;
 use super::unit_names;
 use super::value::{Array, Scalar, Value};
-use super::words::elements_differ;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::ast::{Declaration, Expr, ExprKind, Range, Size, UnitExpr};
-use crate::syntax::words::DECLARED;
+use crate::syntax::messages::DECLARED;
 use std::rc::Rc;
 
 /// The most elements of an array that is declared.

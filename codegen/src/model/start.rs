@@ -1,13 +1,13 @@
 //! The `start` block and the picture.
 
 use super::lowering::Lowering;
+use super::messages::are;
 use super::value::{Scalar, Value};
-use super::words::are;
 use super::{Constraint, Point, Shape, Start};
 use crate::diagnostic::{Diagnostic, Span, figure};
 use crate::expr::{Node, Number, Symbol};
 use crate::syntax::ast::{Drawing, Expr, StartItem};
-use crate::syntax::words::{GIVEN, REMOVE_ONE};
+use crate::syntax::messages::{GIVEN, REMOVE_ONE};
 use crate::syntax::written;
 
 impl Lowering<'_> {

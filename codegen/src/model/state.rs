@@ -11,7 +11,7 @@ use super::value::Scalar;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::{ExprId, Node, Symbol};
 use crate::syntax::ast::Expr;
-use crate::syntax::words::{GIVEN, REMOVE_ONE};
+use crate::syntax::messages::{GIVEN, REMOVE_ONE};
 
 impl Lowering<'_> {
     /// `der(of) = value`

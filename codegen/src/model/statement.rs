@@ -1,16 +1,16 @@
 //! Statements: energies, forces, constraints, outputs, events, loops.
 
 use super::lowering::Lowering;
+use super::messages::{ONE_SIZE, sides_differ};
 use super::scope::{Kind, twice};
 use super::unit::{Dimension, ENERGY, NONE, POWER, Unit};
 use super::value::{Scalar, Value};
-use super::words::{ONE_SIZE, sides_differ};
 use super::{Constraint, Direction, Event, Force, Output, Quantity, Summand};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::ast::{
     Crossing, Declaration, Declared, Energy, Expr, Item, ItemKind, Name, Range,
 };
-use crate::syntax::words::{REMOVE, RENAME};
+use crate::syntax::messages::{REMOVE, RENAME};
 
 impl Lowering<'_> {
     /// Reads statements that aren't declarations.

@@ -11,9 +11,9 @@
 
 use super::data;
 use super::evaluate::Evaluator;
+use super::messages::not_rising;
 use super::unit::Unit;
 use super::value::{Scalar, Value};
-use super::words::not_rising;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::{Comparison, ExprId, Function, Lookup, Number, Table, Test};
 use crate::syntax::ast::{Expr, ExprKind};

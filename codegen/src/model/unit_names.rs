@@ -9,7 +9,7 @@
 use super::unit::{Dimension, ENERGY, NONE, PARTS};
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::syntax::ast::UnitExpr;
-use crate::syntax::words::did_you_mean;
+use crate::syntax::messages::did_you_mean;
 
 /// The base units, in the order of the exponents of a [`Dimension`].
 const BASE: [&str; 5] = ["kg", "m", "s", "A", "K"];

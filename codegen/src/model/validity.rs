@@ -5,7 +5,7 @@ use super::unit::{Dimension, Unit};
 use super::value::Scalar;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::{ExprId, Node};
-use crate::syntax::words::LARGE_AND_SMALL;
+use crate::syntax::messages::LARGE_AND_SMALL;
 
 /// The largest exponent that is kept as a product.
 const LARGEST_EXPONENT: i32 = 1_000_000;

@@ -1,6 +1,5 @@
 //! The programs of a module, as data.
 //!
-//! In:  nothing.
 //! Out: [`Programs`], and what it is made of; `programs` makes them.
 
 use super::{Cost, Program, Solved};

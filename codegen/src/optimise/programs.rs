@@ -15,8 +15,8 @@ use super::{
     regular_acceleration, regular_correction, shared_acceleration,
 };
 use crate::derive::{
-    Equations, Linearised, Partials, Shared, StartRows, coriolis_matrix, differentiate, linearise,
-    mass_matrix, shared,
+    Equations, Linearisation, Partials, Shared, StartRows, coriolis_matrix, differentiate,
+    linearise, mass_matrix, shared,
 };
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Mechanism, Shape};
@@ -230,7 +230,7 @@ impl Optimiser<'_> {
     }
 
     fn linearised(&mut self) -> Result<Optimised, LeftOut> {
-        let Linearised {
+        let Linearisation {
             force_by_position,
             force_by_velocity,
             row_by_position,

@@ -2,8 +2,8 @@
 
 use super::ast::{Condition, Expr, ExprKind};
 use super::cursor::{Cursor, Parsed};
+use super::messages::{AND, CHOICE};
 use super::token::TokenKind;
-use super::words::{AND, CHOICE};
 use crate::diagnostic::Diagnostic;
 use crate::expr::Comparison;
 

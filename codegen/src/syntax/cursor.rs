@@ -1,9 +1,9 @@
 //! A reader of tokens that says what it expected, and goes on after a mistake.
 
 use super::ast::{Crossing, Drawing, Name};
+use super::messages::{NAME_INSIDE, RENAME};
 use super::scan::NESTING;
 use super::token::{Token, TokenKind, Tokens};
-use super::words::{NAME_INSIDE, RENAME};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 
 /// The mistake has been reported; go on behind the statement.

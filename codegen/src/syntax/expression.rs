@@ -7,9 +7,9 @@
 use super::ast::{Expr, ExprKind, Name, Range};
 use super::cursor::{CONNECTIVES, Cursor, DIRECTIONS, Parsed};
 use super::literal::read_number;
+use super::messages::{AXIS, COMPONENT, FORMULA, NAME_INSIDE, NO_ELEMENTS, NUMBERS, POINT};
 use super::scan::NESTING;
 use super::token::TokenKind;
-use super::words::{AXIS, COMPONENT, FORMULA, NAME_INSIDE, NO_ELEMENTS, NUMBERS, POINT};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::Function;
 

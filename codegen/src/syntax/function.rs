@@ -2,7 +2,7 @@
 
 use super::ast::{Argument, Function, ItemKind, Part};
 use super::cursor::{Cursor, Parsed};
-use super::words::RENAME_ONE;
+use super::messages::RENAME_ONE;
 use crate::diagnostic::Diagnostic;
 use std::rc::Rc;
 

@@ -2,9 +2,9 @@
 
 use super::ast::{Declaration, Declared, Energy, Expr, ExprKind, Item, ItemKind, Let, Name, Size};
 use super::cursor::{Cursor, DIRECTIONS, Parsed, SHAPES, STATEMENTS};
+use super::messages::{CHOICE, FOR, NO_ASSIGNMENT, NO_UNIT_BEHIND, REMOVE, did_you_mean};
 use super::model::Model;
 use super::token::TokenKind;
-use super::words::{CHOICE, FOR, NO_ASSIGNMENT, NO_UNIT_BEHIND, REMOVE, did_you_mean};
 use crate::diagnostic::{Diagnostic, nearest};
 use crate::expr::Function;
 

@@ -1,6 +1,6 @@
 //! Numbers as they are written.
 
-use super::words::LARGE_AND_SMALL;
+use super::messages::LARGE_AND_SMALL;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::Number;
 

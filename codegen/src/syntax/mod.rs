@@ -22,6 +22,7 @@ mod formula;
 mod function;
 mod item;
 mod literal;
+pub(crate) mod messages;
 mod model;
 mod print;
 mod read;
@@ -31,7 +32,6 @@ mod start;
 mod stray;
 mod token;
 mod unit;
-pub(crate) mod words;
 
 pub(crate) use cursor::{CONNECTIVES, DIRECTIONS, SHAPES, STATEMENTS};
 pub use error::ModelError;

@@ -5,8 +5,8 @@
 //! Out: [`Scanned`]: everything that is wrong with its characters, and the text with
 //!      blanks in their place, so that one of them does not hide all other mistakes.
 
+use super::messages::{NAME_INSIDE, NO_QUOTES, REMOVE};
 use super::stray::{instead, shown};
-use super::words::{NAME_INSIDE, NO_QUOTES, REMOVE};
 use crate::diagnostic::{Diagnostic, Diagnostics, Position, Span};
 use std::iter::Peekable;
 use std::ops::Range;

@@ -2,8 +2,8 @@
 
 use super::ast::{Expr, ExprKind, StartItem};
 use super::cursor::{Cursor, Parsed};
+use super::messages::{FOR, NO_UNIT_BEHIND};
 use super::token::TokenKind;
-use super::words::{FOR, NO_UNIT_BEHIND};
 use crate::diagnostic::Diagnostic;
 
 const HELP: &str = "an entry is written `q1 = 45*deg;` (held) or `q2 ~ 0.7;` (a guess)";

@@ -3,7 +3,7 @@
 //! In:  a character.
 //! Out: its name, and what to write instead.
 
-use super::words::{CHOICE, REMOVE};
+use super::messages::{CHOICE, REMOVE};
 
 /// A character as a message names it.
 pub fn shown(character: char) -> String {

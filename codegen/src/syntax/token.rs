@@ -3,8 +3,8 @@
 //! In:  a text that [`super::scan`] has passed.
 //! Out: tokens with their places and nesting, doc comments set apart.
 
+use super::messages::NUMBERS;
 use super::ruler::Ruler;
-use super::words::NUMBERS;
 use crate::diagnostic::{Diagnostic, Diagnostics, Position, Span};
 use proc_macro2::{Delimiter, Group, Spacing, TokenStream, TokenTree, token_stream};
 use std::iter::Peekable;

@@ -2,9 +2,9 @@
 
 use super::ast::{Name, UnitExpr};
 use super::cursor::{Cursor, Parsed};
+use super::messages::NO_ASSIGNMENT;
 use super::scan;
 use super::token::{TokenKind, tokenize};
-use super::words::NO_ASSIGNMENT;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 
 /// The largest exponent of a unit.

@@ -8,7 +8,7 @@ use super::accept;
 use bricard_codegen::internals::derive::derive;
 use bricard_codegen::internals::expr::Symbol;
 use bricard_codegen::internals::model::Mechanism;
-use bricard_codegen::{Settings, compile_source};
+use bricard_codegen::{CompileSettings, compile_source};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -137,7 +137,7 @@ fn a_shorthand_gives_the_equations_that_are_written_by_hand() {
 #[test]
 fn generated_functions_write_to_what_they_are_given_or_leave_it_unnamed() {
     for (name, source) in descriptions() {
-        let compiled = compile_source(&source, &name, &name, &Settings::default());
+        let compiled = compile_source(&source, &name, &name, &CompileSettings::default());
         let code = compiled.map(|compiled| compiled.code);
         let code = code.unwrap_or_else(|errors| panic!("{}", errors.render(&name, &source)));
         for function in code.split("fn ").skip(1) {

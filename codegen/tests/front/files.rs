@@ -2,7 +2,7 @@
 
 use super::with;
 use bricard_codegen::internals::analyse;
-use bricard_codegen::{Settings, compile_source};
+use bricard_codegen::{CompileSettings, compile_source};
 use std::fs;
 use std::path::PathBuf;
 
@@ -12,7 +12,7 @@ fn said(test: &str, data: &str, table: &str) -> String {
     fs::create_dir_all(&folder).expect("a folder");
     fs::write(folder.join("data.csv"), data).expect("a file");
     let source = with(&format!("force {table} on q;"));
-    let settings = Settings::beside(&folder.join("test.mech"));
+    let settings = CompileSettings::beside(&folder.join("test.mech"));
     match analyse(&source, &settings) {
         Ok((mechanism, _)) => {
             assert_eq!(mechanism.files, [folder.join("data.csv")]);
@@ -101,7 +101,7 @@ fn the_points_of_a_long_table_are_data_and_not_choices() {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("files_long");
     fs::create_dir_all(&folder).expect("a folder");
     fs::write(folder.join("data.csv"), rows(1000)).expect("a file");
-    let settings = Settings::beside(&folder.join("test.mech"));
+    let settings = CompileSettings::beside(&folder.join("test.mech"));
     for (function, conditions) in [("table", 10), ("spline", 0)] {
         let source = with(&format!("force {function}(\"data.csv\", t) on q;"));
         let code = compile_source(&source, "long", "test.mech", &settings)
@@ -122,7 +122,7 @@ fn tables_for_which_there_is_no_room_are_refused() {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("files_many");
     fs::create_dir_all(&folder).expect("a folder");
     fs::write(folder.join("data.csv"), rows(1000)).expect("a file");
-    let settings = Settings::beside(&folder.join("test.mech"));
+    let settings = CompileSettings::beside(&folder.join("test.mech"));
     let source = with(&many);
     let errors = compile_source(&source, "many", "test.mech", &settings)
         .expect_err("more conditions than there is room for");

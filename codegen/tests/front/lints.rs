@@ -2,12 +2,12 @@
 //! meant.
 
 use super::mechanisms::library;
-use bricard_codegen::Settings;
+use bricard_codegen::CompileSettings;
 use bricard_codegen::internals::examine;
 
 /// The warnings about a description, rendered.
 fn lints(source: &str) -> String {
-    match examine(source, &Settings::default()) {
+    match examine(source, &CompileSettings::default()) {
         Ok((_, warnings)) => warnings.render("test.mech", source),
         Err(errors) => panic!("{}", errors.render("test.mech", source)),
     }

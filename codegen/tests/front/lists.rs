@@ -2,7 +2,7 @@
 
 use super::{accept, assert_close, output, refuse_saying, settings, with};
 use bricard_codegen::internals::analyse;
-use bricard_codegen::{Settings, compile_source};
+use bricard_codegen::{CompileSettings, compile_source};
 
 const LISTS: &str = "const c = [1, 2]; param m[6]: kg = [0, 17.4, 4.8, 0.82, 0.34, 0.09];
     param r = [q0, 5]; const q0 = 3; param I = [[1, 2], [3, 4]]; input u[2] = [t, 7];
@@ -36,7 +36,7 @@ fn every_number_of_a_list_has_a_name_and_a_default_of_its_own() {
 #[test]
 fn fields_and_tables_of_emitted_code_name_the_elements() {
     let source = with(LISTS);
-    let code = compile_source(&source, "test", "test.mech", &Settings::default());
+    let code = compile_source(&source, "test", "test.mech", &CompileSettings::default());
     let code = code.expect("a description that is right").code;
     for text in [
         "pub m_5: T",

@@ -31,7 +31,7 @@ mod wrong;
 use bricard_codegen::internals::analyse;
 use bricard_codegen::internals::expr::Symbol;
 use bricard_codegen::internals::model::Mechanism;
-use bricard_codegen::{Diagnostics, Settings};
+use bricard_codegen::{CompileSettings, Diagnostics};
 
 /// A mechanism of two coordinates `q` and `w` without units, and more statements.
 fn with(statements: &str) -> String {
@@ -39,11 +39,11 @@ fn with(statements: &str) -> String {
 }
 
 /// What a build script sets: numbers for constants, and parameters that it freezes.
-fn settings(constants: &[(&str, f64)], frozen: &[&str]) -> Settings {
+fn settings(constants: &[(&str, f64)], frozen: &[&str]) -> CompileSettings {
     let constants = constants
         .iter()
         .map(|(name, value)| (name.to_string(), *value));
-    let mut settings = Settings::default();
+    let mut settings = CompileSettings::default();
     settings.constants = constants.collect();
     settings.frozen = frozen.iter().map(ToString::to_string).collect();
     settings
@@ -51,7 +51,7 @@ fn settings(constants: &[(&str, f64)], frozen: &[&str]) -> Settings {
 
 /// The mechanism of a description that is right.
 fn accept(source: &str) -> Mechanism {
-    match analyse(source, &Settings::default()) {
+    match analyse(source, &CompileSettings::default()) {
         Ok((mechanism, _)) => mechanism,
         Err(errors) => panic!("{}", errors.render("test.mech", source)),
     }
@@ -59,7 +59,7 @@ fn accept(source: &str) -> Mechanism {
 
 /// The findings about a description that is wrong.
 fn refuse(source: &str) -> Diagnostics {
-    match analyse(source, &Settings::default()) {
+    match analyse(source, &CompileSettings::default()) {
         Ok(_) => panic!("this was accepted: {source}"),
         Err(errors) => errors,
     }
@@ -73,7 +73,7 @@ fn refuse_saying(source: &str, words: &str) {
 
 /// The warnings about a description that is right, rendered.
 fn warnings(source: &str) -> String {
-    match analyse(source, &Settings::default()) {
+    match analyse(source, &CompileSettings::default()) {
         Ok((_, warnings)) => warnings.render("test.mech", source),
         Err(errors) => panic!("{}", errors.render("test.mech", source)),
     }

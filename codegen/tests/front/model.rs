@@ -4,7 +4,7 @@ use super::mechanisms::library;
 use bricard_codegen::compile_source;
 use bricard_codegen::internals::model::Mechanism;
 use bricard_codegen::internals::{analyse, syntax};
-use bricard_codegen::{Crossing, Drawing, Formula, Model, Settings};
+use bricard_codegen::{CompileSettings, Crossing, Drawing, Formula, Model};
 
 /// A chain of pendulums, as a person writes it.
 const CHAIN: &str = "\
@@ -85,7 +85,7 @@ fn a_mechanism_built_by_calls_is_the_one_that_a_person_wrote() {
     let text = chain().text().expect("every part is right");
     assert_eq!(text, CHAIN);
     let code = |source: &str| {
-        let compiled = compile_source(source, "chain", "chain.mech", &Settings::default());
+        let compiled = compile_source(source, "chain", "chain.mech", &CompileSettings::default());
         compiled.expect("the chain is right").code
     };
     assert_eq!(code(&text), code(CHAIN));
@@ -137,7 +137,7 @@ fn every_description_of_the_library_written_down_again_says_the_same() {
             .text()
             .expect("what was read can be written");
         let [first, second] = [&source, &again].map(|text| {
-            let (mechanism, _) = analyse(text, &Settings::default())
+            let (mechanism, _) = analyse(text, &CompileSettings::default())
                 .unwrap_or_else(|errors| panic!("{}", errors.render("again.mech", text)));
             parts(&mechanism)
         });
@@ -204,7 +204,7 @@ fn what_is_wrong_with_the_whole_is_said_about_the_written_lines() {
         .kinetic("1/2*J*der(q)^2")
         .text()
         .expect("every part is right");
-    let errors = analyse(&text, &Settings::default()).expect_err("`J` is missing");
+    let errors = analyse(&text, &CompileSettings::default()).expect_err("`J` is missing");
     let said = errors.render("test.mech", &text);
     assert!(
         said.starts_with("test.mech:3:17: error: `J` is not declared"),

@@ -1,7 +1,7 @@
 //! What the pages of the documentation show is right: descriptions with the messages
 //! beside them, the program of the tutorial, links from page to page.
 
-use bricard_codegen::Settings;
+use bricard_codegen::CompileSettings;
 use bricard_codegen::internals::examine;
 use std::collections::BTreeSet;
 use std::fs;
@@ -150,7 +150,7 @@ fn file(description: &str) -> String {
 
 /// What `bricard check` says of a description but that it is in order.
 fn said(file: &str, description: &str) -> String {
-    match examine(description, &Settings::default()) {
+    match examine(description, &CompileSettings::default()) {
         Ok((_, warnings)) => warnings.render(file, description),
         Err(errors) => panic!("{}", errors.render(file, description)),
     }
@@ -197,7 +197,7 @@ fn the_mistake_in_the_tutorial_is_answered_as_it_says() {
     let right = blocks.iter().find(|block| block.language == "mech");
     let right = &right.expect("the first description").text;
     let wrong = right.replace("1/24*m*L^2*der(phi)^2", "1/24*m*L*der(phi)^2");
-    let errors = examine(&wrong, &Settings::default()).expect_err("it is wrong");
+    let errors = examine(&wrong, &CompileSettings::default()).expect_err("it is wrong");
     let shown = format!(
         "error: the description is wrong\n\n{}",
         errors.render("swing.mech", &wrong).trim_end()

@@ -2,7 +2,7 @@
 
 use super::{accept, refuse, refuse_saying, warnings, with};
 use bricard_codegen::internals::analyse;
-use bricard_codegen::{Settings, compile_source};
+use bricard_codegen::{CompileSettings, compile_source};
 
 const PENDULUM: &str = "part Rod(foot, n) { const twice = 2*n; param L: m = twice; coord q; coord p[n];
     kinetic der(q)^2 + sum(i in 0..n, der(p[i])^2)/L*L; constraint pin: q = foot; event low: q rising;
@@ -77,7 +77,7 @@ fn parts_that_nothing_uses_are_warned_of_and_not_the_names_in_them() {
 #[test]
 fn emitted_code_has_fields_with_the_names_of_parts() {
     let source = with(&format!("{PENDULUM} let leg[i in 0..2] = Rod(w, 1);"));
-    let code = compile_source(&source, "test", "test.mech", &Settings::default());
+    let code = compile_source(&source, "test", "test.mech", &CompileSettings::default());
     let code = code
         .unwrap_or_else(|e| panic!("{}", e.render("test.mech", &source)))
         .code;
@@ -89,7 +89,7 @@ fn emitted_code_has_fields_with_the_names_of_parts() {
 #[test]
 fn a_build_script_changes_constants_of_parts() {
     let source = with(&format!("{PENDULUM} let a = Rod(w, 1);"));
-    let mut settings = Settings::default();
+    let mut settings = CompileSettings::default();
     settings.constants = vec![("a.twice".to_string(), 7.0)];
     settings.frozen = vec!["a.L".to_string()];
     let (m, _) = analyse(&source, &settings).expect("right");
@@ -97,7 +97,7 @@ fn a_build_script_changes_constants_of_parts() {
     let of = |name: &str| m.constants.iter().find(|c| c.quantity.name == name);
     let value = of("a.L").and_then(|c| m.graph.constant_value(c.value));
     assert_eq!(value, Some(7.0));
-    let mut settings = Settings::default();
+    let mut settings = CompileSettings::default();
     settings.constants = vec![("a.thrice".to_string(), 7.0)];
     assert!(analyse(&source, &settings).is_err());
 }

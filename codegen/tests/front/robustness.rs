@@ -3,7 +3,7 @@
 
 use super::mechanisms::library;
 use bricard_codegen::internals::analyse;
-use bricard_codegen::{Settings, compile_source};
+use bricard_codegen::{CompileSettings, compile_source};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 use std::fmt::Write;
@@ -29,7 +29,7 @@ fn samples() -> Vec<String> {
 
 /// Analyses and renders; the result doesn't matter, coming back does.
 fn survive(source: &str) {
-    match analyse(source, &Settings::default()) {
+    match analyse(source, &CompileSettings::default()) {
         Ok((_, warnings)) => drop(warnings.render("test.mech", source)),
         Err(errors) => {
             assert!(errors.error_count() > 0, "refused without a word: {source}");
@@ -235,7 +235,8 @@ fn what_is_deep_or_long_compiles_on_a_small_stack() {
             format!("potential {}q{};", "sin(".repeat(50), ")".repeat(50)),
         ] {
             let source = super::with(&statements);
-            let compiled = compile_source(&source, "test", "test.mech", &Settings::default());
+            let compiled =
+                compile_source(&source, "test", "test.mech", &CompileSettings::default());
             assert!(compiled.is_ok(), "{statements}");
         }
     };

@@ -3,7 +3,7 @@
 use super::{accept, assert_close, refuse_saying, state, with};
 use bricard_codegen::internals::derive::derive;
 use bricard_codegen::internals::examine;
-use bricard_codegen::{Settings, compile_source};
+use bricard_codegen::{CompileSettings, compile_source};
 
 #[test]
 fn a_formula_with_a_start_value_is_an_equation_for_positions_or_for_velocities() {
@@ -39,7 +39,7 @@ fn a_formula_with_a_start_value_is_an_equation_for_positions_or_for_velocities()
 fn a_start_without_equations_emits_nothing_for_them() {
     let code = |start: &str| {
         let source = with(&format!("start {{ {start} }}"));
-        let compiled = compile_source(&source, "test", "test.mech", &Settings::default());
+        let compiled = compile_source(&source, "test", "test.mech", &CompileSettings::default());
         compiled.expect("a description that is right").code
     };
     assert!(!code("q = 1;").contains("StartEquations"));
@@ -66,7 +66,7 @@ fn what_can_not_be_met_is_refused() {
 fn a_start_that_equations_contradict_is_warned_of() {
     let said = |start: &str| {
         let source = with(&format!("constraint q = 2*w; start {{ {start} }}"));
-        let (_, warnings) = examine(&source, &Settings::default()).expect("legal");
+        let (_, warnings) = examine(&source, &CompileSettings::default()).expect("legal");
         warnings.render("test.mech", &source)
     };
     assert_eq!(said("q = 1; q + w = 3/2; der(q + w) = 1;"), "");

@@ -2,7 +2,7 @@
 //!
 //! `BRICARD_BLESS=1` rewrites the messages; read them in the diff as a user would.
 
-use bricard_codegen::Settings;
+use bricard_codegen::CompileSettings;
 use bricard_codegen::internals::examine;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -32,7 +32,7 @@ fn message(path: &Path) -> String {
         .file_name()
         .map(|name| name.to_string_lossy().into_owned())
         .unwrap_or_default();
-    match examine(&source, &Settings::default()) {
+    match examine(&source, &CompileSettings::default()) {
         Ok((_, warnings)) => warnings.render(&name, &source),
         Err(errors) => errors.render(&name, &source),
     }

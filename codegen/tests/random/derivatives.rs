@@ -1,8 +1,8 @@
 //! Symbolic derivatives against dual numbers, which share nothing with their rules.
 
 use super::description::{Manner, any, state};
-use super::dual::evaluate;
 use super::{Case, agree, config};
+use crate::dual::evaluate;
 use bricard_codegen::internals::expr::{ExprId, Symbol};
 use num_dual::Dual64;
 use proptest::prelude::*;

@@ -7,7 +7,7 @@
 
 use super::description::{Manner, Random, any, state};
 use super::{agree, config, dot, size};
-use bricard_codegen::Settings;
+use bricard_codegen::CompileSettings;
 use bricard_codegen::internals::analyse;
 use bricard_codegen::internals::derive::{Equations, derive, eliminate};
 use bricard_codegen::internals::expr::{ExprId, Symbol};
@@ -108,7 +108,7 @@ proptest! {
         random in any(), (q, v) in state(), a in proptest::collection::vec(-2.0..2.0_f64, 4),
     ) {
         let source = with_given(&random);
-        let analysed = analyse(&source, &Settings::default());
+        let analysed = analyse(&source, &CompileSettings::default());
         let (mechanism, _) =
             analysed.map_err(|errors| TestCaseError::fail(errors.render("random.mech", &source)))?;
         let less = eliminate(mechanism.clone());

@@ -6,15 +6,13 @@
 
 mod derivatives;
 mod description;
-#[path = "../../../tests/dual.rs"]
-mod dual;
 mod eliminated;
 mod forms;
 mod identities;
 mod invariances;
 mod shared;
 
-use bricard_codegen::Settings;
+use bricard_codegen::CompileSettings;
 use bricard_codegen::internals::analyse;
 use bricard_codegen::internals::derive::{Equations, derive};
 use bricard_codegen::internals::expr::{ExprId, Symbol};
@@ -54,7 +52,7 @@ struct Case {
 
 impl Case {
     fn new(source: &str, q: Vec<f64>, v: Vec<f64>) -> Result<Self, TestCaseError> {
-        let analysed = analyse(source, &Settings::default());
+        let analysed = analyse(source, &CompileSettings::default());
         let (mut mechanism, _) =
             analysed.map_err(|errors| TestCaseError::fail(errors.render("random.mech", source)))?;
         let equations = derive(&mut mechanism)

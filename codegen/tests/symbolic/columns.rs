@@ -5,7 +5,7 @@ use super::joint::{Case, OTHERS, of_joints, state};
 use super::shared::{chain, difference, largest, of_length, of_rods};
 use bricard_codegen::internals::expr::Symbol;
 use bricard_codegen::internals::optimise::{Array, Besides, Program, interpret, programs};
-use bricard_codegen::{Settings, compile_source};
+use bricard_codegen::{CompileSettings, compile_source};
 
 /// A chain whose last rod is held at its end, beside a state of the first order.
 fn held() -> String {
@@ -141,7 +141,7 @@ fn bodies_that_share_nothing_have_entries_and_no_columns() {
         coord x[N];
         for i in 0..N { kinetic der(x[i])^2*(1 + x[i]^2); }
     }";
-    let programs = Case::of(source, &Settings::default()).programs();
+    let programs = Case::of(source, &CompileSettings::default()).programs();
     assert!(programs.inertia.is_none());
 }
 

@@ -1,7 +1,8 @@
 //! Derivatives against dual numbers.
 
 use super::recipe::{self, SYMBOLS, evaluated, value_of};
-use super::{agree, config, dual};
+use super::{agree, config};
+use crate::dual;
 use bricard_codegen::internals::expr::{Function, Function2, Graph, Symbol};
 use num_dual::{Dual64, DualNum};
 use proptest::prelude::*;
@@ -33,7 +34,7 @@ fn every_function_has_the_derivative_and_value_of_dual_numbers() {
         let (low, high) = domain(function);
         for i in 0..1000 {
             let at = low + (high - low) * (f64::from(i) + 0.37) / 1000.0;
-            let exact = dual::function(function, Dual64::from_re(at).derivative());
+            let exact = dual::call(function, Dual64::from_re(at).derivative());
             let found = graph.evaluate_all(&[value, slope], &|_| at);
             assert!(
                 close(found[0], exact.re),

@@ -5,7 +5,7 @@
 //!      operations may stray from it. The derivatives of functions are taken
 //!      from dual numbers, so they share nothing with the symbolic rules.
 
-use super::dual;
+use crate::dual;
 use bricard_codegen::internals::expr::{Comparison, Function, Function2};
 use num_dual::{Dual2_64, DualNum, HyperDual64};
 
@@ -129,7 +129,7 @@ impl Jet {
         if kinks && self.value.abs() <= self.value_error {
             return self.unsound();
         }
-        let y = dual::function(function, x);
+        let y = dual::call(function, x);
         self.through(taylor(y))
     }
 

@@ -3,7 +3,7 @@
 
 use super::shared::{chain, difference, exact, largest, of_length, state as of_link};
 use super::solve::dense;
-use bricard_codegen::Settings;
+use bricard_codegen::CompileSettings;
 use bricard_codegen::internals::analyse;
 use bricard_codegen::internals::derive::{Equations, Shared, derive, mass_matrix, shared};
 use bricard_codegen::internals::expr::{ExprId, Symbol};
@@ -89,7 +89,7 @@ pub(super) struct Case {
 }
 
 impl Case {
-    pub(super) fn of(source: &str, settings: &Settings) -> Self {
+    pub(super) fn of(source: &str, settings: &CompileSettings) -> Self {
         let (mut mechanism, _) = analyse(source, settings).expect("it is right");
         let equations = derive(&mut mechanism).expect("equations of a usual length");
         Self {
@@ -237,7 +237,7 @@ fn what_a_chain_in_joint_angles_takes_grows_as_it_does() {
 #[test]
 fn elimination_from_body_to_body_agrees_with_dense_elimination() {
     for source in OTHERS.into_iter().chain([IN_SPACE]) {
-        let mut case = Case::of(source, &Settings::default());
+        let mut case = Case::of(source, &CompileSettings::default());
         let eliminated = case.eliminated();
         let program = from_body_to_body(&mut case.mechanism, &case.equations);
         let program = program.expect("shared velocities");
@@ -250,7 +250,7 @@ fn elimination_from_body_to_body_agrees_with_dense_elimination() {
 #[test]
 fn pivots_from_body_to_body_are_those_of_the_mass_matrix() {
     for source in OTHERS.into_iter().chain([IN_SPACE]) {
-        let mut case = Case::of(source, &Settings::default());
+        let mut case = Case::of(source, &CompileSettings::default());
         let mass = case.mass();
         let program = from_body_to_body(&mut case.mechanism, &case.equations);
         let program = program.expect("shared velocities");

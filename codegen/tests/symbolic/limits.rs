@@ -1,12 +1,12 @@
 //! Mechanisms that the usual path is not for: too long, or without inertia.
 
 use bricard_codegen::internals::examine;
-use bricard_codegen::{Compiled, Settings, compile_source};
+use bricard_codegen::{CompileSettings, Compiled, compile_source};
 use std::fmt::Write;
 use std::time::Instant;
 
 fn compiled(source: &str) -> Compiled {
-    match compile_source(source, "test", "test.mech", &Settings::default()) {
+    match compile_source(source, "test", "test.mech", &CompileSettings::default()) {
         Ok(compiled) => compiled,
         Err(errors) => panic!("{}", errors.render("test.mech", source)),
     }
@@ -55,11 +55,11 @@ fn a_mechanism_that_swells_is_compiled_with_a_warning_that_names_the_longest_lin
 fn a_mechanism_that_would_take_forever_is_refused_with_the_longest_lines() {
     let source = chain(20);
     let start = Instant::now();
-    let refused = compile_source(&source, "test", "test.mech", &Settings::default());
+    let refused = compile_source(&source, "test", "test.mech", &CompileSettings::default());
     let errors = refused.expect_err("too long").render("test.mech", &source);
     assert!(errors.contains("more than 150000 expressions"), "{errors}");
     assert!(errors.contains("kinetic norm2(der(p19))"), "{errors}");
-    assert!(examine(&source, &Settings::default()).is_err());
+    assert!(examine(&source, &CompileSettings::default()).is_err());
     assert!(soon(start), "{:?}", start.elapsed());
 }
 
@@ -94,7 +94,7 @@ fn constraint_rows_that_repeat_get_no_solve_that_divides_by_zero() {
 #[test]
 fn no_statement_has_as_many_terms_as_the_energy_of_a_long_row() {
     let source = include_str!("../../../mechanisms/benchmarks/forty_four_bars.mech");
-    let compiled = compile_source(source, "row", "row.mech", &Settings::default());
+    let compiled = compile_source(source, "row", "row.mech", &CompileSettings::default());
     let code = compiled.expect("a mechanism").code;
     let terms = |statement: &str| ["+ ", "mul_add"].map(|sign| statement.matches(sign).count());
     let sizes = code

@@ -4,7 +4,6 @@
 mod canonical;
 mod columns;
 mod derivative;
-mod dual;
 mod independent;
 mod jet;
 pub(crate) mod joint;

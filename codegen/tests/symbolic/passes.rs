@@ -1,7 +1,7 @@
 //! Each pass by itself, on every mechanism of the library; and what `RULES.md` says
 //! of the passes.
 
-use bricard_codegen::Settings;
+use bricard_codegen::CompileSettings;
 use bricard_codegen::internals::analyse;
 use bricard_codegen::internals::derive::{Equations, Matrix, derive};
 use bricard_codegen::internals::expr::{ExprId, Graph, Symbol};
@@ -104,7 +104,7 @@ fn derived() -> impl Iterator<Item = (String, Mechanism, Equations)> {
     library().into_iter().map(|path| {
         let name = path.display().to_string();
         let source = fs::read_to_string(&path).expect("a description");
-        match analyse(&source, &Settings::default()) {
+        match analyse(&source, &CompileSettings::default()) {
             Ok((mut mechanism, _)) => {
                 let equations = derive(&mut mechanism).expect("equations of a usual length");
                 (name, mechanism, equations)

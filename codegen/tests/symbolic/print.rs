@@ -2,7 +2,7 @@
 
 use super::recipe::{self, SYMBOLS, evaluated};
 use super::{agree, config};
-use bricard_codegen::Settings;
+use bricard_codegen::CompileSettings;
 use bricard_codegen::internals::analyse;
 use bricard_codegen::internals::expr::{Graph, Symbol};
 use proptest::prelude::*;
@@ -56,7 +56,7 @@ proptest! {
         let e = recipe.build(&mut graph);
         prop_assume!(recipe::is_finite(&graph, e));
         let source = description(&graph.text(e, &name));
-        let (mechanism, _) = match analyse(&source, &Settings::default()) {
+        let (mechanism, _) = match analyse(&source, &CompileSettings::default()) {
             Ok(analysed) => analysed,
             Err(errors) => {
                 let rendered = errors.render("printed.mech", &source);

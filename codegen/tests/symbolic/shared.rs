@@ -6,7 +6,7 @@ use bricard_codegen::internals::analyse;
 use bricard_codegen::internals::derive::{derive, mass_matrix};
 use bricard_codegen::internals::expr::{ExprId, Symbol};
 use bricard_codegen::internals::optimise::{Besides, Programs, Way, cost, interpret, programs};
-use bricard_codegen::{Settings, compile_source};
+use bricard_codegen::{CompileSettings, compile_source};
 
 /// Rods that hang from one another, with all positions in the world, for coordinates and how
 /// the angles `phi[i]` of the rods follow from them.
@@ -44,8 +44,8 @@ pub(super) fn state(symbol: Symbol) -> f64 {
     }
 }
 
-pub(super) fn of_length(links: u32) -> Settings {
-    let mut settings = Settings::default();
+pub(super) fn of_length(links: u32) -> CompileSettings {
+    let mut settings = CompileSettings::default();
     settings.constants = vec![("N".to_string(), f64::from(links))];
     settings
 }

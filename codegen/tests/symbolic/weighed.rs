@@ -2,7 +2,7 @@
 //! the equations as they are.
 
 use super::solve::dense;
-use bricard_codegen::Settings;
+use bricard_codegen::CompileSettings;
 use bricard_codegen::internals::analyse;
 use bricard_codegen::internals::derive::{Equations, derive};
 use bricard_codegen::internals::expr::{ExprId, Symbol};
@@ -38,7 +38,7 @@ const MASSLESS: &str = "mechanism Massless {
 
 /// A mechanism and its equations.
 pub(super) fn derived(source: &str) -> (Mechanism, Equations) {
-    let (mut mechanism, _) = analyse(source, &Settings::default()).expect("it is right");
+    let (mut mechanism, _) = analyse(source, &CompileSettings::default()).expect("it is right");
     let equations = derive(&mut mechanism).expect("equations of a usual length");
     (mechanism, equations)
 }

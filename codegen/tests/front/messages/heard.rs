@@ -8,7 +8,7 @@ use super::statements::{DESCRIPTIONS, STATEMENTS};
 use crate::symbolic::limits::chain;
 use bricard_codegen::internals::diagnostic::{Diagnostic, Severity};
 use bricard_codegen::internals::examine;
-use bricard_codegen::{Model, Settings};
+use bricard_codegen::{CompileSettings, Model};
 use bricard_testkit::page::code;
 use bricard_testkit::sentences::files;
 use std::fs;
@@ -69,24 +69,28 @@ impl Hearing {
         let mut said = Self::default();
         said.folder();
         for statements in STATEMENTS {
-            said.about(&code(statements), &with(statements), &Settings::default());
+            said.about(
+                &code(statements),
+                &with(statements),
+                &CompileSettings::default(),
+            );
         }
         for description in DESCRIPTIONS {
             let input = match description.starts_with("mechanism") {
                 true => code(description),
                 false => format!("{} alone", code(description)),
             };
-            said.about(&input, description, &Settings::default());
+            said.about(&input, description, &CompileSettings::default());
         }
         for (input, statements) in long() {
-            said.about(input, &with(&statements), &Settings::default());
+            said.about(input, &with(&statements), &CompileSettings::default());
         }
         let spaces = " ".repeat(1 << 25);
-        said.about("a file of 32 MB", &spaces, &Settings::default());
+        said.about("a file of 32 MB", &spaces, &CompileSettings::default());
         for links in [8, 20] {
             let input = format!("a chain of {links} links with their positions in the world");
             let before = said.0.len();
-            said.about(&input, &chain(links), &Settings::default());
+            said.about(&input, &chain(links), &CompileSettings::default());
             said.0[before..].iter_mut().for_each(Heard::without_numbers);
         }
         said.set();
@@ -96,7 +100,7 @@ impl Hearing {
     }
 
     /// Adds what is said about a description.
-    fn about(&mut self, input: &str, source: &str, settings: &Settings) {
+    fn about(&mut self, input: &str, source: &str, settings: &CompileSettings) {
         let findings = match examine(source, settings) {
             Ok((_, warnings)) => warnings,
             Err(errors) => errors,
@@ -112,7 +116,7 @@ impl Hearing {
         for path in files(&folder, "mech") {
             let source = fs::read_to_string(&path).expect("a description");
             let input = code(source.trim());
-            self.about(&input, &source, &Settings::beside(&path));
+            self.about(&input, &source, &CompileSettings::beside(&path));
         }
     }
 }
@@ -126,7 +130,7 @@ impl Hearing {
             ("const k[2] = [1, 2]; force k[0] on q;", 1.0),
             ("const k = 1; force k on q;", f64::NAN),
         ] {
-            let mut settings = Settings::default();
+            let mut settings = CompileSettings::default();
             settings.constants = vec![("k".to_string(), value)];
             let input = match statements {
                 "" => format!("`constant(\"k\", {value:?})` in a build script"),
@@ -166,7 +170,7 @@ impl Hearing {
             ("", &b"0,1\n1,2\n"[..], "table(\"data.csv\", x, t)"),
         ] {
             fs::write(folder.join("data.csv"), data).expect("a file");
-            let settings = Settings::beside(&folder.join("test.mech"));
+            let settings = CompileSettings::beside(&folder.join("test.mech"));
             let force = format!("force {table} on q;");
             let input = match shown {
                 "" => code(&force),

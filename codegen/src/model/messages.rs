@@ -6,7 +6,7 @@
 use super::value::Value;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::ast::Name;
-use crate::syntax::words::RENAME;
+use crate::syntax::messages::RENAME;
 
 /// What to do where two sides have different shapes.
 pub const ONE_SIZE: &str = "both sides are numbers, or vectors of one size";

@@ -1,4 +1,4 @@
-//! What is said of mechanisms in few words.
+//! Short descriptions of mechanisms: how large they are, what they are.
 //!
 //! In:  counts, documentation.
 //! Out: text.
