@@ -55,6 +55,7 @@ pub mod internals {
     }
     pub mod expr {
         pub use crate::expr::*;
+        pub use crate::model::{Graph, Node, Symbol};
     }
     pub mod keywords {
         pub use crate::keywords::*;

@@ -6,7 +6,8 @@
 
 use super::equations::Matrix;
 use super::gradient::{coordinates, gradient, velocities};
-use crate::expr::{ExprId, Graph, Number, Symbol};
+use crate::expr::{ExprId, Number};
+use crate::model::{Graph, Symbol};
 
 /// `C(q, q̇)`, `N × N`, from the mass matrix.
 pub fn coriolis_matrix(graph: &mut Graph, mass: &Matrix) -> Matrix {

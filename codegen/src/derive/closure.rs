@@ -5,8 +5,8 @@
 
 use super::equations::Matrix;
 use super::gradient::{coordinates, gradient, rates, velocities};
-use crate::expr::{ExprId, Graph};
-use crate::model::Constraint;
+use crate::expr::ExprId;
+use crate::model::{Constraint, Graph};
 
 pub(super) struct Closure {
     pub residual: Vec<ExprId>,

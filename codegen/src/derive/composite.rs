@@ -11,7 +11,8 @@
 
 use super::equations::Matrix;
 use super::reduced::Reduced;
-use crate::expr::{Arithmetic, ExprId, Graph, Symmetric};
+use crate::expr::{Arithmetic, ExprId, Symmetric};
+use crate::model::Graph;
 
 /// `M = Jᵀ M̃ J` of `n` coordinates.
 pub(super) fn mass_matrix(graph: &mut Graph, reduced: &Reduced, n: usize) -> Matrix {

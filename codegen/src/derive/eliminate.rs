@@ -18,8 +18,8 @@ use super::inertia::product;
 use super::motion::{Motion, motion};
 use super::swell;
 use crate::diagnostic::Diagnostics;
-use crate::expr::{ExprId, Graph, Symbol};
-use crate::model::{Described, Mechanism, Shape};
+use crate::expr::ExprId;
+use crate::model::{Described, Graph, Mechanism, Shape, Symbol};
 
 /// The mechanism without the coordinates that its constraints give explicitly; as it is
 /// if there are none. Stays: a coordinate that decides the start, and at least one.

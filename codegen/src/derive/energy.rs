@@ -6,7 +6,8 @@
 
 use super::equations::Energies;
 use super::gradient::velocities;
-use crate::expr::{ExprId, Graph, Number, Symbol};
+use crate::expr::{ExprId, Number};
+use crate::model::{Graph, Symbol};
 
 pub(super) fn energies(
     graph: &mut Graph,

@@ -7,8 +7,8 @@
 //! whatever the position: nothing is lost by leaving `q_k` out. A coefficient that has a
 //! parameter or a coordinate in it may vanish, so it does not count.
 
-use crate::expr::{ExprId, Graph, Number, Symbol};
-use crate::model::Mechanism;
+use crate::expr::{ExprId, Number};
+use crate::model::{Graph, Mechanism, Symbol};
 use std::collections::BTreeSet;
 
 /// A coordinate that a constraint gives.

@@ -2,8 +2,8 @@
 //! and their sum `p₁` [PH 2.2, 2.4].
 
 use super::gradient::{Sweep, coordinates, gradient, rates, velocities};
-use crate::expr::{ExprId, Graph, Number};
-use crate::model::Force;
+use crate::expr::{ExprId, Number};
+use crate::model::{Force, Graph};
 
 /// `d/dt ∂T/∂q̇ − M q̈ − ∂T/∂q`: for `T = ½ q̇ᵀM q̇` the product `C q̇` with the
 /// Christoffel `C`; the linear and constant parts of `T` bring their gyroscopic,

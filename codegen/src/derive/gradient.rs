@@ -1,6 +1,7 @@
 //! Partial derivatives by coordinates and velocities, and derivatives in time.
 
-use crate::expr::{ExprId, Graph, Symbol};
+use crate::expr::ExprId;
+use crate::model::{Graph, Symbol};
 
 /// The symbols of `n` velocities.
 pub(super) fn velocities(n: usize) -> impl Iterator<Item = Symbol> + Clone {
@@ -57,7 +58,7 @@ impl Sweep {
         if self == Sweep::Forward {
             return gradient(graph, e, symbols);
         }
-        let found = graph.adjoints(e);
+        let found = graph.gradient(e);
         let zero = graph.integer(0);
         let entry = |symbol| found.get(&symbol).copied().unwrap_or(zero);
         symbols.map(entry).collect()

@@ -15,7 +15,8 @@
 //! takes values of parameters to tell is not told.
 
 use super::equations::Equations;
-use crate::expr::{ExprId, Function, Graph, Node, Symbol};
+use crate::expr::{ExprId, Function};
+use crate::model::{Graph, Node, Symbol};
 
 impl Equations {
     /// Whether the rows of `A` are independent at every position where the constraints hold.

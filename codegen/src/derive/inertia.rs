@@ -14,7 +14,8 @@ use super::composite::{of_coordinates, parts};
 use super::equations::Matrix;
 use super::gradient::against;
 use super::reduced::Reduced;
-use crate::expr::{Arithmetic, ExprId, Graph, Symbol};
+use crate::expr::{Arithmetic, ExprId};
+use crate::model::{Graph, Symbol};
 
 /// The fewest coordinates of a long chain. In a shorter one `M` has fewer entries than there
 /// is other work, and entry by entry it takes fewer instructions.

@@ -10,8 +10,8 @@
 use super::equations::{Equations, Matrix};
 use super::gradient::{against, coordinates, velocities};
 use super::inertia::product;
-use crate::expr::{Direction, ExprId, Graph, Number, Symbol};
-use crate::model::{Input, Mechanism};
+use crate::expr::{Direction, ExprId, Number};
+use crate::model::{Graph, Input, Mechanism, Symbol};
 
 /// Derivatives of what is left of the equations of motion.
 #[derive(Clone, Debug)]

@@ -8,7 +8,8 @@
 //! difference of two of them. Written as a difference it is lost in round-off; here what both
 //! have in common goes before anything is computed.
 
-use crate::expr::{ExprId, Graph, Node, Number};
+use crate::expr::{ExprId, Number};
+use crate::model::{Graph, Node};
 use rustc_hash::FxHashMap;
 
 /// A shared velocity that a coordinate's velocity is a part of, and nothing else is.

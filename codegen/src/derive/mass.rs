@@ -4,8 +4,8 @@ use super::composite;
 use super::equations::{Equations, Matrix};
 use super::gradient::{Sweep, gradient, velocities};
 use super::reduced::Reduced;
-use crate::expr::{ExprId, Graph};
-use crate::model::Mechanism;
+use crate::expr::ExprId;
+use crate::model::{Graph, Mechanism};
 
 /// `∂T/∂q̇_i`, `N`.
 pub(super) fn momenta(graph: &mut Graph, kinetic: ExprId, n: usize, by: Sweep) -> Vec<ExprId> {

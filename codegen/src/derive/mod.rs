@@ -17,6 +17,7 @@ mod equations;
 mod explicit;
 mod force;
 mod gradient;
+mod hold;
 mod independent;
 mod inertia;
 mod linearised;

@@ -5,8 +5,8 @@ use super::gradient::Sweep;
 use super::reduced::Reduced;
 use super::swell::within_bounds;
 use super::{composite, force, inertia, mass};
-use crate::expr::{ExprId, Symbol};
-use crate::model::Mechanism;
+use crate::expr::ExprId;
+use crate::model::{Mechanism, Symbol};
 
 /// What comes of the energies and forces alone.
 pub(super) struct Motion {

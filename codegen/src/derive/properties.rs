@@ -1,8 +1,8 @@
 //! What the equations tell of a motion before there is one.
 
 use super::equations::Equations;
-use crate::expr::{ExprId, Graph, Symbol};
-use crate::model::Mechanism;
+use crate::expr::ExprId;
+use crate::model::{Graph, Mechanism, Symbol};
 
 impl Equations {
     /// Whether `M` is the same at all times and positions.

@@ -4,7 +4,8 @@
 //! Out: [`Reduced`]: its mass matrix in these velocities `w` and in those of the coordinates,
 //!      with an entry for each pair that meets in a body only, and what each `w` is made of.
 
-use crate::expr::{ExprId, Graph, Node, Symbol};
+use crate::expr::ExprId;
+use crate::model::{Graph, Node, Symbol};
 use rustc_hash::FxHashMap;
 
 /// Entries of a matrix, by row and column.
@@ -37,7 +38,7 @@ impl Reduced {
             None => count + velocity,
         };
         let mut mass = Entries::new();
-        for (symbol, momentum) in graph.adjoints(reduced) {
+        for (symbol, momentum) in graph.gradient(reduced) {
             let Symbol::Velocity(velocity) = symbol else {
                 continue;
             };

@@ -7,8 +7,8 @@
 
 use super::equations::Equations;
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
-use crate::expr::{ExprId, Graph, Symbol};
-use crate::model::Mechanism;
+use crate::expr::ExprId;
+use crate::model::{Graph, Mechanism, Symbol};
 use std::collections::BTreeMap;
 
 /// The most distinct expressions in the equations of motion that pass without a

@@ -8,9 +8,10 @@
 //! Energies and constraints have no conditions. Outputs and events keep theirs, which
 //! follow the state.
 
+use super::hold::Switches;
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
-use crate::expr::{Direction, ExprId, Switches, Symbol};
-use crate::model::{Mechanism, Switch};
+use crate::expr::{Direction, ExprId};
+use crate::model::{Mechanism, Switch, Symbol};
 use std::collections::BTreeSet;
 
 /// Switching functions that a run has room for.

@@ -10,7 +10,7 @@
 //! already, so that elimination stays as sparse.
 
 use super::equations::Matrix;
-use crate::expr::{Graph, Symbol};
+use crate::model::{Graph, Symbol};
 use std::collections::BTreeMap;
 
 /// Random positions at which the same rows must do, where all entries are finite.

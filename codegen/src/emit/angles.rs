@@ -5,7 +5,8 @@
 //!      batch runs in the lanes of the processor; a call of its own for each of the others.
 
 use super::function::{Binding, Writer, pattern};
-use crate::expr::{Function, Symbol};
+use crate::expr::Function;
+use crate::model::Symbol;
 use crate::optimise::{Operation, Value};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;

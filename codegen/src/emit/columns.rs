@@ -7,7 +7,7 @@
 use super::repeated::Repeated;
 use super::subject::{Subject, argument, doc_lines};
 use super::symbol::SymbolNames;
-use crate::expr::Symbol;
+use crate::model::Symbol;
 use crate::optimise::{Optimised, Slot};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;

@@ -9,7 +9,8 @@
 use super::literal;
 use super::name::{Names, table_name};
 use super::statements::Statements;
-use crate::expr::{Comparison, Entry, Function, Function2, Lookup, Side, Symbol, Test};
+use crate::expr::{Comparison, Entry, Function, Function2, Lookup, Side, Test};
+use crate::model::Symbol;
 use crate::optimise::{Operation, Program, Slot, Value};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;

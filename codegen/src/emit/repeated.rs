@@ -5,7 +5,7 @@
 
 use super::function::{Decided, Place, Symbols, Writer};
 use super::name::Names;
-use crate::expr::Symbol;
+use crate::model::Symbol;
 use crate::optimise::{Operation, Program, Value};
 use proc_macro2::TokenStream;
 use quote::quote;

@@ -3,8 +3,7 @@
 
 use super::function::Symbols;
 use super::name::Names;
-use crate::expr::Symbol;
-use crate::model::{Mechanism, Quantity};
+use crate::model::{Mechanism, Quantity, Symbol};
 use crate::optimise::Program;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;

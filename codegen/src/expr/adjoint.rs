@@ -1,7 +1,7 @@
 //! All derivatives of one expression, in one sweep from it down to its symbols.
 //!
 //! In:  an expression, or several, each with the rate of the whole by it.
-//! Out: the rates of the whole by coordinates and velocities.
+//! Out: the rates of the whole by the symbols that vary.
 //!
 //! Each expression on the way learns how fast the whole changes with it, once, whatever the
 //! number of symbols. What the whole shares, these rates share: the momenta of a chain of
@@ -9,31 +9,27 @@
 //!
 //! Source: Griewank & Walther, Evaluating Derivatives (2008), section 3.2.
 
-use super::{Direction, ExprId, Graph, Node, Number, Symbol};
+use super::{Direction, ExprId, Graph, Node, Number, Symbolic};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 
 /// What the rates of expressions are sums of, as far as it is known.
 type Rates = FxHashMap<ExprId, Vec<(ExprId, Number)>>;
 
-impl Graph {
-    /// `∂e/∂symbol` for all coordinates and velocities in an expression.
-    pub fn adjoints(&mut self, e: ExprId) -> BTreeMap<Symbol, ExprId> {
-        let one = self.integer(1);
-        self.pulled_back(&[(e, one)])
-    }
-
-    /// `Σ r ∂e/∂symbol` over expressions `e` with rates `r`, for all coordinates and
-    /// velocities in them: what forces on places come to.
-    pub fn pulled_back(&mut self, rated: &[(ExprId, ExprId)]) -> BTreeMap<Symbol, ExprId> {
+impl<S: Symbolic> Graph<S> {
+    /// `Σ r ∂e/∂symbol` over expressions `e` with rates `r`, for all symbols in them that
+    /// vary.
+    pub fn adjoints(
+        &mut self,
+        rated: &[(ExprId, ExprId)],
+        varies: &dyn Fn(S) -> bool,
+    ) -> BTreeMap<S, ExprId> {
         let roots: Vec<ExprId> = rated.iter().map(|(e, _)| *e).collect();
         let nodes = self.reachable(&roots);
         let mut moves: FxHashMap<ExprId, bool> = FxHashMap::default();
         for &node in &nodes {
             let any = match self.node(node) {
-                Node::Symbol(symbol) => {
-                    matches!(symbol, Symbol::Coordinate(_) | Symbol::Velocity(_))
-                }
+                Node::Symbol(symbol) => varies(*symbol),
                 other => other.children().iter().any(|child| moves[child]),
             };
             moves.insert(node, any);

@@ -1,22 +1,28 @@
-//! Derivatives: partial ones, and total ones in time at frozen accelerations.
+//! Derivatives: partial ones, and ones along a direction.
 //!
 //! Both are one forward pass over the shared graph (a seed for each symbol, the
 //! chain rule at each node), memoised node by node, so what the expression
 //! shares its derivative shares too.
 
 use super::graph::Memo;
-use super::{ExprId, Function, Function2, Graph, Node, Number, Symbol};
+use super::{ExprId, Function, Function2, Graph, Node, Number, Symbolic};
 
 /// A derivative along given seeds `dsymbol`; reuse it to reuse its memory.
-#[derive(Debug, Default)]
-pub struct Direction {
-    seeds: Vec<(Symbol, ExprId)>,
+#[derive(Debug)]
+pub struct Direction<S> {
+    seeds: Vec<(S, ExprId)>,
     memo: Memo,
 }
 
-impl Direction {
+impl<S> Default for Direction<S> {
+    fn default() -> Self {
+        Self::new(Vec::new())
+    }
+}
+
+impl<S> Direction<S> {
     /// The direction in which each symbol changes at the rate beside it.
-    pub fn new(seeds: Vec<(Symbol, ExprId)>) -> Self {
+    pub fn new(seeds: Vec<(S, ExprId)>) -> Self {
         Self {
             seeds,
             memo: Memo::default(),
@@ -32,9 +38,9 @@ impl Direction {
     }
 }
 
-impl Graph {
+impl<S: Symbolic> Graph<S> {
     /// `∂e/∂symbol`.
-    pub fn differentiate(&mut self, e: ExprId, by: Symbol) -> ExprId {
+    pub fn differentiate(&mut self, e: ExprId, by: S) -> ExprId {
         let one = self.integer(1);
         let memo = self.partials.remove(&by).unwrap_or_default();
         let mut direction = Direction {
@@ -46,34 +52,8 @@ impl Graph {
         derivative
     }
 
-    /// `∂e/∂t + Σ ∂e/∂q_i q̇_i`, or the symbol that has no rate: a velocity (its
-    /// rate is an acceleration) or an input.
-    pub fn time_derivative(&mut self, e: ExprId) -> Result<ExprId, Symbol> {
-        let symbols = self.symbols(e);
-        let rateless = |s: &&Symbol| matches!(s, Symbol::Velocity(_) | Symbol::Input(_));
-        if let Some(&symbol) = symbols.iter().find(rateless) {
-            return Err(symbol);
-        }
-        let mut direction = self.frozen_flow(symbols);
-        Ok(self.derivative_along(e, &mut direction))
-    }
-
-    /// The direction of motion at frozen velocities: `ṫ = 1`, each coordinate
-    /// among the symbols at its velocity, all else at rest.
-    pub fn frozen_flow(&mut self, symbols: impl IntoIterator<Item = Symbol>) -> Direction {
-        let mut seeds = Vec::new();
-        for symbol in symbols {
-            match symbol {
-                Symbol::Time => seeds.push((symbol, self.integer(1))),
-                Symbol::Coordinate(i) => seeds.push((symbol, self.symbol(Symbol::Velocity(i)))),
-                _ => {}
-            }
-        }
-        Direction::new(seeds)
-    }
-
     /// `Σ ∂e/∂symbol · dsymbol` over the seeds of a direction.
-    pub fn derivative_along(&mut self, e: ExprId, direction: &mut Direction) -> ExprId {
+    pub fn derivative_along(&mut self, e: ExprId, direction: &mut Direction<S>) -> ExprId {
         if let Some(&known) = direction.memo.get(&e) {
             return known;
         }
@@ -86,7 +66,7 @@ impl Graph {
     }
 
     /// The chain rule at one node whose children are done.
-    fn chain(&mut self, e: ExprId, direction: &Direction) -> ExprId {
+    fn chain(&mut self, e: ExprId, direction: &Direction<S>) -> ExprId {
         let zero = self.integer(0);
         let d = |x: &ExprId| direction.memo[x];
         match self.node(e).clone() {

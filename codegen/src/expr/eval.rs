@@ -1,16 +1,16 @@
 //! Reference evaluation in `f64`: the oracle that programs are checked against.
 
-use super::{ExprId, Graph, Node, Symbol};
+use super::{ExprId, Graph, Node, Symbolic};
 use rustc_hash::FxHashMap;
 
-impl Graph {
+impl<S: Symbolic> Graph<S> {
     /// The value of an expression, each symbol at the value given for it.
-    pub fn evaluate(&self, e: ExprId, values: &dyn Fn(Symbol) -> f64) -> f64 {
+    pub fn evaluate(&self, e: ExprId, values: &dyn Fn(S) -> f64) -> f64 {
         self.evaluate_all(&[e], values)[0]
     }
 
     /// The values of several expressions; what they share is evaluated once.
-    pub fn evaluate_all(&self, roots: &[ExprId], values: &dyn Fn(Symbol) -> f64) -> Vec<f64> {
+    pub fn evaluate_all(&self, roots: &[ExprId], values: &dyn Fn(S) -> f64) -> Vec<f64> {
         let mut known: FxHashMap<ExprId, f64> = FxHashMap::default();
         for e in self.reachable(roots) {
             let value = self.evaluate_node(e, &known, values);
@@ -31,7 +31,7 @@ impl Graph {
         &self,
         e: ExprId,
         known: &FxHashMap<ExprId, f64>,
-        values: &dyn Fn(Symbol) -> f64,
+        values: &dyn Fn(S) -> f64,
     ) -> f64 {
         match self.node(e) {
             Node::Number(value) => value.to_f64(),

@@ -13,6 +13,8 @@ use super::{Function, Function2, Number, Test};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 use std::collections::hash_map::Entry;
+use std::fmt::Debug;
+use std::hash::Hash;
 
 /// An expression of a [`Graph`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -30,41 +32,21 @@ impl ExprId {
     }
 }
 
-/// What an expression may depend on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Symbol {
-    /// Time.
-    Time,
-    /// A coordinate, by index.
-    Coordinate(u32),
-    /// The velocity of a coordinate, by index.
-    Velocity(u32),
-    /// A run-time parameter, by index.
-    Parameter(u32),
-    /// An external signal, by index.
-    Input(u32),
-    /// The acceleration of a coordinate, by index: given, where equations of motion
-    /// are linearised.
-    Acceleration(u32),
-    /// The multiplier of a constraint row, by index: given likewise.
-    Multiplier(u32),
-    /// The weight of a constraint row in the metric, by index: given, where the mass
-    /// matrix alone is singular.
-    Weight(u32),
-    /// One while an external signal follows its law, zero while it is held, by the
-    /// signal's index.
-    Follows(u32),
+/// What an expression may depend on. The graph knows of it only that there are several.
+pub trait Symbolic: Copy + Debug + Eq + Hash + Ord {
+    /// Whether its name is a letter with an accent in LaTeX, which exponents stand above.
+    fn has_accent(self) -> bool;
 }
 
 /// One node of the graph.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub enum Node {
+pub enum Node<S> {
     /// A number.
     Number(Number),
     /// The ratio of a circle's circumference to its diameter.
     Pi,
     /// A symbol.
-    Symbol(Symbol),
+    Symbol(S),
     /// `constant + Σ coefficient · term`; at least one term, and not just `1 · x`.
     Sum(Number, Box<[(ExprId, Number)]>),
     /// `Π base ^ exponent`; exponents not zero, and not just `x ^ 1`.
@@ -80,22 +62,32 @@ pub enum Node {
 /// Derivatives that are known, by what they are derivatives of.
 pub(super) type Memo = FxHashMap<ExprId, ExprId>;
 
-/// All expressions of one mechanism.
-#[derive(Clone, Debug, Default)]
-pub struct Graph {
-    nodes: Vec<Node>,
-    index: FxHashMap<Node, ExprId>,
-    pub(super) partials: FxHashMap<Symbol, Memo>,
+/// Expressions, each once, over symbols of some kind.
+#[derive(Clone, Debug)]
+pub struct Graph<S> {
+    nodes: Vec<Node<S>>,
+    index: FxHashMap<Node<S>, ExprId>,
+    pub(super) partials: FxHashMap<S, Memo>,
 }
 
-impl Graph {
+impl<S> Default for Graph<S> {
+    fn default() -> Self {
+        Self {
+            nodes: Vec::new(),
+            index: FxHashMap::default(),
+            partials: FxHashMap::default(),
+        }
+    }
+}
+
+impl<S: Symbolic> Graph<S> {
     /// An empty graph.
     pub fn new() -> Self {
         Self::default()
     }
 
     /// The node of an expression.
-    pub fn node(&self, e: ExprId) -> &Node {
+    pub fn node(&self, e: ExprId) -> &Node<S> {
         &self.nodes[e.index()]
     }
 
@@ -109,7 +101,7 @@ impl Graph {
         self.nodes.is_empty()
     }
 
-    fn intern(&mut self, node: Node) -> ExprId {
+    fn intern(&mut self, node: Node<S>) -> ExprId {
         match self.index.entry(node) {
             Entry::Occupied(known) => *known.get(),
             Entry::Vacant(free) => {
@@ -136,7 +128,7 @@ impl Graph {
     }
 
     /// A symbol.
-    pub fn symbol(&mut self, symbol: Symbol) -> ExprId {
+    pub fn symbol(&mut self, symbol: S) -> ExprId {
         self.intern(Node::Symbol(symbol))
     }
 

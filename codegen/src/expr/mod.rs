@@ -1,6 +1,6 @@
 //! The symbolic engine: hash-consed expressions over exact numbers.
 //!
-//! Knows no mechanics. An expression is an [`ExprId`] into a [`Graph`]; equal
+//! Knows no mechanics: what symbols stand for is told by others ([`Symbolic`]). An expression is an [`ExprId`] into a [`Graph`]; equal
 //! expressions have equal ids, ids are given in order of creation, and nothing
 //! depends on the order of a hash map.
 
@@ -10,7 +10,6 @@ mod diff;
 mod eval;
 mod function;
 mod graph;
-mod hold;
 mod number;
 mod print;
 mod reach;
@@ -21,8 +20,7 @@ mod table;
 pub(crate) use bits::Bits;
 pub use diff::Direction;
 pub use function::{Comparison, Function, Function2, Side, Test};
-pub use graph::{ExprId, Graph, Node, Symbol};
-pub use hold::{Switch, Switches};
+pub use graph::{ExprId, Graph, Node, Symbolic};
 pub use number::Number;
 pub use print::Notation;
 pub use symmetric::{Arithmetic, Symmetric};

@@ -3,7 +3,7 @@
 //! In:  an expression and names for its symbols.
 //! Out: a string that reads back (text) or typesets (LaTeX) as the expression.
 
-use super::{ExprId, Function, Function2, Graph, Node, Number, Symbol};
+use super::{ExprId, Function, Function2, Graph, Node, Number, Symbolic};
 
 /// How tightly a printed piece holds together.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -24,15 +24,15 @@ pub enum Notation {
     Latex,
 }
 
-struct Printer<'a> {
-    graph: &'a Graph,
+struct Printer<'a, S> {
+    graph: &'a Graph<S>,
     notation: Notation,
-    names: &'a dyn Fn(Symbol) -> String,
+    names: &'a dyn Fn(S) -> String,
 }
 
-impl Graph {
+impl<S: Symbolic> Graph<S> {
     /// Prints an expression.
-    pub fn print(&self, e: ExprId, notation: Notation, names: &dyn Fn(Symbol) -> String) -> String {
+    pub fn print(&self, e: ExprId, notation: Notation, names: &dyn Fn(S) -> String) -> String {
         Printer {
             graph: self,
             notation,
@@ -43,12 +43,12 @@ impl Graph {
     }
 
     /// Prints an expression in the notation of the description.
-    pub fn text(&self, e: ExprId, names: &dyn Fn(Symbol) -> String) -> String {
+    pub fn text(&self, e: ExprId, names: &dyn Fn(S) -> String) -> String {
         self.print(e, Notation::Text, names)
     }
 }
 
-impl Printer<'_> {
+impl<S: Symbolic> Printer<'_, S> {
     fn latex(&self) -> bool {
         self.notation == Notation::Latex
     }
@@ -186,7 +186,7 @@ impl Printer<'_> {
                 Node::Function(function @ (Function::Sin | Function::Cos), x) => {
                     format!("\\{}^{{{exponent}}} {}", function.name(), self.argument(*x))
                 }
-                Node::Symbol(Symbol::Velocity(_)) => {
+                Node::Symbol(symbol) if symbol.has_accent() => {
                     format!("{}^{{{exponent}}}", self.within(base, Binding::Atom))
                 }
                 _ => format!("{{{}}}^{{{exponent}}}", self.within(base, Binding::Atom)),

@@ -1,10 +1,10 @@
 //! What expressions are made of.
 
 use super::bits::Bits;
-use super::{ExprId, Function2, Graph, Node, Symbol};
+use super::{ExprId, Function2, Graph, Node, Symbolic};
 use std::collections::BTreeSet;
 
-impl Node {
+impl<S> Node<S> {
     /// The expressions it is made of.
     pub fn children(&self) -> Vec<ExprId> {
         let mut children = Vec::new();
@@ -40,7 +40,7 @@ impl Node {
     }
 }
 
-impl Graph {
+impl<S: Symbolic> Graph<S> {
     /// Every expression that some roots are made of, in an order of evaluation.
     pub fn reachable(&self, roots: &[ExprId]) -> Vec<ExprId> {
         self.reachable_but(roots, &|_| false)
@@ -84,7 +84,7 @@ impl Graph {
     }
 
     /// Every symbol an expression is made of.
-    pub fn symbols(&self, e: ExprId) -> BTreeSet<Symbol> {
+    pub fn symbols(&self, e: ExprId) -> BTreeSet<S> {
         let symbol = |e: ExprId| match self.node(e) {
             Node::Symbol(symbol) => Some(*symbol),
             _ => None,
@@ -96,7 +96,7 @@ impl Graph {
     }
 
     /// Whether an expression is made of a symbol among others.
-    pub fn depends_on(&self, e: ExprId, symbol: Symbol) -> bool {
+    pub fn depends_on(&self, e: ExprId, symbol: S) -> bool {
         self.symbols(e).contains(&symbol)
     }
 

@@ -1,23 +1,11 @@
 //! Substitution of symbols by expressions.
 
-use super::{ExprId, Graph, Node, Symbol};
+use super::{ExprId, Graph, Node, Symbolic};
 use rustc_hash::FxHashMap;
 
-impl Graph {
-    /// The expression with every velocity set to zero.
-    pub fn at_rest(&mut self, e: ExprId) -> ExprId {
-        let zero = self.integer(0);
-        self.substitute(e, &|symbol| {
-            matches!(symbol, Symbol::Velocity(_)).then_some(zero)
-        })
-    }
-
+impl<S: Symbolic> Graph<S> {
     /// The expression with symbols replaced; `None` leaves a symbol as it is.
-    pub fn substitute(
-        &mut self,
-        e: ExprId,
-        replacement: &dyn Fn(Symbol) -> Option<ExprId>,
-    ) -> ExprId {
+    pub fn substitute(&mut self, e: ExprId, replacement: &dyn Fn(S) -> Option<ExprId>) -> ExprId {
         let mut known: FxHashMap<ExprId, ExprId> = FxHashMap::default();
         for node in self.reachable(&[e]) {
             let replaced = match self.node(node).clone() {

@@ -2,8 +2,8 @@
 
 use super::numbers::{Numbers, Place};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
-use crate::expr::{ExprId, Symbol};
-use crate::model::Mechanism;
+use crate::expr::ExprId;
+use crate::model::{Mechanism, Symbol};
 
 const VALUE: &str = "this is not finite at the start";
 const VALUE_HELP: &str = "a divisor is zero there, or a root, a power or a logarithm has no value";

@@ -6,8 +6,8 @@
 
 use super::least_squares::{ValuesAndJacobian, minimise};
 use crate::derive::{Equations, Matrix};
-use crate::expr::{ExprId, Graph, Symbol};
-use crate::model::{Constraint, Mechanism};
+use crate::expr::ExprId;
+use crate::model::{Constraint, Graph, Mechanism, Symbol};
 
 /// Mechanisms with more coordinates or equations are not looked at.
 const MOST_ROWS: usize = 64;

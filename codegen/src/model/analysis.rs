@@ -1,6 +1,7 @@
 //! What an expression is made of, found once for each node of the graph.
 
-use crate::expr::{ExprId, Function2, Graph, Node, Number, Symbol};
+use super::symbol::{Graph, Node, Symbol};
+use crate::expr::{ExprId, Function2, Number};
 
 /// What an expression is made of.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

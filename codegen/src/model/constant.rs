@@ -2,10 +2,11 @@
 
 use super::lowering::Lowering;
 use super::order::{Definition, QUANTITIES, order};
+use super::symbol::Symbol;
 use super::value::{Scalar, Value};
 use super::{Constant, Parameter};
 use crate::diagnostic::{Diagnostic, nearest};
-use crate::expr::{ExprId, Number, Symbol};
+use crate::expr::{ExprId, Number};
 use crate::syntax::Model;
 use crate::syntax::ast::{Declaration, Declared, ExprKind, Item, ItemKind};
 use crate::syntax::messages::did_you_mean;

@@ -6,12 +6,13 @@ use super::lowering::Lowering;
 use super::order::{Definition, QUANTITIES, order};
 use super::part::Placed;
 use super::scope::Kind;
+use super::symbol::Symbol;
 use super::unit::Unit;
 use super::unit_names;
 use super::value::{Array, Scalar, Value};
 use super::{Input, Quantity};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::expr::{Direction, Symbol};
+use crate::expr::Direction;
 use crate::syntax::ast::{Declaration, Declared, ExprKind, Item, ItemKind, Let, Name, UnitExpr};
 use std::rc::Rc;
 

@@ -10,10 +10,11 @@ use super::analysis::{Analyses, Analysis};
 use super::declared::{Functions, Parts};
 use super::language;
 use super::scope::{BUILT_IN, Kind, Scope};
+use super::symbol::{Graph, Symbol};
 use super::unit::Unit;
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest};
-use crate::expr::{Direction, ExprId, Function, Graph, Number, Symbol, Table};
+use crate::expr::{Direction, ExprId, Function, Number, Table};
 use crate::syntax::NESTING;
 use crate::syntax::ast::{Expr, ExprKind, Range};
 use crate::syntax::messages::{DECLARED, NO_QUOTES, did_you_mean};
@@ -38,7 +39,7 @@ pub struct Evaluator {
     /// Whether numbers are gains whose units nobody wrote.
     pub gains: bool,
     /// The direction of motion at frozen velocities.
-    pub flow: Direction,
+    pub flow: Direction<Symbol>,
     /// The parts and the quantities in them.
     pub parts: Parts,
     pub analyses: Analyses,

@@ -33,6 +33,7 @@ mod shape;
 mod start;
 mod state;
 mod statement;
+mod symbol;
 mod table;
 mod unit;
 mod unit_names;
@@ -42,10 +43,11 @@ mod value;
 pub(crate) use language::other_functions;
 pub use lower::lower;
 pub(crate) use scope::built_in;
+pub use symbol::{Graph, Node, Symbol};
 pub(crate) use unit_names::{scaled_units, units};
 
 use crate::diagnostic::Span;
-use crate::expr::{ExprId, Graph, Symbol, Table};
+use crate::expr::{ExprId, Table};
 
 /// A mechanism whose every part has been checked.
 #[derive(Clone, Debug)]

@@ -176,7 +176,7 @@ impl Lowering<'_> {
         let symbol = |evaluator: &mut Evaluator, k: usize| Scalar {
             id: evaluator
                 .graph
-                .symbol(crate::expr::Symbol::Input(first + k as u32)),
+                .symbol(super::symbol::Symbol::Input(first + k as u32)),
             unit,
         };
         let list = match &declaration.value.kind {

@@ -2,10 +2,11 @@
 
 use super::lowering::Lowering;
 use super::messages::are;
+use super::symbol::{Node, Symbol};
 use super::value::{Scalar, Value};
 use super::{Constraint, Point, Shape, Start};
 use crate::diagnostic::{Diagnostic, Span, figure};
-use crate::expr::{Node, Number, Symbol};
+use crate::expr::Number;
 use crate::syntax::ast::{Drawing, Expr, StartItem};
 use crate::syntax::messages::{GIVEN, REMOVE_ONE};
 use crate::syntax::written;

@@ -6,10 +6,11 @@
 
 use super::Force;
 use super::lowering::Lowering;
+use super::symbol::{Node, Symbol};
 use super::unit::{PER_SECOND, Unit};
 use super::value::Scalar;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::expr::{ExprId, Node, Symbol};
+use crate::expr::ExprId;
 use crate::syntax::ast::Expr;
 use crate::syntax::messages::{GIVEN, REMOVE_ONE};
 

@@ -1,10 +1,11 @@
 //! What every value has to satisfy: units that agree, numbers that are finite.
 
 use super::evaluate::Evaluator;
+use super::symbol::Node;
 use super::unit::{Dimension, Unit};
 use super::value::Scalar;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::expr::{ExprId, Node};
+use crate::expr::ExprId;
 use crate::syntax::messages::LARGE_AND_SMALL;
 
 /// The largest exponent that is kept as a product.

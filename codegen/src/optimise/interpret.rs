@@ -1,7 +1,7 @@
 //! Runs a program on `f64`: what passes and emitted code are checked against.
 
 use super::program::{Operation, Program, Slot};
-use crate::expr::Symbol;
+use crate::model::Symbol;
 
 /// The outputs of a program; an input takes the value given for its symbol, or
 /// its law where that is `None`.

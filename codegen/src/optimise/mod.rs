@@ -45,7 +45,8 @@ pub use solve::{Solved, Way};
 pub use trig::{Polynomials, in_trig_ring};
 pub use verify::verify;
 
-use crate::expr::{ExprId, Graph};
+use crate::expr::ExprId;
+use crate::model::Graph;
 
 /// The most operations of a program that is still rewritten. Sharing factors looks at
 /// all pairs again after each; a longer program is emitted as it was derived.

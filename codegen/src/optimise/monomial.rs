@@ -3,7 +3,8 @@
 //! Equal ones are one, so that a product of two is found once and then looked up: the
 //! same pairs come again and again where polynomials are multiplied.
 
-use crate::expr::{ExprId, Graph};
+use crate::expr::ExprId;
+use crate::model::Graph;
 use rustc_hash::FxHashMap;
 use std::cmp::Ordering;
 use std::rc::Rc;

@@ -10,7 +10,8 @@
 
 use super::dead::ordered;
 use super::program::{Operation, Program, Value};
-use crate::expr::{Bits, Symbol};
+use crate::expr::Bits;
+use crate::model::Symbol;
 use rustc_hash::FxHashSet;
 use std::collections::{BTreeMap, VecDeque};
 

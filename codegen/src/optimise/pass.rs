@@ -2,7 +2,8 @@
 
 use super::program::{Program, Slot};
 use super::{factor, in_trig_ring, schedule, share};
-use crate::expr::{ExprId, Graph};
+use crate::expr::ExprId;
+use crate::model::Graph;
 
 /// A rewriting that keeps the value of every output. `RULES.md` has a section for
 /// each, with its identities and their domains.

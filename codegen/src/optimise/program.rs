@@ -4,7 +4,8 @@
 //! operations; operands come before their users. It knows no mechanics: an
 //! output is an entry of a named array.
 
-use crate::expr::{Function, Function2, Number, Symbol, Test};
+use crate::expr::{Function, Function2, Number, Test};
+use crate::model::Symbol;
 use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
 

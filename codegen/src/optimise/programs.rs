@@ -18,8 +18,8 @@ use crate::derive::{
     Equations, Linearisation, Partials, Shared, StartRows, coriolis_matrix, differentiate,
     linearise, mass_matrix, shared,
 };
-use crate::expr::{ExprId, Symbol};
-use crate::model::{Mechanism, Shape};
+use crate::expr::ExprId;
+use crate::model::{Mechanism, Shape, Symbol};
 
 /// The most operations of a linearisation: what rustc takes a few seconds for. Beyond
 /// that implicit integrators take differences.

@@ -7,7 +7,8 @@
 //!      left out: output arrays begin as zeros.
 
 use super::program::{Operation, Program, Slot, Value};
-use crate::expr::{ExprId, Graph, Node, Number, Symbol};
+use crate::expr::{ExprId, Number};
+use crate::model::{Graph, Node, Symbol};
 use rustc_hash::FxHashMap;
 
 /// Schedules the wanted expressions; `laws` are the default laws of the inputs.

@@ -6,7 +6,8 @@
 //!      digits that the square keeps.
 
 use super::monomial::collected;
-use crate::expr::{ExprId, Function, Graph, Node, Number};
+use crate::expr::{ExprId, Function, Number};
+use crate::model::{Graph, Node};
 use std::collections::BTreeMap;
 
 /// The powers of a monomial, sorted by atom, and its coefficient.

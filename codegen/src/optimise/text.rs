@@ -7,7 +7,7 @@
 //! name of a description has, and are counted from 1.
 
 use super::program::{Operation, Program, Slot, Value};
-use crate::expr::Symbol;
+use crate::model::Symbol;
 use std::fmt::{self, Display, Formatter};
 
 impl Display for Program {

@@ -13,7 +13,8 @@
 
 use super::monomial::{MonomialId, Monomials};
 use super::squares;
-use crate::expr::{ExprId, Function, Graph, Node, Number};
+use crate::expr::{ExprId, Function, Number};
+use crate::model::{Graph, Node};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::hash_map::Entry;
 use std::rc::Rc;

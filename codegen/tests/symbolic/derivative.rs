@@ -119,7 +119,7 @@ proptest! {
         let mut graph = Graph::new();
         let e = recipe.build(&mut graph);
         prop_assume!(recipe::is_finite(&graph, e));
-        let found = graph.adjoints(e);
+        let found = graph.gradient(e);
         for (by, symbol) in SYMBOLS.iter().enumerate() {
             let moves = matches!(symbol, Symbol::Coordinate(_) | Symbol::Velocity(_));
             let Some(&slope) = found.get(symbol) else {

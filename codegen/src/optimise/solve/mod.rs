@@ -26,7 +26,7 @@ mod shared;
 use super::count::cost;
 use super::dead::ordered;
 use super::program::{Operation, Program, Slot, Value};
-use crate::expr::Symbol;
+use crate::model::Symbol;
 use algebra::{Algebra, Entry, Signed, Sparse};
 use saddle::Saddle;
 use schur::Schur;

@@ -8,9 +8,8 @@
 //! difference share one. What depends on parameters alone never changes along a motion
 //! and stays as it is; so does what tells equal from unequal, which no step can find.
 
-use super::{
-    Comparison, Entry, ExprId, Function, Function2, Graph, Lookup, Node, Number, Side, Symbol, Test,
-};
+use crate::expr::{Comparison, Entry, ExprId, Function, Function2, Lookup, Number, Side, Test};
+use crate::model::{Graph, Node, Symbol};
 use rustc_hash::FxHashMap;
 
 /// A function whose sign decides something.
