@@ -1,6 +1,7 @@
 //! The tests of the whole: one binary, a module for each kind of claim.
 
 mod allocation;
+mod architecture;
 mod authoring;
 mod balance;
 mod built;
