@@ -53,7 +53,7 @@ impl Passage {
         let mut errors = Vec::new();
         for stage in STAGES {
             for distance in distances() {
-                let start = self.aimed(mechanism, stage, distance);
+                let start = self.start_before(mechanism, stage, distance);
                 errors.push((self.error(mechanism, start), (stage, distance)));
             }
         }
@@ -110,7 +110,7 @@ impl Passage {
 
     /// The time at which a step begins whose stage lies at a distance from the
     /// singular position, by the secant method.
-    fn aimed<const N: usize, const R: usize>(
+    fn start_before<const N: usize, const R: usize>(
         &self,
         mechanism: &dyn Whole<f64, N, R>,
         stage: Stage,

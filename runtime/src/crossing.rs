@@ -102,9 +102,9 @@ impl<T: Real> Samples<T> {
         let c = coefficients(&self.values);
         let number = T::from_f64;
         // What is left out is about as large as what was taken last.
-        let doubt = c[DEGREE].abs() + c[DEGREE - 1].abs() + number(ROUND_OFF) * largest;
+        let uncertainty = c[DEGREE].abs() + c[DEGREE - 1].abs() + number(ROUND_OFF) * largest;
         let sum = |list: &[T]| list.iter().fold(T::zero(), |sum: T, x| sum + x.abs());
-        if c[0].abs() > sum(&c[1..]) + doubt {
+        if c[0].abs() > sum(&c[1..]) + uncertainty {
             return Shape::Clear;
         }
         let mut slope = [T::zero(); NODES + 1];
@@ -112,8 +112,8 @@ impl<T: Real> Samples<T> {
             slope[k - 1] = slope[k + 1] + number(2.0 * k as f64) * c[k];
         }
         slope[0] *= number(0.5);
-        let doubt = doubt * number((DEGREE * DEGREE) as f64);
-        if slope[0].abs() > sum(&slope[1..]) + doubt {
+        let uncertainty = uncertainty * number((DEGREE * DEGREE) as f64);
+        if slope[0].abs() > sum(&slope[1..]) + uncertainty {
             Shape::Monotone
         } else {
             Shape::Open

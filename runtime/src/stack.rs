@@ -72,7 +72,7 @@ mod room {
     use corosensei::{on_stack, stack::DefaultStack};
 
     /// A stack, and its size in bytes.
-    type Sized = (DefaultStack, usize);
+    type StackOfSize = (DefaultStack, usize);
 
     /// Where the thread is.
     #[derive(Clone, Copy)]
@@ -85,7 +85,7 @@ mod room {
 
     std::thread_local! {
         static PLACE: Cell<Place> = const { Cell::new(Place { base: 0, size: 0 }) };
-        static KEPT: Cell<Option<Sized>> = const { Cell::new(None) };
+        static KEPT: Cell<Option<StackOfSize>> = const { Cell::new(None) };
     }
 
     /// Says that the thread is back when it is, also by a panic.

@@ -346,10 +346,10 @@ fn changes_of_units_change_no_acceleration() {
     }
 }
 
-/// Some weak loops among others that are not: each moves as it would alone, however far
+/// Loops near singular positions among others that are not: each moves as it would alone, however far
 /// from its own singular position it is.
 #[test]
-fn weak_loops_among_others_move_as_they_would_alone() {
+fn loops_near_singular_positions_move_as_they_would_alone() {
     let crank = SliderCrank::default();
     let (angle, rate) = Passing::<3, 2>::singular(&crank);
     for away in [

@@ -295,8 +295,8 @@ where
                 }
             }
         }
-        Work::Robust => weak(mechanism, rounds, in_line::<N, R>)?,
-        Work::Turning => weak(mechanism, rounds, one_in_line::<N>)?,
+        Work::Robust => near_dependent(mechanism, rounds, in_line::<N, R>)?,
+        Work::Turning => near_dependent(mechanism, rounds, one_in_line::<N>)?,
         Work::Run(method) => runs(mechanism, rounds, |start| {
             let mut state = *start;
             stepper::<N, R>(method)?.step(mechanism, &mut state, SPAN)?;
@@ -331,8 +331,9 @@ where
     Ok(())
 }
 
-/// An acceleration and the way back onto the constraints at states where some are weak.
-fn weak<M, const N: usize, const R: usize>(
+/// An acceleration and the way back onto the constraints at states where some of their rows are
+/// near-dependent.
+fn near_dependent<M, const N: usize, const R: usize>(
     mechanism: &M,
     rounds: u64,
     state: fn(u64) -> State<f64, N>,

@@ -11,10 +11,10 @@ mod error;
 mod event;
 mod grid;
 mod metered;
+mod observers;
 mod options;
 mod stepper;
 mod summary;
-mod watch;
 
 pub use error::{Failure, SimulateError};
 pub use options::{Audit, Options, Origin, StepControl};
@@ -24,7 +24,7 @@ pub use summary::Summary;
 use conserve::Conserving;
 use driver::{Driver, tolerance};
 use grid::Grid;
-use watch::Watchers;
+use observers::Observers;
 
 use crate::dynamics::Core;
 use crate::stack::with_room;
@@ -60,19 +60,19 @@ where
     with_room::<T, _, N, R>(|| {
         let mut solver = Core::new(options.settings);
         let mut inquiry = Core::new(options.settings);
-        let mut watchers = Watchers::new(options, R, observers);
+        let mut observers = Observers::new(options, R, observers);
         let mut done = Summary::at(*start);
         let mut run = Run {
             mechanism,
             options,
             system: Conserving::new(solver.on(mechanism)),
             probe: inquiry.on(mechanism),
-            watchers: &mut watchers,
+            observers: &mut observers,
             done: &mut done,
         };
         let result = run.all();
         done.counters = solver.counters();
-        let summary = watchers.report(done);
+        let summary = observers.report(done);
         match result {
             Ok(()) => Ok(summary),
             Err(error) => Err(Failure { error, summary }),
@@ -87,7 +87,7 @@ struct Run<'a, 'b, 'c, M: ?Sized, T, const N: usize, const R: usize> {
     system: Conserving<'a, M, T, N, R>,
     /// Answers what observers ask, apart from the run.
     probe: ConstrainedSystem<'a, M, T, N, R>,
-    watchers: &'a mut Watchers<'b, 'c, T, N>,
+    observers: &'a mut Observers<'b, 'c, T, N>,
     done: &'a mut Summary<T, N>,
 }
 
@@ -120,16 +120,16 @@ where
         self.begin(&mut state, tolerance.as_ref().map(Tolerance::relative))
             .map_err(IntegrateError::Dynamics)?;
         let events = |state: &_, values: &mut _| self.mechanism.events(state, values);
-        let flow = self.watchers.begin(&events, &state, &mut self.probe)?;
+        let flow = self.observers.begin(&events, &state, &mut self.probe)?;
         if let Some(origin) = &origin {
-            self.watchers.go_on(origin);
+            self.observers.go_on(origin);
         }
         if flow.is_break() {
             self.done.stopped = true;
             return Ok(());
         }
-        let mut driver = Driver::new(method, tolerance, self.watchers.inside());
-        let seeks_passages = self.watchers.want_passages();
+        let mut driver = Driver::new(method, tolerance, self.observers.inside());
+        let seeks_passages = self.observers.want_passages();
         self.system.seek_passages(seeks_passages);
         for interval in first..=grid.intervals() {
             let bound = grid.time(interval);
@@ -180,7 +180,7 @@ where
         self.probe.follow(self.system.system());
         let passages = self.system.system().passages();
         let events = |state: &_, values: &mut _| self.mechanism.events(state, values);
-        self.watchers
+        self.observers
             .show(&events, step, passages, &mut self.probe, self.done)
     }
 }

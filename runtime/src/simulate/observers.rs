@@ -1,4 +1,4 @@
-//! Everyone who watches a run, in the order in which they are shown a step.
+//! All observers of a run, in the order in which they are shown a step.
 //!
 //! In:  accepted steps.
 //! Out: whether the run goes on.
@@ -10,12 +10,12 @@ use crate::singular::Found;
 use crate::{ConstraintAudit, DynamicsError, EnergyAudit, Observer, Probe, Real, State, Step};
 use core::ops::ControlFlow;
 
-/// Does something with someone who watches.
+/// Does something with an observer.
 type Show<'a, T, const N: usize> =
     dyn FnMut(&mut dyn Observer<T, N>) -> Result<ControlFlow<()>, DynamicsError<T>> + 'a;
 
 /// Audits, events and observers of a run.
-pub(super) struct Watchers<'a, 'b, T, const N: usize> {
+pub(super) struct Observers<'a, 'b, T, const N: usize> {
     constraints: Option<ConstraintAudit<T>>,
     energy: Option<EnergyAudit<T>>,
     /// How many passages there were, if they are counted.
@@ -24,8 +24,8 @@ pub(super) struct Watchers<'a, 'b, T, const N: usize> {
     observers: &'a mut [&'b mut dyn Observer<T, N>],
 }
 
-impl<'a, 'b, T: Real, const N: usize> Watchers<'a, 'b, T, N> {
-    /// The watchers of a run of a mechanism with `rows` constraint equations.
+impl<'a, 'b, T: Real, const N: usize> Observers<'a, 'b, T, N> {
+    /// The observers of a run of a mechanism with `rows` constraint equations.
     pub(super) fn new(
         options: &Options<T>,
         rows: usize,
