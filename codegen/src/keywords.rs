@@ -7,7 +7,7 @@ use crate::{model, syntax};
 
 /// Words that begin a statement, `for` aside.
 pub fn statements() -> impl Iterator<Item = &'static str> {
-    syntax::STATEMENTS.iter().map(|(word, _)| *word)
+    syntax::STATEMENTS.iter().map(|(word, ..)| *word)
 }
 
 /// Words that hold statements and formulas together.

@@ -1,6 +1,7 @@
 //! A reader of tokens that says what it expected, and goes on after a mistake.
 
-use super::ast::{Crossing, Drawing, Name};
+use super::ast::Name;
+use super::keyword::{RESERVED, Statement};
 use super::messages::{NAME_INSIDE, RENAME};
 use super::scan::NESTING;
 use super::token::{Token, TokenKind, Tokens};
@@ -12,63 +13,6 @@ pub struct Reported;
 
 /// What a reader gives.
 pub type Parsed<T> = Result<T, Reported>;
-
-/// Words that begin a statement, with an example of each.
-pub const STATEMENTS: [(&str, &str); 18] = [
-    ("const", "const g: m/s^2 = 9.81;"),
-    ("param", "param L1: m = 0.5;"),
-    ("coord", "coord q1: rad;"),
-    ("state", "state z: m; der(z) = goal - x;"),
-    ("input", "input u: N*m = 0;"),
-    ("let", "let c = [L1*cos(q1), L1*sin(q1)];"),
-    ("fn", "fn spring(d: m): N = -k*d;"),
-    ("kinetic", "kinetic 1/2*m1*norm2(der(c));"),
-    ("potential", "potential m1*g*c.y;"),
-    ("dissipation", "dissipation 1/2*d*der(q1)^2;"),
-    ("force", "force u on q1;"),
-    ("constraint", "constraint L1*sin(q1) = L2*sin(q2);"),
-    ("start", "start { q1 = 45*deg; q2 ~ 0.7; }"),
-    ("output", "output x: m = c.x;"),
-    ("event", "event top: q1 - pi/2 rising;"),
-    ("draw", "draw line([0, 0], c);"),
-    ("part", "part Rod(foot, m: kg) { coord q: rad; … }"),
-    ("use", "use parts;"),
-];
-
-/// Words that hold statements and formulas together.
-pub const CONNECTIVES: [&str; 10] = [
-    "mechanism",
-    "for",
-    "in",
-    "on",
-    "if",
-    "then",
-    "else",
-    "and",
-    "or",
-    "not",
-];
-
-/// What `draw` draws.
-pub const SHAPES: [(&str, Drawing); 4] = [
-    ("line", Drawing::Line),
-    ("circle", Drawing::Circle),
-    ("polygon", Drawing::Polygon),
-    ("trace", Drawing::Trace),
-];
-
-/// Which sign changes of an event count.
-pub const DIRECTIONS: [(&str, Crossing); 3] = [
-    ("rising", Crossing::Rising),
-    ("falling", Crossing::Falling),
-    ("crossing", Crossing::Crossing),
-];
-
-/// Words that can't be names of quantities: they are part of formulas and
-/// statements, or have no raw form in Rust.
-const RESERVED: [&str; 11] = [
-    "if", "then", "else", "in", "on", "for", "_", "self", "Self", "super", "crate",
-];
 
 /// A place in the list of tokens.
 #[derive(Debug)]
@@ -354,6 +298,9 @@ impl<'a> Cursor<'a> {
 
     /// Whether a word that begins a statement comes next.
     pub fn at_statement(&self) -> bool {
-        STATEMENTS.iter().any(|(word, _)| self.at_word(word)) || self.at_word("for")
+        match &self.peek().kind {
+            TokenKind::Word(word) => word == "for" || Statement::of(word).is_some(),
+            _ => false,
+        }
     }
 }

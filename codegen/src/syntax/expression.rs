@@ -5,7 +5,8 @@
 //! tightly than a product: `-x^2 = -(x^2)`, `2^-1 = 1/2`.
 
 use super::ast::{Expr, ExprKind, Name, Range};
-use super::cursor::{CONNECTIVES, Cursor, DIRECTIONS, Parsed};
+use super::cursor::{Cursor, Parsed};
+use super::keyword::{CONNECTIVES, DIRECTIONS};
 use super::literal::read_number;
 use super::messages::{AXIS, COMPONENT, FORMULA, NAME_INSIDE, NO_ELEMENTS, NUMBERS, POINT};
 use super::scan::NESTING;

@@ -1,7 +1,8 @@
 //! Statements: the words that begin them, and the file around them.
 
 use super::ast::{Declaration, Declared, Energy, Expr, ExprKind, Item, ItemKind, Let, Name, Size};
-use super::cursor::{Cursor, DIRECTIONS, Parsed, SHAPES, STATEMENTS};
+use super::cursor::{Cursor, Parsed};
+use super::keyword::{DIRECTIONS, SHAPES, STATEMENTS, Statement};
 use super::messages::{CHOICE, FOR, NO_ASSIGNMENT, NO_UNIT_BEHIND, REMOVE, did_you_mean};
 use super::model::Model;
 use super::token::TokenKind;
@@ -102,32 +103,36 @@ impl Cursor<'_> {
     }
 
     fn item_kind(&mut self, word: &str) -> Parsed<ItemKind> {
-        let kind = match word {
-            "for" => {
+        let kind = match Statement::of(word) {
+            None if word == "for" => {
                 let range = self.range(FOR)?;
                 let mut body = Vec::new();
                 self.deeper(|cursor| cursor.block(FOR, |item| body.push(item)))?;
                 return Ok(ItemKind::For(range, body));
             }
-            "start" => return Ok(ItemKind::Start(self.start_block()?)),
-            "const" => self.declaration(Declared::Constant, word)?,
-            "param" => self.declaration(Declared::Parameter, word)?,
-            "input" => self.declaration(Declared::Input, word)?,
-            "output" => self.declaration(Declared::Output, word)?,
-            "coord" => self.coordinate(false)?,
-            "state" => self.coordinate(true)?,
-            "der" => self.rate()?,
-            "let" => self.let_item()?,
-            "fn" => self.function()?,
-            "part" => return self.part(),
-            "use" => ItemKind::Use(self.expect_name("the name of a library", &example(word))?),
-            "kinetic" => ItemKind::Energy(Energy::Kinetic, self.expression()?),
-            "potential" => ItemKind::Energy(Energy::Potential, self.expression()?),
-            "dissipation" => ItemKind::Energy(Energy::Dissipation, self.expression()?),
-            "force" => self.force()?,
-            "constraint" => self.constraint()?,
-            "event" => self.event()?,
-            _ => self.draw()?,
+            None => self.rate()?,
+            Some(Statement::Start) => return Ok(ItemKind::Start(self.start_block()?)),
+            Some(Statement::Part) => return self.part(),
+            Some(Statement::Constant) => self.declaration(Declared::Constant, word)?,
+            Some(Statement::Parameter) => self.declaration(Declared::Parameter, word)?,
+            Some(Statement::Input) => self.declaration(Declared::Input, word)?,
+            Some(Statement::Output) => self.declaration(Declared::Output, word)?,
+            Some(Statement::Coordinate) => self.coordinate(false)?,
+            Some(Statement::State) => self.coordinate(true)?,
+            Some(Statement::Let) => self.let_item()?,
+            Some(Statement::Function) => self.function()?,
+            Some(Statement::Use) => {
+                ItemKind::Use(self.expect_name("the name of a library", &example(word))?)
+            }
+            Some(Statement::Kinetic) => ItemKind::Energy(Energy::Kinetic, self.expression()?),
+            Some(Statement::Potential) => ItemKind::Energy(Energy::Potential, self.expression()?),
+            Some(Statement::Dissipation) => {
+                ItemKind::Energy(Energy::Dissipation, self.expression()?)
+            }
+            Some(Statement::Force) => self.force()?,
+            Some(Statement::Constraint) => self.constraint()?,
+            Some(Statement::Event) => self.event()?,
+            Some(Statement::Draw) => self.draw()?,
         };
         self.end_of_statement(word, &kind)?;
         Ok(kind)
@@ -168,7 +173,7 @@ impl Cursor<'_> {
     /// Whether what comes next stands on a line of its own, or begins a statement.
     fn at_next_statement(&self) -> bool {
         let below = self.span().start.line > self.last_span().end.line;
-        below || STATEMENTS.iter().any(|(word, _)| self.at_word(word))
+        below || STATEMENTS.iter().any(|(word, ..)| self.at_word(word))
     }
 
     /// Refuses a unit behind a number: `param m = 1 kg;`.
@@ -439,15 +444,15 @@ fn is_block(item: &Item) -> bool {
 
 /// How a statement is written.
 fn example(word: &str) -> String {
-    let example = STATEMENTS.iter().find(|(statement, _)| *statement == word);
-    example.map_or(String::new(), |(_, text)| {
+    let example = STATEMENTS.iter().find(|(known, ..)| *known == word);
+    example.map_or(String::new(), |(_, _, text)| {
         format!("write for example `{text}`")
     })
 }
 
 /// What may begin a statement, or the word that was probably meant.
 fn statement_help(word: &str) -> String {
-    let words = STATEMENTS.iter().map(|(word, _)| *word).chain(["for"]);
+    let words = STATEMENTS.iter().map(|(word, ..)| *word).chain(["for"]);
     match nearest(word, words.clone()) {
         Some(near) => did_you_mean(near),
         None => {

@@ -21,6 +21,7 @@ mod expression;
 mod formula;
 mod function;
 mod item;
+mod keyword;
 mod literal;
 pub(crate) mod messages;
 mod model;
@@ -33,9 +34,9 @@ mod stray;
 mod token;
 mod unit;
 
-pub(crate) use cursor::{CONNECTIVES, DIRECTIONS, SHAPES, STATEMENTS};
 pub use error::ModelError;
 pub use formula::Formula;
+pub(crate) use keyword::{CONNECTIVES, DIRECTIONS, SHAPES, STATEMENTS};
 pub use model::Model;
 pub(crate) use print::formula as written;
 pub(crate) use read::{Read, library, read};

@@ -8,7 +8,7 @@ use super::ast::{
     Argument, Condition, Declaration, Declared, Drawing, Energy, Expr, ExprKind, Item, ItemKind,
     Range, Size, StartItem, UnitExpr,
 };
-use super::cursor::{DIRECTIONS, SHAPES};
+use super::keyword::{DIRECTIONS, SHAPES};
 use crate::expr::{Comparison, Number};
 
 /// How tightly a formula holds together.
