@@ -152,10 +152,12 @@ def refusal(act):
 
 
 def hold(heading, text):
-    """Holds the last section of the page against a text, or writes it there."""
+    """Holds a section of the page against a text, or writes it there."""
     page = PAGE.read_text(encoding="utf-8")
-    before, _ = page.split(f"\n## {heading}\n")
-    wanted = f"{before}\n## {heading}\n\n{text.strip()}\n"
+    before, rest = page.split(f"\n## {heading}\n")
+    end = rest.find("\n## ")
+    after = rest[end:] if end >= 0 else ""
+    wanted = f"{before}\n## {heading}\n\n{text.strip()}\n{after}"
     if "BRICARD_BLESS" in os.environ:
         PAGE.write_text(wanted, encoding="utf-8")
     else:
