@@ -136,7 +136,8 @@ pub fn coordinates(structure: &Structure, rows: &[Vec<f64>]) -> Vec<Panel> {
     // States stand behind the velocities.
     let places = (1..=n).chain(1 + 2 * n..begin(structure));
     let all = places.map(|i| curve(structure, &[], rows, i));
-    // Beside an angle that goes on and on one that oscillates would look like a line.
+    // Beside an angle that grows on and on, one that oscillates would look like a straight
+    // line.
     let (turning, others): (Vec<Curve>, Vec<Curve>) =
         all.partition(|curve| curve.axis == ANGLE && span(&curve.series) > TURNS);
     let mut panels = grouped(others);

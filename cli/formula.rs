@@ -176,7 +176,8 @@ pub fn number(text: &str) -> Result<f64, String> {
     evaluated(text)?
 }
 
-/// The value of a formula; inside, why a formula that is written right has none.
+/// The value of a formula. The outer error says that it is not written correctly, the inner
+/// one why it has no value all the same.
 fn evaluated(text: &str) -> Result<Result<f64, String>, String> {
     if let Some(message) = with_unit(text) {
         return Err(message);

@@ -2,8 +2,8 @@
 //!
 //! In:  a mechanism's name or file, formulas for inputs.
 //! Out: the mechanism with these laws in place of its own: its description is written
-//!      anew and compiled, so that a law may hold whatever one in a file may, is as fast,
-//!      and gets the same messages.
+//!      anew and compiled, so that a law may use all that one in a file may, runs as fast, and
+//!      gets the same messages.
 
 use crate::compiled;
 use crate::description::Description;

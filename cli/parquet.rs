@@ -19,8 +19,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Why no file in this format can be written: it can be here, but a command that was built
-/// without the feature `parquet` has [another module](../without_parquet.rs) in this place.
+/// Why no file in this format can be written: it can. A command that is built without the
+/// feature `parquet` has the module `without_parquet.rs` in place of this one.
 pub const MISSING: Option<&str> = None;
 
 /// Rows in a block.

@@ -11,7 +11,7 @@ use std::process::{Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant, SystemTime};
 
-/// Long enough for any machine to compile what there is to compile.
+/// Long enough for any machine to compile a description.
 const PATIENCE: Duration = Duration::from_secs(240);
 /// Bytes of rows after which a run has come to the end of a segment.
 const SEGMENTS: u64 = 300_000;
@@ -569,7 +569,7 @@ fn a_file_of_numbers_is_a_part_of_its_description() {
         "coord q: rad;\n    state z: rad*s;\n    der(z) = q;\n    \
          force table(\"told.csv\", \"torque\", t) on q;",
     );
-    // What earlier runs of this test left compiled is of other descriptions.
+    // Earlier runs of this test have left programs of other descriptions.
     let text = format!("{text}// {:?}\n", SystemTime::now());
     write(&folder, "told.mech", &text);
     write(&folder, "told.csv", "time,torque\n0,0\n1,2\n2,0\n");

@@ -1,4 +1,4 @@
-//! What the compiled code of a mechanism says at a state, as plain numbers.
+//! What the compiled code of a mechanism computes at a state, as plain numbers.
 
 use crate::library::{Derived, Inspect, Point, inspect};
 use bricard_runtime::nalgebra::SVector;

@@ -1,4 +1,4 @@
-//! Coordinates that constraints give can be left out: nothing moves otherwise.
+//! Coordinates that constraints give can be left out: the motion stays the same.
 //!
 //! Each mechanism is compiled twice, with all coordinates and without those that are
 //! given; the second one's `described` must say what the first one's state says.

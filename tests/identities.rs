@@ -46,7 +46,7 @@ struct Sample {
     forms: Vec<(Form, Vec<f64>, Vec<f64>)>,
 }
 
-/// Asks for a sample; none where no consistent regular state is near.
+/// A random consistent state; none where no regular one is near.
 struct Ask {
     name: &'static str,
     seed: u64,

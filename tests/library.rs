@@ -69,8 +69,8 @@ pub fn time_scale(name: &str) -> f64 {
     if name == FAST { 0.01 } else { 1.0 }
 }
 
-/// Whether random states of about one mean something. A steel beam bent by metres has
-/// forces whose round-off is larger than all other terms.
+/// Whether random states with values of about one are sensible. A steel beam bent by metres
+/// has forces whose round-off is larger than all other terms.
 pub fn is_of_unit_size(name: &str) -> bool {
     name != FAST
 }

@@ -1,5 +1,5 @@
-//! Everything that is built may be used under licences that ask for no more than
-//! being named, and comes from the public registry.
+//! Everything that is built may be used under licences that ask for no more than being named,
+//! and comes from the public registry.
 
 use serde_json::Value;
 use std::process::Command;

@@ -1,8 +1,8 @@
 //! The passage through a singular configuration costs no accuracy, wherever the stages
 //! of a step are placed.
 //!
-//! Here stages lie at their distance exactly, not but for what the step errs by until then: the
-//! start of the step is found for that.
+//! Here stages lie exactly at their distance, and not only up to the error of the step until
+//! then: the start of the step is found for that.
 
 use crate::reduction::Reduction;
 use bricard::double_four_bar::DoubleFourBar;

@@ -13,7 +13,7 @@
 //! written, in `handle`, which lends the engine out, and in `callback`, where functions of
 //! the program are called.
 //!
-//! Not here: the names that libraries export, which are written by whoever makes one.
+//! Not here: the name that a library exports, which is in the generated code of its mechanism.
 
 mod abi;
 mod border;

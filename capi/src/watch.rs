@@ -253,8 +253,8 @@ where
         }
     }
 
-    /// A row at the end of a step, and before it others, at the points between which a
-    /// polynomial is determined best.
+    /// A row at the end of a step, and before it others at Chebyshev points, which determine a
+    /// polynomial best.
     fn rows_inside(
         &mut self,
         step: &Step<f64, N>,

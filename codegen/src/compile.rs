@@ -135,8 +135,8 @@ pub fn examine(
     Ok((mechanism, warnings))
 }
 
-/// The mechanism of a tree, and what is doubtful in it. Where statements can't be read,
-/// those that can have mistakes of their own, which are told with theirs.
+/// The mechanism of a syntax tree, with warnings. Where some statements can't be read, the
+/// mistakes in the others are reported together with theirs.
 fn lower(read: Read, settings: &CompileSettings) -> Result<(Mechanism, Diagnostics), Diagnostics> {
     let (tree, mut wrong) = read;
     let Some(tree) = tree else {

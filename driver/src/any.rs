@@ -28,7 +28,7 @@ pub trait AnyMechanism {
     fn begin(&mut self, given: Given);
     /// Simulates a part of a run.
     fn segment(&self, segment: &Segment, watch: &mut dyn Watch) -> Result<Reached, String>;
-    /// Simulates with nothing recorded or audited, against the clock: from a state
+    /// Measures the time of a simulation in which nothing is recorded or audited, from a state
     /// (time, coordinates, velocities) as it is, or from the assembled start.
     fn timed_run(&self, from: Option<&[f64]>, options: &Options<f64>) -> Result<TimedRun, String>;
     /// What can be seen in some rows (time, coordinates, velocities).

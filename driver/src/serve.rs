@@ -30,8 +30,8 @@ static WANTED: AtomicBool = AtomicBool::new(false);
 /// Answers what is asked about a mechanism until nobody asks any more: the whole of a
 /// program's `main`.
 pub fn serve<const N: usize, const R: usize>(make: fn() -> Box<dyn Whole<f64, N, R>>) -> ExitCode {
-    // Named here, how rows are written is compiled with the sizes: fast, as the rest of this
-    // package need not be.
+    // `row` is named here so that it is compiled with the mechanism, and optimised; the rest
+    // of this package need not be fast.
     with_room(move || match answer(erase_type(make()), row) {
         Ok(()) => ExitCode::SUCCESS,
         // Nobody is there to be told.
@@ -90,8 +90,8 @@ fn answer(mut mechanism: Box<dyn AnyMechanism>, row: WriteRow) -> io::Result<()>
     Ok(())
 }
 
-/// Reads what is asked as it comes, also while something is computed, and takes note of it
-/// at once. Where whoever asks has gone, so has the reason to go on.
+/// Reads requests as they come, also during a computation, and takes note of each at once.
+/// When the other end has gone, the program ends.
 pub(crate) fn listen<W>(note: impl Fn(&W) + Send + 'static) -> Receiver<W>
 where
     W: Wire + Send + 'static,

@@ -5,9 +5,9 @@
 //!
 //! The function is taken for the polynomial through [`NODES`] Chebyshev points. Where the
 //! coefficients say that the polynomial has no zero, or that it is monotone, the ends
-//! decide; elsewhere the interval is halved and sampled anew. Two zeros are seen so however
-//! close they are, unless they are closer than the polynomial is exact: than what the last
-//! coefficients, which estimate what is left out, can tell.
+//! decide; elsewhere the interval is halved and sampled anew. So two zeros are found however
+//! close they are, unless the function between them is smaller than the error of the
+//! polynomial, which the last coefficients estimate.
 //!
 //! Sources: Boyd, SIAM Journal on Numerical Analysis 40 (2002) 1666–1682 (Chebyshev
 //! expansions and subdivision); Brent, Algorithms for Minimization without Derivatives
@@ -147,8 +147,8 @@ pub(crate) enum Left {
 }
 
 /// The first part of an interval in which a function leaves the side of zero that it is
-/// on, which is kept in `side` (its sign; zero if that is not known yet). What is on the
-/// other side from the beginning has left there.
+/// on, which is kept in `side` (its sign; zero if that is not known yet). A function that is
+/// on the other side from the beginning leaves it there.
 pub(crate) fn first_crossing<T: Real, E>(
     function: &mut dyn FnMut(T) -> Result<T, E>,
     samples: &Samples<T>,

@@ -1,4 +1,4 @@
-//! The equations of a mechanism whose sizes are forgotten.
+//! The equations of a mechanism, without its sizes in the type.
 //!
 //! In:  a mechanism, buffers of its sizes.
 //! Out: [`Equations`], which are evaluated into slices.

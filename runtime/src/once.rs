@@ -4,9 +4,9 @@
 //! In:  a function over slices, for any scalar.
 //! Out: the same function, by its address: for `f64` that of the one which is compiled here.
 //!
-//! Generic functions are compiled where they are called. What is said in a static of this
-//! crate is compiled here, and what cannot be reached for a scalar is not compiled for it.
-//! Other scalars, `f32` among them, are compiled where they are used.
+//! Generic functions are compiled where they are called. What a static of this crate refers to
+//! is compiled here, and what can't be reached for a scalar is not compiled for it. Other
+//! scalars, `f32` among them, are compiled where they are used.
 
 use core::any::Any;
 

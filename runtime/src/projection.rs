@@ -62,8 +62,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Newton's iteration on `g = 0`, then one linear solve for `A q̇ + b = 0`; the
     /// squared sine there.
     ///
-    /// The factors of one iteration serve the next as long as they reduce the
-    /// residual well, and those at the end the acceleration at the same position.
+    /// The factors of one iteration serve the next as long as they reduce the residual well;
+    /// the last ones also serve the acceleration at the same position.
     #[inline(never)]
     fn project_by_iteration(
         &mut self,

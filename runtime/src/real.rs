@@ -135,8 +135,9 @@ macro_rules! real_for_float {
             fn atan2(self, x: Self) -> Self {
                 real_for_float!(@call $float, atan2, self, x)
             }
-            // With constants in sight the compiler takes other functions of them, which round
-            // otherwise: the same run would give other bits in another build.
+            // Where the compiler sees a constant argument it may replace this by another
+            // function, which rounds differently: the same run would give other bits in
+            // another build.
             #[inline(never)]
             fn powf(self, exponent: Self) -> Self {
                 real_for_float!(@call $float, powf, self, exponent)

@@ -26,7 +26,8 @@ impl Sides {
         1_u128.checked_shl(index).unwrap_or(0)
     }
 
-    /// Whether a function is above zero: as it is held, or else as was found.
+    /// Whether a function is above zero: on the side that is held, or else as `found` at the
+    /// state.
     #[inline(always)]
     pub fn above(self, index: u32, found: bool) -> bool {
         match self.held & Self::bit(index) {
@@ -35,7 +36,8 @@ impl Sides {
         }
     }
 
-    /// Whether a function is below zero: as it is held, or else as was found.
+    /// Whether a function is below zero: on the side that is held, or else as `found` at the
+    /// state.
     #[inline(always)]
     pub fn below(self, index: u32, found: bool) -> bool {
         !self.above(index, !found)

@@ -57,8 +57,8 @@ const COSINE: [f64; 6] = [
     -1.135_964_755_778_819_5e-11,
 ];
 
-/// The numbers above for each lane. Numbers that the compiler knows it would spread
-/// over the lanes one by one, at the cost of an instruction each.
+/// The numbers above, once for each lane: constants would be copied to the lanes by the
+/// compiler, at the cost of an instruction each.
 struct Table {
     quarters: Block,
     round: Block,
@@ -128,8 +128,8 @@ fn in_lane(x: f64, table: &Table, lane: usize) -> ((f64, f64), f64) {
     let bend = polynomial(z, &table.sine, lane);
     let half = z * table.half[lane];
     let near = table.one[lane] - half;
-    // What the rounding of that added. The sums are written as differences, whose sides
-    // the compiler does not mix up when it puts lanes together.
+    // What the rounding of that added. The sums are written as differences, whose operands the
+    // compiler does not exchange when it puts lanes together.
     let added = (near - table.one[lane]) + half;
     let bow = polynomial(z, &table.cosine, lane);
     let (sine, cosine) = if FUSED {
@@ -148,8 +148,8 @@ fn in_lane(x: f64, table: &Table, lane: usize) -> ((f64, f64), f64) {
     ((sine, cosine), n)
 }
 
-/// `x − n·π/2`, and what its rounding loses: nothing is said of that where products are
-/// fused with sums, for it is no more than half a unit.
+/// `x − n·π/2`, and what its rounding loses; that is given as zero where products are fused
+/// with sums, since it is no more than half a unit.
 #[inline(always)]
 fn remainder(x: f64, n: f64, table: &Table, lane: usize) -> (f64, f64) {
     let first = fused(-n, table.half_pi[0][lane], x);
@@ -227,8 +227,8 @@ fn in_blocks(angles: &[f64], sines: &mut [f64], cosines: &mut [f64]) {
     }
 }
 
-/// One block, in a function of its own: inlined into a long one the same lines go
-/// through the lanes one after the other.
+/// One block, in a function of its own: inlined into a long one, the same lines are compiled
+/// to code that goes through the lanes one by one.
 #[inline(never)]
 fn in_block(block: &Block) -> (Block, Block) {
     let (mut sines, mut cosines) = ([0.0; LANES], [0.0; LANES]);

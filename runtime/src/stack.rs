@@ -8,20 +8,20 @@
 //! so on a stack of its own, taken from the system once and kept by the thread. Small
 //! mechanisms, and programs without the standard library, have no code for this.
 
-/// A large part of something: on the heap, so that its owner fits onto any stack.
+/// A large part of something, kept on the heap so that its owner fits onto any stack.
 #[cfg(feature = "std")]
 pub(crate) type Held<V> = Box<V>;
-/// A large part of something: inside of it, where there is no heap.
+/// A large part of something, kept inside its owner, since there is no heap.
 #[cfg(not(feature = "std"))]
 pub(crate) type Held<V> = V;
 
-/// Makes a part where it is held, so that it need not be moved there.
+/// Makes a large part in place, so that it need not be moved.
 #[cfg(feature = "std")]
 #[inline(always)]
 pub(crate) fn held<V>(make: impl FnOnce() -> V) -> Held<V> {
     Box::write(Box::new_uninit(), make())
 }
-/// Makes a part where it is held.
+/// Makes a large part.
 #[cfg(not(feature = "std"))]
 pub(crate) fn held<V>(make: impl FnOnce() -> V) -> Held<V> {
     make()
@@ -114,7 +114,7 @@ mod room {
         switched(size, work)
     }
 
-    /// What is done may need most of the stack, so that it is no part of whoever asks.
+    /// The work may need most of the stack, so it is not inlined into its caller.
     #[inline(never)]
     fn apart<V>(work: impl FnOnce() -> V) -> V {
         work()

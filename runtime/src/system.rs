@@ -32,8 +32,8 @@ pub enum Switching<T> {
     AtStart,
 }
 
-/// Does something with a system; once more if it fails and the system then wants to look
-/// more closely.
+/// Does something with a system, and once more if it fails and the system can then look more
+/// closely.
 ///
 /// # Errors
 ///
@@ -84,8 +84,8 @@ pub trait System<T: Real, const N: usize> {
     /// last iteration made it.
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>>;
 
-    /// Whether what just failed will not fail again if the step is taken once more from
-    /// its start, because the system now looks at it more closely.
+    /// Whether what just failed is worth another attempt from the start of the step, because
+    /// the system then looks more closely.
     ///
     /// # Errors
     ///

@@ -1,13 +1,13 @@
 //! Functions through many given points.
 //!
 //! In:  places and the polynomials between them, as generated code holds them.
-//! Out: values, derivatives, and the switching functions that tell between which places an
+//! Out: values, derivatives, and the switching functions that say in which interval an
 //!      argument is.
 //!
-//! An interval is told by the bits of its number in Gray's code, of which one changes from
-//! each interval to the next. Each bit is the side of a switching function on which a run
-//! is: a run that holds those sides ([`Sides`]) holds the interval, and its polynomial goes
-//! on beyond the ends, so that the step that ends there is smooth.
+//! An interval has a number, whose bits in Gray's code identify it: only one of them changes
+//! from each interval to the next. Each bit is the side of a switching function on which a run
+//! is: a run that holds those sides ([`Sides`]) holds the interval, and its polynomial goes on
+//! beyond the ends, so that the step that ends there is smooth.
 
 use crate::{Real, Sides};
 

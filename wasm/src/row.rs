@@ -102,8 +102,8 @@ impl Columns {
     }
 }
 
-/// Time, coordinates, velocities, states of the first order: the integrals of these are
-/// nobody's business.
+/// Time, coordinates, velocities, states of the first order, without the integrals of these,
+/// which are internal.
 pub fn numbers<const N: usize>(
     state: &State<f64, N>,
     structure: &Structure,

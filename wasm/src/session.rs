@@ -72,7 +72,7 @@ where
     }
 
     /// How many coordinates the description declares; behind these stand the integrals of
-    /// states of the first order, which nobody sees.
+    /// states of the first order, which are internal.
     fn freedoms(&self) -> usize {
         self.mechanism.structure().freedoms().len()
     }

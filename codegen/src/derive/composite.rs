@@ -3,11 +3,12 @@
 //! In:  a kinetic energy in velocities that bodies share.
 //! Out: `M`.
 //!
-//! A shared velocity is replaced by what it is made of, the last one first: what its body
-//! resists with, and those behind it, is added to that of the body before. These are the
+//! Each shared velocity is replaced by what it is made of, the last one first. That adds the
+//! inertia of its body, and of all bodies behind it, to that of the body before. These are the
 //! sweeps of the composite-rigid-body algorithm (Featherstone, Rigid Body Dynamics Algorithms
-//! (2008), section 6.2): an entry takes as much work as its body has velocities in common with
-//! the one before it, where the derivatives of a momentum take that for each body behind.
+//! (2008), section 6.2): the work for an entry is proportional to the number of velocities
+//! that its body has in common with the one before it; derivatives of a momentum take as much
+//! for each body behind.
 
 use super::equations::Matrix;
 use super::reduced::Reduced;

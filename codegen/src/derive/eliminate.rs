@@ -7,9 +7,9 @@
 //!
 //! `q_k = f(q, t)` goes into every energy, force and constraint, `q̇_k = ∂f/∂q q̇ + ∂f/∂t`
 //! with it. Virtual work and Rayleigh's function then give forces on the other
-//! coordinates by themselves, `Q_j + Q_k ∂f/∂q_j`. With the rows of the constraints that
-//! went, which are independent everywhere, nothing goes that could lose rank: the rest is
-//! singular where the whole was.
+//! coordinates by themselves, `Q_j + Q_k ∂f/∂q_j`. The rows of the eliminated constraints are
+//! independent everywhere, so that no loss of rank disappears with them: the rest is singular
+//! where the whole was.
 
 use super::explicit::{Explicit, explicit};
 use super::gradient::Sweep;
@@ -21,8 +21,9 @@ use crate::diagnostic::Diagnostics;
 use crate::expr::ExprId;
 use crate::model::{Described, Graph, Mechanism, Shape, Symbol};
 
-/// The mechanism without the coordinates that its constraints give explicitly; as it is
-/// if there are none. Stays: a coordinate that decides the start, and at least one.
+/// The mechanism without the coordinates that its constraints give explicitly; unchanged if
+/// there are none. A coordinate that decides the start stays, and at least one coordinate
+/// does.
 ///
 /// # Errors
 ///
@@ -178,7 +179,7 @@ fn rewrite(mechanism: &mut Mechanism, kept: &Kept, found: &[Explicit]) {
     for e in everything {
         *e = kept.expressed(graph, *e);
     }
-    // What follows from the constraints that went says nothing any more.
+    // Rows that follow from the eliminated constraints have become `0 = 0`.
     constraints.retain(|row| !graph.is_zero(row.residual));
     starts.retain_mut(|start| {
         let place = kept.places[start.coordinate];

@@ -39,8 +39,8 @@ impl Starts {
         }
     }
 
-    /// Whether a coordinate can go that is this: not if its guess is the only one that
-    /// tells where the others are.
+    /// Whether a coordinate with this value can be eliminated: not if it is held, or if its
+    /// guess is the only one that tells where the coordinates in its value are.
     fn spares(&self, graph: &Graph, coordinate: usize, value: ExprId) -> bool {
         let place = |symbol| match symbol {
             Symbol::Coordinate(i) => Some(i as usize),
@@ -53,8 +53,8 @@ impl Starts {
     }
 }
 
-/// Which coordinates can go, and what they are. Stays: what decides the start, and at
-/// least one coordinate.
+/// The coordinates that can be eliminated, with their values. Those that decide the start
+/// stay, and at least one coordinate does.
 pub(super) fn explicit(mechanism: &mut Mechanism) -> Vec<Explicit> {
     let starts = Starts::of(mechanism);
     let graph = &mut mechanism.graph;

@@ -1,8 +1,8 @@
-//! What jumps or kinks along a motion, hung on the sides of switching functions.
+//! Switching functions for what jumps or kinks along a motion.
 //!
 //! In:  expressions with comparisons, `abs`, `sign`, `min`, `max`.
-//! Out: equal ones in which each of these asks on which side of zero a switching function
-//!      is, and the list of those functions.
+//! Out: equal expressions, in which each of these depends on the sign of a switching function,
+//!      and the list of those functions.
 //!
 //! A comparison `a < b` has the switching function `b − a`. Comparisons of the same
 //! difference share one. What depends on parameters alone never changes along a motion
@@ -32,7 +32,7 @@ pub struct Switches {
 }
 
 impl Graph {
-    /// Hangs what jumps or kinks in an expression on switching functions.
+    /// Makes what jumps or kinks in an expression depend on switching functions.
     pub fn hold(&mut self, root: ExprId, switches: &mut Switches) -> ExprId {
         for e in self.reachable(&[root]) {
             if !switches.known.contains_key(&e) {

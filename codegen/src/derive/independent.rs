@@ -11,8 +11,8 @@
 //! - the gradient of `Σ cⱼ qⱼ² = d ≠ 0`, such as that of the norm of Euler parameters: where
 //!   it holds, one of the coordinates is not zero.
 //!
-//! The same is then asked of the rows that are left, until none is or of none it is so. What
-//! takes values of parameters to tell is not told.
+//! Such rows are set aside, and the others are examined in the same way, until none is left or
+//! none qualifies. Independence that depends on values of parameters is not recognised.
 
 use super::equations::Equations;
 use crate::expr::{ExprId, Function};

@@ -1,12 +1,12 @@
-//! What accelerations are resisted with, from body to body.
+//! Inertia forces `M q̈`, from body to body.
 //!
 //! In:  a kinetic energy in velocities that bodies share.
 //! Out: `M q̈`, in as many expressions as there are bodies, where `M` has many more entries.
 //!
 //! In a chain `M` has an entry for each pair of bodies, and code that writes all of them is
-//! as long. Products with `M` are not: accelerations of shared velocities come of those
-//! before them, and what resists them is given back to what they are made of, from the last
-//! body back: `M q̈ = Jᵀ (M̃ (J q̈))`. These are the sweeps of the recursive Newton–Euler
+//! as long. Code for a product with `M` is not: a forward sweep finds each shared acceleration
+//! from those before it, and a backward sweep passes the inertia forces on, from the last body
+//! to the first: `M q̈ = Jᵀ (M̃ (J q̈))`. These are the sweeps of the recursive Newton–Euler
 //! algorithm without velocities and forces (Featherstone, Rigid Body Dynamics Algorithms
 //! (2008), section 5.3); columns of `M` are its results for unit accelerations (section 6.1).
 

@@ -135,7 +135,7 @@ fn partials(
     Some(rows)
 }
 
-/// A symbol changes at rate one, and with it the inputs whose laws have it.
+/// A symbol that changes at rate one, with the inputs whose laws contain it.
 fn seeds(graph: &mut Graph, inputs: &[Input], symbol: Symbol) -> Vec<(Symbol, ExprId)> {
     let mut seeds = vec![(symbol, graph.integer(1))];
     for (i, input) in (0..).zip(inputs) {

@@ -3,10 +3,10 @@
 //! In:  the rows that say what shared velocities are, and forces on coordinates.
 //! Out: forces on all velocities that do the same work.
 //!
-//! The angle of a link in a chain of joint angles is a sum of these, so that a force on a
-//! joint is a sum over all links behind it, and what the link itself contributes is the
-//! difference of two of them. Written as a difference it is lost in round-off; here what both
-//! have in common goes before anything is computed.
+//! In a chain of joint angles, the angle of a link is a sum of these, so that the force on a
+//! joint is a sum over all links behind it, and the contribution of one link is the difference
+//! of two such sums. Computed as a difference it is lost in round-off; here the common terms
+//! cancel symbolically, before anything is computed.
 
 use crate::expr::{ExprId, Number};
 use crate::model::{Graph, Node};
@@ -29,8 +29,8 @@ pub(super) struct Local {
 }
 
 impl Local {
-    /// Those of the rows of `w = L u`, given by their entries, in which all coefficients are numbers;
-    /// the first `count` places are those of the shared velocities.
+    /// The rows of `w = L u`, given by their entries, in which all coefficients are numbers.
+    /// The first `count` places belong to the shared velocities.
     pub fn of(graph: &Graph, links: &[(usize, usize, ExprId)], count: usize) -> Self {
         let mut entries: Vec<Vec<(usize, Option<Number>)>> = vec![Vec::new(); count];
         let mut uses: FxHashMap<usize, usize> = FxHashMap::default();
@@ -76,7 +76,7 @@ impl Local {
     }
 }
 
-/// A sum, in which sums that have another of its terms in them are opened.
+/// A sum in which those inner sums are expanded that share a term with it.
 fn opened(graph: &mut Graph, terms: Vec<(ExprId, Number)>) -> ExprId {
     let mut constant = Number::ZERO;
     let mut all = Vec::new();

@@ -49,8 +49,9 @@ use swell::within_bounds;
 /// The number of expressions beyond which equations are derived in one sweep, too.
 const LONG: usize = 100;
 
-/// How much of their expressions others must have that are taken instead, below [`SWELL`]:
-/// linearisation differentiates once more, which formulas of one sweep take longer for.
+/// Equations from the energy back are taken if they have less than this part of the
+/// expressions of the others, below [`SWELL`]: linearisation differentiates once more, which
+/// takes longer with their formulas.
 const MUCH_SHORTER: (usize, usize) = (2, 3);
 
 /// Derives the equations of motion from energies and constraints.

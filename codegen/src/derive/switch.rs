@@ -1,9 +1,9 @@
-//! Conditions of forces and inputs, hung on switching functions.
+//! Switching functions for the conditions of forces and inputs.
 //!
 //! In:  a mechanism.
-//! Out: the same mechanism, in whose forces and laws each comparison, `abs`, `sign`, `min`
-//!      and `max` that can change along a motion asks for the side of a switching function,
-//!      which a run may hold; the list of those functions with their rates.
+//! Out: the same mechanism, in whose forces and laws each comparison, `abs`, `sign`, `min` and
+//!      `max` that can change along a motion depends on the sign of a switching function,
+//!      which a run may hold over a step; the list of those functions with their rates.
 //!
 //! Energies and constraints have no conditions. Outputs and events keep theirs, which
 //! follow the state.
@@ -17,7 +17,7 @@ use std::collections::BTreeSet;
 /// Switching functions that a run has room for.
 const ROOM: usize = 128;
 
-/// Hangs the conditions of forces and laws on switching functions.
+/// Makes the conditions of forces and laws depend on switching functions.
 ///
 /// # Errors
 ///

@@ -4,10 +4,10 @@
 //! Out: the fewest rows `a` with which `M + Σ w aᵀa` is definite: none where `M` is.
 //!
 //! The mass matrix of a body in Euler parameters is singular, and so is that of a
-//! coordinate without inertia. Whether one is singular at all positions is seen at
-//! random ones. Only rows that hold such a motion everywhere are named; where others are
-//! needed, the runtime lets all rows take part. Those come first that join what `M` joins
-//! already, so that elimination stays as sparse.
+//! coordinate without inertia. Whether a mass matrix is singular at all positions is tested at
+//! random ones. Only rows that restrict the motions without inertia at every position are
+//! named; where others are needed, the runtime lets all rows take part. Rows that couple
+//! coordinates which `M` couples already are preferred, so that elimination stays as sparse.
 
 use super::equations::Matrix;
 use crate::model::{Graph, Symbol};
@@ -49,8 +49,9 @@ struct Hold {
 }
 
 impl Hold {
-    /// Whether it is the same at another position for a reason: it lies along the motion, or
-    /// is made of constants. Any other may come to lie across the motion somewhere.
+    /// Whether the row restricts the motion at all positions, not by chance at these: its
+    /// gradient is parallel to the motion at both, or constant. Any other may become
+    /// perpendicular to the motion somewhere.
     fn lasts(&self, other: &Self) -> bool {
         let along = self.cosine.min(other.cosine) > 1.0 - ROUND_OFF;
         let constant = (self.grip - other.grip).abs() <= ROUND_OFF * self.grip;
@@ -143,8 +144,8 @@ fn joined(mass: &[Sparse], row: &Sparse) -> usize {
     pairs.filter(|(i, j)| !mass[**i].contains_key(j)).count()
 }
 
-/// How a row holds one of the motions, which is then done with, if it holds one. The others
-/// are changed by it until the row does not hold them.
+/// How a row restricts one of the motions, if it restricts any; that motion is then removed,
+/// and the others are combined with it so that the row does not restrict them.
 fn take_hold(motions: &mut Vec<Sparse>, row: usize, entries: &Sparse) -> Option<Hold> {
     let size = |x: &Sparse| dot(x, x).sqrt();
     let grip = |motion: &Sparse| dot(entries, motion).abs() / size(motion);

@@ -13,8 +13,8 @@ use quote::quote;
 use std::collections::BTreeSet;
 use std::mem::discriminant;
 
-/// The fewest angles that are worth a call for all: as many as a block has lanes. A block
-/// that is filled in part takes fewer instructions than calls one by one and longer
+/// The fewest angles that are worth a call for all: as many as a block has lanes. A block that
+/// is filled in part takes fewer instructions than single calls, but more time
 /// (`docs/instructions.md`).
 const ANGLES_MIN: usize = 4;
 

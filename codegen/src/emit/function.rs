@@ -20,8 +20,8 @@ use std::collections::BTreeSet;
 /// The most operands of an expression that is written where it is read.
 const OPERANDS_MAX: usize = 9;
 
-/// The most terms or factors that are written in one expression, since whoever reads the
-/// code goes into its nested parts by recursion: so far the rest has a name of its own.
+/// The most terms or factors that are written in one expression; the rest has a name of its
+/// own. Compilers go into nested expressions by recursion, and would run out of stack.
 const NESTED_MAX: usize = 32;
 
 /// How tightly an emitted piece holds together.

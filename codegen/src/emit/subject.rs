@@ -22,7 +22,7 @@ pub struct EmitOptions {
     pub c_interface: bool,
 }
 
-/// A description in its own words, for the emitted documentation.
+/// What a module is made from, for the emitted documentation.
 #[derive(Clone, Copy, Debug)]
 pub struct Provenance<'a> {
     /// The module's name: the stem of the description's file.

@@ -1,6 +1,6 @@
 //! What decides the forces along a motion by its sign.
 //!
-//! In:  a mechanism whose conditions hang on switching functions.
+//! In:  a mechanism whose conditions depend on switching functions.
 //! Out: the table of the conditions, and the method that computes their switching
 //!      functions; nothing where there are none.
 

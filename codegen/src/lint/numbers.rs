@@ -160,7 +160,8 @@ impl<'a> Numbers<'a> {
         self.accelerating(roots, place, v, None)
     }
 
-    /// The same where one acceleration is one, if any, and all others are zero.
+    /// The same, with the acceleration of index `unit` equal to one, if an index is given, and
+    /// all others zero.
     fn accelerating(
         &self,
         roots: &[ExprId],
@@ -213,7 +214,7 @@ impl<'a> Numbers<'a> {
                 let rows: Vec<&[ExprId]> = mass.iter().map(Vec::as_slice).collect();
                 self.matrix(&rows, place)
             }
-            // What resists a unit acceleration is a column, and its row.
+            // `M q̈` for a unit acceleration is a column of `M` and, by symmetry, its row.
             Inertia::Product(product) => {
                 let row = |unit| self.accelerating(product, place, &[], Some(unit));
                 (0..).map(row).take(product.len()).collect()

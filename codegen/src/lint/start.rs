@@ -38,7 +38,8 @@ pub fn unassembled(numbers: &Numbers, found: &mut Diagnostics) {
     let rows = numbers.positions();
     let (guess, held) = numbers.start();
     let free: Vec<usize> = (0..held.len()).filter(|&i| !held[i]).collect();
-    // A guess may lie where every direction looks the same: others are tried.
+    // At the guess all derivatives may vanish, so that no direction is better than another:
+    // other guesses are tried, too.
     let disturbed = (1..=6).map(|seed| {
         let (mut place, random) = (guess.clone(), numbers.random(seed));
         free.iter().for_each(|&i| place.q[i] = random.q[i]);

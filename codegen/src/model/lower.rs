@@ -21,9 +21,8 @@ use std::rc::Rc;
 /// Checks a description and puts it into expressions.
 ///
 /// `constants` replaces the values of constants, `frozen` makes parameters
-/// constants at their default. A description that is not `complete`, because some of its
-/// statements can't be read, is not found fault with for what it lacks. Files are looked
-/// for in a folder.
+/// constants at their default. Where a description is not `complete`, because some of its
+/// statements can't be read, nothing is reported as missing. Files are looked for in a folder.
 ///
 /// # Errors
 ///

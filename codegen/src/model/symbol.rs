@@ -1,4 +1,4 @@
-//! What the expressions of a mechanism depend on, and what only that tells of them.
+//! The symbols in the expressions of a mechanism, and derivatives along its motion.
 //!
 //! In:  expressions of [`crate::expr`].
 //! Out: [`Symbol`], graphs over it, derivatives along the motion.

@@ -7,9 +7,9 @@ pub(super) fn without_dead(program: &Program) -> Program {
     ordered(program.list(), &program.outputs, &|value| value)
 }
 
-/// A program of operations in any order that has one: each operation directly
-/// after its operands, in the order in which the outputs ask for them. What is read
-/// is what is written to be read, or what `instead` replaces it by.
+/// Makes a program of operations that stand in any order: each comes directly after its
+/// operands, in the order in which the outputs need them. A value is read by way of `instead`,
+/// which may put another in its place.
 pub(super) fn ordered(
     operations: &[Operation],
     outputs: &[(Slot, Value)],

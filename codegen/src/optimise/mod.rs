@@ -52,10 +52,10 @@ use crate::model::Graph;
 /// all pairs again after each; a longer program is emitted as it was derived.
 pub const REWRITTEN_MAX: usize = 30_000;
 
-/// How many terms may be multiplied or added in the ring of sines and cosines, for each
-/// operand of a program and for any program. Every program of the descriptions here that is
-/// shorter for it stays within; in a long chain of angles the polynomials grow with its
-/// length, are no shorter, and would take most of the time.
+/// How many terms may be multiplied or added in the ring of sines and cosines: so many for
+/// each operand of a program, and so many in addition. Every program of the library that
+/// becomes shorter stays within this bound; in a long chain of angles the polynomials grow
+/// with its length, save nothing, and would take most of the time.
 const MULTIPLIED: (usize, usize) = (14, 20_000);
 
 /// The program for the wanted expressions; `laws` are the default laws of the
@@ -117,10 +117,9 @@ pub fn optimise_among(
     checked(order::arranged(&best))
 }
 
-/// The program for the accelerations by the regular path, from the program for
-/// `mass`, `force`, `jacobian`, `bias`; sizes are how many coordinates there are and how
-/// many constraint rows, some of which take part in the metric; `None` where it would divide by what is zero
-/// everywhere.
+/// The program for the accelerations at regular states, from the program for `mass`, `force`,
+/// `jacobian`, `bias`. The sizes are the numbers of coordinates and of constraint rows, some
+/// of which take part in the metric. `None` where it would divide by what is zero everywhere.
 ///
 /// # Panics
 ///

@@ -1,7 +1,7 @@
 //! Products of powers of atoms.
 //!
-//! Equal ones are one, so that a product of two is found once and then looked up: the
-//! same pairs come again and again where polynomials are multiplied.
+//! Each is kept once, and so is each product of two: where polynomials are multiplied, the
+//! same pairs come again and again.
 
 use crate::expr::ExprId;
 use crate::model::Graph;

@@ -4,9 +4,9 @@
 //! Out: the same with the pair of factors that most products have as a product of its
 //!      own, again and again while two products have one.
 //!
-//! A long program has many pairs and is shared many times over, in build scripts that are
-//! compiled without optimisation: a pair that changes is counted anew, the others are
-//! left alone, and what a pair was counted as before is forgotten when it is met.
+//! A long program has many pairs, and build scripts are compiled without optimisation, so each
+//! replacement counts only the pairs that it changes. Entries of the ranking that are out of
+//! date by then are dropped when they come up.
 
 use super::dead::ordered;
 use super::program::{Operation, Program, Value};

@@ -1,10 +1,10 @@
 //! Expressions in the ring of the sines and cosines they are made of.
 //!
 //! In:  an expression.
-//! Out: the same function, multiplied out as a polynomial in its atoms (symbols,
-//!      functions, inverses), with `sin² = 1 − cos²` applied, like terms collected
-//!      and `sin²` written again for what is left of `1 − cos²`. Never a new angle: the sine of a sum of angles is expanded
-//!      only where it was written as one.
+//! Out: the same function, multiplied out as a polynomial in its atoms (symbols, functions,
+//!      inverses), with `sin² = 1 − cos²` applied, like terms collected and `sin²` written
+//!      again for what is left of `1 − cos²`. No new angle is introduced: the sine of a sum of
+//!      angles is expanded only where it was written as one.
 //!
 //! A polynomial that grows past [`TERMS_MAX`] terms leaves the expression as it
 //! was: multiplying out pays for planar linkages, not for long spatial chains. So does

@@ -63,8 +63,8 @@ impl<T: Real, const N: usize, const R: usize> Memory<T, N, R> {
     }
 }
 
-/// Matrices that are there besides, since what is left of one of the four pieces of memory
-/// may be too small for the next: as much as three of the largest.
+/// Spare matrices: the rest of one of the four pieces of memory may be too small for the next
+/// matrix, so that at most three of the largest are lost.
 #[cfg(not(feature = "std"))]
 const SPARE: usize = 3;
 

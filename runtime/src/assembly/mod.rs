@@ -8,9 +8,9 @@
 //!
 //! Held values stay as they are. The others change as little as they can, each
 //! weighed with the square root of its inertia, so that the answer does not
-//! depend on units: the branch nearest to the guesses is found. Where the
-//! guesses are no help at all (they lie where every direction looks the same,
-//! such as the fulcrum of a pendulum) a fixed small disturbance decides.
+//! depend on units: the branch nearest to the guesses is found. Where the guesses are no help
+//! at all, because all derivatives vanish there, as at the fulcrum of a pendulum, a fixed
+//! small disturbance decides.
 //!
 //! Not here: keeping a state on the constraints during a run
 //! ([`crate::projection`]).
@@ -107,8 +107,8 @@ fn held<T: Real, const N: usize>(values: &[Initial<T>; N]) -> [bool; N] {
     column(|i| values[i].held)
 }
 
-/// Moves what is not held onto the constraints. Not inlined, as what comes after it: both
-/// work in large matrices.
+/// Moves what is not held onto the constraints. Neither this nor what follows is inlined: both
+/// need large matrices on the stack, and not at the same time.
 #[inline(never)]
 fn constrain<T: Real, const N: usize, const R: usize>(
     mechanism: &dyn Mechanism<T, N, R>,
@@ -127,7 +127,7 @@ fn check_inertia<T: Real, const N: usize, const R: usize>(
     mechanism: &dyn Mechanism<T, N, R>,
     state: &State<T, N>,
 ) -> Result<(), AssemblyError<T, N, R>> {
-    // Without constraints there are no projections, and nothing to tell of positions.
+    // Without constraints no function for positions is generated.
     let negative = if R > 0 {
         let mut at = Position::default();
         mechanism.position(state, &mut at);

@@ -141,8 +141,7 @@ impl<'e, 'a, T: Real> Descent<'e, 'a, T> {
         self.residual.copy_from_slice(residual);
     }
 
-    /// Goes one step, the first that improves among those of rising damping; whether there
-    /// was one.
+    /// Tries steps of rising damping and takes the first that improves; whether there was one.
     fn advances(&mut self, trials: &mut Range<usize>) -> Result<bool, Refusal> {
         let jacobian = self.equations.constraints().jacobian;
         self.matrix.decompose(jacobian, &self.scales)?;

@@ -10,8 +10,8 @@ use crate::equations::Bound;
 use crate::{Mechanism, Position, Real, State, Terms};
 use nalgebra::SVector;
 
-/// One for positions and velocities, since it takes a good part of the stack where a
-/// mechanism is large.
+/// The same buffers serve positions and velocities, since those of a large mechanism take a
+/// good part of the stack.
 pub(super) struct Room<T, const N: usize, const R: usize> {
     position: Position<T, N, R>,
     terms: Terms<T, N, R>,

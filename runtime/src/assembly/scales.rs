@@ -37,9 +37,9 @@ pub(super) struct Scales<'a, T> {
 }
 
 impl<'a, T: Real> Scales<'a, T> {
-    /// Measures the mechanism around a position, by what those coordinates can do that are
-    /// not held, if any are. Of masses that are unlike each other, those that are held may be
-    /// the lightest.
+    /// Measures the mechanism around a position, by the coordinates that are not held, if
+    /// there are any: where masses are very different, the held ones may be the lightest, and
+    /// would decide the scale.
     pub(super) fn measure(
         equations: &mut dyn Equations<T>,
         (t, q): (T, &[T]),

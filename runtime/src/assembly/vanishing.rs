@@ -3,9 +3,9 @@
 //! In:  an assembled position, the scales of the guess that led to it.
 //! Out: such a constraint, if there is one.
 //!
-//! A sum of squares that is zero is of this kind. It holds at a point, or along a line
-//! of fewer dimensions than one equation leaves, and what is found is the point up to
-//! the root of round-off: a run would go on in steps as small as that.
+//! A sum of squares that is zero is of this kind. It holds at a point, or on a set of fewer
+//! dimensions than one equation leaves, and that set is found only up to the root of
+//! round-off: a run would go on in steps as small as that.
 
 use super::scales::Scales;
 use crate::Real;

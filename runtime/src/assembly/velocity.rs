@@ -47,8 +47,8 @@ pub(super) fn assemble<T: Real>(
     if !draft.v.iter().all(|v| v.is_finite()) {
         return Err(Refusal::NotFinite);
     }
-    // The corrections are as good as the velocities are that they begin with, which may be
-    // far larger than those that they end with.
+    // The corrections have the absolute accuracy of the velocities that they begin with, which
+    // may be far larger than those at the end.
     let speed = guessed.max(speed(draft.v, &measured));
     check(&mut draft, speed, equations, &measured)?;
     let mut whole = Decomposition::new(n, n_rows, workspace);
@@ -203,8 +203,8 @@ impl<T: Real> Branches<'_, '_, T> {
         }
     }
 
-    /// How `p₂` changes with each scaled velocity, held or not; returns how large the terms
-    /// are by that, whose sum `p₂` is. `p₂` is quadratic in the velocities, so that central
+    /// How `p₂` changes with each scaled velocity, held or not; returns the sum of the sizes
+    /// of its terms, estimated from that. `p₂` is quadratic in the velocities, so that central
     /// differences are exact. With room for a bias and a velocity.
     fn slopes(&mut self, v: &[T], slopes: &mut [T], (bias, moved): (&mut [T], &mut [T])) -> T {
         let two = T::from_f64(2.0);
@@ -225,8 +225,8 @@ impl<T: Real> Branches<'_, '_, T> {
         size
     }
 
-    /// Leaves of the slopes what velocities change that are free, and of that what all rows
-    /// can't produce. With room for a row.
+    /// Reduces the slopes to those of the free velocities, and these to the part that no
+    /// combination of rows can produce. With room for a row.
     fn make_effective(&mut self, slopes: &mut [T], row: &mut [T]) {
         let n_rows = self.scales.rows.len();
         for k in 0..n_rows {

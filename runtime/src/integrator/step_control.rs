@@ -8,8 +8,8 @@
 //! be told (NaN), or on whose way the mechanics failed, is tried again with a
 //! shorter one, until the step is lost in the round-off of time. A singular
 //! position that the form of the equations can't pass is reported at once: no
-//! step is short enough. One that can't be told what it is ends the run as soon as
-//! steps only creep up to it.
+//! step is short enough. One whose kind can't be determined ends the run as soon as steps only
+//! creep up to it.
 
 use super::IntegrateError;
 use super::control::{Control, Tolerance, check_bound};

@@ -3,9 +3,9 @@
 //! In:  a mechanism, how many evaluations are granted.
 //! Out: the same mechanism, and how often it was asked.
 //!
-//! What is asked for beyond the limit is spoilt: every entry that isn't zero becomes NaN,
-//! upon which whatever goes on in a step comes to its end. Entries that are zero stay so,
-//! because nobody would write them again.
+//! Evaluations beyond the limit are spoilt: every entry that isn't zero becomes NaN, which
+//! ends every iteration within a step. Entries that are zero stay so, because nobody would
+//! write them again.
 
 use crate::assembly::StartFault;
 use crate::{

@@ -45,7 +45,7 @@ impl<'a, 'b, T: Real, const N: usize> Observers<'a, 'b, T, N> {
         }
     }
 
-    /// Shows everyone the initial state.
+    /// Shows all observers the initial state.
     #[inline(never)]
     pub(super) fn begin(
         &mut self,
@@ -134,7 +134,7 @@ impl<'a, 'b, T: Real, const N: usize> Observers<'a, 'b, T, N> {
         Ok(flow)
     }
 
-    /// Counts passages through singular configurations and tells everyone of them.
+    /// Counts passages through singular configurations and tells all observers of them.
     fn tell(&mut self, passages: &Found<T>) -> ControlFlow<()> {
         let mut flow = ControlFlow::Continue(());
         if let Some(count) = &mut self.passages {

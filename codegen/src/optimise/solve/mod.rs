@@ -9,8 +9,8 @@
 //! each in a fill-reducing order that is fixed here. No pivoting and no branch: the
 //! pivots (`mass_pivots`, `row_pivots`) are outputs too, beside what they are to be
 //! compared with (`mass_diagonal`, `row_squares`), and where one is too small the result
-//! is not to be used. Left out are masses that elimination leaves as they are. A pivot
-//! that is zero by structure means that there is no such program.
+//! is not to be used. Diagonal entries of `M` that elimination does not change are left out. A
+//! pivot that is zero by structure means that there is no such program.
 //!
 //! Where `M` alone is singular, some rows are said to take part in the metric, and `M` is
 //! `M + AᵀWA` with the weights that are given at run time. The solution is the same: since

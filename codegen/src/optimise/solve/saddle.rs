@@ -127,7 +127,7 @@ impl Algebra {
         for (step, &i) in mass.order.iter().enumerate() {
             place[i] = step;
         }
-        // The one that is eliminated first in front.
+        // The one that is eliminated first comes first.
         let ordered = |i: usize, j: usize| if place[i] <= place[j] { (i, j) } else { (j, i) };
         let wanted = |row: &Vec<(usize, Signed)>| -> Vec<(usize, usize)> {
             let pairs = row.iter().enumerate();

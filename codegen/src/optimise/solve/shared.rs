@@ -4,11 +4,11 @@
 //!      for `links`, what these are made of.
 //! Out: a program for the accelerations of the coordinates.
 //!
-//! From the last body back: a shared velocity is replaced by what it is made of, which adds
-//! what its body and those behind it resist with to that of the bodies before it; and a
-//! coordinate that no shared velocity is made of any more is eliminated. These are the sweeps
-//! of the articulated-body algorithm (Featherstone, Rigid Body Dynamics Algorithms (2008),
-//! section 7.3), found without knowing what a body is.
+//! The sweep goes from the last body back. A shared velocity is replaced by what it is made
+//! of, which adds the inertia of its body, and of those behind it, to that of the bodies
+//! before it. A coordinate that is part of no shared velocity any more is eliminated. These
+//! are the sweeps of the articulated-body algorithm (Featherstone, Rigid Body Dynamics
+//! Algorithms (2008), section 7.3), found without knowing what a body is.
 //!
 //! Only coordinates are divided by, and what they are divided by are the pivots of `M`
 //! itself: there is such a program wherever `M` is definite, whether or not the mass matrix
