@@ -31,7 +31,7 @@ class Handle:
             raise BricardError("the mechanism could not be made")
 
     def __del__(self) -> None:
-        # At the end of the interpreter nothing but the handle may be left.
+        # When the interpreter ends, the handle may be all that is left.
         if getattr(self, "_pointer", None):
             self.table.free(ctypes.byref(self._pointer))
 

@@ -127,7 +127,7 @@ def run(mechanism: "Mechanism", handle: Handle, plan: Plan, inside: int = 0) -> 
     watch.every = plan.every or 0.0
     watch.columns, watch.inside = columns, inside
     watch.rows, watch.room = _abi.doubles(recorder.buffer), recorder.buffer.size
-    # Callbacks are kept alive by the names until the run is over.
+    # The names keep the callbacks alive until the run is over.
     watch.take = take = _abi.Take(recorder.take)
     watch.event = event = _abi.OnEvent(recorder.event)
     watch.passage = passage = _abi.OnPassage(recorder.passage)

@@ -1,7 +1,7 @@
 // The curves: one chart for each unit, all over the same time.
 
 const SYNC = "time";
-/** The least range that is shown, as a part of the values: what is constant should look so. */
+/** The least range that is shown, relative to the values, so that a constant looks constant. */
 const FLAT = 1e-3;
 
 class Curves {
@@ -186,7 +186,7 @@ class Curves {
   }
 }
 
-/** The values of a panel as they are drawn: what is infinite has no place. */
+/** The values of a panel as they are drawn, without infinite ones. */
 function shown(panel, raw) {
   const floor = panel.scale === "logarithmic" ? 10 ** panel.low : -Infinity;
   const place = (y) => (Math.abs(y) <= 1e300 ? Math.max(floor === -Infinity ? y : Math.abs(y), floor) : null);

@@ -12,7 +12,7 @@ const SYSTEM = matchMedia("(prefers-color-scheme: dark)");
 /** What the button says, if it was pressed, and whether the page is going to paper. */
 const theme = { chosen: null, printed: false };
 
-/** Dark as the system is unless the button says otherwise, and light on paper. */
+/** Dark or light as the system says, unless the button says otherwise; light on paper. */
 function dress() {
   const wanted = theme.chosen ?? (SYSTEM.matches ? "dark" : "light");
   document.documentElement.dataset.theme = theme.printed ? "light" : wanted;
@@ -56,7 +56,7 @@ function remembered() {
 function begin() {
   document.title = `${run.mechanism} · ${run.program}`;
   $("name").textContent = run.mechanism;
-  // Lines end where they ended in the file, paragraphs where there is an empty one.
+  // Line breaks are those of the file; an empty line ends a paragraph.
   $("docs").textContent = run.docs.trim().replace(/\s*\n\s*\n\s*/g, "\u2029").replace(/\s*\n\s*/g, " ").replaceAll("\u2029", "\n");
   if (run.error) complain(run.error);
   const times = numbers(run.times, Float64Array);
@@ -253,7 +253,7 @@ function marks(player) {
   }
 }
 
-/** Looks for news in the script beside the page, as long as somebody writes it. */
+/** Reads the script beside the page again and again, as long as somebody writes it. */
 function live(player, view) {
   let wait = null;
   const look = () => {

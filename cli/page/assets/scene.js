@@ -6,7 +6,7 @@ function numbers(text, Kind) {
   return new Kind(bytes.buffer);
 }
 
-/** The place of the last of some ascending times that is not after `t`. */
+/** The index of the last of some ascending times that is not later than `t`. */
 function before(times, t) {
   let low = 0;
   let high = times.length - 1;
@@ -34,8 +34,8 @@ class Scene {
     this.findGround();
   }
 
-  /** Takes another motion of the same shapes. What it needs more room for gets it; the
-   * measure stays, so that what has become longer looks so. */
+  /** Takes another motion of the same shapes. The visible box grows if it has to; the scale
+   * of lines and joints stays, so that a longer link looks longer. */
   take({ times, frames }) {
     const before = [this.low, this.high];
     [this.times, this.frames] = [times, frames];
@@ -58,7 +58,7 @@ class Scene {
     return here.map((x, k) => x + part * (next[k] - x));
   }
 
-  /** The box around all frames. What lies at infinity has no place in it. */
+  /** The box around all frames, without points at infinity. */
   measure() {
     const low = [Infinity, Infinity, Infinity];
     const high = [-Infinity, -Infinity, -Infinity];

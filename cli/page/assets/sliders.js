@@ -77,7 +77,7 @@ class Sliders {
     this.worker.postMessage({ number: this.number, drawn: this.drawn, ...this.given });
   }
 
-  /** Says why the motion is not that of the sliders; nothing if it is. */
+  /** Says why the motion is not that of the sliders; clears the message if it is. */
   complain(message) {
     this.place.hidden = false;
     this.alarm.hidden = message === null;
@@ -132,7 +132,7 @@ class Sliders {
     const about = element("small", {}, docs ?? "");
     const row = { name, kind, value, put: () => put(this.first[kind][name] ?? null) };
     const put = (given) => {
-      // What nothing is given for is as the description says.
+      // Without a given value that of the description counts.
       const now = given ?? value;
       if (now < Number(slider.min) || now > Number(slider.max)) [slider.min, slider.max] = reach(now, unit);
       slider.value = now;
@@ -165,7 +165,7 @@ class Sliders {
   }
 }
 
-/** The digits of a slider's value that its positions differ in. */
+/** A value of a slider in as few digits as tell its positions apart. */
 function rounded(value, range) {
   const digits = Math.min(15, Math.max(0, 3 - Math.floor(Math.log10(range))));
   return Number(value.toFixed(digits));

@@ -19,7 +19,7 @@ function short(value, range = Math.abs(value)) {
   return value.toFixed(digits).replace("-", "−");
 }
 
-/** What words, numbers and comments of a description are. */
+/** Splits a description into words, numbers and comments, for colouring. */
 function* tokens(text, words) {
   const kinds = new Map();
   for (const [kind, list] of Object.entries(words)) for (const word of list) kinds.set(word, kind);
@@ -76,7 +76,7 @@ function command(text) {
   return element("div", { class: "command" }, line, button);
 }
 
-/** The equations of motion. Of MathML nothing but MathML is taken. */
+/** The equations of motion; of their markup, elements of MathML alone are accepted. */
 function equations(run) {
   if (run.equations.length === 0) return;
   const place = document.getElementById("equations");

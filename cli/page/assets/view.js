@@ -9,7 +9,7 @@ function colour(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }
 
-/** A length of one digit that is not larger than another. */
+/** The largest length of one digit that does not exceed another length. */
 function round(length) {
   const power = 10 ** Math.floor(Math.log10(length));
   return [5, 2, 1].map((digit) => digit * power).find((nice) => nice <= length) ?? power;
@@ -105,7 +105,7 @@ class View {
     else this.ruler();
   }
 
-  /** The points of a shape; none if one of them has no place. */
+  /** The points of a shape on the canvas; none if one of them is not there. */
   points(frame, { points, offset }) {
     const found = [];
     for (let i = 0; i < points; i += 1) {

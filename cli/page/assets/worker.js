@@ -4,7 +4,7 @@
 // In:  `{ run, module }` once; then requests: parameters, inputs, start.
 // Out: for each request the run, or why there is none.
 
-/** Numbers of all frames of the moving picture that are worth their while. */
+/** The most numbers that the frames of the moving picture may have together. */
 const PLACES = 400_000;
 let sliders = null;
 let compiled = null;
@@ -21,7 +21,7 @@ addEventListener("message", async ({ data }) => {
   }
 });
 
-/** A mechanism that nothing has happened to: one that failed may be in any state. */
+/** A new mechanism: one that failed may be in any state. */
 function mechanism({ parameters, inputs }) {
   const made = new Mechanism(new WebAssembly.Instance(compiled, {}));
   const { method, steps, settings } = sliders;
