@@ -74,7 +74,9 @@ fn described(subject: &Subject, array: Array) -> Described {
 fn function(subject: &Subject, array: Array, computed: &Optimised) -> TokenStream {
     let described = described(subject, array);
     let place = |slot: &_| Some(entry(quote!(out), slot));
-    let Written { body, state, cost } = subject.optimised(computed, &place, Decided::ByState);
+    let Written {
+        body, state, cost, ..
+    } = subject.optimised(computed, &place, Decided::ByState);
     let (kind, sizes) = match described.shape {
         Shape::Vector(rows) => (quote!(SVector), quote!(#rows)),
         Shape::Matrix(rows, columns) => (quote!(SMatrix), quote!(#rows, #columns)),

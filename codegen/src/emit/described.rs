@@ -5,7 +5,7 @@
 //!      and a line for the documentation.
 
 use super::quantity::{constraint_row, quantity};
-use super::subject::{Reads, Subject, Written, argument};
+use super::subject::{Subject, Written};
 use crate::optimise::Slot;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -34,9 +34,11 @@ pub(super) fn described(subject: &Subject) -> TokenStream {
         return TokenStream::new();
     }
     let computed = &subject.programs.described;
-    let acceleration = argument("acceleration", Reads::of(&computed.program).acceleration);
     let Written {
-        body, state, cost, ..
+        body,
+        state,
+        acceleration,
+        cost,
     } = subject.body(computed);
     let statements = &body.statements;
     let computed = (0..count).map(|i| {

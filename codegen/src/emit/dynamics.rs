@@ -88,8 +88,9 @@ pub(super) fn mechanism(subject: &Subject) -> TokenStream {
 /// by a function of its own, if there is one.
 fn filled(subject: &Subject, method: [&str; 3], computed: &Optimised) -> TokenStream {
     let [name, buffer, docs] = method;
-    let Written { body, state, cost } =
-        subject.optimised(computed, &entry_of_field, Decided::BySides);
+    let Written {
+        body, state, cost, ..
+    } = subject.optimised(computed, &entry_of_field, Decided::BySides);
     let by_columns = subject.programs.inertia.is_some();
     let mass = by_columns.then(|| quote!(self.write_mass(state, &mut out.mass);));
     let state = if by_columns { ident("state") } else { state };
@@ -111,7 +112,9 @@ fn filled(subject: &Subject, method: [&str; 3], computed: &Optimised) -> TokenSt
 /// A method that solves where the constraints are regular.
 fn solution(subject: &Subject, method: [&str; 3], solved: &Solved) -> TokenStream {
     let [name, buffer, docs] = method;
-    let Written { body, state, cost } = subject.solved(solved, &entry_of_solution);
+    let Written {
+        body, state, cost, ..
+    } = subject.solved(solved, &entry_of_solution);
     let out = argument("out", Reads::of(&solved.program).out);
     let (name, buffer) = (ident(name), ident(buffer));
     let (docs, statements) = (doc_lines(docs), body.statements);
@@ -141,7 +144,9 @@ fn entry_of_solution(slot: &Slot) -> Option<TokenStream> {
 }
 
 fn energy(subject: &Subject) -> TokenStream {
-    let Written { body, state, cost } = subject.body(&subject.programs.energy);
+    let Written {
+        body, state, cost, ..
+    } = subject.body(&subject.programs.energy);
     let slots = [0, 1, 2, 3].map(|row| Slot::of_vector("energy", row));
     let [kinetic, potential, balance, power] = slots.map(|slot| body.output(slot));
     let (statements, n) = (&body.statements, subject.sizes().0);

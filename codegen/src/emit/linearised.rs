@@ -24,11 +24,13 @@ pub(super) fn linearised(subject: &Subject) -> TokenStream {
         return TokenStream::new();
     };
     let Written {
-        body, state, cost, ..
+        body,
+        state,
+        acceleration,
+        cost,
     } = subject.optimised(computed, &entry_of_field, Decided::BySides);
     let reads = Reads::of(&computed.program);
     let out = argument("out", reads.out);
-    let acceleration = argument("acceleration", reads.acceleration);
     let multiplier = argument("multiplier", reads.multiplier);
     let statements = body.statements;
     let (n, r) = subject.sizes();

@@ -22,7 +22,9 @@ pub(super) fn all_values(
     if count == 0 {
         return quote!(fn #method(&self, _state: &State<T, #n>, _values: &mut [T]) {});
     }
-    let Written { body, state, cost } = subject.body(computed);
+    let Written {
+        body, state, cost, ..
+    } = subject.body(computed);
     let statements = &body.statements;
     let computed = (0..count).map(|row| body.output(Slot::of_vector(name, row)));
     quote! {

@@ -5,7 +5,7 @@
 //!      velocities, and those of accelerations with the inputs.
 
 use super::list::all_values;
-use super::subject::{Reads, Subject, Written, argument};
+use super::subject::{Subject, Written, argument};
 use crate::optimise::Slot;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -24,7 +24,9 @@ pub(super) fn outputs(subject: &Subject) -> TokenStream {
     }
     let written = subject.body(computed);
     let assigned = assigned(&quote!(values), "outputs", &places, &written);
-    let Written { body, state, cost } = written;
+    let Written {
+        body, state, cost, ..
+    } = written;
     let statements = &body.statements;
     quote! {
         #[doc = #cost]
@@ -43,7 +45,6 @@ pub(super) fn signals(subject: &Subject) -> TokenStream {
         return TokenStream::new();
     }
     let computed = &subject.programs.signals;
-    let acceleration = argument("acceleration", Reads::of(&computed.program).acceleration);
     let written = subject.body(computed);
     let statements = &written.body.statements;
     let [(outputs, to_outputs), (inputs, to_inputs)] = [("outputs", &outputs), ("inputs", &inputs)]
@@ -55,7 +56,12 @@ pub(super) fn signals(subject: &Subject) -> TokenStream {
             };
             (name, assigned)
         });
-    let Written { state, cost, .. } = &written;
+    let Written {
+        state,
+        acceleration,
+        cost,
+        ..
+    } = &written;
     let n = subject.sizes().0;
     quote! {
         #[doc = #cost]

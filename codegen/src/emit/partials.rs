@@ -29,7 +29,6 @@ fn partials(subject: &Subject) -> TokenStream {
         return TokenStream::new();
     };
     let reads = Reads::of(&computed.program);
-    let acceleration = argument("acceleration", reads.acceleration);
     let out = argument("out", reads.out);
     let written = subject.body(computed);
     let assigned = ["force_by_input", "outputs", "events"].map(|array| {
@@ -40,7 +39,12 @@ fn partials(subject: &Subject) -> TokenStream {
             false => assigned(&quote!(#out.#name), array, &places, &written),
         }
     });
-    let Written { body, state, cost } = written;
+    let Written {
+        body,
+        state,
+        acceleration,
+        cost,
+    } = written;
     let statements = body.statements;
     let n = subject.sizes().0;
     quote! {

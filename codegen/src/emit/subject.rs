@@ -50,13 +50,15 @@ pub(super) struct Written {
     pub body: Body,
     /// `state`, or `_state` where the body does not read it.
     pub state: Ident,
+    /// `acceleration`, likewise.
+    pub acceleration: Ident,
     /// What it costs, in words.
     pub cost: String,
 }
 
 /// Which arguments beside the state a program reads or writes.
 pub(super) struct Reads {
-    pub acceleration: bool,
+    acceleration: bool,
     pub multiplier: bool,
     /// The buffer of its results.
     pub out: bool,
@@ -143,6 +145,7 @@ impl Subject<'_> {
         Written {
             body: Body::of(program, &self.names, taken, place, decided),
             state: argument("state", SymbolNames::reads_state(program)),
+            acceleration: argument("acceleration", Reads::of(program).acceleration),
             cost,
         }
     }

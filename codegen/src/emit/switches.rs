@@ -4,7 +4,7 @@
 //! Out: the table of the conditions, and the method that computes their switching
 //!      functions; nothing where there are none.
 
-use super::subject::{Reads, Subject, Written, argument};
+use super::subject::{Subject, Written};
 use crate::optimise::Slot;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -30,9 +30,11 @@ pub(super) fn switches(subject: &Subject) -> TokenStream {
         return TokenStream::new();
     }
     let computed = &subject.programs.switches;
-    let acceleration = argument("acceleration", Reads::of(&computed.program).acceleration);
     let Written {
-        body, state, cost, ..
+        body,
+        state,
+        acceleration,
+        cost,
     } = subject.body(computed);
     let statements = &body.statements;
     let computed = (0..count).map(|i| {

@@ -15,6 +15,12 @@ const EXPONENT: f64 = 1000.0;
 /// A term that may be subtracted, or a factor that may divide.
 pub type Part = (bool, Scalar, Span);
 
+/// The place of several terms or factors together.
+fn around(parts: &[Part]) -> Span {
+    let ends = parts.first().zip(parts.last());
+    ends.map_or(Span::default(), |((.., first), (.., last))| first.to(*last))
+}
+
 impl Evaluator {
     /// `-x`
     pub fn negative(&mut self, inside: &Expr) -> Option<Value> {
@@ -109,13 +115,8 @@ impl Evaluator {
             .map(|(minus, s, _)| (s.id, weight(*minus)))
             .collect();
         let id = self.graph.weighted_sum(Number::ZERO, &weighted);
-        let last = terms.last().map(|(_, _, span)| *span).unwrap_or_default();
-        let span = terms
-            .first()
-            .map(|(_, _, span)| span.to(last))
-            .unwrap_or_default();
         Some(Scalar {
-            id: self.valid(id, span)?,
+            id: self.valid(id, around(terms))?,
             unit,
         })
     }
@@ -153,21 +154,14 @@ impl Evaluator {
         }
         let id = self.graph.power_product(&powers);
         if self.graph.is_zero(id) && !powers.iter().any(|(e, _)| self.graph.is_zero(*e)) {
-            let places = factors.first().zip(factors.last());
-            let span = places.map_or(Span::default(), |((.., a), (.., b))| a.to(*b));
-            return self.vanished(span);
+            return self.vanished(around(factors));
         }
         // Zero fits every unit: `[[J1, 0], [0, J2]]*w` is a sum of moments.
         if self.graph.is_zero(id) || (unit == Unit::PURE && self.has_size(factors)) {
             unit = Unit::Number;
         }
-        let last = factors.last().map(|(_, _, span)| *span).unwrap_or_default();
-        let span = factors
-            .first()
-            .map(|(_, _, span)| span.to(last))
-            .unwrap_or_default();
         Some(Scalar {
-            id: self.valid(id, span)?,
+            id: self.valid(id, around(factors))?,
             unit,
         })
     }
