@@ -3,10 +3,12 @@
 
 use crate::dense::{dot, null_space, size};
 use crate::library::{Inspect, has_regular_states, inspect, is_of_unit_size, names};
+use bricard::four_bar::FourBar;
+use bricard::slider_crank::SliderCrank;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    ConstraintError, Form, Initial, Position, Settings, Solver, Start, State, Terms, Whole,
-    assemble,
+    ConstraintError, Form, Initial, Interface, Position, Settings, Solver, Start, State, Terms,
+    Whole, assemble,
 };
 use bricard_testkit::Random;
 
@@ -312,5 +314,35 @@ fn projection_keeps_what_is_right_and_repairs_what_is_not() {
                 "{name}, seed {seed}: {velocity:e}/s is left"
             );
         }
+    }
+}
+
+/// Both have three coordinates and two rows; where the one has zeros, the other has numbers.
+#[test]
+fn a_solver_knows_nothing_of_another_mechanism_of_its_sizes() {
+    let (first, second) = (FourBar::<f64>::default(), SliderCrank::<f64>::default());
+    let at_first = assemble(&first, &first.start(), 0.0).expect("the start assembles");
+    let at_second = assemble(&second, &second.start(), 0.0).expect("the start assembles");
+    for form in FORMS {
+        let settings = Settings {
+            form,
+            ..Settings::default()
+        };
+        let mut alone = Solver::new(settings);
+        let mut both = Solver::new(settings);
+        both.on(&first)
+            .project(&mut at_first.clone())
+            .expect("a position");
+        both.on(&first).reaction(&at_first).expect("a reaction");
+        let mut found = at_second;
+        let mut wanted = at_second;
+        for state in [&mut found, &mut wanted] {
+            state.q[0] += 1e-3;
+        }
+        both.on(&second).project(&mut found).expect("a position");
+        alone.on(&second).project(&mut wanted).expect("a position");
+        assert_eq!(found, wanted, "{form:?}");
+        let found = both.on(&second).reaction(&found);
+        assert_eq!(found, alone.on(&second).reaction(&wanted), "{form:?}");
     }
 }

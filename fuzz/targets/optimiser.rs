@@ -4,7 +4,7 @@
 #![no_main]
 #![allow(dead_code)]
 
-#[path = "../../codegen/tests/symbolic/dual.rs"]
+#[path = "../../tests/dual.rs"]
 mod dual;
 #[path = "../../codegen/tests/symbolic/jet.rs"]
 mod jet;

@@ -4,32 +4,37 @@
 
 use super::{ConstrainedSystem, Core};
 use crate::stack::{Held, held, with_room};
-use crate::{Counters, Mechanism, Real, Settings};
+use crate::{Counters, Mechanism, Real, Settings, Structure};
+use core::ptr;
 
 /// Solves the equations of motion of a mechanism with `N` coordinates and `R`
 /// constraint equations.
 ///
 /// It owns the buffers and remembers what accepted states taught about the constraints,
 /// but not the mechanism: a program may change inputs and parameters between steps and
-/// bind it again with [`on`](Self::on).
+/// bind it again with [`on`](Self::on). With another mechanism it begins anew.
 ///
 /// With the standard library its matrices are on the heap, where they are put when it is
 /// made; after that nothing is allocated. Without it they are part of it.
 #[derive(Debug)]
 pub struct Solver<T, const N: usize, const R: usize> {
     core: Held<Core<T, N, R>>,
+    /// What is known of the mechanism that it was bound to last.
+    structure: Option<&'static Structure>,
 }
 
 impl<T: Clone, const N: usize, const R: usize> Clone for Solver<T, N, R> {
     fn clone(&self) -> Self {
         with_room::<T, _, N, R>(|| Self {
             core: self.core.clone(),
+            structure: self.structure,
         })
     }
 
     /// Without allocating.
     fn clone_from(&mut self, other: &Self) {
         with_room::<T, _, N, R>(|| self.core.clone_from(&other.core));
+        self.structure = other.structure;
     }
 }
 
@@ -38,6 +43,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     pub fn new(settings: Settings<T>) -> Self {
         with_room::<T, _, N, R>(|| Self {
             core: held(|| Core::new(settings)),
+            structure: None,
         })
     }
 
@@ -45,6 +51,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     pub fn renew(&mut self, settings: Settings<T>) {
         let core: &mut Core<T, N, R> = &mut self.core;
         with_room::<T, _, N, R>(|| *core = Core::new(settings));
+        self.structure = None;
     }
 
     /// What was done so far.
@@ -58,7 +65,31 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     where
         M: Mechanism<T, N, R> + ?Sized,
     {
+        self.bind(mechanism.structure());
         self.core.on(mechanism)
+    }
+
+    /// Begins anew where the mechanism is another one: code writes no entry that is zero by
+    /// structure, so what another mechanism has left there would be taken for its own.
+    #[inline]
+    pub(crate) fn bind(&mut self, structure: &'static Structure) {
+        let is_known = self
+            .structure
+            .is_some_and(|known| ptr::eq(known, structure));
+        if !is_known {
+            self.bind_anew(structure);
+        }
+    }
+
+    #[inline(never)]
+    fn bind_anew(&mut self, structure: &'static Structure) {
+        // A structure that is no static may have several addresses.
+        if self.structure.is_some_and(|known| known != structure) {
+            let counters = self.core.counters;
+            self.renew(self.core.settings);
+            self.core.counters = counters;
+        }
+        self.structure = Some(structure);
     }
 
     /// Steps follow this error, relative; none if their length is fixed.

@@ -103,6 +103,7 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
         let until = state.t + span;
         let grid = Grid::new(state.t, until, self.step_control)?;
         self.driver.forget();
+        self.solver.bind(mechanism.structure());
         self.solver.expect_error(self.driver.tolerance());
         let mut system = self.solver.on(mechanism);
         let driver: &mut Driver<T, N> = &mut self.driver;
@@ -165,6 +166,7 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
             return Ok(());
         }
         self.driver.forget();
+        self.solver.bind(mechanism.structure());
         self.solver.expect_error(self.driver.tolerance());
         let mut system = self.solver.on(mechanism);
         *state = *self.driver.step(&mut system, state, grid.time(1))?.end();
