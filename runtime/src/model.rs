@@ -6,7 +6,8 @@
 //!
 //! The buffers ([`Terms`], [`Position`]) begin as zeros. Generated
 //! code writes the entries that can differ from zero and no others, so a buffer
-//! must be a fresh one or one that the same mechanism filled before.
+//! must be a fresh one or one that the same mechanism filled before; a
+//! [`Solver`](crate::Solver) sees to that.
 
 use crate::assembly::StartFault;
 use crate::{Condition, Real, Sides, State, Structure, Switch};
