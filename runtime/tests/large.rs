@@ -149,9 +149,10 @@ fn a_row_of_40_loops_is_stepped_by_every_method_in_a_thread_of_2_mb() {
             &Framed::new(Row::<40>, Row::<40>.structure());
         let start = assemble(framed, &start, 0.0).unwrap_or_else(|error| panic!("{error}"));
         let ends = [Method::Rk4, Method::Dp5, Method::Dop853, Method::Radau9].map(|method| {
-            let pace = StepControl::Fixed { step: 1e-3 };
+            let step_control = StepControl::Fixed { step: 1e-3 };
             let stepper = Stepper::<f64, { SIZES.0 }, { SIZES.1 }>::new;
-            let mut stepper = stepper(method, pace, Settings::default()).expect("a step control");
+            let mut stepper =
+                stepper(method, step_control, Settings::default()).expect("a step control");
             // A copy goes on to the same bits.
             let mut copy = stepper.clone();
             let (mut state, mut other) = (start, start);
