@@ -40,7 +40,7 @@ pub struct Manner {
     /// Units of length to the metre.
     pub scale: i32,
     /// Seconds to the unit of time.
-    pub speed: i32,
+    pub time_unit: i32,
     /// Whether coordinates and constraints are written in reverse order.
     pub reversed: bool,
     /// How many times each constraint is written.
@@ -50,7 +50,7 @@ pub struct Manner {
 impl Manner {
     pub const PLAIN: Self = Self {
         scale: 1,
-        speed: 1,
+        time_unit: 1,
         reversed: false,
         copies: 1,
     };
@@ -134,7 +134,7 @@ impl Random {
             line(format!(
                 "kinetic {mass}/20*norm2(der(c{i})) + {inertia}/200*{unit}^2*der(q{i})^2;"
             ));
-            let gravity = format!("981/100*{scale}*{}^2", manner.speed);
+            let gravity = format!("981/100*{scale}*{}^2", manner.time_unit);
             line(format!("potential {mass}/10*{gravity}*c{i}.y;"));
         }
         let mut ties: Vec<String> = self

@@ -47,7 +47,7 @@ proptest! {
     fn the_unit_of_time_changes_nothing_but_scales(random in any(), (q, v) in state()) {
         let hour = f64::from(HOUR);
         let plain = Case::new(&random.text(Manner::PLAIN), q.clone(), v.clone())?;
-        let manner = Manner { speed: HOUR, ..Manner::PLAIN };
+        let manner = Manner { time_unit: HOUR, ..Manner::PLAIN };
         let fast = v.iter().map(|v| v * hour).collect();
         let hours = Case::new(&random.text(manner), q, fast)?;
         let square = hour * hour;
