@@ -42,6 +42,11 @@ impl<'a, T: Real> Block<'a, T> {
         self.size
     }
 
+    /// Becomes of another size that there is room for, with any entries.
+    pub(super) fn resize(&mut self, size: usize) {
+        self.size = size;
+    }
+
     /// Becomes zero, of another size that there is room for.
     pub(crate) fn clear(&mut self, size: usize) {
         self.size = size;
@@ -186,37 +191,14 @@ impl<'a, T: Real> Block<'a, T> {
         other: &Block<'_, T>,
         workspace: &Workspace<'b, T>,
     ) -> (Block<'b, T>, &'b mut [T]) {
-        let (mut here, mut there) = (self.copy(workspace), other.copy(workspace));
-        let size = here.size;
-        let pivots = workspace.numbers(size);
-        for step in 0..size {
-            let Some((row, column)) = there.largest(step) else {
-                break;
-            };
-            there.swap(step, row, column);
-            here.swap(step, row, column);
-            let pivot = there.row(step)[step];
-            for later in step + 1..size {
-                let share = -there.row(later)[step] / pivot;
-                if share == T::zero() {
-                    continue;
-                }
-                for block in [&mut here, &mut there] {
-                    let [row, above] = pair(block.entries, size, later, step);
-                    add_scaled(row, share, above);
-                }
-            }
-            for row in 0..size {
-                let row = here.row_mut(row);
-                let share = row[step] / pivot;
-                if share != T::zero() {
-                    add_scaled(&mut row[step + 1..], -share, &there.row(step)[step + 1..]);
-                }
-                if pivot < T::zero() {
-                    row[step] = -row[step];
-                }
-            }
-            pivots[step] = pivot.abs();
+        let (here, there) = (self.copy(workspace), other.copy(workspace));
+        let pivots = workspace.numbers(self.size);
+        let blocks = [&mut *here.entries, &mut *there.entries];
+        match self.size {
+            // Of those that are this small the compiler knows all loops.
+            1 => make_diagonal(1, blocks, pivots),
+            2 => make_diagonal(2, blocks, pivots),
+            size => make_diagonal(size, blocks, pivots),
         }
         (here, pivots)
     }
@@ -232,61 +214,111 @@ impl<'a, T: Real> Block<'a, T> {
         last
     }
 
-    /// By Sylvester's law of inertia, from symmetric elimination with the largest
-    /// diagonal entry first. A product of blocks that are nearly multiples of each
-    /// other has no diagonal that vanishes before the rest does.
-    fn negative_eigenvalues(mut self) -> usize {
-        let mut count = 0;
-        for step in 0..self.size {
-            let diagonal = |k: usize| self.row(k)[k].abs();
-            let mut next = step;
-            for k in step + 1..self.size {
-                if diagonal(k) > diagonal(next) {
-                    next = k;
-                }
-            }
-            self.swap(step, next, next);
-            let pivot = self.row(step)[step];
-            if pivot == T::zero() {
-                break;
-            }
-            count += usize::from(pivot < T::zero());
-            for later in step + 1..self.size {
-                let [row, above] = pair(self.entries, self.size, later, step);
-                let share = -row[step] / pivot;
-                if share != T::zero() {
-                    add_scaled(row, share, above);
-                }
-            }
+    /// How many of its eigenvalues are negative, if it is symmetric.
+    fn negative_eigenvalues(self) -> usize {
+        match self.size {
+            1 => count_negative(1, self.entries),
+            2 => count_negative(2, self.entries),
+            size => count_negative(size, self.entries),
         }
-        count
     }
+}
 
-    /// Where the largest entry of what is left is, if it is not zero.
-    fn largest(&self, step: usize) -> Option<(usize, usize)> {
-        let mut most = T::zero();
-        let mut place = None;
-        for row in step..self.size {
-            for (column, entry) in self.row(row).iter().enumerate().skip(step) {
-                let size = entry.abs();
-                if size > most {
-                    most = size;
-                    place = Some((row, column));
-                }
+/// By elimination with complete pivoting finds bases in which the second block is diagonal,
+/// and what the first one is there; its pivots are the absolute diagonal.
+#[inline(always)]
+fn make_diagonal<T: Real>(size: usize, [here, there]: [&mut [T]; 2], pivots: &mut [T]) {
+    let (here, there) = (&mut here[..size * size], &mut there[..size * size]);
+    for (step, pivot_size) in pivots[..size].iter_mut().enumerate() {
+        let Some((row, column)) = largest_from(step, there, size) else {
+            break;
+        };
+        swap(there, size, step, (row, column));
+        swap(here, size, step, (row, column));
+        let pivot = there[step * size + step];
+        for later in step + 1..size {
+            let share = -there[later * size + step] / pivot;
+            if share == T::zero() {
+                continue;
+            }
+            for entries in [&mut *here, &mut *there] {
+                let (above, rows) = entries.split_at_mut(later * size);
+                add_scaled(&mut rows[..size], share, &above[step * size..][..size]);
             }
         }
-        place
+        for row in here.chunks_exact_mut(size) {
+            let share = row[step] / pivot;
+            if share != T::zero() {
+                let pivots = &there[step * size..(step + 1) * size];
+                add_scaled(&mut row[step + 1..], -share, &pivots[step + 1..]);
+            }
+            if pivot < T::zero() {
+                row[step] = -row[step];
+            }
+        }
+        *pivot_size = pivot.abs();
     }
+}
 
-    fn swap(&mut self, step: usize, row: usize, column: usize) {
-        if row != step {
-            let [row, other] = pair(self.entries, self.size, row, step);
-            row.swap_with_slice(other);
-        }
-        if column != step {
-            for row in 0..self.size {
-                self.row_mut(row).swap(step, column);
+/// How many eigenvalues of a symmetric block are negative: by Sylvester's law of inertia, from
+/// symmetric elimination with the largest diagonal entry first. A product of blocks that are
+/// nearly multiples of each other has no diagonal that vanishes before the rest does.
+#[inline(always)]
+fn count_negative<T: Real>(size: usize, entries: &mut [T]) -> usize {
+    let entries = &mut entries[..size * size];
+    let mut count = 0;
+    for step in 0..size {
+        let diagonal = |k: usize| entries[k * size + k].abs();
+        let mut next = step;
+        for k in step + 1..size {
+            if diagonal(k) > diagonal(next) {
+                next = k;
             }
+        }
+        swap(entries, size, step, (next, next));
+        let pivot = entries[step * size + step];
+        if pivot == T::zero() {
+            break;
+        }
+        count += usize::from(pivot < T::zero());
+        let (done, rest) = entries.split_at_mut((step + 1) * size);
+        for row in rest.chunks_exact_mut(size) {
+            let share = -row[step] / pivot;
+            if share != T::zero() {
+                add_scaled(row, share, &done[step * size..]);
+            }
+        }
+    }
+    count
+}
+
+/// Where the largest entry of what an elimination has left is, if it is not zero.
+#[inline(always)]
+fn largest_from<T: Real>(step: usize, entries: &[T], size: usize) -> Option<(usize, usize)> {
+    let mut most = T::zero();
+    let mut place = None;
+    for row in step..size {
+        for column in step..size {
+            let entry = entries[row * size + column].abs();
+            if entry > most {
+                most = entry;
+                place = Some((row, column));
+            }
+        }
+    }
+    place
+}
+
+/// Makes a row and a column those of a step.
+#[inline(always)]
+fn swap<T: Real>(entries: &mut [T], size: usize, step: usize, (row, column): (usize, usize)) {
+    if row != step {
+        let [row, other] = pair(entries, size, row, step);
+        row.swap_with_slice(other);
+    }
+    if column != step {
+        for row in entries.chunks_exact_mut(size) {
+            row.swap(step, column);
         }
     }
 }

@@ -14,7 +14,7 @@ use super::chart::ChartView;
 use super::kept::NodesView;
 use super::obstacle::Obstacle;
 use crate::equations::{At, Equations};
-use crate::linalg::{Eliminated, Frame, Workspace, add_scaled, is_zero};
+use crate::linalg::{Eliminated, Frame, Matrix, Workspace, add_scaled, is_zero};
 use crate::once::compiled_once;
 use crate::tolerance::{contraction, critical, near_dependent, round_off};
 use crate::{Real, State};
@@ -146,8 +146,6 @@ pub(crate) struct Sheet<'a, T> {
 /// A right-hand side of the constraint rows.
 #[derive(Clone, Copy)]
 enum Right {
-    /// Zero.
-    Nothing,
     /// `−g`.
     Residual,
     /// `−b`.
@@ -165,14 +163,15 @@ impl<'a, T: Real> Sheet<'a, T> {
         workspace: &Workspace<'a, T>,
     ) -> Self {
         let n = chart.n();
+        let (right, solution) = workspace.any(2 * n).split_at_mut(n);
         Self {
             equations,
             chart,
             frame: Frame::new(chart.column_places, chart.rows.len(), workspace),
             nodes,
             holonomic,
-            right: workspace.any(n),
-            solution: workspace.any(n),
+            right,
+            solution,
         }
     }
 
@@ -215,9 +214,11 @@ impl<'a, T: Real> Sheet<'a, T> {
     /// Evaluates the constraints at a position.
     fn load(&mut self, t: T, q: &[T]) {
         self.equations.locate(t, q);
-        self.frame.clear();
         match self.frame.is_long() {
-            true => self.load_sparse(),
+            true => {
+                self.frame.clear();
+                self.load_sparse();
+            }
             false => self.load_all(),
         }
     }
@@ -225,22 +226,13 @@ impl<'a, T: Real> Sheet<'a, T> {
     /// Takes all entries of the constraint rows and the duals.
     fn load_all(&mut self) {
         let chart = &self.chart;
-        let jacobian = self.equations.constraints().jacobian;
-        let columns = chart.column_places.iter().zip(chart.column_scale);
-        for (place, &row) in chart.rows.iter().enumerate() {
-            let scale = chart.row_scale[row];
-            let entries = jacobian[row..].iter().step_by(chart.row_scale.len());
-            let target = self.frame.short_row(place);
-            for (entry, (column, size)) in entries.zip(columns.clone()) {
-                target[*column] = scale * *entry * *size;
-            }
-        }
-        for (i, dual) in chart.dual.chunks_exact(chart.n()).enumerate() {
-            let target = self.frame.short_row(chart.rows.len() + i);
-            for (entry, (column, size)) in dual.iter().zip(columns.clone()) {
-                target[*column] = *entry * *size;
-            }
-        }
+        let jacobian = Matrix {
+            entries: self.equations.constraints().jacobian,
+            rows: chart.rows,
+            factors: chart.row_scale,
+        };
+        self.frame
+            .set_rows(jacobian, chart.dual, chart.column_scale);
     }
 
     /// Takes those that are not zero.
@@ -273,7 +265,6 @@ impl<'a, T: Real> Sheet<'a, T> {
         let at = self.equations.constraints();
         self.right.fill(T::zero());
         let (sign, entries) = match right {
-            Right::Nothing => return,
             Right::Residual => (-T::one(), at.residual),
             Right::Drift => (-T::one(), at.drift),
             Right::Bias => (T::one(), at.bias),
@@ -281,19 +272,11 @@ impl<'a, T: Real> Sheet<'a, T> {
         scale_rows(&self.chart, sign, entries, self.right);
     }
 
-    /// Solves the square system for the right-hand side at hand.
-    fn solve(&mut self) {
-        self.frame.solve(self.right, self.solution);
-        for (x, scale) in self.solution.iter_mut().zip(self.chart.column_scale) {
-            *x *= *scale;
-        }
-    }
-
-    /// Solves it for another right-hand side of the constraint rows.
+    /// Solves the square system for another right-hand side of the constraint rows.
     fn solve_for(&mut self, right: Right, solution: &mut [T]) {
         self.set_right(right);
-        self.solve();
-        solution.copy_from_slice(self.solution);
+        self.frame.solve(self.right, solution);
+        scale_columns(&self.chart, solution);
     }
 
     /// Corrects what interpolation leaves of position and velocity in the rows that are
@@ -309,12 +292,11 @@ impl<'a, T: Real> Sheet<'a, T> {
         let at = self.equations.constraints();
         self.right.fill(T::zero());
         for (place, &row) in self.chart.rows.iter().enumerate() {
-            let levers = at.jacobian.iter().skip(row).step_by(at.drift.len());
-            let mut speed = T::zero();
-            for (lever, v) in levers.zip(&*point.v) {
-                speed += *lever * *v;
+            let mut speed = at.drift[row];
+            for (levers, v) in at.jacobian.chunks_exact(at.drift.len()).zip(&*point.v) {
+                speed += levers[row] * *v;
             }
-            self.right[place] = -(self.chart.row_scale[row] * (speed + at.drift[row]));
+            self.right[place] = -(self.chart.row_scale[row] * speed);
         }
         self.correct_independent(point.v);
         Ok(())
@@ -362,7 +344,8 @@ impl<'a, T: Real> Sheet<'a, T> {
                 return Ok(());
             }
             self.set_right(Right::Residual);
-            self.solve();
+            self.frame.solve(self.right, self.solution);
+            scale_columns(&self.chart, self.solution);
             let size = self.chart.length(self.solution);
             if !size.is_finite() {
                 return Err(Obstacle::NotFinite);
@@ -390,11 +373,13 @@ impl<'a, T: Real> Sheet<'a, T> {
     /// these coordinates in the chart, or as it is.
     pub(super) fn measure(&mut self, along: Option<&[T]>, point: &mut PointView<'_, T>) {
         let n = self.chart.n();
+        self.right.fill(T::zero());
         for (i, tangent) in point.tangent.chunks_exact_mut(n).enumerate() {
-            self.set_right(Right::Nothing);
-            self.right[self.chart.rows.len() + i] = T::one();
-            self.solve();
-            tangent.copy_from_slice(self.solution);
+            let row = self.chart.rows.len() + i;
+            self.right[row] = T::one();
+            self.frame.solve(self.right, tangent);
+            scale_columns(&self.chart, tangent);
+            self.right[row] = T::zero();
         }
         match is_zero(self.equations.constraints().drift) {
             true => point.drift.fill(T::zero()),
@@ -441,6 +426,13 @@ impl<'a, T: Real> Sheet<'a, T> {
 fn scale_rows<T: Real>(chart: &ChartView<'_, T>, sign: T, right: &[T], scaled: &mut [T]) {
     for (target, &row) in scaled.iter_mut().zip(chart.rows) {
         *target = sign * chart.row_scale[row] * right[row];
+    }
+}
+
+/// A solution in the mechanism's own coordinates.
+fn scale_columns<T: Real>(chart: &ChartView<'_, T>, solution: &mut [T]) {
+    for (x, scale) in solution.iter_mut().zip(chart.column_scale) {
+        *x *= *scale;
     }
 }
 
