@@ -7,6 +7,9 @@ use super::workspace::Workspace;
 use super::{add_scaled, pair};
 use crate::Real;
 
+/// Near-dependent rows up to which the compiler knows all loops over them.
+const FEW: usize = 2;
+
 /// A square matrix of the size of the near-dependent rows, row by row.
 #[derive(Debug)]
 pub(crate) struct Block<'a, T> {
@@ -117,46 +120,12 @@ impl<'a, T: Real> Block<'a, T> {
                 true => self.first().abs().min(T::one()),
                 false => T::zero(),
             },
-            _ => workspace.scope(|workspace| self.smallest_of_several(workspace)),
+            FEW => smallest_pivot(FEW, self.entries, &mut [0; FEW], &mut [T::zero(); FEW]),
+            size => workspace.scope(|workspace| {
+                let (open, peaks) = (workspace.indices(size), workspace.any(size));
+                smallest_pivot(size, self.entries, open, peaks)
+            }),
         }
-    }
-
-    fn smallest_of_several(&mut self, workspace: &Workspace<'_, T>) -> T {
-        let size = self.size;
-        let mut smallest = T::one();
-        let open = workspace.indices(size);
-        let peaks = workspace.numbers(size);
-        for row in 0..size {
-            (open[row], peaks[row]) = (row, peak_of(self.row(row)));
-        }
-        for left in (1..=size).rev() {
-            let mut place = 0;
-            for other in 0..left {
-                if peaks[open[other]] > peaks[open[place]] {
-                    place = other;
-                }
-            }
-            let row = open[place];
-            // False for NaN, too.
-            let is_left = peaks[row] > T::zero();
-            if !is_left {
-                return T::zero();
-            }
-            smallest = smallest.min(peaks[row]);
-            open.copy_within(place + 1..left, place);
-            let (column, _) = largest_of(self.row(row));
-            for &other in &open[..left - 1] {
-                let [entries, pivot] = pair(self.entries, size, other, row);
-                if entries[column] == T::zero() {
-                    continue;
-                }
-                let share = entries[column] / pivot[column];
-                add_scaled(entries, -share, pivot);
-                entries[column] = T::zero();
-                peaks[other] = peak_of(entries);
-            }
-        }
-        smallest
     }
 
     /// How many eigenvalues change their sign from another block to this one: the
@@ -167,21 +136,28 @@ impl<'a, T: Real> Block<'a, T> {
         other: &Block<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> usize {
-        workspace.scope(|workspace| {
-            let (here, pivots) = self.in_bases_of(other, workspace);
-            let size = here.size;
-            if pivots.contains(&T::zero()) {
-                return 0;
+        let (here, there) = (self.all(), other.all());
+        let mut small = [[T::zero(); FEW * FEW]; 2];
+        for (copy, entries) in small.iter_mut().zip([here, there]) {
+            for (copy, entry) in copy.iter_mut().zip(entries) {
+                *copy = *entry;
             }
-            let mut symmetric = Block::zeros(size, workspace);
-            for i in 0..size {
-                for j in 0..size {
-                    let sum = here.row(i)[j] + here.row(j)[i];
-                    symmetric.row_mut(i)[j] = sum / (pivots[i] * pivots[j]).sqrt();
-                }
-            }
-            symmetric.negative_eigenvalues()
-        })
+        }
+        let [first, second] = &mut small;
+        let mut pivots = [T::zero(); FEW];
+        match self.size {
+            0 => 0,
+            1 => count_changes(1, [first, second], &mut pivots),
+            FEW => count_changes(FEW, [first, second], &mut pivots),
+            size => workspace.scope(|workspace| {
+                let copies = [here, there].map(|entries| {
+                    let copy = workspace.any(entries.len());
+                    copy.copy_from_slice(entries);
+                    copy
+                });
+                count_changes(size, copies, workspace.any(size))
+            }),
+        }
     }
 
     /// This block in bases in which another one is diagonal, and what it is there: its
@@ -195,9 +171,8 @@ impl<'a, T: Real> Block<'a, T> {
         let pivots = workspace.numbers(self.size);
         let blocks = [&mut *here.entries, &mut *there.entries];
         match self.size {
-            // Of those that are this small the compiler knows all loops.
             1 => make_diagonal(1, blocks, pivots),
-            2 => make_diagonal(2, blocks, pivots),
+            FEW => make_diagonal(FEW, blocks, pivots),
             size => make_diagonal(size, blocks, pivots),
         }
         (here, pivots)
@@ -213,15 +188,69 @@ impl<'a, T: Real> Block<'a, T> {
         }
         last
     }
+}
 
-    /// How many of its eigenvalues are negative, if it is symmetric.
-    fn negative_eigenvalues(self) -> usize {
-        match self.size {
-            1 => count_negative(1, self.entries),
-            2 => count_negative(2, self.entries),
-            size => count_negative(size, self.entries),
+/// The smallest pivot of a block of several rows, with room for a list and a vector.
+#[inline(always)]
+fn smallest_pivot<T: Real>(
+    size: usize,
+    entries: &mut [T],
+    open: &mut [usize],
+    peaks: &mut [T],
+) -> T {
+    let entries = &mut entries[..size * size];
+    let mut smallest = T::one();
+    for (row, entries) in entries.chunks_exact(size).enumerate() {
+        (open[row], peaks[row]) = (row, peak_of(entries));
+    }
+    for left in (1..=size).rev() {
+        let mut place = 0;
+        for other in 0..left {
+            if peaks[open[other]] > peaks[open[place]] {
+                place = other;
+            }
+        }
+        let row = open[place];
+        // False for NaN, too.
+        let is_left = peaks[row] > T::zero();
+        if !is_left {
+            return T::zero();
+        }
+        smallest = smallest.min(peaks[row]);
+        open.copy_within(place + 1..left, place);
+        let (column, _) = largest_of(&entries[row * size..(row + 1) * size]);
+        for &other in &open[..left - 1] {
+            let [entries, pivot] = pair(entries, size, other, row);
+            if entries[column] == T::zero() {
+                continue;
+            }
+            let share = entries[column] / pivot[column];
+            add_scaled(entries, -share, pivot);
+            entries[column] = T::zero();
+            peaks[other] = peak_of(entries);
         }
     }
+    smallest
+}
+
+/// How many eigenvalues change their sign from the second block to the first one, which are
+/// used up.
+#[inline(always)]
+fn count_changes<T: Real>(size: usize, [here, there]: [&mut [T]; 2], pivots: &mut [T]) -> usize {
+    pivots.fill(T::zero());
+    make_diagonal(size, [here, there], pivots);
+    let pivots = &pivots[..size];
+    if pivots.contains(&T::zero()) {
+        return 0;
+    }
+    let symmetric = &mut there[..size * size];
+    for i in 0..size {
+        for j in 0..size {
+            let sum = here[i * size + j] + here[j * size + i];
+            symmetric[i * size + j] = sum / (pivots[i] * pivots[j]).sqrt();
+        }
+    }
+    count_negative(size, symmetric)
 }
 
 /// By elimination with complete pivoting finds bases in which the second block is diagonal,

@@ -51,8 +51,9 @@ pub(crate) struct Frame<'a, T> {
     pub(super) order: Order<'a>,
     pub(super) block: Block<'a, T>,
     pub(super) smallest: T,
-    /// Solutions on the way.
-    pub(super) forward: &'a mut [T],
+    /// Right-hand sides, and solutions on the way.
+    right: &'a mut [T],
+    forward: &'a mut [T],
     backward: &'a mut [T],
     /// Marks of rows or columns.
     pub(super) marks: &'a mut [usize],
@@ -102,6 +103,36 @@ pub(crate) struct Matrix<'a, T> {
     pub(crate) factors: &'a [T],
 }
 
+/// Right-hand sides of the rows of a frame.
+#[derive(Clone, Copy)]
+pub(crate) enum Right<'a, T> {
+    /// A multiple of some rows of a matrix of one column, of which they come first, and zeros.
+    Column(T, Matrix<'a, T>),
+    /// One for one row, zero for the others.
+    Unit(usize),
+    /// These.
+    Given(&'a [T]),
+}
+
+impl<T: Real> Right<'_, T> {
+    #[inline(always)]
+    pub(super) fn fill(self, right: &mut [T]) {
+        match self {
+            Right::Column(factor, column) => {
+                right.fill(T::zero());
+                for (target, &row) in right.iter_mut().zip(column.rows) {
+                    *target = factor * column.factors[row] * column.entries[row];
+                }
+            }
+            Right::Unit(row) => {
+                right.fill(T::zero());
+                right[row] = T::one();
+            }
+            Right::Given(given) => right.copy_from_slice(given),
+        }
+    }
+}
+
 /// A pivot vanished, or something is not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct NotRegular;
@@ -119,7 +150,8 @@ impl<'a, T: Real> Frame<'a, T> {
         let (spans, lists) = lists.split_at_mut(2 * n);
         let (changed, lists) = lists.split_at_mut(n);
         let (step_of, marks) = lists.split_at_mut(n);
-        let (forward, backward) = workspace.any(2 * n).split_at_mut(n);
+        let (right, solutions) = workspace.any(3 * n).split_at_mut(n);
+        let (forward, backward) = solutions.split_at_mut(n);
         Self {
             n,
             places,
@@ -131,6 +163,7 @@ impl<'a, T: Real> Frame<'a, T> {
             order: Order::new(n, workspace),
             block: Block::with_capacity(constraints, workspace),
             smallest: T::zero(),
+            right,
             forward,
             backward,
             marks,
@@ -404,6 +437,14 @@ impl<'a, T: Real> Frame<'a, T> {
 
     /// The sign of the determinant.
     pub(crate) fn is_negative(&mut self) -> bool {
+        with_size!(
+            self.n,
+            |N| self.is_negative_in::<N>(),
+            self.is_negative_of_any()
+        )
+    }
+
+    fn is_negative_of_any(&mut self) -> bool {
         let mut negative = false;
         for (row, column) in self.order.rows.iter().zip(&*self.order.columns) {
             negative ^= self.upper[row * self.n + column] < T::zero();
@@ -421,13 +462,13 @@ impl<'a, T: Real> Frame<'a, T> {
 
     /// The largest right-hand side of the near-dependent rows when all others are
     /// eliminated.
-    pub(crate) fn largest_reduced(&mut self, right: &[T]) -> T {
+    pub(crate) fn largest_reduced(&mut self, right: Right<'_, T>) -> T {
         let independent = self.order.independent;
         self.go_forward(right, independent);
         let mut most = T::zero();
         for &row in &self.order.rows[independent..] {
             let shares = &self.lower[row * self.n..][..independent];
-            let mut rest = right[row];
+            let mut rest = self.right[row];
             for (share, y) in shares.iter().zip(&*self.forward) {
                 rest -= *share * *y;
             }
@@ -436,31 +477,41 @@ impl<'a, T: Real> Frame<'a, T> {
         most
     }
 
-    /// The solution for the right-hand sides of all rows.
-    pub(crate) fn solve(&mut self, right: &[T], x: &mut [T]) {
-        self.solve_first(self.n, right, x);
+    /// The solution for the right-hand sides of all rows, each entry times a scale.
+    pub(crate) fn solve(&mut self, right: Right<'_, T>, scales: &[T], x: &mut [T]) {
+        self.solve_first(self.n, right, scales, x);
     }
 
     /// The solution that satisfies the rows before the near-dependent ones, and leaves
     /// these alone.
-    pub(crate) fn solve_independent(&mut self, right: &[T], x: &mut [T]) {
-        self.solve_first(self.order.independent, right, x);
+    pub(crate) fn solve_independent(&mut self, right: Right<'_, T>, scales: &[T], x: &mut [T]) {
+        self.solve_first(self.order.independent, right, scales, x);
     }
 
     /// The solution for the rows of the first steps.
-    fn solve_first(&mut self, steps: usize, right: &[T], x: &mut [T]) {
-        with_size!(self.n, |N| self.solve_in::<N>(steps, right, x), {
-            self.go_forward(right, steps);
-            self.go_backward(steps, x);
-        });
+    fn solve_first(&mut self, steps: usize, right: Right<'_, T>, scales: &[T], x: &mut [T]) {
+        with_size!(
+            self.n,
+            |N| self.solve_in::<N>(steps, right, scales, x),
+            self.solve_any(steps, right, scales, x)
+        );
     }
 
-    fn go_forward(&mut self, right: &[T], steps: usize) {
+    fn solve_any(&mut self, steps: usize, right: Right<'_, T>, scales: &[T], x: &mut [T]) {
+        self.go_forward(right, steps);
+        self.go_backward(steps);
+        for ((x, place), scale) in x.iter_mut().zip(self.places).zip(scales) {
+            *x = self.backward[*place] * *scale;
+        }
+    }
+
+    fn go_forward(&mut self, right: Right<'_, T>, steps: usize) {
+        right.fill(self.right);
         for step in 0..steps {
             let row = self.order.rows[step];
             let first = self.changed[row].min(step);
             let shares = &self.lower[row * self.n..][first..step];
-            let mut value = right[row];
+            let mut value = self.right[row];
             for (share, y) in shares.iter().zip(&self.forward[first..step]) {
                 value -= *share * *y;
             }
@@ -468,7 +519,7 @@ impl<'a, T: Real> Frame<'a, T> {
         }
     }
 
-    fn go_backward(&mut self, steps: usize, x: &mut [T]) {
+    fn go_backward(&mut self, steps: usize) {
         self.backward.fill(T::zero());
         for step in (0..steps).rev() {
             let (row, column) = (self.order.rows[step], self.order.columns[step]);
@@ -478,9 +529,6 @@ impl<'a, T: Real> Frame<'a, T> {
                 false => dot(upper, self.backward),
             };
             self.backward[column] = (self.forward[step] - known) / upper[column];
-        }
-        for (x, place) in x.iter_mut().zip(self.places) {
-            *x = self.backward[*place];
         }
     }
 }

@@ -44,7 +44,7 @@ pub(crate) use column::{
 };
 pub(crate) use complement::{orthonormal, remove};
 pub(crate) use elimination::Elimination;
-pub(crate) use frame::{Eliminated, Frame, Matrix};
+pub(crate) use frame::{Eliminated, Frame, Matrix, Right};
 pub(crate) use gram::Gram;
 pub(crate) use jacobi::{Breakdown, orthogonalise};
 pub(crate) use places::by_first_row;

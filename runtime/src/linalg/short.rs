@@ -7,7 +7,7 @@
 //! but for zeros, which are not looked for.
 
 use super::block::{Block, largest_of};
-use super::frame::{Frame, Matrix, NotRegular};
+use super::frame::{Frame, Matrix, NotRegular, Right};
 use super::is_zero;
 use crate::Real;
 
@@ -56,8 +56,31 @@ impl<T: Real> Frame<'_, T> {
         result
     }
 
+    /// The sign of the determinant: that of its pivots, turned by every two of them that are
+    /// not in the order of the rows or of the columns.
+    pub(super) fn is_negative_in<const N: usize>(&self) -> bool {
+        let (rows, columns) = (&self.order.rows[..N], &self.order.columns[..N]);
+        let upper = self.upper.as_chunks::<N>().0;
+        let mut negative = false;
+        for i in 0..N {
+            negative ^= upper[rows[i]][columns[i]] < T::zero();
+            for j in 0..i {
+                negative ^= (rows[j] > rows[i]) ^ (columns[j] > columns[i]);
+            }
+        }
+        negative
+    }
+
     /// The solution for the rows of the first steps.
-    pub(super) fn solve_in<const N: usize>(&self, steps: usize, right: &[T], x: &mut [T]) {
+    pub(super) fn solve_in<const N: usize>(
+        &self,
+        steps: usize,
+        demanded: Right<'_, T>,
+        scales: &[T],
+        x: &mut [T],
+    ) {
+        let mut right = [T::zero(); N];
+        demanded.fill(&mut right);
         let (rows, columns) = (&self.order.rows[..N], &self.order.columns[..N]);
         let (lower, upper) = (self.lower.as_chunks::<N>().0, self.upper.as_chunks::<N>().0);
         let mut forward = [T::zero(); N];
@@ -78,7 +101,10 @@ impl<T: Real> Frame<'_, T> {
             }
             solution[column] = (forward[step] - known) / row[column];
         }
-        x.copy_from_slice(&solution);
+        let (x, scales) = (&mut x[..N], &scales[..N]);
+        for j in 0..N {
+            x[j] = solution[j] * scales[j];
+        }
     }
 }
 
@@ -217,11 +243,11 @@ impl<T: Real, const N: usize> Short<T, N> {
         let first = self.independent;
         self.open_columns();
         let mut peaks = [(0, T::zero()); N];
-        for (place, peak) in peaks.iter_mut().enumerate().skip(first) {
+        let columns = &self.columns[first..];
+        for (late, place) in (first..N).enumerate() {
             let row = &self.upper[self.rows[place]];
-            *peak = largest_of(row);
-            let entries = block.row_mut(place - first).iter_mut();
-            for (entry, column) in entries.zip(&self.columns[first..]) {
+            peaks[place] = largest_of(row);
+            for (entry, column) in block.row_mut(late).iter_mut().zip(columns) {
                 *entry = row[*column];
             }
         }
@@ -245,8 +271,8 @@ impl<T: Real, const N: usize> Short<T, N> {
                 }
             }
             self.take(step, self.rows[step], column)?;
-            for (place, peak) in peaks.iter_mut().enumerate().skip(step + 1) {
-                let row = self.rows[place];
+            let rows = self.rows;
+            for (peak, &row) in peaks[step + 1..].iter_mut().zip(&rows[step + 1..]) {
                 self.reduce(row, step);
                 *peak = largest_of(&self.upper[row]);
             }

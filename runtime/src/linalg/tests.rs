@@ -307,13 +307,13 @@ fn check_frame<const N: usize>(
             usize::from(weak < 1e-3),
             "{N}, {weak}"
         );
-        frame.solve(right.as_slice(), &mut x);
+        frame.solve(Right::Given(right.as_slice()), &[1.0; N], &mut x);
         let rest = matrix * SVector::from(x) - right;
         assert!(rest.amax() < 1e-9 / weak, "{N}, {weak}: {rest}");
         let determinant = determinant(&matrix);
         assert!((frame.volume() - determinant.abs()).abs() < 1e-12);
         assert_eq!(frame.is_negative(), determinant < 0.0);
-        frame.solve_independent(right.as_slice(), &mut x);
+        frame.solve_independent(Right::Given(right.as_slice()), &[1.0; N], &mut x);
         let rest = matrix * SVector::from(x) - right;
         assert!(rest.fixed_rows::<1>(0).amax() < 1e-9);
         orders = Some(frame.eliminated(&workspace));

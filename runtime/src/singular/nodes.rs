@@ -254,19 +254,21 @@ const OUTWARDS: [usize; NODES] = [0, 3, 1, 5, 2, 7, 4, 8, 6, 9];
 /// is added multiplies the weights of those before it.
 pub(super) fn weights_of_sets<T: Real>(places: &[T; NODES], at: T) -> [[T; NODES]; SETS] {
     let mut sets = [[T::zero(); NODES]; SETS];
+    let away: [T; NODES] = column(|k| places[OUTWARDS[k]] - at);
     let mut weights = [T::zero(); NODES];
-    for (count, &node) in OUTWARDS.iter().enumerate() {
-        let place = places[node];
+    for count in 0..NODES {
         let mut own = T::one();
-        for &other in &OUTWARDS[..count] {
-            let apart = place - places[other];
-            own *= (at - places[other]) / apart;
-            weights[other] *= (place - at) / apart;
+        for other in 0..count {
+            let apart = away[count] - away[other];
+            own *= -away[other] / apart;
+            weights[other] *= away[count] / apart;
         }
-        weights[node] = own;
+        weights[count] = own;
         let left_out = NODES - 1 - count;
         if left_out.is_multiple_of(2) && left_out < 2 * SETS {
-            sets[left_out / 2] = weights;
+            for (node, weight) in OUTWARDS.iter().zip(weights) {
+                sets[left_out / 2][*node] = weight;
+            }
         }
     }
     sets

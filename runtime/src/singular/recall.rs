@@ -32,11 +32,9 @@ impl<T: Real> Sheet<'_, T> {
 
     /// That of what leads from one position to another.
     fn ahead(&self, from: &[T], to: &[T]) -> T {
-        let ends = from.iter().zip(to);
-        let terms = self.chart.dual.iter().zip(ends);
-        terms.fold(T::zero(), |sum, (dual, (from, to))| {
-            sum + *dual * (*to - *from)
-        })
+        let n = to.len();
+        let (dual, from) = (&self.chart.dual[..n], &from[..n]);
+        (0..n).fold(T::zero(), |sum, i| sum + dual[i] * (to[i] - from[i]))
     }
 
     /// Keeps the nodes between which a state was interpolated.

@@ -14,7 +14,7 @@ use super::chart::ChartView;
 use super::kept::NodesView;
 use super::obstacle::Obstacle;
 use crate::equations::{At, Equations};
-use crate::linalg::{Eliminated, Frame, Matrix, Workspace, add_scaled, is_zero};
+use crate::linalg::{Eliminated, Frame, Matrix, Right, Workspace, add_scaled, is_zero};
 use crate::once::compiled_once;
 use crate::tolerance::{contraction, critical, near_dependent, round_off};
 use crate::{Real, State};
@@ -138,20 +138,9 @@ pub(crate) struct Sheet<'a, T> {
     pub(super) nodes: NodesView<'a, T>,
     /// Whether any row restricts positions.
     pub(super) holonomic: bool,
-    /// A right-hand side in the order and scale of the frame's rows, and its solution.
+    /// A right-hand side in the order and scale of the frame's rows, and a solution.
     right: &'a mut [T],
     solution: &'a mut [T],
-}
-
-/// A right-hand side of the constraint rows.
-#[derive(Clone, Copy)]
-enum Right {
-    /// `−g`.
-    Residual,
-    /// `−b`.
-    Drift,
-    /// `p₂`.
-    Bias,
 }
 
 impl<'a, T: Real> Sheet<'a, T> {
@@ -259,26 +248,6 @@ impl<'a, T: Real> Sheet<'a, T> {
         }
     }
 
-    /// Prepares the right-hand side of the constraint rows, with zeros for the coordinates
-    /// in the chart.
-    fn set_right(&mut self, right: Right) {
-        let at = self.equations.constraints();
-        self.right.fill(T::zero());
-        let (sign, entries) = match right {
-            Right::Residual => (-T::one(), at.residual),
-            Right::Drift => (-T::one(), at.drift),
-            Right::Bias => (T::one(), at.bias),
-        };
-        scale_rows(&self.chart, sign, entries, self.right);
-    }
-
-    /// Solves the square system for another right-hand side of the constraint rows.
-    fn solve_for(&mut self, right: Right, solution: &mut [T]) {
-        self.set_right(right);
-        self.frame.solve(self.right, solution);
-        scale_columns(&self.chart, solution);
-    }
-
     /// Corrects what interpolation leaves of position and velocity in the rows that are
     /// safely independent. The near-dependent ones would magnify round-off.
     pub(super) fn polish(
@@ -287,36 +256,32 @@ impl<'a, T: Real> Sheet<'a, T> {
         like: &Eliminated<'_, T>,
     ) -> Result<(), Obstacle> {
         self.eliminate((point.t, point.q), Some(like))?;
-        self.set_right(Right::Residual);
-        self.correct_independent(point.q);
-        let at = self.equations.constraints();
+        let (chart, at) = (&self.chart, self.equations.constraints());
+        let right = chart.right(-T::one(), at.residual);
+        self.frame
+            .solve_independent(right, chart.column_scale, self.solution);
+        add_scaled(point.q, T::one(), self.solution);
         self.right.fill(T::zero());
-        for (place, &row) in self.chart.rows.iter().enumerate() {
+        for (place, &row) in chart.rows.iter().enumerate() {
             let mut speed = at.drift[row];
             for (levers, v) in at.jacobian.chunks_exact(at.drift.len()).zip(&*point.v) {
                 speed += levers[row] * *v;
             }
-            self.right[place] = -(self.chart.row_scale[row] * speed);
+            self.right[place] = -(chart.row_scale[row] * speed);
         }
-        self.correct_independent(point.v);
+        let right = Right::Given(self.right);
+        self.frame
+            .solve_independent(right, chart.column_scale, self.solution);
+        add_scaled(point.v, T::one(), self.solution);
         Ok(())
-    }
-
-    /// Adds the solution for the right-hand side at hand of all rows but the near-dependent
-    /// ones.
-    fn correct_independent(&mut self, target: &mut [T]) {
-        self.frame.solve_independent(self.right, self.solution);
-        let corrections = self.solution.iter().zip(self.chart.column_scale);
-        for (entry, (x, scale)) in target.iter_mut().zip(corrections) {
-            *entry += *scale * *x;
-        }
     }
 
     /// The largest of the constraints that is left when the rows before the near-dependent
     /// ones are eliminated.
     pub(super) fn largest_residual(&mut self) -> T {
-        self.set_right(Right::Residual);
-        self.frame.largest_reduced(self.right)
+        let residual = self.equations.constraints().residual;
+        self.frame
+            .largest_reduced(self.chart.right(-T::one(), residual))
     }
 
     /// Moves a position along the chart's complement onto the sheet, by Newton's
@@ -343,9 +308,10 @@ impl<'a, T: Real> Sheet<'a, T> {
             if !self.holonomic {
                 return Ok(());
             }
-            self.set_right(Right::Residual);
-            self.frame.solve(self.right, self.solution);
-            scale_columns(&self.chart, self.solution);
+            let residual = self.equations.constraints().residual;
+            let right = self.chart.right(-T::one(), residual);
+            let scales = self.chart.column_scale;
+            self.frame.solve(right, scales, self.solution);
             let size = self.chart.length(self.solution);
             if !size.is_finite() {
                 return Err(Obstacle::NotFinite);
@@ -372,24 +338,26 @@ impl<'a, T: Real> Sheet<'a, T> {
     /// The sheet's geometry at a position on it whose frame is at hand, for a velocity of
     /// these coordinates in the chart, or as it is.
     pub(super) fn measure(&mut self, along: Option<&[T]>, point: &mut PointView<'_, T>) {
-        let n = self.chart.n();
-        self.right.fill(T::zero());
-        for (i, tangent) in point.tangent.chunks_exact_mut(n).enumerate() {
-            let row = self.chart.rows.len() + i;
-            self.right[row] = T::one();
-            self.frame.solve(self.right, tangent);
-            scale_columns(&self.chart, tangent);
-            self.right[row] = T::zero();
+        let chart = self.chart;
+        let scales = chart.column_scale;
+        for (i, tangent) in point.tangent.chunks_exact_mut(chart.n()).enumerate() {
+            let unit = Right::Unit(chart.rows.len() + i);
+            self.frame.solve(unit, scales, tangent);
         }
-        match is_zero(self.equations.constraints().drift) {
+        let drift = self.equations.constraints().drift;
+        match is_zero(drift) {
             true => point.drift.fill(T::zero()),
-            false => self.solve_for(Right::Drift, point.drift),
+            false => {
+                let right = chart.right(-T::one(), drift);
+                self.frame.solve(right, scales, point.drift);
+            }
         }
         if let Some(along) = along {
             point.move_along(along);
         }
         self.equations.evaluate(point.at());
-        self.solve_for(Right::Bias, point.particular);
+        let right = chart.right(T::one(), self.equations.constraints().bias);
+        self.frame.solve(right, scales, point.particular);
         point.sine = self.frame.smallest();
     }
 
@@ -422,17 +390,18 @@ impl<'a, T: Real> Sheet<'a, T> {
     }
 }
 
-/// Right-hand sides of the constraint rows in their order and scale in a chart.
-fn scale_rows<T: Real>(chart: &ChartView<'_, T>, sign: T, right: &[T], scaled: &mut [T]) {
-    for (target, &row) in scaled.iter_mut().zip(chart.rows) {
-        *target = sign * chart.row_scale[row] * right[row];
-    }
-}
-
-/// A solution in the mechanism's own coordinates.
-fn scale_columns<T: Real>(chart: &ChartView<'_, T>, solution: &mut [T]) {
-    for (x, scale) in solution.iter_mut().zip(chart.column_scale) {
-        *x *= *scale;
+impl<'a, T: Real> ChartView<'a, T> {
+    /// A multiple of right-hand sides of the constraint rows, in their order and scale.
+    fn right<'b>(&self, factor: T, entries: &'b [T]) -> Right<'b, T>
+    where
+        'a: 'b,
+    {
+        let column = Matrix {
+            entries,
+            rows: self.rows,
+            factors: self.row_scale,
+        };
+        Right::Column(factor, column)
     }
 }
 
