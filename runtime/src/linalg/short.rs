@@ -7,8 +7,9 @@
 //! but for zeros, which are not looked for.
 
 use super::block::{Block, largest_of};
-use super::frame::{Frame, Matrix, NotRegular, Right};
+use super::frame::{Frame, Matrix, NotRegular};
 use super::is_zero;
+use super::substitution::Right;
 use crate::Real;
 
 impl<T: Real> Frame<'_, T> {
@@ -81,19 +82,32 @@ impl<T: Real> Frame<'_, T> {
     ) {
         let mut right = [T::zero(); N];
         demanded.fill(&mut right);
+        let solution = match steps == N {
+            true => self.solve_steps(N, &right),
+            false => self.solve_steps(steps.min(N), &right),
+        };
+        let (x, scales) = (&mut x[..N], &scales[..N]);
+        for j in 0..N {
+            x[j] = solution[j] * scales[j];
+        }
+    }
+
+    /// The same; where all steps are meant, the compiler knows their number.
+    #[inline(always)]
+    fn solve_steps<const N: usize>(&self, steps: usize, right: &[T; N]) -> [T; N] {
         let (rows, columns) = (&self.order.rows[..N], &self.order.columns[..N]);
         let (lower, upper) = (self.lower.as_chunks::<N>().0, self.upper.as_chunks::<N>().0);
         let mut forward = [T::zero(); N];
-        for step in 0..steps.min(N) {
+        for step in 0..steps {
             let row = rows[step];
             let mut value = right[row];
-            for (share, y) in lower[row].iter().zip(&forward).take(step) {
-                value -= *share * *y;
+            for other in 0..step {
+                value -= lower[row][other] * forward[other];
             }
             forward[step] = value;
         }
         let mut solution = [T::zero(); N];
-        for step in (0..steps.min(N)).rev() {
+        for step in (0..steps).rev() {
             let (row, column) = (&upper[rows[step]], columns[step]);
             let mut known = T::zero();
             for (entry, x) in row.iter().zip(&solution) {
@@ -101,10 +115,7 @@ impl<T: Real> Frame<'_, T> {
             }
             solution[column] = (forward[step] - known) / row[column];
         }
-        let (x, scales) = (&mut x[..N], &scales[..N]);
-        for j in 0..N {
-            x[j] = solution[j] * scales[j];
-        }
+        solution
     }
 }
 
