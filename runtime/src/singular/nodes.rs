@@ -254,14 +254,15 @@ const OUTWARDS: [usize; NODES] = [0, 3, 1, 5, 2, 7, 4, 8, 6, 9];
 /// is added multiplies the weights of those before it.
 pub(super) fn weights_of_sets<T: Real>(places: &[T; NODES], at: T) -> [[T; NODES]; SETS] {
     let mut sets = [[T::zero(); NODES]; SETS];
-    let away: [T; NODES] = column(|k| places[OUTWARDS[k]] - at);
+    let places: [T; NODES] = column(|k| places[OUTWARDS[k]]);
     let mut weights = [T::zero(); NODES];
     for count in 0..NODES {
         let mut own = T::one();
         for other in 0..count {
-            let apart = away[count] - away[other];
-            own *= -away[other] / apart;
-            weights[other] *= away[count] / apart;
+            // Where places are whole numbers, this is exact.
+            let apart = places[count] - places[other];
+            own *= (at - places[other]) / apart;
+            weights[other] *= (places[count] - at) / apart;
         }
         weights[count] = own;
         let left_out = NODES - 1 - count;
