@@ -84,20 +84,13 @@ pub(crate) struct Bound<'a, T, const N: usize, const R: usize> {
     pub(crate) terms: &'a mut Terms<T, N, R>,
 }
 
-/// A state of fixed size. What has another length is cut off, or filled with zeros.
+/// A state of fixed size, with zeros for what is not given.
 pub(crate) fn sized<T: Real, const N: usize>(at: At<'_, T>) -> State<T, N> {
-    let mut state: State<T, N> = State {
+    let zeros = [T::zero(); N];
+    State {
         t: at.t,
-        ..State::default()
-    };
-    copy(state.q.as_mut_slice(), at.q);
-    copy(state.v.as_mut_slice(), at.v);
-    state
-}
-
-fn copy<T: Real>(target: &mut [T], source: &[T]) {
-    for (target, source) in target.iter_mut().zip(source) {
-        *target = *source;
+        q: SVector::from(*at.q.first_chunk().unwrap_or(&zeros)),
+        v: SVector::from(*at.v.first_chunk().unwrap_or(&zeros)),
     }
 }
 

@@ -56,6 +56,13 @@ pub(crate) fn resolvable<T: Real>() -> T {
     T::EPSILON.powf(T::from_f64(0.7))
 }
 
+/// Error of an interpolation, relative, that is accepted: a tenth of that of a step, which is
+/// unknown where steps are fixed.
+pub(crate) fn accepted<T: Real>(step: Option<T>) -> T {
+    let step = step.unwrap_or(T::EPSILON.sqrt());
+    (step * T::from_f64(0.1)).max(resolvable())
+}
+
 /// Distance, relative to the coordinates, of the differences that show how rows change
 /// (2e-5 for `f64`).
 pub(crate) fn difference<T: Real>() -> T {

@@ -7,10 +7,10 @@
 //! come near one is taken again with a chart.
 
 use super::{Core, Source};
-use crate::linalg::{is_finite, project_onto};
+use crate::linalg::{is_finite, projecting};
 use crate::singular::{Found, Obstacle, Placed, Placement, Point, Start};
 use crate::state::all_finite;
-use crate::tolerance::{regular, resolvable, round_off, window};
+use crate::tolerance::{regular, round_off, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State, Step};
 use nalgebra::SVector;
 
@@ -35,12 +35,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Takes note of the accepted error of a step.
     pub(crate) fn expect_error(&mut self, tolerance: Option<T>) {
         self.session.tolerance = tolerance;
-    }
-
-    /// Error of an interpolation, relative, that is accepted: a tenth of that of a step.
-    pub(crate) fn accepted(&self) -> T {
-        let tolerance = self.session.tolerance.unwrap_or(T::EPSILON.sqrt());
-        (tolerance * T::from_f64(0.1)).max(resolvable())
     }
 
     /// Whether a start is put onto the constraints.
@@ -167,7 +161,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let mut point = Point::zeros();
         let placement = self.place(mechanism, state, &mut point)?;
         match placement {
-            Placement::Crossing { .. } => self.counters.robust_accelerations += 1,
+            Placement::Crossing { .. } => {
+                self.counters.robust_accelerations += 1;
+                mechanism.terms(&point.state, &mut self.terms);
+            }
+            // What the constraints demand was solved for with the terms at the same state.
             _ => self.counters.beside_accelerations += 1,
         }
         let acceleration = self.accelerate(mechanism, &point)?;
@@ -232,18 +230,17 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         measured.is_some_and(|measured| measured.is_ok()) && point.sine > window()
     }
 
-    /// The acceleration at a state on the sheet: `D̃ᵀM D̃ z = D̃ᵀ(p₁ − M aₚ)`,
-    /// `q̈ = aₚ + D̃ z`. Source: Phong & Hoang (2012), section 3.
+    /// The acceleration at a state on the sheet, whose terms are in the buffer:
+    /// `D̃ᵀM D̃ z = D̃ᵀ(p₁ − M aₚ)`, `q̈ = aₚ + D̃ z`. Source: Phong & Hoang (2012), section 3.
     fn accelerate(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
         point: &Point<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        mechanism.terms(&point.state, &mut self.terms);
         let freedoms = self.freedoms();
         let mut force = self.terms.force;
         self.terms.take_inertia(&mut force, &point.particular);
-        let projected = project_onto(
+        let projected = projecting()(
             self.terms.mass.as_slice(),
             &point.tangent.as_slice()[..N * freedoms],
             force.as_mut_slice(),

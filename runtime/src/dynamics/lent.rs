@@ -108,7 +108,7 @@ pub(crate) struct Lent<'a, T, const N: usize, const R: usize> {
     expected: &'a mut bool,
     pub(crate) reach: T,
     pub(crate) sizes: &'a [T; N],
-    pub(crate) accepted: T,
+    pub(crate) tolerance: Option<T>,
 }
 
 /// A solver, memory, and a chart.
@@ -125,8 +125,12 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         &'a mut self,
         mechanism: &'a dyn Mechanism<T, N, R>,
     ) -> Loan<'a, T, N, R> {
-        let accepted = self.accepted();
-        let Session { nodes, chart, .. } = &mut self.session;
+        let Session {
+            nodes,
+            chart,
+            tolerance,
+            ..
+        } = &mut self.session;
         let lent = Lent {
             equations: Bound {
                 mechanism,
@@ -141,7 +145,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             expected: &mut self.expected,
             reach: self.reach,
             sizes: &self.sizes,
-            accepted,
+            tolerance: *tolerance,
         };
         (lent, self.memory.workspace(), chart.as_ref())
     }

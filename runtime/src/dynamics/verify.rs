@@ -7,7 +7,7 @@
 use super::{Core, Source, Which};
 use crate::linalg::is_zero;
 use crate::singular::{Chart, Obstacle, Placed, Placement, Point, Start};
-use crate::tolerance::{negligible, safe_steps, window};
+use crate::tolerance::{accepted, negligible, safe_steps, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
 
 /// A sine that falls below this part of what it is at both ends of a step may have been
@@ -209,7 +209,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             chart.freedoms,
             metric,
             (rows, &self.position.jacobian),
-            (self.reach, &self.sizes, self.accepted()),
+            (self.reach, &self.sizes, accepted(self.session.tolerance)),
         )?;
         next.set_drift(placed.drift, chart.speed);
         next.spacing = placed.spacing;

@@ -6,24 +6,29 @@
 //! The columns are made orthogonal in the matrix one after the other, which is the
 //! Cholesky factorisation of `DᵀMD` without a matrix of its size.
 
+use super::small::with_size;
 use super::{Workspace, add_product, add_scaled, dot};
 use crate::Real;
+use crate::once::compiled_once;
 
 /// Replaces a force by `D z`; the column at which `DᵀMD` is not definite, where one is.
-pub(crate) fn project_onto<T: Real>(
+fn project_onto<T: Real>(
     mass: &[T],
     columns: &[T],
     force: &mut [T],
     workspace: &Workspace<'_, T>,
 ) -> Result<(), usize> {
     workspace.scope(|workspace| {
-        let directions = workspace.numbers(columns.len());
+        let room = workspace.any(columns.len() + 2 * force.len());
+        let (directions, room) = room.split_at_mut(columns.len());
+        let (image, sum) = room.split_at_mut(force.len());
         directions.copy_from_slice(columns);
-        let (image, sum) = (
-            workspace.numbers(force.len()),
-            workspace.numbers(force.len()),
-        );
-        add_along(mass, directions, force, image, sum)?;
+        sum.fill(T::zero());
+        with_size!(
+            force.len(),
+            |N| add_along_of(N, mass, directions, force, image, sum),
+            add_along(mass, directions, force, image, sum)
+        )?;
         force.copy_from_slice(sum);
         Ok(())
     })
@@ -38,11 +43,24 @@ pub(crate) fn add_along<T: Real>(
     image: &mut [T],
     sum: &mut [T],
 ) -> Result<(), usize> {
-    let n = force.len().max(1);
-    for k in 0..directions.len() / n {
+    add_along_of(force.len(), mass, directions, force, image, sum)
+}
+
+/// The same for so many coordinates.
+#[inline(always)]
+fn add_along_of<T: Real>(
+    n: usize,
+    mass: &[T],
+    directions: &mut [T],
+    force: &[T],
+    image: &mut [T],
+    sum: &mut [T],
+) -> Result<(), usize> {
+    let (force, image, sum) = (&force[..n], &mut image[..n], &mut sum[..n]);
+    for k in 0..directions.len() / n.max(1) {
         let (direction, later) = directions[k * n..].split_at_mut(n);
         image.fill(T::zero());
-        add_product(image, T::one(), mass, direction);
+        add_product(image, T::one(), &mass[..n * n], direction);
         let square = dot(direction, image);
         if square <= T::zero() {
             return Err(k);
@@ -54,4 +72,11 @@ pub(crate) fn add_along<T: Real>(
         add_scaled(sum, dot(direction, force) / square, direction);
     }
     Ok(())
+}
+
+compiled_once! {
+    /// [`project_onto`].
+    pub(crate) fn projecting<T>:
+        fn(&[T], &[T], &mut [T], &Workspace<'_, T>) -> Result<(), usize> =
+        |mass, columns, force, workspace| project_onto(mass, columns, force, workspace);
 }

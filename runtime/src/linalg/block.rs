@@ -7,6 +7,9 @@ use super::workspace::Workspace;
 use super::{add_scaled, pair};
 use crate::Real;
 
+/// Near-dependent rows up to which the compiler knows all loops over them.
+const FEW: usize = 2;
+
 /// A square matrix of the size of the near-dependent rows, row by row.
 #[derive(Debug)]
 pub(crate) struct Block<'a, T> {
@@ -40,6 +43,11 @@ impl<'a, T: Real> Block<'a, T> {
 
     pub(crate) fn size(&self) -> usize {
         self.size
+    }
+
+    /// Becomes of another size that there is room for, with any entries.
+    pub(super) fn resize(&mut self, size: usize) {
+        self.size = size;
     }
 
     /// Becomes zero, of another size that there is room for.
@@ -112,46 +120,12 @@ impl<'a, T: Real> Block<'a, T> {
                 true => self.first().abs().min(T::one()),
                 false => T::zero(),
             },
-            _ => workspace.scope(|workspace| self.smallest_of_several(workspace)),
+            FEW => smallest_pivot(FEW, self.entries, &mut [0; FEW], &mut [T::zero(); FEW]),
+            size => workspace.scope(|workspace| {
+                let (open, peaks) = (workspace.indices(size), workspace.any(size));
+                smallest_pivot(size, self.entries, open, peaks)
+            }),
         }
-    }
-
-    fn smallest_of_several(&mut self, workspace: &Workspace<'_, T>) -> T {
-        let size = self.size;
-        let mut smallest = T::one();
-        let open = workspace.indices(size);
-        let peaks = workspace.numbers(size);
-        for row in 0..size {
-            (open[row], peaks[row]) = (row, peak_of(self.row(row)));
-        }
-        for left in (1..=size).rev() {
-            let mut place = 0;
-            for other in 0..left {
-                if peaks[open[other]] > peaks[open[place]] {
-                    place = other;
-                }
-            }
-            let row = open[place];
-            // False for NaN, too.
-            let is_left = peaks[row] > T::zero();
-            if !is_left {
-                return T::zero();
-            }
-            smallest = smallest.min(peaks[row]);
-            open.copy_within(place + 1..left, place);
-            let (column, _) = largest_of(self.row(row));
-            for &other in &open[..left - 1] {
-                let [entries, pivot] = pair(self.entries, size, other, row);
-                if entries[column] == T::zero() {
-                    continue;
-                }
-                let share = entries[column] / pivot[column];
-                add_scaled(entries, -share, pivot);
-                entries[column] = T::zero();
-                peaks[other] = peak_of(entries);
-            }
-        }
-        smallest
     }
 
     /// How many eigenvalues change their sign from another block to this one: the
@@ -162,21 +136,28 @@ impl<'a, T: Real> Block<'a, T> {
         other: &Block<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> usize {
-        workspace.scope(|workspace| {
-            let (here, pivots) = self.in_bases_of(other, workspace);
-            let size = here.size;
-            if pivots.contains(&T::zero()) {
-                return 0;
+        let (here, there) = (self.all(), other.all());
+        let mut small = [[T::zero(); FEW * FEW]; 2];
+        for (copy, entries) in small.iter_mut().zip([here, there]) {
+            for (copy, entry) in copy.iter_mut().zip(entries) {
+                *copy = *entry;
             }
-            let mut symmetric = Block::zeros(size, workspace);
-            for i in 0..size {
-                for j in 0..size {
-                    let sum = here.row(i)[j] + here.row(j)[i];
-                    symmetric.row_mut(i)[j] = sum / (pivots[i] * pivots[j]).sqrt();
-                }
-            }
-            symmetric.negative_eigenvalues()
-        })
+        }
+        let [first, second] = &mut small;
+        let mut pivots = [T::zero(); FEW];
+        match self.size {
+            0 => 0,
+            1 => count_changes(1, [first, second], &mut pivots),
+            FEW => count_changes(FEW, [first, second], &mut pivots),
+            size => workspace.scope(|workspace| {
+                let copies = [here, there].map(|entries| {
+                    let copy = workspace.any(entries.len());
+                    copy.copy_from_slice(entries);
+                    copy
+                });
+                count_changes(size, copies, workspace.any(size))
+            }),
+        }
     }
 
     /// This block in bases in which another one is diagonal, and what it is there: its
@@ -186,37 +167,13 @@ impl<'a, T: Real> Block<'a, T> {
         other: &Block<'_, T>,
         workspace: &Workspace<'b, T>,
     ) -> (Block<'b, T>, &'b mut [T]) {
-        let (mut here, mut there) = (self.copy(workspace), other.copy(workspace));
-        let size = here.size;
-        let pivots = workspace.numbers(size);
-        for step in 0..size {
-            let Some((row, column)) = there.largest(step) else {
-                break;
-            };
-            there.swap(step, row, column);
-            here.swap(step, row, column);
-            let pivot = there.row(step)[step];
-            for later in step + 1..size {
-                let share = -there.row(later)[step] / pivot;
-                if share == T::zero() {
-                    continue;
-                }
-                for block in [&mut here, &mut there] {
-                    let [row, above] = pair(block.entries, size, later, step);
-                    add_scaled(row, share, above);
-                }
-            }
-            for row in 0..size {
-                let row = here.row_mut(row);
-                let share = row[step] / pivot;
-                if share != T::zero() {
-                    add_scaled(&mut row[step + 1..], -share, &there.row(step)[step + 1..]);
-                }
-                if pivot < T::zero() {
-                    row[step] = -row[step];
-                }
-            }
-            pivots[step] = pivot.abs();
+        let (here, there) = (self.copy(workspace), other.copy(workspace));
+        let pivots = workspace.numbers(self.size);
+        let blocks = [&mut *here.entries, &mut *there.entries];
+        match self.size {
+            1 => make_diagonal(1, blocks, pivots),
+            FEW => make_diagonal(FEW, blocks, pivots),
+            size => make_diagonal(size, blocks, pivots),
         }
         (here, pivots)
     }
@@ -231,62 +188,166 @@ impl<'a, T: Real> Block<'a, T> {
         }
         last
     }
+}
 
-    /// By Sylvester's law of inertia, from symmetric elimination with the largest
-    /// diagonal entry first. A product of blocks that are nearly multiples of each
-    /// other has no diagonal that vanishes before the rest does.
-    fn negative_eigenvalues(mut self) -> usize {
-        let mut count = 0;
-        for step in 0..self.size {
-            let diagonal = |k: usize| self.row(k)[k].abs();
-            let mut next = step;
-            for k in step + 1..self.size {
-                if diagonal(k) > diagonal(next) {
-                    next = k;
-                }
-            }
-            self.swap(step, next, next);
-            let pivot = self.row(step)[step];
-            if pivot == T::zero() {
-                break;
-            }
-            count += usize::from(pivot < T::zero());
-            for later in step + 1..self.size {
-                let [row, above] = pair(self.entries, self.size, later, step);
-                let share = -row[step] / pivot;
-                if share != T::zero() {
-                    add_scaled(row, share, above);
-                }
-            }
-        }
-        count
+/// The smallest pivot of a block of several rows, with room for a list and a vector.
+#[inline(always)]
+fn smallest_pivot<T: Real>(
+    size: usize,
+    entries: &mut [T],
+    open: &mut [usize],
+    peaks: &mut [T],
+) -> T {
+    let entries = &mut entries[..size * size];
+    let mut smallest = T::one();
+    for (row, entries) in entries.chunks_exact(size).enumerate() {
+        (open[row], peaks[row]) = (row, peak_of(entries));
     }
-
-    /// Where the largest entry of what is left is, if it is not zero.
-    fn largest(&self, step: usize) -> Option<(usize, usize)> {
-        let mut most = T::zero();
-        let mut place = None;
-        for row in step..self.size {
-            for (column, entry) in self.row(row).iter().enumerate().skip(step) {
-                let size = entry.abs();
-                if size > most {
-                    most = size;
-                    place = Some((row, column));
-                }
+    for left in (1..=size).rev() {
+        let mut place = 0;
+        for other in 0..left {
+            if peaks[open[other]] > peaks[open[place]] {
+                place = other;
             }
         }
-        place
+        let row = open[place];
+        // False for NaN, too.
+        let is_left = peaks[row] > T::zero();
+        if !is_left {
+            return T::zero();
+        }
+        smallest = smallest.min(peaks[row]);
+        open.copy_within(place + 1..left, place);
+        let (column, _) = largest_of(&entries[row * size..(row + 1) * size]);
+        for &other in &open[..left - 1] {
+            let [entries, pivot] = pair(entries, size, other, row);
+            if entries[column] == T::zero() {
+                continue;
+            }
+            let share = entries[column] / pivot[column];
+            add_scaled(entries, -share, pivot);
+            entries[column] = T::zero();
+            peaks[other] = peak_of(entries);
+        }
     }
+    smallest
+}
 
-    fn swap(&mut self, step: usize, row: usize, column: usize) {
-        if row != step {
-            let [row, other] = pair(self.entries, self.size, row, step);
-            row.swap_with_slice(other);
+/// How many eigenvalues change their sign from the second block to the first one, which are
+/// used up.
+#[inline(always)]
+fn count_changes<T: Real>(size: usize, [here, there]: [&mut [T]; 2], pivots: &mut [T]) -> usize {
+    pivots.fill(T::zero());
+    make_diagonal(size, [here, there], pivots);
+    let pivots = &pivots[..size];
+    if pivots.contains(&T::zero()) {
+        return 0;
+    }
+    let symmetric = &mut there[..size * size];
+    for i in 0..size {
+        for j in 0..size {
+            let sum = here[i * size + j] + here[j * size + i];
+            symmetric[i * size + j] = sum / (pivots[i] * pivots[j]).sqrt();
         }
-        if column != step {
-            for row in 0..self.size {
-                self.row_mut(row).swap(step, column);
+    }
+    count_negative(size, symmetric)
+}
+
+/// By elimination with complete pivoting finds bases in which the second block is diagonal,
+/// and what the first one is there; its pivots are the absolute diagonal.
+#[inline(always)]
+fn make_diagonal<T: Real>(size: usize, [here, there]: [&mut [T]; 2], pivots: &mut [T]) {
+    let (here, there) = (&mut here[..size * size], &mut there[..size * size]);
+    for (step, pivot_size) in pivots[..size].iter_mut().enumerate() {
+        let Some((row, column)) = largest_from(step, there, size) else {
+            break;
+        };
+        swap(there, size, step, (row, column));
+        swap(here, size, step, (row, column));
+        let pivot = there[step * size + step];
+        for later in step + 1..size {
+            let share = -there[later * size + step] / pivot;
+            if share == T::zero() {
+                continue;
             }
+            for entries in [&mut *here, &mut *there] {
+                let (above, rows) = entries.split_at_mut(later * size);
+                add_scaled(&mut rows[..size], share, &above[step * size..][..size]);
+            }
+        }
+        for row in here.chunks_exact_mut(size) {
+            let share = row[step] / pivot;
+            if share != T::zero() {
+                let pivots = &there[step * size..(step + 1) * size];
+                add_scaled(&mut row[step + 1..], -share, &pivots[step + 1..]);
+            }
+            if pivot < T::zero() {
+                row[step] = -row[step];
+            }
+        }
+        *pivot_size = pivot.abs();
+    }
+}
+
+/// How many eigenvalues of a symmetric block are negative: by Sylvester's law of inertia, from
+/// symmetric elimination with the largest diagonal entry first. A product of blocks that are
+/// nearly multiples of each other has no diagonal that vanishes before the rest does.
+#[inline(always)]
+fn count_negative<T: Real>(size: usize, entries: &mut [T]) -> usize {
+    let entries = &mut entries[..size * size];
+    let mut count = 0;
+    for step in 0..size {
+        let diagonal = |k: usize| entries[k * size + k].abs();
+        let mut next = step;
+        for k in step + 1..size {
+            if diagonal(k) > diagonal(next) {
+                next = k;
+            }
+        }
+        swap(entries, size, step, (next, next));
+        let pivot = entries[step * size + step];
+        if pivot == T::zero() {
+            break;
+        }
+        count += usize::from(pivot < T::zero());
+        let (done, rest) = entries.split_at_mut((step + 1) * size);
+        for row in rest.chunks_exact_mut(size) {
+            let share = -row[step] / pivot;
+            if share != T::zero() {
+                add_scaled(row, share, &done[step * size..]);
+            }
+        }
+    }
+    count
+}
+
+/// Where the largest entry of what an elimination has left is, if it is not zero.
+#[inline(always)]
+fn largest_from<T: Real>(step: usize, entries: &[T], size: usize) -> Option<(usize, usize)> {
+    let mut most = T::zero();
+    let mut place = None;
+    for row in step..size {
+        for column in step..size {
+            let entry = entries[row * size + column].abs();
+            if entry > most {
+                most = entry;
+                place = Some((row, column));
+            }
+        }
+    }
+    place
+}
+
+/// Makes a row and a column those of a step.
+#[inline(always)]
+fn swap<T: Real>(entries: &mut [T], size: usize, step: usize, (row, column): (usize, usize)) {
+    if row != step {
+        let [row, other] = pair(entries, size, row, step);
+        row.swap_with_slice(other);
+    }
+    if column != step {
+        for row in entries.chunks_exact_mut(size) {
+            row.swap(step, column);
         }
     }
 }

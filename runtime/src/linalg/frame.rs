@@ -12,34 +12,17 @@
 //! Rows are visited in the given order, of each row only the columns between its first and
 //! last entry are touched, and of the rows before it only those that it shares a column with,
 //! so that what is local in a chain of loops stays local. Columns are kept in an order in
-//! which rows have their entries close to one another ([`by_first_row`]).
+//! which rows have their entries close to one another ([`by_first_row`](super::by_first_row)).
 
 use super::block::{Block, largest_of};
+use super::small::with_size;
 use super::workspace::Workspace;
-use super::{add_scaled, dot, pair};
+use super::{add_scaled, pair};
 use crate::Real;
 use core::ops::Range;
 
-/// Calls the method of short frames for the size of a frame, or does something else where it
-/// has none.
-macro_rules! sized {
-    ($frame:ident.$method:ident($($argument:expr),*), $otherwise:expr) => {
-        match $frame.n {
-            1 => $frame.$method::<1>($($argument),*),
-            2 => $frame.$method::<2>($($argument),*),
-            3 => $frame.$method::<3>($($argument),*),
-            4 => $frame.$method::<4>($($argument),*),
-            5 => $frame.$method::<5>($($argument),*),
-            6 => $frame.$method::<6>($($argument),*),
-            7 => $frame.$method::<7>($($argument),*),
-            8 => $frame.$method::<8>($($argument),*),
-            _ => $otherwise,
-        }
-    };
-}
-
 /// Rows from which on it pays to look for zeros.
-const LONG: usize = 16;
+pub(super) const LONG: usize = 16;
 
 /// Room for the entries of a square matrix, zeros where only some are set later.
 fn entries<'a, T: Real>(n: usize, workspace: &Workspace<'a, T>) -> &'a mut [T] {
@@ -68,9 +51,10 @@ pub(crate) struct Frame<'a, T> {
     pub(super) order: Order<'a>,
     pub(super) block: Block<'a, T>,
     pub(super) smallest: T,
-    /// Solutions on the way.
+    /// Right-hand sides, and solutions on the way.
+    pub(super) right: &'a mut [T],
     pub(super) forward: &'a mut [T],
-    backward: &'a mut [T],
+    pub(super) backward: &'a mut [T],
     /// Marks of rows or columns.
     pub(super) marks: &'a mut [usize],
     /// The block while it is eliminated, and the largest entry of each of its rows.
@@ -110,6 +94,15 @@ impl<T: Real> Eliminated<'_, T> {
     }
 }
 
+/// Some rows of a matrix, which is given column by column, and what each of all rows is
+/// multiplied by.
+#[derive(Clone, Copy)]
+pub(crate) struct Matrix<'a, T> {
+    pub(crate) entries: &'a [T],
+    pub(crate) rows: &'a [usize],
+    pub(crate) factors: &'a [T],
+}
+
 /// A pivot vanished, or something is not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct NotRegular;
@@ -123,20 +116,27 @@ impl<'a, T: Real> Frame<'a, T> {
         workspace: &Workspace<'a, T>,
     ) -> Self {
         let n = places.len();
+        let lists = workspace.indices(5 * n);
+        let (spans, lists) = lists.split_at_mut(2 * n);
+        let (changed, lists) = lists.split_at_mut(n);
+        let (step_of, marks) = lists.split_at_mut(n);
+        let (right, solutions) = workspace.any(3 * n).split_at_mut(n);
+        let (forward, backward) = solutions.split_at_mut(n);
         Self {
             n,
             places,
             upper: entries(n, workspace),
             lower: entries(n, workspace),
-            spans: workspace.indices(2 * n),
-            changed: workspace.indices(n),
-            step_of: workspace.indices(n),
+            spans,
+            changed,
+            step_of,
             order: Order::new(n, workspace),
             block: Block::with_capacity(constraints, workspace),
             smallest: T::zero(),
-            forward: workspace.any(n),
-            backward: workspace.any(n),
-            marks: workspace.indices(n),
+            right,
+            forward,
+            backward,
+            marks,
             late: workspace.any(constraints * constraints),
             peaks: workspace.any(constraints),
         }
@@ -153,9 +153,30 @@ impl<'a, T: Real> Frame<'a, T> {
         }
     }
 
-    /// A row of a short frame, to be given all of its entries, by columns in their places.
-    pub(crate) fn short_row(&mut self, row: usize) -> &mut [T] {
-        &mut self.upper[row * self.n..(row + 1) * self.n]
+    /// Sets the first rows of a short frame to those of a matrix, and the others to columns,
+    /// with scales of all entries.
+    pub(crate) fn set_rows(&mut self, matrix: Matrix<'_, T>, columns: &[T], scales: &[T]) {
+        with_size!(
+            self.n,
+            |N| self.set_rows_in::<N>(matrix, columns, scales),
+            self.set_rows_of_any(matrix, columns, scales)
+        );
+    }
+
+    fn set_rows_of_any(&mut self, matrix: Matrix<'_, T>, columns: &[T], scales: &[T]) {
+        let mut targets = self.upper.chunks_exact_mut(self.n);
+        for (&row, target) in matrix.rows.iter().zip(&mut targets) {
+            let factor = matrix.factors[row];
+            let entries = matrix.entries[row..].iter().step_by(matrix.factors.len());
+            for (target, (entry, scale)) in target.iter_mut().zip(entries.zip(scales)) {
+                *target = factor * *entry * *scale;
+            }
+        }
+        for (target, column) in targets.zip(columns.chunks_exact(self.n)) {
+            for (target, (entry, scale)) in target.iter_mut().zip(column.iter().zip(scales)) {
+                *target = *entry * *scale;
+            }
+        }
     }
 
     /// Whether it pays to look for zeros.
@@ -163,12 +184,8 @@ impl<'a, T: Real> Frame<'a, T> {
         self.n >= LONG
     }
 
-    /// Begins anew: a long frame with rows of zeros.
+    /// Begins a long frame anew, with rows of zeros.
     pub(crate) fn clear(&mut self) {
-        if !self.is_long() {
-            self.changed.fill(0);
-            return;
-        }
         for row in 0..self.n {
             let (span, first) = (self.span(row), self.changed[row]);
             let entries = row * self.n..(row + 1) * self.n;
@@ -198,13 +215,23 @@ impl<'a, T: Real> Frame<'a, T> {
         self.upper[row * self.n + column]
     }
 
-    fn span(&self, row: usize) -> Range<usize> {
+    pub(super) fn span(&self, row: usize) -> Range<usize> {
         self.spans[2 * row]..self.spans[2 * row + 1]
     }
 
     /// Eliminates all rows, of which the first `constraints` are constraint rows; one of
     /// these of which less than `least` is left by those before it comes last.
     pub(crate) fn factorise(&mut self, constraints: usize, least: T) -> Result<(), NotRegular> {
+        self.order.constraints = constraints;
+        with_size!(
+            self.n,
+            |N| self.factorise_in::<N>(least),
+            self.factorise_any(least)
+        )
+    }
+
+    fn factorise_any(&mut self, least: T) -> Result<(), NotRegular> {
+        let constraints = self.order.constraints;
         let mut done = 0;
         let mut late = self.n;
         for row in 0..self.n {
@@ -221,7 +248,6 @@ impl<'a, T: Real> Frame<'a, T> {
             done += 1;
         }
         self.order.independent = done;
-        self.order.constraints = constraints;
         self.order.rows[done..].reverse();
         for place in done..self.n {
             let row = self.order.rows[place];
@@ -234,6 +260,14 @@ impl<'a, T: Real> Frame<'a, T> {
     /// can be compared.
     pub(crate) fn factorise_like(&mut self, other: &Eliminated<'_, T>) -> Result<(), NotRegular> {
         self.order.set(&other.order);
+        with_size!(
+            self.n,
+            |N| self.factorise_ordered_in::<N>(),
+            self.factorise_ordered()
+        )
+    }
+
+    fn factorise_ordered(&mut self) -> Result<(), NotRegular> {
         let done = self.order.independent;
         for step in 0..done {
             let (row, column) = (self.order.rows[step], self.order.columns[step]);
@@ -251,7 +285,7 @@ impl<'a, T: Real> Frame<'a, T> {
     /// Subtracts from a row what makes its entries in some pivot columns vanish.
     fn reduce(&mut self, row: usize, steps: Range<usize>) {
         if !self.is_long() {
-            return sized!(self.reduce_in(row, steps), self.reduce_short(row, steps));
+            return self.reduce_short(row, steps);
         }
         let mut next = steps.start;
         while let Some(step) = self.next_shared(row, next..steps.end) {
@@ -362,17 +396,25 @@ impl<'a, T: Real> Frame<'a, T> {
         self.smallest
     }
 
-    /// The determinant; with its sign where it is not so small that it counts as zero.
-    pub(crate) fn determinant(&mut self) -> T {
+    /// The size of the determinant, zero also where it is so small that it counts as zero.
+    pub(crate) fn volume(&self) -> T {
         let mut size = T::one();
         for (row, column) in self.order.rows.iter().zip(&*self.order.columns) {
             size *= self.upper[row * self.n + column].abs();
         }
-        if self.is_negative() { -size } else { size }
+        size
     }
 
     /// The sign of the determinant.
     pub(crate) fn is_negative(&mut self) -> bool {
+        with_size!(
+            self.n,
+            |N| self.is_negative_in::<N>(),
+            self.is_negative_of_any()
+        )
+    }
+
+    fn is_negative_of_any(&mut self) -> bool {
         let mut negative = false;
         for (row, column) in self.order.rows.iter().zip(&*self.order.columns) {
             negative ^= self.upper[row * self.n + column] < T::zero();
@@ -387,86 +429,14 @@ impl<'a, T: Real> Frame<'a, T> {
         }
         negative
     }
-
-    /// The largest right-hand side of the near-dependent rows when all others are
-    /// eliminated.
-    pub(crate) fn largest_reduced(&mut self, right: &[T]) -> T {
-        let independent = self.order.independent;
-        self.go_forward(right, independent);
-        let mut most = T::zero();
-        for &row in &self.order.rows[independent..] {
-            let shares = &self.lower[row * self.n..][..independent];
-            let mut rest = right[row];
-            for (share, y) in shares.iter().zip(&*self.forward) {
-                rest -= *share * *y;
-            }
-            most = most.max(rest.abs());
-        }
-        most
-    }
-
-    /// The solution for the right-hand sides of all rows.
-    pub(crate) fn solve(&mut self, right: &[T], x: &mut [T]) {
-        self.go_forward(right, self.n);
-        self.go_backward(self.n, x);
-    }
-
-    /// The solution that satisfies the rows before the near-dependent ones, and leaves
-    /// these alone.
-    pub(crate) fn solve_independent(&mut self, right: &[T], x: &mut [T]) {
-        self.go_forward(right, self.order.independent);
-        self.go_backward(self.order.independent, x);
-    }
-
-    fn go_forward(&mut self, right: &[T], steps: usize) {
-        sized!(
-            self.go_forward_in(right, steps),
-            self.go_forward_any(right, steps)
-        );
-    }
-
-    fn go_forward_any(&mut self, right: &[T], steps: usize) {
-        for step in 0..steps {
-            let row = self.order.rows[step];
-            let first = self.changed[row].min(step);
-            let shares = &self.lower[row * self.n..][first..step];
-            let mut value = right[row];
-            for (share, y) in shares.iter().zip(&self.forward[first..step]) {
-                value -= *share * *y;
-            }
-            self.forward[step] = value;
-        }
-    }
-
-    fn go_backward(&mut self, steps: usize, x: &mut [T]) {
-        sized!(
-            self.go_backward_in(steps, x),
-            self.go_backward_any(steps, x)
-        );
-    }
-
-    fn go_backward_any(&mut self, steps: usize, x: &mut [T]) {
-        self.backward.fill(T::zero());
-        for step in (0..steps).rev() {
-            let (row, column) = (self.order.rows[step], self.order.columns[step]);
-            let upper = &self.upper[row * self.n..][..self.n];
-            let known = match self.is_long() {
-                true => dot(&upper[self.span(row)], &self.backward[self.span(row)]),
-                false => dot(upper, self.backward),
-            };
-            self.backward[column] = (self.forward[step] - known) / upper[column];
-        }
-        for (x, place) in x.iter_mut().zip(self.places) {
-            *x = self.backward[*place];
-        }
-    }
 }
 
 impl<'a> Order<'a> {
     fn new<T: Real>(n: usize, workspace: &Workspace<'a, T>) -> Self {
+        let (rows, columns) = workspace.indices(2 * n).split_at_mut(n);
         Self {
-            rows: workspace.indices(n),
-            columns: workspace.indices(n),
+            rows,
+            columns,
             independent: 0,
             constraints: 0,
         }

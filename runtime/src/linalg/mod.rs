@@ -24,14 +24,16 @@ mod late;
 mod places;
 mod products;
 mod short;
+pub(crate) mod small;
 mod subset;
+mod substitution;
 mod symmetric;
 #[cfg(test)]
 mod tests;
 mod triangle;
 mod workspace;
 
-pub(crate) use along::{add_along, project_onto};
+pub(crate) use along::{add_along, projecting};
 pub(crate) use block::Block;
 pub(crate) use cholesky::{
     Cholesky, NotDefinite, is_definite, length, multiply_upper, multiply_upper_transposed,
@@ -43,12 +45,13 @@ pub(crate) use column::{
 };
 pub(crate) use complement::{orthonormal, remove};
 pub(crate) use elimination::Elimination;
-pub(crate) use frame::{Eliminated, Frame};
+pub(crate) use frame::{Eliminated, Frame, Matrix};
 pub(crate) use gram::Gram;
 pub(crate) use jacobi::{Breakdown, orthogonalise};
 pub(crate) use places::by_first_row;
 pub(crate) use products::{Products, RowProducts};
 pub(crate) use subset::independent_columns;
+pub(crate) use substitution::Right;
 pub(crate) use symmetric::diagonalise;
 pub(crate) use triangle::Triangle;
 pub(crate) use workspace::Workspace;

@@ -3,11 +3,12 @@
 //! In:  a matrix, the order in which its rows are eliminated.
 //! Out: places in which rows have their entries close to one another.
 
+use super::frame::LONG;
 use crate::Real;
 
 /// Places for the columns of a sparse matrix, given column by column, some rows of which are
 /// eliminated in their order: by the first of these that has an entry there. `first` is room
-/// for as many.
+/// for as many. Those of a short matrix stay where they are.
 #[inline(never)]
 pub(crate) fn by_first_row<T: Real>(
     matrix: &[T],
@@ -16,6 +17,12 @@ pub(crate) fn by_first_row<T: Real>(
     first: &mut [usize],
 ) {
     let n = places.len();
+    if n < LONG {
+        for (column, place) in places.iter_mut().enumerate() {
+            *place = column;
+        }
+        return;
+    }
     for (column, first) in first.iter_mut().enumerate() {
         let entries = &matrix[column * (matrix.len() / n)..];
         let occupied = |row: &usize| entries[*row] != T::zero();

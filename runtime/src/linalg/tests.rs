@@ -266,3 +266,67 @@ fn the_smallest_pivot_of_a_block_is_that_of_complete_pivoting() {
         );
     }
 }
+
+/// Eliminates a random system of `N` rows, the last constraint row of which is nearly a
+/// combination of the others, and checks what is told of it.
+fn check_frame<const N: usize>(
+    random: &mut Matrices,
+    weak: f64,
+    determinant: fn(&SMatrix<f64, N, N>) -> f64,
+) {
+    let constraints = N - 1;
+    let mut matrix: SMatrix<f64, N, N> = random.matrix();
+    let mut last = matrix.row(constraints - 1) * weak;
+    for row in 0..constraints - 1 {
+        last += matrix.row(row) * random.number();
+    }
+    matrix.set_row(constraints - 1, &last);
+    let (places, rows): ([usize; N], [usize; N]) = (column(|i| i), column(|i| i));
+    let (mut numbers, mut indices) = ([[0.0; N]; 16], [[0; N]; 16]);
+    let (numbers, indices) = (numbers.as_flattened_mut(), indices.as_flattened_mut());
+    let mut more = vec![0.0; 8 * N * N];
+    let workspace = Workspace::new(numbers, &mut more, indices);
+    let mut frame = Frame::new(&places, constraints, &workspace);
+    let parts = Matrix {
+        entries: matrix.as_slice(),
+        rows: &rows[..constraints],
+        factors: &[1.0; N],
+    };
+    let column: [f64; N] = column(|j| matrix[(constraints, j)]);
+    let mut x = [0.0; N];
+    let right: SVector<f64, N> = random.matrix();
+    let mut orders = None;
+    for _ in 0..2 {
+        frame.set_rows(parts, &column, &[1.0; N]);
+        match &orders {
+            None => frame.factorise(constraints, 1e-3).unwrap(),
+            Some(like) => frame.factorise_like(like).unwrap(),
+        }
+        assert_eq!(
+            frame.block().size(),
+            usize::from(weak < 1e-3),
+            "{N}, {weak}"
+        );
+        frame.solve(Right::Given(right.as_slice()), &[1.0; N], &mut x);
+        let rest = matrix * SVector::from(x) - right;
+        assert!(rest.amax() < 1e-9 / weak, "{N}, {weak}: {rest}");
+        let determinant = determinant(&matrix);
+        assert!((frame.volume() - determinant.abs()).abs() < 1e-12);
+        assert_eq!(frame.is_negative(), determinant < 0.0);
+        frame.solve_independent(Right::Given(right.as_slice()), &[1.0; N], &mut x);
+        let rest = matrix * SVector::from(x) - right;
+        assert!(rest.fixed_rows::<1>(0).amax() < 1e-9);
+        orders = Some(frame.eliminated(&workspace));
+    }
+}
+
+#[test]
+fn frames_of_any_size_solve_and_tell_the_determinant() {
+    let mut random = Matrices::seeded(SEED);
+    for weak in [1.0, 1e-5] {
+        check_frame::<3>(&mut random, weak, SMatrix::determinant);
+        check_frame::<5>(&mut random, weak, SMatrix::determinant);
+        check_frame::<8>(&mut random, weak, SMatrix::determinant);
+        check_frame::<9>(&mut random, weak, SMatrix::determinant);
+    }
+}

@@ -54,7 +54,9 @@ impl<'a, T: Real> Workspace<'a, T> {
 
     /// So many numbers, for what is written before it is read.
     pub(crate) fn any(&self, count: usize) -> &'a mut [T] {
-        let taken = self.numbers.iter().find_map(|piece| cut(piece, count));
+        let [first, others @ ..] = &self.numbers;
+        let others = || others.iter().find_map(|piece| cut(piece, count));
+        let taken = cut(first, count).or_else(others);
         debug_assert!(taken.is_some(), "no room for {count} numbers");
         taken.unwrap_or_default()
     }

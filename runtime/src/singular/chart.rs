@@ -216,22 +216,21 @@ impl<T: Real> ChartView<'_, T> {
 
     /// The length of a vector in the diagonal of the metric.
     pub(crate) fn length(&self, x: &[T]) -> T {
-        self.distance(x, None)
+        let (n, mut sum) = (x.len(), T::zero());
+        let scales = &self.column_scale[..n];
+        for i in 0..n {
+            let x = x[i] / scales[i];
+            sum += x * x;
+        }
+        sum.sqrt()
     }
 
     /// The length of what two vectors differ by.
     pub(super) fn apart(&self, a: &[T], b: &[T]) -> T {
-        self.distance(a, Some(b))
-    }
-
-    fn distance(&self, a: &[T], b: Option<&[T]>) -> T {
-        let mut sum = T::zero();
-        for (i, (x, scale)) in a.iter().zip(self.column_scale).enumerate() {
-            let x = match b {
-                Some(b) => *x - b[i],
-                None => *x,
-            };
-            let x = x / *scale;
+        let (n, mut sum) = (a.len(), T::zero());
+        let (b, scales) = (&b[..n], &self.column_scale[..n]);
+        for i in 0..n {
+            let x = (a[i] - b[i]) / scales[i];
             sum += x * x;
         }
         sum.sqrt()

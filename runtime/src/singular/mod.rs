@@ -27,6 +27,7 @@ mod place;
 mod recall;
 mod session;
 mod sheet;
+mod signs;
 mod start;
 
 pub(crate) use chart::Chart;

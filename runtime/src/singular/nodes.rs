@@ -13,7 +13,7 @@
 
 use super::chart::ChartView;
 use super::direction::Direction;
-use super::kept::{NODES, SIDE};
+use super::kept::NODES;
 use super::obstacle::Obstacle;
 use super::sheet::{PointView, Sheet};
 use crate::Real;
@@ -23,6 +23,8 @@ use crate::tolerance::clearance;
 
 /// How many earlier nodes predict the next.
 const PREDICTORS: usize = 5;
+/// Numbers of nodes that are summed up side by side.
+const LANES: usize = 4;
 /// The interpolations that are compared leave out this many pairs of nodes.
 pub(super) const SETS: usize = 3;
 
@@ -86,11 +88,10 @@ struct Bend<'a, T> {
 }
 
 impl<T: Real> Bend<'_, T> {
-    /// Adds the offset at a place so far from the state that is asked for, times a factor.
-    fn add(&self, factor: T, place: T, offset: &mut [T]) {
+    /// How much more it has bent away at a place so far from the state that is asked for.
+    fn at(&self, place: T) -> T {
         let distance = T::one() + self.share * place;
-        let bent = distance * distance - T::one();
-        add_scaled(offset, factor * bent, self.whole);
+        distance * distance - T::one()
     }
 }
 
@@ -140,13 +141,30 @@ impl<'a, T: Real> Interpolated<'a, T> {
     /// Sums up what is known of the nodes, with the weights of each set.
     pub(super) fn sum_up(&mut self, sets: &[[T; NODES]; SETS]) {
         let row = self.row();
-        self.sums.fill(T::zero());
-        for (sum, weights) in self.sums.chunks_exact_mut(row).zip(sets) {
-            for (node, weight) in self.nodes.chunks_exact(row).zip(weights) {
-                if *weight != T::zero() {
-                    add_scaled(sum, *weight, node);
+        let whole = row - row % LANES;
+        for first in (0..whole).step_by(LANES) {
+            self.sum_up_some::<LANES>(first, sets);
+        }
+        for first in whole..row {
+            self.sum_up_some::<1>(first, sets);
+        }
+    }
+
+    /// Sums up so many of the numbers that are known of each node.
+    #[inline]
+    fn sum_up_some<const L: usize>(&mut self, first: usize, sets: &[[T; NODES]; SETS]) {
+        let row = self.row();
+        let mut sums = [[T::zero(); L]; SETS];
+        for (node, numbers) in self.nodes.chunks_exact(row).enumerate().take(NODES) {
+            let numbers = &numbers[first..first + L];
+            for (sum, weights) in sums.iter_mut().zip(sets) {
+                for (entry, number) in sum.iter_mut().zip(numbers) {
+                    *entry = weights[node].mul_add(*number, *entry);
                 }
             }
+        }
+        for (target, sum) in self.sums.chunks_exact_mut(row).zip(sums) {
+            target[first..first + L].copy_from_slice(&sum);
         }
     }
 
@@ -201,11 +219,12 @@ impl<'a, T: Real> Interpolated<'a, T> {
         let known = |k: usize| k < count || k == count && state;
         let mut weights = [T::zero(); PREDICTORS];
         weigh(&places, known, place, &mut weights);
-        self.bend.add(T::one(), place - here, q);
+        let mut bent = self.bend.at(place - here);
         for (k, weight) in (first..node).zip(weights) {
             add_scaled(q, weight, self.node(k).offset);
-            self.bend.add(-weight, self.places[k] - here, q);
+            bent -= weight * self.bend.at(self.places[k] - here);
         }
+        add_scaled(q, bent, self.bend.whole);
     }
 }
 
@@ -228,16 +247,30 @@ fn weigh<T: Real>(places: &[T], wanted: impl Fn(usize) -> bool, at: T, weights: 
     }
 }
 
-/// The weights, at a place, of each of the interpolations that are compared.
+/// Nodes from the innermost to the outermost.
+const OUTWARDS: [usize; NODES] = [0, 3, 1, 5, 2, 7, 4, 8, 6, 9];
+
+/// The weights, at a place, of each of the interpolations that are compared: every node that
+/// is added multiplies the weights of those before it.
 pub(super) fn weights_of_sets<T: Real>(places: &[T; NODES], at: T) -> [[T; NODES]; SETS] {
     let mut sets = [[T::zero(); NODES]; SETS];
-    for (k, set) in sets.iter_mut().enumerate() {
-        weigh(
-            places,
-            |node| ORDER[node].abs() <= (SIDE - k) as f64,
-            at,
-            set,
-        );
+    let places: [T; NODES] = column(|k| places[OUTWARDS[k]]);
+    let mut weights = [T::zero(); NODES];
+    for count in 0..NODES {
+        let mut own = T::one();
+        for other in 0..count {
+            // Where places are whole numbers, this is exact.
+            let apart = places[count] - places[other];
+            own *= (at - places[other]) / apart;
+            weights[other] *= (places[count] - at) / apart;
+        }
+        weights[count] = own;
+        let left_out = NODES - 1 - count;
+        if left_out.is_multiple_of(2) && left_out < 2 * SETS {
+            for (node, weight) in OUTWARDS.iter().zip(weights) {
+                sets[left_out / 2][*node] = weight;
+            }
+        }
     }
     sets
 }
@@ -326,6 +359,37 @@ impl<T: Real> Sheet<'_, T> {
         if !known {
             bend.whole.fill(T::zero());
             bend.share = T::zero();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bricard_testkit::Random;
+
+    #[test]
+    fn each_set_of_weights_leaves_out_the_outermost_nodes_and_is_exact_for_polynomials() {
+        let mut random = Random::seeded(0x0DE5);
+        for round in 0..50 {
+            let places = ORDER.map(|place| place + random.within(0.2));
+            let at = random.within(2.5);
+            for (k, weights) in weights_of_sets(&places, at).iter().enumerate() {
+                let inside = |node: usize| ORDER[node].abs() <= (NODES / 2 - k) as f64;
+                for (node, weight) in weights.iter().enumerate() {
+                    assert_eq!(
+                        *weight != 0.0,
+                        inside(node),
+                        "{round}: set {k}, node {node}"
+                    );
+                }
+                for power in 0..(NODES - 2 * k) as i32 {
+                    let terms = weights.iter().zip(places);
+                    let sum: f64 = terms.map(|(w, x)| w * x.powi(power)).sum();
+                    let error = (sum - at.powi(power)).abs() / 5.0_f64.powi(power);
+                    assert!(error < 1e-12, "{round}: set {k}, power {power}: {error}");
+                }
+            }
         }
     }
 }

@@ -6,9 +6,10 @@
 
 use super::cubic::lowest_of_cubic;
 use super::sheet::Sheet;
+use super::signs::Signs;
 use crate::Real;
 use crate::equations::At;
-use crate::linalg::{Block, Eliminated, Frame, Workspace};
+use crate::linalg::{Eliminated, Frame, Workspace};
 use crate::once::compiled_once;
 
 /// Passages that are kept of one step.
@@ -80,47 +81,25 @@ impl<T: Real> Found<T> {
     }
 }
 
-/// What changes its sign where sheets cross.
-struct Signs<'a, T> {
-    block: Block<'a, T>,
-    /// That of the whole system vanishes where the constraints are singular and nowhere
-    /// else: the tangent space turns by far less than a right angle within a step.
-    determinant: T,
-    negative: bool,
-}
-
-impl<'a, T: Real> Signs<'a, T> {
-    fn of(frame: &mut Frame<'_, T>, workspace: &Workspace<'a, T>) -> Self {
-        Self {
-            block: frame.block().copy(workspace),
-            determinant: frame.determinant(),
-            negative: frame.is_negative(),
-        }
-    }
-
-    /// How many sheets were crossed. Blocks count them, and determinants tell whether
-    /// their number is odd; a block also changes its sign where one of the rows before it
-    /// loses its pivot.
-    fn changes_from(&self, other: &Signs<'_, T>, workspace: &Workspace<'_, T>) -> usize {
-        let changes = self.block.sign_changes_from(&other.block, workspace);
-        let odd = self.negative != other.negative;
-        match (changes % 2 == 1) == odd {
-            true => changes,
-            false => usize::from(odd),
-        }
-    }
-}
-
-/// The start of a step: the order of elimination for all of its states, and the signs.
-pub(crate) struct Reference<'a, T> {
-    like: Eliminated<'a, T>,
-    signs: Signs<'a, T>,
-}
-
 /// A look into a step.
 struct Look<'a, T> {
     t: T,
     signs: Signs<'a, T>,
+    /// The determinant of the whole system vanishes where the constraints are singular and
+    /// nowhere else: the tangent space turns by far less than a right angle within a step.
+    determinant: T,
+}
+
+impl<'a, T: Real> Look<'a, T> {
+    fn of(t: T, frame: &mut Frame<'_, T>, workspace: &Workspace<'a, T>) -> Self {
+        let signs = Signs::of(frame, workspace);
+        let determinant = signs.signed(frame.volume());
+        Self {
+            t,
+            signs,
+            determinant,
+        }
+    }
 }
 
 /// What is needed to look into a step.
@@ -133,34 +112,6 @@ struct View<'a, T> {
 }
 
 impl<T: Real> Sheet<'_, T> {
-    /// What states of a step that begins here are compared with; `None` where the
-    /// constraints can't be eliminated.
-    pub(super) fn reference<'b>(
-        &mut self,
-        start: At<'_, T>,
-        workspace: &Workspace<'b, T>,
-    ) -> Option<Reference<'b, T>> {
-        self.eliminate_widely(start.t, start.q).ok()?;
-        Some(Reference {
-            like: self.frame.eliminated(workspace),
-            signs: Signs::of(&mut self.frame, workspace),
-        })
-    }
-
-    /// How many sheets are crossed on the way to a state; `None` where that can't be told.
-    pub(super) fn sign_changes(
-        &mut self,
-        from: &Reference<'_, T>,
-        to: At<'_, T>,
-        workspace: &Workspace<'_, T>,
-    ) -> Option<usize> {
-        self.eliminate((to.t, to.q), Some(&from.like)).ok()?;
-        workspace.scope(|workspace| {
-            let signs = Signs::of(&mut self.frame, workspace);
-            Some(signs.changes_from(&from.signs, workspace))
-        })
-    }
-
     /// The passages of a step of this length whose positions are `at`, by its chart.
     pub(super) fn passages(
         &mut self,
@@ -182,6 +133,7 @@ impl<T: Real> Sheet<'_, T> {
         };
         let mut first = Some(Look {
             t: start.t,
+            determinant: reference.signs.signed(self.frame.volume()),
             signs: reference.signs,
         });
         let part = length / T::from_f64((LOOKS - 1) as f64);
@@ -196,7 +148,7 @@ impl<T: Real> Sheet<'_, T> {
             let Some(here) = look else {
                 continue;
             };
-            let seen = (here.t, here.signs.determinant);
+            let seen = (here.t, here.determinant);
             let Some(rate) = rate.or_else(|| self.rate(&view, seen, workspace)) else {
                 continue;
             };
@@ -238,8 +190,7 @@ impl<T: Real> Sheet<'_, T> {
         workspace: &Workspace<'b, T>,
     ) -> Option<Look<'b, T>> {
         self.eliminate_at(view, t, workspace)?;
-        let signs = Signs::of(&mut self.frame, workspace);
-        Some(Look { t, signs })
+        Some(Look::of(t, &mut self.frame, workspace))
     }
 
     /// The determinant at a time within a step.
@@ -250,7 +201,12 @@ impl<T: Real> Sheet<'_, T> {
         workspace: &Workspace<'_, T>,
     ) -> Option<T> {
         self.eliminate_at(view, t, workspace)?;
-        Some(self.frame.determinant())
+        let size = self.frame.volume();
+        Some(if self.frame.is_negative() {
+            -size
+        } else {
+            size
+        })
     }
 
     /// How fast the determinant changes where somebody looks (1/s).
@@ -350,7 +306,7 @@ impl<T: Real> Sheet<'_, T> {
             T::one()
         };
         let span = to.t - from.t;
-        let ends = [from, to].map(|look| sign * look.signs.determinant);
+        let ends = [from, to].map(|look| sign * look.determinant);
         let rates = rates.map(|rate| sign * rate * span);
         let dips = rates[0] < T::zero() && rates[1] > T::zero();
         let (mut x, lowest) = lowest_of_cubic(ends, rates);
@@ -362,11 +318,11 @@ impl<T: Real> Sheet<'_, T> {
         for deepening in 0..DEEPENINGS {
             let t = from.t + span * x;
             self.eliminate_at(view, t, workspace)?;
-            let signs = Signs::of(&mut self.frame, workspace);
-            if signs.negative != from.signs.negative {
-                return Some(Look { t, signs });
+            let look = Look::of(t, &mut self.frame, workspace);
+            if look.signs.negative != from.signs.negative {
+                return Some(look);
             }
-            let rate = sign * self.rate(view, (t, signs.determinant), workspace)?;
+            let rate = sign * self.rate(view, (t, look.determinant), workspace)?;
             // Towards where it falls.
             if rate > T::zero() {
                 b = x;
@@ -374,7 +330,7 @@ impl<T: Real> Sheet<'_, T> {
                 a = x;
             }
             let fall = rate.abs() * span * (b - a);
-            if deepening >= DEEP && fall * T::from_f64(2.0) < sign * signs.determinant {
+            if deepening >= DEEP && fall * T::from_f64(2.0) < sign * look.determinant {
                 return None;
             }
             x = (a + b) * T::from_f64(0.5);
@@ -391,8 +347,8 @@ impl<T: Real> Sheet<'_, T> {
         to: &Look<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> T {
-        let (mut a, mut fa) = (from.t, from.signs.determinant);
-        let (mut b, mut fb) = (to.t, to.signs.determinant);
+        let (mut a, mut fa) = (from.t, from.determinant);
+        let (mut b, mut fb) = (to.t, to.determinant);
         let half = T::from_f64(0.5);
         for _ in 0..MOST_STEPS {
             let width = (b - a).abs();
@@ -424,7 +380,7 @@ impl<T: Real> Sheet<'_, T> {
 fn beside<T: Real>(from: &Look<'_, T>, to: &Look<'_, T>, loops: usize, at_once: T) -> T {
     let root = |look: &Look<'_, T>| {
         let power = T::one() / T::from_f64(loops as f64);
-        look.signs.determinant.abs().powf(power)
+        look.determinant.abs().powf(power)
     };
     let (start, end) = (root(from), root(to));
     let (width, little) = (to.t - from.t, at_once * T::from_f64(0.25));
@@ -441,7 +397,7 @@ fn rates<T: Real>(looks: &[Option<Look<'_, T>>; LOOKS], part: T) -> [Option<T>; 
     let [Some(a), Some(b), Some(c), Some(d), Some(e)] = looks else {
         return [None; LOOKS];
     };
-    let values = [a, b, c, d, e].map(|look| look.signs.determinant);
+    let values = [a, b, c, d, e].map(|look| look.determinant);
     // Numerical differentiation of order four by equidistant values.
     const WEIGHTS: [[f64; LOOKS]; LOOKS] = [
         [-25.0, 48.0, -36.0, 16.0, -3.0],

@@ -15,6 +15,7 @@ use super::nodes::{BEYOND, Interpolated, weights_of_sets};
 use super::sheet::Sheet;
 use crate::Real;
 use crate::equations::At;
+use crate::linalg::small::with_size;
 use crate::linalg::{Workspace, add_scaled, dot};
 use crate::tolerance::hull;
 
@@ -27,6 +28,13 @@ impl<T: Real> Sheet<'_, T> {
     /// The first coordinate in the chart.
     fn along(&self, x: &[T]) -> T {
         dot(&self.chart.dual[..x.len()], x)
+    }
+
+    /// That of what leads from one position to another.
+    fn ahead(&self, from: &[T], to: &[T]) -> T {
+        let n = to.len();
+        let (dual, from) = (&self.chart.dual[..n], &from[..n]);
+        (0..n).fold(T::zero(), |sum, i| sum + dual[i] * (to[i] - from[i]))
     }
 
     /// Keeps the nodes between which a state was interpolated.
@@ -79,12 +87,9 @@ impl<T: Real> Sheet<'_, T> {
             return None;
         }
         let n = self.chart.n();
-        let offset = workspace.numbers(n);
         let mut places = [T::zero(); NODES];
         for (place, point) in places.iter_mut().zip(self.nodes.points.chunks_exact(3 * n)) {
-            offset.copy_from_slice(&point[..n]);
-            add_scaled(offset, -T::one(), state.q);
-            *place = self.along(offset);
+            *place = self.ahead(state.q, &point[..n]);
         }
         let half = T::from_f64(0.5);
         let (ahead, behind) = (places[0], places[BEYOND]);
@@ -97,22 +102,15 @@ impl<T: Real> Sheet<'_, T> {
         let sets = weights_of_sets(&places, T::zero());
         let speed = self.along(state.v);
         let mut found = Interpolated::new(&self.chart, workspace);
+        let chart = [self.chart.tangent, self.chart.dual];
         for (node, kept) in self.nodes.points.chunks_exact(3 * n).enumerate() {
-            let (q, rest) = kept.split_at(n);
-            let (tangent, demanded) = rest.split_at(n);
-            let length = self.along(tangent);
-            let share: T = speed / length;
-            let square = share * share;
-            let turned = self.along(demanded) / length;
-            let (offset, rest) = found.node_mut(node).split_at_mut(n);
-            let (drift, rest) = rest.split_at_mut(n);
-            let (particular, target) = rest.split_at_mut(n);
-            drift.fill(T::zero());
-            for i in 0..n {
-                offset[i] = q[i] - state.q[i] - places[node] * self.chart.tangent[i];
-                target[i] = tangent[i] / length;
-                particular[i] = (demanded[i] - tangent[i] * turned) * square;
-            }
+            let from = (state.q, places[node], speed);
+            let known = found.node_mut(node);
+            with_size!(
+                n,
+                |N| bring(N, kept, from, chart, known),
+                bring(n, kept, from, chart, known)
+            );
             found.noise += sets[0][node].abs() * quality.noise[node];
         }
         found.sum_up(&sets);
@@ -120,5 +118,34 @@ impl<T: Real> Sheet<'_, T> {
         self.judge(state, quality.rate, &mut found);
         let as_before = found.score <= quality.score;
         (as_before || self.serves(&found)).then_some(found)
+    }
+}
+
+/// Brings what is kept of a node to a state from which it is so far along a chart's tangent,
+/// and to the speed along it: the offset, the drift, the particular acceleration, the tangent.
+#[inline(always)]
+fn bring<T: Real>(
+    n: usize,
+    kept: &[T],
+    (here, place, speed): (&[T], T, T),
+    [chart, dual]: [&[T]; 2],
+    known: &mut [T],
+) {
+    let (here, chart, dual) = (&here[..n], &chart[..n], &dual[..n]);
+    let kept = &kept[..3 * n];
+    let known = &mut known[..4 * n];
+    let (mut length, mut turned) = (T::zero(), T::zero());
+    for i in 0..n {
+        length += dual[i] * kept[n + i];
+        turned += dual[i] * kept[2 * n + i];
+    }
+    let (share, turned) = (speed / length, turned / length);
+    let square = share * share;
+    for i in 0..n {
+        let (tangent, demanded) = (kept[n + i], kept[2 * n + i]);
+        known[i] = kept[i] - here[i] - place * chart[i];
+        known[n + i] = T::zero();
+        known[2 * n + i] = (demanded - tangent * turned) * square;
+        known[3 * n + i] = tangent / length;
     }
 }

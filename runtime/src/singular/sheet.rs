@@ -14,7 +14,7 @@ use super::chart::ChartView;
 use super::kept::NodesView;
 use super::obstacle::Obstacle;
 use crate::equations::{At, Equations};
-use crate::linalg::{Eliminated, Frame, Workspace, add_scaled, is_zero};
+use crate::linalg::{Eliminated, Frame, Matrix, Right, Workspace, add_scaled, is_zero};
 use crate::once::compiled_once;
 use crate::tolerance::{contraction, critical, near_dependent, round_off};
 use crate::{Real, State};
@@ -138,22 +138,9 @@ pub(crate) struct Sheet<'a, T> {
     pub(super) nodes: NodesView<'a, T>,
     /// Whether any row restricts positions.
     pub(super) holonomic: bool,
-    /// A right-hand side in the order and scale of the frame's rows, and its solution.
+    /// A right-hand side in the order and scale of the frame's rows, and a solution.
     right: &'a mut [T],
     solution: &'a mut [T],
-}
-
-/// A right-hand side of the constraint rows.
-#[derive(Clone, Copy)]
-enum Right {
-    /// Zero.
-    Nothing,
-    /// `−g`.
-    Residual,
-    /// `−b`.
-    Drift,
-    /// `p₂`.
-    Bias,
 }
 
 impl<'a, T: Real> Sheet<'a, T> {
@@ -165,14 +152,15 @@ impl<'a, T: Real> Sheet<'a, T> {
         workspace: &Workspace<'a, T>,
     ) -> Self {
         let n = chart.n();
+        let (right, solution) = workspace.any(2 * n).split_at_mut(n);
         Self {
             equations,
             chart,
             frame: Frame::new(chart.column_places, chart.rows.len(), workspace),
             nodes,
             holonomic,
-            right: workspace.any(n),
-            solution: workspace.any(n),
+            right,
+            solution,
         }
     }
 
@@ -215,9 +203,11 @@ impl<'a, T: Real> Sheet<'a, T> {
     /// Evaluates the constraints at a position.
     fn load(&mut self, t: T, q: &[T]) {
         self.equations.locate(t, q);
-        self.frame.clear();
         match self.frame.is_long() {
-            true => self.load_sparse(),
+            true => {
+                self.frame.clear();
+                self.load_sparse();
+            }
             false => self.load_all(),
         }
     }
@@ -225,22 +215,13 @@ impl<'a, T: Real> Sheet<'a, T> {
     /// Takes all entries of the constraint rows and the duals.
     fn load_all(&mut self) {
         let chart = &self.chart;
-        let jacobian = self.equations.constraints().jacobian;
-        let columns = chart.column_places.iter().zip(chart.column_scale);
-        for (place, &row) in chart.rows.iter().enumerate() {
-            let scale = chart.row_scale[row];
-            let entries = jacobian[row..].iter().step_by(chart.row_scale.len());
-            let target = self.frame.short_row(place);
-            for (entry, (column, size)) in entries.zip(columns.clone()) {
-                target[*column] = scale * *entry * *size;
-            }
-        }
-        for (i, dual) in chart.dual.chunks_exact(chart.n()).enumerate() {
-            let target = self.frame.short_row(chart.rows.len() + i);
-            for (entry, (column, size)) in dual.iter().zip(columns.clone()) {
-                target[*column] = *entry * *size;
-            }
-        }
+        let jacobian = Matrix {
+            entries: self.equations.constraints().jacobian,
+            rows: chart.rows,
+            factors: chart.row_scale,
+        };
+        self.frame
+            .set_rows(jacobian, chart.dual, chart.column_scale);
     }
 
     /// Takes those that are not zero.
@@ -267,35 +248,6 @@ impl<'a, T: Real> Sheet<'a, T> {
         }
     }
 
-    /// Prepares the right-hand side of the constraint rows, with zeros for the coordinates
-    /// in the chart.
-    fn set_right(&mut self, right: Right) {
-        let at = self.equations.constraints();
-        self.right.fill(T::zero());
-        let (sign, entries) = match right {
-            Right::Nothing => return,
-            Right::Residual => (-T::one(), at.residual),
-            Right::Drift => (-T::one(), at.drift),
-            Right::Bias => (T::one(), at.bias),
-        };
-        scale_rows(&self.chart, sign, entries, self.right);
-    }
-
-    /// Solves the square system for the right-hand side at hand.
-    fn solve(&mut self) {
-        self.frame.solve(self.right, self.solution);
-        for (x, scale) in self.solution.iter_mut().zip(self.chart.column_scale) {
-            *x *= *scale;
-        }
-    }
-
-    /// Solves it for another right-hand side of the constraint rows.
-    fn solve_for(&mut self, right: Right, solution: &mut [T]) {
-        self.set_right(right);
-        self.solve();
-        solution.copy_from_slice(self.solution);
-    }
-
     /// Corrects what interpolation leaves of position and velocity in the rows that are
     /// safely independent. The near-dependent ones would magnify round-off.
     pub(super) fn polish(
@@ -304,37 +256,32 @@ impl<'a, T: Real> Sheet<'a, T> {
         like: &Eliminated<'_, T>,
     ) -> Result<(), Obstacle> {
         self.eliminate((point.t, point.q), Some(like))?;
-        self.set_right(Right::Residual);
-        self.correct_independent(point.q);
-        let at = self.equations.constraints();
+        let (chart, at) = (&self.chart, self.equations.constraints());
+        let right = chart.right(-T::one(), at.residual);
+        self.frame
+            .solve_independent(right, chart.column_scale, self.solution);
+        add_scaled(point.q, T::one(), self.solution);
         self.right.fill(T::zero());
-        for (place, &row) in self.chart.rows.iter().enumerate() {
-            let levers = at.jacobian.iter().skip(row).step_by(at.drift.len());
-            let mut speed = T::zero();
-            for (lever, v) in levers.zip(&*point.v) {
-                speed += *lever * *v;
+        for (place, &row) in chart.rows.iter().enumerate() {
+            let mut speed = at.drift[row];
+            for (levers, v) in at.jacobian.chunks_exact(at.drift.len()).zip(&*point.v) {
+                speed += levers[row] * *v;
             }
-            self.right[place] = -(self.chart.row_scale[row] * (speed + at.drift[row]));
+            self.right[place] = -(chart.row_scale[row] * speed);
         }
-        self.correct_independent(point.v);
+        let right = Right::Given(self.right);
+        self.frame
+            .solve_independent(right, chart.column_scale, self.solution);
+        add_scaled(point.v, T::one(), self.solution);
         Ok(())
-    }
-
-    /// Adds the solution for the right-hand side at hand of all rows but the near-dependent
-    /// ones.
-    fn correct_independent(&mut self, target: &mut [T]) {
-        self.frame.solve_independent(self.right, self.solution);
-        let corrections = self.solution.iter().zip(self.chart.column_scale);
-        for (entry, (x, scale)) in target.iter_mut().zip(corrections) {
-            *entry += *scale * *x;
-        }
     }
 
     /// The largest of the constraints that is left when the rows before the near-dependent
     /// ones are eliminated.
     pub(super) fn largest_residual(&mut self) -> T {
-        self.set_right(Right::Residual);
-        self.frame.largest_reduced(self.right)
+        let residual = self.equations.constraints().residual;
+        self.frame
+            .largest_reduced(self.chart.right(-T::one(), residual))
     }
 
     /// Moves a position along the chart's complement onto the sheet, by Newton's
@@ -361,8 +308,10 @@ impl<'a, T: Real> Sheet<'a, T> {
             if !self.holonomic {
                 return Ok(());
             }
-            self.set_right(Right::Residual);
-            self.solve();
+            let residual = self.equations.constraints().residual;
+            let right = self.chart.right(-T::one(), residual);
+            let scales = self.chart.column_scale;
+            self.frame.solve(right, scales, self.solution);
             let size = self.chart.length(self.solution);
             if !size.is_finite() {
                 return Err(Obstacle::NotFinite);
@@ -389,22 +338,26 @@ impl<'a, T: Real> Sheet<'a, T> {
     /// The sheet's geometry at a position on it whose frame is at hand, for a velocity of
     /// these coordinates in the chart, or as it is.
     pub(super) fn measure(&mut self, along: Option<&[T]>, point: &mut PointView<'_, T>) {
-        let n = self.chart.n();
-        for (i, tangent) in point.tangent.chunks_exact_mut(n).enumerate() {
-            self.set_right(Right::Nothing);
-            self.right[self.chart.rows.len() + i] = T::one();
-            self.solve();
-            tangent.copy_from_slice(self.solution);
+        let chart = self.chart;
+        let scales = chart.column_scale;
+        for (i, tangent) in point.tangent.chunks_exact_mut(chart.n()).enumerate() {
+            let unit = Right::Unit(chart.rows.len() + i);
+            self.frame.solve(unit, scales, tangent);
         }
-        match is_zero(self.equations.constraints().drift) {
+        let drift = self.equations.constraints().drift;
+        match is_zero(drift) {
             true => point.drift.fill(T::zero()),
-            false => self.solve_for(Right::Drift, point.drift),
+            false => {
+                let right = chart.right(-T::one(), drift);
+                self.frame.solve(right, scales, point.drift);
+            }
         }
         if let Some(along) = along {
             point.move_along(along);
         }
         self.equations.evaluate(point.at());
-        self.solve_for(Right::Bias, point.particular);
+        let right = chart.right(T::one(), self.equations.constraints().bias);
+        self.frame.solve(right, scales, point.particular);
         point.sine = self.frame.smallest();
     }
 
@@ -437,10 +390,18 @@ impl<'a, T: Real> Sheet<'a, T> {
     }
 }
 
-/// Right-hand sides of the constraint rows in their order and scale in a chart.
-fn scale_rows<T: Real>(chart: &ChartView<'_, T>, sign: T, right: &[T], scaled: &mut [T]) {
-    for (target, &row) in scaled.iter_mut().zip(chart.rows) {
-        *target = sign * chart.row_scale[row] * right[row];
+impl<'a, T: Real> ChartView<'a, T> {
+    /// A multiple of right-hand sides of the constraint rows, in their order and scale.
+    fn right<'b>(&self, factor: T, entries: &'b [T]) -> Right<'b, T>
+    where
+        'a: 'b,
+    {
+        let column = Matrix {
+            entries,
+            rows: self.rows,
+            factors: self.row_scale,
+        };
+        Right::Column(factor, column)
     }
 }
 

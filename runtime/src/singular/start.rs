@@ -17,7 +17,7 @@ use super::sheet::Point;
 use crate::dynamics::{Core, Lent, Source, Which, choosing};
 use crate::equations::{At, sized};
 use crate::linalg::{Workspace, is_zero};
-use crate::tolerance::{passes, window};
+use crate::tolerance::{accepted, passes, window};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::{SMatrix, SVector};
 
@@ -98,7 +98,7 @@ impl<T: Real, const N: usize, const R: usize> Lent<'_, T, N, R> {
             freedoms,
             self.metric,
             (self.rows, &equations.position.jacobian),
-            (self.reach, self.sizes, self.accepted),
+            (self.reach, self.sizes, accepted(self.tolerance)),
         )?;
         equations.mechanism.position(state, equations.position);
         if !is_zero(equations.position.drift.as_slice()) {

@@ -1,0 +1,240 @@
+//! Long functions in parts.
+//!
+//! In:  a program, and the signature of the function that runs it.
+//! Out: functions that run a part of it each, and the calls of all of them, one after the
+//!      other. What one part computes and later ones read is kept in an array, whose places
+//!      are used again as soon as nobody reads them any more.
+//!
+//! What a compiler needs for a straight line grows faster than the line: vectorising, keeping
+//! values in registers and scheduling look at all of a block, again and again.
+
+use super::function::{Decided, Place, Symbols, Writer};
+use super::name::Names;
+use super::statements::Statements;
+use crate::expr::{Function, Symbol};
+use crate::optimise::{Operation, Program, Value};
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::quote;
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::BTreeSet;
+
+/// The most operations of a function that is one straight line.
+const STRAIGHT_MAX: usize = 8_000;
+/// The statements of a part.
+const STATEMENTS: usize = 2_000;
+
+/// A function that was taken apart.
+pub(super) struct Parts {
+    /// Its statements: the calls.
+    pub calls: TokenStream,
+    /// The functions that run a part each.
+    pub functions: TokenStream,
+}
+
+/// The statements for one value.
+struct Step {
+    statements: Statements,
+    symbols: BTreeSet<Symbol>,
+    reads: Vec<Ident>,
+    defines: Vec<Ident>,
+}
+
+impl Parts {
+    /// Whether a program is long enough.
+    pub fn are_worth(program: &Program) -> bool {
+        program.len() > STRAIGHT_MAX
+    }
+
+    /// Writes a program; `names` are the names that are taken. The function that is taken
+    /// apart has a name, and takes a `state` and a buffer `out`.
+    pub fn of(
+        program: &Program,
+        symbols: &dyn Symbols,
+        names: Names,
+        (place, decided): (Place, Decided),
+        (name, arguments): (&Ident, &TokenStream),
+    ) -> Self {
+        let parts = parts(steps(program, symbols, names, place, decided));
+        let kept = Kept::between(&parts);
+        let count = Literal::usize_unsuffixed(kept.count);
+        let mut functions = TokenStream::new();
+        let mut calls = quote!(let mut kept = [T::zero(); #count];);
+        for (number, part) in parts.iter().enumerate() {
+            let name = Ident::new(&format!("{name}_part_{number}"), Span::call_site());
+            let body = body(part, symbols, &kept);
+            functions.extend(quote! {
+                #[inline(never)]
+                #[allow(unused_variables, reason = "all parts are called alike")]
+                fn #name(&self, #arguments, kept: &mut [T; #count]) {
+                    #body
+                }
+            });
+            calls.extend(quote!(self.#name(state, out, &mut kept);));
+        }
+        Self { calls, functions }
+    }
+}
+
+/// The steps of a program; the first is the call for the angles.
+fn steps(
+    program: &Program,
+    symbols: &dyn Symbols,
+    names: Names,
+    place: Place,
+    decided: Decided,
+) -> Vec<Step> {
+    let mut writer = Writer::of(program, symbols, names, decided);
+    writer.place_angles();
+    let pairs = writer.angles.values();
+    let mut defined: FxHashSet<Ident> = pairs.flat_map(named).collect();
+    let mut steps = vec![Step {
+        defines: defined.iter().cloned().collect(),
+        symbols: BTreeSet::new(),
+        reads: Vec::new(),
+        statements: std::mem::take(&mut writer.statements),
+    }];
+    let slots = program.slots();
+    for (value, operation) in program.operations() {
+        writer.place(value);
+        for slot in &slots[value.index()] {
+            if let Some(place) = place(slot) {
+                let tokens = writer.piece(value).tokens.clone();
+                writer.statements.push(quote!(#place = #tokens;));
+            }
+        }
+        if writer.statements.len() > 0 {
+            let statements = std::mem::take(&mut writer.statements);
+            let mut step = writer.step(value, operation, statements);
+            let (new, known) = step
+                .defines
+                .drain(..)
+                .partition(|name| defined.insert(name.clone()));
+            step.defines = new;
+            step.reads.extend::<Vec<Ident>>(known);
+            steps.push(step);
+        }
+    }
+    steps
+}
+
+/// The names of a sine and a cosine, as far as they have one.
+fn named((sin, cos): &(Ident, Ident)) -> Vec<Ident> {
+    let mut names = vec![sin.clone(), cos.clone()];
+    names.retain(|name| name != "_");
+    names
+}
+
+impl Writer<'_> {
+    /// What the statements for a value read and define.
+    fn step(&self, value: Value, operation: &Operation, statements: Statements) -> Step {
+        let mut step = Step {
+            symbols: BTreeSet::new(),
+            reads: Vec::new(),
+            defines: self.piece(value).name.iter().cloned().collect(),
+            statements,
+        };
+        if let Operation::Function(Function::Sin | Function::Cos, x) = operation
+            && let Some(pair) = self.angles.get(x)
+        {
+            step.defines = named(pair);
+        }
+        if let Operation::Symbol(symbol) = operation {
+            step.symbols.insert(*symbol);
+        }
+        let mut pending = operation.operands();
+        while let Some(value) = pending.pop() {
+            match (self.program.operation(value), &self.piece(value).name) {
+                (Operation::Symbol(symbol), _) => {
+                    step.symbols.insert(*symbol);
+                }
+                (_, Some(name)) => step.reads.push(name.clone()),
+                (operation, None) => pending.extend(operation.operands()),
+            }
+        }
+        step
+    }
+}
+
+/// Steps as many to a part as it may have.
+fn parts(steps: Vec<Step>) -> Vec<Vec<Step>> {
+    let mut parts: Vec<Vec<Step>> = Vec::new();
+    let mut statements = STATEMENTS;
+    for (place, step) in steps.into_iter().enumerate() {
+        statements += step.statements.len();
+        if statements > STATEMENTS || place == 1 {
+            statements = step.statements.len();
+            parts.push(Vec::new());
+        }
+        if let Some(part) = parts.last_mut() {
+            part.push(step);
+        }
+    }
+    parts
+}
+
+/// The values that one part computes and later ones read.
+struct Kept {
+    places: FxHashMap<Ident, usize>,
+    count: usize,
+}
+
+impl Kept {
+    fn between(parts: &[Vec<Step>]) -> Self {
+        let mut last: FxHashMap<&Ident, usize> = FxHashMap::default();
+        for (part, steps) in parts.iter().enumerate() {
+            let read = steps.iter().flat_map(|step| &step.reads);
+            last.extend(read.map(|name| (name, part)));
+        }
+        let mut places = FxHashMap::default();
+        let mut free: Vec<usize> = Vec::new();
+        let mut taken: Vec<(usize, usize)> = Vec::new();
+        let mut count = 0;
+        for (part, steps) in parts.iter().enumerate() {
+            // A place that this part still reads is written by none of its statements.
+            let given = taken.extract_if(.., |(last, _)| *last < part);
+            free.extend(given.map(|(_, place)| place));
+            for name in steps.iter().flat_map(|step| &step.defines) {
+                let last = last.get(name).copied().unwrap_or(part);
+                if last > part && !places.contains_key(name) {
+                    let place = free.pop().unwrap_or_else(|| {
+                        count += 1;
+                        count - 1
+                    });
+                    places.insert(name.clone(), place);
+                    taken.push((last, place));
+                }
+            }
+        }
+        Self { places, count }
+    }
+
+    fn place(&self, name: &Ident) -> Option<TokenStream> {
+        let place = Literal::usize_unsuffixed(*self.places.get(name)?);
+        Some(quote!(kept[#place]))
+    }
+}
+
+/// The statements of a part. What it reads is fetched where it is read first.
+fn body(part: &[Step], symbols: &dyn Symbols, kept: &Kept) -> TokenStream {
+    let read: BTreeSet<Symbol> = part.iter().flat_map(|step| step.symbols.clone()).collect();
+    let mut tokens = symbols.prelude(&read);
+    let mut known: FxHashSet<&Ident> = FxHashSet::default();
+    for step in part {
+        for name in &step.reads {
+            if known.insert(name)
+                && let Some(place) = kept.place(name)
+            {
+                tokens.extend(quote!(let #name = #place;));
+            }
+        }
+        tokens.extend(step.statements.clone().into_tokens());
+        for name in &step.defines {
+            if known.insert(name)
+                && let Some(place) = kept.place(name)
+            {
+                tokens.extend(quote!(#place = #name;));
+            }
+        }
+    }
+    tokens
+}

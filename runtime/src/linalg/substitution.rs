@@ -1,0 +1,114 @@
+//! Solutions of a system that is eliminated.
+//!
+//! In:  a [`Frame`], right-hand sides of its rows.
+//! Out: solutions by forward and backward substitution, of all rows or of those that are not
+//!      near-dependent.
+
+use super::dot;
+use super::frame::{Frame, Matrix};
+use super::small::with_size;
+use crate::Real;
+
+/// Right-hand sides of the rows of a frame.
+#[derive(Clone, Copy)]
+pub(crate) enum Right<'a, T> {
+    /// A multiple of some rows of a matrix of one column, of which they come first, and zeros.
+    Column(T, Matrix<'a, T>),
+    /// One for one row, zero for the others.
+    Unit(usize),
+    /// These.
+    Given(&'a [T]),
+}
+
+impl<T: Real> Right<'_, T> {
+    #[inline(always)]
+    pub(super) fn fill(self, right: &mut [T]) {
+        match self {
+            Right::Column(factor, column) => {
+                right.fill(T::zero());
+                for (target, &row) in right.iter_mut().zip(column.rows) {
+                    *target = factor * column.factors[row] * column.entries[row];
+                }
+            }
+            Right::Unit(row) => {
+                right.fill(T::zero());
+                right[row] = T::one();
+            }
+            Right::Given(given) => right.copy_from_slice(given),
+        }
+    }
+}
+
+impl<T: Real> Frame<'_, T> {
+    /// The largest right-hand side of the near-dependent rows when all others are
+    /// eliminated.
+    pub(crate) fn largest_reduced(&mut self, right: Right<'_, T>) -> T {
+        let independent = self.order.independent;
+        self.go_forward(right, independent);
+        let mut most = T::zero();
+        for &row in &self.order.rows[independent..] {
+            let shares = &self.lower[row * self.n..][..independent];
+            let mut rest = self.right[row];
+            for (share, y) in shares.iter().zip(&*self.forward) {
+                rest -= *share * *y;
+            }
+            most = most.max(rest.abs());
+        }
+        most
+    }
+
+    /// The solution for the right-hand sides of all rows, each entry times a scale.
+    pub(crate) fn solve(&mut self, right: Right<'_, T>, scales: &[T], x: &mut [T]) {
+        self.solve_first(self.n, right, scales, x);
+    }
+
+    /// The solution that satisfies the rows before the near-dependent ones, and leaves
+    /// these alone.
+    pub(crate) fn solve_independent(&mut self, right: Right<'_, T>, scales: &[T], x: &mut [T]) {
+        self.solve_first(self.order.independent, right, scales, x);
+    }
+
+    /// The solution for the rows of the first steps.
+    fn solve_first(&mut self, steps: usize, right: Right<'_, T>, scales: &[T], x: &mut [T]) {
+        with_size!(
+            self.n,
+            |N| self.solve_in::<N>(steps, right, scales, x),
+            self.solve_any(steps, right, scales, x)
+        );
+    }
+
+    fn solve_any(&mut self, steps: usize, right: Right<'_, T>, scales: &[T], x: &mut [T]) {
+        self.go_forward(right, steps);
+        self.go_backward(steps);
+        for ((x, place), scale) in x.iter_mut().zip(self.places).zip(scales) {
+            *x = self.backward[*place] * *scale;
+        }
+    }
+
+    fn go_forward(&mut self, right: Right<'_, T>, steps: usize) {
+        right.fill(self.right);
+        for step in 0..steps {
+            let row = self.order.rows[step];
+            let first = self.changed[row].min(step);
+            let shares = &self.lower[row * self.n..][first..step];
+            let mut value = self.right[row];
+            for (share, y) in shares.iter().zip(&self.forward[first..step]) {
+                value -= *share * *y;
+            }
+            self.forward[step] = value;
+        }
+    }
+
+    fn go_backward(&mut self, steps: usize) {
+        self.backward.fill(T::zero());
+        for step in (0..steps).rev() {
+            let (row, column) = (self.order.rows[step], self.order.columns[step]);
+            let upper = &self.upper[row * self.n..][..self.n];
+            let known = match self.is_long() {
+                true => dot(&upper[self.span(row)], &self.backward[self.span(row)]),
+                false => dot(upper, self.backward),
+            };
+            self.backward[column] = (self.forward[step] - known) / upper[column];
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! What changes its sign where sheets cross.
+//!
+//! In:  eliminations at two states of a step.
+//! Out: how many sheets were crossed on the way from one to the other.
+
+use super::sheet::Sheet;
+use crate::Real;
+use crate::equations::At;
+use crate::linalg::{Block, Eliminated, Frame, Workspace};
+
+/// What changes its sign where sheets cross.
+pub(super) struct Signs<'a, T> {
+    block: Block<'a, T>,
+    /// That of the determinant of the whole system.
+    pub(super) negative: bool,
+}
+
+impl<'a, T: Real> Signs<'a, T> {
+    pub(super) fn of(frame: &mut Frame<'_, T>, workspace: &Workspace<'a, T>) -> Self {
+        Self {
+            block: frame.block().copy(workspace),
+            negative: frame.is_negative(),
+        }
+    }
+
+    /// A number with the sign of the determinant.
+    pub(super) fn signed(&self, size: T) -> T {
+        if self.negative { -size } else { size }
+    }
+
+    /// How many sheets were crossed on the way from others.
+    pub(super) fn changes_from(&self, other: &Signs<'_, T>, workspace: &Workspace<'_, T>) -> usize {
+        other.changes_to((&self.block, self.negative), workspace)
+    }
+
+    /// How many sheets were crossed on the way to a block and the sign of a determinant. Blocks
+    /// count them, and determinants tell whether their number is odd; a block also changes its
+    /// sign where one of the rows before it loses its pivot.
+    fn changes_to(
+        &self,
+        (block, negative): (&Block<'_, T>, bool),
+        workspace: &Workspace<'_, T>,
+    ) -> usize {
+        let changes = block.sign_changes_from(&self.block, workspace);
+        let odd = negative != self.negative;
+        match (changes % 2 == 1) == odd {
+            true => changes,
+            false => usize::from(odd),
+        }
+    }
+}
+
+/// The start of a step: the order of elimination for all of its states, and the signs.
+pub(crate) struct Reference<'a, T> {
+    pub(super) like: Eliminated<'a, T>,
+    pub(super) signs: Signs<'a, T>,
+}
+
+impl<T: Real> Sheet<'_, T> {
+    /// What states of a step that begins here are compared with; `None` where the
+    /// constraints can't be eliminated.
+    pub(super) fn reference<'b>(
+        &mut self,
+        start: At<'_, T>,
+        workspace: &Workspace<'b, T>,
+    ) -> Option<Reference<'b, T>> {
+        self.eliminate_widely(start.t, start.q).ok()?;
+        Some(Reference {
+            like: self.frame.eliminated(workspace),
+            signs: Signs::of(&mut self.frame, workspace),
+        })
+    }
+
+    /// How many sheets are crossed on the way to a state; `None` where that can't be told.
+    pub(super) fn sign_changes(
+        &mut self,
+        from: &Reference<'_, T>,
+        to: At<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Option<usize> {
+        self.eliminate((to.t, to.q), Some(&from.like)).ok()?;
+        let negative = self.frame.is_negative();
+        let there = (self.frame.block(), negative);
+        Some(from.signs.changes_to(there, workspace))
+    }
+}
