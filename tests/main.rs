@@ -32,6 +32,7 @@ mod order;
 mod pages;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod parts;
 mod passage;
 mod readme;
 mod reduction;

@@ -118,6 +118,15 @@ impl Builder {
         self
     }
 
+    /// The most operations, 8,000 unless it is given, of a function that is one straight line.
+    /// A longer one is emitted as parts that are called one after the other: it takes less time
+    /// to compile, and more to run, since what one part computes and another one reads goes
+    /// through memory.
+    pub fn straight_line(mut self, operations: usize) -> Self {
+        self.settings.options.straight_line = Some(operations);
+        self
+    }
+
     /// Writes to another folder than `OUT_DIR`.
     pub fn out_dir(mut self, folder: impl Into<PathBuf>) -> Self {
         self.out_dir = Some(folder.into());

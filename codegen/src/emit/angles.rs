@@ -20,8 +20,9 @@ const ANGLES_MIN: usize = 4;
 
 impl Writer<'_> {
     /// Writes the call for all angles that are known from the start; the symbols that
-    /// are in scope after it, or not needed any more.
-    pub(super) fn place_angles(&mut self) -> BTreeSet<Symbol> {
+    /// are in scope after it, or not needed any more. `alone` says that no other statements
+    /// are in its scope.
+    pub(super) fn place_angles(&mut self, alone: bool) -> BTreeSet<Symbol> {
         let angles = self.early_angles();
         if angles.len() < ANGLES_MIN {
             return BTreeSet::new();
@@ -32,7 +33,7 @@ impl Writer<'_> {
                 (coordinates, angles.iter().filter_map(read).collect())
             }
             None => {
-                let bound = self.bind(&angles);
+                let bound = self.bind(&angles, alone);
                 let arguments = angles.iter().map(|angle| {
                     self.place_with_operands(*angle);
                     self.piece(*angle).tokens.clone()
@@ -102,20 +103,23 @@ impl Writer<'_> {
         }
     }
 
-    /// Brings into scope what the angles read, and all else that comes from the same
-    /// arrays.
-    fn bind(&mut self, angles: &[Value]) -> BTreeSet<Symbol> {
-        let mut kinds = Vec::new();
+    /// Brings into scope what the angles read, and, unless they are alone, all else that comes
+    /// from the same arrays.
+    fn bind(&mut self, angles: &[Value], alone: bool) -> BTreeSet<Symbol> {
+        let mut bound = BTreeSet::new();
         let mut pending = angles.to_vec();
         while let Some(value) = pending.pop() {
             let operation = self.program.operation(value);
             if let Operation::Symbol(symbol) = operation {
-                kinds.push(discriminant(symbol));
+                bound.insert(*symbol);
             }
             pending.extend(operation.operands());
         }
-        let mut bound = self.symbols_read();
-        bound.retain(|symbol| kinds.contains(&discriminant(symbol)));
+        if !alone {
+            let kinds: Vec<_> = bound.iter().map(discriminant).collect();
+            bound = self.symbols_read();
+            bound.retain(|symbol| kinds.contains(&discriminant(symbol)));
+        }
         let prelude = self.symbols.prelude(&bound);
         self.statements.push(prelude);
         bound

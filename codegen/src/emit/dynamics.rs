@@ -1,10 +1,10 @@
 //! The equations of motion: the trait implementation.
 
-use super::function::Decided;
+use super::filling::{Filling, Heading};
 use super::linearised::linearised;
-use super::subject::{Reads, Subject, Written, argument, doc_lines, entry, entry_of_field};
+use super::subject::{Subject, Written, cost_in_words, entry, entry_of_field};
 use super::switches::switches;
-use crate::optimise::{Optimised, Slot, Solved, Way};
+use crate::optimise::{Optimised, Slot, Solved, Way, cost};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
@@ -47,87 +47,105 @@ the constraints are regular.";
 /// `impl Mechanism`.
 pub(super) fn mechanism(subject: &Subject) -> TokenStream {
     let (n, r) = subject.sizes();
-    let programs = subject.programs;
-    let terms = filled(subject, ["terms", "Terms", TERMS], &programs.terms);
-    let regular = programs.regular.as_ref().map(|solved| {
-        let docs = match solved.way {
-            Way::Schur => SCHUR,
-            Way::Saddle => SADDLE,
-            Way::Shared => SHARED,
-        };
-        solution(subject, ["regular", "Regular", docs], solved)
-    });
-    let position = programs.position.as_ref();
-    let position = position.map(|terms| filled(subject, ["position", "Position", POSITION], terms));
-    let correction = programs.correction.as_ref();
-    let correction = correction
-        .map(|solved| solution(subject, ["correction", "Correction", CORRECTION], solved));
+    let methods = methods(subject);
+    let called = methods.iter().map(|method| &method.functions);
+    let called: TokenStream = called.cloned().collect();
+    let methods = methods.iter().map(|method| &method.method);
     let begin = super::start::begin(subject);
     let energy = energy(subject);
     let linearised = linearised(subject);
     let switches = switches(subject);
     let name = subject.type_name();
+    let functions = (!called.is_empty()).then(|| quote!(impl<T: Real> #name<T> { #called }));
     quote! {
         impl<T: Real> Mechanism<T, #n, #r> for #name<T> {
             fn structure(&self) -> &'static Structure {
                 &STRUCTURE
             }
-            #terms
-            #regular
-            #position
-            #correction
+            #(#methods)*
             #begin
             #energy
             #linearised
             #switches
         }
+
+        #functions
     }
+}
+
+/// A method of the trait, and the functions of the mechanism that it calls.
+struct Method {
+    method: TokenStream,
+    functions: TokenStream,
+}
+
+/// The methods that fill buffers.
+fn methods(subject: &Subject) -> Vec<Method> {
+    let programs = subject.programs;
+    let mut methods = vec![filled(subject, ["terms", "Terms", TERMS], &programs.terms)];
+    if let Some(solved) = &programs.regular {
+        let docs = match solved.way {
+            Way::Schur => SCHUR,
+            Way::Saddle => SADDLE,
+            Way::Shared => SHARED,
+        };
+        methods.push(solution(subject, ["regular", "Regular", docs], solved));
+    }
+    if let Some(terms) = &programs.position {
+        methods.push(filled(subject, ["position", "Position", POSITION], terms));
+    }
+    if let Some(solved) = &programs.correction {
+        let heading = ["correction", "Correction", CORRECTION];
+        methods.push(solution(subject, heading, solved));
+    }
+    methods
 }
 
 /// A method that fills the fields of a buffer with arrays of their names; the mass matrix
 /// by a function of its own, if there is one.
-fn filled(subject: &Subject, method: [&str; 3], computed: &Optimised) -> TokenStream {
-    let [name, buffer, docs] = method;
-    let Written {
-        body, state, cost, ..
-    } = subject.optimised(computed, &entry_of_field, Decided::BySides);
+fn filled(subject: &Subject, [name, buffer, docs]: [&str; 3], computed: &Optimised) -> Method {
     let by_columns = subject.programs.inertia.is_some();
+    let heading = Heading {
+        name,
+        buffer,
+        docs,
+        cost: cost_in_words(computed),
+        reads_all: by_columns,
+    };
+    let filling = Filling::of(subject, &heading, &computed.program, &entry_of_field);
     let mass = by_columns.then(|| quote!(self.write_mass(state, &mut out.mass);));
-    let state = if by_columns { ident("state") } else { state };
-    let out = argument("out", by_columns || Reads::of(&computed.program).out);
-    let (name, buffer) = (ident(name), ident(buffer));
-    let (docs, statements) = (doc_lines(docs), body.statements);
-    let (n, r) = subject.sizes();
-    quote! {
-        #(#[doc = #docs])*
-        ///
-        #[doc = #cost]
-        fn #name(&self, #state: &State<T, #n>, #out: &mut #buffer<T, #n, #r>) {
-            #mass
-            #statements
-        }
+    let Filling {
+        docs,
+        signature,
+        statements,
+        functions,
+    } = filling;
+    Method {
+        method: quote!(#docs #signature { #mass #statements }),
+        functions,
     }
 }
 
 /// A method that solves where the constraints are regular.
-fn solution(subject: &Subject, method: [&str; 3], solved: &Solved) -> TokenStream {
-    let [name, buffer, docs] = method;
-    let Written {
-        body, state, cost, ..
-    } = subject.solved(solved, &entry_of_solution);
-    let out = argument("out", Reads::of(&solved.program).out);
-    let (name, buffer) = (ident(name), ident(buffer));
-    let (docs, statements) = (doc_lines(docs), body.statements);
-    let (n, r) = subject.sizes();
-    quote! {
-        #(#[doc = #docs])*
-        ///
-        #[doc = #cost]
-        #[inline(always)]
-        fn #name(&self, #state: &State<T, #n>, #out: &mut #buffer<T, #n, #r>) -> bool {
-            #statements
-            true
-        }
+fn solution(subject: &Subject, [name, buffer, docs]: [&str; 3], solved: &Solved) -> Method {
+    let heading = Heading {
+        name,
+        buffer,
+        docs,
+        // What it costs includes what it solves.
+        cost: format!(" Costs {}.", cost(&solved.program)),
+        reads_all: false,
+    };
+    let filling = Filling::of(subject, &heading, &solved.program, &entry_of_solution);
+    let Filling {
+        docs,
+        signature,
+        statements,
+        functions,
+    } = filling;
+    Method {
+        method: quote!(#docs #[inline(always)] #signature -> bool { #statements true }),
+        functions,
     }
 }
 

@@ -4,11 +4,11 @@
 //! Out: the method, and the functions that it calls where its statements would be too many.
 
 use super::function::{Body, Decided, Place};
-use super::parts::Parts;
+use super::parts::{Parts, STRAIGHT_LINE};
 use super::subject::{Reads, Subject, argument, doc_lines};
 use super::symbol::SymbolNames;
 use crate::optimise::Program;
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 /// What is known of a method before its program is written.
@@ -27,7 +27,9 @@ pub(super) struct Filling {
     pub statements: TokenStream,
     /// What they call.
     pub functions: TokenStream,
-    /// Documentation, name and arguments.
+    /// Its documentation.
+    pub docs: TokenStream,
+    /// Its name and arguments.
     pub signature: TokenStream,
 }
 
@@ -35,22 +37,19 @@ impl Filling {
     /// The method that runs a program.
     pub fn of(subject: &Subject, heading: &Heading, program: &Program, place: Place) -> Self {
         let (names, taken) = (&subject.names, subject.names.taken.clone());
-        let in_parts = Parts::are_worth(program);
+        let straight_line = subject.options.straight_line.unwrap_or(STRAIGHT_LINE);
+        let in_parts = program.len() > straight_line;
         let all = in_parts || heading.reads_all;
         let state = argument("state", all || SymbolNames::reads_state(program));
         let out = argument("out", all || Reads::of(program).out);
-        let arguments = typed(subject, heading.buffer, state, out);
+        let types = types(subject, heading.buffer);
+        let [state_type, out_type] = &types;
         let name = argument(heading.name, true);
         let (docs, cost) = (doc_lines(heading.docs), &heading.cost);
-        let signature = quote! {
-            #(#[doc = #docs])*
-            #[doc = ""]
-            #[doc = #cost]
-            fn #name(&self, #arguments)
-        };
         let (statements, functions) = if in_parts {
             let place = (place, Decided::BySides);
-            let parts = Parts::of(program, names, taken, place, (&name, &arguments));
+            let function = (&name, &types);
+            let parts = Parts::of(program, names, taken, place, function, straight_line);
             (parts.calls, parts.functions)
         } else {
             let body = Body::of(program, names, taken, place, Decided::BySides);
@@ -59,14 +58,15 @@ impl Filling {
         Self {
             statements,
             functions,
-            signature,
+            docs: quote!(#(#[doc = #docs])* #[doc = ""] #[doc = #cost]),
+            signature: quote!(fn #name(&self, #state: &#state_type, #out: &mut #out_type)),
         }
     }
 }
 
-/// The state and the buffer, with their types.
-fn typed(subject: &Subject, buffer: &str, state: Ident, out: Ident) -> TokenStream {
+/// The types of the state and of the buffer.
+fn types(subject: &Subject, buffer: &str) -> [TokenStream; 2] {
     let (n, r) = subject.sizes();
     let buffer = argument(buffer, true);
-    quote!(#state: &State<T, #n>, #out: &mut #buffer<T, #n, #r>)
+    [quote!(State<T, #n>), quote!(#buffer<T, #n, #r>)]
 }

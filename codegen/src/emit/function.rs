@@ -39,6 +39,8 @@ pub(super) struct Piece {
     operands: usize,
     /// A product in two parts: each stands anywhere, the second only inside brackets.
     factors: Option<(TokenStream, TokenStream)>,
+    /// The local variable that holds it.
+    pub(super) name: Option<Ident>,
 }
 
 /// What decides the conditions of a function.
@@ -88,7 +90,7 @@ impl Body {
         decided: Decided,
     ) -> Self {
         let mut writer = Writer::of(program, symbols, names, decided);
-        let bound = writer.place_angles();
+        let bound = writer.place_angles(false);
         // Bound after the call for the angles, symbols need not be kept during it.
         let rest = &writer.symbols_read() - &bound;
         writer.statements.push(symbols.prelude(&rest));
@@ -179,7 +181,7 @@ impl<'a> Writer<'a> {
             Operation::Function(function @ (Function::Sin | Function::Cos), x) => {
                 let (sin, cos) = self.sine_and_cosine(*x);
                 let name = if *function == Function::Sin { sin } else { cos };
-                return atom(quote!(#name));
+                return variable(name);
             }
             Operation::Input(index, law) => {
                 let law = self.piece(*law).tokens.clone();
@@ -203,9 +205,8 @@ impl<'a> Writer<'a> {
     /// Gives an expression a name close to a wish.
     fn named(&mut self, wish: &str, tokens: TokenStream) -> Piece {
         let name = self.names.unique(wish);
-        let piece = atom(quote!(#name));
-        self.statements.name(name, tokens);
-        piece
+        self.statements.name(name.clone(), tokens);
+        variable(name)
     }
 
     /// The name that a value would like: its factors if they are few and plain.
@@ -272,6 +273,7 @@ impl<'a> Writer<'a> {
                 binding,
                 operands,
                 factors: None,
+                name: None,
             };
         }
         sum
@@ -296,6 +298,7 @@ impl<'a> Writer<'a> {
             binding: Binding::Sum,
             operands: *operands,
             factors: None,
+            name: None,
         };
         (piece, rest)
     }
@@ -330,6 +333,7 @@ impl<'a> Writer<'a> {
             binding: Binding::Product,
             operands: self.operands(factors.iter().copied()),
             factors: bare.map(|bare| (in_front, bare)),
+            name: None,
         }
     }
 
@@ -344,6 +348,7 @@ impl<'a> Writer<'a> {
             binding: Binding::Product,
             operands,
             factors: None,
+            name: None,
         }
     }
 
@@ -435,6 +440,7 @@ impl<'a> Writer<'a> {
             binding: Binding::Atom,
             operands: OPERANDS_MAX + 1,
             factors: None,
+            name: None,
         }
     }
 }
@@ -445,6 +451,15 @@ fn atom(tokens: TokenStream) -> Piece {
         binding: Binding::Atom,
         operands: 1,
         factors: None,
+        name: None,
+    }
+}
+
+/// A local variable.
+fn variable(name: Ident) -> Piece {
+    Piece {
+        name: Some(name.clone()),
+        ..atom(quote!(#name))
     }
 }
 

@@ -11,17 +11,23 @@
 use super::function::{Decided, Place, Symbols, Writer};
 use super::name::Names;
 use super::statements::Statements;
-use crate::expr::{Function, Symbol};
+use super::subject::argument;
+use crate::expr::Function;
+use crate::model::Symbol;
 use crate::optimise::{Operation, Program, Value};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeSet;
 
-/// The most operations of a function that is one straight line.
-const STRAIGHT_MAX: usize = 8_000;
-/// The statements of a part.
-const STATEMENTS: usize = 2_000;
+/// The most operations of a function that is one straight line, unless another number is asked
+/// for. A row of 320 parallelograms takes 53 s of rustc in straight lines, 47 s in parts of
+/// 4,000 statements, 30 s in parts of 2,000, 27 s in parts of 1,000. The smaller the parts, the
+/// more goes through memory: an acceleration of a row of 40 in parts of 3,000 costs a tenth
+/// more instructions, in parts of 1,000 twice as many.
+pub(super) const STRAIGHT_LINE: usize = 8_000;
+/// A part has one statement for so many operations of the longest straight line.
+const OPERATIONS_PER_STATEMENT: usize = 4;
 
 /// A function that was taken apart.
 pub(super) struct Parts {
@@ -31,20 +37,21 @@ pub(super) struct Parts {
     pub functions: TokenStream,
 }
 
-/// The statements for one value.
+/// Some statements: those for one value, or the call for the angles.
+#[derive(Default)]
 struct Step {
     statements: Statements,
     symbols: BTreeSet<Symbol>,
     reads: Vec<Ident>,
     defines: Vec<Ident>,
+    /// Whether it looks at the state, and at the buffer.
+    state: bool,
+    out: bool,
+    /// Whether it brings its symbols into scope by itself, in a part of its own.
+    alone: bool,
 }
 
 impl Parts {
-    /// Whether a program is long enough.
-    pub fn are_worth(program: &Program) -> bool {
-        program.len() > STRAIGHT_MAX
-    }
-
     /// Writes a program; `names` are the names that are taken. The function that is taken
     /// apart has a name, and takes a `state` and a buffer `out`.
     pub fn of(
@@ -52,9 +59,11 @@ impl Parts {
         symbols: &dyn Symbols,
         names: Names,
         (place, decided): (Place, Decided),
-        (name, arguments): (&Ident, &TokenStream),
+        (name, [state_type, out_type]): (&Ident, &[TokenStream; 2]),
+        straight_line: usize,
     ) -> Self {
-        let parts = parts(steps(program, symbols, names, place, decided));
+        let statements = straight_line / OPERATIONS_PER_STATEMENT;
+        let parts = parts(steps(program, symbols, names, place, decided), statements);
         let kept = Kept::between(&parts);
         let count = Literal::usize_unsuffixed(kept.count);
         let mut functions = TokenStream::new();
@@ -62,10 +71,17 @@ impl Parts {
         for (number, part) in parts.iter().enumerate() {
             let name = Ident::new(&format!("{name}_part_{number}"), Span::call_site());
             let body = body(part, symbols, &kept);
+            let state = argument("state", part.iter().any(|step| step.state));
+            let out = argument("out", part.iter().any(|step| step.out));
+            let room = argument("kept", part.iter().any(|step| kept.serves(step)));
             functions.extend(quote! {
                 #[inline(never)]
-                #[allow(unused_variables, reason = "all parts are called alike")]
-                fn #name(&self, #arguments, kept: &mut [T; #count]) {
+                fn #name(
+                    &self,
+                    #state: &#state_type,
+                    #out: &mut #out_type,
+                    #room: &mut [T; #count],
+                ) {
                     #body
                 }
             });
@@ -84,15 +100,21 @@ fn steps(
     decided: Decided,
 ) -> Vec<Step> {
     let mut writer = Writer::of(program, symbols, names, decided);
-    writer.place_angles();
+    writer.place_angles(true);
     let pairs = writer.angles.values();
     let mut defined: FxHashSet<Ident> = pairs.flat_map(named).collect();
-    let mut steps = vec![Step {
-        defines: defined.iter().cloned().collect(),
-        symbols: BTreeSet::new(),
-        reads: Vec::new(),
-        statements: std::mem::take(&mut writer.statements),
-    }];
+    let mut steps = Vec::new();
+    if writer.statements.len() > 0 {
+        let mut defines: Vec<Ident> = defined.iter().cloned().collect();
+        defines.sort();
+        steps.push(Step {
+            statements: std::mem::take(&mut writer.statements),
+            defines,
+            state: true,
+            alone: true,
+            ..Step::default()
+        });
+    }
     let slots = program.slots();
     for (value, operation) in program.operations() {
         writer.place(value);
@@ -111,6 +133,7 @@ fn steps(
                 .partition(|name| defined.insert(name.clone()));
             step.defines = new;
             step.reads.extend::<Vec<Ident>>(known);
+            step.out |= !slots[value.index()].is_empty();
             steps.push(step);
         }
     }
@@ -128,45 +151,61 @@ impl Writer<'_> {
     /// What the statements for a value read and define.
     fn step(&self, value: Value, operation: &Operation, statements: Statements) -> Step {
         let mut step = Step {
-            symbols: BTreeSet::new(),
-            reads: Vec::new(),
             defines: self.piece(value).name.iter().cloned().collect(),
             statements,
+            ..Step::default()
         };
         if let Operation::Function(Function::Sin | Function::Cos, x) = operation
             && let Some(pair) = self.angles.get(x)
         {
             step.defines = named(pair);
         }
-        if let Operation::Symbol(symbol) = operation {
-            step.symbols.insert(*symbol);
-        }
+        step.looks_at(operation);
         let mut pending = operation.operands();
         while let Some(value) = pending.pop() {
-            match (self.program.operation(value), &self.piece(value).name) {
-                (Operation::Symbol(symbol), _) => {
-                    step.symbols.insert(*symbol);
-                }
-                (_, Some(name)) => step.reads.push(name.clone()),
-                (operation, None) => pending.extend(operation.operands()),
+            if let Some(name) = &self.piece(value).name {
+                step.reads.push(name.clone());
+            } else {
+                let operation = self.program.operation(value);
+                step.looks_at(operation);
+                pending.extend(operation.operands());
             }
         }
         step
     }
 }
 
-/// Steps as many to a part as it may have.
-fn parts(steps: Vec<Step>) -> Vec<Vec<Step>> {
-    let mut parts: Vec<Vec<Step>> = Vec::new();
-    let mut statements = STATEMENTS;
-    for (place, step) in steps.into_iter().enumerate() {
-        statements += step.statements.len();
-        if statements > STATEMENTS || place == 1 {
-            statements = step.statements.len();
-            parts.push(Vec::new());
+impl Step {
+    /// Marks what an operation looks at by itself.
+    fn looks_at(&mut self, operation: &Operation) {
+        match operation {
+            Operation::Symbol(symbol) => {
+                self.symbols.insert(*symbol);
+                self.state |= matches!(
+                    symbol,
+                    Symbol::Time | Symbol::Coordinate(_) | Symbol::Velocity(_)
+                );
+                self.out |= matches!(symbol, Symbol::Weight(_));
+            }
+            Operation::Select(test, _) => self.out |= test.held.is_some(),
+            Operation::Function(Function::Table(lookup), _) => self.out |= lookup.held.is_some(),
+            _ => {}
         }
-        if let Some(part) = parts.last_mut() {
-            part.push(step);
+    }
+}
+
+/// Steps, so many to a part that it has no more statements than it may.
+fn parts(steps: Vec<Step>, most: usize) -> Vec<Vec<Step>> {
+    let mut parts: Vec<Vec<Step>> = Vec::new();
+    let mut statements = 0;
+    for step in steps {
+        statements += step.statements.len();
+        match parts.last_mut() {
+            Some(part) if statements <= most && !part[0].alone => part.push(step),
+            _ => {
+                statements = step.statements.len();
+                parts.push(vec![step]);
+            }
         }
     }
     parts
@@ -206,6 +245,12 @@ impl Kept {
             }
         }
         Self { places, count }
+    }
+
+    /// Whether a step reads or defines what is kept.
+    fn serves(&self, step: &Step) -> bool {
+        let mut names = step.reads.iter().chain(&step.defines);
+        names.any(|name| self.places.contains_key(name))
     }
 
     fn place(&self, name: &Ident) -> Option<TokenStream> {

@@ -15,12 +15,13 @@ const ONE_BY_ONE_MAX: usize = 1000;
 /// How many a longer one declares at a time.
 const AT_A_TIME: usize = 64;
 
+#[derive(Clone)]
 enum Statement {
     Named(Ident, TokenStream),
     Other(TokenStream),
 }
 
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Statements(Vec<Statement>);
 
 impl Statements {
@@ -33,12 +34,21 @@ impl Statements {
         self.0.push(Statement::Other(statement));
     }
 
-    pub(super) fn into_tokens(self) -> TokenStream {
+    pub(super) fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// The names of the values.
+    pub(super) fn names(&self) -> Vec<Ident> {
         let name = |statement: &Statement| match statement {
             Statement::Named(name, _) => Some(name.clone()),
             Statement::Other(_) => None,
         };
-        let names: Vec<Ident> = self.0.iter().filter_map(name).collect();
+        self.0.iter().filter_map(name).collect()
+    }
+
+    pub(super) fn into_tokens(self) -> TokenStream {
+        let names = self.names();
         let together = names.len() > ONE_BY_ONE_MAX;
         let mut parts = names.chunks(AT_A_TIME);
         let mut declared = 0;

@@ -5,7 +5,7 @@ use super::name::type_name;
 use super::symbol::SymbolNames;
 use crate::derive::Equations;
 use crate::model::{Mechanism, Symbol};
-use crate::optimise::{Optimised, Program, Programs, Slot, Solved, cost};
+use crate::optimise::{Optimised, Program, Programs, Slot};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
@@ -20,6 +20,8 @@ pub struct EmitOptions {
     pub regular: bool,
     /// Emit the function by which a library hands the mechanism to programs in C.
     pub c_interface: bool,
+    /// The most operations of a function that is one straight line: 8,000 unless it is given.
+    pub straight_line: Option<usize>,
 }
 
 /// What a module is made from, for the emitted documentation.
@@ -122,32 +124,23 @@ impl Subject<'_> {
 
     /// The body that runs a program; says what it costs, and what it would as derived.
     pub fn optimised(&self, computed: &Optimised, place: Place, decided: Decided) -> Written {
-        let Optimised {
-            program,
-            cost,
-            derived,
-        } = computed;
-        let cost = match derived == cost {
-            true => format!(" Costs {cost}."),
-            false => format!(" Costs {cost}. As derived: {derived}."),
-        };
-        self.written(program, place, decided, cost)
-    }
-
-    /// The body that solves; what it costs includes what it solves.
-    pub fn solved(&self, solved: &Solved, place: Place) -> Written {
-        let cost = format!(" Costs {}.", cost(&solved.program));
-        self.written(&solved.program, place, Decided::BySides, cost)
-    }
-
-    fn written(&self, program: &Program, place: Place, decided: Decided, cost: String) -> Written {
         let taken = self.names.taken.clone();
+        let program = &computed.program;
         Written {
             body: Body::of(program, &self.names, taken, place, decided),
             state: argument("state", SymbolNames::reads_state(program)),
             acceleration: argument("acceleration", Reads::of(program).acceleration),
-            cost,
+            cost: cost_in_words(computed),
         }
+    }
+}
+
+/// What a program costs, and what it would as derived.
+pub(super) fn cost_in_words(computed: &Optimised) -> String {
+    let Optimised { cost, derived, .. } = computed;
+    match derived == cost {
+        true => format!(" Costs {cost}."),
+        false => format!(" Costs {cost}. As derived: {derived}."),
     }
 }
 

@@ -5,7 +5,7 @@ use super::function::Symbols;
 use super::name::Names;
 use crate::model::{Mechanism, Quantity, Symbol};
 use crate::optimise::Program;
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use std::collections::BTreeSet;
 
@@ -22,6 +22,11 @@ const RESERVED: [&str; 10] = [
     "outputs",
     "inputs",
 ];
+
+/// The entries of an array that are always named all at once.
+const SHORT: usize = 64;
+/// Of more, these are many for one that is read.
+const FEW_OF: usize = 8;
 
 /// Names of fields and of local variables.
 pub(super) struct SymbolNames {
@@ -106,29 +111,20 @@ impl SymbolNames {
         if used.contains(&Symbol::Time) {
             statements.extend(quote!(let #time = state.t;));
         }
-        let chosen = |names: &[Ident], symbol: fn(u32) -> Symbol| -> Option<Vec<TokenStream>> {
-            let uses = |i: usize| u32::try_from(i).is_ok_and(|i| used.contains(&symbol(i)));
-            let any = (0..names.len()).any(uses);
-            any.then(|| {
-                let entry = |(i, name)| if uses(i) { quote!(#name) } else { quote!(_) };
-                names.iter().enumerate().map(entry).collect()
-            })
+        let mut bind = |names: &[Ident], symbol: fn(u32) -> Symbol, array: TokenStream| {
+            let uses = |i: &usize| u32::try_from(*i).is_ok_and(|i| used.contains(&symbol(i)));
+            let places: Vec<usize> = (0..names.len()).filter(uses).collect();
+            statements.extend(entries(names, &places, &quote!(#array.data.0[0])));
         };
-        if let Some(names) = chosen(&self.coordinates, Symbol::Coordinate) {
-            statements.extend(quote!(let [#(#names),*] = state.q.data.0[0];));
-        }
-        if let Some(names) = chosen(&self.velocities, Symbol::Velocity) {
-            statements.extend(quote!(let [#(#names),*] = state.v.data.0[0];));
-        }
-        if let Some(names) = chosen(&self.accelerations, Symbol::Acceleration) {
-            statements.extend(quote!(let [#(#names),*] = acceleration.data.0[0];));
-        }
-        if let Some(names) = chosen(&self.multipliers, Symbol::Multiplier) {
-            statements.extend(quote!(let [#(#names),*] = multiplier.data.0[0];));
-        }
-        if let Some(names) = chosen(&self.weights, Symbol::Weight) {
-            statements.extend(quote!(let [#(#names),*] = out.weights.data.0[0];));
-        }
+        bind(&self.coordinates, Symbol::Coordinate, quote!(state.q));
+        bind(&self.velocities, Symbol::Velocity, quote!(state.v));
+        bind(
+            &self.accelerations,
+            Symbol::Acceleration,
+            quote!(acceleration),
+        );
+        bind(&self.multipliers, Symbol::Multiplier, quote!(multiplier));
+        bind(&self.weights, Symbol::Weight, quote!(out.weights));
         statements.extend(self.parameter_prelude(used));
         statements.extend(self.follows_prelude(used));
         statements
@@ -180,6 +176,26 @@ impl SymbolNames {
                 Symbol::Time | Symbol::Coordinate(_) | Symbol::Velocity(_)
             )
         })
+    }
+}
+
+/// Gives entries of an array their names: all at once, unless they are few of many.
+fn entries(names: &[Ident], places: &[usize], array: &TokenStream) -> TokenStream {
+    if names.len() > FEW_OF * places.len() && names.len() > SHORT {
+        let entry = |place: &usize| {
+            let (name, place) = (&names[*place], Literal::usize_unsuffixed(*place));
+            quote!(let #name = #array[#place];)
+        };
+        return places.iter().map(entry).collect();
+    }
+    let mut pattern = vec![quote!(_); names.len()];
+    for place in places {
+        let name = &names[*place];
+        pattern[*place] = quote!(#name);
+    }
+    match places.is_empty() {
+        true => TokenStream::new(),
+        false => quote!(let [#(#pattern),*] = #array;),
     }
 }
 

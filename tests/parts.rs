@@ -1,0 +1,80 @@
+//! Functions that are emitted in parts compute what they do in straight lines, to the last bit.
+
+use bricard::double_four_bar::DoubleFourBar;
+use bricard_fixtures::functions::Functions;
+use bricard_fixtures::in_parts;
+use bricard_runtime::{Correction, Mechanism, Position, Regular, State, Terms};
+use bricard_testkit::Random;
+
+const STATES: usize = 20;
+
+/// Fills all buffers by both mechanisms, at random states.
+fn agree<const N: usize, const R: usize>(
+    straight: &dyn Mechanism<f64, N, R>,
+    parted: &dyn Mechanism<f64, N, R>,
+) {
+    let mut random = Random::seeded(320);
+    for _ in 0..STATES {
+        let mut state = State::<f64, N> {
+            t: random.within(1.0),
+            ..State::default()
+        };
+        state.q.iter_mut().for_each(|q| *q = random.within(1.5));
+        state.v.iter_mut().for_each(|v| *v = random.within(2.0));
+        let both = [straight, parted];
+        let [a, b] = both.map(|mechanism| {
+            let mut terms = Terms::<f64, N, R>::default();
+            mechanism.terms(&state, &mut terms);
+            terms
+        });
+        assert!(a.force.norm() > 0.0);
+        assert_eq!((a.mass, a.force), (b.mass, b.force));
+        assert_eq!((a.jacobian, a.bias), (b.jacobian, b.bias));
+        let [a, b] = both.map(|mechanism| {
+            let mut position = Position::<f64, N, R>::default();
+            mechanism.position(&state, &mut position);
+            position
+        });
+        assert_eq!((a.mass, a.residual), (b.mass, b.residual));
+        assert_eq!((a.jacobian, a.drift), (b.jacobian, b.drift));
+        let [a, b] = both.map(|mechanism| {
+            let mut regular = Regular::<f64, N, R>::default();
+            let solved = mechanism.regular(&state, &mut regular);
+            (solved, regular.acceleration, regular.weights)
+        });
+        assert_eq!(a, b);
+        let [a, b] = both.map(|mechanism| {
+            let mut correction = Correction::<f64, N, R>::default();
+            let solved = mechanism.correction(&state, &mut correction);
+            (solved, correction.position, correction.velocity)
+        });
+        assert_eq!(a, b);
+    }
+}
+
+#[test]
+fn parts_compute_what_straight_lines_do() {
+    agree(
+        &DoubleFourBar::default(),
+        &in_parts::double_four_bar::DoubleFourBar::default(),
+    );
+    agree(
+        &Functions::default(),
+        &in_parts::functions::Functions::default(),
+    );
+}
+
+#[test]
+fn long_functions_are_emitted_in_parts() {
+    let part = |code: &str| code.matches("fn regular_part_").count();
+    let source = bricard::double_four_bar::SOURCE;
+    let mut settings = bricard_codegen::CompileSettings::default();
+    let compiled = |settings: &_| {
+        let compiled =
+            bricard_codegen::compile_source(source, "double_four_bar", "x.mech", settings);
+        compiled.expect("a mechanism of the library").code
+    };
+    assert_eq!(part(&compiled(&settings)), 0);
+    settings.options.straight_line = Some(60);
+    assert!(part(&compiled(&settings)) > 2);
+}
