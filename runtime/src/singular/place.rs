@@ -182,12 +182,11 @@ impl<T: Real> Sheet<'_, T> {
                 Ok(false) => break,
                 Ok(true) => {
                     let resolves = found.error <= resolved();
-                    let worse = least.is_some_and(|least| found.score > least * T::from_f64(4.0));
                     if least.is_none_or(|least| found.score < least) {
                         core::mem::swap(&mut best, &mut found);
                         least = Some(best.score);
                     }
-                    if resolves || worse {
+                    if resolves {
                         break;
                     }
                 }
