@@ -90,6 +90,16 @@ impl<T: Real> Samples<T> {
         (self.times[0], self.times[DEGREE])
     }
 
+    /// The side on which the function goes away from zero, if it does all the way.
+    pub(crate) fn leaves_zero(&self) -> Option<T> {
+        let side = self.values[0].sign();
+        let away = self
+            .values
+            .windows(2)
+            .all(|pair| side * pair[1] >= side * pair[0]);
+        (side != T::zero() && away).then_some(side)
+    }
+
     /// What the polynomial through the samples does.
     fn shape(&self) -> Shape {
         let largest = self

@@ -63,6 +63,12 @@ pub(crate) fn accepted<T: Real>(step: Option<T>) -> T {
     (step * T::from_f64(0.1)).max(resolvable())
 }
 
+/// Error of an interpolation above which no step is accepted for the reason that round-off
+/// makes it so large (1e-8 for `f64`): half of the digits.
+pub(crate) fn excusable<T: Real>() -> T {
+    T::EPSILON.sqrt()
+}
+
 /// Distance, relative to the coordinates, of the differences that show how rows change
 /// (2e-5 for `f64`).
 pub(crate) fn difference<T: Real>() -> T {
@@ -146,6 +152,7 @@ mod tests {
         assert!(difference::<T>() < window());
         assert!(round_off::<T>() < resolved());
         assert!(resolved::<T>() < noisy());
+        assert!(resolvable::<T>() < excusable() && excusable::<T>() < noisy());
         assert!(definite::<T>() < disproportionate());
         assert!(contraction::<T>() < one && safe_steps::<T>() > one);
     }

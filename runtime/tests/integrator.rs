@@ -359,3 +359,42 @@ fn steps_do_not_creep_on_where_a_singular_configuration_stands_in_the_way() {
         "{error:?}"
     );
 }
+
+/// Acceleration and energy of a slider–crank of unit masses and lengths, in the angle of its
+/// crank: its inertia changes tenfold in a quarter of a turn.
+fn slider_crank(state: &State<f64, 1>) -> (SVector<f64, 1>, f64) {
+    let ((sin, cos), rate) = (state.q[0].sin_cos(), state.v[0]);
+    let inertia = 2.0 / 3.0 + 6.0 * sin * sin;
+    let torque = -cos * (6.0 * sin * rate * rate + 9.81);
+    let energy = 0.5 * inertia * rate * rate + 9.81 * sin;
+    (SVector::from([torque / inertia]), energy)
+}
+
+/// Energy that a step may lose, relative, in units of the tolerance: the error estimate is
+/// one of the state, and not a bound.
+const MOST_LOST: f64 = 300.0;
+
+#[test]
+fn no_step_is_so_long_that_its_error_is_missed_by_chance() {
+    for relative in [1e-4, 1e-5, 1e-6] {
+        let mut worst = 0.0_f64;
+        for k in 0..500 {
+            let tolerance = Tolerance::uniform(relative, relative).unwrap();
+            let mut method = Dop853::adaptive(tolerance);
+            let mut system = Free(|state: &State<f64, 1>| slider_crank(state).0);
+            let (q, v) = (-1.4 + 0.0056 * f64::from(k), 3.0 + 0.01 * f64::from(k));
+            let mut state = State::new(0.0, SVector::from([q]), SVector::from([v]));
+            while state.t < 3.0 {
+                let end = *method.step(&mut system, &state, 3.0).unwrap().end();
+                let [before, after] = [&state, &end].map(|state| slider_crank(state).1);
+                worst = worst.max((after - before).abs() / (9.81 + before.abs()));
+                state = end;
+            }
+        }
+        let lost = worst / relative;
+        assert!(
+            lost < MOST_LOST,
+            "at {relative} a step lost {lost} of its tolerance"
+        );
+    }
+}

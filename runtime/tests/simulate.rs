@@ -397,6 +397,30 @@ fn events_are_located_to_round_off_in_each_direction() {
     }
 }
 
+/// Zero to round-off wherever the oscillator is within 1e-13 of its middle, positive elsewhere.
+fn touching(q: f64) -> f64 {
+    let (sin, cos) = (q + 1.0).sin_cos();
+    1e10 * q * q + (sin * sin + cos * cos - 1.0)
+}
+
+#[test]
+fn a_function_that_touches_zero_happens_once_whatever_round_off_makes_of_its_sign() {
+    let (mut mechanism, start) = watched();
+    mechanism.events = |state, values| values[..3].fill(touching(state.q[0]));
+    let mut diary = Diary::default();
+    let options = Options::dop853(10.0, 1e-12);
+    simulate::<1, 0>(&mechanism, &start, &options, &mut [&mut diary]).unwrap();
+    let count = |index: usize| {
+        diary
+            .events
+            .iter()
+            .filter(|event| event.index == index)
+            .count()
+    };
+    // It falls to zero three times, and is never on the other side to come back from.
+    assert_eq!([0, 1, 2].map(count), [0, 3, 3]);
+}
+
 #[test]
 fn breaking_off_at_an_event_ends_the_run_there() {
     let (mechanism, start) = watched();

@@ -24,6 +24,9 @@ use nalgebra::SVector;
 /// Weight of the third-order estimate in the error of DOP853, which damps the
 /// fifth-order one where that is accidentally small.
 const THIRD_ORDER_WEIGHT: f64 = 0.01;
+/// Error of the third-order result of DOP853, relative to the state, above which a step is
+/// too long for its estimates to tell what the error of the method is.
+const TELLING: f64 = 0.02;
 
 /// Slots for derivatives: twelve stages of DOP853, the derivative at the end, three extra
 /// stages.
@@ -162,15 +165,7 @@ impl<T: Real, const N: usize, Y: System<T, N> + ?Sized> Trial<T, N, Y> for Expli
             tolerance.norm((&q, &v), start, end)
         };
         match self.tableau.errors {
-            [fine, coarse] => {
-                let (fine, coarse) = (norm(fine), norm(coarse));
-                let square = fine * fine + T::from_f64(THIRD_ORDER_WEIGHT) * coarse * coarse;
-                if square == T::zero() {
-                    square
-                } else {
-                    h * fine * fine / square.sqrt()
-                }
-            }
+            [fine, coarse] => eighth_order(h * norm(fine), h * norm(coarse), tolerance.relative()),
             rows => rows
                 .iter()
                 .fold(T::zero(), |most, row| most.max(h * norm(row))),
@@ -196,5 +191,25 @@ impl<T: Real, const N: usize, Y: System<T, N> + ?Sized> Trial<T, N, Y> for Expli
             return Ok(());
         }
         self.complete_dense(system, step, h)
+    }
+}
+
+/// The error of the method of order 8 from its estimates of orders 5 and 3, in units of the
+/// tolerance.
+///
+/// It is extrapolated: as much smaller than the fifth-order one as that is smaller than the
+/// third-order one, which holds while each is a small correction of the one before. On longer
+/// steps the fifth-order estimate may pass zero by chance while the error is large: they are
+/// judged by the third-order one, whose square grows with the step as the error does.
+fn eighth_order<T: Real>(fine: T, coarse: T, tolerance: T) -> T {
+    let square = fine * fine + T::from_f64(THIRD_ORDER_WEIGHT) * coarse * coarse;
+    if square == T::zero() {
+        return square;
+    }
+    let error = fine * fine / square.sqrt();
+    let beyond = coarse * tolerance / T::from_f64(TELLING);
+    match beyond > T::one() {
+        true => error.max(beyond * beyond),
+        false => error,
     }
 }

@@ -19,7 +19,7 @@ use crate::{Direction, DynamicsError, Event, Occurrence, Probe, Real, State, Ste
 
 /// Events a mechanism may have.
 const ROOM: usize = 64;
-/// Times closer than this multiple of the round-off of time are one.
+/// An event can happen again after this multiple of the round-off of time.
 const SAME_TIME: f64 = 8.0;
 
 /// Writes the event functions of a mechanism at a state.
@@ -225,10 +225,6 @@ impl<T: Real> Events<T> {
                 true => zero(&mut value, (from, before), (to, after))?,
                 false => from,
             };
-            *side = match value(t)? == T::zero() {
-                true => T::zero(),
-                false => -*side,
-            };
             let counts = match events[index].direction {
                 Direction::Rising => rising,
                 Direction::Falling => !rising,
@@ -262,20 +258,28 @@ impl<T: Real> Events<T> {
         }
     }
 
-    /// Samples of a function in what is left of a step, if anything is.
+    /// Samples of a function in what is left of a step after it was zero: from where it has
+    /// clearly left zero, to whichever side. Before that round-off may change its sign very
+    /// many times.
     fn rest(
-        &self,
+        &mut self,
         along: &mut Along<'_, T>,
         index: usize,
         from: T,
     ) -> Result<Option<Samples<T>>, DynamicsError<T>> {
+        self.sides[index] = T::zero();
         let to = along.ends.1;
-        let shortest = T::EPSILON * T::from_f64(SAME_TIME) * from.abs().max(to.abs());
-        if to - from <= shortest {
-            return Ok(None);
-        }
         let mut value = |t| along.value(self.events, t, On::Interpolant, index);
-        Samples::of(&mut value, (from, to)).map(Some)
+        let mut pause = T::EPSILON * T::from_f64(SAME_TIME) * from.abs().max(to.abs());
+        while from + pause + pause < to {
+            let (begin, end) = (from + pause, from + pause + pause);
+            if let Some(side) = Samples::of(&mut value, (begin, end))?.leaves_zero() {
+                self.sides[index] = side;
+                return Samples::of(&mut value, (begin, to)).map(Some);
+            }
+            pause += pause;
+        }
+        Ok(None)
     }
 }
 

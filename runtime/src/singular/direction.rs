@@ -16,7 +16,7 @@ use crate::linalg::{Block, Eliminated, Workspace, add_scaled, norm};
 use crate::tolerance::{difference, hull, spacing, window};
 
 /// Directions that are tried where several loops are nearly singular at once.
-const TRIALS: usize = 64;
+const TRIALS: usize = 16;
 
 /// Coordinates of the chart, time among them, up to which the change of the block along
 /// each is kept: what it is along any direction then follows.

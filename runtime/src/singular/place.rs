@@ -17,7 +17,7 @@ use crate::equations::At;
 use crate::linalg::{Eliminated, Workspace, add_scaled, is_finite, norm, solve_upper};
 use crate::once::compiled_once;
 use crate::tolerance::{
-    critical, hull, negligible, noisy, resolvable, resolved, round_off, spacing, window,
+    critical, excusable, hull, negligible, noisy, resolvable, resolved, round_off, spacing, window,
 };
 
 /// How much larger than the round-off of one node, magnified by the weights, the
@@ -132,7 +132,7 @@ impl<T: Real> Sheet<'_, T> {
         // Rows are no more exact than the coordinates, whose round-off grows with their size.
         let magnified = best.noise * (direction.rate * self.chart.reach).max(T::one());
         let noise = T::from_f64(NOISE) * T::EPSILON * magnified;
-        if best.error > self.chart.accepted.max(noise) {
+        if best.error > self.chart.accepted.max(noise.min(excusable())) {
             return Err(Obstacle::Unresolved);
         }
         // Where neither is as good as wanted, the better one.
@@ -182,12 +182,11 @@ impl<T: Real> Sheet<'_, T> {
                 Ok(false) => break,
                 Ok(true) => {
                     let resolves = found.error <= resolved();
-                    let worse = least.is_some_and(|least| found.score > least * T::from_f64(4.0));
                     if least.is_none_or(|least| found.score < least) {
                         core::mem::swap(&mut best, &mut found);
                         least = Some(best.score);
                     }
-                    if resolves || worse {
+                    if resolves {
                         break;
                     }
                 }
@@ -203,10 +202,15 @@ impl<T: Real> Sheet<'_, T> {
     }
 
     /// The spacing that is tried first, zero for none, and the widest of the others. Mostly the
-    /// last one serves again, or that of the last passage.
+    /// last one serves again, or that of the last passage. Where the sheet moves, the sine may
+    /// change ever more slowly and then faster again, and a spacing that was right before says
+    /// nothing of how far nodes are apart now.
     fn spacings(&self, direction: &Direction<'_, T>) -> (T, T) {
         let widest = (spacing::<T>() * self.chart.reach * direction.rate).min(spacing());
         let known = self.chart.spacing;
+        if self.chart.speed > T::zero() {
+            return (T::zero(), widest);
+        }
         match known > T::zero() {
             true => (known, widest.min(known * T::from_f64(4.0))),
             false => (self.nodes.quality.spacing.min(widest), widest),
@@ -214,12 +218,10 @@ impl<T: Real> Sheet<'_, T> {
     }
 
     /// Whether an interpolation is as good as none, or nearly as good as the last, which was
-    /// the best of all spacings, and as good as a step needs it. Where the sheet moves, what
-    /// was good enough before tells nothing of now.
+    /// the best of all spacings, and as good as a step needs it.
     pub(super) fn serves(&self, found: &Interpolated<'_, T>) -> bool {
         let nearly = self.nodes.quality.score * T::from_f64(NEARLY);
-        let rests = self.chart.speed == T::zero();
-        let enough = rests && found.error <= self.chart.accepted;
+        let enough = found.error <= self.chart.accepted;
         found.score <= resolved() || enough && found.score <= nearly.min(resolvable())
     }
 
