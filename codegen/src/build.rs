@@ -118,7 +118,7 @@ impl Builder {
         self
     }
 
-    /// The most operations, 8,000 unless it is given, of a function that is one straight line.
+    /// The most operations, 20,000 unless it is given, of a function that is one straight line.
     /// A longer one is emitted as parts that are called one after the other: it takes less time
     /// to compile, and more to run, since what one part computes and another one reads goes
     /// through memory.

@@ -53,7 +53,8 @@ their assembly among it; `ratio` is that of `simulate` with all audits to withou
 
 const STRAIGHT: &str = "## Straight lines or loops
 
-Functions are straight lines; `for` in a description is unrolled. Measured once (AMD EPYC,
+Functions are straight lines, of which very long solves are cut into parts for the compiler's
+sake (`Builder::straight_line`); `for` in a description is unrolled. Measured once (AMD EPYC,
 32 kB of first-level instruction cache, 1 MB of second-level cache; processor time):
 
 | loops in a row | 5 | 10 | 20 | 40 | 80 |

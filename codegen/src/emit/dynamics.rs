@@ -111,6 +111,7 @@ fn filled(subject: &Subject, [name, buffer, docs]: [&str; 3], computed: &Optimis
         docs,
         cost: cost_in_words(computed),
         reads_all: by_columns,
+        divisible: false,
     };
     let filling = Filling::of(subject, &heading, &computed.program, &entry_of_field);
     let mass = by_columns.then(|| quote!(self.write_mass(state, &mut out.mass);));
@@ -135,6 +136,9 @@ fn solution(subject: &Subject, [name, buffer, docs]: [&str; 3], solved: &Solved)
         // What it costs includes what it solves.
         cost: format!(" Costs {}.", cost(&solved.program)),
         reads_all: false,
+        // From body to body, values are read soon after they are computed, and compilers take a
+        // straight line as it is.
+        divisible: solved.way != Way::Shared,
     };
     let filling = Filling::of(subject, &heading, &solved.program, &entry_of_solution);
     let Filling {

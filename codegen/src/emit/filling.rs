@@ -20,6 +20,8 @@ pub(super) struct Heading<'a> {
     pub cost: String,
     /// Whether it does something else with its arguments.
     pub reads_all: bool,
+    /// Whether it is taken apart if it is long.
+    pub divisible: bool,
 }
 
 /// A method that fills a buffer.
@@ -38,7 +40,7 @@ impl Filling {
     pub fn of(subject: &Subject, heading: &Heading, program: &Program, place: Place) -> Self {
         let (names, taken) = (&subject.names, subject.names.taken.clone());
         let straight_line = subject.options.straight_line.unwrap_or(STRAIGHT_LINE);
-        let in_parts = program.len() > straight_line;
+        let in_parts = heading.divisible && program.len() > straight_line;
         let all = in_parts || heading.reads_all;
         let state = argument("state", all || SymbolNames::reads_state(program));
         let out = argument("out", all || Reads::of(program).out);

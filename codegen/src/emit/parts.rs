@@ -21,13 +21,13 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeSet;
 
 /// The most operations of a function that is one straight line, unless another number is asked
-/// for. A row of 320 parallelograms takes 53 s of rustc in straight lines, 47 s in parts of
-/// 4,000 statements, 30 s in parts of 2,000, 27 s in parts of 1,000. The smaller the parts, the
-/// more goes through memory: an acceleration of a row of 40 in parts of 3,000 costs a tenth
-/// more instructions, in parts of 1,000 twice as many.
-pub(super) const STRAIGHT_LINE: usize = 8_000;
-/// A part has one statement for so many operations of the longest straight line.
-const OPERATIONS_PER_STATEMENT: usize = 4;
+/// for: those of a row of 80 parallelograms are, of 160 are not. A row of 320 takes 53 s of rustc
+/// in straight lines, 47 s in parts of 4,000 statements, 30 s in parts of 2,000, 27 s in parts of
+/// 1,000. Parts run longer, since they go through memory: an acceleration of a row of 80 costs
+/// 1.8 times as many instructions in parts of 2,000 statements.
+pub(super) const STRAIGHT_LINE: usize = 20_000;
+/// The most statements of a part; where shorter lines are asked for, a quarter of their operations.
+const STATEMENTS: usize = 2_000;
 
 /// A function that was taken apart.
 pub(super) struct Parts {
@@ -62,7 +62,7 @@ impl Parts {
         (name, [state_type, out_type]): (&Ident, &[TokenStream; 2]),
         straight_line: usize,
     ) -> Self {
-        let statements = straight_line / OPERATIONS_PER_STATEMENT;
+        let statements = STATEMENTS.min(straight_line / 4);
         let parts = parts(steps(program, symbols, names, place, decided), statements);
         let kept = Kept::between(&parts);
         let count = Literal::usize_unsuffixed(kept.count);

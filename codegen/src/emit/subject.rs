@@ -20,7 +20,7 @@ pub struct EmitOptions {
     pub regular: bool,
     /// Emit the function by which a library hands the mechanism to programs in C.
     pub c_interface: bool,
-    /// The most operations of a function that is one straight line: 8,000 unless it is given.
+    /// The most operations of a function that is one straight line: 20,000 unless it is given.
     pub straight_line: Option<usize>,
 }
 
