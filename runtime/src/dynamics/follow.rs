@@ -290,6 +290,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<(), DynamicsError<T>> {
         let mut point = Point::zeros();
         let placement = self.place(mechanism, state, &mut point)?;
+        // States that lead to the end of a step may be off by more than the other sheet is.
+        if matches!(placement, Placement::Crossing { strays: true, .. }) {
+            return Err(self.refusal(mechanism, Obstacle::LeftSheet, state.t));
+        }
         self.counters.robust_projections += 1;
         *state = point.state;
         self.session.trial.end = point.sine * point.sine;
@@ -299,7 +303,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             drift: point.drift,
             sine: point.sine,
             spacing: match placement {
-                Placement::Crossing { spacing } => spacing,
+                Placement::Crossing { spacing, .. } => spacing,
                 _ => T::zero(),
             },
             gap: placement == Placement::Gap,

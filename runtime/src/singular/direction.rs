@@ -38,17 +38,20 @@ pub(super) struct Direction<'a, T> {
     pub(super) centre: T,
     /// How fast the sine changes.
     pub(super) rate: T,
+    /// How fast the block changes.
+    change: Block<'a, T>,
 }
 
 impl<'a, T: Real> Direction<'a, T> {
-    /// One that leads nowhere.
-    fn new(n: usize, workspace: &Workspace<'a, T>) -> Self {
+    /// One that leads nowhere, for a block of this size.
+    fn new(n: usize, size: usize, workspace: &Workspace<'a, T>) -> Self {
         Self {
             q: workspace.numbers(n),
             t: T::zero(),
             is_of_time: false,
             centre: T::zero(),
             rate: T::zero(),
+            change: Block::with_capacity(size, workspace),
         }
     }
 
@@ -56,6 +59,26 @@ impl<'a, T: Real> Direction<'a, T> {
         self.q.copy_from_slice(other.q);
         (self.t, self.is_of_time) = (other.t, other.is_of_time);
         (self.centre, self.rate) = (other.centre, other.rate);
+        self.change.set(&other.change);
+    }
+
+    /// Whether a block that was found a distance along it has the signs that the one at its
+    /// start comes to there. On the other of two sheets that cross it has opposite ones. A law
+    /// of time may turn back on the way, so that signs tell nothing.
+    pub(super) fn leads_to(
+        &self,
+        there: &Block<'_, T>,
+        (here, distance): (&Block<'_, T>, T),
+        workspace: &Workspace<'_, T>,
+    ) -> bool {
+        if self.is_of_time {
+            return true;
+        }
+        workspace.scope(|workspace| {
+            let mut expected = Block::with_capacity(here.size(), workspace);
+            expected.set_sum(here, distance, &self.change);
+            there.sign_changes_from(&expected, workspace) == 0
+        })
     }
 
     /// The time and the position a distance along it.
@@ -100,7 +123,7 @@ impl<T: Real> Sheet<'_, T> {
             clock,
         };
         let mut best = Best {
-            direction: Direction::new(self.chart.n(), workspace),
+            direction: Direction::new(self.chart.n(), like.block().size(), workspace),
             score: None,
         };
         workspace.scope(|workspace| match like.block().size() {
@@ -120,7 +143,7 @@ impl<T: Real> Sheet<'_, T> {
         best: &mut Best<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> Result<(), Obstacle> {
-        let mut direction = Direction::new(self.chart.n(), workspace);
+        let mut direction = Direction::new(self.chart.n(), 1, workspace);
         let mut change = Block::zeros(1, workspace);
         let gradient = workspace.numbers(search.dimension);
         for (i, entry) in gradient.iter_mut().enumerate() {
@@ -154,7 +177,7 @@ impl<T: Real> Sheet<'_, T> {
         let few = dimension.min(FEW);
         let mut kept: [Block<'_, T>; FEW] =
             core::array::from_fn(|i| Block::zeros(if i < few { size } else { 0 }, workspace));
-        let mut direction = Direction::new(self.chart.n(), workspace);
+        let mut direction = Direction::new(self.chart.n(), size, workspace);
         if dimension <= FEW {
             for (i, kept) in kept[..dimension].iter_mut().enumerate() {
                 self.set_axis(search, i, &mut direction, workspace);
@@ -166,7 +189,7 @@ impl<T: Real> Sheet<'_, T> {
         for trial in 0..if dimension > 1 { TRIALS } else { 1 } {
             spread_evenly(trial, shares);
             workspace.scope(|workspace| {
-                let mut direction = Direction::new(self.chart.n(), workspace);
+                let mut direction = Direction::new(self.chart.n(), size, workspace);
                 self.set_line(shares, search.clock, &mut direction);
                 if dimension <= FEW {
                     change.set_combination(shares, &kept[..dimension]);
@@ -241,6 +264,7 @@ impl<T: Real> Sheet<'_, T> {
             return;
         };
         (direction.centre, direction.rate) = (centre, rate);
+        direction.change.set(change);
         let step = spacing::<T>() * self.chart.reach.min(T::one() / rate);
         if centre.abs() > step * hull(SIDE) {
             return;

@@ -10,7 +10,7 @@ use crate::Real;
 use crate::linalg::Workspace;
 
 /// Square matrices of all coordinates that there is room for. A sheet takes two for its
-/// frame, and others as the block of near-dependent rows is large: fourteen to interpolate,
+/// frame, and others as the block of near-dependent rows is large: sixteen to interpolate,
 /// and one for each look into a step, as long as there is room for more. The start of a motion
 /// takes seven besides those that interpolate.
 const MATRICES: usize = 32;
@@ -116,7 +116,7 @@ mod tests {
         let start = [
             combined,
             [(7, N * N), (8, N), (1, R)],
-            [(16, N * N), (185, N), (0, 0)],
+            [(18, N * N), (185, N), (0, 0)],
         ];
         let sizes = [
             [(3, 8 * R), (1, N * R), (2, N * N)],

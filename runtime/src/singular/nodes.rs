@@ -304,7 +304,8 @@ impl<T: Real> Sheet<'_, T> {
         let moved = workspace.numbers(self.chart.n());
         for node in 0..NODES {
             let place: T = found.places[node];
-            let t = direction.moved(state, direction.centre + step * place, moved);
+            let distance = direction.centre + step * place;
+            let t = direction.moved(state, distance, moved);
             point.set(At {
                 t,
                 q: moved,
@@ -317,11 +318,17 @@ impl<T: Real> Sheet<'_, T> {
             if !clear {
                 return Err(Obstacle::Unresolved);
             }
+            let block = self.frame.block();
+            // Where sheets cross at a small angle, Newton's iteration may lead to the other one
+            // without a sign of trouble. Beyond, signs that don't change tell.
+            if node == 0 && !direction.leads_to(block, (like.block(), distance), workspace) {
+                return Err(Obstacle::LeftSheet);
+            }
+            if ORDER[node].abs() == 1.0 {
+                blocks[usize::from(node > 0)].set(block);
+            }
             self.measure(Some(along), &mut point);
             found.keep(node, moved, &point);
-            if ORDER[node].abs() == 1.0 {
-                blocks[usize::from(node > 0)].set(self.frame.block());
-            }
         }
         found.sum_up(&sets);
         let noises = found.noises.iter().zip(&sets[0]);

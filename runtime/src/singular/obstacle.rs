@@ -12,7 +12,7 @@ pub(crate) enum Obstacle {
     /// Newton's iteration does not contract: the sheet turns away, or there is another
     /// one next to it.
     NotContracting,
-    /// The motion left its sheet: energy was lost.
+    /// The motion left its sheet, or nodes lie on another: energy was lost, or signs changed.
     LeftSheet,
     /// The sheet cannot be told from another one, whatever the spacing of the nodes.
     Unresolved,

@@ -27,6 +27,9 @@ const NOISE: f64 = 48.0;
 const CENTRINGS: usize = 4;
 /// Spacings that are tried.
 const LEVELS: usize = 12;
+/// A move onto the sheet in which signs change shows that it is another sheet if it is longer
+/// than this many errors that are accepted of an interpolation: than the error of a step.
+const STRAYS: f64 = 10.0;
 /// By how much worse an interpolation may be than the best of all spacings, so that no others
 /// are tried.
 const NEARLY: f64 = 4.0;
@@ -37,7 +40,11 @@ pub(crate) enum Placement<T> {
     /// Where the constraints are regular.
     Regular,
     /// Between nodes of this spacing, across a configuration where sheets cross.
-    Crossing { spacing: T },
+    Crossing {
+        spacing: T,
+        /// Whether it was moved past the other sheet, by more than a step may be off.
+        strays: bool,
+    },
     /// Where the constraints are regular, next to a configuration where they are nearly
     /// singular: a gap keeps the sheets apart.
     Gap,
@@ -109,8 +116,15 @@ impl<T: Real> Sheet<'_, T> {
         point.move_along(along);
         point.sine = like.smallest();
         self.polish(point, like)?;
+        let flips = self
+            .frame
+            .block()
+            .sign_changes_from(like.block(), workspace)
+            > 0;
+        let moved = self.chart.length(sum.offset);
         Ok(Placement::Crossing {
             spacing: best.spacing,
+            strays: flips && moved > self.chart.accepted * T::from_f64(STRAYS) * self.chart.reach,
         })
     }
 
