@@ -93,7 +93,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             }
             self.counters.projection_iterations += 1;
             let mut w = [T::zero(); N];
-            self.lifted.correct(&mut w, &-self.position.residual);
+            self.schur.correct(&mut w, &-self.position.residual);
             state.q += self.lower(w);
             before = Some(worst);
         }
@@ -120,7 +120,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     fn project_velocity(&mut self, state: &mut State<T, N>) {
         let gap = -self.position.speed(&state.v);
         let mut w = [T::zero(); N];
-        self.lifted.correct(&mut w, &gap);
+        self.schur.correct(&mut w, &gap);
         state.v += self.lower(w);
         self.safe = Some((state.t, state.q));
     }
@@ -129,7 +129,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// and is small enough.
     pub(crate) fn is_on_constraints(&self, worst: T, before: Option<T>) -> bool {
         let stuck = before.is_some_and(|before| worst > before / T::from_f64(2.0));
-        worst <= round_off::<T>() * self.reach || stuck && worst <= negligible::<T>() * self.reach
+        worst <= round_off::<T>() * self.coordinate_scale
+            || stuck && worst <= negligible::<T>() * self.coordinate_scale
     }
 
     /// The largest of some constraint errors, as a length in the metric, and its row.

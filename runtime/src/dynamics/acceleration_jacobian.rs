@@ -33,7 +33,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         let bias = self.terms.bias;
         let free = self.free_acceleration(&bias);
-        let multiplier = self.lifted.multiplier(&free, &bias);
+        let multiplier = self.schur.multiplier(&free, &bias);
         let acceleration = self.regular_acceleration(&bias);
         let mut out = Linearised {
             sides: self.terms.sides,
@@ -62,7 +62,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             let jacobian = &self.terms.jacobian;
             let mut w = self.metric.force(&force, jacobian, &row, &self.rows);
             self.metric.factor.forward(&mut w);
-            self.lifted.correct(&mut w, &row);
+            self.schur.correct(&mut w, &row);
             *change = self.lower(w).data.0[0];
         }
         changes

@@ -214,7 +214,7 @@ where
             here.session.base = there.session.base;
             here.session.chart = chart.copied();
             here.rows.clone_from(&there.rows);
-            here.reach = there.reach;
+            here.coordinate_scale = there.coordinate_scale;
             here.adopt(there);
         }
     }

@@ -218,9 +218,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             whole = (*weight * *v).mul_add(*v, whole);
         }
         // The squares of the lengths of a correction and of a position.
-        let (moved, reach) = (worst * worst, squared_sine * self.reach * self.reach);
+        let (moved, coordinate_scale) = (
+            worst * worst,
+            squared_sine * self.coordinate_scale * self.coordinate_scale,
+        );
         let (most, round_off) = (negligible::<T>(), T::EPSILON);
-        moved <= most * most * reach && moved * turned <= round_off * round_off * reach * whole
+        moved <= most * most * coordinate_scale
+            && moved * turned <= round_off * round_off * coordinate_scale * whole
     }
 }
 
@@ -231,20 +235,20 @@ fn squared_sine<T: Real, const N: usize, const R: usize>(
     pivots: &Pivots<T, N, R>,
     rows: &Rows<T, R>,
 ) -> T {
-    let mut sound = true;
+    let mut valid = true;
     // Pivots that are diagonal entries themselves are not written.
     for i in 0..N {
         let whole = pivots.mass_diagonal.data.0[0][i];
-        sound &= pivots.mass_pivots.data.0[0][i] >= definite::<T>() * whole;
+        valid &= pivots.mass_pivots.data.0[0][i] >= definite::<T>() * whole;
     }
     let mut smallest = T::one();
     for row in 0..R {
         let ratio = pivots.row_pivots.data.0[0][row] * rows.inverse_size(row);
-        // NaN is not sound.
-        sound &= ratio < T::from_f64(f64::INFINITY);
+        // NaN is not valid.
+        valid &= ratio < T::from_f64(f64::INFINITY);
         if ratio < smallest {
             smallest = ratio;
         }
     }
-    if sound { smallest } else { T::zero() }
+    if valid { smallest } else { T::zero() }
 }

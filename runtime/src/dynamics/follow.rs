@@ -57,9 +57,12 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let rate = self.metric.factor.length(&state.v.data.0[0]);
         let most = T::from_f64(MOST_ROUND_OFF) * round_off();
         // False for NaN, too.
-        let (is_on, stays_on) = (worst <= most * self.reach, fastest <= most * rate);
+        let (is_on, stays_on) = (
+            worst <= most * self.coordinate_scale,
+            fastest <= most * rate,
+        );
         let moved = self.metric.factor.length(&(placed.q - state.q).data.0[0]);
-        if is_on && moved > regular::<T>() * self.reach {
+        if is_on && moved > regular::<T>() * self.coordinate_scale {
             return Err(self.refusal(mechanism, Obstacle::Undetermined, state.t));
         }
         if !is_on {
@@ -268,7 +271,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let size = self.metric.factor.length(&least.data.0[0]);
         let base = self.session.base.map(|base| (base.q, base.v));
         // What forces do elsewhere: in equilibrium they tell nothing of their own size.
-        let aside = self.lower([self.reach * T::from_f64(0.25); N]);
+        let aside = self.lower([self.coordinate_scale * T::from_f64(0.25); N]);
         let moved = State::new(state.t, state.q + aside, state.v);
         let elsewhere = self.published(mechanism, &moved)?;
         let free = size.max(self.metric.factor.length(&elsewhere.data.0[0]));
@@ -340,7 +343,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if !self.follows() || self.session.rests {
             return Ok(());
         }
-        self.observe_reach(mechanism, &step.end);
+        self.observe_coordinate_scale(mechanism, &step.end);
         self.session.sine = Some(self.session.trial.end.sqrt());
         self.session.near = self.session.trial.near;
         self.session.rate = self.session.trial.rate;

@@ -46,7 +46,7 @@ pub(crate) struct Known<'a, T> {
     /// Which rows restrict positions.
     pub(crate) holonomic: &'a [bool],
     /// The length of the coordinates in the metric.
-    pub(crate) reach: T,
+    pub(crate) coordinate_scale: T,
 }
 
 /// What is known of the metric and the rows, to be changed.
@@ -106,7 +106,7 @@ pub(crate) struct Lent<'a, T, const N: usize, const R: usize> {
     pub(crate) nodes: &'a mut Nodes<T, N>,
     pub(crate) weakest: &'a mut usize,
     expected: &'a mut bool,
-    pub(crate) reach: T,
+    pub(crate) coordinate_scale: T,
     pub(crate) sizes: &'a [T; N],
     pub(crate) tolerance: Option<T>,
 }
@@ -143,7 +143,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             nodes,
             weakest: &mut self.weakest,
             expected: &mut self.expected,
-            reach: self.reach,
+            coordinate_scale: self.coordinate_scale,
             sizes: &self.sizes,
             tolerance: *tolerance,
         };
@@ -157,7 +157,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             Source::Terms => &self.terms.jacobian,
             Source::Position => &self.position.jacobian,
         };
-        let known = known(&self.metric, &self.rows, self.reach);
+        let known = known(&self.metric, &self.rows, self.coordinate_scale);
         (known, jacobian.as_slice(), self.memory.workspace())
     }
 }
@@ -166,14 +166,14 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 pub(super) fn known<'a, T: Real, const N: usize, const R: usize>(
     metric: &'a Metric<T, N>,
     rows: &'a Rows<T, R>,
-    reach: T,
+    coordinate_scale: T,
 ) -> Known<'a, T> {
     let (scale, holonomic) = rows.scales();
     Known {
         factor: metric.factor.as_slice(),
         scale,
         holonomic,
-        reach,
+        coordinate_scale,
     }
 }
 
@@ -217,7 +217,7 @@ impl<T: Real, const N: usize, const R: usize> Constrained<T> for Lent<'_, T, N, 
     }
 
     fn known(&self) -> Known<'_, T> {
-        known(self.metric, self.rows, self.reach)
+        known(self.metric, self.rows, self.coordinate_scale)
     }
 
     fn learn(&mut self) -> Learning<'_, T> {

@@ -4,7 +4,7 @@
 //! Out: `q̈` in one of four forms, and what observers ask about the constraints.
 //!
 //! The product path is the reduced form. Away from singular configurations it takes
-//! the cheap path ([`lifted`]); a number without unit decides when to leave it.
+//! the cheap path ([`schur_complement`]); a number without unit decides when to leave it.
 //! Near them [`follow`] keeps the motion on its sheet of the constraint set
 //! ([`crate::singular`]).
 //!
@@ -20,7 +20,6 @@ mod follow;
 mod full;
 mod held;
 mod lent;
-mod lifted;
 mod locking;
 mod metric;
 mod multipliers;
@@ -29,6 +28,7 @@ mod rank;
 mod reaction;
 mod reduced;
 mod rows;
+mod schur_complement;
 mod settings;
 mod sizes;
 mod sliding;
@@ -45,8 +45,8 @@ pub(crate) use solver::Core;
 pub(crate) use combined::{Combined, second_derivatives};
 pub(crate) use emitted::MAX_ITERATIONS;
 pub(crate) use lent::{Constrained, Lent};
-pub(crate) use lifted::Lifted;
 pub(crate) use metric::Metric;
 pub(crate) use rank::choosing;
 pub(crate) use rows::{Rows, Which};
+pub(crate) use schur_complement::SchurComplement;
 pub(crate) use solver::Source;

@@ -24,7 +24,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.require_independent_rows(mechanism, state)?;
         self.counters.cheap_accelerations += 1;
         let mut w = self.free_acceleration(&bias);
-        self.lifted.correct(&mut w, &bias);
+        self.schur.correct(&mut w, &bias);
         Ok(self.lower(w))
     }
 
@@ -45,7 +45,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         let jacobian = &self.terms.jacobian;
         let squared = self
-            .lifted
+            .schur
             .factorise(&self.metric, jacobian, &self.rows, (every_row, R));
         if passes(squared, window()) {
             return Ok(());

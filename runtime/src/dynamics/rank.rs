@@ -33,7 +33,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             Source::Position => &self.position.jacobian,
         };
         let mut rows = SMatrix::<T, N, R>::zeros();
-        let known = known(&self.metric, &self.rows, self.reach);
+        let known = known(&self.metric, &self.rows, self.coordinate_scale);
         lift_rows(jacobian.as_slice(), known, which, rows.as_mut_slice());
         rows
     }
@@ -237,7 +237,7 @@ fn neighbours<'a, T: Real>(
     workspace: &Workspace<'a, T>,
 ) -> core::slice::ChunksExactMut<'a, T> {
     let (n, known) = (state.q.len(), solver.known());
-    let distance = difference::<T>() * known.reach;
+    let distance = difference::<T>() * known.coordinate_scale;
     let positions = workspace.numbers((n + 1) * n);
     let mut count = 0;
     let mut add = |size: T, direction: &[T]| {

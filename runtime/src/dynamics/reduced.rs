@@ -68,7 +68,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     #[inline]
     pub(super) fn regular_acceleration(&self, bias: &SVector<T, R>) -> SVector<T, N> {
         let mut w = self.free_acceleration(bias);
-        self.lifted.correct(&mut w, bias);
+        self.schur.correct(&mut w, bias);
         self.lower(w)
     }
 }

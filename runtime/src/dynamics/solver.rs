@@ -9,7 +9,7 @@
 //! Not here: where it lives itself ([`super::held`]).
 
 use super::conditions::Conditions;
-use super::{Lifted, Metric, Rows, Which};
+use super::{Metric, Rows, SchurComplement, Which};
 use crate::linalg::{NotDefinite, is_finite, length};
 use crate::singular::{Memory, Obstacle, Session};
 use crate::{
@@ -20,7 +20,7 @@ use nalgebra::{SMatrix, SVector};
 
 /// By which factor a coordinate grows before the length of the coordinates is measured
 /// again: round-off is needed to no more digits.
-const REACH_STEP: f64 = 1.125;
+const SCALE_STEP: f64 = 1.125;
 
 /// Solves the equations of motion of a mechanism with `N` coordinates and `R`
 /// constraint equations.
@@ -36,7 +36,7 @@ pub(crate) struct Core<T, const N: usize, const R: usize> {
     pub(crate) position: Position<T, N, R>,
     pub(crate) metric: Metric<T, N>,
     pub(crate) rows: Rows<T, R>,
-    pub(crate) lifted: Lifted<T, N, R>,
+    pub(crate) schur: SchurComplement<T, N, R>,
     /// What cold code works in.
     pub(crate) memory: Memory<T, N, R>,
     /// The row that came last when one was, by its place among the independent ones.
@@ -55,7 +55,7 @@ pub(crate) struct Core<T, const N: usize, const R: usize> {
     pub(crate) safe: Option<(T, SVector<T, N>)>,
     /// The largest length of the coordinates in the metric so far: what their
     /// round-off is measured by.
-    pub(crate) reach: T,
+    pub(crate) coordinate_scale: T,
     /// The sizes of the coordinates up to which that is not measured again.
     pub(crate) sizes: [T; N],
     /// The inverse squares of those sizes; zero where a coordinate has only been zero.
@@ -81,7 +81,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             position: Position::default(),
             metric: Metric::default(),
             rows: Rows::new(&[], false),
-            lifted: Lifted::default(),
+            schur: SchurComplement::default(),
             memory: Memory::new(),
             weakest: 0,
             regular: Regular::default(),
@@ -92,7 +92,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             emitted: true,
             expected: false,
             safe: None,
-            reach: T::zero(),
+            coordinate_scale: T::zero(),
             sizes: [-T::one(); N],
             weights: [T::zero(); N],
             prepared: false,
@@ -149,7 +149,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             Source::Position => &self.position.jacobian,
         };
         self.counters.constraint_factorisations += 1;
-        self.lifted
+        self.schur
             .factorise(&self.metric, jacobian, &self.rows, list)
     }
 
@@ -174,7 +174,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.sample_sizes(mechanism, state);
         mechanism.position(state, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, state.t)?;
-        self.observe_reach(mechanism, state);
+        self.observe_coordinate_scale(mechanism, state);
         self.learn_rank(mechanism, state)?;
         self.prepared = true;
         Ok(())
@@ -183,7 +183,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Takes note of the length of the coordinates in the metric, where one of them is
     /// larger than it was.
     #[inline]
-    pub(crate) fn observe_reach(
+    pub(crate) fn observe_coordinate_scale(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
@@ -191,17 +191,23 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let [q] = &state.q.data.0;
         let sizes = q.iter().zip(&self.sizes);
         if sizes.fold(false, |any, (q, size)| any | (q.abs() > *size)) {
-            self.extend_reach(mechanism, state);
+            self.extend_coordinate_scale(mechanism, state);
         }
     }
 
     /// Measures that length.
     #[inline(never)]
-    fn extend_reach(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) {
+    fn extend_coordinate_scale(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) {
         let [mut q] = state.q.data.0;
         let factor = self.metric.factor.as_slice();
         let known = (&mut self.sizes[..], &mut self.weights[..]);
-        self.reach = reach(mechanism.structure(), factor, &mut q, known, self.reach);
+        self.coordinate_scale = coordinate_scale(
+            mechanism.structure(),
+            factor,
+            &mut q,
+            known,
+            self.coordinate_scale,
+        );
     }
 
     /// What a run is told of an obstacle.
@@ -231,7 +237,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
 /// The largest length of coordinates so far, with `q`, which are used up, and up to which sizes
 /// it is not measured again. Functions of an angle have the round-off of an angle of one, however small it is.
-fn reach<T: Real>(
+fn coordinate_scale<T: Real>(
     structure: &Structure,
     factor: &[T],
     q: &mut [T],
@@ -250,20 +256,20 @@ fn reach<T: Real>(
         }
     }
     for ((known, weight), size) in sizes.iter_mut().zip(weights).zip(&*q) {
-        *known = known.max(*size * T::from_f64(REACH_STEP));
+        *known = known.max(*size * T::from_f64(SCALE_STEP));
         if *known > T::zero() {
             *weight = T::one() / (*known * *known);
         }
     }
-    let mut reach = length(factor, q);
-    if reach == T::zero() {
+    let mut coordinate_scale = length(factor, q);
+    if coordinate_scale == T::zero() {
         // Where all are lengths of zero, one unit stands for them until they move.
         q.fill(T::one());
-        reach = length(factor, q);
+        coordinate_scale = length(factor, q);
     }
     match moved {
-        true => before.max(reach),
-        false => reach,
+        true => before.max(coordinate_scale),
+        false => coordinate_scale,
     }
 }
 

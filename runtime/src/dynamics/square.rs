@@ -49,7 +49,7 @@ pub(super) fn is_square<T: Real>(
         return false;
     };
     let (along, moved) = (workspace.numbers(n), workspace.numbers(n));
-    let reach = solver.known().reach;
+    let coordinate_scale = solver.known().coordinate_scale;
     for (value, vector) in values().zip(vectors.chunks_exact(count)) {
         if !flat(value) {
             continue;
@@ -59,11 +59,11 @@ pub(super) fn is_square<T: Real>(
             add_scaled(along, *share, axis);
         }
         solver.known().lower(along);
-        for side in [reach, -reach] {
+        for side in [coordinate_scale, -coordinate_scale] {
             moved.copy_from_slice(state.q);
             add_scaled(moved, side * T::from_f64(ASIDE), along);
             solver.locate(state.t, moved);
-            if value_of(solver, combination, workspace) * sign < -T::EPSILON * reach {
+            if value_of(solver, combination, workspace) * sign < -T::EPSILON * coordinate_scale {
                 return false;
             }
         }

@@ -209,7 +209,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             chart.freedoms,
             metric,
             (rows, &self.position.jacobian),
-            (self.reach, &self.sizes, accepted(self.session.tolerance)),
+            (
+                self.coordinate_scale,
+                &self.sizes,
+                accepted(self.session.tolerance),
+            ),
         )?;
         next.set_drift(placed.drift, chart.speed);
         next.spacing = placed.spacing;
@@ -242,7 +246,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<(), DynamicsError<T>> {
         let (worst, _) = self.residual(&self.position.residual);
         // False for NaN, too.
-        let small = worst <= negligible::<T>() * self.reach;
+        let small = worst <= negligible::<T>() * self.coordinate_scale;
         if small || self.settings.stabilisation != Stabilisation::Projection {
             Ok(())
         } else {
@@ -268,7 +272,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let half = (end.t - start.t) * T::from_f64(0.5);
         // By the trapezoidal rule, whose error is less than what the power changes by.
         let supplied = half * (before.power + after.power);
-        let doubt = half * (after.power - before.power).abs();
+        let uncertainty = half * (after.power - before.power).abs();
         let kinetic = before.kinetic.max(after.kinetic);
         let potential = (after.potential - before.potential).abs();
         let size = kinetic.max(potential);
@@ -279,7 +283,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let round_off = T::from_f64(ENERGY) * T::EPSILON * (before.balance.abs() + size);
         let change = (after.balance - before.balance - supplied).abs();
         // False for NaN, too.
-        let kept = change <= part * size + doubt + round_off;
+        let kept = change <= part * size + uncertainty + round_off;
         if kept {
             Ok(())
         } else {

@@ -44,7 +44,7 @@ pub(crate) struct Chart<T, const N: usize, const R: usize> {
     row_scale: [T; R],
     column_scale: [T; N],
     /// The length of the coordinates in the metric.
-    reach: T,
+    coordinate_scale: T,
     /// How large each of them is.
     sizes: [T; N],
     /// The spacing of the nodes that served last, as a change of the sine.
@@ -65,7 +65,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
         freedoms: usize,
         metric: &Metric<T, N>,
         (rows, jacobian): (&Rows<T, R>, &SMatrix<T, R, N>),
-        (reach, sizes, accepted): (T, &[T; N], T),
+        (coordinate_scale, sizes, accepted): (T, &[T; N], T),
     ) -> Option<Self> {
         let (list, count) = rows.active(Which::All)?;
         if count + freedoms != N {
@@ -103,7 +103,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             factor: metric.factor,
             row_scale: *rows.scales().0,
             column_scale,
-            reach,
+            coordinate_scale,
             sizes: *sizes,
             spacing: T::zero(),
             accepted,
@@ -132,7 +132,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             factor: self.factor.as_slice(),
             row_scale: &self.row_scale,
             column_scale: &self.column_scale,
-            reach: self.reach,
+            coordinate_scale: self.coordinate_scale,
             sizes: &self.sizes,
             spacing: self.spacing,
             accepted: self.accepted,
@@ -201,7 +201,7 @@ pub(crate) struct ChartView<'a, T> {
     pub(super) factor: &'a [T],
     pub(super) row_scale: &'a [T],
     pub(super) column_scale: &'a [T],
-    pub(super) reach: T,
+    pub(super) coordinate_scale: T,
     pub(super) sizes: &'a [T],
     pub(super) spacing: T,
     pub(super) accepted: T,

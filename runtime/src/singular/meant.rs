@@ -80,7 +80,7 @@ fn tangent_along<T: Real>(
     if speed == T::zero() {
         return Ok(false);
     }
-    let span = difference::<T>() * solver.known().reach / speed;
+    let span = difference::<T>() * solver.known().coordinate_scale / speed;
     let mut best = difference::<T>() * T::from_f64(RETURNS);
     let mut found = false;
     for span in [span, -span] {
@@ -136,7 +136,11 @@ fn one_of_two<T: Real>(
     }
     let sheets = [&*sheets[0], &*sheets[1]];
     let distances = distances(solver, state, sheets, workspace)?;
-    let meant = meant((away, norm(velocity)), distances, solver.known().reach);
+    let meant = meant(
+        (away, norm(velocity)),
+        distances,
+        solver.known().coordinate_scale,
+    );
     if let Some(meant) = meant {
         tangent.copy_from_slice(sheets[meant]);
     }
@@ -147,7 +151,7 @@ fn one_of_two<T: Real>(
 fn meant<T: Real>(
     (away, speed): ([T; 2], T),
     distances: Option<[T; 2]>,
-    reach: T,
+    coordinate_scale: T,
 ) -> Option<usize> {
     let crosses = larger(away) > regular::<T>() * speed;
     let by_velocity = nearer(away, T::from_f64(CLEARLY_NEARER)).filter(|_| crosses);
@@ -156,7 +160,7 @@ fn meant<T: Real>(
         true => regular(),
         false => round_off::<T>() * critical(),
     };
-    let known = distances.filter(|away| larger(*away) > least * reach);
+    let known = distances.filter(|away| larger(*away) > least * coordinate_scale);
     let by_position = known.map(|away| nearer(away, T::from_f64(NEARER)));
     match (by_velocity, by_position) {
         (Some(one), None) => Some(one),

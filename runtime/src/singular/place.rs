@@ -124,7 +124,8 @@ impl<T: Real> Sheet<'_, T> {
         let moved = self.chart.length(sum.offset);
         Ok(Placement::Crossing {
             spacing: best.spacing,
-            strays: flips && moved > self.chart.accepted * T::from_f64(STRAYS) * self.chart.reach,
+            strays: flips
+                && moved > self.chart.accepted * T::from_f64(STRAYS) * self.chart.coordinate_scale,
         })
     }
 
@@ -144,7 +145,7 @@ impl<T: Real> Sheet<'_, T> {
             return Ok(Err(Placement::Gap));
         }
         // Rows are no more exact than the coordinates, whose round-off grows with their size.
-        let magnified = best.noise * (direction.rate * self.chart.reach).max(T::one());
+        let magnified = best.noise * (direction.rate * self.chart.coordinate_scale).max(T::one());
         let noise = T::from_f64(NOISE) * T::EPSILON * magnified;
         if best.error > self.chart.accepted.max(noise.min(excusable())) {
             return Err(Obstacle::Unresolved);
@@ -220,7 +221,7 @@ impl<T: Real> Sheet<'_, T> {
     /// change ever more slowly and then faster again, and a spacing that was right before says
     /// nothing of how far nodes are apart now.
     fn spacings(&self, direction: &Direction<'_, T>) -> (T, T) {
-        let widest = (spacing::<T>() * self.chart.reach * direction.rate).min(spacing());
+        let widest = (spacing::<T>() * self.chart.coordinate_scale * direction.rate).min(spacing());
         let known = self.chart.spacing;
         if self.chart.speed > T::zero() {
             return (T::zero(), widest);
@@ -268,7 +269,7 @@ impl<T: Real> Sheet<'_, T> {
         let bend = chart.length(all.particular) + speed * speed * rate;
         let mut differences = [T::zero(); 2];
         for (difference, (a, b)) in differences.iter_mut().zip([(all, fewer), (fewer, fewest)]) {
-            let offset = chart.apart(a.offset, b.offset) / chart.reach;
+            let offset = chart.apart(a.offset, b.offset) / chart.coordinate_scale;
             let particular = match bend > T::zero() {
                 true => chart.apart(a.particular, b.particular) / bend,
                 false => T::zero(),
@@ -312,7 +313,7 @@ impl<T: Real> Sheet<'_, T> {
         }
         let q = workspace.numbers(self.chart.n());
         let step = best.spacing / direction.rate;
-        let reach = self.reach_of_rows(state, direction, best, workspace);
+        let coordinate_scale = self.reach_of_rows(state, direction, best, workspace);
         let mut place = T::zero();
         for _ in 0..CENTRINGS {
             let t = direction.moved(state, direction.centre + step * place, q);
@@ -331,8 +332,8 @@ impl<T: Real> Sheet<'_, T> {
         }
         let most = self.largest_residual();
         // Beside the crossing an error of interpolation is seen as far as rows are not zero.
-        let doubt = T::from_f64(4.0) * best.error * self.frame.smallest();
-        most <= (critical::<T>() * round_off() + doubt) * reach
+        let uncertainty = T::from_f64(4.0) * best.error * self.frame.smallest();
+        most <= (critical::<T>() * round_off() + uncertainty) * coordinate_scale
     }
 
     /// How far the coordinates reach along the rows: what their round-off adds up to in a row.
@@ -354,22 +355,22 @@ impl<T: Real> Sheet<'_, T> {
         let lifted = q;
         let mut most = T::zero();
         for &row in chart.rows {
-            let mut reach = T::zero();
+            let mut coordinate_scale = T::zero();
             let entries = jacobian.iter().skip(row).step_by(chart.row_scale.len());
             for ((target, entry), size) in lifted.iter_mut().zip(entries).zip(chart.sizes) {
                 *target = *entry;
                 // A state that is integrated has no size, and no lever.
                 if *entry != T::zero() {
-                    reach += entry.abs() * *size;
+                    coordinate_scale += entry.abs() * *size;
                 }
             }
             solve_upper(chart.factor, lifted);
             let length = norm(lifted);
             if length > T::zero() {
-                most = most.max(reach / length);
+                most = most.max(coordinate_scale / length);
             }
         }
-        most.min(chart.reach)
+        most.min(chart.coordinate_scale)
     }
 }
 

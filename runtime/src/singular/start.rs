@@ -71,10 +71,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// Fills columns with what the factorised constraints leave free.
     fn null_space(&mut self, free: &mut [T]) {
-        let (lifted, zero) = (&self.lifted, SVector::zeros());
+        let (schur, zero) = (&self.schur, SVector::zeros());
         let correct = |axis: &mut [T]| {
             if let Ok(axis) = axis.try_into() {
-                lifted.correct(axis, &zero);
+                schur.correct(axis, &zero);
             }
         };
         let workspace = self.memory.workspace();
@@ -98,7 +98,7 @@ impl<T: Real, const N: usize, const R: usize> Lent<'_, T, N, R> {
             freedoms,
             self.metric,
             (self.rows, &equations.position.jacobian),
-            (self.reach, self.sizes, accepted(self.tolerance)),
+            (self.coordinate_scale, self.sizes, accepted(self.tolerance)),
         )?;
         equations.mechanism.position(state, equations.position);
         if !is_zero(equations.position.drift.as_slice()) {

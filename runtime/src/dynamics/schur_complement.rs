@@ -13,14 +13,14 @@ use nalgebra::{SMatrix, SVector};
 
 /// Independent rows in the metric, `U⁻¹Aᵀ`, and the factor of their Gram matrix.
 #[derive(Clone, Debug)]
-pub(crate) struct Lifted<T, const N: usize, const R: usize> {
+pub(crate) struct SchurComplement<T, const N: usize, const R: usize> {
     vectors: SMatrix<T, N, R>,
     gram: Gram<T, R>,
     list: [usize; R],
     count: usize,
 }
 
-impl<T: Real, const N: usize, const R: usize> Default for Lifted<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Default for SchurComplement<T, N, R> {
     fn default() -> Self {
         Self {
             vectors: SMatrix::zeros(),
@@ -31,7 +31,7 @@ impl<T: Real, const N: usize, const R: usize> Default for Lifted<T, N, R> {
     }
 }
 
-impl<T: Real, const N: usize, const R: usize> Lifted<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> SchurComplement<T, N, R> {
     /// Factorises the first `count` rows of `list` and returns the smallest
     /// squared sine of a row against the rows before it.
     pub(crate) fn factorise(
