@@ -19,7 +19,7 @@ pub const SPEED: f64 = 10.0;
 /// Ticks after which a state is reported.
 pub const REPORTED: u32 = 50;
 /// Evaluations of the equations of motion that one tick may take.
-pub const MOST_EVALUATIONS: u32 = 1500;
+pub const MOST_EVALUATIONS: u32 = 2000;
 
 /// The engine, its motor, and the controller between them.
 pub struct Loop<T: Real> {

@@ -145,9 +145,9 @@ impl<T: Real> Sheet<'_, T> {
             return Ok(Err(Placement::Gap));
         }
         // Rows are no more exact than the coordinates, whose round-off grows with their size.
-        let magnified = best.noise * (direction.rate * self.chart.coordinate_scale).max(T::one());
-        let noise = T::from_f64(NOISE) * T::EPSILON * magnified;
-        if best.error > self.chart.accepted.max(noise.min(excusable())) {
+        let size = (direction.rate * self.chart.coordinate_scale).max(T::one());
+        let noise = T::from_f64(NOISE) * T::EPSILON * best.noise * size;
+        if best.error > self.chart.accepted.max(noise.min(excusable::<T>() * size)) {
             return Err(Obstacle::Unresolved);
         }
         // Where neither is as good as wanted, the better one.
