@@ -1,6 +1,6 @@
 //! The equations of motion: the trait implementation.
 
-use super::filling::{Filling, Heading};
+use super::filling::{Heading, Method};
 use super::linearised::linearised;
 use super::subject::{Subject, Written, cost_in_words, entry, entry_of_field};
 use super::switches::switches;
@@ -73,12 +73,6 @@ pub(super) fn mechanism(subject: &Subject) -> TokenStream {
     }
 }
 
-/// A method of the trait, and the functions of the mechanism that it calls.
-struct Method {
-    method: TokenStream,
-    functions: TokenStream,
-}
-
 /// The methods that fill buffers.
 fn methods(subject: &Subject) -> Vec<Method> {
     let programs = subject.programs;
@@ -110,21 +104,11 @@ fn filled(subject: &Subject, [name, buffer, docs]: [&str; 3], computed: &Optimis
         buffer,
         docs,
         cost: cost_in_words(computed),
-        reads_all: by_columns,
+        before: by_columns.then(|| quote!(self.write_mass(state, &mut out.mass);)),
+        solves: false,
         divisible: false,
     };
-    let filling = Filling::of(subject, &heading, &computed.program, &entry_of_field);
-    let mass = by_columns.then(|| quote!(self.write_mass(state, &mut out.mass);));
-    let Filling {
-        docs,
-        signature,
-        statements,
-        functions,
-    } = filling;
-    Method {
-        method: quote!(#docs #signature { #mass #statements }),
-        functions,
-    }
+    Method::of(subject, &heading, &computed.program, &entry_of_field)
 }
 
 /// A method that solves where the constraints are regular.
@@ -135,22 +119,13 @@ fn solution(subject: &Subject, [name, buffer, docs]: [&str; 3], solved: &Solved)
         docs,
         // What it costs includes what it solves.
         cost: format!(" Costs {}.", cost(&solved.program)),
-        reads_all: false,
+        before: None,
+        solves: true,
         // From body to body, values are read soon after they are computed, and compilers take a
         // straight line as it is.
         divisible: solved.way != Way::Shared,
     };
-    let filling = Filling::of(subject, &heading, &solved.program, &entry_of_solution);
-    let Filling {
-        docs,
-        signature,
-        statements,
-        functions,
-    } = filling;
-    Method {
-        method: quote!(#docs #[inline(always)] #signature -> bool { #statements true }),
-        functions,
-    }
+    Method::of(subject, &heading, &solved.program, &entry_of_solution)
 }
 
 /// Where a solve writes an entry; pivots have a struct of their own.

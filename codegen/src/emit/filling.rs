@@ -18,36 +18,32 @@ pub(super) struct Heading<'a> {
     pub buffer: &'a str,
     pub docs: &'a str,
     pub cost: String,
-    /// Whether it does something else with its arguments.
-    pub reads_all: bool,
+    /// What it does with its arguments before.
+    pub before: Option<TokenStream>,
+    /// Whether it solves, and says that it could.
+    pub solves: bool,
     /// Whether it is taken apart if it is long.
     pub divisible: bool,
 }
 
-/// A method that fills a buffer.
-pub(super) struct Filling {
-    pub statements: TokenStream,
-    /// What they call.
+/// A method of the trait, and the functions of the mechanism that it calls.
+pub(super) struct Method {
+    pub method: TokenStream,
     pub functions: TokenStream,
-    /// Its documentation.
-    pub docs: TokenStream,
-    /// Its name and arguments.
-    pub signature: TokenStream,
 }
 
-impl Filling {
-    /// The method that runs a program.
+impl Method {
+    /// The one that runs a program.
     pub fn of(subject: &Subject, heading: &Heading, program: &Program, place: Place) -> Self {
         let (names, taken) = (&subject.names, subject.names.taken.clone());
         let straight_line = subject.options.straight_line.unwrap_or(STRAIGHT_LINE);
         let in_parts = heading.divisible && program.len() > straight_line;
-        let all = in_parts || heading.reads_all;
+        let all = in_parts || heading.before.is_some();
         let state = argument("state", all || SymbolNames::reads_state(program));
         let out = argument("out", all || Reads::of(program).out);
         let types = types(subject, heading.buffer);
         let [state_type, out_type] = &types;
         let name = argument(heading.name, true);
-        let (docs, cost) = (doc_lines(heading.docs), &heading.cost);
         let (statements, functions) = if in_parts {
             let place = (place, Decided::BySides);
             let function = (&name, &types);
@@ -57,12 +53,23 @@ impl Filling {
             let body = Body::of(program, names, taken, place, Decided::BySides);
             (body.statements, TokenStream::new())
         };
-        Self {
-            statements,
-            functions,
-            docs: quote!(#(#[doc = #docs])* #[doc = ""] #[doc = #cost]),
-            signature: quote!(fn #name(&self, #state: &#state_type, #out: &mut #out_type)),
-        }
+        let (docs, cost) = (doc_lines(heading.docs), &heading.cost);
+        let before = &heading.before;
+        let inline = heading.solves.then(|| quote!(#[inline(always)]));
+        let result = heading.solves.then(|| quote!(-> bool));
+        let solved = heading.solves.then(|| quote!(true));
+        let method = quote! {
+            #(#[doc = #docs])*
+            ///
+            #[doc = #cost]
+            #inline
+            fn #name(&self, #state: &#state_type, #out: &mut #out_type) #result {
+                #before
+                #statements
+                #solved
+            }
+        };
+        Self { method, functions }
     }
 }
 

@@ -98,12 +98,9 @@ impl Body {
         let mut outputs = FxHashMap::default();
         for (value, _) in program.operations() {
             writer.place(value);
+            writer.assign(value, &slots[value.index()], place);
             for slot in &slots[value.index()] {
-                let tokens = writer.piece(value).tokens.clone();
-                if let Some(place) = place(slot) {
-                    writer.statements.push(quote!(#place = #tokens;));
-                }
-                outputs.insert(*slot, tokens);
+                outputs.insert(*slot, writer.piece(value).tokens.clone());
             }
         }
         Body {
@@ -151,6 +148,15 @@ impl<'a> Writer<'a> {
         if self.pieces[value.index()].is_none() {
             let piece = self.written(value);
             self.pieces[value.index()] = Some(piece);
+        }
+    }
+
+    /// Assigns a value to those outputs that have a place.
+    pub(super) fn assign(&mut self, value: Value, outputs: &[Slot], place: Place) {
+        for place in outputs.iter().filter_map(place) {
+            let tokens = &self.piece(value).tokens;
+            let statement = quote!(#place = #tokens;);
+            self.statements.push(statement);
         }
     }
 

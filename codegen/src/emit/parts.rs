@@ -68,12 +68,12 @@ impl Parts {
         let count = Literal::usize_unsuffixed(kept.count);
         let mut functions = TokenStream::new();
         let mut calls = quote!(let mut kept = [T::zero(); #count];);
-        for (number, part) in parts.iter().enumerate() {
+        for (number, part) in parts.into_iter().enumerate() {
             let name = Ident::new(&format!("{name}_part_{number}"), Span::call_site());
-            let body = body(part, symbols, &kept);
             let state = argument("state", part.iter().any(|step| step.state));
             let out = argument("out", part.iter().any(|step| step.out));
             let room = argument("kept", part.iter().any(|step| kept.serves(step)));
+            let body = body(part, symbols, &kept);
             functions.extend(quote! {
                 #[inline(never)]
                 fn #name(
@@ -118,12 +118,7 @@ fn steps(
     let slots = program.slots();
     for (value, operation) in program.operations() {
         writer.place(value);
-        for slot in &slots[value.index()] {
-            if let Some(place) = place(slot) {
-                let tokens = writer.piece(value).tokens.clone();
-                writer.statements.push(quote!(#place = #tokens;));
-            }
-        }
+        writer.assign(value, &slots[value.index()], place);
         if writer.statements.len() > 0 {
             let statements = std::mem::take(&mut writer.statements);
             let mut step = writer.step(value, operation, statements);
@@ -260,25 +255,22 @@ impl Kept {
 }
 
 /// The statements of a part. What it reads is fetched where it is read first.
-fn body(part: &[Step], symbols: &dyn Symbols, kept: &Kept) -> TokenStream {
-    let read: BTreeSet<Symbol> = part.iter().flat_map(|step| step.symbols.clone()).collect();
-    let mut tokens = symbols.prelude(&read);
-    let mut known: FxHashSet<&Ident> = FxHashSet::default();
+fn body(part: Vec<Step>, symbols: &dyn Symbols, kept: &Kept) -> TokenStream {
+    let read = part.iter().flat_map(|step| &step.symbols).copied();
+    let mut tokens = symbols.prelude(&read.collect());
+    let mut known: FxHashSet<Ident> = FxHashSet::default();
     for step in part {
-        for name in &step.reads {
-            if known.insert(name)
-                && let Some(place) = kept.place(name)
-            {
-                tokens.extend(quote!(let #name = #place;));
+        for name in step.reads {
+            let place = kept.place(&name);
+            if known.insert(name.clone()) {
+                tokens.extend(place.map(|place| quote!(let #name = #place;)));
             }
         }
-        tokens.extend(step.statements.clone().into_tokens());
-        for name in &step.defines {
-            if known.insert(name)
-                && let Some(place) = kept.place(name)
-            {
-                tokens.extend(quote!(#place = #name;));
-            }
+        tokens.extend(step.statements.into_tokens());
+        for name in step.defines {
+            let place = kept.place(&name);
+            tokens.extend(place.map(|place| quote!(#place = #name;)));
+            known.insert(name);
         }
     }
     tokens

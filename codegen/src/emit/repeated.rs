@@ -8,7 +8,6 @@ use super::name::Names;
 use crate::model::Symbol;
 use crate::optimise::{Operation, Program, Value};
 use proc_macro2::TokenStream;
-use quote::quote;
 use std::collections::BTreeSet;
 
 /// The two parts of a program.
@@ -44,10 +43,7 @@ impl Repeated {
         let slots = program.slots();
         for value in again {
             writer.place(value);
-            for slot in &slots[value.index()] {
-                let (place, tokens) = (place(slot), writer.piece(value).tokens.clone());
-                writer.statements.push(quote!(#place = #tokens;));
-            }
+            writer.assign(value, &slots[value.index()], place);
         }
         Self {
             once,

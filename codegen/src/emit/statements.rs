@@ -15,13 +15,12 @@ const ONE_BY_ONE_MAX: usize = 1000;
 /// How many a longer one declares at a time.
 const AT_A_TIME: usize = 64;
 
-#[derive(Clone)]
 enum Statement {
     Named(Ident, TokenStream),
     Other(TokenStream),
 }
 
-#[derive(Clone, Default)]
+#[derive(Default)]
 pub(super) struct Statements(Vec<Statement>);
 
 impl Statements {
@@ -38,17 +37,12 @@ impl Statements {
         self.0.len()
     }
 
-    /// The names of the values.
-    pub(super) fn names(&self) -> Vec<Ident> {
+    pub(super) fn into_tokens(self) -> TokenStream {
         let name = |statement: &Statement| match statement {
             Statement::Named(name, _) => Some(name.clone()),
             Statement::Other(_) => None,
         };
-        self.0.iter().filter_map(name).collect()
-    }
-
-    pub(super) fn into_tokens(self) -> TokenStream {
-        let names = self.names();
+        let names: Vec<Ident> = self.0.iter().filter_map(name).collect();
         let together = names.len() > ONE_BY_ONE_MAX;
         let mut parts = names.chunks(AT_A_TIME);
         let mut declared = 0;
