@@ -3,6 +3,7 @@
 use bricard::double_four_bar::DoubleFourBar;
 use bricard_fixtures::functions::Functions;
 use bricard_fixtures::in_parts;
+use bricard_fixtures::reserved::TypeOfThing;
 use bricard_runtime::{Correction, Mechanism, Position, Regular, State, Terms};
 use bricard_testkit::Random;
 
@@ -61,6 +62,10 @@ fn parts_compute_what_straight_lines_do() {
     agree(
         &Functions::default(),
         &in_parts::functions::Functions::default(),
+    );
+    agree(
+        &TypeOfThing::default(),
+        &in_parts::reserved::TypeOfThing::default(),
     );
 }
 

@@ -10,7 +10,7 @@ use quote::quote;
 use std::collections::BTreeSet;
 
 /// Names that emitted bodies use for themselves.
-const RESERVED: [&str; 10] = [
+const RESERVED: [&str; 11] = [
     "state",
     "out",
     "values",
@@ -21,6 +21,7 @@ const RESERVED: [&str; 10] = [
     "multiplier",
     "outputs",
     "inputs",
+    "kept",
 ];
 
 /// The entries of an array that are always named all at once.
