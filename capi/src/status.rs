@@ -58,17 +58,14 @@ impl Status {
     /// What kind of failure an error of a run is.
     pub(crate) fn of(error: &SimulateError<f64>) -> Self {
         match error {
-            SimulateError::Integrate(_)
-            | SimulateError::Observe(_)
-            | SimulateError::TooManySteps { .. }
-            | SimulateError::TooManyEvents { .. }
-            | SimulateError::TooMuchWork { .. } => Self::Run,
             SimulateError::StartNotFinite { .. } => Self::NotFinite,
             SimulateError::StepNotPositive { .. }
             | SimulateError::StepLost { .. }
             | SimulateError::NoErrorEstimate { .. }
             | SimulateError::BadEnd { .. }
             | SimulateError::NotConservative => Self::Argument,
+            // Whatever else a run can meet.
+            _ => Self::Run,
         }
     }
 }

@@ -8,6 +8,7 @@ use core::fmt::{Display, Formatter, Result};
 
 /// Kinds of singular configurations in which a motion ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Singularity {
     /// The sheets of the constraint set cannot be told apart by the digits there are: they
     /// nearly touch, or a gap keeps them apart that is not much more than round-off.
@@ -53,6 +54,7 @@ impl Display for Singularity {
 
 /// What is watched along a motion and not needed to compute it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Watched {
     /// The kinetic energy.
     KineticEnergy,
@@ -83,6 +85,7 @@ impl Display for Watched {
 
 /// Why an acceleration or a projection could not be computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum DynamicsError<T> {
     /// A state, a term of the equations or the result is infinite or NaN.
     NotFinite {

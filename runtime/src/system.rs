@@ -21,6 +21,7 @@ pub struct AccelerationJacobian<T, const N: usize> {
 
 /// Where equations change with respect to a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Switching<T> {
     /// Not within the step.
     Nowhere,

@@ -6,6 +6,8 @@ pub mod placement;
 mod random;
 mod reduction;
 pub mod sentences;
+mod variants;
 
 pub use random::Random;
 pub use reduction::{Motion, Reduction};
+pub use variants::variants;

@@ -10,6 +10,7 @@ mod values;
 use crate::command::{folder, read};
 use bricard_testkit::page::{code, hold_section, prose, row};
 use bricard_testkit::sentences::sentences;
+use bricard_testkit::variants;
 use refusals::{CASES, Case, PARQUET, WITHOUT_PARQUET};
 use std::collections::BTreeSet;
 use std::fs;
@@ -40,14 +41,7 @@ const ELSEWHERE: [(&str, &str); 6] = [
 /// The variants of the command's error, as its source declares them.
 fn reasons() -> BTreeSet<String> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("cli/error.rs");
-    let source = fs::read_to_string(path).expect("a source");
-    let file = syn::parse_file(&source).expect("it is Rust");
-    let variants = file.items.into_iter().find_map(|item| match item {
-        syn::Item::Enum(item) if item.ident == "CommandError" => Some(item.variants),
-        _ => None,
-    });
-    let variants = variants.expect("the error is declared there").into_iter();
-    variants.map(|variant| variant.ident.to_string()).collect()
+    variants(&path, "CommandError").into_iter().collect()
 }
 
 /// A folder with a wrong description and something in the way.

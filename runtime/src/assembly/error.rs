@@ -10,6 +10,7 @@ use nalgebra::SVector;
 
 /// Why no consistent initial state could be found.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum AssemblyError<T, const N: usize, const R: usize> {
     /// A value of the start, or a constraint at the guess, is infinite or NaN.
     NotFinite {

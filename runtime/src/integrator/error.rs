@@ -8,6 +8,7 @@ use core::fmt::{Display, Formatter, Result};
 
 /// Why an integrator could not make a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum IntegrateError<T> {
     /// The mechanics failed at a state that could not be avoided.
     Dynamics(DynamicsError<T>),

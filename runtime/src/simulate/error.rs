@@ -9,6 +9,7 @@ use core::fmt::{Display, Formatter, Result};
 
 /// Why a run could not begin or go on.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum SimulateError<T> {
     /// A step could not be made.
     Integrate(IntegrateError<T>),

@@ -1,8 +1,8 @@
 //! Every error of the runtime can be provoked, and says when, what and what to try.
 //!
 //! The tables have whole messages, with `…` for a number that depends on steps, and stand
-//! on the page of messages. An error without a case does not compile (`variants!`), or has
-//! no line in a table.
+//! on the page of messages. The kinds of each error are read from its source, so that a new
+//! one needs a case.
 
 mod point;
 mod runs;
@@ -12,6 +12,7 @@ use bricard_runtime::{
     AssemblyError, BadInterval, DynamicsError, IntegrateError, SimulateError, Singularity, Watched,
 };
 use bricard_testkit::page::{hold_section, prose, row};
+use bricard_testkit::variants;
 use std::path::Path;
 
 /// What is provoked, how, in words and in Rust, and what is said then.
@@ -61,7 +62,7 @@ trait Variants {
     fn within(&self) -> Vec<&'static str>;
 }
 
-/// Lists the variants of an error, which has to name each of them, and what is within some.
+/// Lists the variants of an error, and what is within some.
 macro_rules! variants {
     ($error:ident $(<$($of:tt),+>)?: $($variant:ident),+; $($holds:pat => $inner:expr),*) => {
         impl Variants for $error $(<$($of),+>)? {
@@ -73,6 +74,7 @@ macro_rules! variants {
                     $(Self::$variant { .. } => {
                         concat!(stringify!($error), "::", stringify!($variant))
                     })+
+                    _ => "an error that is not listed here",
                 }
             }
 
@@ -182,6 +184,30 @@ fn every_error_is_provoked() {
     let all = all.into_iter().flatten();
     let silent: Vec<&&str> = all.filter(|name| !provoked.contains(name)).collect();
     assert!(silent.is_empty(), "no case provokes {silent:?}");
+}
+
+#[test]
+fn every_kind_that_a_source_declares_is_listed() {
+    let declared: [(&str, &[&str]); 6] = [
+        ("error.rs", Singularity::ALL),
+        ("error.rs", Watched::ALL),
+        ("error.rs", DynamicsError::<f64>::ALL),
+        ("integrator/error.rs", IntegrateError::<f64>::ALL),
+        ("simulate/error.rs", SimulateError::<f64>::ALL),
+        ("assembly/error.rs", AssemblyError::<f64, 2, 1>::ALL),
+    ];
+    let sources = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for (file, listed) in declared {
+        let (error, _) = listed[0].split_once("::").expect("a qualified name");
+        let names = variants(&sources.join(file), error);
+        let names: Vec<String> = names.iter().map(|v| format!("{error}::{v}")).collect();
+        let sorted = |mut names: Vec<String>| {
+            names.sort_unstable();
+            names
+        };
+        let listed = listed.iter().map(|name| (*name).to_string()).collect();
+        assert_eq!(sorted(names), sorted(listed), "{file}");
+    }
 }
 
 /// The order of the tables is that of the page: a reader looks for what is alike.
