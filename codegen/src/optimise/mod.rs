@@ -6,44 +6,35 @@
 //!      [`verify`].
 //!
 //! The passes, in order; `RULES.md` has the identity and the domain of each rule:
-//! 1. `trig`: each expression in the ring of the sines and cosines it has, where
+//! 1. `ring`: each expression in the ring of the sines and cosines it has, where
 //!    that is cheaper. Works on expressions.
 //! 2. `schedule`: to a program, each shared expression once.
-//! 3. `factor`, `share`: common factors of terms, and pairs of factors that products
+//! 3. `collect`, `share`: common factors of terms, and pairs of factors that products
 //!    share.
 //! 4. `dead`: what nobody reads.
 //! 5. `order`: outputs of the same coordinates one after the other.
 //!
 //! `solve` appends the solve for the accelerations to a program.
 
-mod count;
+mod collect;
 mod dead;
-mod factor;
 mod functions;
-mod interpret;
-mod monomial;
 mod order;
 mod pass;
 mod program;
 mod programs;
+mod ring;
 mod schedule;
 mod share;
 mod solve;
-mod squares;
-mod text;
-mod trig;
-mod verify;
 mod wanted;
 
-pub use count::{Cost, cost};
 pub use functions::{Array, LeftOut, List, Optimised, Programs, StartPrograms};
-pub use interpret::interpret;
 pub use pass::{Pass, alone};
-pub use program::{Operation, Program, Slot, Value};
+pub use program::{Cost, Operation, Program, Slot, Value, cost, interpret, verify};
 pub use programs::{Besides, programs};
+pub use ring::{Polynomials, in_trig_ring};
 pub use solve::{Solved, Way};
-pub use trig::{Polynomials, in_trig_ring};
-pub use verify::verify;
 
 use crate::expr::ExprId;
 use crate::model::Graph;
@@ -87,10 +78,10 @@ pub fn optimise_among(
     if scheduled.len() > REWRITTEN_MAX {
         return checked(order::arranged(&scheduled));
     }
-    let mut best = factor::factor(&scheduled);
+    let mut best = collect::factored(&scheduled);
     let operands: usize = scheduled.uses().iter().sum();
     let most = MULTIPLIED.0 * operands + MULTIPLIED.1;
-    let mut ring = trig::Ring::new(graph, memory, most);
+    let mut ring = ring::Ring::new(graph, memory, most);
     let reduced: Option<Vec<(Slot, ExprId)>> = wanted
         .iter()
         .map(|(slot, e)| Some((*slot, ring.reduced(*e)?)))
@@ -109,7 +100,7 @@ pub fn optimise_among(
         if candidate == chosen {
             continue;
         }
-        let program = factor::factor(&schedule::schedule(graph, laws, &candidate));
+        let program = collect::factored(&schedule::schedule(graph, laws, &candidate));
         if cost(&program).weight() < cost(&best).weight() {
             (chosen, best) = (candidate, program);
         }

@@ -1,7 +1,7 @@
 //! The passes one by one, so that each can be checked by itself.
 
 use super::program::{Program, Slot};
-use super::{factor, in_trig_ring, schedule, share};
+use super::{collect, in_trig_ring, schedule, share};
 use crate::expr::ExprId;
 use crate::model::Graph;
 
@@ -46,7 +46,7 @@ pub fn alone(pass: Pass, graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, Ex
     let program = schedule::schedule(graph, laws, &wanted);
     match pass {
         Pass::Ring | Pass::Schedule => program,
-        Pass::Collect => factor::collect_factors(&program),
+        Pass::Collect => collect::collect_factors(&program),
         Pass::Share => share::share_pairs(&program),
     }
 }

@@ -183,14 +183,14 @@ fn every_function_that_rewrites_is_named_by_a_rule() {
     let rules = rules();
     let rewriting = [
         (
-            "trig.rs",
+            "ring/mod.rs",
             ["add_reduced", "times", "times_power", "expand_node"].as_slice(),
         ),
         (
             "schedule.rs",
             ["sum", "weighted", "product", "repeated"].as_slice(),
         ),
-        ("factor.rs", ["collect_factors"].as_slice()),
+        ("collect.rs", ["collect_factors"].as_slice()),
         ("share.rs", ["share_pairs"].as_slice()),
         ("dead.rs", ["without_dead"].as_slice()),
         ("solve/algebra.rs", ["product", "sum", "inverse"].as_slice()),

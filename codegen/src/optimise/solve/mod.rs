@@ -23,9 +23,8 @@ mod saddle;
 mod schur;
 mod shared;
 
-use super::count::cost;
 use super::dead::ordered;
-use super::program::{Operation, Program, Slot, Value};
+use super::program::{Operation, Program, Slot, Value, cost};
 use crate::model::Symbol;
 use algebra::{Algebra, Entry, Signed, Sparse};
 use saddle::Saddle;

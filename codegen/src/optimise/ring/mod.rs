@@ -11,10 +11,12 @@
 //! one with a coefficient that overflows, and the inverse of one that is zero. The whole
 //! is given up where it takes more work than a program is worth.
 
-use super::monomial::{MonomialId, Monomials};
-use super::squares;
+mod monomial;
+mod squares;
+
 use crate::expr::{ExprId, Function, Number};
 use crate::model::{Graph, Node};
+use monomial::{MonomialId, Monomials};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::hash_map::Entry;
 use std::rc::Rc;
@@ -254,7 +256,7 @@ impl<'a> Ring<'a> {
         lowered.retain(|(_, n)| *n != 0);
         let with_cos = [&lowered[..], &[(cos, 2)]].concat();
         self.add_reduced(sum, lowered, minus);
-        self.add_reduced(sum, super::monomial::collected(with_cos), !minus);
+        self.add_reduced(sum, monomial::collected(with_cos), !minus);
     }
 
     /// The expression of the polynomial of one that is known.

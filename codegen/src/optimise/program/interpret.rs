@@ -1,6 +1,6 @@
 //! Runs a program on `f64`: what passes and emitted code are checked against.
 
-use super::program::{Operation, Program, Slot};
+use super::{Operation, Program, Slot};
 use crate::model::Symbol;
 
 /// The outputs of a program; an input takes the value given for its symbol, or
@@ -19,7 +19,7 @@ pub fn interpret(program: &Program, values: &dyn Fn(Symbol) -> Option<f64>) -> V
 }
 
 fn step(operation: &Operation, known: &[f64], values: &dyn Fn(Symbol) -> Option<f64>) -> f64 {
-    let of = |value: &super::program::Value| known[value.index()];
+    let of = |value: &super::Value| known[value.index()];
     match operation {
         Operation::Number(value) => value.to_f64(),
         Operation::Pi => std::f64::consts::PI,

@@ -7,7 +7,7 @@
 //! - Each slot is written once.
 //! - Every operation is read.
 
-use super::program::{Operation, Program};
+use super::{Operation, Program};
 use std::collections::HashSet;
 
 /// The first broken invariant, if any. A broken invariant is a bug of this crate,

@@ -1,6 +1,6 @@
 //! What a program costs.
 
-use super::program::{Operation, Program, Value};
+use super::{Operation, Program, Value};
 use crate::expr::Function;
 use std::collections::BTreeSet;
 use std::fmt;

@@ -4,15 +4,14 @@
 //! Out: the cheaper of two: with common factors taken out of the sums first, and
 //!      without; then with pairs shared (`share.rs`).
 
-use super::count::cost;
 use super::dead::ordered;
-use super::program::{Operation, Program, Value};
+use super::program::{Operation, Program, Value, cost};
 use super::share::share_pairs;
 use crate::expr::Number;
 use rustc_hash::FxHashMap;
 
 /// The program with factors shared; never costlier.
-pub(super) fn factor(program: &Program) -> Program {
+pub(super) fn factored(program: &Program) -> Program {
     let shared = share_pairs(program);
     let collected = share_pairs(&collect_factors(program));
     if cost(&collected).weight() < cost(&shared).weight() {

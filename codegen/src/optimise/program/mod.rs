@@ -2,7 +2,17 @@
 //!
 //! A [`Program`] is single-assignment. Each [`Value`] is an index into its
 //! operations; operands come before their users. It knows no mechanics: an
-//! output is an entry of a named array.
+//! output is an entry of a named array. A program has a cost and a text, can be run
+//! ([`interpret`]) and checked ([`verify`]).
+
+mod count;
+mod interpret;
+mod text;
+mod verify;
+
+pub use count::{Cost, cost};
+pub use interpret::interpret;
+pub use verify::verify;
 
 use crate::expr::{Function, Function2, Number, Test};
 use crate::model::Symbol;
@@ -15,7 +25,7 @@ pub struct Value(u32);
 
 impl Value {
     /// The value at a place of a program.
-    pub(super) fn at(index: usize) -> Self {
+    pub(in crate::optimise) fn at(index: usize) -> Self {
         Value(u32::try_from(index).unwrap_or(u32::MAX))
     }
 
@@ -60,7 +70,7 @@ impl Operation {
     }
 
     /// Shows the values it reads, in order.
-    pub(super) fn for_each_operand(&self, show: &mut dyn FnMut(Value)) {
+    pub(in crate::optimise) fn for_each_operand(&self, show: &mut dyn FnMut(Value)) {
         match self {
             Operation::Number(_) | Operation::Pi | Operation::Symbol(_) => {}
             Operation::Sum(terms) => {
@@ -140,7 +150,7 @@ impl Program {
     }
 
     /// All operations in order.
-    pub(super) fn list(&self) -> &[Operation] {
+    pub(in crate::optimise) fn list(&self) -> &[Operation] {
         &self.operations
     }
 

@@ -6,7 +6,7 @@
 //! Numbers and symbols stand where they are used. Results have the sign of percent, which no
 //! name of a description has, and are counted from 1.
 
-use super::program::{Operation, Program, Slot, Value};
+use super::{Operation, Program, Slot, Value};
 use crate::model::Symbol;
 use std::fmt::{self, Display, Formatter};
 
