@@ -6,6 +6,7 @@
 //! Numbers are kept by their bits, and a checksum of everything tells a damaged file
 //! from a whole one.
 
+use crate::compiled::hash;
 use crate::run::Report;
 use bricard_runtime::{Counters, Origin, Passage, Structure};
 use serde_json::{Value, json};
@@ -148,15 +149,13 @@ impl Checkpoint {
     }
 }
 
-/// A number that changes with anything else in the file: the hash of Fowler, Noll and
-/// Vo (FNV-1a, 64 bits) of all entries but this one.
+/// A number that changes with anything else in the file: the hash of all entries but this one.
 pub(super) fn checksum(value: &Value) -> u64 {
     let mut rest = value.clone();
     if let Some(entries) = rest.as_object_mut() {
         entries.remove("checksum");
     }
-    let step = |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-    rest.to_string().bytes().fold(0xcbf2_9ce4_8422_2325, step)
+    hash([&*rest.to_string()])
 }
 
 fn bits(values: &[f64]) -> Vec<u64> {

@@ -4,6 +4,7 @@
 
 use bricard_reference::DoubleDouble;
 use bricard_runtime::Real;
+use bricard_testkit::Random;
 use core::f64::consts::FRAC_PI_2;
 
 /// Units in the last place that a value may be off by.
@@ -59,19 +60,9 @@ fn worst_of(angles: impl Iterator<Item = f64>) -> f64 {
 
 #[test]
 fn sines_of_random_angles_are_within_one_and_a_half_units() {
-    let mut seed: u64 = 20_260_707;
-    let spread = (0..angles()).map(|i| {
-        seed = seed
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        let part = (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0;
-        // All sizes, and small ones as often as large ones.
-        if i % 2 == 0 {
-            part * LARGEST
-        } else {
-            part * 4.0
-        }
-    });
+    let mut random = Random::seeded(20_260_707);
+    // All sizes, and small ones as often as large ones.
+    let spread = (0..angles()).map(|i| random.within(if i % 2 == 0 { LARGEST } else { 4.0 }));
     let worst = worst_of(spread);
     assert!(worst <= UNITS, "{worst} units");
 }

@@ -11,6 +11,7 @@ use bricard_runtime::{
     Audit, Correction, Interface, Mechanism, Method, Options, Regular, Settings, Solver, State,
     StepControl, Stepper, Terms, assemble, simulate,
 };
+use bricard_testkit::Random;
 use instructions::hand::{self, ByHand};
 use instructions::mechanism as generated;
 use std::error::Error;
@@ -165,17 +166,11 @@ pub fn run(name: &str, rounds: u64) -> Result<(), Failed> {
 
 /// States all over the place: for what needs no closed loops.
 fn scattered<const N: usize>() -> Vec<State<f64, N>> {
-    let mut seed: u64 = 1;
-    let mut random = || {
-        seed = seed
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    };
+    let mut random = Random::seeded(1);
     let state = |_| {
         let mut state = State::<f64, N>::default();
-        state.q.iter_mut().for_each(|q| *q = 1.5 * random());
-        state.v.iter_mut().for_each(|v| *v = 2.0 * random());
+        state.q.iter_mut().for_each(|q| *q = random.within(1.5));
+        state.v.iter_mut().for_each(|v| *v = random.within(2.0));
         state
     };
     (0..ROUND).map(state).collect()
