@@ -8,8 +8,8 @@ use bricard_fixtures::chains::link_chain::LinkChain;
 use bricard_fixtures::chains::long_chain::LongChain;
 use bricard_runtime::nalgebra::{SMatrix, SVector};
 use bricard_runtime::{
-    Form, Mechanism, Method, Options, Regular, Settings, Solver, State, StepControl, Terms, Whole,
-    assemble, simulate,
+    Acceleration, Form, Mechanism, Method, Options, Settings, Solver, State, StepControl, Terms,
+    Whole, assemble, simulate,
 };
 use bricard_testkit::Random;
 
@@ -54,9 +54,9 @@ fn joints_accelerate_as_differences_of_links() {
     let (by_links, by_joints) = (&LinkChain::default(), &JointChain::default());
     let (by_links, by_joints): (&Chain, &Chain) = (by_links, by_joints);
     for [links, joints] in states() {
-        let mut found = [(); 2].map(|()| Regular::<f64, N, 0>::default());
-        assert!(by_links.regular(&links, &mut found[0]));
-        assert!(by_joints.regular(&joints, &mut found[1]));
+        let mut found = [(); 2].map(|()| Acceleration::<f64, N, 0>::default());
+        assert!(by_links.acceleration(&links, &mut found[0]));
+        assert!(by_joints.acceleration(&joints, &mut found[1]));
         let exact = of_joints(&found[0].acceleration);
         let off = (found[1].acceleration - exact).amax() / exact.amax();
         assert!(off < ROUND_OFF, "off by {off:e} at {joints:?}");
@@ -128,9 +128,9 @@ fn a_long_chain_accelerates_against_its_mass_matrix_as_forces_say() {
     for _ in 0..STATES {
         let state = long_state(&mut random);
         let mut terms = Terms::<f64, LONG, 0>::default();
-        let mut found = Regular::<f64, LONG, 0>::default();
+        let mut found = Acceleration::<f64, LONG, 0>::default();
         chain.terms(&state, &mut terms);
-        assert!(chain.regular(&state, &mut found));
+        assert!(chain.acceleration(&state, &mut found));
         // What round-off of the accelerations comes to.
         let size = (terms.mass.abs() * found.acceleration.abs()).amax();
         let off = (terms.mass * found.acceleration - terms.force).amax() / size;

@@ -3,7 +3,7 @@
 use crate::library::{Derived, Inspect, Point, inspect};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Canvas, Correction, Linearised, Pivots, Position, Real, Regular, State, Terms, Whole,
+    Acceleration, Canvas, Correction, Linearised, Pivots, Position, Real, State, Terms, Whole,
 };
 use bricard_testkit::Random;
 use std::collections::BTreeMap;
@@ -127,8 +127,8 @@ fn equations<T: Real, const N: usize, const R: usize>(
         energy.power,
     ];
     answers.fill("energy", 4, &energies);
-    let mut regular = Regular::default();
-    if mechanism.regular(state, &mut regular) {
+    let mut regular = Acceleration::default();
+    if mechanism.acceleration(state, &mut regular) {
         answers.fill("acceleration", N, &regular.acceleration);
         answers.regular = smallest(&regular.pivots);
     }

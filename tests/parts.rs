@@ -4,7 +4,7 @@ use bricard::double_four_bar::DoubleFourBar;
 use bricard_fixtures::functions::Functions;
 use bricard_fixtures::in_parts;
 use bricard_fixtures::reserved::TypeOfThing;
-use bricard_runtime::{Correction, Mechanism, Position, Regular, State, Terms};
+use bricard_runtime::{Acceleration, Correction, Mechanism, Position, State, Terms};
 use bricard_testkit::Random;
 
 const STATES: usize = 20;
@@ -39,8 +39,8 @@ fn agree<const N: usize, const R: usize>(
         assert_eq!((a.mass, a.residual), (b.mass, b.residual));
         assert_eq!((a.jacobian, a.drift), (b.jacobian, b.drift));
         let [a, b] = both.map(|mechanism| {
-            let mut regular = Regular::<f64, N, R>::default();
-            let solved = mechanism.regular(&state, &mut regular);
+            let mut regular = Acceleration::<f64, N, R>::default();
+            let solved = mechanism.acceleration(&state, &mut regular);
             (solved, regular.acceleration, regular.weights)
         });
         assert_eq!(a, b);
@@ -71,7 +71,7 @@ fn parts_compute_what_straight_lines_do() {
 
 #[test]
 fn long_functions_are_emitted_in_parts() {
-    let part = |code: &str| code.matches("fn regular_part_").count();
+    let part = |code: &str| code.matches("fn acceleration_part_").count();
     let source = bricard::double_four_bar::SOURCE;
     let mut settings = bricard_codegen::CompileSettings::default();
     let compiled = |settings: &_| {

@@ -170,7 +170,7 @@ fn parts_that_nothing_ties_are_named() {
     // Together they cost what each costs by itself.
     let spent = |source: &str| {
         let code = code(source);
-        let solve = function(&code, "regular");
+        let solve = function(&code, "acceleration");
         solve.matches("mul_add").count() + solve.matches(" * ").count()
     };
     let hung = "mechanism Hung { param m: kg = 1; param l: m = 2; const g: m/s^2 = 9.81;

@@ -6,8 +6,8 @@
 use crate::callback::{Callback, LawFunction};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    Canvas, Condition, Correction, Described, Differentiated, Energy, Interface, Linearised,
-    Mechanism, Partials, Position, Regular, Start, StartFault, State, Structure, Switch, Terms,
+    Acceleration, Canvas, Condition, Correction, Described, Differentiated, Energy, Interface,
+    Linearised, Mechanism, Partials, Position, Start, StartFault, State, Structure, Switch, Terms,
 };
 use core::cell::Cell;
 
@@ -114,8 +114,8 @@ where
     }
 
     #[inline(always)]
-    fn regular(&self, state: &State<f64, N>, out: &mut Regular<f64, N, R>) -> bool {
-        self.at(state, |mechanism| mechanism.regular(state, out))
+    fn acceleration(&self, state: &State<f64, N>, out: &mut Acceleration<f64, N, R>) -> bool {
+        self.at(state, |mechanism| mechanism.acceleration(state, out))
     }
 
     // Constraints know no inputs.

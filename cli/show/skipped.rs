@@ -77,7 +77,7 @@ fn solve(graph: &Graph, equations: &Equations, programs: &Programs) -> Option<St
     let (n, r) = equations.sizes();
     let absent = zeros(graph, equations.inertial().iter())
         + 2 * zeros(graph, equations.jacobian.iter().flatten());
-    let solved = operations(cost(&programs.regular.as_ref()?.program));
+    let solved = operations(cost(&programs.acceleration.as_ref()?.program));
     let spent = solved.saturating_sub(operations(programs.terms.cost));
     // Cholesky factors of M and of G M⁻¹ Gᵀ, products for that, and four substitutions.
     let cube = |k: usize| (k * k * k + 2 * k) / 3;

@@ -93,7 +93,7 @@ impl Builder {
     /// Declares that no motion of the mechanism passes a singular configuration. A run
     /// that comes to one all the same ends with an error.
     pub fn regular(mut self, declared: bool) -> Self {
-        self.settings.options.regular = declared;
+        self.settings.options.assumed_regular = declared;
         self
     }
 

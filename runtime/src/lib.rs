@@ -36,8 +36,8 @@ pub use integrator::{
     Dop853, Dp5, IntegrateError, Integrator, Method, Radau5, Radau9, Rk4, Step, Tolerance,
 };
 pub use model::{
-    Canvas, Correction, Described, Differentiated, Energy, Initial, Interface, Linearised,
-    Mechanism, Partials, Pivots, Position, Regular, Start, Terms, Whole,
+    Acceleration, Canvas, Correction, Described, Differentiated, Energy, Initial, Interface,
+    Linearised, Mechanism, Partials, Pivots, Position, Start, Terms, Whole,
 };
 pub use nalgebra;
 #[cfg(feature = "std")]

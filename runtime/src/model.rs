@@ -31,8 +31,8 @@ pub trait Mechanism<T: Real, const N: usize, const R: usize> {
     /// The acceleration where the constraints are regular, as straight-line code
     /// with this mechanism's sparsity; `false` if it is not provided.
     ///
-    /// Not to be used where one of [`Regular::pivots`] is small.
-    fn regular(&self, _state: &State<T, N>, _out: &mut Regular<T, N, R>) -> bool {
+    /// Not to be used where one of [`Acceleration::pivots`] is small.
+    fn acceleration(&self, _state: &State<T, N>, _out: &mut Acceleration<T, N, R>) -> bool {
         false
     }
 
@@ -101,8 +101,8 @@ where
         (**self).terms(state, out);
     }
 
-    fn regular(&self, state: &State<T, N>, out: &mut Regular<T, N, R>) -> bool {
-        regular(*self, state, out)
+    fn acceleration(&self, state: &State<T, N>, out: &mut Acceleration<T, N, R>) -> bool {
+        acceleration(*self, state, out)
     }
 
     fn position(&self, state: &State<T, N>, out: &mut Position<T, N, R>) {
@@ -141,15 +141,15 @@ where
     }
 }
 
-/// [`Mechanism::regular`], which is inlined wherever it is called; this is not, so that there
+/// [`Mechanism::acceleration`], which is inlined wherever it is called; this is not, so that there
 /// is one copy of a long one.
 #[inline(never)]
-pub(crate) fn regular<T: Real, const N: usize, const R: usize>(
+pub(crate) fn acceleration<T: Real, const N: usize, const R: usize>(
     mechanism: &(impl Mechanism<T, N, R> + ?Sized),
     state: &State<T, N>,
-    out: &mut Regular<T, N, R>,
+    out: &mut Acceleration<T, N, R>,
 ) -> bool {
-    mechanism.regular(state, out)
+    mechanism.acceleration(state, out)
 }
 
 /// [`Mechanism::correction`], likewise.
@@ -251,9 +251,9 @@ pub struct Terms<T, const N: usize, const R: usize> {
     pub sides: Sides,
 }
 
-/// The acceleration by the regular path, and how far it can be trusted.
+/// The acceleration where the constraints are regular, and how far it can be trusted.
 #[derive(Clone, Debug)]
-pub struct Regular<T, const N: usize, const R: usize> {
+pub struct Acceleration<T, const N: usize, const R: usize> {
     /// `q̈`, `N`.
     pub acceleration: SVector<T, N>,
     /// What was divided by.
@@ -264,7 +264,7 @@ pub struct Regular<T, const N: usize, const R: usize> {
     pub sides: Sides,
 }
 
-/// One step of a projection by the regular path, and how far it can be trusted.
+/// One step of a projection where the constraints are regular, and how far it can be trusted.
 #[derive(Clone, Debug)]
 pub struct Correction<T, const N: usize, const R: usize> {
     /// `g`, `R`; zero in the rows of velocity constraints.
@@ -370,7 +370,7 @@ zeroed!(Pivots {
     row_squares
 });
 
-impl<T: Real, const N: usize, const R: usize> Default for Regular<T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Default for Acceleration<T, N, R> {
     fn default() -> Self {
         Self {
             acceleration: SVector::zeros(),

@@ -6,7 +6,7 @@
 /// The version of what generated code and this crate agree on: traits, buffers and this
 /// description. It goes up with every change that older code would not compile with, or
 /// would compile with to something else.
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 
 /// Compiles where generated code was written for this version of the crate.
 ///
@@ -139,7 +139,7 @@ pub struct Structure {
     pub drawn: bool,
     /// The constraints were declared to be regular: a run ends with an error at a
     /// singular configuration.
-    pub regular: bool,
+    pub assumed_regular: bool,
     /// The rows of `A` that take part in the metric, `M + AᵀWA`, because `M` alone is
     /// singular at all positions.
     pub weighed: &'static [usize],
@@ -166,7 +166,7 @@ impl Structure {
         scleronomic: false,
         independent: false,
         drawn: false,
-        regular: false,
+        assumed_regular: false,
         weighed: &[],
     };
 }

@@ -2,7 +2,7 @@
 
 use crate::mechanisms::{FourBars, Passing, SliderCrank};
 use bricard_runtime::{
-    Condition, Correction, Energy, Linearised, Mechanism, Method, Position, Regular, Settings,
+    Acceleration, Condition, Correction, Energy, Linearised, Mechanism, Method, Position, Settings,
     SimulateError, State, StepControl, Stepper, Structure, Switch, Terms,
 };
 use nalgebra::SVector;
@@ -38,9 +38,9 @@ impl<M: Mechanism<f64, N, R>, const N: usize, const R: usize> Mechanism<f64, N, 
         self.count();
         self.mechanism.terms(state, out);
     }
-    fn regular(&self, state: &State<f64, N>, out: &mut Regular<f64, N, R>) -> bool {
+    fn acceleration(&self, state: &State<f64, N>, out: &mut Acceleration<f64, N, R>) -> bool {
         self.count();
-        self.mechanism.regular(state, out)
+        self.mechanism.acceleration(state, out)
     }
     fn position(&self, state: &State<f64, N>, out: &mut Position<f64, N, R>) {
         self.count();

@@ -398,7 +398,7 @@ fn eighty_one_coordinates_and_eighty_constraints_fit_on_a_small_stack() {
 #[test]
 fn a_mechanism_that_was_declared_regular_ends_at_a_singular_position() {
     static DECLARED: Structure = Structure {
-        regular: true,
+        assumed_regular: true,
         ..PLAIN
     };
     let hung = Framed::<Hung, 6>::new(Hung, &DECLARED);

@@ -6,8 +6,8 @@
 use crate::fixtures::system_of;
 use crate::mechanisms::{FourBars, Passing, Sled, SliderCrank};
 use bricard_runtime::{
-    Correction, Energy, Integrator, Mechanism, Method, Position, Regular, Rk4, Settings, Solver,
-    State, StepControl, Stepper, Structure, Terms,
+    Acceleration, Correction, Energy, Integrator, Mechanism, Method, Position, Rk4, Settings,
+    Solver, State, StepControl, Stepper, Structure, Terms,
 };
 use std::cell::Cell;
 
@@ -31,8 +31,8 @@ where
         self.mechanism.terms(state, out);
     }
 
-    fn regular(&self, state: &State<f64, N>, out: &mut Regular<f64, N, R>) -> bool {
-        self.mechanism.regular(state, out)
+    fn acceleration(&self, state: &State<f64, N>, out: &mut Acceleration<f64, N, R>) -> bool {
+        self.mechanism.acceleration(state, out)
     }
 
     fn position(&self, state: &State<f64, N>, out: &mut Position<f64, N, R>) {

@@ -2,7 +2,8 @@
 //! left of a run when everything that loops cost is gone.
 
 use bricard_runtime::{
-    Energy, Mechanism, Method, Regular, Settings, State, StepControl, Stepper, Structure, Terms,
+    Acceleration, Energy, Mechanism, Method, Settings, State, StepControl, Stepper, Structure,
+    Terms,
 };
 use bricard_testkit::Reduction;
 use std::error::Error;
@@ -45,7 +46,7 @@ impl Mechanism<f64, 1, 0> for Reduced {
         out.force[0] = out.mass[(0, 0)] * self.0.acceleration(state.q[0], state.v[0]);
     }
 
-    fn regular(&self, state: &State<f64, 1>, out: &mut Regular<f64, 1, 0>) -> bool {
+    fn acceleration(&self, state: &State<f64, 1>, out: &mut Acceleration<f64, 1, 0>) -> bool {
         out.acceleration[0] = self.0.acceleration(state.q[0], state.v[0]);
         true
     }

@@ -8,8 +8,8 @@
 
 use crate::kernels::ROUND;
 use bricard_runtime::{
-    Audit, Correction, Interface, Mechanism, Method, Options, Regular, Settings, Solver, State,
-    StepControl, Stepper, Terms, assemble, simulate,
+    Acceleration, Audit, Correction, Interface, Mechanism, Method, Options, Settings, Solver,
+    State, StepControl, Stepper, Terms, assemble, simulate,
 };
 use bricard_testkit::Random;
 use instructions::hand::{self, ByHand};
@@ -266,8 +266,8 @@ where
             terms,
         ),
         Work::Regular => {
-            let mut out = Box::<Regular<_, N, R>>::default();
-            if !mechanism.regular(&scattered::<N>()[0], &mut out) {
+            let mut out = Box::<Acceleration<_, N, R>>::default();
+            if !mechanism.acceleration(&scattered::<N>()[0], &mut out) {
                 return Err("there is no regular path".into());
             }
             repeat(&scattered::<N>(), rounds, mechanism, &mut *out, regular);
@@ -424,9 +424,9 @@ fn terms<M: Mechanism<f64, N, R>, const N: usize, const R: usize>(
 fn regular<M: Mechanism<f64, N, R>, const N: usize, const R: usize>(
     mechanism: &M,
     state: &State<f64, N>,
-    out: &mut Regular<f64, N, R>,
+    out: &mut Acceleration<f64, N, R>,
 ) {
-    black_box(mechanism.regular(state, out));
+    black_box(mechanism.acceleration(state, out));
 }
 
 #[inline(never)]

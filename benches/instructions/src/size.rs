@@ -32,15 +32,15 @@ codegen-units = 1
 /// Calls everything that a run needs, so that it is compiled.
 const MAIN: &str = r#"#![allow(missing_docs)]
 pub mod row { include!("n_four_bar.rs"); }
-use bricard_runtime::{Correction, Mechanism, Position, Regular, State, Terms};
+use bricard_runtime::{Correction, Mechanism, Position, Acceleration, State, Terms};
 use std::hint::black_box;
 
 fn all<M: Mechanism<f64, N, R>, const N: usize, const R: usize>(mechanism: M) {
     let state = black_box(State::default());
     let mut terms = Box::<Terms<f64, N, R>>::default();
     mechanism.terms(&state, &mut terms);
-    let mut regular = Box::<Regular<f64, N, R>>::default();
-    mechanism.regular(&state, &mut regular);
+    let mut regular = Box::<Acceleration<f64, N, R>>::default();
+    mechanism.acceleration(&state, &mut regular);
     let mut position = Box::<Position<f64, N, R>>::default();
     mechanism.position(&state, &mut position);
     let mut correction = Box::<Correction<f64, N, R>>::default();

@@ -1,7 +1,9 @@
 //! Chains as bricard compiles them.
 
 use crate::{Failed, UNTIL};
-use bricard_runtime::{Method, Regular, Settings, State, StepControl, Stepper, Whole, assemble};
+use bricard_runtime::{
+    Acceleration, Method, Settings, State, StepControl, Stepper, Whole, assemble,
+};
 
 macro_rules! chains {
     ($($(#[$when:meta])* $place:ident: $folder:literal / $file:literal;)*) => {
@@ -88,9 +90,9 @@ pub fn whole<const N: usize, const R: usize>(
 pub fn acceleration<const N: usize, const R: usize>(
     chain: &dyn Whole<f64, N, R>,
     state: &State<f64, N>,
-    room: &mut Regular<f64, N, R>,
+    room: &mut Acceleration<f64, N, R>,
 ) -> Result<f64, Failed> {
-    match chain.regular(state, room) {
+    match chain.acceleration(state, room) {
         true => Ok(room.acceleration[0]),
         false => Err("there is no emitted solve".into()),
     }

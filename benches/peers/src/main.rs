@@ -11,7 +11,7 @@ mod generated;
 mod page;
 mod parallelograms;
 
-use bricard_runtime::{Method, Regular, State, Whole};
+use bricard_runtime::{Acceleration, Method, State, Whole};
 use chain::Chain;
 use clock::timed;
 use std::error::Error;
@@ -166,7 +166,7 @@ fn accelerations<const B: usize, const N: usize, const R: usize>(
     start: &State<f64, N>,
     closed: bool,
 ) -> Result<[f64; 2], Failed> {
-    let mut room = Box::new(Regular::<f64, N, R>::default());
+    let mut room = Box::new(Acceleration::<f64, N, R>::default());
     let emitted = || -> Result<(), Failed> {
         for _ in 0..TOGETHER {
             black_box(generated::acceleration(chain, black_box(start), &mut room)?);

@@ -77,13 +77,17 @@ pub(super) fn mechanism(subject: &Subject) -> TokenStream {
 fn methods(subject: &Subject) -> Vec<Method> {
     let programs = subject.programs;
     let mut methods = vec![filled(subject, ["terms", "Terms", TERMS], &programs.terms)];
-    if let Some(solved) = &programs.regular {
+    if let Some(solved) = &programs.acceleration {
         let docs = match solved.way {
             Way::Schur => SCHUR,
             Way::Saddle => SADDLE,
             Way::Shared => SHARED,
         };
-        methods.push(solution(subject, ["regular", "Regular", docs], solved));
+        methods.push(solution(
+            subject,
+            ["acceleration", "Acceleration", docs],
+            solved,
+        ));
     }
     if let Some(terms) = &programs.position {
         methods.push(filled(subject, ["position", "Position", POSITION], terms));

@@ -31,7 +31,7 @@ pub(super) fn imports(subject: &Subject) -> TokenStream {
     let named = mechanism.constraints.iter().any(|c| c.multiplier.is_some());
     let parts: [(bool, &[&str]); 15] = [
         (true, &ALWAYS),
-        (programs.regular.is_some(), &["Regular"]),
+        (programs.acceleration.is_some(), &["Acceleration"]),
         (programs.position.is_some(), &["ConstraintRow", "Position"]),
         (programs.correction.is_some(), &["Correction"]),
         (programs.linearised.is_ok(), &["Linearised"]),

@@ -109,7 +109,7 @@ const NEIGHBOURS: [&str; 39] = [
     "Position",
     "Quantity",
     "Real",
-    "Regular",
+    "Acceleration",
     "Result",
     "SMatrix",
     "SVector",

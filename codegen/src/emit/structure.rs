@@ -39,7 +39,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
     let scleronomic = subject.equations.are_scleronomic(mechanism);
     let independent = subject.equations.are_independent(&mechanism.graph);
     let drawn = !mechanism.shapes.is_empty();
-    let regular = subject.options.regular;
+    let assumed_regular = subject.options.assumed_regular;
     let weighed = subject.equations.weighed.iter().copied();
     let weighed = weighed.map(Literal::usize_unsuffixed);
     quote! {
@@ -62,7 +62,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
             scleronomic: #scleronomic,
             independent: #independent,
             drawn: #drawn,
-            regular: #regular,
+            assumed_regular: #assumed_regular,
             weighed: &[#(#weighed),*],
         };
     }

@@ -17,7 +17,7 @@ pub struct EmitOptions {
     pub coriolis_matrix: bool,
     /// The constraints are declared to be regular: runs end with an error where they are
     /// not.
-    pub regular: bool,
+    pub assumed_regular: bool,
     /// Emit the function by which a library hands the mechanism to programs in C.
     pub c_interface: bool,
     /// The most operations of a function that is one straight line: 20,000 unless it is given.

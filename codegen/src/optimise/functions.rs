@@ -87,7 +87,7 @@ pub struct Programs {
     /// `mass`, unless there is `inertia`, `force`, `jacobian`, `bias`.
     pub terms: Optimised,
     /// The acceleration where the constraints are regular, if its factors exist.
-    pub regular: Option<Solved>,
+    pub acceleration: Option<Solved>,
     /// `mass`, unless there is `inertia`, `residual`, `jacobian`, `drift`; nothing without
     /// constraints.
     pub position: Option<Optimised>,
@@ -137,8 +137,8 @@ impl Programs {
             ("inertia", self.inertia.as_ref().map(|made| &made.program)),
             ("terms", Some(&self.terms.program)),
             (
-                "regular",
-                self.regular.as_ref().map(|solved| &solved.program),
+                "acceleration",
+                self.acceleration.as_ref().map(|solved| &solved.program),
             ),
             ("position", self.position.as_ref().map(|made| &made.program)),
             (

@@ -115,7 +115,7 @@ pub fn optimise_among(
 /// # Panics
 ///
 /// As [`optimise`].
-pub fn regular_acceleration(
+pub fn acceleration_solve(
     terms: &Program,
     sizes: (usize, usize),
     weighed: &[usize],
@@ -130,7 +130,7 @@ pub fn regular_acceleration(
 /// # Panics
 ///
 /// As [`optimise`].
-pub fn regular_correction(
+pub fn correction_solve(
     terms: &Program,
     sizes: (usize, usize),
     weighed: &[usize],
@@ -145,7 +145,7 @@ pub fn regular_correction(
 /// # Panics
 ///
 /// As [`optimise`].
-pub fn shared_acceleration(terms: &Program, sizes: (usize, usize)) -> Option<Solved> {
+pub fn shared_solve(terms: &Program, sizes: (usize, usize)) -> Option<Solved> {
     solve::with_shared(terms, sizes).map(checked_solution)
 }
 

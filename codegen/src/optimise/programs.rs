@@ -11,8 +11,8 @@
 use super::functions::{Array, LeftOut, List, Optimised, Programs, StartPrograms};
 use super::wanted::{Wanted, matrix, sparse, vector};
 use super::{
-    Polynomials, Program, Slot, Solved, Way, cost, derived_cost, optimise_among, plain,
-    regular_acceleration, regular_correction, shared_acceleration,
+    Polynomials, Program, Slot, Solved, Way, acceleration_solve, correction_solve, cost,
+    derived_cost, optimise_among, plain, shared_solve,
 };
 use crate::derive::{
     Equations, Linearisation, Partials, Shared, StartRows, coriolis_matrix, differentiate,
@@ -52,7 +52,7 @@ pub fn programs(mechanism: &mut Mechanism, equations: &Equations, besides: Besid
         polynomials: Polynomials::default(),
     };
     let inertia = optimiser.inertia();
-    let (terms, regular) = optimiser.terms();
+    let (terms, acceleration) = optimiser.terms();
     let (position, correction) = optimiser.projection();
     let energy = optimiser.energy();
     let linearised = optimiser.linearised();
@@ -65,11 +65,11 @@ pub fn programs(mechanism: &mut Mechanism, equations: &Equations, besides: Besid
     ]
     .map(|(rows, names)| optimiser.start_rows(rows, names));
     let wants_partials = besides.partials && linearised.is_ok();
-    let regular = optimiser.shorter(regular);
+    let acceleration = optimiser.shorter(acceleration);
     Programs {
         inertia,
         terms,
-        regular,
+        acceleration,
         position,
         correction,
         energy,
@@ -151,31 +151,31 @@ impl Optimiser<'_> {
         let terms = self.optimised(&merged([self.written_mass(), vectors()]));
         let (sizes, weighed) = (equations.sizes(), &equations.weighed);
         if equations.inertia.is_none() {
-            let regular = regular_acceleration(&terms.program, sizes, weighed);
-            return (terms, regular);
+            let acceleration = acceleration_solve(&terms.program, sizes, weighed);
+            return (terms, acceleration);
         }
         let of_entries = |optimiser: &mut Self| {
             equations.mass.as_ref()?;
             let whole = merged([optimiser.mass(), vectors()]);
-            regular_acceleration(&optimiser.program(&whole), sizes, weighed)
+            acceleration_solve(&optimiser.program(&whole), sizes, weighed)
         };
-        let regular = self.with_shared().or_else(|| of_entries(self));
-        (terms, regular)
+        let acceleration = self.with_shared().or_else(|| of_entries(self));
+        (terms, acceleration)
     }
 
     /// The solve, or the one with shared velocities as unknowns if that is shorter.
-    fn shorter(&mut self, regular: Option<Solved>) -> Option<Solved> {
+    fn shorter(&mut self, acceleration: Option<Solved>) -> Option<Solved> {
         let weight = |solved: &Solved| cost(&solved.program).weight();
-        let longest = regular.as_ref().map_or(usize::MAX, weight);
-        let is_shared = regular
+        let longest = acceleration.as_ref().map_or(usize::MAX, weight);
+        let is_shared = acceleration
             .as_ref()
             .is_some_and(|solved| solved.way == Way::Shared);
         if is_shared || longest <= LONG_SOLVE {
-            return regular;
+            return acceleration;
         }
         match self.with_shared() {
             Some(other) if weight(&other) < longest => Some(other),
-            _ => regular,
+            _ => acceleration,
         }
     }
 
@@ -191,7 +191,7 @@ impl Optimiser<'_> {
             vector("force", &force),
             sparse("links", &links),
         ]));
-        shared_acceleration(&terms, (force.len() - count, count))
+        shared_solve(&terms, (force.len() - count, count))
     }
 
     fn projection(&mut self) -> (Option<Optimised>, Option<Solved>) {
@@ -212,7 +212,7 @@ impl Optimiser<'_> {
             vector("speed", &equations.speed),
             matrix("turn", &equations.turn),
         ]));
-        let correction = regular_correction(&terms, equations.sizes(), &equations.weighed);
+        let correction = correction_solve(&terms, equations.sizes(), &equations.weighed);
         (Some(position), correction)
     }
 

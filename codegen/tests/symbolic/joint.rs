@@ -9,7 +9,7 @@ use bricard_codegen::internals::derive::{Equations, Shared, derive, mass_matrix,
 use bricard_codegen::internals::expr::{ExprId, Symbol};
 use bricard_codegen::internals::model::Mechanism;
 use bricard_codegen::internals::optimise::{
-    Besides, Program, Programs, Slot, Way, interpret, optimise, programs, shared_acceleration,
+    Besides, Program, Programs, Slot, Way, interpret, optimise, programs, shared_solve,
 };
 
 /// The chain in angles between neighbours.
@@ -142,7 +142,7 @@ pub(crate) fn from_body_to_body(
     ]
     .concat();
     let program = optimise(&mut mechanism.graph, &[], &wanted);
-    let solved = shared_acceleration(&program, (force.len() - count, count));
+    let solved = shared_solve(&program, (force.len() - count, count));
     Some(solved.expect("a solve").program)
 }
 
@@ -167,7 +167,7 @@ fn joint_accelerations(links: usize) -> Vec<f64> {
 fn joint_angles_accelerate_as_differences_of_the_angles_of_links() {
     for (links, way) in [(3, Way::Schur), (10, Way::Shared), (50, Way::Shared)] {
         let mut case = Case::of(&of_joints(), &of_length(links));
-        let solved = case.programs().regular.expect("a solve");
+        let solved = case.programs().acceleration.expect("a solve");
         assert_eq!(solved.way, way, "{links} links");
         let n = links as usize;
         let exact = joint_accelerations(n);
@@ -205,7 +205,7 @@ fn the_mass_matrix_of_composite_bodies_has_the_kinetic_energy() {
 fn the_energy_of_a_chain_in_joint_angles_changes_by_what_is_supplied() {
     for links in [3, 10] {
         let mut case = Case::of(&of_joints(), &of_length(links));
-        let program = case.programs().regular.expect("a solve").program;
+        let program = case.programs().acceleration.expect("a solve").program;
         let acceleration = computed(&program, "acceleration", links as usize);
         let energies = case.equations.energies;
         let mut terms = Vec::new();
@@ -227,7 +227,7 @@ fn the_energy_of_a_chain_in_joint_angles_changes_by_what_is_supplied() {
 fn what_a_chain_in_joint_angles_takes_grows_as_it_does() {
     let length = |links| {
         let mut case = Case::of(&of_joints(), &of_length(links));
-        case.programs().regular.expect("a solve").program.len()
+        case.programs().acceleration.expect("a solve").program.len()
     };
     let (short, long) = (length(20), length(40));
     assert!(10 * long <= 22 * short, "{short} and {long} operations");

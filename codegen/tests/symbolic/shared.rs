@@ -65,7 +65,7 @@ fn accelerations(links: u32) -> (Programs, [Vec<f64>; 3]) {
     let force: Vec<f64> = equations.force.iter().map(value).collect();
     let (eliminated, _) = dense(&mass, &force);
     let programs = programs(&mut mechanism, &equations, Besides::default());
-    let regular = programs.regular.as_ref().expect("a solve");
+    let regular = programs.acceleration.as_ref().expect("a solve");
     let mut found = vec![0.0; links as usize];
     for (slot, value) in interpret(&regular.program, &|symbol| Some(state(symbol))) {
         if slot.array == "acceleration" {
@@ -118,7 +118,7 @@ pub(super) fn difference(one: &[f64], other: &[f64]) -> f64 {
 fn a_long_chain_is_solved_from_body_to_body_and_a_short_one_is_not() {
     for (links, way) in [(4, Way::Schur), (30, Way::Shared), (60, Way::Shared)] {
         let (programs, [found, eliminated, exact]) = accelerations(links);
-        let solved = programs.regular.expect("a solve");
+        let solved = programs.acceleration.expect("a solve");
         assert_eq!(solved.way, way, "{links} links");
         let bound = 1e-11 * largest(&exact);
         let (one, other) = (difference(&found, &exact), difference(&eliminated, &exact));
@@ -132,7 +132,7 @@ fn a_long_chain_is_solved_from_body_to_body_and_a_short_one_is_not() {
 
 #[test]
 fn what_an_acceleration_takes_grows_as_the_chain_does() {
-    let weight = |links| cost(&accelerations(links).0.regular.expect("a solve").program).weight();
+    let weight = |links| cost(&accelerations(links).0.acceleration.expect("a solve").program).weight();
     let (short, long) = (weight(30), weight(60));
     assert!(long < 9 * short / 4, "{short} and {long} operations");
 }
@@ -141,7 +141,7 @@ fn what_an_acceleration_takes_grows_as_the_chain_does() {
 fn a_hundred_links_in_angles_of_the_links_are_compiled() {
     let compiled = compile_source(&of_rods(), "chain", "chain.mech", &of_length(100));
     let compiled = compiled.unwrap_or_else(|errors| panic!("{}", errors.render("", &of_rods())));
-    assert!(compiled.code.contains("fn regular"));
+    assert!(compiled.code.contains("fn acceleration("));
     let lines = compiled.code.lines().count();
     assert!(lines < 40_000, "{lines} lines");
 }

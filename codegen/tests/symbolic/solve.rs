@@ -5,7 +5,7 @@
 
 use bricard_codegen::internals::expr::Symbol;
 use bricard_codegen::internals::optimise::{
-    Operation, Program, Slot, Solved, Way, interpret, regular_acceleration, regular_correction,
+    Operation, Program, Slot, Solved, Way, acceleration_solve, correction_solve, interpret,
 };
 use bricard_testkit::Random;
 
@@ -75,12 +75,12 @@ impl Equations {
     /// The program that solves for accelerations, with entries at these places, and its
     /// outputs.
     fn solved(&self) -> (Solved, impl Fn(&str, usize) -> f64 + use<>) {
-        self.solved_by(regular_acceleration)
+        self.solved_by(acceleration_solve)
     }
 
     /// The outputs of the program that corrects, which tells the sizes of rows, too.
     fn corrected(&self) -> impl Fn(&str, usize) -> f64 + use<> {
-        self.solved_by(regular_correction).1
+        self.solved_by(correction_solve).1
     }
 
     fn solved_by(&self, way: Solving) -> (Solved, impl Fn(&str, usize) -> f64 + use<>) {

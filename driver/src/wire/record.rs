@@ -62,7 +62,7 @@ records! {
     Structure {
         name, docs, file, coordinates, states, described, parameters, inputs, outputs, accelerated, events,
         constraints, multipliers, weighed, constant_mass, conservative, scleronomic,
-        independent, drawn, regular
+        independent, drawn, assumed_regular
     }
     Quantity { name, unit, docs }
     Declared { quantity, given_by }

@@ -1,6 +1,6 @@
 //! The cheap path in code that was written for this mechanism.
 //!
-//! In:  a mechanism that provides [`Mechanism::regular`] and
+//! In:  a mechanism that provides [`Mechanism::acceleration`] and
 //!      [`Mechanism::correction`].
 //! Out: accelerations and projections by them, where the pivots they hand out are
 //!      safe.
@@ -12,7 +12,7 @@ use super::{Core, Rows};
 use crate::model;
 use crate::state::all_finite;
 use crate::tolerance::{definite, negligible, passes, window};
-use crate::{DynamicsError, Form, Mechanism, Pivots, Real, Regular, Stabilisation, State};
+use crate::{Acceleration, DynamicsError, Form, Mechanism, Pivots, Real, Stabilisation, State};
 use nalgebra::SVector;
 
 /// Coordinates and constraint equations of a mechanism whose pivots fit into registers;
@@ -75,28 +75,28 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         state: &State<T, N>,
         acceleration: &mut SVector<T, N>,
     ) -> T {
-        let mut small = Regular {
-            sides: self.regular.sides,
-            ..Regular::default()
+        let mut small = Acceleration {
+            sides: self.acceleration.sides,
+            ..Acceleration::default()
         };
-        let regular = if N + R <= IN_REGISTERS {
+        let solved = if N + R <= IN_REGISTERS {
             &mut small
         } else {
-            &mut self.regular
+            &mut self.acceleration
         };
         if !mechanism.structure().weighed.is_empty() {
-            regular.weights = SVector::from(self.rows.weights());
+            solved.weights = SVector::from(self.rows.weights());
         }
         self.emitted = match N + R <= IN_REGISTERS {
-            true => mechanism.regular(state, regular),
-            false => model::regular(mechanism, state, regular),
+            true => mechanism.acceleration(state, solved),
+            false => model::acceleration(mechanism, state, solved),
         };
         if !self.emitted {
             return T::zero();
         }
-        let mut squared = squared_sine(&regular.pivots, &self.rows);
-        let is_finite = all_finite(&regular.acceleration);
-        *acceleration = regular.acceleration;
+        let mut squared = squared_sine(&solved.pivots, &self.rows);
+        let is_finite = all_finite(&solved.acceleration);
+        *acceleration = solved.acceleration;
         self.session.observe(state, squared);
         if !is_finite {
             squared = T::zero();

@@ -115,7 +115,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if self.session.rests {
             return Ok(false);
         }
-        if mechanism.structure().regular {
+        if mechanism.structure().assumed_regular {
             return Err(self.not_regular(mechanism, &base)?);
         }
         match self.start_at(mechanism, &base)? {

@@ -30,7 +30,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Hands the sides to everything that evaluates forces.
     pub(super) fn decide(&mut self, sides: Sides) {
         self.terms.sides = sides;
-        self.regular.sides = sides;
+        self.acceleration.sides = sides;
     }
 
     /// Lets the state decide the conditions.

@@ -13,8 +13,8 @@ use super::{Metric, Rows, SchurComplement, Which};
 use crate::linalg::{NotDefinite, is_finite, length};
 use crate::singular::{Memory, Obstacle, Session};
 use crate::{
-    Correction, Counters, DynamicsError, Mechanism, Position, Real, Regular, Settings, Singularity,
-    State, Structure, Terms,
+    Acceleration, Correction, Counters, DynamicsError, Mechanism, Position, Real, Settings,
+    Singularity, State, Structure, Terms,
 };
 use nalgebra::{SMatrix, SVector};
 
@@ -41,7 +41,7 @@ pub(crate) struct Core<T, const N: usize, const R: usize> {
     pub(crate) memory: Memory<T, N, R>,
     /// The row that came last when one was, by its place among the independent ones.
     pub(crate) weakest: usize,
-    pub(crate) regular: Regular<T, N, R>,
+    pub(crate) acceleration: Acceleration<T, N, R>,
     pub(crate) correction: Correction<T, N, R>,
     pub(crate) session: Session<T, N, R>,
     pub(super) conditions: Conditions<T, N>,
@@ -84,7 +84,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             schur: SchurComplement::default(),
             memory: Memory::new(),
             weakest: 0,
-            regular: Regular::default(),
+            acceleration: Acceleration::default(),
             correction: Correction::default(),
             session: Session::new(),
             conditions: Conditions::new(),

@@ -152,13 +152,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<(), DynamicsError<T>> {
         self.session.trial.chart = None;
         let (form, structure) = (self.settings.form, mechanism.structure());
-        let seeks = form.passes() && !structure.regular && !self.session.trial.crosses;
+        let seeks = form.passes() && !structure.assumed_regular && !self.session.trial.crosses;
         let (mut changes, mut part) = (None, T::one());
         self.on_sheet(mechanism, chart, &mut |sheet, workspace| {
             let ends = (start.at(), end.at());
             (changes, part) = sheet.count_crossed(ends, seeks, workspace);
         });
-        if changes != Some(0) && structure.regular {
+        if changes != Some(0) && structure.assumed_regular {
             return Err(self.not_regular(mechanism, end)?);
         }
         if changes != Some(0) && !form.passes() {

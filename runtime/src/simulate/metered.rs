@@ -9,8 +9,8 @@
 
 use crate::assembly::StartFault;
 use crate::{
-    Condition, Correction, Energy, Linearised, Mechanism, Position, Real, Regular, Start, State,
-    Structure, Switch, Terms,
+    Acceleration, Condition, Correction, Energy, Linearised, Mechanism, Position, Real, Start,
+    State, Structure, Switch, Terms,
 };
 use core::cell::Cell;
 use nalgebra::SVector;
@@ -76,8 +76,8 @@ where
         self.count(out.mass.iter_mut().chain(&mut out.force).chain(rows));
     }
 
-    fn regular(&self, state: &State<T, N>, out: &mut Regular<T, N, R>) -> bool {
-        let provided = self.mechanism.regular(state, out);
+    fn acceleration(&self, state: &State<T, N>, out: &mut Acceleration<T, N, R>) -> bool {
+        let provided = self.mechanism.acceleration(state, out);
         let pivots = out.pivots.mass_pivots.iter_mut();
         let pivots = pivots.chain(&mut out.pivots.row_pivots);
         self.count(out.acceleration.iter_mut().chain(pivots));

@@ -3,7 +3,7 @@
 use super::{ANGLE, LENGTH, SliderCrank, structure};
 use bricard_runtime::nalgebra::{SMatrix, SVector};
 use bricard_runtime::{
-    Correction, Energy, Mechanism, Pivots, Position, Regular, State, Structure, Terms,
+    Acceleration, Correction, Energy, Mechanism, Pivots, Position, State, Structure, Terms,
 };
 
 static NAMED: Structure = Structure {
@@ -65,7 +65,7 @@ impl Mechanism<f64, 3, 2> for Massless {
         self.slider_crank.energy(state)
     }
 
-    fn regular(&self, state: &State<f64, 3>, out: &mut Regular<f64, 3, 2>) -> bool {
+    fn acceleration(&self, state: &State<f64, 3>, out: &mut Acceleration<f64, 3, 2>) -> bool {
         let (mut at, mut terms) = (Position::default(), Terms::default());
         self.position(state, &mut at);
         self.terms(state, &mut terms);

@@ -78,7 +78,7 @@ pub static POINT: Structure = Structure {
 };
 
 pub static REGULAR: Structure = Structure {
-    regular: true,
+    assumed_regular: true,
     ..POINT
 };
 

@@ -39,8 +39,8 @@ mod tests {
     use super::{ByHand, DoubleFourBar, SliderCrank, step};
     use crate::mechanism::{double_four_bar_folded, slider_crank_folded};
     use bricard_runtime::{
-        Correction, Interface, Mechanism, Method, Regular, Settings, State, StepControl, Stepper,
-        Terms, assemble,
+        Acceleration, Correction, Interface, Mechanism, Method, Settings, State, StepControl,
+        Stepper, Terms, assemble,
     };
 
     /// What round-off may come to.
@@ -80,8 +80,8 @@ mod tests {
         assert!((ours.force - theirs.force).amax() < SAME);
         assert!((ours.jacobian - theirs.jacobian).amax() < SAME);
         assert!((ours.bias - theirs.bias).amax() < SAME);
-        let mut regular = Regular::<f64, N, R>::default();
-        assert!(generated.regular(state, &mut regular));
+        let mut regular = Acceleration::<f64, N, R>::default();
+        assert!(generated.acceleration(state, &mut regular));
         assert!((by_hand.acceleration(state) - regular.acceleration).amax() < 1e3 * SAME);
         let mut off = *state;
         off.q[0] += 1e-3;
