@@ -87,9 +87,13 @@ impl<T: Real> Frame<'_, T> {
 
     fn go_forward(&mut self, right: Right<'_, T>, steps: usize) {
         right.fill(self.right);
-        for step in 0..steps {
+        let begins = |row: &usize| self.right[*row] != T::zero();
+        let begin = self.order.rows[..steps].iter().position(begins);
+        let begin = begin.unwrap_or(steps);
+        self.forward[..begin].fill(T::zero());
+        for step in begin..steps {
             let row = self.order.rows[step];
-            let first = self.changed[row].min(step);
+            let first = self.changed[row].clamp(begin, step);
             let shares = &self.lower[row * self.n..][first..step];
             let mut value = self.right[row];
             for (share, y) in shares.iter().zip(&self.forward[first..step]) {
@@ -104,10 +108,8 @@ impl<T: Real> Frame<'_, T> {
         for step in (0..steps).rev() {
             let (row, column) = (self.order.rows[step], self.order.columns[step]);
             let upper = &self.upper[row * self.n..][..self.n];
-            let known = match self.is_long() {
-                true => dot(&upper[self.span(row)], &self.backward[self.span(row)]),
-                false => dot(upper, self.backward),
-            };
+            let reach = self.reach(row);
+            let known = dot(&upper[reach.clone()], &self.backward[reach]);
             self.backward[column] = (self.forward[step] - known) / upper[column];
         }
     }
