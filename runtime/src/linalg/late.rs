@@ -3,7 +3,7 @@
 //! In:  rows that are reduced by all others.
 //! Out: their block, and its factors, the largest entry first.
 
-use super::block::largest_of;
+use super::block::{largest_of, peak_of};
 use super::frame::{Frame, NotRegular};
 use super::is_zero;
 use crate::Real;
@@ -72,9 +72,15 @@ impl<T: Real> Frame<'_, T> {
             let row = self.order.rows[place];
             let reach = self.reach(row);
             (self.spans[2 * row], self.spans[2 * row + 1]) = (reach.start, reach.end);
-            self.peaks[place - first] = self.largest(row).1;
+            self.peaks[place - first] = self.peak(row);
+            self.lower[row * self.n + first..(row + 1) * self.n].fill(T::zero());
         }
         (first..self.n).try_for_each(|step| self.eliminate_largest(step))
+    }
+
+    /// The size of the largest entry of a row.
+    fn peak(&self, row: usize) -> T {
+        peak_of(&self.upper[row * self.n..][self.span(row)])
     }
 
     /// Makes the row with the largest entry of those near-dependent ones that are left the
@@ -103,10 +109,9 @@ impl<T: Real> Frame<'_, T> {
         self.take(step, row, column)?;
         for place in step + 1..self.n {
             let row = self.order.rows[place];
-            self.lower[row * self.n + step] = T::zero();
             if self.entry(row, column) != T::zero() {
                 self.eliminate(row, step);
-                self.peaks[place - first] = self.largest(row).1;
+                self.peaks[place - first] = self.peak(row);
             }
         }
         Ok(())

@@ -21,21 +21,14 @@ use crate::tolerance::accepted;
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SMatrix;
 
-/// Where a motion begins.
-pub(crate) enum Start<T, const N: usize, const R: usize> {
-    /// On this sheet.
-    Sheet(Chart<T, N, R>),
-    /// In a singular configuration in which nothing tells which sheet is meant.
-    Undetermined,
-}
-
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
-    /// The chart of the sheet that a motion begins on.
+    /// The chart of the sheet that a motion begins on; none in a singular configuration in
+    /// which nothing tells which sheet is meant.
     pub(crate) fn start_at(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
-    ) -> Result<Start<T, N, R>, DynamicsError<T>> {
+    ) -> Result<Option<Chart<T, N, R>>, DynamicsError<T>> {
         self.prepare(mechanism, state)?;
         mechanism.position(state, &mut self.position);
         self.safe = None;
@@ -45,12 +38,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let free = &mut tangent.as_mut_slice()[..N * freedoms];
         let (mut solver, workspace, _) = self.lend(mechanism);
         if !finding_tangent()(&mut solver, state.at(), free, &workspace)? {
-            return Ok(Start::Undetermined);
+            return Ok(None);
         }
-        Ok(match solver.chart(state, tangent, freedoms, &workspace) {
-            Some(chart) => Start::Sheet(chart),
-            None => Start::Undetermined,
-        })
+        Ok(solver.chart(state, tangent, freedoms, &workspace))
     }
 }
 
