@@ -220,10 +220,10 @@ fn smallest_pivot<T: Real>(
         open.copy_within(place + 1..left, place);
         let (column, _) = largest_of(&entries[row * size..(row + 1) * size]);
         for &other in &open[..left - 1] {
-            let [entries, pivot] = pair(entries, size, other, row);
-            if entries[column] == T::zero() {
+            if entries[other * size + column] == T::zero() {
                 continue;
             }
+            let [entries, pivot] = pair(entries, size, other, row);
             let share = entries[column] / pivot[column];
             add_scaled(entries, -share, pivot);
             entries[column] = T::zero();
@@ -275,10 +275,10 @@ fn make_diagonal<T: Real>(size: usize, [here, there]: [&mut [T]; 2], pivots: &mu
         let pivot = there[step * size + step];
         pivots[step] = pivot.abs();
         for later in step + 1..size {
-            let share = -there[later * size + step] / pivot;
-            if share == T::zero() {
+            if there[later * size + step] == T::zero() {
                 continue;
             }
+            let share = -there[later * size + step] / pivot;
             for entries in [&mut *here, &mut *there] {
                 let (above, rows) = entries.split_at_mut(later * size);
                 add_scaled(&mut rows[..size], share, &above[step * size..][..size]);
@@ -286,13 +286,11 @@ fn make_diagonal<T: Real>(size: usize, [here, there]: [&mut [T]; 2], pivots: &mu
             pivots[later] = peak_of(&there[later * size + step + 1..(later + 1) * size]);
         }
         for row in here.chunks_exact_mut(size) {
-            let share = row[step] / pivot;
-            if share != T::zero() {
+            if row[step] != T::zero() {
                 let above = &there[step * size + step + 1..(step + 1) * size];
-                add_scaled(&mut row[step + 1..], -share, above);
-            }
-            if pivot < T::zero() {
-                row[step] = -row[step];
+                let share = -row[step] / pivot;
+                add_scaled(&mut row[step + 1..], share, above);
+                row[step] *= pivot.sign();
             }
         }
     }
@@ -321,9 +319,8 @@ fn count_negative<T: Real>(size: usize, entries: &mut [T]) -> usize {
         count += usize::from(pivot < T::zero());
         let (done, rest) = entries.split_at_mut((step + 1) * size);
         for row in rest.chunks_exact_mut(size) {
-            let share = -row[step] / pivot;
-            if share != T::zero() {
-                add_scaled(row, share, &done[step * size..]);
+            if row[step] != T::zero() {
+                add_scaled(row, -row[step] / pivot, &done[step * size..]);
             }
         }
     }

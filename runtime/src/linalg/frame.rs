@@ -24,14 +24,6 @@ use core::ops::Range;
 /// Rows from which on it pays to look for zeros.
 pub(super) const LONG: usize = 16;
 
-/// Room for the entries of a square matrix, zeros where only some are set later.
-fn entries<'a, T: Real>(n: usize, workspace: &Workspace<'a, T>) -> &'a mut [T] {
-    match n < LONG {
-        true => workspace.any(n * n),
-        false => workspace.numbers(n * n),
-    }
-}
-
 /// The factors of a square system.
 #[derive(Debug)]
 pub(crate) struct Frame<'a, T> {
@@ -124,8 +116,12 @@ impl<'a, T: Real> Frame<'a, T> {
         Self {
             n,
             places,
-            upper: entries(n, workspace),
-            lower: entries(n, workspace),
+            // Of long frames only some entries are set later.
+            upper: match n < LONG {
+                true => workspace.any(n * n),
+                false => workspace.numbers(n * n),
+            },
+            lower: workspace.any(n * n),
             spans,
             changed,
             step_of,
