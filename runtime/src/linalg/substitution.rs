@@ -105,12 +105,21 @@ impl<T: Real> Frame<'_, T> {
 
     fn go_backward(&mut self, steps: usize) {
         self.backward.fill(T::zero());
+        // Outside of these places the solution is zero so far.
+        let (mut low, mut high) = (self.n, 0);
         for step in (0..steps).rev() {
             let (row, column) = (self.order.rows[step], self.order.columns[step]);
             let upper = &self.upper[row * self.n..][..self.n];
             let reach = self.reach(row);
-            let known = dot(&upper[reach.clone()], &self.backward[reach]);
-            self.backward[column] = (self.forward[step] - known) / upper[column];
+            let (start, end) = (reach.start.max(low), reach.end.min(high));
+            let mut rest = self.forward[step];
+            if start < end {
+                rest -= dot(&upper[start..end], &self.backward[start..end]);
+            }
+            if rest != T::zero() {
+                self.backward[column] = rest / upper[column];
+                (low, high) = (low.min(column), high.max(column + 1));
+            }
         }
     }
 }
