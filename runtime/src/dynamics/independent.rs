@@ -9,7 +9,9 @@
 use super::combined::lift;
 use super::lent::Constrained;
 use crate::Real;
-use crate::linalg::{Frame, Right, Workspace, by_first_row, scale, solve_upper_transposed};
+use crate::linalg::{
+    Frame, Right, Workspace, by_first_row, orthonormalise, scale, solve_upper_transposed,
+};
 use crate::tolerance::near_dependent;
 
 /// Rows in the metric, scaled to size one, eliminated and completed to a basis.
@@ -50,11 +52,15 @@ impl<'a, T: Real> Independent<'a, T> {
         is_sure.then_some(Self { frame, count, ones })
     }
 
-    /// Fills columns with the directions that the rows leave free, lowered.
-    pub(crate) fn span_free(&mut self, factor: &[T], free: &mut [T]) {
-        for (i, column) in free.chunks_exact_mut(self.ones.len()).enumerate() {
+    /// Fills columns with an orthonormal basis of what the rows leave free, lowered.
+    pub(crate) fn span_free(&mut self, factor: &[T], free: &mut [T], workspace: &Workspace<'_, T>) {
+        let n = self.ones.len();
+        for (i, column) in free.chunks_exact_mut(n).enumerate() {
             let unit = Right::Unit(self.count + i);
             self.frame.solve(unit, self.ones, column);
+        }
+        orthonormalise(free, n, workspace);
+        for column in free.chunks_exact_mut(n) {
             solve_upper_transposed(factor, column);
         }
     }

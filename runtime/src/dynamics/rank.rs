@@ -159,21 +159,25 @@ fn rank_nearby<T: Real>(
     Ok(rank)
 }
 
-/// Whether it is sure that the singular values of all rows are above a bound where the
-/// constraints were evaluated last.
+/// Whether it is sure that the singular values of all rows that are meant are above a bound
+/// where the constraints were evaluated last.
 fn are_independent<T: Real>(
     solver: &dyn Constrained<T>,
     which: Which,
     least: T,
     workspace: &Workspace<'_, T>,
 ) -> bool {
-    let known = solver.known();
+    let (known, jacobian) = (solver.known(), solver.constraints().jacobian);
+    let count = known.count(which);
+    if count > jacobian.len() / known.r() {
+        return false;
+    }
     workspace.scope(|workspace| {
-        let rows = workspace.indices(known.count(which));
+        let rows = workspace.indices(count);
         let meant = (0..known.r()).filter(|row| known.takes_part(*row, which));
-        rows.iter_mut()
-            .zip(meant)
-            .for_each(|(row, meant)| *row = meant);
+        for (row, meant) in rows.iter_mut().zip(meant) {
+            *row = meant;
+        }
         Independent::here(solver, rows, least, workspace).is_some()
     })
 }

@@ -44,7 +44,7 @@ pub(crate) use column::{
     add_product, add_scaled, column, count_above, dot, is_finite, is_zero, norm, pair, scale,
     scaled,
 };
-pub(crate) use complement::{orthonormal, remove};
+pub(crate) use complement::{orthonormal, orthonormalise, remove};
 pub(crate) use elimination::Elimination;
 pub(crate) use frame::{Eliminated, Frame, Matrix};
 pub(crate) use gram::Gram;

@@ -47,17 +47,13 @@ pub(super) fn singular_tangent<T: Real>(
     let n = state.q.len();
     let count = n - tangent.len() / n;
     let all = solver.learn().rows.all_independent();
-    if tangent_of_rows(
-        solver,
-        if all { regular() } else { window() },
-        tangent,
-        workspace,
-    ) {
+    let least = if all { regular() } else { window() };
+    if tangent_of_rows(solver, (n, least), tangent, workspace) {
         return Ok(true);
     }
     if !all {
         choose_rows(solver, workspace);
-        if tangent_of_rows(solver, regular(), tangent, workspace) {
+        if tangent_of_rows(solver, (n, regular()), tangent, workspace) {
             return Ok(true);
         }
     }
@@ -83,18 +79,21 @@ pub(super) fn singular_tangent<T: Real>(
 /// sure that the singular values of the chosen rows are above a bound.
 fn tangent_of_rows<T: Real>(
     solver: &mut dyn Constrained<T>,
-    least: T,
+    (n, least): (usize, T),
     tangent: &mut [T],
     workspace: &Workspace<'_, T>,
 ) -> bool {
+    let count = n - tangent.len() / n;
     workspace.scope(|workspace| {
-        let chosen = solver.learn().rows;
-        let rows = workspace.indices(chosen.active().len());
+        let (rows, chosen) = (workspace.indices(count), solver.learn().rows);
+        if chosen.active().len() != count {
+            return false;
+        }
         rows.copy_from_slice(chosen.active());
         let found = Independent::here(solver, rows, least, workspace);
         let is_sure = found.is_some();
         if let Some(mut rows) = found {
-            rows.span_free(solver.known().factor, tangent);
+            rows.span_free(solver.known().factor, tangent, workspace);
         }
         is_sure
     })
