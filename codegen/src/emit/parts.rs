@@ -21,13 +21,13 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use std::collections::BTreeSet;
 
 /// The most operations of a function that is one straight line, unless another number is asked
-/// for: those of a row of 80 parallelograms are, of 160 are not. A row of 320 takes 53 s of rustc
-/// in straight lines, 47 s in parts of 4,000 statements, 30 s in parts of 2,000, 27 s in parts of
-/// 1,000. Parts run longer, since they go through memory: an acceleration of a row of 80 costs
-/// 1.8 times as many instructions in parts of 2,000 statements.
+/// for: those of a row of 80 parallelograms are, of 160 are not. Parts run longer, since they go
+/// through memory: an acceleration of a row of 80 costs 1.8 times as many instructions in parts.
 pub(super) const STRAIGHT_LINE: usize = 20_000;
 /// The most statements of a part; where shorter lines are asked for, a quarter of their operations.
-const STATEMENTS: usize = 2_000;
+/// What looks at all of a block takes a compiler half as long for a row of 320 as with parts of
+/// 2,000 statements, and as many instructions run.
+const STATEMENTS: usize = 250;
 
 /// A function that was taken apart.
 pub(super) struct Parts {
@@ -206,7 +206,8 @@ fn parts(steps: Vec<Step>, most: usize) -> Vec<Vec<Step>> {
     parts
 }
 
-/// The values that one part computes and later ones read.
+/// The values that one part computes and later ones read. No part writes places that are next to
+/// one another: compilers would try to compute what is stored there side by side, in vain.
 struct Kept {
     places: FxHashMap<Ident, usize>,
     count: usize,
@@ -220,25 +221,28 @@ impl Kept {
             last.extend(read.map(|name| (name, part)));
         }
         let mut places = FxHashMap::default();
-        let mut free: Vec<usize> = Vec::new();
+        // Of the even places, and of the odd ones, those that are free, and how many there are.
+        let mut free = [Vec::new(), Vec::new()];
+        let mut counts = [0, 0];
         let mut taken: Vec<(usize, usize)> = Vec::new();
-        let mut count = 0;
         for (part, steps) in parts.iter().enumerate() {
             // A place that this part still reads is written by none of its statements.
             let given = taken.extract_if(.., |(last, _)| *last < part);
-            free.extend(given.map(|(_, place)| place));
+            given.for_each(|(_, place)| free[place % 2].push(place));
             for name in steps.iter().flat_map(|step| &step.defines) {
                 let last = last.get(name).copied().unwrap_or(part);
                 if last > part && !places.contains_key(name) {
-                    let place = free.pop().unwrap_or_else(|| {
-                        count += 1;
-                        count - 1
+                    let side = part % 2;
+                    let place = free[side].pop().unwrap_or_else(|| {
+                        counts[side] += 1;
+                        2 * counts[side] - 2 + side
                     });
                     places.insert(name.clone(), place);
                     taken.push((last, place));
                 }
             }
         }
+        let count = 2 * counts[0].max(counts[1]);
         Self { places, count }
     }
 

@@ -8,7 +8,7 @@
 
 use super::{Core, Source};
 use crate::linalg::{is_finite, projecting};
-use crate::singular::{Found, Obstacle, Placed, Placement, Point, Start};
+use crate::singular::{Found, Obstacle, Placed, Placement, Point};
 use crate::state::all_finite;
 use crate::tolerance::{regular, round_off, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State, Step};
@@ -119,15 +119,15 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             return Err(self.not_regular(mechanism, &base)?);
         }
         match self.start_at(mechanism, &base)? {
-            Start::Sheet(chart) => {
+            Some(chart) => {
                 self.session.chart = Some(chart);
                 self.session.near = true;
             }
-            Start::Undetermined if base.v == SVector::<T, N>::zeros() => {
+            None if base.v == SVector::<T, N>::zeros() => {
                 self.counters.undetermined += 1;
                 self.session.rests = true;
             }
-            Start::Undetermined => {
+            None => {
                 return Err(self.refusal(mechanism, Obstacle::Undetermined, base.t));
             }
         }

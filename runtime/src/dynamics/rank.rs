@@ -8,15 +8,16 @@
 //! wherever they hold ([`super::square`]).
 
 use super::combined::{Combined, lift, lift_rows};
-use super::lent::{Constrained, known};
+use super::independent::Independent;
+use super::lent::Constrained;
 use super::square::is_square;
 use super::{Core, Source, Which};
 use crate::equations::At;
-use crate::linalg::{Products, Workspace, add_scaled, length, norm};
+use crate::linalg::{Workspace, add_scaled, length, norm};
 use crate::once::compiled_once;
 use crate::tolerance::{difference, negligible, regular};
 use crate::{DynamicsError, Mechanism, Real, Singularity, State};
-use nalgebra::{SMatrix, SVector};
+use nalgebra::SVector;
 
 /// Part of a displacement that the singular value of a row is, at least, whose gradient
 /// is lost only where the displacement begins.
@@ -26,18 +27,6 @@ const RETURNS: f64 = 1e-2;
 const CORRECTIONS: usize = 16;
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
-    /// The rows of the Jacobian in the metric at hand, scaled to size one.
-    fn lift_rows(&self, source: Source, which: Which) -> SMatrix<T, N, R> {
-        let jacobian = match source {
-            Source::Terms => &self.terms.jacobian,
-            Source::Position => &self.position.jacobian,
-        };
-        let mut rows = SMatrix::<T, N, R>::zeros();
-        let known = known(&self.metric, &self.rows, self.coordinate_scale);
-        lift_rows(jacobian.as_slice(), known, which, rows.as_mut_slice());
-        rows
-    }
-
     /// Learns the rank at regular configurations from a state on the constraints whose
     /// position terms are in the buffer and factorised, and chooses independent rows.
     #[inline(never)]
@@ -46,27 +35,12 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        if self.rows.are_independent_by_form() || self.is_safely_regular() {
+        if self.rows.are_independent_by_form() {
             self.rows.view().observe_all();
             return Ok(());
         }
         let (mut solver, workspace, _) = self.lend(mechanism);
         learning()(&mut solver, state.at(), &workspace)
-    }
-
-    /// Whether all rows are safely independent at the position in the buffer. It takes one
-    /// factorisation of the products of the rows, which have few entries in large
-    /// mechanisms, where singular values take many sweeps over all columns.
-    #[inline(never)]
-    fn is_safely_regular(&self) -> bool {
-        let rows = self.lift_rows(Source::Position, Which::All);
-        let mut products = Products::<T, R>::default();
-        let judged = products.compute(N, |j, entries| {
-            for (row, entry) in entries.iter_mut().enumerate() {
-                *entry = rows[(j, row)];
-            }
-        });
-        judged.is_ok() && (0..R).all(|row| products.is_safe(row))
     }
 
     /// The acceleration by the null space of the rows that are not zero to round-off: the
@@ -101,10 +75,18 @@ pub(super) fn learn_rank<T: Real>(
     state: At<'_, T>,
     workspace: &Workspace<'_, T>,
 ) -> Result<(), DynamicsError<T>> {
+    if are_independent(solver, Which::All, regular(), workspace) {
+        solver.learn().rows.observe_all();
+        return Ok(());
+    }
     let regular_at = workspace.numbers(state.q.len());
+    let mut rank = 0;
     for which in [Which::Holonomic, Which::All] {
-        let rank = workspace
-            .scope(|workspace| rank_nearby(solver, state, which, regular_at, workspace))?;
+        // Mostly all rows restrict positions.
+        if which == Which::Holonomic || solver.known().holonomic.contains(&false) {
+            rank = workspace
+                .scope(|workspace| rank_nearby(solver, state, which, regular_at, workspace))?;
+        }
         solver.learn().rows.observe_rank(rank, which);
     }
     solver.visit(state.t, regular_at)?;
@@ -113,7 +95,7 @@ pub(super) fn learn_rank<T: Real>(
 }
 
 /// Chooses an independent subset of the rows where the constraints were evaluated last.
-pub(super) fn choose_rows<T: Real>(solver: &mut dyn Constrained<T>, workspace: &Workspace<'_, T>) {
+pub(crate) fn choose_rows<T: Real>(solver: &mut dyn Constrained<T>, workspace: &Workspace<'_, T>) {
     if solver.learn().rows.all_independent() {
         return;
     }
@@ -148,10 +130,7 @@ fn rank_nearby<T: Real>(
     let least = difference::<T>() * T::from_f64(RETURNS);
     for q in neighbours(solver, state, &combined, workspace) {
         solver.visit(state.t, q)?;
-        let rank = workspace.scope(|workspace| {
-            let combined = Combined::here(solver, which, state.t, workspace)?;
-            Ok(combined.above(least))
-        })?;
+        let rank = rank_above(solver, which, state.t, least, workspace)?;
         if rank <= rank_here {
             continue;
         }
@@ -178,6 +157,43 @@ fn rank_nearby<T: Real>(
         });
     }
     Ok(rank)
+}
+
+/// Whether it is sure that the singular values of all rows that are meant are above a bound
+/// where the constraints were evaluated last.
+fn are_independent<T: Real>(
+    solver: &dyn Constrained<T>,
+    which: Which,
+    least: T,
+    workspace: &Workspace<'_, T>,
+) -> bool {
+    let (known, jacobian) = (solver.known(), solver.constraints().jacobian);
+    let count = known.count(which);
+    if count > jacobian.len() / known.r() {
+        return false;
+    }
+    workspace.scope(|workspace| {
+        let rows = workspace.indices(count);
+        let meant = (0..known.r()).filter(|row| known.takes_part(*row, which));
+        for (row, meant) in rows.iter_mut().zip(meant) {
+            *row = meant;
+        }
+        Independent::here(solver, rows, least, workspace).is_some()
+    })
+}
+
+/// How many singular values are above a bound where the constraints were evaluated last.
+fn rank_above<T: Real>(
+    solver: &mut dyn Constrained<T>,
+    which: Which,
+    t: T,
+    least: T,
+    workspace: &Workspace<'_, T>,
+) -> Result<usize, DynamicsError<T>> {
+    if are_independent(solver, which, least, workspace) {
+        return Ok(solver.known().count(which));
+    }
+    workspace.scope(|workspace| Ok(Combined::here(solver, which, t, workspace)?.above(least)))
 }
 
 /// Whether a rank next to a state is still there where the constraints hold.
@@ -268,9 +284,4 @@ compiled_once! {
     fn learning<T>:
         fn(&mut dyn Constrained<T>, At<'_, T>, &Workspace<'_, T>) -> Result<(), DynamicsError<T>> =
         |solver, state, workspace| learn_rank(solver, state, workspace);
-}
-compiled_once! {
-    /// [`choose_rows`].
-    pub(crate) fn choosing<T>: fn(&mut dyn Constrained<T>, &Workspace<'_, T>) =
-        |solver, workspace| choose_rows(solver, workspace);
 }

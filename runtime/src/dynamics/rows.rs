@@ -229,6 +229,15 @@ impl<T: Real> RowsView<'_, T> {
         *self.regular == self.holonomic.len()
     }
 
+    /// An independent subset that spans all rows at regular positions, empty where none is
+    /// known.
+    pub(crate) fn active(&self) -> &[usize] {
+        match *self.active_count == *self.regular {
+            true => &self.active[..*self.active_count],
+            false => &[],
+        }
+    }
+
     /// Takes note that all rows are.
     pub(crate) fn observe_all(&mut self) {
         let holonomic = self.holonomic.iter().filter(|holonomic| **holonomic);

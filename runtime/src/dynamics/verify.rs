@@ -6,7 +6,7 @@
 
 use super::{Core, Source, Which};
 use crate::linalg::is_zero;
-use crate::singular::{Chart, Obstacle, Placed, Placement, Point, Start};
+use crate::singular::{Chart, Obstacle, Placed, Placement, Point};
 use crate::tolerance::{accepted, negligible, safe_steps, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
 
@@ -109,7 +109,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         (start, end): (&State<T, N>, &State<T, N>),
         comes_near: bool,
     ) -> Result<(), DynamicsError<T>> {
-        let Start::Sheet(chart) = self.start_at(mechanism, end)? else {
+        let Some(chart) = self.start_at(mechanism, end)? else {
             return self.want_chart(mechanism, end.t);
         };
         let mut stays = false;

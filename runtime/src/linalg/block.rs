@@ -220,10 +220,10 @@ fn smallest_pivot<T: Real>(
         open.copy_within(place + 1..left, place);
         let (column, _) = largest_of(&entries[row * size..(row + 1) * size]);
         for &other in &open[..left - 1] {
-            let [entries, pivot] = pair(entries, size, other, row);
-            if entries[column] == T::zero() {
+            if entries[other * size + column] == T::zero() {
                 continue;
             }
+            let [entries, pivot] = pair(entries, size, other, row);
             let share = entries[column] / pivot[column];
             add_scaled(entries, -share, pivot);
             entries[column] = T::zero();
@@ -237,17 +237,17 @@ fn smallest_pivot<T: Real>(
 /// used up.
 #[inline(always)]
 fn count_changes<T: Real>(size: usize, [here, there]: [&mut [T]; 2], pivots: &mut [T]) -> usize {
-    pivots.fill(T::zero());
     make_diagonal(size, [here, there], pivots);
-    let pivots = &pivots[..size];
-    if pivots.contains(&T::zero()) {
+    let scales = &mut pivots[..size];
+    if scales.contains(&T::zero()) {
         return 0;
     }
+    scales.iter_mut().for_each(|x| *x = T::one() / x.sqrt());
     let symmetric = &mut there[..size * size];
     for i in 0..size {
         for j in 0..size {
             let sum = here[i * size + j] + here[j * size + i];
-            symmetric[i * size + j] = sum / (pivots[i] * pivots[j]).sqrt();
+            symmetric[i * size + j] = sum * scales[i] * scales[j];
         }
     }
     count_negative(size, symmetric)
@@ -258,34 +258,41 @@ fn count_changes<T: Real>(size: usize, [here, there]: [&mut [T]; 2], pivots: &mu
 #[inline(always)]
 fn make_diagonal<T: Real>(size: usize, [here, there]: [&mut [T]; 2], pivots: &mut [T]) {
     let (here, there) = (&mut here[..size * size], &mut there[..size * size]);
-    for (step, pivot_size) in pivots[..size].iter_mut().enumerate() {
-        let Some((row, column)) = largest_from(step, there, size) else {
+    // The largest entries of the rows that are left, in the place of their pivots.
+    for (peak, row) in pivots.iter_mut().zip(there.chunks_exact(size)) {
+        *peak = peak_of(row);
+    }
+    for step in 0..size {
+        let (ahead, most) = largest_of(&pivots[step..size]);
+        if most == T::zero() {
             break;
-        };
-        swap(there, size, step, (row, column));
-        swap(here, size, step, (row, column));
+        }
+        let row = step + ahead;
+        pivots.swap(step, row);
+        let (ahead, _) = largest_of(&there[row * size + step..(row + 1) * size]);
+        swap(there, size, step, (row, step + ahead));
+        swap(here, size, step, (row, step + ahead));
         let pivot = there[step * size + step];
+        pivots[step] = pivot.abs();
         for later in step + 1..size {
-            let share = -there[later * size + step] / pivot;
-            if share == T::zero() {
+            if there[later * size + step] == T::zero() {
                 continue;
             }
+            let share = -there[later * size + step] / pivot;
             for entries in [&mut *here, &mut *there] {
                 let (above, rows) = entries.split_at_mut(later * size);
                 add_scaled(&mut rows[..size], share, &above[step * size..][..size]);
             }
+            pivots[later] = peak_of(&there[later * size + step + 1..(later + 1) * size]);
         }
         for row in here.chunks_exact_mut(size) {
-            let share = row[step] / pivot;
-            if share != T::zero() {
-                let pivots = &there[step * size..(step + 1) * size];
-                add_scaled(&mut row[step + 1..], -share, &pivots[step + 1..]);
-            }
-            if pivot < T::zero() {
-                row[step] = -row[step];
+            if row[step] != T::zero() {
+                let above = &there[step * size + step + 1..(step + 1) * size];
+                let share = -row[step] / pivot;
+                add_scaled(&mut row[step + 1..], share, above);
+                row[step] *= pivot.sign();
             }
         }
-        *pivot_size = pivot.abs();
     }
 }
 
@@ -312,30 +319,12 @@ fn count_negative<T: Real>(size: usize, entries: &mut [T]) -> usize {
         count += usize::from(pivot < T::zero());
         let (done, rest) = entries.split_at_mut((step + 1) * size);
         for row in rest.chunks_exact_mut(size) {
-            let share = -row[step] / pivot;
-            if share != T::zero() {
-                add_scaled(row, share, &done[step * size..]);
+            if row[step] != T::zero() {
+                add_scaled(row, -row[step] / pivot, &done[step * size..]);
             }
         }
     }
     count
-}
-
-/// Where the largest entry of what an elimination has left is, if it is not zero.
-#[inline(always)]
-fn largest_from<T: Real>(step: usize, entries: &[T], size: usize) -> Option<(usize, usize)> {
-    let mut most = T::zero();
-    let mut place = None;
-    for row in step..size {
-        for column in step..size {
-            let entry = entries[row * size + column].abs();
-            if entry > most {
-                most = entry;
-                place = Some((row, column));
-            }
-        }
-    }
-    place
 }
 
 /// Makes a row and a column those of a step.

@@ -24,14 +24,6 @@ use core::ops::Range;
 /// Rows from which on it pays to look for zeros.
 pub(super) const LONG: usize = 16;
 
-/// Room for the entries of a square matrix, zeros where only some are set later.
-fn entries<'a, T: Real>(n: usize, workspace: &Workspace<'a, T>) -> &'a mut [T] {
-    match n < LONG {
-        true => workspace.any(n * n),
-        false => workspace.numbers(n * n),
-    }
-}
-
 /// The factors of a square system.
 #[derive(Debug)]
 pub(crate) struct Frame<'a, T> {
@@ -57,8 +49,7 @@ pub(crate) struct Frame<'a, T> {
     pub(super) backward: &'a mut [T],
     /// Marks of rows or columns.
     pub(super) marks: &'a mut [usize],
-    /// The block while it is eliminated, and the largest entry of each of its rows.
-    pub(super) late: &'a mut [T],
+    /// The largest entries of near-dependent rows while they are eliminated.
     pub(super) peaks: &'a mut [T],
 }
 
@@ -125,8 +116,12 @@ impl<'a, T: Real> Frame<'a, T> {
         Self {
             n,
             places,
-            upper: entries(n, workspace),
-            lower: entries(n, workspace),
+            // Of long frames only some entries are set later.
+            upper: match n < LONG {
+                true => workspace.any(n * n),
+                false => workspace.numbers(n * n),
+            },
+            lower: workspace.any(n * n),
             spans,
             changed,
             step_of,
@@ -137,7 +132,6 @@ impl<'a, T: Real> Frame<'a, T> {
             forward,
             backward,
             marks,
-            late: workspace.any(constraints * constraints),
             peaks: workspace.any(constraints),
         }
     }
@@ -184,8 +178,11 @@ impl<'a, T: Real> Frame<'a, T> {
         self.n >= LONG
     }
 
-    /// Begins a long frame anew, with rows of zeros.
+    /// Begins anew, with rows of zeros.
     pub(crate) fn clear(&mut self) {
+        if !self.is_long() {
+            return self.upper.fill(T::zero());
+        }
         for row in 0..self.n {
             let (span, first) = (self.span(row), self.changed[row]);
             let entries = row * self.n..(row + 1) * self.n;
@@ -213,6 +210,14 @@ impl<'a, T: Real> Frame<'a, T> {
 
     pub(super) fn entry(&self, row: usize, column: usize) -> T {
         self.upper[row * self.n + column]
+    }
+
+    /// The columns in which a row may have entries.
+    pub(super) fn reach(&self, row: usize) -> Range<usize> {
+        match self.is_long() {
+            true => self.span(row),
+            false => 0..self.n,
+        }
     }
 
     pub(super) fn span(&self, row: usize) -> Range<usize> {
@@ -352,15 +357,12 @@ impl<'a, T: Real> Frame<'a, T> {
     /// The largest entry of a row that is reduced, and its size; columns of pivots hold
     /// zeros.
     pub(super) fn largest(&self, row: usize) -> (usize, T) {
-        if !self.is_long() {
-            return largest_of(&self.upper[row * self.n..(row + 1) * self.n]);
-        }
-        let span = self.span(row);
-        if span.is_empty() {
+        let reach = self.reach(row);
+        if reach.is_empty() {
             return (0, T::zero());
         }
-        let start = span.start;
-        let (column, size) = largest_of(&self.upper[row * self.n..(row + 1) * self.n][span]);
+        let start = reach.start;
+        let (column, size) = largest_of(&self.upper[row * self.n..][reach]);
         (start + column, size)
     }
 

@@ -7,6 +7,7 @@
 //! tells the caller that this factor is not to be used.
 
 use super::dot;
+use super::frame::LONG;
 use crate::Real;
 use nalgebra::SMatrix;
 
@@ -52,6 +53,9 @@ impl<T: Real, const R: usize> Gram<T, R> {
             }
             for (k, earlier) in done.iter().enumerate() {
                 let factor = earlier[j] * earlier[k];
+                if R >= LONG && factor == T::zero() {
+                    continue;
+                }
                 for i in j..self.count {
                     column[i] -= factor * earlier[i];
                 }

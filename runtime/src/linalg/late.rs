@@ -5,7 +5,7 @@
 
 use super::block::{largest_of, peak_of};
 use super::frame::{Frame, NotRegular};
-use super::{add_scaled, is_zero, pair};
+use super::is_zero;
 use crate::Real;
 
 impl<T: Real> Frame<'_, T> {
@@ -34,11 +34,17 @@ impl<T: Real> Frame<'_, T> {
         for (place, column) in self.order.columns[first..].iter_mut().zip(open) {
             *place = column;
         }
-        for k in 0..self.n - first {
-            let row = self.order.rows[first + k];
-            let columns = self.order.columns[first..].iter();
-            for (entry, column) in self.block.row_mut(k).iter_mut().zip(columns) {
-                *entry = self.upper[row * self.n + *column];
+        for (place, &column) in self.order.columns[first..].iter().enumerate() {
+            self.marks[column] = place;
+        }
+        for (k, &row) in self.order.rows[first..].iter().enumerate() {
+            let reach = self.reach(row);
+            let entries = &self.upper[row * self.n..][reach.clone()];
+            for (entry, column) in entries.iter().zip(reach) {
+                // Columns of pivots hold zeros.
+                if *entry != T::zero() {
+                    self.block.row_mut(k)[self.marks[column]] = *entry;
+                }
             }
         }
         match first + 1 == self.n {
@@ -59,70 +65,54 @@ impl<T: Real> Frame<'_, T> {
         }
     }
 
-    /// Eliminates the near-dependent rows, the largest entry first, in a copy of their block.
+    /// Eliminates the near-dependent rows, the largest entry first.
     fn eliminate_late(&mut self) -> Result<(), NotRegular> {
-        let (first, size) = (self.order.independent, self.n - self.order.independent);
-        self.late[..size * size].copy_from_slice(self.block.all());
-        self.marks[..size].copy_from_slice(&self.order.columns[first..]);
-        let rows = self.late.chunks_exact(size);
-        for (peak, row) in self.peaks.iter_mut().zip(rows).take(size) {
-            *peak = peak_of(row);
+        let first = self.order.independent;
+        for place in first..self.n {
+            let row = self.order.rows[place];
+            let reach = self.reach(row);
+            (self.spans[2 * row], self.spans[2 * row + 1]) = (reach.start, reach.end);
+            self.peaks[place - first] = self.peak(row);
+            self.lower[row * self.n + first..(row + 1) * self.n].fill(T::zero());
         }
-        let result = (0..size).try_for_each(|step| self.eliminate_largest(step, size));
-        for (place, entries) in self.late[..size * size].chunks_exact(size).enumerate() {
-            let row = self.order.rows[first + place];
-            for (entry, column) in entries.iter().zip(&self.marks[..size]) {
-                self.upper[row * self.n + *column] = *entry;
-            }
-            (self.spans[2 * row], self.spans[2 * row + 1]) = (0, self.n);
-        }
-        result
+        (first..self.n).try_for_each(|step| self.eliminate_largest(step))
+    }
+
+    /// The size of the largest entry of a row.
+    fn peak(&self, row: usize) -> T {
+        peak_of(&self.upper[row * self.n..][self.span(row)])
     }
 
     /// Makes the row with the largest entry of those near-dependent ones that are left the
     /// next one, and that entry its pivot; nothing if all are zero.
-    fn eliminate_largest(&mut self, step: usize, size: usize) -> Result<(), NotRegular> {
+    fn eliminate_largest(&mut self, step: usize) -> Result<(), NotRegular> {
         let first = self.order.independent;
-        let (ahead, largest) = largest_of(&self.peaks[step..size]);
+        let left = step - first..self.n - first;
+        let (ahead, largest) = largest_of(&self.peaks[left.clone()]);
         self.smallest = self.smallest.min(largest);
         if largest == T::zero() {
             // What is not finite has no size either.
-            let rest = &self.late[step * size..size * size];
-            return if is_zero(rest) {
-                Ok(())
-            } else {
-                Err(NotRegular)
+            let mut rest = self.order.rows[step..].iter();
+            return match rest.all(|row| is_zero(&self.upper[row * self.n..][..self.n])) {
+                true => Ok(()),
+                false => Err(NotRegular),
             };
         }
-        let place = step + ahead;
-        if place != step {
-            let [row, other] = pair(self.late, size, step, place);
-            row.swap_with_slice(other);
-            self.order.rows.swap(first + step, first + place);
-            self.peaks.swap(step, place);
-        }
-        let (done, rest) = self.late[..size * size].split_at_mut((step + 1) * size);
-        let pivot = &done[step * size..];
-        let (local, _) = largest_of(pivot);
-        let column = self.marks[local];
-        let columns = &mut self.order.columns[first + step..];
+        self.order.rows.swap(step, step + ahead);
+        self.peaks.swap(left.start, left.start + ahead);
+        let row = self.order.rows[step];
+        let (column, _) = self.largest(row);
+        let columns = &mut self.order.columns[step..];
         if let Some(place) = columns.iter().position(|other| *other == column) {
             columns.swap(0, place);
         }
-        if !(pivot[local] != T::zero() && pivot[local].is_finite()) {
-            return Err(NotRegular);
-        }
-        for (k, entries) in rest.chunks_exact_mut(size).enumerate() {
-            let row = self.order.rows[first + step + 1 + k];
-            let share = entries[local] / pivot[local];
-            self.lower[row * self.n + first + step] = share;
-            if share == T::zero() {
-                continue;
+        self.take(step, row, column)?;
+        for place in step + 1..self.n {
+            let row = self.order.rows[place];
+            if self.entry(row, column) != T::zero() {
+                self.eliminate(row, step);
+                self.peaks[place - first] = self.peak(row);
             }
-            add_scaled(entries, -share, pivot);
-            entries[local] = T::zero();
-            self.peaks[step + 1 + k] = peak_of(entries);
-            self.changed[row] = self.changed[row].min(first + step);
         }
         Ok(())
     }

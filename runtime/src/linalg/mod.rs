@@ -16,6 +16,7 @@ mod block;
 mod cholesky;
 mod column;
 mod complement;
+mod completion;
 mod elimination;
 mod frame;
 mod gram;
@@ -43,13 +44,13 @@ pub(crate) use column::{
     add_product, add_scaled, column, count_above, dot, is_finite, is_zero, norm, pair, scale,
     scaled,
 };
-pub(crate) use complement::{orthonormal, remove};
+pub(crate) use complement::{orthonormal, orthonormalise, remove};
 pub(crate) use elimination::Elimination;
 pub(crate) use frame::{Eliminated, Frame, Matrix};
 pub(crate) use gram::Gram;
 pub(crate) use jacobi::{Breakdown, orthogonalise};
 pub(crate) use places::by_first_row;
-pub(crate) use products::{Products, RowProducts};
+pub(crate) use products::RowProducts;
 pub(crate) use subset::independent_columns;
 pub(crate) use substitution::Right;
 pub(crate) use symmetric::diagonalise;

@@ -12,7 +12,6 @@
 
 use super::{Breakdown, Workspace, dot};
 use crate::Real;
-use core::marker::PhantomData;
 
 /// Products of the rows of a Jacobian and their factor, over slices.
 #[derive(Debug)]
@@ -231,51 +230,5 @@ fn forward<T: Real>(factor: &[T], x: &mut [T], first: usize) {
                 *entry -= value * *below;
             }
         }
-    }
-}
-
-/// Which rows are safely independent, of a number that is known.
-#[derive(Clone, Debug)]
-pub(crate) struct Products<T, const R: usize> {
-    safe: [bool; R],
-    scalar: PhantomData<T>,
-}
-
-impl<T, const R: usize> Default for Products<T, R> {
-    fn default() -> Self {
-        Self {
-            safe: [false; R],
-            scalar: PhantomData,
-        }
-    }
-}
-
-impl<T: Real, const R: usize> Products<T, R> {
-    /// Multiplies and judges the rows of a matrix of `n` columns, each of which is written by
-    /// `column`.
-    pub(crate) fn compute(
-        &mut self,
-        n: usize,
-        mut column: impl FnMut(usize, &mut [T]),
-    ) -> Result<(), Breakdown> {
-        let mut entries = [[T::zero(); R]; R];
-        let mut vectors = [[T::zero(); R]; 4];
-        let mut lists = [[0; R]; 2];
-        let workspace = Workspace::new(
-            entries.as_flattened_mut(),
-            vectors.as_flattened_mut(),
-            lists.as_flattened_mut(),
-        );
-        let mut products = RowProducts::new(R, &workspace);
-        products.compute(n, &mut column)?;
-        for (row, safe) in self.safe.iter_mut().enumerate() {
-            *safe = products.is_safe(row);
-        }
-        Ok(())
-    }
-
-    /// Whether a row and all that it is connected with are safely independent.
-    pub(crate) fn is_safe(&self, row: usize) -> bool {
-        self.safe[row]
     }
 }

@@ -87,9 +87,13 @@ impl<T: Real> Frame<'_, T> {
 
     fn go_forward(&mut self, right: Right<'_, T>, steps: usize) {
         right.fill(self.right);
-        for step in 0..steps {
+        let begins = |row: &usize| self.right[*row] != T::zero();
+        let begin = self.order.rows[..steps].iter().position(begins);
+        let begin = begin.unwrap_or(steps);
+        self.forward[..begin].fill(T::zero());
+        for step in begin..steps {
             let row = self.order.rows[step];
-            let first = self.changed[row].min(step);
+            let first = self.changed[row].clamp(begin, step);
             let shares = &self.lower[row * self.n..][first..step];
             let mut value = self.right[row];
             for (share, y) in shares.iter().zip(&self.forward[first..step]) {
@@ -101,14 +105,21 @@ impl<T: Real> Frame<'_, T> {
 
     fn go_backward(&mut self, steps: usize) {
         self.backward.fill(T::zero());
+        // Outside of these places the solution is zero so far.
+        let (mut low, mut high) = (self.n, 0);
         for step in (0..steps).rev() {
             let (row, column) = (self.order.rows[step], self.order.columns[step]);
             let upper = &self.upper[row * self.n..][..self.n];
-            let known = match self.is_long() {
-                true => dot(&upper[self.span(row)], &self.backward[self.span(row)]),
-                false => dot(upper, self.backward),
-            };
-            self.backward[column] = (self.forward[step] - known) / upper[column];
+            let reach = self.reach(row);
+            let (start, end) = (reach.start.max(low), reach.end.min(high));
+            let mut rest = self.forward[step];
+            if start < end {
+                rest -= dot(&upper[start..end], &self.backward[start..end]);
+            }
+            if rest != T::zero() {
+                self.backward[column] = rest / upper[column];
+                (low, high) = (low.min(column), high.max(column + 1));
+            }
         }
     }
 }

@@ -330,3 +330,63 @@ fn frames_of_any_size_solve_and_tell_the_determinant() {
         check_frame::<9>(&mut random, weak, SMatrix::determinant);
     }
 }
+
+/// Completes `K` rows, each with entries in the columns next to its place, half of which are
+/// nearly combinations of the others, and checks what is told of them.
+fn check_completion<const N: usize, const K: usize>(random: &mut Matrices, weak: f64) {
+    let mut rows: SMatrix<f64, N, K> = random.matrix();
+    for (row, mut entries) in rows.column_iter_mut().enumerate() {
+        let near = row..=row + N - K + 1;
+        let far = entries.iter_mut().enumerate();
+        let far = far.filter(|(column, _)| !near.contains(column));
+        far.for_each(|(_, entry)| *entry = 0.0);
+    }
+    for row in (1..K).step_by(2) {
+        let near = rows.column(row - 1) * random.number() + rows.column(row) * weak;
+        rows.set_column(row, &near);
+    }
+    let mut vectors = rows;
+    orthogonalised(&mut vectors, &mut SMatrix::identity()).unwrap();
+    let least = vectors.column(K - 1).norm();
+
+    let (mut numbers, mut indices) = (vec![0.0; 4 * N * N], vec![0; 7 * N]);
+    let mut more = vec![0.0; 4 * N];
+    let workspace = Workspace::new(&mut numbers, &mut more, &mut indices);
+    let (places, ones): ([usize; N], [f64; N]) = (column(|i| i), [1.0; N]);
+    let mut frame = Frame::new(&places, N, &workspace);
+    frame.clear();
+    for row in 0..K {
+        frame.set_row(row, rows.column(row).as_slice());
+    }
+    frame.complete(K, 0.1).unwrap();
+    let mut x = [0.0; N];
+    let bound = frame.least_singular_value(K, &ones, &mut x);
+    assert!(
+        bound <= least * (1.0 + 1e-9) && bound > least * 1e-2,
+        "{N}, {K}, {weak}: {bound} is no bound of {least}"
+    );
+    for row in 0..N {
+        frame.solve(Right::Unit(row), &ones, &mut x);
+        let mut image = rows.transpose() * SVector::from(x);
+        if row < K {
+            image[row] -= 1.0;
+        }
+        let size = SVector::from(x).norm();
+        assert!(
+            size > 0.5 && image.amax() < 1e-13 * size.max(1.0),
+            "{N}, {K}, {weak}, {row}: {image}"
+        );
+    }
+}
+
+#[test]
+fn completed_rows_bound_their_singular_values_and_leave_the_null_space() {
+    let mut random = Matrices::seeded(SEED);
+    for weak in [1.0, 1e-3, 1e-8] {
+        check_completion::<4, 3>(&mut random, weak);
+        check_completion::<8, 5>(&mut random, weak);
+        check_completion::<12, 11>(&mut random, weak);
+        check_completion::<24, 20>(&mut random, weak);
+        check_completion::<40, 40>(&mut random, weak);
+    }
+}

@@ -3,7 +3,7 @@
 //! In:  a state in a singular configuration, or next to one.
 //! Out: the tangent space of the sheet that it is on, or the news that nothing tells.
 
-use crate::dynamics::{Combined, Constrained, Which, second_derivatives};
+use crate::dynamics::{Combined, Constrained, Independent, Which, choose_rows, second_derivatives};
 use crate::equations::At;
 use crate::linalg::{
     Workspace, add_scaled, count_above, diagonalise, dot, is_zero, length,
@@ -24,7 +24,7 @@ const FLAT: f64 = 0.1;
 
 /// Fills `free` with directions that are left when `remove` takes away what is decided,
 /// lowered.
-pub(super) fn span_free<T: Real>(
+fn span_free<T: Real>(
     factor: &[T],
     free: &mut [T],
     n: usize,
@@ -46,6 +46,17 @@ pub(super) fn singular_tangent<T: Real>(
 ) -> Result<bool, DynamicsError<T>> {
     let n = state.q.len();
     let count = n - tangent.len() / n;
+    let all = solver.learn().rows.all_independent();
+    let least = if all { regular() } else { window() };
+    if tangent_of_rows(solver, (n, least), tangent, workspace) {
+        return Ok(true);
+    }
+    if !all {
+        choose_rows(solver, workspace);
+        if tangent_of_rows(solver, (n, regular()), tangent, workspace) {
+            return Ok(true);
+        }
+    }
     let combined = Combined::here(solver, Which::All, state.t, workspace)?;
     let values = &combined.values[..count];
     if count_above(values, regular()) == count {
@@ -62,6 +73,30 @@ pub(super) fn singular_tangent<T: Real>(
         return Ok(false);
     }
     one_of_two(solver, state, &combined, tangent, workspace)
+}
+
+/// Finds the tangent space where the constraints were evaluated last; `false` where it is not
+/// sure that the singular values of the chosen rows are above a bound.
+fn tangent_of_rows<T: Real>(
+    solver: &mut dyn Constrained<T>,
+    (n, least): (usize, T),
+    tangent: &mut [T],
+    workspace: &Workspace<'_, T>,
+) -> bool {
+    let count = n - tangent.len() / n;
+    workspace.scope(|workspace| {
+        let (rows, chosen) = (workspace.indices(count), solver.learn().rows);
+        if chosen.active().len() != count {
+            return false;
+        }
+        rows.copy_from_slice(chosen.active());
+        let found = Independent::here(solver, rows, least, workspace);
+        let is_sure = found.is_some();
+        if let Some(mut rows) = found {
+            rows.span_free(solver.known().factor, tangent, workspace);
+        }
+        is_sure
+    })
 }
 
 /// Finds the tangent space of the sheet that the velocity leads along: on it, the gradient
@@ -249,12 +284,6 @@ fn nearer<T: Real>([first, second]: [T; 2], factor: T) -> Option<usize> {
     }
 }
 
-compiled_once! {
-    /// [`span_free`].
-    pub(super) fn spanning<T>:
-        fn(&[T], &mut [T], usize, &dyn Fn(&mut [T]), &Workspace<'_, T>) =
-        |factor, free, n, remove, workspace| span_free(factor, free, n, remove, workspace);
-}
 compiled_once! {
     /// [`singular_tangent`].
     pub(super) fn finding_tangent<T>: fn(

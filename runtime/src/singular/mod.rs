@@ -39,4 +39,3 @@ pub use passage::Passage;
 pub(crate) use place::Placement;
 pub(crate) use session::{Placed, Session};
 pub(crate) use sheet::Point;
-pub(crate) use start::Start;

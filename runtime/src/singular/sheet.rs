@@ -241,9 +241,13 @@ impl<'a, T: Real> Sheet<'a, T> {
                     }
                 }
             }
-            for (i, dual) in chart.dual.iter().skip(j).step_by(chart.n()).enumerate() {
-                let row = chart.rows.len() + i;
-                self.frame.set_entry(row, j, *dual * *column);
+        }
+        for (i, duals) in chart.dual.chunks_exact(chart.n()).enumerate() {
+            for (j, (dual, column)) in duals.iter().zip(chart.column_scale).enumerate() {
+                if *dual != T::zero() {
+                    let row = chart.rows.len() + i;
+                    self.frame.set_entry(row, j, *dual * *column);
+                }
             }
         }
     }

@@ -11,74 +11,36 @@
 //! where it is off one of them.
 
 use super::chart::Chart;
-use super::meant::{finding_tangent, spanning};
+use super::meant::finding_tangent;
 use super::place::Placement;
 use super::sheet::Point;
-use crate::dynamics::{Core, Lent, Source, Which, choosing};
+use crate::dynamics::{Core, Lent, Source};
 use crate::equations::{At, sized};
 use crate::linalg::{Workspace, is_zero};
-use crate::tolerance::{accepted, passes, window};
+use crate::tolerance::accepted;
 use crate::{DynamicsError, Mechanism, Real, State};
-use nalgebra::{SMatrix, SVector};
-
-/// Where a motion begins.
-pub(crate) enum Start<T, const N: usize, const R: usize> {
-    /// On this sheet.
-    Sheet(Chart<T, N, R>),
-    /// In a singular configuration in which nothing tells which sheet is meant.
-    Undetermined,
-}
+use nalgebra::SMatrix;
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
-    /// The chart of the sheet that a motion begins on.
+    /// The chart of the sheet that a motion begins on; none in a singular configuration in
+    /// which nothing tells which sheet is meant.
     pub(crate) fn start_at(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
-    ) -> Result<Start<T, N, R>, DynamicsError<T>> {
+    ) -> Result<Option<Chart<T, N, R>>, DynamicsError<T>> {
         self.prepare(mechanism, state)?;
         mechanism.position(state, &mut self.position);
         self.safe = None;
         self.factorise_metric(mechanism, Source::Position, state.t)?;
-        let mut squared = self.factorise_constraints(Source::Position, Which::All);
-        if !passes(squared, window()) && self.rows.regular(Which::All) < R {
-            self.choose_rows(mechanism);
-            squared = self.factorise_constraints(Source::Position, Which::All);
-        }
         let freedoms = self.freedoms();
         let mut tangent = SMatrix::<T, N, N>::zeros();
         let free = &mut tangent.as_mut_slice()[..N * freedoms];
-        if passes(squared, window()) {
-            self.null_space(free);
-        } else {
-            let (mut solver, workspace, _) = self.lend(mechanism);
-            if !finding_tangent()(&mut solver, state.at(), free, &workspace)? {
-                return Ok(Start::Undetermined);
-            }
+        let (mut solver, workspace, _) = self.lend(mechanism);
+        if !finding_tangent()(&mut solver, state.at(), free, &workspace)? {
+            return Ok(None);
         }
-        let (mut solver, workspace, _) = self.lend(mechanism);
-        Ok(match solver.chart(state, tangent, freedoms, &workspace) {
-            Some(chart) => Start::Sheet(chart),
-            None => Start::Undetermined,
-        })
-    }
-
-    /// Chooses an independent subset of the rows at the position in the buffer.
-    fn choose_rows(&mut self, mechanism: &dyn Mechanism<T, N, R>) {
-        let (mut solver, workspace, _) = self.lend(mechanism);
-        choosing()(&mut solver, &workspace);
-    }
-
-    /// Fills columns with what the factorised constraints leave free.
-    fn null_space(&mut self, free: &mut [T]) {
-        let (schur, zero) = (&self.schur, SVector::zeros());
-        let correct = |axis: &mut [T]| {
-            if let Ok(axis) = axis.try_into() {
-                schur.correct(axis, &zero);
-            }
-        };
-        let workspace = self.memory.workspace();
-        spanning()(self.metric.factor.as_slice(), free, N, &correct, &workspace);
+        Ok(solver.chart(state, tangent, freedoms, &workspace))
     }
 }
 
