@@ -17,7 +17,7 @@ use crate::equations::At;
 use crate::linalg::{Eliminated, Workspace, add_scaled, is_finite, norm, solve_upper};
 use crate::once::compiled_once;
 use crate::tolerance::{
-    critical, excusable, hull, negligible, noisy, resolvable, resolved, round_off, spacing, window,
+    critical, excusable, hull, negligible, resolvable, resolved, round_off, spacing, window,
 };
 
 /// How much larger than the round-off of one node, magnified by the weights, the
@@ -30,6 +30,9 @@ const LEVELS: usize = 12;
 /// A move onto the sheet in which signs change shows that it is another sheet if it is longer
 /// than this many errors that are accepted of an interpolation: than the error of a step.
 const STRAYS: f64 = 10.0;
+/// A constraint error that is no larger than this many times what may be round-off tells
+/// neither a crossing nor a gap.
+const CLEAR: f64 = 4.0;
 /// By how much worse an interpolation may be than the best of all spacings, so that no others
 /// are tried.
 const NEARLY: f64 = 4.0;
@@ -79,11 +82,11 @@ impl<T: Real> Sheet<'_, T> {
             }
             self.eliminate(here, None)?;
         }
-        let noise = match self.chart.gap {
-            true => noisy(),
-            false => self.chart.accepted * T::from_f64(10.0),
-        };
-        if let Some(why) = why.filter(|_| sine < window() && T::EPSILON > noise * sine * sine) {
+        // Next to a gap the sheet is as smooth as it is narrow, and short steps follow it.
+        let gap = self.chart.gap || placement == Placement::Gap;
+        let noise = self.chart.accepted * T::from_f64(10.0);
+        let is_noise = !gap && sine < window() && T::EPSILON > noise * sine * sine;
+        if let Some(why) = why.filter(|_| is_noise) {
             return Err(why);
         }
         self.place_regular(state, point, workspace)?;
@@ -141,7 +144,7 @@ impl<T: Real> Sheet<'_, T> {
         let Some(best) = self.search(state, like, &direction, workspace)? else {
             return Err(Obstacle::Unresolved);
         };
-        if !workspace.scope(|inner| self.is_crossing(state, like, &direction, &best, inner)) {
+        if !workspace.scope(|inner| self.is_crossing(state, like, &direction, &best, inner))? {
             return Ok(Err(Placement::Gap));
         }
         // Rows are no more exact than the coordinates, whose round-off grows with their size.
@@ -298,7 +301,8 @@ impl<T: Real> Sheet<'_, T> {
     }
 
     /// Whether the constraints vanish, to round-off, where the sheet meets the singular
-    /// set: two sheets then cross there. Otherwise a gap keeps them apart.
+    /// set: two sheets then cross there. If they clearly don't, a gap keeps them apart;
+    /// between, nothing tells.
     #[inline(never)]
     fn is_crossing(
         &mut self,
@@ -307,9 +311,9 @@ impl<T: Real> Sheet<'_, T> {
         direction: &Direction<'_, T>,
         best: &Interpolated<'_, T>,
         workspace: &Workspace<'_, T>,
-    ) -> bool {
+    ) -> Result<bool, Obstacle> {
         if !self.holonomic {
-            return true;
+            return Ok(true);
         }
         let q = workspace.numbers(self.chart.n());
         let step = best.spacing / direction.rate;
@@ -318,9 +322,7 @@ impl<T: Real> Sheet<'_, T> {
         for _ in 0..CENTRINGS {
             let t = direction.moved(state, direction.centre + step * place, q);
             best.add_offset_at(place, q);
-            if self.eliminate((t, q), Some(like)).is_err() {
-                return false;
-            }
+            self.eliminate((t, q), Some(like))?;
             let block = self.frame.block();
             let moved = block.first() / best.slope;
             // Several loops have no one place where all of them are singular.
@@ -331,9 +333,17 @@ impl<T: Real> Sheet<'_, T> {
             place -= moved;
         }
         let most = self.largest_residual();
+        let round_off = critical::<T>() * round_off() * coordinate_scale;
         // Beside the crossing an error of interpolation is seen as far as rows are not zero.
-        let uncertainty = T::from_f64(4.0) * best.error * self.frame.smallest();
-        most <= (critical::<T>() * round_off() + uncertainty) * coordinate_scale
+        let uncertainty = T::from_f64(4.0) * best.error * self.frame.smallest() * coordinate_scale;
+        let crosses = most <= round_off + uncertainty;
+        let clear = T::from_f64(CLEAR);
+        // False for NaN, too.
+        let gap = most > (round_off + uncertainty * clear) * clear;
+        match crosses || gap {
+            true => Ok(crosses),
+            false => Err(Obstacle::Unresolved),
+        }
     }
 
     /// How far the coordinates reach along the rows: what their round-off adds up to in a row.
