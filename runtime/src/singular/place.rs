@@ -17,7 +17,7 @@ use crate::equations::At;
 use crate::linalg::{Eliminated, Workspace, add_scaled, is_finite, norm, solve_upper};
 use crate::once::compiled_once;
 use crate::tolerance::{
-    critical, excusable, hull, negligible, resolvable, resolved, round_off, spacing, window,
+    clearance, critical, excusable, hull, negligible, resolvable, resolved, round_off, spacing, window,
 };
 
 /// How much larger than the round-off of one node, magnified by the weights, the
@@ -338,8 +338,8 @@ impl<T: Real> Sheet<'_, T> {
         let uncertainty = T::from_f64(4.0) * best.error * self.frame.smallest() * coordinate_scale;
         let crosses = most <= round_off + uncertainty;
         let clear = T::from_f64(CLEAR);
-        // False for NaN, too.
-        let gap = most > (round_off + uncertainty * clear) * clear;
+        let found = self.frame.smallest() < clearance::<T>() * best.spacing;
+        let gap = found && most > (round_off + uncertainty * clear) * clear;
         match crosses || gap {
             true => Ok(crosses),
             false => Err(Obstacle::Unresolved),
