@@ -14,25 +14,18 @@ use super::obstacle::Obstacle;
 use super::sheet::{PointView, Sheet};
 use crate::Real;
 use crate::equations::At;
-use crate::linalg::{Eliminated, Workspace, add_scaled, is_finite, norm, solve_upper};
+use crate::linalg::{Eliminated, Workspace, add_scaled, is_finite};
 use crate::once::compiled_once;
-use crate::tolerance::{
-    clearance, critical, excusable, hull, negligible, resolvable, resolved, round_off, spacing, window,
-};
+use crate::tolerance::{excusable, hull, resolvable, resolved, spacing, window};
 
 /// How much larger than the round-off of one node, magnified by the weights, the
 /// difference of two interpolations may be for that reason.
 const NOISE: f64 = 48.0;
-/// Evaluations that lead to the critical configuration.
-const CENTRINGS: usize = 4;
 /// Spacings that are tried.
 const LEVELS: usize = 12;
 /// A move onto the sheet in which signs change shows that it is another sheet if it is longer
 /// than this many errors that are accepted of an interpolation: than the error of a step.
 const STRAYS: f64 = 10.0;
-/// A constraint error that is no larger than this many times what may be round-off tells
-/// neither a crossing nor a gap.
-const CLEAR: f64 = 4.0;
 /// By how much worse an interpolation may be than the best of all spacings, so that no others
 /// are tried.
 const NEARLY: f64 = 4.0;
@@ -298,89 +291,6 @@ impl<T: Real> Sheet<'_, T> {
             last
         };
         found.score = found.error + found.noise * T::EPSILON;
-    }
-
-    /// Whether the constraints vanish, to round-off, where the sheet meets the singular
-    /// set: two sheets then cross there. If they clearly don't, a gap keeps them apart;
-    /// between, nothing tells.
-    #[inline(never)]
-    fn is_crossing(
-        &mut self,
-        state: At<'_, T>,
-        like: &Eliminated<'_, T>,
-        direction: &Direction<'_, T>,
-        best: &Interpolated<'_, T>,
-        workspace: &Workspace<'_, T>,
-    ) -> Result<bool, Obstacle> {
-        if !self.holonomic {
-            return Ok(true);
-        }
-        let q = workspace.numbers(self.chart.n());
-        let step = best.spacing / direction.rate;
-        let coordinate_scale = self.reach_of_rows(state, direction, best, workspace);
-        let mut place = T::zero();
-        for _ in 0..CENTRINGS {
-            let t = direction.moved(state, direction.centre + step * place, q);
-            best.add_offset_at(place, q);
-            self.eliminate((t, q), Some(like))?;
-            let block = self.frame.block();
-            let moved = block.first() / best.slope;
-            // Several loops have no one place where all of them are singular.
-            let refines = block.size() == 1 && moved.abs() < T::one();
-            if !refines || moved.abs() < negligible() {
-                break;
-            }
-            place -= moved;
-        }
-        let most = self.largest_residual();
-        let round_off = critical::<T>() * round_off() * coordinate_scale;
-        // Beside the crossing an error of interpolation is seen as far as rows are not zero.
-        let uncertainty = T::from_f64(4.0) * best.error * self.frame.smallest() * coordinate_scale;
-        let crosses = most <= round_off + uncertainty;
-        let clear = T::from_f64(CLEAR);
-        let found = self.frame.smallest() < clearance::<T>() * best.spacing;
-        let gap = found && most > (round_off + uncertainty * clear) * clear;
-        match crosses || gap {
-            true => Ok(crosses),
-            false => Err(Obstacle::Unresolved),
-        }
-    }
-
-    /// How far the coordinates reach along the rows: what their round-off adds up to in a row.
-    /// Where masses are unlike each other, that is far less than they reach along the heaviest.
-    fn reach_of_rows(
-        &mut self,
-        state: At<'_, T>,
-        direction: &Direction<'_, T>,
-        best: &Interpolated<'_, T>,
-        workspace: &Workspace<'_, T>,
-    ) -> T {
-        let q = workspace.numbers(self.chart.n());
-        let place = direction.centre + best.spacing / direction.rate * best.places[0];
-        let t = direction.moved(state, place, q);
-        add_scaled(q, T::one(), best.node(0).offset);
-        self.equations.locate(t, q);
-        let chart = &self.chart;
-        let jacobian = self.equations.constraints().jacobian;
-        let lifted = q;
-        let mut most = T::zero();
-        for &row in chart.rows {
-            let mut coordinate_scale = T::zero();
-            let entries = jacobian.iter().skip(row).step_by(chart.row_scale.len());
-            for ((target, entry), size) in lifted.iter_mut().zip(entries).zip(chart.sizes) {
-                *target = *entry;
-                // A state that is integrated has no size, and no lever.
-                if *entry != T::zero() {
-                    coordinate_scale += entry.abs() * *size;
-                }
-            }
-            solve_upper(chart.factor, lifted);
-            let length = norm(lifted);
-            if length > T::zero() {
-                most = most.max(coordinate_scale / length);
-            }
-        }
-        most.min(chart.coordinate_scale)
     }
 }
 
