@@ -116,12 +116,6 @@ pub(crate) fn hull<T: Real>(side: usize) -> T {
     T::from_f64(side as f64 / 2.0)
 }
 
-/// Relative round-off of an acceleration above which no regular solution is accepted:
-/// half of its digits.
-pub(crate) fn noisy<T: Real>() -> T {
-    regular()
-}
-
 /// Pivot of the mass matrix, relative to its diagonal entry, at or below which the matrix
 /// is not safely positive definite (2e-13 for `f64`): the square of a sine that is just
 /// independent.
@@ -141,8 +135,6 @@ mod tests {
     /// What each tolerance needs of its neighbours, in every precision.
     fn check<T: Real>() {
         let one = T::one();
-        // A regular solution at the edge of the window has digits left.
-        assert!(T::EPSILON < noisy::<T>() * window() * window());
         // States in the window are well between the nodes, and these are regular.
         assert!(window::<T>() < spacing::<T>() * hull(5));
         assert!(clearance::<T>() * spacing() < near_dependent());
@@ -151,8 +143,8 @@ mod tests {
         assert!(window::<T>() < near_dependent());
         assert!(difference::<T>() < window());
         assert!(round_off::<T>() < resolved());
-        assert!(resolved::<T>() < noisy());
-        assert!(resolvable::<T>() < excusable() && excusable::<T>() < noisy());
+        assert!(resolved::<T>() < resolvable());
+        assert!(resolvable::<T>() < excusable() && excusable::<T>() < regular());
         assert!(definite::<T>() < disproportionate());
         assert!(contraction::<T>() < one && safe_steps::<T>() > one);
     }

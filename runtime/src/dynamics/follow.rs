@@ -240,18 +240,40 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism: &dyn Mechanism<T, N, R>,
         point: &Point<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        let freedoms = self.freedoms();
         let mut force = self.terms.force;
         self.terms.take_inertia(&mut force, &point.particular);
+        Ok(point.particular + self.along_tangent(mechanism, point, force)?)
+    }
+
+    /// The velocity on the sheet that is nearest to a velocity, in the metric of the mass,
+    /// at a state whose terms are in the buffer.
+    fn velocity_on_sheet(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        point: &Point<T, N>,
+        v: &SVector<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
+        let mut momentum = SVector::zeros();
+        self.terms.take_inertia(&mut momentum, &(point.drift - v));
+        Ok(point.drift + self.along_tangent(mechanism, point, momentum)?)
+    }
+
+    /// `D̃ z` with `D̃ᵀM D̃ z = D̃ᵀf`, at a state whose terms are in the buffer.
+    fn along_tangent(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        point: &Point<T, N>,
+        mut force: SVector<T, N>,
+    ) -> Result<SVector<T, N>, DynamicsError<T>> {
         let projected = projecting()(
             self.terms.mass.as_slice(),
-            &point.tangent.as_slice()[..N * freedoms],
+            &point.tangent.as_slice()[..N * self.freedoms()],
             force.as_mut_slice(),
             &self.memory.workspace(),
         );
         let t = point.state.t;
         match projected {
-            Ok(()) if all_finite(&force) => Ok(point.particular + force),
+            Ok(()) if all_finite(&force) => Ok(force),
             // The metric is definite, and so is the mass along what is a tangent space.
             Err(_) if is_finite(self.terms.mass.as_slice()) => {
                 Err(self.refusal(mechanism, Obstacle::NotContracting, t))
@@ -296,6 +318,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         // States that lead to the end of a step may be off by more than the other sheet is.
         if matches!(placement, Placement::Crossing { strays: true, .. }) {
             return Err(self.refusal(mechanism, Obstacle::LeftSheet, state.t));
+        }
+        if !matches!(placement, Placement::Crossing { .. }) {
+            // What is left out is orthogonal: round-off in the tangent space of a narrow gap
+            // changes the energy by its square only.
+            point.state.v = self.velocity_on_sheet(mechanism, &point, &state.v)?;
         }
         self.counters.robust_projections += 1;
         *state = point.state;

@@ -43,18 +43,23 @@ impl<T: Real> Frame<'_, T> {
     /// The largest right-hand side of the near-dependent rows when all others are
     /// eliminated.
     pub(crate) fn largest_reduced(&mut self, right: Right<'_, T>) -> T {
+        let reduced = self.reduced(right);
+        reduced.fold(T::zero(), |most, rest| most.max(rest.abs()))
+    }
+
+    /// The right-hand sides of the near-dependent rows when all others are eliminated.
+    pub(crate) fn reduced(&mut self, right: Right<'_, T>) -> impl Iterator<Item = T> {
         let independent = self.order.independent;
         self.go_forward(right, independent);
-        let mut most = T::zero();
-        for &row in &self.order.rows[independent..] {
-            let shares = &self.lower[row * self.n..][..independent];
-            let mut rest = self.right[row];
-            for (share, y) in shares.iter().zip(&*self.forward) {
+        let frame = &*self;
+        frame.order.rows[independent..].iter().map(move |&row| {
+            let shares = &frame.lower[row * frame.n..][..independent];
+            let mut rest = frame.right[row];
+            for (share, y) in shares.iter().zip(&*frame.forward) {
                 rest -= *share * *y;
             }
-            most = most.max(rest.abs());
-        }
-        most
+            rest
+        })
     }
 
     /// The solution for the right-hand sides of all rows, each entry times a scale.

@@ -14,6 +14,7 @@
 
 mod between;
 mod chart;
+mod critical;
 mod cubic;
 mod direction;
 mod evaluate;

@@ -14,17 +14,13 @@ use super::obstacle::Obstacle;
 use super::sheet::{PointView, Sheet};
 use crate::Real;
 use crate::equations::At;
-use crate::linalg::{Eliminated, Workspace, add_scaled, is_finite, norm, solve_upper};
+use crate::linalg::{Eliminated, Workspace, add_scaled, is_finite};
 use crate::once::compiled_once;
-use crate::tolerance::{
-    critical, excusable, hull, negligible, noisy, resolvable, resolved, round_off, spacing, window,
-};
+use crate::tolerance::{excusable, hull, resolvable, resolved, spacing, window};
 
 /// How much larger than the round-off of one node, magnified by the weights, the
 /// difference of two interpolations may be for that reason.
 const NOISE: f64 = 48.0;
-/// Evaluations that lead to the critical configuration.
-const CENTRINGS: usize = 4;
 /// Spacings that are tried.
 const LEVELS: usize = 12;
 /// A move onto the sheet in which signs change shows that it is another sheet if it is longer
@@ -79,11 +75,11 @@ impl<T: Real> Sheet<'_, T> {
             }
             self.eliminate(here, None)?;
         }
-        let noise = match self.chart.gap {
-            true => noisy(),
-            false => self.chart.accepted * T::from_f64(10.0),
-        };
-        if let Some(why) = why.filter(|_| sine < window() && T::EPSILON > noise * sine * sine) {
+        // Next to a gap the sheet is as smooth as it is narrow, and short steps follow it.
+        let gap = self.chart.gap || placement == Placement::Gap;
+        let noise = self.chart.accepted * T::from_f64(10.0);
+        let is_noise = !gap && sine < window() && T::EPSILON > noise * sine * sine;
+        if let Some(why) = why.filter(|_| is_noise) {
             return Err(why);
         }
         self.place_regular(state, point, workspace)?;
@@ -141,7 +137,7 @@ impl<T: Real> Sheet<'_, T> {
         let Some(best) = self.search(state, like, &direction, workspace)? else {
             return Err(Obstacle::Unresolved);
         };
-        if !workspace.scope(|inner| self.is_crossing(state, like, &direction, &best, inner)) {
+        if !workspace.scope(|inner| self.is_crossing(state, like, &direction, &best, inner))? {
             return Ok(Err(Placement::Gap));
         }
         // Rows are no more exact than the coordinates, whose round-off grows with their size.
@@ -295,82 +291,6 @@ impl<T: Real> Sheet<'_, T> {
             last
         };
         found.score = found.error + found.noise * T::EPSILON;
-    }
-
-    /// Whether the constraints vanish, to round-off, where the sheet meets the singular
-    /// set: two sheets then cross there. Otherwise a gap keeps them apart.
-    #[inline(never)]
-    fn is_crossing(
-        &mut self,
-        state: At<'_, T>,
-        like: &Eliminated<'_, T>,
-        direction: &Direction<'_, T>,
-        best: &Interpolated<'_, T>,
-        workspace: &Workspace<'_, T>,
-    ) -> bool {
-        if !self.holonomic {
-            return true;
-        }
-        let q = workspace.numbers(self.chart.n());
-        let step = best.spacing / direction.rate;
-        let coordinate_scale = self.reach_of_rows(state, direction, best, workspace);
-        let mut place = T::zero();
-        for _ in 0..CENTRINGS {
-            let t = direction.moved(state, direction.centre + step * place, q);
-            best.add_offset_at(place, q);
-            if self.eliminate((t, q), Some(like)).is_err() {
-                return false;
-            }
-            let block = self.frame.block();
-            let moved = block.first() / best.slope;
-            // Several loops have no one place where all of them are singular.
-            let refines = block.size() == 1 && moved.abs() < T::one();
-            if !refines || moved.abs() < negligible() {
-                break;
-            }
-            place -= moved;
-        }
-        let most = self.largest_residual();
-        // Beside the crossing an error of interpolation is seen as far as rows are not zero.
-        let uncertainty = T::from_f64(4.0) * best.error * self.frame.smallest();
-        most <= (critical::<T>() * round_off() + uncertainty) * coordinate_scale
-    }
-
-    /// How far the coordinates reach along the rows: what their round-off adds up to in a row.
-    /// Where masses are unlike each other, that is far less than they reach along the heaviest.
-    fn reach_of_rows(
-        &mut self,
-        state: At<'_, T>,
-        direction: &Direction<'_, T>,
-        best: &Interpolated<'_, T>,
-        workspace: &Workspace<'_, T>,
-    ) -> T {
-        let q = workspace.numbers(self.chart.n());
-        let place = direction.centre + best.spacing / direction.rate * best.places[0];
-        let t = direction.moved(state, place, q);
-        add_scaled(q, T::one(), best.node(0).offset);
-        self.equations.locate(t, q);
-        let chart = &self.chart;
-        let jacobian = self.equations.constraints().jacobian;
-        let lifted = q;
-        let mut most = T::zero();
-        for &row in chart.rows {
-            let mut coordinate_scale = T::zero();
-            let entries = jacobian.iter().skip(row).step_by(chart.row_scale.len());
-            for ((target, entry), size) in lifted.iter_mut().zip(entries).zip(chart.sizes) {
-                *target = *entry;
-                // A state that is integrated has no size, and no lever.
-                if *entry != T::zero() {
-                    coordinate_scale += entry.abs() * *size;
-                }
-            }
-            solve_upper(chart.factor, lifted);
-            let length = norm(lifted);
-            if length > T::zero() {
-                most = most.max(coordinate_scale / length);
-            }
-        }
-        most.min(chart.coordinate_scale)
     }
 }
 

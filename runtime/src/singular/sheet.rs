@@ -265,18 +265,10 @@ impl<'a, T: Real> Sheet<'a, T> {
         self.frame
             .solve_independent(right, chart.column_scale, self.solution);
         add_scaled(point.q, T::one(), self.solution);
-        self.right.fill(T::zero());
-        for (place, &row) in chart.rows.iter().enumerate() {
-            let mut speed = at.drift[row];
-            for (levers, v) in at.jacobian.chunks_exact(at.drift.len()).zip(&*point.v) {
-                speed += levers[row] * *v;
-            }
-            self.right[place] = -(chart.row_scale[row] * speed);
-        }
-        let right = Right::Given(self.right);
-        self.frame
-            .solve_independent(right, chart.column_scale, self.solution);
-        add_scaled(point.v, T::one(), self.solution);
+        self.set_rates(point.v, T::one());
+        let (right, scales) = (Right::Given(self.right), self.chart.column_scale);
+        self.frame.solve_independent(right, scales, self.solution);
+        add_scaled(point.v, -T::one(), self.solution);
         Ok(())
     }
 
@@ -286,6 +278,40 @@ impl<'a, T: Real> Sheet<'a, T> {
         let residual = self.equations.constraints().residual;
         self.frame
             .largest_reduced(self.chart.right(-T::one(), residual))
+    }
+
+    /// By how much a displacement in some time changes the near-dependent constraint, when the
+    /// rows before it are eliminated.
+    pub(super) fn reduced_change(&mut self, displacement: &[T], time: T) -> T {
+        self.set_rates(displacement, time);
+        let mut reduced = self.frame.reduced(Right::Given(self.right));
+        reduced.next().unwrap_or_default()
+    }
+
+    /// Fills the right-hand sides of the constraint rows with their changes.
+    fn set_rates(&mut self, displacement: &[T], time: T) {
+        let (chart, at) = (&self.chart, self.equations.constraints());
+        self.right.fill(T::zero());
+        for (place, &row) in chart.rows.iter().enumerate() {
+            let mut change = at.drift[row] * time;
+            let columns = at.jacobian.chunks_exact(at.drift.len());
+            for (levers, moved) in columns.zip(displacement) {
+                change += levers[row] * *moved;
+            }
+            self.right[place] = chart.row_scale[row] * change;
+        }
+    }
+
+    /// The displacement that changes the near-dependent constraint alone, as the pivot of its
+    /// row says, at a regular state whose frame is at hand.
+    pub(super) fn solve_weakest(&mut self, displacement: &mut [T]) {
+        let weakest = Right::Unit(self.weakest_row());
+        let scales = self.chart.column_scale;
+        self.frame.solve(weakest, scales, displacement);
+        let pivot = self.frame.block().first();
+        for entry in displacement {
+            *entry *= pivot;
+        }
     }
 
     /// Moves a position along the chart's complement onto the sheet, by Newton's

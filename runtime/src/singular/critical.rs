@@ -1,0 +1,156 @@
+//! The critical configuration next to a state: do sheets cross there?
+//!
+//! In:  nodes on a sheet, on both sides of a configuration where a constraint is weak.
+//! Out: whether another sheet crosses it, or a gap keeps them apart.
+//!
+//! Near a crossing the near-dependent constraint, when the others are eliminated, is a
+//! product: of how far a position is along the sheet, and across it. In the critical
+//! configuration both rates vanish, and what is left of the constraint is zero or the gap.
+
+use super::direction::Direction;
+use super::nodes::{BEYOND, Interpolated};
+use super::obstacle::Obstacle;
+use super::sheet::Sheet;
+use crate::Real;
+use crate::equations::At;
+use crate::linalg::{Eliminated, Workspace, add_scaled, norm, solve_upper};
+use crate::tolerance::{critical, resolved, round_off};
+
+/// Evaluations that lead to the critical configuration.
+const CENTRINGS: usize = 8;
+/// A constraint error that is no larger than this many times what may be round-off tells
+/// neither a crossing nor a gap.
+const CLEAR: f64 = 4.0;
+/// A sheet next to a gap passes the critical configuration no farther off than its interpolation
+/// may be off, times this.
+const ASIDE: f64 = 1e3;
+
+/// Directions at a singular configuration.
+struct Cross<'a, T> {
+    /// Along the sheet, from one node to the next, and the time that it takes (s).
+    along: &'a mut [T],
+    time: T,
+    /// Off the sheet, where the near-dependent constraint changes alone.
+    across: &'a mut [T],
+    /// The round-off of constraints.
+    round_off: T,
+}
+
+impl<T: Real> Sheet<'_, T> {
+    /// Whether the constraints vanish, to round-off, in the critical configuration: two sheets
+    /// then cross there. If they clearly don't, a gap keeps them apart; between, nothing tells.
+    #[inline(never)]
+    pub(super) fn is_crossing(
+        &mut self,
+        state: At<'_, T>,
+        like: &Eliminated<'_, T>,
+        direction: &Direction<'_, T>,
+        best: &Interpolated<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Result<bool, Obstacle> {
+        if !self.holonomic {
+            return Ok(true);
+        }
+        let cross = self.cross(state, like, direction, best, workspace)?;
+        // Several loops have no one place where all of them are singular, and a law of time may
+        // lead there and back.
+        let refines = like.block().size() == 1 && !direction.is_of_time;
+        let q = workspace.numbers(self.chart.n());
+        let step = best.spacing / direction.rate;
+        let (mut place, mut aside, mut unsure) = (T::zero(), T::zero(), T::zero());
+        for _ in 0..CENTRINGS {
+            let t = direction.moved(state, direction.centre + step * place, q);
+            best.add_offset_at(place, q);
+            add_scaled(q, aside, cross.across);
+            self.eliminate((t, q), Some(like))?;
+            if !refines {
+                let scale = T::from_f64(4.0) * self.chart.coordinate_scale;
+                unsure = best.error * self.frame.smallest() * scale;
+                break;
+            }
+            let ahead = self.frame.block().first() / best.slope;
+            let off = self.reduced_change(cross.along, cross.time) / best.slope;
+            unsure = (ahead * off * best.slope).abs();
+            if unsure <= cross.round_off {
+                break;
+            }
+            (place, aside) = (place - ahead, aside - off);
+            // False for NaN, too.
+            let inside = place.abs() < T::one();
+            if !inside {
+                return Err(Obstacle::Unresolved);
+            }
+        }
+        let most = self.largest_residual();
+        let bound = critical::<T>() * cross.round_off;
+        if refines && unsure > bound {
+            return Err(Obstacle::Unresolved);
+        }
+        let off = (best.error + resolved()) * self.chart.coordinate_scale * T::from_f64(ASIDE);
+        let found = refines && unsure <= cross.round_off;
+        let near = aside.abs() * self.chart.length(cross.across) <= off;
+        match most <= bound + unsure {
+            true => Ok(true),
+            false if found && near && most > bound * T::from_f64(CLEAR) => Ok(false),
+            false => Err(Obstacle::Unresolved),
+        }
+    }
+
+    /// The directions, from the nodes next to the configuration, where rows are regular.
+    fn cross<'b>(
+        &mut self,
+        state: At<'_, T>,
+        like: &Eliminated<'_, T>,
+        direction: &Direction<'_, T>,
+        best: &Interpolated<'_, T>,
+        workspace: &Workspace<'b, T>,
+    ) -> Result<Cross<'b, T>, Obstacle> {
+        let step = best.spacing / direction.rate;
+        let node = |node: usize, q: &mut [T]| {
+            let t = direction.moved(state, direction.centre + step * best.places[node], q);
+            add_scaled(q, T::one(), best.node(node).offset);
+            t
+        };
+        let [along, across] = [(); 2].map(|()| workspace.numbers(self.chart.n()));
+        let (before, t) = (node(BEYOND, along), node(0, across));
+        let span = best.places[0] - best.places[BEYOND];
+        for (along, q) in along.iter_mut().zip(&*across) {
+            *along = (*q - *along) / span;
+        }
+        self.eliminate((t, across), Some(like))?;
+        let round_off = round_off::<T>() * self.reach_of_rows(across);
+        self.solve_weakest(across);
+        Ok(Cross {
+            along,
+            time: (t - before) / span,
+            across,
+            round_off,
+        })
+    }
+
+    /// How far the coordinates reach along the rows at hand, with room for a vector: what
+    /// their round-off adds up to in a row. Where masses are unlike each other, that is far
+    /// less than they reach along the heaviest.
+    fn reach_of_rows(&self, lifted: &mut [T]) -> T {
+        let chart = &self.chart;
+        let jacobian = self.equations.constraints().jacobian;
+        let mut most = T::zero();
+        for &row in chart.rows {
+            let mut coordinate_scale = T::zero();
+            let entries = jacobian.iter().skip(row).step_by(chart.row_scale.len());
+            for ((target, entry), size) in lifted.iter_mut().zip(entries).zip(chart.sizes) {
+                *target = *entry;
+                // A state that is integrated has no size, and no lever.
+                if *entry != T::zero() {
+                    coordinate_scale += entry.abs() * *size;
+                }
+            }
+            solve_upper(chart.factor, lifted);
+            let length = norm(lifted);
+            if length > T::zero() {
+                most = most.max(coordinate_scale / length);
+            }
+        }
+        most.min(chart.coordinate_scale)
+    }
+}
