@@ -10,6 +10,7 @@ use crate::arguments::{FormName, MethodName, WorkPrecision};
 use crate::changes;
 use crate::error::CommandError;
 use crate::mechanism::find;
+use crate::files::apart;
 use crate::output::{print, probe, say};
 use crate::plot::{Cloud, Mark, work_diagram};
 use crate::table::{Align, headed};
@@ -32,6 +33,8 @@ pub fn workprecision(arguments: &WorkPrecision) -> Result<(), CommandError> {
             wanted: "a positive number".to_string(),
         });
     }
+    let written = [("--out", &arguments.out), ("--csv", &arguments.csv)];
+    apart(&arguments.name, &written)?;
     let mut mechanism = find(&arguments.name)?;
     let structure = mechanism.structure();
     let changes = changes::find(structure, &arguments.name, &arguments.set, &arguments.start)?;
