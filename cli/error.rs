@@ -268,7 +268,10 @@ impl Display for CommandError {
                 instead,
             } => {
                 let path = path.display();
-                write!(f, "{one} and {other} can't both be written to {path}; {instead}")
+                write!(
+                    f,
+                    "{one} and {other} can't both be written to {path}; {instead}"
+                )
             }
             Self::ReadHere { option, path } => write!(
                 f,

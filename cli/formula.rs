@@ -411,6 +411,6 @@ mod tests {
         ));
         assert!(setting("u=3*").is_err());
         assert!(setting("u=2 s").is_err_and(|e| e.contains("write `2`")));
-        assert!(setting("u=2t").is_err_and(|e| e.contains("written `2*t`")));
+        assert!(setting("u=2x").is_err_and(|e| e.contains("written `2*x`")));
     }
 }
