@@ -72,6 +72,15 @@ pub enum CommandError {
         options: [&'static str; 2],
         /// The file.
         path: PathBuf,
+        /// What to write instead.
+        instead: &'static str,
+    },
+    /// A file to write that the mechanism is read from.
+    ReadHere {
+        /// The option.
+        option: &'static str,
+        /// The file.
+        path: PathBuf,
     },
     /// An option that the chosen method has no use for.
     UselessOption {
@@ -212,6 +221,7 @@ impl CommandError {
             | Self::TwoLists { .. }
             | Self::Runs(_)
             | Self::SameFile { .. }
+            | Self::ReadHere { .. }
             | Self::UselessOption { .. }
             | Self::FileKind { .. }
             | Self::Checkpoint { .. }
@@ -252,7 +262,22 @@ impl Display for CommandError {
             Self::Law { name, reason } => write!(f, "`--set {name}=…`: {reason}"),
             Self::TwoLists { options } => two_lists(f, options),
             Self::Runs(runs) => write!(f, "{runs}"),
-            Self::SameFile { options, path } => same_file(f, options, path),
+            Self::SameFile {
+                options: [one, other],
+                path,
+                instead,
+            } => {
+                let path = path.display();
+                write!(
+                    f,
+                    "{one} and {other} can't both be written to {path}; {instead}"
+                )
+            }
+            Self::ReadHere { option, path } => write!(
+                f,
+                "{option} would replace {}, which the mechanism is read from; give it another name",
+                path.display()
+            ),
             Self::UselessOption {
                 option,
                 method,
@@ -378,14 +403,6 @@ fn exists(f: &mut Formatter<'_>, path: &Path) -> fmt::Result {
         f,
         "{} is there already, and nothing in it was changed; choose another name",
         path.display()
-    )
-}
-
-fn same_file(f: &mut Formatter<'_>, [one, other]: &[&str; 2], path: &Path) -> fmt::Result {
-    let path = path.display();
-    write!(
-        f,
-        "{one} and {other} can't both be written to {path}; give them different names"
     )
 }
 

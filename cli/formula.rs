@@ -173,14 +173,20 @@ fn named(name: &str, sign: char) -> Result<String, String> {
 ///
 /// Numbers are exact until the whole is evaluated: `80*deg` is 4/9 times π.
 pub fn number(text: &str) -> Result<f64, String> {
-    evaluated(text)?
+    match split(text) {
+        Some((number, rest)) if rest != "pi" && with_unit(number, rest).is_none() => {
+            Err(format!("`{rest}` means nothing here: write `{number}`"))
+        }
+        _ => evaluated(text)?,
+    }
 }
 
 /// The value of a formula. The outer error says that it is not written correctly, the inner
 /// one why it has no value all the same.
 fn evaluated(text: &str) -> Result<Result<f64, String>, String> {
-    if let Some(message) = with_unit(text) {
-        return Err(message);
+    if let Some((number, rest)) = split(text) {
+        let product = || format!("a product is written `{number}*{rest}`");
+        return Err(with_unit(number, rest).unwrap_or_else(product));
     }
     let formula = syntax::formula(text).map_err(|diagnostics| {
         let sorted = diagnostics.sorted();
@@ -198,29 +204,27 @@ fn evaluated(text: &str) -> Result<Result<f64, String>, String> {
 }
 
 /// What to write instead of a number with a unit behind it: `0.5m`, `60deg`, `2 s`.
-fn with_unit(text: &str) -> Option<String> {
+fn with_unit(number: &str, unit: &str) -> Option<String> {
+    Some(match unit {
+        "deg" | "°" | "degree" | "degrees" => format!("write `{number}*deg`"),
+        _ => match si(unit)? {
+            "1" => format!("values are in SI units and have none behind them: write `{number}`"),
+            factor => format!("values are in SI units: write `{number}*{factor}`"),
+        },
+    })
+}
+
+/// A number and the letters behind it, if that is all.
+fn split(text: &str) -> Option<(&str, &str)> {
     let text = text.trim();
     let is_letter = |c: char| c.is_ascii_alphabetic() || c == '°';
     // The exponent of `1e-3` is no unit, and that of `1e2mm` no part of one.
     let whole = text.trim_start_matches(|c| !is_letter(c));
     let last = &text[text.trim_end_matches(is_letter).len()..];
-    let (number, unit) = [last, whole].into_iter().find_map(|unit| {
-        let number = text.strip_suffix(unit)?.trim_end();
-        number.parse::<f64>().ok().map(|_| (number, unit))
-    })?;
-    if unit.is_empty() {
-        return None;
-    }
-    Some(match unit {
-        "deg" | "°" | "degree" | "degrees" => format!("write `{number}*deg`"),
-        _ => match si(unit) {
-            Some("1") => {
-                format!("values are in SI units and have none behind them: write `{number}`")
-            }
-            Some(factor) => format!("values are in SI units: write `{number}*{factor}`"),
-            None => return None,
-        },
-    })
+    let parted = |unit| Some((text.strip_suffix(unit)?.trim_end(), unit));
+    let mut all = [last, whole].into_iter().filter_map(parted);
+    let first = all.find(|(number, _)| number.parse::<f64>().is_ok());
+    first.filter(|(_, unit)| !unit.is_empty())
 }
 
 /// The factor that turns a unit into the SI unit.
@@ -342,6 +346,8 @@ mod tests {
             ("2 s", "write `2`"),
             ("-1.5e2mm", "write `-1.5e2*1e-3`"),
             ("3 rpm", "write `3*2*pi/60`"),
+            ("1e-9x", "`x` means nothing here: write `1e-9`"),
+            ("2pi", "write `2*pi`"),
         ] {
             assert!(number(wrong).is_err_and(|e| e.contains(right)), "{wrong}");
         }
@@ -405,5 +411,6 @@ mod tests {
         ));
         assert!(setting("u=3*").is_err());
         assert!(setting("u=2 s").is_err_and(|e| e.contains("write `2`")));
+        assert!(setting("u=2x").is_err_and(|e| e.contains("written `2*x`")));
     }
 }

@@ -20,6 +20,7 @@ mod description;
 mod error;
 mod export;
 mod figure;
+mod files;
 mod formula;
 mod gallery;
 mod interrupt;

@@ -9,7 +9,7 @@ use crate::number::exact;
 use crate::output::{STANDARD_OUTPUT, probe};
 use csv::{ErrorKind, Writer};
 use std::fs::{self, File};
-use std::io::{self, Seek, SeekFrom, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// Writes rows to a file or to standard output.
@@ -34,7 +34,13 @@ pub trait RowWriter {
 
     /// Goes on after rows of an earlier part of the run. What a file has after them is
     /// cut off. Nothing to do where checkpoints are refused.
-    fn go_on(&mut self, _rows: Rows) {}
+    ///
+    /// # Errors
+    ///
+    /// [`CommandError::Checkpoint`] if the file does not hold these rows.
+    fn go_on(&mut self, _rows: Rows) -> Result<(), CommandError> {
+        Ok(())
+    }
 
     /// Hands rows over, and says what is there.
     ///
@@ -118,12 +124,21 @@ impl RowWriter for CsvWriter {
         path.unwrap_or_else(|| STANDARD_OUTPUT.to_string())
     }
 
-    fn go_on(&mut self, rows: Rows) {
+    fn go_on(&mut self, rows: Rows) -> Result<(), CommandError> {
+        if let (Some(path), Some(length)) = (&self.path, rows.bytes) {
+            holds(path, &self.header.join(","), length).map_err(|reason| {
+                CommandError::Checkpoint {
+                    path: path.clone(),
+                    reason: format!("{reason}; give the --out of the run that was interrupted"),
+                }
+            })?;
+        }
         self.rows = usize::try_from(rows.count).unwrap_or(usize::MAX);
         self.tail = rows.bytes;
         if self.path.is_none() || rows.bytes.is_some() {
             self.header.clear();
         }
+        Ok(())
     }
 
     fn flush(&mut self) -> Result<Rows, CommandError> {
@@ -137,15 +152,29 @@ impl RowWriter for CsvWriter {
     }
 }
 
+/// Whether a file begins with a header, and has the end of a row at a length.
+fn holds(path: &Path, header: &str, length: u64) -> Result<(), String> {
+    let mut file = File::open(path).map_err(|error| error.to_string())?;
+    let lost = |_| "it has lost rows since the checkpoint".to_string();
+    let mut start = vec![0; header.len() + 1];
+    let other = || "it does not hold the rows of this run".to_string();
+    file.read_exact(&mut start).map_err(|_| other())?;
+    let mut end = [0];
+    let place = SeekFrom::Start(length.saturating_sub(1));
+    file.seek(place).map_err(|error| error.to_string())?;
+    file.read_exact(&mut end).map_err(lost)?;
+    match start == format!("{header}\n").as_bytes() && end == *b"\n" {
+        true => Ok(()),
+        false => Err(other()),
+    }
+}
+
 /// A new file, or one that goes on after a length.
 fn opened(path: &Path, tail: Option<u64>) -> io::Result<File> {
     let Some(length) = tail else {
         return File::create(path);
     };
     let mut file = File::options().write(true).open(path)?;
-    if file.metadata()?.len() < length {
-        return Err(io::Error::other("it has lost rows since the checkpoint"));
-    }
     file.set_len(length)?;
     file.seek(SeekFrom::End(0))?;
     Ok(file)

@@ -567,7 +567,7 @@ fn a_file_of_numbers_is_a_part_of_its_description() {
     let text = pendulum("Told", 1.0).replace(
         "coord q: rad;",
         "coord q: rad;\n    state z: rad*s;\n    der(z) = q;\n    \
-         force table(\"told.csv\", \"torque\", t) on q;",
+         /* a 3\" pipe */ force table(\"told.csv\", \"torque\", t) on q;",
     );
     // Earlier runs of this test have left programs of other descriptions.
     let text = format!("{text}// {:?}\n", SystemTime::now());
@@ -584,6 +584,12 @@ fn a_file_of_numbers_is_a_part_of_its_description() {
     let edited = done(&folder, &arguments);
     assert!(compiles(&edited, "told.mech"), "{}", edited.err);
     assert_ne!(edited.out, first.out);
+    let over = run(
+        &folder,
+        &[&arguments[..], &["--out", "./told.csv"]].concat(),
+    );
+    let said = "--out would replace ./told.csv, which the mechanism is read from";
+    assert!(over.err.contains(said), "{}", over.err);
     write(&folder, "told.csv", "time,torque\n0,0\n1,a\n");
     let wrong = run(&folder, &["check", "told.mech"]);
     assert!(

@@ -72,6 +72,8 @@ fn an_interrupted_run_goes_on_to_the_same_bytes() {
         let torn = fs::read(&parts).expect("rows are kept");
         check_damaged(arguments, &folder, &file);
         check_passed(arguments, &folder, &file);
+        let rows = String::from_utf8_lossy(&torn);
+        check_other_tables(arguments, &folder, &file, &rows);
         let on = run(arguments, &parts, &["--resume", &file]);
         let ran = bricard(&words(&on));
         assert_eq!(ran.status, Some(0), "{}", ran.err);
@@ -96,6 +98,32 @@ fn check_damaged(arguments: &[&str], folder: &Path, file: &str) {
         fs::write(&damaged, text).expect("a file can be written");
         check_refused(&words(&on), 2, &["can't go on from", said]);
         assert!(!rows.exists(), "rows were written");
+    }
+}
+
+/// Rows are added to the table of the run and to no other file, which stays as it is.
+fn check_other_tables(arguments: &[&str], folder: &Path, file: &str, rows: &str) {
+    let other = folder.join("other.csv");
+    let on = run(arguments, &other, &["--resume", file]);
+    let (header, values) = rows.split_once('\n').expect("lines");
+    for (held, said) in [
+        (None, "give the --out of the run that was interrupted"),
+        (Some(rows[..rows.len() / 2].to_string()), "has lost rows"),
+        (Some(values.repeat(2)), "does not hold the rows"),
+        (
+            Some(format!("{header}\n1{values}")),
+            "does not hold the rows",
+        ),
+    ] {
+        let _none_left = fs::remove_file(&other);
+        if let Some(held) = &held {
+            fs::write(&other, held).expect("a file can be written");
+        }
+        check_refused(&words(&on), 2, &["can't go on from", said]);
+        assert!(
+            fs::read_to_string(&other).ok() == held,
+            "{said}: it was touched"
+        );
     }
 }
 

@@ -114,19 +114,30 @@ fn warn(file: &Path, source: &str) -> Result<(), CommandError> {
 /// A description with the files that it may read: quoted names of files that are there.
 pub fn identity(file: &Path, source: &str) -> String {
     let mut identity = source.to_string();
-    let folder = file.parent().unwrap_or(Path::new(""));
     for name in quoted(source) {
-        if let Ok(data) = fs::read_to_string(folder.join(name)) {
+        if let Ok(data) = fs::read_to_string(beside(file, name)) {
             identity.push_str(&format!("\n// {name}\n{data}"));
         }
     }
     identity
 }
 
-/// What a description quotes: names of files beside it and of their columns.
+/// What a description quotes: names of files beside it and of their columns. A comment may
+/// hold a single quote, so what is between quotes may be what is outside.
 pub fn quoted(source: &str) -> impl Iterator<Item = &str> {
-    let lines = source.lines();
-    lines.flat_map(|line| line.split('"').skip(1).step_by(2))
+    source.lines().flat_map(|line| line.split('"').skip(1))
+}
+
+/// The file of a description, and those that it may read.
+pub fn files_of(file: &Path) -> Vec<PathBuf> {
+    // What can't be read is told when it is compiled.
+    let source = read(file).unwrap_or_default();
+    let others = quoted(&source).map(|name| beside(file, name));
+    others.chain([file.to_path_buf()]).collect()
+}
+
+fn beside(file: &Path, name: &str) -> PathBuf {
+    file.parent().unwrap_or(Path::new("")).join(name)
 }
 
 /// Starts a program.

@@ -16,25 +16,25 @@ const MOST: usize = 15_000;
 ///
 /// `M q̈ + C q̇ + h = Q + Gᵀ λ`, `G q̈ = p₂`.
 pub fn mathml(description: Option<(&Path, &str)>) -> Vec<Value> {
-    let arrays = description.and_then(|(file, source)| equations(file, source));
-    let arrays = arrays.unwrap_or_default();
+    let arrays = description.and_then(|(file, source)| equations(file, source, MOST as u64));
     let mut room = MOST;
     let mut all = Vec::new();
-    for (title, entries) in arrays {
-        let count = entries.len();
-        let others = |[_, value]: &[String; 2]| value != "0";
-        let lines: Vec<[String; 2]> = entries.into_iter().filter(others).collect();
-        let length: usize = lines.iter().flatten().map(String::len).sum();
-        let fits = length <= room;
-        if fits {
-            room -= length;
-        }
-        let shown = lines.iter().filter(|_| fits);
+    for (title, entries) in arrays.unwrap_or_default() {
+        let count = entries.as_ref().map_or(0, Vec::len);
+        let lines = entries.map(|mut entries| {
+            entries.retain(|[_, value]| value != "0");
+            entries
+        });
+        let length = |lines: &[[String; 2]]| lines.iter().flatten().map(String::len).sum::<usize>();
+        let shown = lines.filter(|lines| length(lines) <= room);
+        let long = shown.is_none();
+        let shown = shown.unwrap_or_default();
+        room -= length(&shown);
         all.push(json!({
             "title": title,
-            "zeros": count - lines.len(),
-            "long": !fits,
-            "lines": shown.filter_map(formula).collect::<Vec<_>>(),
+            "zeros": count - shown.len(),
+            "long": long,
+            "lines": shown.iter().filter_map(formula).collect::<Vec<_>>(),
         }));
     }
     all
@@ -64,12 +64,11 @@ mod tests {
     fn formulas_of_the_library_are_mathml() {
         for name in ["slider_crank", "rssr", "driven_pivot"] {
             let description = bricard::source(name).map(|source| (Path::new(name), source));
-            let all = description.and_then(|(file, source)| crate::show::equations(file, source));
+            let all = description
+                .and_then(|(file, source)| crate::show::equations(file, source, u64::MAX));
             let all = all.unwrap_or_default();
-            let nonzero = all
-                .iter()
-                .flat_map(|(_, lines)| lines)
-                .filter(|[_, e]| e != "0");
+            let lines = all.iter().filter_map(|(_, lines)| lines.as_ref()).flatten();
+            let nonzero = lines.filter(|[_, e]| e != "0");
             let arrays = mathml(description);
             let lines = arrays.iter().flat_map(|array| array["lines"].as_array());
             let lines: Vec<_> = lines.flatten().filter_map(|line| line.as_str()).collect();

@@ -84,11 +84,11 @@ fn listing(mechanism: &Mechanism, programs: &Programs) -> String {
 }
 
 /// Of an array of the equations of motion what it is, and its entries with their values, in
-/// LaTeX.
-pub type Array = (&'static str, Vec<[String; 2]>);
+/// LaTeX; of one with more terms and factors than are wanted nothing else.
+pub type Array = (&'static str, Option<Vec<[String; 2]>>);
 
 /// The equations of motion of the description in a file; `None` if it is wrong.
-pub fn equations(file: &Path, source: &str) -> Option<Vec<Array>> {
+pub fn equations(file: &Path, source: &str, most: u64) -> Option<Vec<Array>> {
     let (mut mechanism, _warnings) = analyse(source, &CompileSettings::beside(file)).ok()?;
     let equations = derive::derive(&mut mechanism).ok()?;
     let sections = sections::sections(&mut mechanism, &equations);
@@ -96,7 +96,9 @@ pub fn equations(file: &Path, source: &str) -> Option<Vec<Array>> {
     let names = |symbol: Symbol| names::latex(&mechanism.symbol_text(symbol));
     let mut all = Vec::new();
     for section in &sections {
-        all.push((section.title(), section.lines(&mut graph, &names)));
+        let fits = section.length(&graph) <= most;
+        let lines = fits.then(|| section.lines(&mut graph, &names));
+        all.push((section.title(), lines));
     }
     Some(all)
 }

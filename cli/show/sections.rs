@@ -148,6 +148,13 @@ impl Section {
         self.title
     }
 
+    /// How many terms and factors it has, written out.
+    pub fn length(&self, graph: &Graph) -> u64 {
+        let entries: Vec<ExprId> = places(&self.entries).map(|(_, entry)| entry).collect();
+        let lengths = graph.lengths(&entries);
+        lengths.into_iter().fold(0, u64::saturating_add)
+    }
+
     /// Each entry and its value, in LaTeX.
     pub fn lines(&self, graph: &mut Graph, names: &dyn Fn(Symbol) -> String) -> Vec<[String; 2]> {
         let written = self.written(graph, Notation::Latex, names).into_iter();

@@ -3,6 +3,7 @@
 use super::record::is_parquet;
 use crate::arguments::{MethodName, Simulate};
 use crate::error::CommandError;
+use crate::files::apart;
 use crate::page::is_page;
 use crate::parquet::MISSING;
 use crate::run::Plan;
@@ -167,7 +168,7 @@ fn positive(option: &'static str, value: Option<f64>) -> Result<Option<f64>, Com
 ///
 /// # Errors
 ///
-/// [`CommandError::FileKind`], [`CommandError::SameFile`].
+/// [`CommandError::FileKind`], [`CommandError::SameFile`], [`CommandError::ReadHere`].
 pub fn check_files(arguments: &Simulate) -> Result<(), CommandError> {
     different(arguments)?;
     wide(arguments).and_then(|()| live(arguments))?;
@@ -271,7 +272,7 @@ fn wide(arguments: &Simulate) -> Result<(), CommandError> {
     }
 }
 
-/// Refuses one file for two purposes: the one would replace the other.
+/// Refuses one file for two purposes: the one would replace the other or what is read.
 fn different(arguments: &Simulate) -> Result<(), CommandError> {
     let rows_go_there = match &arguments.out {
         Some(out) => out == Path::new("-"),
@@ -281,22 +282,14 @@ fn different(arguments: &Simulate) -> Result<(), CommandError> {
         return Err(CommandError::SameFile {
             options: ["--json", "--out"],
             path: PathBuf::from("standard output"),
+            instead: "write the rows to a file, such as `--out run.csv`",
         });
     }
-    let files = [
+    let written = [
         ("--out", &arguments.out),
         ("--plot", &arguments.plot),
         ("--film", &arguments.film),
         ("--checkpoint", &arguments.checkpoint),
     ];
-    for (i, (option, file)) in files.iter().enumerate() {
-        let same = files[..i].iter().find(|(_, other)| other == file);
-        if let (Some((other, _)), Some(path)) = (same, file) {
-            return Err(CommandError::SameFile {
-                options: [other, option],
-                path: path.clone(),
-            });
-        }
-    }
-    Ok(())
+    apart(&arguments.name, &written)
 }

@@ -73,7 +73,7 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
     plan.columns = shown.columns.clone();
     let checkpoints = plan.checkpoints.as_ref();
     if let Some(checkpoint) = checkpoints.and_then(|all| all.from.as_ref()) {
-        record.go_on(checkpoint);
+        record.go_on(checkpoint)?;
     }
     let module = module(arguments, &case)?;
     interrupt::listen();

@@ -82,11 +82,14 @@ impl Record {
     }
 
     /// Goes on after the rows of a checkpoint.
-    pub fn go_on(&mut self, checkpoint: &Checkpoint) {
+    ///
+    /// # Errors
+    ///
+    /// As [`RowWriter::go_on`].
+    pub fn go_on(&mut self, checkpoint: &Checkpoint) -> Result<(), CommandError> {
         self.count = usize::try_from(checkpoint.rows.count).unwrap_or(usize::MAX);
-        if let Some(table) = &mut self.table {
-            table.go_on(checkpoint.rows);
-        }
+        let table = self.table.as_mut();
+        table.map_or(Ok(()), |table| table.go_on(checkpoint.rows))
     }
 
     /// Writes what is still to be written; `draw` draws the rows and says where. Returns what

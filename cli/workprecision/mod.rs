@@ -9,6 +9,7 @@ mod reference;
 use crate::arguments::{FormName, MethodName, WorkPrecision};
 use crate::changes;
 use crate::error::CommandError;
+use crate::files::apart;
 use crate::mechanism::find;
 use crate::output::{print, probe, say};
 use crate::plot::{Cloud, Mark, work_diagram};
@@ -32,6 +33,8 @@ pub fn workprecision(arguments: &WorkPrecision) -> Result<(), CommandError> {
             wanted: "a positive number".to_string(),
         });
     }
+    let written = [("--out", &arguments.out), ("--csv", &arguments.csv)];
+    apart(&arguments.name, &written)?;
     let mut mechanism = find(&arguments.name)?;
     let structure = mechanism.structure();
     let changes = changes::find(structure, &arguments.name, &arguments.set, &arguments.start)?;

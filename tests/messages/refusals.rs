@@ -57,6 +57,13 @@ pub const CASES: &[Case] = &[
         "--out and --plot can't both be written to x.svg; give them different names",
     ),
     (
+        "ReadHere",
+        "simulate broken.mech --checkpoint broken.mech",
+        2,
+        "--checkpoint would replace broken.mech, which the mechanism is read from; give it another \
+         name",
+    ),
+    (
         "UselessOption",
         "simulate slider_crank --method rk4 --rtol 1e-6",
         2,
@@ -210,7 +217,8 @@ pub const CASES: &[Case] = &[
         "SameFile",
         "simulate slider_crank --json",
         2,
-        "--json and --out can't both be written to standard output; give them different names",
+        "--json and --out can't both be written to standard output; write the rows to a file, such \
+         as `--out run.csv`",
     ),
     (
         "Name",

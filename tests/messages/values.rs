@@ -22,10 +22,12 @@ description could have, too, is told what stands under [Descriptions](#descripti
 ";
 
 /// The words behind `bricard simulate slider_crank`.
-const LINES: [&str; 31] = [
+const LINES: [&str; 33] = [
     "--until 2s",
     "--until 500ms",
     "--until 60deg",
+    "--rtol 1e-9x",
+    "--set L1=2x",
     "--until 1/0",
     "--until T",
     "--until [1,2]",

@@ -315,7 +315,8 @@ pub const STEPS: &[Case] = &[
             from(pushed(force), SLIDES, options)
         },
         "at t = … s the tolerance demands a step of … s, which is lost in the round-off of time; \
-         allow a larger tolerance, or look for a force that grows without bound",
+         allow a larger tolerance, end the run earlier, or look for a force that grows without \
+         bound",
     ),
     (
         "IntegrateError::NotFinite",

@@ -1,0 +1,51 @@
+//! What a command reads and what it writes: no file for two purposes, of which one would
+//! destroy the other.
+//!
+//! In:  a mechanism's name or file, and the files that options want to write.
+//! Out: a refusal, before anything is computed.
+
+use crate::compiled::files_of;
+use crate::error::CommandError;
+use crate::mechanism::file;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Refuses a file that two options want to write, or that the description is in or reads.
+///
+/// # Errors
+///
+/// [`CommandError::SameFile`], [`CommandError::ReadHere`].
+pub fn apart(name: &str, written: &[(&'static str, &Option<PathBuf>)]) -> Result<(), CommandError> {
+    let read: Vec<PathBuf> = file(name).map(files_of).unwrap_or_default();
+    let read: Vec<PathBuf> = read.iter().map(|path| place(path)).collect();
+    let mut known: Vec<(&'static str, PathBuf)> = Vec::new();
+    for (option, path) in written {
+        let Some(path) = path.as_ref().filter(|path| *path != Path::new("-")) else {
+            continue;
+        };
+        let (here, path) = (place(path), path.clone());
+        if let Some((other, _)) = known.iter().find(|(_, other)| *other == here) {
+            return Err(CommandError::SameFile {
+                options: [other, option],
+                path,
+                instead: "give them different names",
+            });
+        }
+        if read.contains(&here) {
+            return Err(CommandError::ReadHere { option, path });
+        }
+        known.push((option, here));
+    }
+    Ok(())
+}
+
+/// Where a file is, whatever links and folders lead to it, or where it would be.
+fn place(path: &Path) -> PathBuf {
+    let folder = match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let new = || Some(fs::canonicalize(folder).ok()?.join(path.file_name()?));
+    let there = fs::canonicalize(path).ok().or_else(new);
+    there.unwrap_or_else(|| path.to_path_buf())
+}
