@@ -132,7 +132,16 @@ fn a_long_chain_is_solved_from_body_to_body_and_a_short_one_is_not() {
 
 #[test]
 fn what_an_acceleration_takes_grows_as_the_chain_does() {
-    let weight = |links| cost(&accelerations(links).0.acceleration.expect("a solve").program).weight();
+    let weight = |links| {
+        cost(
+            &accelerations(links)
+                .0
+                .acceleration
+                .expect("a solve")
+                .program,
+        )
+        .weight()
+    };
     let (short, long) = (weight(30), weight(60));
     assert!(long < 9 * short / 4, "{short} and {long} operations");
 }
