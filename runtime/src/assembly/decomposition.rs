@@ -3,7 +3,7 @@
 //! In:  a Jacobian, the scales of its rows and columns.
 //! Out: least-change solutions of `J x = y`, damped or truncated.
 //!
-//! Rows that are safely independent are solved by their products ([`Products`]). The
+//! Rows that are safely independent are solved by their products ([`RowProducts`]). The
 //! others, with all that they share coordinates with, are decomposed by singular values.
 
 use super::scales::Scales;
