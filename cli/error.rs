@@ -263,21 +263,11 @@ impl Display for CommandError {
             Self::TwoLists { options } => two_lists(f, options),
             Self::Runs(runs) => write!(f, "{runs}"),
             Self::SameFile {
-                options: [one, other],
+                options,
                 path,
                 instead,
-            } => {
-                let path = path.display();
-                write!(
-                    f,
-                    "{one} and {other} can't both be written to {path}; {instead}"
-                )
-            }
-            Self::ReadHere { option, path } => write!(
-                f,
-                "{option} would replace {}, which the mechanism is read from; give it another name",
-                path.display()
-            ),
+            } => same_file(f, options, path, instead),
+            Self::ReadHere { option, path } => read_here(f, option, path),
             Self::UselessOption {
                 option,
                 method,
@@ -290,11 +280,7 @@ impl Display for CommandError {
             }
             Self::Read(path, error) => unread(f, path, error),
             Self::Write(path, error) => unwritten(f, path, error),
-            Self::WriteRows { path, rows, error } => write!(
-                f,
-                "could not write {} to its end: {error}; it holds at most the first {rows} rows",
-                path.display()
-            ),
+            Self::WriteRows { path, rows, error } => cut_short(f, path, *rows, error),
             Self::Draw(path, error) => write!(f, "could not draw {}: {error}", path.display()),
             Self::Description(rendered) => write!(f, "the description is wrong\n\n{rendered}"),
             Self::Run { reason, kept } => write!(f, "{reason}{kept}"),
@@ -402,6 +388,35 @@ fn exists(f: &mut Formatter<'_>, path: &Path) -> fmt::Result {
     write!(
         f,
         "{} is there already, and nothing in it was changed; choose another name",
+        path.display()
+    )
+}
+
+fn cut_short(f: &mut Formatter<'_>, path: &Path, rows: usize, error: &io::Error) -> fmt::Result {
+    write!(
+        f,
+        "could not write {} to its end: {error}; it holds at most the first {rows} rows",
+        path.display()
+    )
+}
+
+fn same_file(
+    f: &mut Formatter<'_>,
+    [one, other]: &[&str; 2],
+    path: &Path,
+    instead: &str,
+) -> fmt::Result {
+    let path = path.display();
+    write!(
+        f,
+        "{one} and {other} can't both be written to {path}; {instead}"
+    )
+}
+
+fn read_here(f: &mut Formatter<'_>, option: &str, path: &Path) -> fmt::Result {
+    write!(
+        f,
+        "{option} would replace {}, which the mechanism is read from; give it another name",
         path.display()
     )
 }

@@ -347,7 +347,7 @@ mod tests {
             ("-1.5e2mm", "write `-1.5e2*1e-3`"),
             ("3 rpm", "write `3*2*pi/60`"),
             ("1e-9x", "`x` means nothing here: write `1e-9`"),
-            ("2pi", "write `2*pi`"),
+            ("2pi", "written `2*pi`"),
         ] {
             assert!(number(wrong).is_err_and(|e| e.contains(right)), "{wrong}");
         }

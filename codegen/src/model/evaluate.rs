@@ -236,7 +236,9 @@ impl Evaluator {
             let error = Diagnostic::error(span, format!("`{name}` is not declared"));
             return self.report(error.help(help));
         }
+        // Whoever writes `phi` or `psi` means no `pi`.
         let built_in = BUILT_IN.iter().map(|(name, _)| *name);
+        let built_in = built_in.filter(|known| *known != "pi");
         let near = nearest(name, self.scope.names().chain(built_in)).map(str::to_string);
         let help = if let Some(near) = near {
             did_you_mean(&near)
@@ -246,7 +248,7 @@ impl Evaluator {
         {
             format!("`{name}` is a function: write `{name}(…)`")
         } else {
-            format!("declare it, for example `param {name} = 1;`")
+            format!("declare it, for example `param {name} = 1;`, or `coord {name};` if it moves")
         };
         self.report(Diagnostic::error(span, format!("`{name}` is not declared")).help(help))
     }

@@ -96,7 +96,7 @@ pub fn resolve(unit: &UnitExpr) -> Result<Dimension, Box<Diagnostic>> {
     for (name, exponent) in &unit.factors {
         let Some((_, powers)) = NAMED.iter().find(|(known, _)| *known == name.text) else {
             let error = Diagnostic::error(name.span, unknown(&name.text));
-            return Err(Box::new(error.help(instead(&name.text))));
+            return Err(Box::new(error.help(instead(&name.text, *exponent))));
         };
         let mut factor = Dimension(*powers);
         factor
@@ -116,11 +116,25 @@ fn unknown(name: &str) -> String {
     }
 }
 
-fn instead(name: &str) -> String {
+fn instead(name: &str, exponent: i32) -> String {
     if let Some((_, si, factor)) = SCALED.iter().find(|(known, ..)| *known == name) {
-        return match *factor {
-            "1" => format!("write `{si}`"),
-            _ => format!("write SI: `{si}`, and multiply the value by `{factor}`"),
+        let alone = exponent == 1 || si.chars().all(char::is_alphanumeric);
+        let si = if alone {
+            si.to_string()
+        } else {
+            format!("({si})")
+        };
+        return match (*factor, exponent) {
+            ("1", _) => format!("write `{si}`"),
+            (_, 1) => format!("write SI: `{si}`, and multiply the value by `{factor}`"),
+            (_, -1) => format!("write SI: `{si}`, and divide the value by `{factor}`"),
+            (_, 2..) => {
+                format!("write SI: `{si}`, and multiply the value by `({factor})^{exponent}`")
+            }
+            _ => format!(
+                "write SI: `{si}`, and divide the value by `({factor})^{}`",
+                exponent.unsigned_abs()
+            ),
         };
     }
     let known = NAMED.iter().map(|(known, _)| *known);

@@ -74,8 +74,9 @@ fn the_nearest_name_is_suggested() {
     refuse_saying(&with("let a = sin + 1;"), "write `sin(…)`");
     refuse_saying(
         &with("let a = velocity;"),
-        "declare it, for example `param velocity = 1;`",
+        "declare it, for example `param velocity = 1;`, or `coord velocity;` if it moves",
     );
+    refuse_saying(&with("let a = phi;"), "declare it, for example `param phi");
     refuse_saying(
         "mechanism M { coord q: metre; kinetic der(q)^2; }",
         "unknown unit `metre`",

@@ -180,6 +180,19 @@ fn units_that_hide_a_factor_are_refused() {
         &with("param a: deg = 1;"),
         "write SI: `rad`, and multiply the value by `deg`",
     );
+    refuse_saying(
+        &with("param a: N/mm = 1;"),
+        "write SI: `m`, and divide the value by `1e-3`",
+    );
+    refuse_saying(
+        &with("param a: mm^4 = 1;"),
+        "multiply the value by `(1e-3)^4`",
+    );
+    refuse_saying(
+        &with("param a: N/mm^2 = 1;"),
+        "divide the value by `(1e-3)^2`",
+    );
+    refuse_saying(&with("param a: rad/Nm = 1;"), "write `(N*m)`");
     refuse_saying(&with("param a: Nm = 1;"), "`Nm` is written `N*m`");
     refuse_saying(&with("param a: kN = 1;"), "`kN` is not an SI unit");
 }

@@ -246,6 +246,9 @@ pub const STATEMENTS: &[&str] = &[
     // Units.
     "param a: Nm = 1;",
     "param a: mm = 1;",
+    "param a: N/mm = 1;",
+    "param a: mm^4 = 1;",
+    "param a: N/mm^2 = 1;",
     "param a: deg = 1;",
     "param a: metre = 1;",
     "let a = [1, 2] q;",
