@@ -57,7 +57,9 @@ impl<T: Real> Sheet<'_, T> {
         let refines = like.block().size() == 1 && !direction.is_of_time;
         let q = workspace.numbers(self.chart.n());
         let step = best.spacing / direction.rate;
-        let (mut place, mut aside, mut unsure) = (T::zero(), T::zero(), T::zero());
+        let length = self.chart.length(cross.across);
+        let (mut place, mut aside) = (T::zero(), T::zero());
+        let (mut unsure, mut found) = (T::zero(), false);
         for _ in 0..CENTRINGS {
             let t = direction.moved(state, direction.centre + step * place, q);
             best.add_offset_at(place, q);
@@ -71,7 +73,10 @@ impl<T: Real> Sheet<'_, T> {
             let ahead = self.frame.block().first() / best.slope;
             let off = self.reduced_change(cross.along, cross.time) / best.slope;
             unsure = (ahead * off * best.slope).abs();
-            if unsure <= cross.round_off {
+            // Directions are not exact, so that the squares of what is left count, too.
+            let left = (ahead * step).abs() + off.abs() * length;
+            found = left * left * (best.slope / step).abs() <= cross.round_off;
+            if found {
                 break;
             }
             (place, aside) = (place - ahead, aside - off);
@@ -83,15 +88,17 @@ impl<T: Real> Sheet<'_, T> {
         }
         let most = self.largest_residual();
         let bound = critical::<T>() * cross.round_off;
-        if refines && unsure > bound {
+        let aside = aside.abs() * length;
+        let off = (best.error + resolved()) * self.chart.coordinate_scale * T::from_f64(ASIDE);
+        // The directions are those at the nodes; by so much they turn on the way.
+        let turned = (place * step) * (place * step) / self.chart.coordinate_scale;
+        let settles = unsure <= cross.round_off || aside <= off + turned;
+        if refines && (unsure > bound || !settles) {
             return Err(Obstacle::Unresolved);
         }
-        let off = (best.error + resolved()) * self.chart.coordinate_scale * T::from_f64(ASIDE);
-        let found = refines && unsure <= cross.round_off;
-        let near = aside.abs() * self.chart.length(cross.across) <= off;
         match most <= bound + unsure {
             true => Ok(true),
-            false if found && near && most > bound * T::from_f64(CLEAR) => Ok(false),
+            false if found && aside <= off && most > bound * T::from_f64(CLEAR) => Ok(false),
             false => Err(Obstacle::Unresolved),
         }
     }

@@ -63,31 +63,31 @@ pub const SERIES: &[Series] = &[
     series("cone", 30, 300, USUAL, particles::cone),
     series("instant", 12, 120, USUAL, particles::instant),
     series("four_bar", 30, 300, USUAL, linkages::four_bar),
-    ended("gaps", 72, 72, &[], linkages::gaps),
-    ended("hyperbola", 100, 3000, &[], avoided::hyperbola),
-    ended("hyperboloid", 100, 3000, &[], avoided::hyperboloid),
-    ended(
+    series("gaps", 72, 72, &[], linkages::gaps),
+    series("hyperbola", 100, 3000, &[], avoided::hyperbola),
+    series("hyperboloid", 100, 3000, &[], avoided::hyperboloid),
+    series(
         "almost_parallelogram",
         100,
         3000,
         &[],
         avoided::almost_parallelogram,
     ),
-    ended(
+    series(
         "unlike_hyperbola",
         100,
         3000,
         &[],
         avoided::unlike_hyperbola,
     ),
-    ended(
+    series(
         "unlike_hyperboloid",
         100,
         3000,
         &[],
         avoided::unlike_hyperboloid,
     ),
-    ended(
+    series(
         "unlike_almost_parallelogram",
         100,
         3000,
