@@ -36,6 +36,17 @@ struct Cross<'a, T> {
     round_off: T,
 }
 
+/// What a search for the critical configuration has come to.
+struct Search<T> {
+    /// How far it is from where it was expected, along the sheet and across it.
+    distance: T,
+    aside: T,
+    /// What may still be left of the near-dependent constraint.
+    unsure: T,
+    /// Whether both of its rates vanish there.
+    found: bool,
+}
+
 impl<T: Real> Sheet<'_, T> {
     /// Whether the constraints vanish, to round-off, in the critical configuration: two sheets
     /// then cross there. If they clearly don't, a gap keeps them apart; between, nothing tells.
@@ -55,19 +66,64 @@ impl<T: Real> Sheet<'_, T> {
         // Several loops have no one place where all of them are singular, and a law of time may
         // lead there and back.
         let refines = like.block().size() == 1 && !direction.is_of_time;
+        let evaluations = if refines { CENTRINGS } else { 1 };
+        let Search {
+            distance,
+            aside,
+            mut unsure,
+            found,
+        } = self.search_critical(
+            evaluations,
+            (state, like),
+            direction,
+            best,
+            &cross,
+            workspace,
+        )?;
+        if !refines {
+            let scale = T::from_f64(4.0) * self.chart.coordinate_scale;
+            unsure = best.error * self.frame.smallest() * scale;
+        }
+        let most = self.largest_residual();
+        let bound = critical::<T>() * cross.round_off;
+        let off = (best.error + resolved()) * self.chart.coordinate_scale * T::from_f64(ASIDE);
+        // The directions are those at the nodes; by so much they turn on the way.
+        let turned = distance * distance / self.chart.coordinate_scale;
+        let settles = unsure <= cross.round_off || aside <= off + turned;
+        if refines && (unsure > bound || !settles) {
+            return Err(Obstacle::Unresolved);
+        }
+        match most <= bound + unsure {
+            true => Ok(true),
+            false if refines && found && aside <= off && most > bound * T::from_f64(CLEAR) => {
+                Ok(false)
+            }
+            false => Err(Obstacle::Unresolved),
+        }
+    }
+
+    /// Looks for the critical configuration by Newton's iteration on the rates of the
+    /// near-dependent constraint along the sheet and across it; leaves the frame there.
+    fn search_critical(
+        &mut self,
+        evaluations: usize,
+        (state, like): (At<'_, T>, &Eliminated<'_, T>),
+        direction: &Direction<'_, T>,
+        best: &Interpolated<'_, T>,
+        cross: &Cross<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Result<Search<T>, Obstacle> {
         let q = workspace.numbers(self.chart.n());
         let step = best.spacing / direction.rate;
         let length = self.chart.length(cross.across);
         let (mut place, mut aside) = (T::zero(), T::zero());
         let (mut unsure, mut found) = (T::zero(), false);
-        for _ in 0..CENTRINGS {
+        for _ in 0..evaluations {
             let t = direction.moved(state, direction.centre + step * place, q);
             best.add_offset_at(place, q);
             add_scaled(q, aside, cross.across);
             self.eliminate((t, q), Some(like))?;
-            if !refines {
-                let scale = T::from_f64(4.0) * self.chart.coordinate_scale;
-                unsure = best.error * self.frame.smallest() * scale;
+            if evaluations == 1 {
                 break;
             }
             let ahead = self.frame.block().first() / best.slope;
@@ -86,21 +142,12 @@ impl<T: Real> Sheet<'_, T> {
                 return Err(Obstacle::Unresolved);
             }
         }
-        let most = self.largest_residual();
-        let bound = critical::<T>() * cross.round_off;
-        let aside = aside.abs() * length;
-        let off = (best.error + resolved()) * self.chart.coordinate_scale * T::from_f64(ASIDE);
-        // The directions are those at the nodes; by so much they turn on the way.
-        let turned = (place * step) * (place * step) / self.chart.coordinate_scale;
-        let settles = unsure <= cross.round_off || aside <= off + turned;
-        if refines && (unsure > bound || !settles) {
-            return Err(Obstacle::Unresolved);
-        }
-        match most <= bound + unsure {
-            true => Ok(true),
-            false if found && aside <= off && most > bound * T::from_f64(CLEAR) => Ok(false),
-            false => Err(Obstacle::Unresolved),
-        }
+        Ok(Search {
+            distance: (place * step).abs(),
+            aside: aside.abs() * length,
+            unsure,
+            found,
+        })
     }
 
     /// The directions, from the nodes next to the configuration, where rows are regular.
