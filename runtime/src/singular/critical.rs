@@ -62,42 +62,51 @@ impl<T: Real> Sheet<'_, T> {
         if !self.holonomic {
             return Ok(true);
         }
-        let cross = self.cross(state, like, direction, best, workspace)?;
         // Several loops have no one place where all of them are singular, and a law of time may
         // lead there and back.
-        let refines = like.block().size() == 1 && !direction.is_of_time;
-        let evaluations = if refines { CENTRINGS } else { 1 };
-        let Search {
-            distance,
-            aside,
-            mut unsure,
-            found,
-        } = self.search_critical(
-            evaluations,
-            (state, like),
-            direction,
-            best,
-            &cross,
-            workspace,
-        )?;
-        if !refines {
-            let scale = T::from_f64(4.0) * self.chart.coordinate_scale;
-            unsure = best.error * self.frame.smallest() * scale;
+        if like.block().size() != 1 || direction.is_of_time {
+            return self.vanishes_at_centre(state, like, direction, best, workspace);
         }
+        let cross = self.cross(state, like, direction, best, workspace)?;
+        let search = self.search_critical((state, like), direction, best, &cross, workspace)?;
+        let Search { aside, unsure, .. } = search;
         let most = self.largest_residual();
         let bound = critical::<T>() * cross.round_off;
         let off = (best.error + resolved()) * self.chart.coordinate_scale * T::from_f64(ASIDE);
         // The directions are those at the nodes; by so much they turn on the way.
-        let turned = distance * distance / self.chart.coordinate_scale;
+        let turned = search.distance * search.distance / self.chart.coordinate_scale;
         let settles = unsure <= cross.round_off || aside <= off + turned;
-        if refines && (unsure > bound || !settles) {
+        if unsure > bound || !settles {
             return Err(Obstacle::Unresolved);
         }
         match most <= bound + unsure {
             true => Ok(true),
-            false if refines && found && aside <= off && most > bound * T::from_f64(CLEAR) => {
-                Ok(false)
-            }
+            false if search.found && aside <= off && most > bound * T::from_f64(CLEAR) => Ok(false),
+            false => Err(Obstacle::Unresolved),
+        }
+    }
+
+    /// Whether the constraints vanish, to round-off and what interpolation may be off by, where
+    /// the singular configuration is expected; if not, nothing tells.
+    fn vanishes_at_centre(
+        &mut self,
+        state: At<'_, T>,
+        like: &Eliminated<'_, T>,
+        direction: &Direction<'_, T>,
+        best: &Interpolated<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Result<bool, Obstacle> {
+        let q = workspace.numbers(self.chart.n());
+        let t = node_at(0, state, direction, best, q);
+        self.equations.locate(t, q);
+        let round_off = round_off::<T>() * self.reach_of_rows(q);
+        let t = direction.moved(state, direction.centre, q);
+        best.add_offset_at(T::zero(), q);
+        self.eliminate((t, q), Some(like))?;
+        let unsure = T::from_f64(4.0) * best.error * self.frame.smallest();
+        let bound = critical::<T>() * round_off + unsure * self.chart.coordinate_scale;
+        match self.largest_residual() <= bound {
+            true => Ok(true),
             false => Err(Obstacle::Unresolved),
         }
     }
@@ -106,7 +115,6 @@ impl<T: Real> Sheet<'_, T> {
     /// near-dependent constraint along the sheet and across it; leaves the frame there.
     fn search_critical(
         &mut self,
-        evaluations: usize,
         (state, like): (At<'_, T>, &Eliminated<'_, T>),
         direction: &Direction<'_, T>,
         best: &Interpolated<'_, T>,
@@ -118,14 +126,11 @@ impl<T: Real> Sheet<'_, T> {
         let length = self.chart.length(cross.across);
         let (mut place, mut aside) = (T::zero(), T::zero());
         let (mut unsure, mut found) = (T::zero(), false);
-        for _ in 0..evaluations {
+        for _ in 0..CENTRINGS {
             let t = direction.moved(state, direction.centre + step * place, q);
             best.add_offset_at(place, q);
             add_scaled(q, aside, cross.across);
             self.eliminate((t, q), Some(like))?;
-            if evaluations == 1 {
-                break;
-            }
             let ahead = self.frame.block().first() / best.slope;
             let off = self.reduced_change(cross.along, cross.time) / best.slope;
             unsure = (ahead * off * best.slope).abs();
@@ -159,14 +164,9 @@ impl<T: Real> Sheet<'_, T> {
         best: &Interpolated<'_, T>,
         workspace: &Workspace<'b, T>,
     ) -> Result<Cross<'b, T>, Obstacle> {
-        let step = best.spacing / direction.rate;
-        let node = |node: usize, q: &mut [T]| {
-            let t = direction.moved(state, direction.centre + step * best.places[node], q);
-            add_scaled(q, T::one(), best.node(node).offset);
-            t
-        };
         let [along, across] = [(); 2].map(|()| workspace.numbers(self.chart.n()));
-        let (before, t) = (node(BEYOND, along), node(0, across));
+        let before = node_at(BEYOND, state, direction, best, along);
+        let t = node_at(0, state, direction, best, across);
         let span = best.places[0] - best.places[BEYOND];
         for (along, q) in along.iter_mut().zip(&*across) {
             *along = (*q - *along) / span;
@@ -207,4 +207,18 @@ impl<T: Real> Sheet<'_, T> {
         }
         most.min(chart.coordinate_scale)
     }
+}
+
+/// The time and position of a node.
+fn node_at<T: Real>(
+    node: usize,
+    state: At<'_, T>,
+    direction: &Direction<'_, T>,
+    best: &Interpolated<'_, T>,
+    q: &mut [T],
+) -> T {
+    let step = best.spacing / direction.rate;
+    let t = direction.moved(state, direction.centre + step * best.places[node], q);
+    add_scaled(q, T::one(), best.node(node).offset);
+    t
 }

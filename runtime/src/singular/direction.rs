@@ -31,7 +31,7 @@ pub(super) struct Direction<'a, T> {
     /// The change of position along it, of length one in the metric.
     pub(super) q: &'a mut [T],
     /// The change of time along it (s).
-    pub(super) t: T,
+    t: T,
     /// Whether nothing but time moves along it.
     pub(super) is_of_time: bool,
     /// Where the singular configuration is.
