@@ -23,6 +23,7 @@ mod figure;
 mod files;
 mod formula;
 mod gallery;
+mod hash;
 mod interrupt;
 mod law;
 mod list;

@@ -7,6 +7,7 @@ use crate::captions::freedom;
 use crate::compiled;
 use crate::description::{Description, read};
 use crate::error::CommandError;
+use crate::hash::hash;
 use bricard_driver::{AnyMechanism, Precise};
 use bricard_runtime::Structure;
 use std::path::{self, Path};
@@ -49,7 +50,7 @@ pub fn identity(name: &str) -> Result<String, CommandError> {
     match file(name) {
         Some(file) => {
             let identity = compiled::identity(file, &read(file)?);
-            Ok(format!("{:016x}", compiled::hash([&*identity])))
+            Ok(format!("{:016x}", hash([&*identity])))
         }
         None => Ok(name.to_string()),
     }

@@ -6,7 +6,7 @@
 //! Numbers are kept by their bits, and a checksum of everything tells a damaged file
 //! from a whole one.
 
-use crate::compiled::hash;
+use crate::hash::hash;
 use crate::run::Report;
 use bricard_runtime::{Counters, Origin, Passage, Structure};
 use serde_json::{Value, json};

@@ -21,7 +21,6 @@ mod program;
 mod shared;
 pub mod sources;
 
-pub use cache::hash;
 pub use compiler::{command, output};
 pub use library::{Library, generate, library, module_of};
 

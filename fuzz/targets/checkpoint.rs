@@ -4,6 +4,8 @@
 #![no_main]
 #![allow(dead_code)]
 
+#[path = "../../cli/hash.rs"]
+mod hash;
 #[path = "../../cli/number.rs"]
 mod number;
 #[path = "../../cli/run/report.rs"]
