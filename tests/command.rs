@@ -534,6 +534,7 @@ fn the_papers_experiments_are_reproduced_within_their_bounds() {
 }
 
 #[test]
+#[ignore = "long: compiles for numbers of 106 bits what all descriptions of three coordinates share"]
 fn time_is_measured_over_errors_that_fall_with_the_tolerance() {
     let folder = folder("workprecision");
     let (csv, svg) = (folder.join("points.csv"), folder.join("points.svg"));

@@ -26,9 +26,13 @@ pub fn distances() -> Vec<f64> {
     multiples(1..=16, &[1.0, -1.0, 3.3, -3.3])
 }
 
-/// Some of the same, for every day.
+/// Some of the same, for every day: before the singular position and behind it in turn.
 pub fn some_distances() -> Vec<f64> {
-    multiples([1, 2, 3, 4, 6, 9, 16], &[1.0, -3.3])
+    let before = multiples([1, 3, 6, 16], &[1.0]);
+    before
+        .into_iter()
+        .chain(multiples([2, 4, 9], &[-3.3]))
+        .collect()
 }
 
 fn multiples(exponents: impl IntoIterator<Item = i32>, sizes: &[f64]) -> Vec<f64> {
