@@ -66,7 +66,10 @@ impl<'a> Program<'a> {
             &[&version.libraries(), &sized],
             &["bricard_runtime", "sized"].map(String::from),
         );
+        // A long mechanism is a few long functions, which several units of code would only
+        // optimise twice.
         rustc
+            .args(["-C", "codegen-units=1"])
             .args(["-C", "strip=symbols", "main.rs", "-o"])
             .arg(built.join(Version::EXECUTABLE));
         let failed = format!("{} could not be compiled", self.file.display());

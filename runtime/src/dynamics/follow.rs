@@ -62,7 +62,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             fastest <= most * rate,
         );
         let moved = self.metric.factor.length(&(placed.q - state.q).data.0[0]);
-        if is_on && moved > regular::<T>() * self.coordinate_scale {
+        let placed_elsewhere = self
+            .session
+            .trial
+            .placed
+            .as_ref()
+            .is_some_and(|placed| placed.leaves);
+        if is_on && (placed_elsewhere || moved > regular::<T>() * self.coordinate_scale) {
             return Err(self.refusal(mechanism, Obstacle::Undetermined, state.t));
         }
         if !is_on {
@@ -337,6 +343,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
                 _ => T::zero(),
             },
             gap: placement == Placement::Gap,
+            leaves: matches!(placement, Placement::Crossing { leaves: true, .. }),
         });
         Ok(())
     }

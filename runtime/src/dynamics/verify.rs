@@ -13,10 +13,11 @@ use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
 /// A sine that falls below this part of what it is at both ends of a step may have been
 /// zero between.
 const FALL: f64 = 0.9;
-/// Energy that a step may lose, in units of its accepted error.
-const ENERGY: f64 = 1e3;
-/// Energy that a step of fixed length may lose, relative to the kinetic energy.
+/// Energy that a step of fixed length may lose, relative to the kinetic energy; one that has
+/// a tolerance may lose as much as that.
 const ENERGY_OF_FIXED: f64 = 1e-4;
+/// Round-off of the energy, in units of that of a number.
+const ENERGY_ROUND_OFF: f64 = 1e3;
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Verifies a trial step before it is accepted.
@@ -101,7 +102,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.look_between(mechanism, (start, end), comes_near)
     }
 
-    /// A step that may have leapt over a singular configuration: do signs change on its way?
+    /// A step that may have leapt over a singular configuration: do signs change on its way,
+    /// or was energy lost in a sharp turn?
     #[inline(never)]
     fn look_between(
         &mut self,
@@ -119,6 +121,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if !stays {
             return self.want_chart(mechanism, end.t);
         }
+        self.verify_energy(mechanism, start, end)?;
         self.session.trial.chart = Some(chart).filter(|_| comes_near);
         Ok(())
     }
@@ -276,11 +279,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let kinetic = before.kinetic.max(after.kinetic);
         let potential = (after.potential - before.potential).abs();
         let size = kinetic.max(potential);
-        let part = match self.session.tolerance {
-            Some(tolerance) => tolerance * T::from_f64(ENERGY),
-            None => T::from_f64(ENERGY_OF_FIXED),
-        };
-        let round_off = T::from_f64(ENERGY) * T::EPSILON * (before.balance.abs() + size);
+        let fixed = T::from_f64(ENERGY_OF_FIXED);
+        let part = self.session.tolerance.unwrap_or(fixed);
+        let round_off = T::from_f64(ENERGY_ROUND_OFF) * T::EPSILON * (before.balance.abs() + size);
         let change = (after.balance - before.balance - supplied).abs();
         // False for NaN, too.
         let kept = change <= part * size + uncertainty + round_off;

@@ -24,7 +24,7 @@ const NOISE: f64 = 48.0;
 /// Spacings that are tried.
 const LEVELS: usize = 12;
 /// A move onto the sheet in which signs change shows that it is another sheet if it is longer
-/// than this many errors that are accepted of an interpolation: than the error of a step.
+/// than this many errors of an interpolation: those that are accepted, a step may be off by.
 const STRAYS: f64 = 10.0;
 /// By how much worse an interpolation may be than the best of all spacings, so that no others
 /// are tried.
@@ -40,6 +40,9 @@ pub(crate) enum Placement<T> {
         spacing: T,
         /// Whether it was moved past the other sheet, by more than a step may be off.
         strays: bool,
+        /// The same, by more than this placement may be off: the state is on the other sheet
+        /// if it is on the constraints.
+        leaves: bool,
     },
     /// Where the constraints are regular, next to a configuration where they are nearly
     /// singular: a gap keeps the sheets apart.
@@ -117,11 +120,12 @@ impl<T: Real> Sheet<'_, T> {
             .block()
             .sign_changes_from(like.block(), workspace)
             > 0;
-        let moved = self.chart.length(sum.offset);
+        let moved = self.chart.length(sum.offset) / self.chart.coordinate_scale;
+        let several = T::from_f64(STRAYS);
         Ok(Placement::Crossing {
             spacing: best.spacing,
-            strays: flips
-                && moved > self.chart.accepted * T::from_f64(STRAYS) * self.chart.coordinate_scale,
+            strays: flips && moved > self.chart.accepted * several,
+            leaves: flips && moved > (best.error + resolved()) * several,
         })
     }
 

@@ -72,6 +72,8 @@ pub(crate) struct Placed<T, const N: usize> {
     pub(crate) sine: T,
     pub(crate) spacing: T,
     pub(crate) gap: bool,
+    /// Whether it was moved past another sheet, by more than the placement may be off.
+    pub(crate) leaves: bool,
 }
 
 impl<T: Real, const N: usize, const R: usize> Trial<T, N, R> {

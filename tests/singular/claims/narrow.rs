@@ -36,3 +36,11 @@ fn what_is_not_certain_in_the_critical_configuration_decides_nothing() {
         assert_ne!(score, Score::Wrong, "{series}, {seed}, {place}: {why}");
     }
 }
+
+/// On one sheet, but moving along the other, which is nearer than what a step may be off by:
+/// neither of them is taken.
+#[test]
+fn a_start_on_one_sheet_does_not_move_along_another() {
+    let Verdict { score, why, .. } = verdict("grazing", 404, 590);
+    assert_ne!(score, Score::Wrong, "{why}");
+}
