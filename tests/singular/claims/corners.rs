@@ -39,7 +39,7 @@ fn corners_are_not_cut_by_steps_of_equal_length() {
 fn corners_in_which_a_step_loses_energy_are_not_cut() {
     are_not_cut("hyperbola", &[2813]);
     are_not_cut("hyperboloid", &[1644, 5027]);
-    are_not_cut("almost_parallelogram", &[5802, 8311]);
+    are_not_cut("almost_parallelogram", &[8311]);
 }
 
 #[test]
