@@ -101,11 +101,15 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if after <= window() {
             return self.want_chart(mechanism, end.t);
         }
-        self.look_between(mechanism, (start, end), comes_near)
+        self.look_between(mechanism, (start, end), comes_near)?;
+        // Where nothing keeps a motion on the constraints, its energy drifts as it does.
+        match leaps && self.settings.stabilisation == Stabilisation::Projection {
+            true => self.verify_energy(mechanism, start, end),
+            false => Ok(()),
+        }
     }
 
-    /// A step that may have leapt over a singular configuration: do signs change on its way,
-    /// or was energy lost in a sharp turn?
+    /// A step that may have leapt over a singular configuration: do signs change on its way?
     #[inline(never)]
     fn look_between(
         &mut self,
@@ -122,10 +126,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         });
         if !stays {
             return self.want_chart(mechanism, end.t);
-        }
-        // Where nothing keeps a motion on the constraints, its energy drifts as it does.
-        if self.settings.stabilisation == Stabilisation::Projection {
-            self.verify_energy(mechanism, start, end)?;
         }
         self.session.trial.chart = Some(chart).filter(|_| comes_near);
         Ok(())
