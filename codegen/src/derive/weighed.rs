@@ -8,15 +8,22 @@
 //! random ones. Only rows that restrict the motions without inertia at every position are
 //! named; where others are needed, the runtime lets all rows take part. Rows that couple
 //! coordinates which `M` couples already are preferred, so that elimination stays as sparse.
+//!
+//! A mass matrix that is definite almost everywhere may be singular where the inertia of a
+//! coordinate vanishes: that of a rod without mass about a pin, on which a slider runs across the
+//! pin. There all rows that restrict the motion take part.
 
 use super::equations::Matrix;
+use crate::expr::ExprId;
 use crate::model::{Graph, Symbol};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Random positions at which the same rows must do, where all entries are finite.
 const POSITIONS: u32 = 4;
 /// What is left of a diagonal entry of `M`, relative to it, that is round-off.
 const ROUND_OFF: f64 = 1e-10;
+/// Coordinates on which an inertia may depend, so that it is looked at where it vanishes.
+const FEW: usize = 8;
 
 /// A sparse vector by coordinate.
 type Sparse = BTreeMap<usize, f64>;
@@ -26,9 +33,16 @@ pub(super) fn weighed(graph: &Graph, mass: &Matrix, jacobian: &Matrix) -> Vec<us
     if jacobian.is_empty() {
         return Vec::new();
     }
-    let numbers = (1..=POSITIONS).filter_map(|position| at_random(graph, mass, jacobian, position));
+    let positions = (1..=POSITIONS).map(Position::at_random);
+    let mut numbers = positions.filter_map(|position| position.numbers(graph, mass, jacobian));
+    let Some((first_mass, first_jacobian)) = numbers.next() else {
+        return Vec::new();
+    };
+    if without_inertia(&first_mass).is_empty() {
+        return where_inertia_vanishes(graph, mass, jacobian);
+    }
     let mut holds = numbers.map(|(mass, jacobian)| holds_at(&mass, &jacobian));
-    let first = holds.next().unwrap_or_default();
+    let first = holds_at(&first_mass, &first_jacobian);
     let lasts = holds.all(|other| {
         let pairs = first.iter().zip(&other);
         first.len() == other.len() && pairs.clone().all(|(one, other)| one.lasts(other))
@@ -76,30 +90,127 @@ fn holds_at(mass: &[Sparse], jacobian: &[Sparse]) -> Vec<Hold> {
     Vec::new()
 }
 
-/// The entries of `M` and `A` that differ from zero, row by row, if all are finite.
-fn at_random(
-    graph: &Graph,
-    mass: &Matrix,
-    jacobian: &Matrix,
-    position: u32,
-) -> Option<(Vec<Sparse>, Vec<Sparse>)> {
-    // Fractional parts of multiples of irrational numbers, between 0.3 and 1.3.
-    let spread = |i: u32, stride: f64| 0.3 + (stride * f64::from(i + 7 * position)).fract();
-    let value = |symbol| match symbol {
-        Symbol::Coordinate(i) => spread(i, 0.618_033_988_749_894_9),
-        Symbol::Parameter(i) | Symbol::Input(i) => spread(i, 0.414_213_562_373_095),
-        Symbol::Velocity(i) => spread(i, 0.732_050_807_568_877),
-        _ => 1.0,
-    };
-    let entries = |matrix: &Matrix| -> Option<Vec<Sparse>> {
-        let sparse = |row: &Vec<_>| {
-            let values = graph.evaluate_all(row, &value).into_iter().enumerate();
-            let row: Sparse = values.filter(|(_, x)| *x != 0.0).collect();
-            row.values().all(|x| x.is_finite()).then_some(row)
+/// A position at which expressions are evaluated.
+#[derive(Clone, Copy)]
+struct Position {
+    /// Which of the random ones.
+    random: u32,
+    /// A coordinate that differs from it, and its value.
+    moved: Option<(u32, f64)>,
+}
+
+impl Position {
+    fn at_random(random: u32) -> Self {
+        Self {
+            random,
+            moved: None,
+        }
+    }
+
+    fn value(self, symbol: Symbol) -> f64 {
+        // Fractional parts of multiples of irrational numbers, between 0.3 and 1.3.
+        let spread = |i: u32, stride: f64| 0.3 + (stride * f64::from(i + 7 * self.random)).fract();
+        match (symbol, self.moved) {
+            (Symbol::Coordinate(i), Some((moved, value))) if i == moved => value,
+            (Symbol::Coordinate(i), _) => spread(i, 0.618_033_988_749_894_9),
+            (Symbol::Parameter(i) | Symbol::Input(i), _) => spread(i, 0.414_213_562_373_095),
+            (Symbol::Velocity(i), _) => spread(i, 0.732_050_807_568_877),
+            _ => 1.0,
+        }
+    }
+
+    /// The entries of `M` and `A` that differ from zero, row by row, if all are finite.
+    fn numbers(
+        self,
+        graph: &Graph,
+        mass: &Matrix,
+        jacobian: &Matrix,
+    ) -> Option<(Vec<Sparse>, Vec<Sparse>)> {
+        let entries = |matrix: &Matrix| -> Option<Vec<Sparse>> {
+            let sparse = |row: &Vec<_>| {
+                let values = graph.evaluate_all(row, &|symbol| self.value(symbol));
+                let row: Sparse = values
+                    .into_iter()
+                    .enumerate()
+                    .filter(|(_, x)| *x != 0.0)
+                    .collect();
+                row.values().all(|x| x.is_finite()).then_some(row)
+            };
+            matrix.iter().map(sparse).collect()
         };
-        matrix.iter().map(sparse).collect()
+        Some((entries(mass)?, entries(jacobian)?))
+    }
+}
+
+/// The rows that restrict motions whose inertia vanishes at some positions only.
+fn where_inertia_vanishes(graph: &Graph, mass: &Matrix, jacobian: &Matrix) -> Vec<usize> {
+    let mut rows = BTreeSet::new();
+    for (k, row) in mass.iter().enumerate() {
+        for position in zeros_of(graph, row[k]) {
+            let numbers = position.numbers(graph, mass, jacobian);
+            if let Some((mut mass, jacobian)) = numbers {
+                remove(&mut mass, k);
+                rows.extend(holding(&mass, &jacobian));
+            }
+        }
+    }
+    rows.into_iter().collect()
+}
+
+/// Takes a coordinate without inertia out of `M`.
+fn remove(mass: &mut [Sparse], coordinate: usize) {
+    mass[coordinate].clear();
+    for row in mass {
+        row.remove(&coordinate);
+    }
+}
+
+/// The rows that restrict motions without inertia at one position; none where they do not hold
+/// all of them.
+fn holding(mass: &[Sparse], jacobian: &[Sparse]) -> Vec<usize> {
+    if holds_at(mass, jacobian).is_empty() {
+        return Vec::new();
+    }
+    let motions = without_inertia(mass);
+    let restricts = |row: &Sparse, motion: &Sparse| {
+        let most = (dot(row, row) * dot(motion, motion)).sqrt();
+        dot(row, motion).abs() > ROUND_OFF.sqrt() * most
     };
-    Some((entries(mass)?, entries(jacobian)?))
+    let any = |row: &usize| {
+        motions
+            .iter()
+            .any(|motion| restricts(&jacobian[*row], motion))
+    };
+    (0..jacobian.len()).filter(any).collect()
+}
+
+/// Positions at which an inertia vanishes, where it is a square of one coordinate, from where
+/// that is zero or another length.
+fn zeros_of(graph: &Graph, inertia: ExprId) -> Vec<Position> {
+    let coordinates = graph.symbols(inertia).into_iter();
+    let coordinates: Vec<u32> = coordinates
+        .filter_map(|symbol| match symbol {
+            Symbol::Coordinate(i) => Some(i),
+            _ => None,
+        })
+        .collect();
+    if coordinates.len() > FEW {
+        return Vec::new();
+    }
+    let zero = |coordinate: u32| {
+        let at = |value: f64| Position {
+            random: 1,
+            moved: Some((coordinate, value)),
+        };
+        let inertia_at = |value: f64| graph.evaluate(inertia, &|symbol| at(value).value(symbol));
+        let [before, here, after] = [-1.0, 0.0, 1.0].map(inertia_at);
+        let (slope, curvature) = ((after - before) / 2.0, after + before - 2.0 * here);
+        let lowest = -slope / curvature;
+        // False for NaN, too.
+        let vanishes = inertia_at(lowest) <= ROUND_OFF * after.max(before);
+        vanishes.then(|| at(lowest))
+    };
+    coordinates.into_iter().filter_map(zero).collect()
 }
 
 /// A basis of the motions without kinetic energy: from `M = U D Uᵀ`, last row first.

@@ -36,6 +36,18 @@ const MASSLESS: &str = "mechanism Massless {
     constraint sin(phi) + 2*sin(psi) = 0;
 }";
 
+/// A rod without mass between two cranks, and a slider on it, whose inertia about the joint of the
+/// rod vanishes where it runs across that.
+const ROD: &str = "mechanism Rod {
+    coord a; coord b; coord c; coord u;
+    let A = [cos(a), sin(a)];
+    let B = [2 + cos(b), sin(b)];
+    let P = A + (u - 0.25)*[cos(c), sin(c)];
+    kinetic 1/2*der(a)^2 + 1/2*der(b)^2 + 1/2*norm2(der(P));
+    potential 9.81*P.y;
+    constraint A + 2*[cos(c), sin(c)] = B;
+}";
+
 /// A mechanism and its equations.
 pub(super) fn derived(source: &str) -> (Mechanism, Equations) {
     let (mut mechanism, _) = analyse(source, &CompileSettings::default()).expect("it is right");
@@ -124,6 +136,17 @@ fn the_row_that_holds_a_coordinate_without_inertia_takes_part() {
 }
 
 #[test]
+fn the_rows_that_hold_a_coordinate_whose_inertia_vanishes_somewhere_take_part() {
+    assert_eq!(weighed(ROD), [0, 1]);
+    let with_mass = ROD.replace("1/2*der(a)^2", "1/2*der(a)^2 + 1/9*der(c)^2");
+    assert_eq!(weighed(&with_mass), [0; 0]);
+    // A particle in polar coordinates: nothing holds the angle where the radius is zero.
+    let polar = "mechanism Polar { coord r; coord phi; coord z;
+        kinetic 1/2*der(r)^2 + 1/2*r^2*der(phi)^2 + 1/2*der(z)^2; constraint z = r^2; }";
+    assert_eq!(weighed(polar), [0; 0]);
+}
+
+#[test]
 fn what_no_row_holds_brings_no_row_in() {
     let free = MASSLESS.replace("= x;", "= 1;").replace(
         "sin(phi);\n    constraint cos",
@@ -135,7 +158,7 @@ fn what_no_row_holds_brings_no_row_in() {
 #[test]
 fn a_singular_mass_matrix_gives_the_accelerations_of_the_equations_as_they_are() {
     let weights: [fn(u32) -> f64; 3] = [|_| 1.0, |row| 0.1 + f64::from(row), |_| 1e-3];
-    for source in [BODIES, MASSLESS] {
+    for source in [BODIES, MASSLESS, ROD] {
         for weight in weights {
             let (found, exact) = accelerations(source, weight);
             let largest = exact.iter().fold(1.0, |most: f64, x| most.max(x.abs()));

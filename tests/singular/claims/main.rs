@@ -6,6 +6,7 @@
 mod accuracy;
 mod corners;
 mod known;
+mod massless;
 mod narrow;
 mod passages;
 mod references;

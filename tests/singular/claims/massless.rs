@@ -1,0 +1,17 @@
+//! A mass matrix that is singular at some positions only.
+
+use bricard_singular::{Score, Trial, judge};
+
+/// A slider on a coupler without inertia runs across the coupler's joint, while the linkage
+/// passes its singular positions.
+#[test]
+fn a_slider_runs_across_the_joint_of_a_coupler_without_inertia() {
+    for (tolerance, speed) in [(1e-6, -4.0), (1e-9, -4.0), (1e-12, -4.0), (1e-9, 3.0)] {
+        let set = vec![("vu", speed)];
+        let trial = Trial::short("massless_coupler", "massless_coupler_reduced", set).until(1.5);
+        let trial = Trial { tolerance, ..trial };
+        let verdict = judge(&trial);
+        assert_eq!(verdict.score, Score::Right, "{trial}\n    {}", verdict.why);
+        assert!(!verdict.miscounted(), "{trial}: {:?}", verdict.passages);
+    }
+}
