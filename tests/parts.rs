@@ -1,9 +1,14 @@
-//! Functions that are emitted in parts compute what they do in straight lines, to the last bit.
+//! Functions that are emitted in parts, with loops, compute what they do in straight lines, to the
+//! last bit.
 
 use bricard::double_four_bar::DoubleFourBar;
+use bricard_codegen::CompileSettings;
+use bricard_fixtures::closed_rods::{self, ClosedRods};
 use bricard_fixtures::functions::Functions;
 use bricard_fixtures::in_parts;
 use bricard_fixtures::reserved::TypeOfThing;
+use bricard_fixtures::row::{self, Row};
+use bricard_fixtures::with_loops;
 use bricard_runtime::{Acceleration, Correction, Mechanism, Position, State, Terms};
 use bricard_testkit::Random;
 
@@ -40,15 +45,22 @@ fn agree<const N: usize, const R: usize>(
         assert_eq!((a.jacobian, a.drift), (b.jacobian, b.drift));
         let [a, b] = both.map(|mechanism| {
             let mut regular = Acceleration::<f64, N, R>::default();
+            regular.weights.fill(1.5);
             let solved = mechanism.acceleration(&state, &mut regular);
-            (solved, regular.acceleration, regular.weights)
+            (solved, regular.acceleration, regular.pivots.row_pivots)
         });
         assert_eq!(a, b);
+        assert!(a.0 && a.1.norm().is_normal());
         let [a, b] = both.map(|mechanism| {
             let mut correction = Correction::<f64, N, R>::default();
+            correction.weights.fill(1.5);
             let solved = mechanism.correction(&state, &mut correction);
             (solved, correction.position, correction.velocity)
         });
+        assert_eq!(a, b);
+        assert!(a.0 && a.1.norm().is_normal() && a.2.norm().is_normal());
+        let [a, b] = both.map(|mechanism| mechanism.energy(&state));
+        assert!(a.kinetic > 0.0);
         assert_eq!(a, b);
     }
 }
@@ -70,10 +82,51 @@ fn parts_compute_what_straight_lines_do() {
 }
 
 #[test]
+fn loops_compute_what_straight_lines_do() {
+    agree(&Row::default(), &with_loops::row::Row::default());
+    agree(
+        &ClosedRods::default(),
+        &with_loops::closed_rods::ClosedRods::default(),
+    );
+}
+
+/// The code of so many parallelograms in a row.
+fn parallelograms(loops: usize, settings: &CompileSettings) -> String {
+    let source = bricard::n_four_bar::SOURCE;
+    let source = source.replace("const N = 2;", &format!("const N = {loops};"));
+    let compiled = bricard_codegen::compile_source(&source, "row", "x.mech", settings);
+    compiled.expect("a row").code
+}
+
+#[test]
+fn what_comes_again_is_a_loop() {
+    let mut settings = CompileSettings::default();
+    let count = |code: &str| code.matches("for turn in").count();
+    assert_eq!(count(&parallelograms(20, &settings)), 0);
+    let [fewer, more] = [60, 80].map(|loops| parallelograms(loops, &settings));
+    assert!(count(&fewer) > 10);
+    // Every loop has more turns; the functions themselves are as long.
+    let lines = |code: &str| {
+        let from = code.find("fn acceleration").unwrap_or_default();
+        let to = code.find("fn position").unwrap_or_default();
+        code[from..to].lines().count()
+    };
+    assert!(lines(&fewer) > 1000);
+    assert!(lines(&more) < lines(&fewer) * 11 / 10);
+    settings.options.unrolled = Some(usize::MAX);
+    assert_eq!(count(&parallelograms(60, &settings)), 0);
+    settings.options.unrolled = Some(60);
+    for source in [row::SOURCE, closed_rods::SOURCE] {
+        let compiled = bricard_codegen::compile_source(source, "loops", "x.mech", &settings);
+        assert!(count(&compiled.expect("a fixture").code) > 8);
+    }
+}
+
+#[test]
 fn long_functions_are_emitted_in_parts() {
     let part = |code: &str| code.matches("fn acceleration_part_").count();
     let source = bricard::double_four_bar::SOURCE;
-    let mut settings = bricard_codegen::CompileSettings::default();
+    let mut settings = CompileSettings::default();
     let compiled = |settings: &_| {
         let compiled =
             bricard_codegen::compile_source(source, "double_four_bar", "x.mech", settings);

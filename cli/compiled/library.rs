@@ -6,11 +6,13 @@
 use super::cache::{Cache, Digits, Scratch, Version, name};
 use super::compiler::{Toolchain, output};
 use super::identity;
+use super::settings::settings;
 use super::shared::{border, rustc};
+
 use crate::error::CommandError;
 use crate::output::say;
 use bricard_codegen::internals::emit::module_name;
-use bricard_codegen::{CompileSettings, Compiled, compile_source};
+use bricard_codegen::{Compiled, compile_source};
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -76,7 +78,7 @@ pub fn module_of(file: &Path) -> String {
 ///
 /// [`CommandError::Description`].
 pub fn generate(file: &Path, source: &str, for_c: bool) -> Result<Compiled, CommandError> {
-    let mut settings = CompileSettings::beside(file);
+    let mut settings = settings(file);
     settings.options.c_interface = for_c;
     let shown = file.display().to_string();
     let compiled = compile_source(source, &module_of(file), &name(file), &settings)

@@ -18,6 +18,7 @@ pub mod compiler;
 mod library;
 mod parameters;
 mod program;
+mod settings;
 mod shared;
 pub mod sources;
 

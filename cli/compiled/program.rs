@@ -5,11 +5,12 @@
 
 use super::cache::{Scratch, Version, name};
 use super::compiler::{Toolchain, output};
+use super::settings::settings;
 use super::shared::{rustc, sized};
 use crate::error::CommandError;
 use crate::output::say;
+use bricard_codegen::compile_source;
 use bricard_codegen::internals::emit::type_name;
-use bricard_codegen::{CompileSettings, compile_source};
 use std::path::{Path, PathBuf};
 
 /// The module that a description becomes.
@@ -32,7 +33,7 @@ impl<'a> Program<'a> {
     /// [`CommandError::Description`].
     pub fn generate(file: &'a Path, source: &str, identity: &'a str) -> Result<Self, CommandError> {
         let shown = file.display().to_string();
-        let compiled = compile_source(source, MODULE, &name(file), &CompileSettings::beside(file))
+        let compiled = compile_source(source, MODULE, &name(file), &settings(file))
             .map_err(|errors| CommandError::Description(errors.render(&shown, source)))?;
         let kind = type_name(&compiled.name);
         let main = format!(

@@ -18,16 +18,44 @@ use std::mem::discriminant;
 /// (`docs/instructions.md`).
 const ANGLES_MIN: usize = 4;
 
+/// Angles whose sines and cosines are computed by one call.
+pub(super) struct Together {
+    /// The array of them.
+    pub array: TokenStream,
+    /// The names of their sines and cosines.
+    pub pairs: Vec<(Ident, Ident)>,
+    /// The symbols that are in scope after the call, or not needed any more.
+    bound: BTreeSet<Symbol>,
+}
+
 impl Writer<'_> {
     /// Writes the call for all angles that are known from the start; the symbols that
-    /// are in scope after it, or not needed any more. `alone` says that no other statements
-    /// are in its scope.
-    pub(super) fn place_angles(&mut self, alone: bool) -> BTreeSet<Symbol> {
+    /// are in scope after it, or not needed any more.
+    pub(super) fn place_angles(&mut self) -> BTreeSet<Symbol> {
+        let Some(Together {
+            array,
+            pairs,
+            bound,
+        }) = self.angles_together(false)
+        else {
+            return BTreeSet::new();
+        };
+        let sines = pairs.iter().map(|(sin, _)| pattern(sin));
+        let cosines = pairs.iter().map(|(_, cos)| pattern(cos));
+        self.statements.push(quote! {
+            let ([#(#sines),*], [#(#cosines),*]) = T::sin_cos_all(&#array);
+        });
+        bound
+    }
+
+    /// All angles that are known from the start, if they are many. `alone` says that no other
+    /// statements are in the scope of the call for them.
+    pub(super) fn angles_together(&mut self, alone: bool) -> Option<Together> {
         let angles = self.early_angles();
         if angles.len() < ANGLES_MIN {
-            return BTreeSet::new();
+            return None;
         }
-        let (arguments, bound) = match self.whole(&angles) {
+        let (array, bound) = match self.whole(&angles) {
             Some(coordinates) => {
                 let read = |angle: &Value| self.only_as_angle(*angle);
                 (coordinates, angles.iter().filter_map(read).collect())
@@ -42,15 +70,13 @@ impl Writer<'_> {
                 (quote!([#(#arguments),*]), bound)
             }
         };
-        let names: Vec<(Ident, Ident)> =
-            angles.iter().map(|angle| self.pair_names(*angle)).collect();
-        let sines = names.iter().map(|(sin, _)| pattern(sin));
-        let cosines = names.iter().map(|(_, cos)| pattern(cos));
-        self.statements.push(quote! {
-            let ([#(#sines),*], [#(#cosines),*]) = T::sin_cos_all(&#arguments);
-        });
-        self.angles.extend(angles.into_iter().zip(names));
-        bound
+        let pairs: Vec<_> = angles.iter().map(|angle| self.pair_names(*angle)).collect();
+        self.angles.extend(angles.into_iter().zip(pairs.clone()));
+        Some(Together {
+            array,
+            pairs,
+            bound,
+        })
     }
 
     /// Angles that no other function has to be called for: coordinates first, in their

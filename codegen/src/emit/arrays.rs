@@ -73,7 +73,7 @@ fn described(subject: &Subject, array: Array) -> Described {
 
 fn function(subject: &Subject, array: Array, computed: &Optimised) -> TokenStream {
     let described = described(subject, array);
-    let place = |slot: &_| Some(entry(quote!(out), slot));
+    let place = |target: &_| Some(entry(quote!(out), target));
     let Written {
         body, state, cost, ..
     } = subject.optimised(computed, &place, Decided::ByState);

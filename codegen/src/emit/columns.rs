@@ -4,12 +4,13 @@
 //! Out: a function that runs it for one unit acceleration after the other, for those that
 //!      hand out `M`.
 
+use super::index::Target;
 use super::repeated::Repeated;
 use super::subject::{Subject, argument, doc_lines};
 use super::symbol::SymbolNames;
 use crate::model::Symbol;
-use crate::optimise::{Optimised, Slot};
-use proc_macro2::{Literal, TokenStream};
+use crate::optimise::Optimised;
+use proc_macro2::TokenStream;
 use quote::quote;
 
 /// What the mass matrix is, for those who read the generated code.
@@ -54,7 +55,6 @@ pub(super) fn columns(subject: &Subject) -> Option<TokenStream> {
     })
 }
 
-fn place(slot: &Slot) -> Option<TokenStream> {
-    let row = Literal::usize_unsuffixed(slot.row);
+fn place(Target { row, .. }: &Target) -> Option<TokenStream> {
     Some(quote!(values[#row]))
 }

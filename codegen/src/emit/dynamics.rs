@@ -1,6 +1,7 @@
 //! The equations of motion: the trait implementation.
 
 use super::filling::{Heading, Method};
+use super::index::Target;
 use super::linearised::linearised;
 use super::subject::{Subject, Written, cost_in_words, entry, entry_of_field};
 use super::switches::switches;
@@ -133,15 +134,15 @@ fn solution(subject: &Subject, [name, buffer, docs]: [&str; 3], solved: &Solved)
 }
 
 /// Where a solve writes an entry; pivots have a struct of their own.
-fn entry_of_solution(slot: &Slot) -> Option<TokenStream> {
-    let field = ident(slot.array);
-    let array = match slot.array {
+fn entry_of_solution(target: &Target) -> Option<TokenStream> {
+    let field = ident(target.array);
+    let array = match target.array {
         "mass_pivots" | "mass_diagonal" | "row_pivots" | "row_squares" => {
             quote!(out.pivots.#field)
         }
         _ => quote!(out.#field),
     };
-    Some(entry(array, slot))
+    Some(entry(array, target))
 }
 
 fn energy(subject: &Subject) -> TokenStream {

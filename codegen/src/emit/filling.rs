@@ -3,7 +3,7 @@
 //! In:  a program whose outputs are fields of the buffer.
 //! Out: the method, and the functions that it calls where its statements would be too many.
 
-use super::function::{Body, Decided, Place};
+use super::function::{Decided, Place};
 use super::parts::{Parts, STRAIGHT_LINE};
 use super::subject::{Reads, Subject, argument, doc_lines};
 use super::symbol::SymbolNames;
@@ -35,23 +35,29 @@ pub(super) struct Method {
 impl Method {
     /// The one that runs a program.
     pub fn of(subject: &Subject, heading: &Heading, program: &Program, place: Place) -> Self {
-        let (names, taken) = (&subject.names, subject.names.taken.clone());
+        let names = &subject.names;
         let straight_line = subject.options.straight_line.unwrap_or(STRAIGHT_LINE);
-        let in_parts = heading.divisible && program.len() > straight_line;
+        let decided = Decided::BySides;
+        let loops = subject.loops(program, decided);
+        let in_parts = heading.divisible && loops.is_none() && program.len() > straight_line;
         let all = in_parts || heading.before.is_some();
         let state = argument("state", all || SymbolNames::reads_state(program));
         let out = argument("out", all || Reads::of(program).out);
         let types = types(subject, heading.buffer);
         let [state_type, out_type] = &types;
         let name = argument(heading.name, true);
-        let (statements, functions) = if in_parts {
-            let place = (place, Decided::BySides);
-            let function = (&name, &types);
-            let parts = Parts::of(program, names, taken, place, function, straight_line);
-            (parts.calls, parts.functions)
-        } else {
-            let body = Body::of(program, names, taken, place, Decided::BySides);
-            (body.statements, TokenStream::new())
+        let (statements, functions) = match loops {
+            Some(loops) => (loops.statements(place), TokenStream::new()),
+            None if in_parts => {
+                let (taken, function) = (names.taken.clone(), (&name, &types));
+                let place = (place, decided);
+                let parts = Parts::of(program, names, taken, place, function, straight_line);
+                (parts.calls, parts.functions)
+            }
+            None => {
+                let body = subject.straight(program, place, decided);
+                (body.statements, TokenStream::new())
+            }
         };
         let (docs, cost) = (doc_lines(heading.docs), &heading.cost);
         let before = &heading.before;

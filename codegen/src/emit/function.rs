@@ -6,6 +6,7 @@
 //!      once is written where it is read, as long as the line stays short; the
 //!      others get a name. Nothing is computed here.
 
+use super::index::{Index, Target};
 use super::literal;
 use super::name::{Names, table_name};
 use super::statements::Statements;
@@ -18,11 +19,11 @@ use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 
 /// The most operands of an expression that is written where it is read.
-const OPERANDS_MAX: usize = 9;
+pub(super) const OPERANDS_MAX: usize = 9;
 
 /// The most terms or factors that are written in one expression; the rest has a name of its
 /// own. Compilers go into nested expressions by recursion, and would run out of stack.
-const NESTED_MAX: usize = 32;
+pub(super) const NESTED_MAX: usize = 32;
 
 /// How tightly an emitted piece holds together.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -35,10 +36,10 @@ pub(super) enum Binding {
 #[derive(Clone)]
 pub(super) struct Piece {
     pub(super) tokens: TokenStream,
-    binding: Binding,
-    operands: usize,
+    pub(super) binding: Binding,
+    pub(super) operands: usize,
     /// A product in two parts: each stands anywhere, the second only inside brackets.
-    factors: Option<(TokenStream, TokenStream)>,
+    pub(super) factors: Option<(TokenStream, TokenStream)>,
     /// The local variable that holds it.
     pub(super) name: Option<Ident>,
 }
@@ -53,7 +54,7 @@ pub(super) enum Decided {
 }
 
 /// Where an output is assigned; `None` if whoever asks for the body does that.
-pub(super) type Place<'a> = &'a dyn Fn(&Slot) -> Option<TokenStream>;
+pub(super) type Place<'a> = &'a dyn Fn(&Target) -> Option<TokenStream>;
 
 /// The names of the symbols of a mechanism inside function bodies.
 pub(super) trait Symbols {
@@ -61,6 +62,9 @@ pub(super) trait Symbols {
     fn prelude(&self, used: &BTreeSet<Symbol>) -> TokenStream;
     /// The array of all coordinates, if there are as many as this.
     fn all_coordinates(&self, count: usize) -> Option<TokenStream>;
+    /// The entry of an array that a symbol is, at an index that may change from turn to turn;
+    /// nothing if it is no such entry.
+    fn entry(&self, symbol: Symbol, index: Index) -> Option<TokenStream>;
     /// The local variable that holds a symbol.
     fn local(&self, symbol: Symbol) -> Ident;
     /// The expression for an input that has a law.
@@ -81,6 +85,14 @@ impl Body {
         written.unwrap_or_else(|| quote!(T::zero()))
     }
 
+    /// Of statements after which outputs have these expressions.
+    pub fn new(statements: TokenStream, outputs: FxHashMap<Slot, TokenStream>) -> Self {
+        Self {
+            statements,
+            outputs,
+        }
+    }
+
     /// Writes a program; `names` are the names that are taken.
     pub fn of(
         program: &Program,
@@ -90,7 +102,7 @@ impl Body {
         decided: Decided,
     ) -> Self {
         let mut writer = Writer::of(program, symbols, names, decided);
-        let bound = writer.place_angles(false);
+        let bound = writer.place_angles();
         // Bound after the call for the angles, symbols need not be kept during it.
         let rest = &writer.symbols_read() - &bound;
         writer.statements.push(symbols.prelude(&rest));
@@ -103,10 +115,7 @@ impl Body {
                 outputs.insert(*slot, writer.piece(value).tokens.clone());
             }
         }
-        Body {
-            statements: writer.statements.into_tokens(),
-            outputs,
-        }
+        Self::new(writer.statements.into_tokens(), outputs)
     }
 }
 
@@ -116,7 +125,7 @@ pub(super) struct Writer<'a> {
     decided: Decided,
     pub(super) names: Names,
     pub(super) uses: Vec<usize>,
-    pieces: Vec<Option<Piece>>,
+    pub(super) pieces: Vec<Option<Piece>>,
     nothing: Piece,
     /// The names of the sines and cosines of the angles that have them already.
     pub(super) angles: FxHashMap<Value, (Ident, Ident)>,
@@ -153,7 +162,7 @@ impl<'a> Writer<'a> {
 
     /// Assigns a value to those outputs that have a place.
     pub(super) fn assign(&mut self, value: Value, outputs: &[Slot], place: Place) {
-        for place in outputs.iter().filter_map(place) {
+        for place in outputs.iter().filter_map(|slot| place(&slot.into())) {
             let tokens = &self.piece(value).tokens;
             let statement = quote!(#place = #tokens;);
             self.statements.push(statement);
@@ -209,7 +218,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Gives an expression a name close to a wish.
-    fn named(&mut self, wish: &str, tokens: TokenStream) -> Piece {
+    pub(super) fn named(&mut self, wish: &str, tokens: TokenStream) -> Piece {
         let name = self.names.unique(wish);
         self.statements.name(name.clone(), tokens);
         variable(name)
@@ -253,60 +262,6 @@ impl<'a> Writer<'a> {
             .into_iter()
             .map(|value| self.piece(value).operands)
             .sum()
-    }
-
-    /// A product that is written where it is added goes with the sum into one operation.
-    fn sum(&mut self, terms: &[(bool, Value)]) -> Piece {
-        let (first, rest) = self.begun(terms);
-        let mut sum = first;
-        for (count, (minus, value)) in (1..).zip(rest) {
-            if count % NESTED_MAX == 0 {
-                sum = self.named("sum", sum.tokens);
-            }
-            let term = self.piece(value);
-            let (so_far, operands) = (sum.tokens, sum.operands + term.operands);
-            let (tokens, binding) = match (&term.factors, minus) {
-                (Some((x, y)), false) => (quote!(#x.mul_add(#y, #so_far)), Binding::Atom),
-                (Some((x, y)), true) => (quote!((-#x).mul_add(#y, #so_far)), Binding::Atom),
-                (None, _) => {
-                    let term = self.bound(value, Binding::Product);
-                    let sign = if minus { quote!(-) } else { quote!(+) };
-                    (quote!(#so_far #sign #term), Binding::Sum)
-                }
-            };
-            sum = Piece {
-                tokens,
-                binding,
-                operands,
-                factors: None,
-                name: None,
-            };
-        }
-        sum
-    }
-
-    /// What a sum begins with, and its other terms: a term that is added and is no product, if
-    /// there is one.
-    fn begun(&self, terms: &[(bool, Value)]) -> (Piece, Vec<(bool, Value)>) {
-        let mut rest = terms.to_vec();
-        let plain = |(minus, value): &(bool, Value)| !minus && self.piece(*value).factors.is_none();
-        let (minus, value) = rest.remove(terms.iter().position(plain).unwrap_or(0));
-        let Piece {
-            tokens, operands, ..
-        } = self.piece(value);
-        let term = self.bound(value, Binding::Product);
-        let piece = Piece {
-            tokens: if minus {
-                quote!(-#term)
-            } else {
-                tokens.clone()
-            },
-            binding: Binding::Sum,
-            operands: *operands,
-            factors: None,
-            name: None,
-        };
-        (piece, rest)
     }
 
     /// Numbers stand in front, as people write them.

@@ -8,21 +8,19 @@
 //! What a compiler needs for a straight line grows faster than the line: vectorising, keeping
 //! values in registers and scheduling look at all of a block, again and again.
 
-use super::function::{Decided, Place, Symbols, Writer};
+use super::function::{Decided, Place, Symbols};
 use super::name::Names;
-use super::statements::Statements;
+use super::step::{Angles, Step, Steps};
 use super::subject::argument;
-use crate::expr::Function;
 use crate::model::Symbol;
-use crate::optimise::{Operation, Program, Value};
+use crate::optimise::Program;
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 use rustc_hash::{FxHashMap, FxHashSet};
-use std::collections::BTreeSet;
 
-/// The most operations of a function that is one straight line, unless another number is asked
-/// for: those of a row of 80 parallelograms are, of 160 are not. Parts run longer, since they go
-/// through memory: an acceleration of a row of 80 costs 1.8 times as many instructions in parts.
+/// The most operations of a function without loops that is one straight line, unless another
+/// number is asked for. Parts run longer, since they go through memory: an acceleration of a row
+/// of 80 parallelograms would take 1.8 times as many instructions in parts.
 pub(super) const STRAIGHT_LINE: usize = 20_000;
 /// The most statements of a part; where shorter lines are asked for, a quarter of their operations.
 /// What looks at all of a block takes a compiler half as long for a row of 320 as with parts of
@@ -37,20 +35,6 @@ pub(super) struct Parts {
     pub functions: TokenStream,
 }
 
-/// Some statements: those for one value, or the call for the angles.
-#[derive(Default)]
-struct Step {
-    statements: Statements,
-    symbols: BTreeSet<Symbol>,
-    reads: Vec<Ident>,
-    defines: Vec<Ident>,
-    /// Whether it looks at the state, and at the buffer.
-    state: bool,
-    out: bool,
-    /// Whether it brings its symbols into scope by itself, in a part of its own.
-    alone: bool,
-}
-
 impl Parts {
     /// Writes a program; `names` are the names that are taken. The function that is taken
     /// apart has a name, and takes a `state` and a buffer `out`.
@@ -62,18 +46,26 @@ impl Parts {
         (name, [state_type, out_type]): (&Ident, &[TokenStream; 2]),
         straight_line: usize,
     ) -> Self {
-        let statements = STATEMENTS.min(straight_line / 4);
-        let parts = parts(steps(program, symbols, names, place, decided), statements);
-        let kept = Kept::between(&parts);
+        let Steps {
+            angles,
+            list,
+            definitions,
+            ..
+        } = Steps::of(program, symbols, names, decided);
+        let parts = parts(list, STATEMENTS.min(straight_line / 4));
+        let kept = Kept::between(angles.as_ref(), &parts, &definitions);
+        let angles = angles.map(|angles| PartBody::of_angles(angles, &kept));
+        let others = parts.into_iter();
+        let others = others.map(|part| PartBody::of_steps(part, symbols, place, &kept));
         let count = Literal::usize_unsuffixed(kept.count);
         let mut functions = TokenStream::new();
         let mut calls = quote!(let mut kept = [T::zero(); #count];);
-        for (number, part) in parts.into_iter().enumerate() {
+        for (number, part) in angles.into_iter().chain(others).enumerate() {
             let name = Ident::new(&format!("{name}_part_{number}"), Span::call_site());
-            let state = argument("state", part.iter().any(|step| step.state));
-            let out = argument("out", part.iter().any(|step| step.out));
-            let room = argument("kept", part.iter().any(|step| kept.serves(step)));
-            let body = body(part, symbols, &kept);
+            let PartBody {
+                body,
+                arguments: [state, out, room],
+            } = part;
             functions.extend(quote! {
                 #[inline(never)]
                 fn #name(
@@ -91,114 +83,16 @@ impl Parts {
     }
 }
 
-/// The steps of a program; the first is the call for the angles.
-fn steps(
-    program: &Program,
-    symbols: &dyn Symbols,
-    names: Names,
-    place: Place,
-    decided: Decided,
-) -> Vec<Step> {
-    let mut writer = Writer::of(program, symbols, names, decided);
-    writer.place_angles(true);
-    let pairs = writer.angles.values();
-    let mut defined: FxHashSet<Ident> = pairs.flat_map(named).collect();
-    let mut steps = Vec::new();
-    if writer.statements.len() > 0 {
-        let mut defines: Vec<Ident> = defined.iter().cloned().collect();
-        defines.sort();
-        steps.push(Step {
-            statements: std::mem::take(&mut writer.statements),
-            defines,
-            state: true,
-            alone: true,
-            ..Step::default()
-        });
-    }
-    let slots = program.slots();
-    for (value, operation) in program.operations() {
-        writer.place(value);
-        writer.assign(value, &slots[value.index()], place);
-        if writer.statements.len() > 0 {
-            let statements = std::mem::take(&mut writer.statements);
-            let mut step = writer.step(value, operation, statements);
-            let (new, known) = step
-                .defines
-                .drain(..)
-                .partition(|name| defined.insert(name.clone()));
-            step.defines = new;
-            step.reads.extend::<Vec<Ident>>(known);
-            step.out |= !slots[value.index()].is_empty();
-            steps.push(step);
-        }
-    }
-    steps
-}
-
-/// The names of a sine and a cosine, as far as they have one.
-fn named((sin, cos): &(Ident, Ident)) -> Vec<Ident> {
-    let mut names = vec![sin.clone(), cos.clone()];
-    names.retain(|name| name != "_");
-    names
-}
-
-impl Writer<'_> {
-    /// What the statements for a value read and define.
-    fn step(&self, value: Value, operation: &Operation, statements: Statements) -> Step {
-        let mut step = Step {
-            defines: self.piece(value).name.iter().cloned().collect(),
-            statements,
-            ..Step::default()
-        };
-        if let Operation::Function(Function::Sin | Function::Cos, x) = operation
-            && let Some(pair) = self.angles.get(x)
-        {
-            step.defines = named(pair);
-        }
-        step.looks_at(operation);
-        let mut pending = operation.operands();
-        while let Some(value) = pending.pop() {
-            if let Some(name) = &self.piece(value).name {
-                step.reads.push(name.clone());
-            } else {
-                let operation = self.program.operation(value);
-                step.looks_at(operation);
-                pending.extend(operation.operands());
-            }
-        }
-        step
-    }
-}
-
-impl Step {
-    /// Marks what an operation looks at by itself.
-    fn looks_at(&mut self, operation: &Operation) {
-        match operation {
-            Operation::Symbol(symbol) => {
-                self.symbols.insert(*symbol);
-                self.state |= matches!(
-                    symbol,
-                    Symbol::Time | Symbol::Coordinate(_) | Symbol::Velocity(_)
-                );
-                self.out |= matches!(symbol, Symbol::Weight(_));
-            }
-            Operation::Select(test, _) => self.out |= test.held.is_some(),
-            Operation::Function(Function::Table(lookup), _) => self.out |= lookup.held.is_some(),
-            _ => {}
-        }
-    }
-}
-
 /// Steps, so many to a part that it has no more statements than it may.
 fn parts(steps: Vec<Step>, most: usize) -> Vec<Vec<Step>> {
     let mut parts: Vec<Vec<Step>> = Vec::new();
     let mut statements = 0;
     for step in steps {
-        statements += step.statements.len();
+        statements += step.length();
         match parts.last_mut() {
-            Some(part) if statements <= most && !part[0].alone => part.push(step),
+            Some(part) if statements <= most => part.push(step),
             _ => {
-                statements = step.statements.len();
+                statements = step.length();
                 parts.push(vec![step]);
             }
         }
@@ -208,74 +102,135 @@ fn parts(steps: Vec<Step>, most: usize) -> Vec<Vec<Step>> {
 
 /// The values that one part computes and later ones read. No part writes places that are next to
 /// one another: compilers would try to compute what is stored there side by side, in vain.
-struct Kept {
-    places: FxHashMap<Ident, usize>,
+struct Kept<'a> {
+    definitions: &'a [Ident],
+    places: FxHashMap<usize, usize>,
     count: usize,
 }
 
-impl Kept {
-    fn between(parts: &[Vec<Step>]) -> Self {
-        let mut last: FxHashMap<&Ident, usize> = FxHashMap::default();
-        for (part, steps) in parts.iter().enumerate() {
-            let read = steps.iter().flat_map(|step| &step.reads);
-            last.extend(read.map(|name| (name, part)));
+impl<'a> Kept<'a> {
+    /// The call for the angles is the first part, if there is one.
+    fn between(angles: Option<&Angles>, parts: &[Vec<Step>], definitions: &'a [Ident]) -> Self {
+        let first = usize::from(angles.is_some());
+        let numbered = || (first..).zip(parts);
+        let mut last: FxHashMap<usize, usize> = FxHashMap::default();
+        for (part, steps) in numbered() {
+            let read = steps.iter().flat_map(Step::reads);
+            last.extend(read.map(|number| (number, part)));
         }
+        let pairs = angles.iter().flat_map(|angles| &angles.pairs);
+        let of_angles: Vec<usize> = pairs.flatten().flatten().copied().collect();
+        let of_angles = angles.map(|_| (0, of_angles));
+        let defined = numbered().map(|(part, steps)| {
+            let defined = steps.iter().flat_map(|step| step.defines.clone());
+            (part, defined.collect())
+        });
         let mut places = FxHashMap::default();
         // Of the even places, and of the odd ones, those that are free, and how many there are.
         let mut free = [Vec::new(), Vec::new()];
         let mut counts = [0, 0];
         let mut taken: Vec<(usize, usize)> = Vec::new();
-        for (part, steps) in parts.iter().enumerate() {
+        for (part, defined) in of_angles.into_iter().chain(defined) {
             // A place that this part still reads is written by none of its statements.
             let given = taken.extract_if(.., |(last, _)| *last < part);
             given.for_each(|(_, place)| free[place % 2].push(place));
-            for name in steps.iter().flat_map(|step| &step.defines) {
-                let last = last.get(name).copied().unwrap_or(part);
-                if last > part && !places.contains_key(name) {
+            for number in defined {
+                let last = last.get(&number).copied().unwrap_or(part);
+                if last > part {
                     let side = part % 2;
                     let place = free[side].pop().unwrap_or_else(|| {
                         counts[side] += 1;
                         2 * counts[side] - 2 + side
                     });
-                    places.insert(name.clone(), place);
+                    places.insert(number, place);
                     taken.push((last, place));
                 }
             }
         }
         let count = 2 * counts[0].max(counts[1]);
-        Self { places, count }
+        Self {
+            definitions,
+            places,
+            count,
+        }
     }
 
-    /// Whether a step reads or defines what is kept.
-    fn serves(&self, step: &Step) -> bool {
-        let mut names = step.reads.iter().chain(&step.defines);
-        names.any(|name| self.places.contains_key(name))
-    }
-
-    fn place(&self, name: &Ident) -> Option<TokenStream> {
-        let place = Literal::usize_unsuffixed(*self.places.get(name)?);
+    fn place(&self, number: usize) -> Option<TokenStream> {
+        let place = Literal::usize_unsuffixed(*self.places.get(&number)?);
         Some(quote!(kept[#place]))
     }
 }
 
-/// The statements of a part. What it reads is fetched where it is read first.
-fn body(part: Vec<Step>, symbols: &dyn Symbols, kept: &Kept) -> TokenStream {
-    let read = part.iter().flat_map(|step| &step.symbols).copied();
-    let mut tokens = symbols.prelude(&read.collect());
-    let mut known: FxHashSet<Ident> = FxHashSet::default();
-    for step in part {
-        for name in step.reads {
-            let place = kept.place(&name);
-            if known.insert(name.clone()) {
-                tokens.extend(place.map(|place| quote!(let #name = #place;)));
+/// The statements of a part, and what it looks at: `state`, `out` and `kept`.
+struct PartBody {
+    body: TokenStream,
+    arguments: [Ident; 3],
+}
+
+impl PartBody {
+    fn of_angles(angles: Angles, kept: &Kept) -> Self {
+        let Angles {
+            statements,
+            array,
+            pairs,
+        } = angles;
+        let statements = statements.into_tokens();
+        let mut body = quote!(#statements let (sines, cosines) = T::sin_cos_all(&#array););
+        for (row, pair) in pairs.iter().enumerate() {
+            let row = Literal::usize_unsuffixed(row);
+            for (number, array) in pair.iter().zip([quote!(sines), quote!(cosines)]) {
+                let place = number.and_then(|number| kept.place(number));
+                body.extend(place.map(|place| quote!(#place = #array[#row];)));
             }
         }
-        tokens.extend(step.statements.into_tokens());
-        for name in step.defines {
-            let place = kept.place(&name);
-            tokens.extend(place.map(|place| quote!(#place = #name;)));
-            known.insert(name);
+        let arguments = [("state", true), ("out", false), ("kept", true)];
+        Self {
+            body,
+            arguments: arguments.map(|(name, read)| argument(name, read)),
         }
     }
-    tokens
+
+    /// What a part reads is fetched where it is read first.
+    fn of_steps(part: Vec<Step>, symbols: &dyn Symbols, place: Place, kept: &Kept) -> Self {
+        let read = part.iter().flat_map(|step| &step.symbols).copied();
+        let mut body = symbols.prelude(&read.collect());
+        let arguments = arguments(&part, kept);
+        let mut known: FxHashSet<usize> = FxHashSet::default();
+        for step in part {
+            for number in step.reads() {
+                if known.insert(number) {
+                    let (name, place) = (&kept.definitions[number], kept.place(number));
+                    body.extend(place.map(|place| quote!(let #name = #place;)));
+                }
+            }
+            body.extend(step.statements.into_tokens());
+            for (slot, value) in step.writes {
+                let place = place(&(&slot).into());
+                body.extend(place.map(|place| quote!(#place = #value;)));
+            }
+            for number in step.defines {
+                let (name, place) = (&kept.definitions[number], kept.place(number));
+                body.extend(place.map(|place| quote!(#place = #name;)));
+                known.insert(number);
+            }
+        }
+        Self { body, arguments }
+    }
+}
+
+/// The arguments of the function that runs a part.
+fn arguments(part: &[Step], kept: &Kept) -> [Ident; 3] {
+    let mut symbols = part.iter().flat_map(|step| &step.symbols);
+    let state = symbols.clone().any(|symbol| symbol.is_of_state());
+    let weighed = symbols.any(|symbol| matches!(symbol, Symbol::Weight(_)));
+    let out = part
+        .iter()
+        .any(|step| step.sides || !step.writes.is_empty());
+    let mut numbers = (part.iter()).flat_map(|step| step.reads().chain(step.defines.clone()));
+    let room = numbers.any(|number| kept.places.contains_key(&number));
+    [
+        argument("state", state),
+        argument("out", out || weighed),
+        argument("kept", room),
+    ]
 }

@@ -32,7 +32,7 @@ impl Repeated {
         let (again, once): (Vec<Value>, Vec<Value>) =
             values.partition(|value| changing[value.index()]);
         let mut writer = Writer::of(program, symbols, names, Decided::ByState);
-        let bound = writer.place_angles(false);
+        let bound = writer.place_angles();
         let rest = &writer.symbols_read() - &bound;
         let (last, first): (BTreeSet<Symbol>, BTreeSet<Symbol>) =
             rest.into_iter().partition(changes);

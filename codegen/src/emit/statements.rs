@@ -33,6 +33,11 @@ impl Statements {
         self.0.push(Statement::Other(statement));
     }
 
+    /// Puts others behind these.
+    pub(super) fn append(&mut self, others: Self) {
+        self.0.extend(others.0);
+    }
+
     pub(super) fn len(&self) -> usize {
         self.0.len()
     }

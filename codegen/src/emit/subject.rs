@@ -1,13 +1,21 @@
 //! What the emitter looks at, and what all parts of a module are written with.
 
 use super::function::{Body, Decided, Place};
+use super::index::{Index, Target};
+use super::loops::Loops;
 use super::name::type_name;
 use super::symbol::SymbolNames;
 use crate::derive::Equations;
 use crate::model::{Mechanism, Symbol};
-use crate::optimise::{Optimised, Program, Programs, Slot};
+use crate::optimise::{Optimised, Program, Programs};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
+use rustc_hash::FxHashMap;
+
+/// The most operations of a function in which what comes again is no loop, unless another number is
+/// asked for: those of a row of 40 parallelograms. Beyond, loops are faster on all processors, and
+/// from 3,000 on on those that are not allowed to fuse products with sums (`docs/instructions.md`).
+const UNROLLED: usize = 8_000;
 
 /// What to emit besides the necessary.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,7 +28,11 @@ pub struct EmitOptions {
     pub assumed_regular: bool,
     /// Emit the function by which a library hands the mechanism to programs in C.
     pub c_interface: bool,
-    /// The most operations of a function that is one straight line: 20,000 unless it is given.
+    /// The most operations of a function in which what comes again is no loop: 8,000 unless it
+    /// is given.
+    pub unrolled: Option<usize>,
+    /// The most operations of a function without loops that is one straight line: 20,000 unless
+    /// it is given.
     pub straight_line: Option<usize>,
 }
 
@@ -119,20 +131,62 @@ impl Subject<'_> {
 
     /// The body of a function whose outputs are assigned by whoever asks for it.
     pub fn body(&self, computed: &Optimised) -> Written {
-        self.optimised(computed, &|_| None, Decided::ByState)
+        let (program, decided) = (&computed.program, Decided::ByState);
+        let body = match self.loops(program, decided).filter(|_| program.is_list()) {
+            Some(loops) => body_of_list(program, loops),
+            None => self.straight(program, &|_| None, decided),
+        };
+        self.with_arguments(computed, body)
     }
 
     /// The body that runs a program; says what it costs, and what it would as derived.
     pub fn optimised(&self, computed: &Optimised, place: Place, decided: Decided) -> Written {
+        let program = &computed.program;
+        let body = match self.loops(program, decided) {
+            Some(loops) => Body::new(loops.statements(place), FxHashMap::default()),
+            None => self.straight(program, place, decided),
+        };
+        self.with_arguments(computed, body)
+    }
+
+    /// A body without loops.
+    pub fn straight(&self, program: &Program, place: Place, decided: Decided) -> Body {
         let taken = self.names.taken.clone();
+        Body::of(program, &self.names, taken, place, decided)
+    }
+
+    fn with_arguments(&self, computed: &Optimised, body: Body) -> Written {
         let program = &computed.program;
         Written {
-            body: Body::of(program, &self.names, taken, place, decided),
+            body,
             state: argument("state", SymbolNames::reads_state(program)),
             acceleration: argument("acceleration", Reads::of(program).acceleration),
             cost: cost_in_words(computed),
         }
     }
+
+    /// The loops of a program, if it is long and they make it much shorter.
+    pub fn loops(&self, program: &Program, decided: Decided) -> Option<Loops<'_>> {
+        if program.len() <= self.options.unrolled.unwrap_or(UNROLLED) {
+            return None;
+        }
+        let taken = self.names.taken.clone();
+        Loops::of(program, &self.names, taken, decided)
+    }
+}
+
+/// The body of a function with loops that writes a list, an array `out`.
+fn body_of_list(program: &Program, loops: Loops) -> Body {
+    let entry = |row: Index| quote!(out[#row]);
+    let rows = program.outputs.iter().map(|(slot, _)| slot.row);
+    let count = Literal::usize_unsuffixed(rows.max().map_or(0, |last| last + 1));
+    let statements = loops.statements(&|target| Some(entry(target.row)));
+    let outputs = program.outputs.iter();
+    let outputs = outputs.map(|(slot, _)| (*slot, entry(Index::fixed(slot.row))));
+    Body::new(
+        quote!(let mut out = [T::zero(); #count]; #statements),
+        outputs.collect(),
+    )
 }
 
 /// What a program costs, and what it would as derived.
@@ -146,14 +200,12 @@ pub(super) fn cost_in_words(computed: &Optimised) -> String {
 
 /// An entry of an array. Arrays are indexed by literals below nalgebra's own indexing, so
 /// the compiler checks the bounds.
-pub(super) fn entry(array: TokenStream, slot: &Slot) -> TokenStream {
-    let row = Literal::usize_unsuffixed(slot.row);
-    let column = Literal::usize_unsuffixed(slot.column);
+pub(super) fn entry(array: TokenStream, Target { row, column, .. }: &Target) -> TokenStream {
     quote!(#array.data.0[#column][#row])
 }
 
 /// An entry of the buffer's field of the array's name.
-pub(super) fn entry_of_field(slot: &Slot) -> Option<TokenStream> {
-    let field = Ident::new(slot.array, Span::call_site());
-    Some(entry(quote!(out.#field), slot))
+pub(super) fn entry_of_field(target: &Target) -> Option<TokenStream> {
+    let field = Ident::new(target.array, Span::call_site());
+    Some(entry(quote!(out.#field), target))
 }

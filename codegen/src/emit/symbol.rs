@@ -2,6 +2,7 @@
 //! bring them into scope.
 
 use super::function::Symbols;
+use super::index::Index;
 use super::name::Names;
 use crate::model::{Mechanism, Quantity, Symbol};
 use crate::optimise::Program;
@@ -10,7 +11,7 @@ use quote::quote;
 use std::collections::BTreeSet;
 
 /// Names that emitted bodies use for themselves.
-const RESERVED: [&str; 11] = [
+const RESERVED: [&str; 12] = [
     "state",
     "out",
     "values",
@@ -22,6 +23,7 @@ const RESERVED: [&str; 11] = [
     "outputs",
     "inputs",
     "kept",
+    "turn",
 ];
 
 /// The entries of an array that are always named all at once.
@@ -112,20 +114,17 @@ impl SymbolNames {
         if used.contains(&Symbol::Time) {
             statements.extend(quote!(let #time = state.t;));
         }
-        let mut bind = |names: &[Ident], symbol: fn(u32) -> Symbol, array: TokenStream| {
+        let mut bind = |names: &[Ident], symbol: fn(u32) -> Symbol| {
+            let array = array_of(symbol(0)).unwrap_or_default();
             let uses = |i: &usize| u32::try_from(*i).is_ok_and(|i| used.contains(&symbol(i)));
             let places: Vec<usize> = (0..names.len()).filter(uses).collect();
             statements.extend(entries(names, &places, &quote!(#array.data.0[0])));
         };
-        bind(&self.coordinates, Symbol::Coordinate, quote!(state.q));
-        bind(&self.velocities, Symbol::Velocity, quote!(state.v));
-        bind(
-            &self.accelerations,
-            Symbol::Acceleration,
-            quote!(acceleration),
-        );
-        bind(&self.multipliers, Symbol::Multiplier, quote!(multiplier));
-        bind(&self.weights, Symbol::Weight, quote!(out.weights));
+        bind(&self.coordinates, Symbol::Coordinate);
+        bind(&self.velocities, Symbol::Velocity);
+        bind(&self.accelerations, Symbol::Acceleration);
+        bind(&self.multipliers, Symbol::Multiplier);
+        bind(&self.weights, Symbol::Weight);
         statements.extend(self.parameter_prelude(used));
         statements.extend(self.follows_prelude(used));
         statements
@@ -171,12 +170,19 @@ impl SymbolNames {
 
     /// Whether a program reads the state.
     pub fn reads_state(program: &Program) -> bool {
-        program.reads(|symbol| {
-            matches!(
-                symbol,
-                Symbol::Time | Symbol::Coordinate(_) | Symbol::Velocity(_)
-            )
-        })
+        program.reads(|symbol| symbol.is_of_state())
+    }
+}
+
+/// The array that a symbol is an entry of.
+fn array_of(symbol: Symbol) -> Option<TokenStream> {
+    match symbol {
+        Symbol::Coordinate(_) => Some(quote!(state.q)),
+        Symbol::Velocity(_) => Some(quote!(state.v)),
+        Symbol::Acceleration(_) => Some(quote!(acceleration)),
+        Symbol::Multiplier(_) => Some(quote!(multiplier)),
+        Symbol::Weight(_) => Some(quote!(out.weights)),
+        Symbol::Time | Symbol::Parameter(_) | Symbol::Input(_) | Symbol::Follows(_) => None,
     }
 }
 
@@ -207,6 +213,10 @@ impl Symbols for SymbolNames {
 
     fn all_coordinates(&self, count: usize) -> Option<TokenStream> {
         (self.coordinates.len() == count).then(|| quote!(state.q.data.0[0]))
+    }
+
+    fn entry(&self, symbol: Symbol, index: Index) -> Option<TokenStream> {
+        array_of(symbol).map(|array| quote!(#array.data.0[0][#index]))
     }
 
     fn local(&self, symbol: Symbol) -> Ident {

@@ -44,6 +44,23 @@ impl Symbolic for Symbol {
 }
 
 impl Symbol {
+    /// Its place in the array of those of its kind, if there is one at run time.
+    pub(crate) fn entry(self) -> Option<usize> {
+        match self {
+            Symbol::Coordinate(i)
+            | Symbol::Velocity(i)
+            | Symbol::Acceleration(i)
+            | Symbol::Multiplier(i)
+            | Symbol::Weight(i) => Some(i as usize),
+            Symbol::Time | Symbol::Parameter(_) | Symbol::Input(_) | Symbol::Follows(_) => None,
+        }
+    }
+
+    /// Whether it is in the state of a motion.
+    pub(crate) fn is_of_state(self) -> bool {
+        self == Symbol::Time || self.moves()
+    }
+
     /// Whether it is a coordinate or a velocity.
     fn moves(self) -> bool {
         matches!(self, Symbol::Coordinate(_) | Symbol::Velocity(_))

@@ -181,6 +181,15 @@ impl Program {
         self.operations.iter().any(is_kind)
     }
 
+    /// Whether its outputs are the entries of one vector.
+    pub fn is_list(&self) -> bool {
+        let mut slots = self.outputs.iter().map(|(slot, _)| slot);
+        let first = slots.next();
+        first.is_some_and(|first| first.column == 0)
+            && slots
+                .all(|slot| Some(slot.array) == first.map(|first| first.array) && slot.column == 0)
+    }
+
     /// By value: the entries that it is.
     pub fn slots(&self) -> Vec<Vec<Slot>> {
         let mut slots = vec![Vec::new(); self.len()];

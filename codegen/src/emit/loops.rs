@@ -1,0 +1,295 @@
+//! Long functions with loops.
+//!
+//! In:  a program, and the loops that are in it.
+//! Out: statements, with loops among them. What one turn computes and another one reads, or what
+//!      stands outside of the loop, is an entry of an array over the turns.
+//!
+//! A compiler takes a short loop in no time, and a processor faster than a line that does not
+//! fit into its first cache.
+
+use super::column::Columns;
+use super::function::{Decided, Place, Symbols};
+use super::index::{Index, Target, turn};
+use super::name::Names;
+use super::statements::Statements;
+use super::step::{Angles, Reference, Step, Steps};
+use super::turns::{Block, Found, Loop, Stride};
+use crate::model::Symbol;
+use crate::optimise::{Program, Slot};
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+use rustc_hash::FxHashSet;
+use std::collections::BTreeSet;
+
+/// Loops pay where they leave at most three of four steps.
+const OF_FOUR: usize = 3;
+/// The most steps that may be left, for the compiler's sake.
+const LEFT_MAX: usize = 10_000;
+
+/// A program with loops.
+pub(super) struct Loops<'a> {
+    symbols: &'a dyn Symbols,
+    steps: Steps,
+    found: Found,
+}
+
+impl<'a> Loops<'a> {
+    /// Those of a program, if they make it much shorter; `names` are the names that are taken.
+    pub fn of(
+        program: &Program,
+        symbols: &'a dyn Symbols,
+        names: Names,
+        decided: Decided,
+    ) -> Option<Self> {
+        let steps = Steps::of(program, symbols, names, decided);
+        let found = Found::of(&steps);
+        let length = |block: &Block| match block {
+            Block::Straight(range) => range.len(),
+            Block::Loop(repeated) => repeated.first.len(),
+        };
+        let left: usize = found.blocks.iter().map(length).sum();
+        let pays = 4 * left <= OF_FOUR * steps.list.len() && left <= LEFT_MAX;
+        pays.then_some(Self {
+            symbols,
+            steps,
+            found,
+        })
+    }
+
+    /// The statements of the function.
+    pub fn statements(self, place: Place) -> TokenStream {
+        let Self {
+            symbols,
+            mut steps,
+            mut found,
+        } = self;
+        let blocks = std::mem::take(&mut found.blocks);
+        let mut names = std::mem::take(&mut steps.names);
+        let columns = Columns::of(&blocks, &steps, found, &mut names);
+        let mut writer = Writer {
+            symbols,
+            place,
+            columns,
+            definitions: &steps.definitions,
+            statements: Statements::default(),
+            known: FxHashSet::default(),
+        };
+        if let Some(angles) = steps.angles {
+            writer.angles(angles);
+        }
+        writer.arrays();
+        let fixed = fixed(&blocks, &steps.list);
+        writer.statements.push(symbols.prelude(&fixed));
+        let mut list = steps.list.into_iter();
+        for block in blocks {
+            match block {
+                Block::Straight(range) => list
+                    .by_ref()
+                    .take(range.len())
+                    .for_each(|step| writer.straight(step)),
+                Block::Loop(repeated) => {
+                    let mut turns = list.by_ref().take(repeated.all().len());
+                    let first = turns.by_ref().take(repeated.first.len()).collect();
+                    turns.for_each(drop);
+                    writer.repeated(first, &repeated);
+                }
+            }
+        }
+        writer.statements.into_tokens()
+    }
+}
+
+/// The symbols that are the same in all turns of all loops.
+fn fixed(blocks: &[Block], steps: &[Step]) -> BTreeSet<Symbol> {
+    let mut fixed = BTreeSet::new();
+    for block in blocks {
+        match block {
+            Block::Straight(range) => {
+                let steps = steps[range.clone()].iter();
+                fixed.extend(steps.flat_map(|step| &step.symbols));
+            }
+            Block::Loop(repeated) => {
+                let steps = &steps[repeated.first.clone()];
+                let mut symbols: BTreeSet<Symbol> =
+                    steps.iter().flat_map(|step| step.symbols.clone()).collect();
+                let references = steps.iter().flat_map(|step| &step.references);
+                for (reference, [row, _]) in references.zip(&repeated.strides) {
+                    if let Reference::Entry(symbol) = reference
+                        && *row != 0
+                    {
+                        symbols.remove(symbol);
+                    }
+                }
+                fixed.extend(symbols);
+            }
+        }
+    }
+    fixed
+}
+
+/// A function that is being written.
+struct Writer<'a> {
+    symbols: &'a dyn Symbols,
+    place: Place<'a>,
+    columns: Columns,
+    definitions: &'a [Ident],
+    statements: Statements,
+    /// The values that are in scope outside of all loops.
+    known: FxHashSet<usize>,
+}
+
+impl Writer<'_> {
+    /// The call for the angles; what comes of it is two arrays.
+    fn angles(&mut self, angles: Angles) {
+        let Angles {
+            statements, array, ..
+        } = angles;
+        self.statements.append(statements);
+        let arrays = self.columns.of_angles();
+        let [sines, cosines] = arrays.map(|name| name.map_or(quote!(_), |name| quote!(#name)));
+        self.statements
+            .push(quote!(let (#sines, #cosines) = T::sin_cos_all(&#array);));
+    }
+
+    /// The other arrays.
+    fn arrays(&mut self) {
+        for (array, turns) in self.columns.arrays() {
+            let turns = Literal::usize_unsuffixed(turns);
+            self.statements
+                .push(quote!(let mut #array = [T::zero(); #turns];));
+        }
+    }
+
+    /// A step outside of all loops.
+    fn straight(&mut self, step: Step) {
+        step.reads().for_each(|number| self.know(number));
+        self.known.extend(step.defines.clone());
+        let references = step.references.iter().map(|reference| (*reference, [0, 0]));
+        let writes = self.writes(&step, references);
+        self.statements.append(step.statements);
+        self.statements.push(writes);
+        for number in step.defines {
+            let left = self.columns.array_outside(number);
+            let left = left.map(|(array, turn)| (array.clone(), Index::fixed(turn)));
+            self.leave(number, left);
+        }
+    }
+
+    /// Brings a value into scope outside of all loops.
+    fn know(&mut self, number: usize) {
+        if self.known.insert(number) {
+            let value = self.entry(number, 0);
+            let name = self.definitions[number].clone();
+            value
+                .into_iter()
+                .for_each(|value| self.statements.name(name.clone(), value));
+        }
+    }
+
+    /// Where a value is found in its array, so far from turn to turn.
+    fn entry(&self, number: usize, step: isize) -> Option<TokenStream> {
+        let (array, first) = self.columns.array(number)?;
+        let index = Index { first, step };
+        Some(quote!(#array[#index]))
+    }
+
+    /// Leaves a value for others.
+    fn leave(&mut self, number: usize, place: Option<(Ident, Index)>) {
+        let name = &self.definitions[number];
+        if let Some((array, index)) = place {
+            self.statements.push(quote!(#array[#index] = #name;));
+        }
+    }
+
+    /// What a step writes.
+    fn writes(
+        &self,
+        step: &Step,
+        references: impl Iterator<Item = (Reference, Stride)>,
+    ) -> TokenStream {
+        let written = references.filter_map(|(reference, stride)| match reference {
+            Reference::Written(slot) => Some(target(&slot, stride)),
+            Reference::Value(_) | Reference::Entry(_) => None,
+        });
+        let writes = written.zip(&step.writes);
+        let assigned = writes.filter_map(|(target, (_, value))| {
+            let place = (self.place)(&target)?;
+            Some(quote!(#place = #value;))
+        });
+        assigned.collect()
+    }
+
+    /// Steps that come again; those of the first turn. What is the same in all turns is brought
+    /// into scope before.
+    fn repeated(&mut self, steps: Vec<Step>, repeated: &Loop) {
+        let references = steps.iter().flat_map(|step| step.references.clone());
+        let references: Vec<(Reference, Stride)> =
+            references.zip(repeated.strides.iter().copied()).collect();
+        let mut here: FxHashSet<usize> =
+            steps.iter().flat_map(|step| step.defines.clone()).collect();
+        for (reference, [row, _]) in &references {
+            if let Reference::Value(number) = reference
+                && *row == 0
+                && here.insert(*number)
+            {
+                self.know(*number);
+            }
+        }
+        let outside = std::mem::take(&mut self.statements);
+        self.turn(steps, &references, (here, repeated.step));
+        let inside = std::mem::replace(&mut self.statements, outside).into_tokens();
+        let (turn, turns) = (turn(), Literal::usize_unsuffixed(repeated.turns));
+        self.statements
+            .push(quote!(for #turn in 0..#turns { #inside }));
+    }
+
+    /// What is done in each turn. Some values are in scope `here`, and in arrays it is so `far`
+    /// from one turn to the next.
+    fn turn(
+        &mut self,
+        steps: Vec<Step>,
+        references: &[(Reference, Stride)],
+        (mut here, far): (FxHashSet<usize>, isize),
+    ) {
+        let mut references = references.iter().copied();
+        let mut bound = BTreeSet::new();
+        for step in steps {
+            let count = step.references.len();
+            let own: Vec<(Reference, Stride)> = references.by_ref().take(count).collect();
+            for (reference, [row, _]) in &own {
+                match reference {
+                    Reference::Value(number) if here.insert(*number) => {
+                        let name = self.definitions[*number].clone();
+                        let value = self.entry(*number, *row).unwrap_or_default();
+                        self.statements.name(name, value);
+                    }
+                    Reference::Entry(symbol) if *row != 0 && bound.insert(*symbol) => {
+                        let first = symbol.entry().unwrap_or_default();
+                        let value = self.symbols.entry(*symbol, Index { first, step: *row });
+                        let name = self.symbols.local(*symbol);
+                        self.statements.name(name, value.unwrap_or_default());
+                    }
+                    _ => {}
+                }
+            }
+            let writes = self.writes(&step, own.into_iter());
+            self.statements.append(step.statements);
+            self.statements.push(writes);
+            for number in step.defines {
+                let left = self.columns.array(number);
+                let index = |first| Index { first, step: far };
+                let left = left.map(|(array, turn)| (array.clone(), index(turn)));
+                self.leave(number, left);
+            }
+        }
+    }
+}
+
+fn target(slot: &Slot, [row, column]: Stride) -> Target {
+    let index = |first, step| Index { first, step };
+    Target {
+        array: slot.array,
+        row: index(slot.row, row),
+        column: index(slot.column, column),
+    }
+}
