@@ -10,6 +10,9 @@ const SECTION_MOST: u64 = 1_000_000;
 /// Those that each of its entries may have at least, however many there are.
 const ENTRY_MOST: u64 = 1_000;
 
+/// The most entries of an array of which those that are zero are written, too.
+const ZEROS_MOST: usize = 1_000;
+
 /// One array.
 pub struct Section {
     title: &'static str,
@@ -122,6 +125,9 @@ pub fn text(graph: &mut Graph, sections: &[Section], names: &dyn Fn(Symbol) -> S
         for (place, value) in section.written(graph, Notation::Text, names) {
             text.push_str(&format!("{}[{place}] = {value}\n", section.symbol));
         }
+        if section.leaves_zeros_out() {
+            text.push_str(&format!("all other entries of {} are 0\n", section.symbol));
+        }
         text.push('\n');
     }
     text
@@ -132,9 +138,15 @@ pub fn latex(graph: &mut Graph, sections: &[Section], names: &dyn Fn(Symbol) -> 
     let mut text = String::new();
     for section in sections {
         let lines = section.lines(graph, names).into_iter();
-        let lines: Vec<String> = lines
+        let mut lines: Vec<String> = lines
             .map(|[entry, value]| format!("{entry} &= {value}"))
             .collect();
+        if section.leaves_zeros_out() {
+            lines.push(format!(
+                "{}_{{ij}} &= 0 \\text{{ otherwise}}",
+                section.latex
+            ));
+        }
         text.push_str(&format!("% {}\n\\begin{{align*}}\n", section.title));
         text.push_str(&lines.join(" \\\\\n"));
         text.push_str("\n\\end{align*}\n\n");
@@ -146,6 +158,14 @@ impl Section {
     /// What it is.
     pub fn title(&self) -> &'static str {
         self.title
+    }
+
+    /// Whether it is so large that entries that are zero are not written.
+    fn leaves_zeros_out(&self) -> bool {
+        match &self.entries {
+            Entries::Matrix(rows) => rows.iter().map(Vec::len).sum::<usize>() > ZEROS_MOST,
+            Entries::Vector(_) => false,
+        }
     }
 
     /// How many terms and factors it has, written out.
@@ -170,7 +190,10 @@ impl Section {
         notation: Notation,
         names: &dyn Fn(Symbol) -> String,
     ) -> Vec<(String, String)> {
-        let (places, entries): (Vec<String>, Vec<ExprId>) = places(&self.entries).unzip();
+        let written = |entry: &ExprId| !self.leaves_zeros_out() || !graph.is_zero(*entry);
+        let (places, entries): (Vec<String>, Vec<ExprId>) = places(&self.entries)
+            .filter(|(_, entry)| written(entry))
+            .unzip();
         let most = (SECTION_MOST / entries.len().max(1) as u64).max(ENTRY_MOST);
         let lengths = graph.lengths(&entries);
         let measured = entries.into_iter().zip(lengths);

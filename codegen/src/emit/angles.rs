@@ -10,6 +10,7 @@ use crate::model::Symbol;
 use crate::optimise::{Operation, Value};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
+use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
 use std::mem::discriminant;
 
@@ -84,10 +85,11 @@ impl Writer<'_> {
     fn early_angles(&self) -> Vec<Value> {
         let mut early = vec![false; self.program.len()];
         let mut angles: Vec<Value> = Vec::new();
+        let mut known: FxHashSet<Value> = FxHashSet::default();
         for (value, operation) in self.program.operations() {
             early[value.index()] = match operation {
                 Operation::Function(Function::Sin | Function::Cos, x) => {
-                    if early[x.index()] && !angles.contains(x) {
+                    if early[x.index()] && known.insert(*x) {
                         angles.push(*x);
                     }
                     false
@@ -188,8 +190,6 @@ impl Writer<'_> {
 
     fn has(&self, function: Function, x: Value) -> bool {
         let wanted = Operation::Function(function, x);
-        self.program
-            .operations()
-            .any(|(_, operation)| *operation == wanted)
+        self.program.value(&wanted).is_some()
     }
 }

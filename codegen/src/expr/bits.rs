@@ -1,6 +1,8 @@
-//! Sets of small whole numbers, a bit for each.
+//! Sets of small whole numbers.
 
-/// A set of whole numbers below a bound.
+use rustc_hash::FxHashSet;
+
+/// A set of whole numbers below a bound, a bit for each.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Bits {
     words: Vec<u64>,
@@ -48,5 +50,52 @@ impl Bits {
             }
         }
         numbers
+    }
+}
+
+/// A set of whole numbers below a bound that takes no more time than it has numbers: it begins
+/// without a bit for each.
+#[derive(Debug)]
+pub(crate) enum Growing {
+    /// So far, and the bound.
+    Few(FxHashSet<usize>, usize),
+    /// With a bit for each.
+    Many(Bits),
+}
+
+impl Growing {
+    /// The empty set of numbers below a bound.
+    pub fn below(bound: usize) -> Self {
+        Self::Few(FxHashSet::default(), bound)
+    }
+
+    /// Takes a number in; whether it is new.
+    pub fn insert(&mut self, number: usize) -> bool {
+        match self {
+            Self::Many(bits) => bits.insert(number),
+            Self::Few(few, bound) => {
+                let is_new = few.insert(number);
+                if few.len() > *bound / 64 {
+                    let mut bits = Bits::below(*bound);
+                    for number in few.iter() {
+                        bits.insert(*number);
+                    }
+                    *self = Self::Many(bits);
+                }
+                is_new
+            }
+        }
+    }
+
+    /// The numbers in ascending order.
+    pub fn ascending(&self) -> Vec<usize> {
+        match self {
+            Self::Many(bits) => bits.ascending(),
+            Self::Few(few, _) => {
+                let mut numbers: Vec<usize> = few.iter().copied().collect();
+                numbers.sort_unstable();
+                numbers
+            }
+        }
     }
 }

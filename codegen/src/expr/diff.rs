@@ -4,26 +4,31 @@
 //! chain rule at each node), memoised node by node, so what the expression
 //! shares its derivative shares too.
 
-use super::graph::Memo;
+use super::graph::{Memo, mark};
 use super::{ExprId, Function, Function2, Graph, Node, Number, Symbolic};
+use std::hash::Hash;
 
 /// A derivative along given seeds `dsymbol`; reuse it to reuse its memory.
 #[derive(Debug)]
 pub struct Direction<S> {
     seeds: Vec<(S, ExprId)>,
     memo: Memo,
+    /// The marks of all symbols that change; what has none of them does not.
+    marks: u64,
 }
 
-impl<S> Default for Direction<S> {
+impl<S: Hash> Default for Direction<S> {
     fn default() -> Self {
         Self::new(Vec::new())
     }
 }
 
-impl<S> Direction<S> {
+impl<S: Hash> Direction<S> {
     /// The direction in which each symbol changes at the rate beside it.
     pub fn new(seeds: Vec<(S, ExprId)>) -> Self {
+        let marks = seeds.iter().map(|(symbol, _)| mark(symbol));
         Self {
+            marks: marks.fold(0, |all, mark| all | mark),
             seeds,
             memo: Memo::default(),
         }
@@ -34,6 +39,7 @@ impl<S> Direction<S> {
         Self {
             seeds: Vec::new(),
             memo: rates.collect(),
+            marks: u64::MAX,
         }
     }
 }
@@ -44,8 +50,8 @@ impl<S: Symbolic> Graph<S> {
         let one = self.integer(1);
         let memo = self.partials.remove(&by).unwrap_or_default();
         let mut direction = Direction {
-            seeds: vec![(by, one)],
             memo,
+            ..Direction::new(vec![(by, one)])
         };
         let derivative = self.derivative_along(e, &mut direction);
         self.partials.insert(by, direction.memo);
@@ -54,21 +60,21 @@ impl<S: Symbolic> Graph<S> {
 
     /// `Σ ∂e/∂symbol · dsymbol` over the seeds of a direction.
     pub fn derivative_along(&mut self, e: ExprId, direction: &mut Direction<S>) -> ExprId {
-        if let Some(&known) = direction.memo.get(&e) {
-            return known;
-        }
         // Children come first.
-        for node in self.reachable_but(&[e], &|e| direction.memo.contains_key(&e)) {
+        let is_known =
+            |e: ExprId| direction.memo.contains_key(&e) || !self.is_marked(e, direction.marks);
+        for node in self.reachable_but(&[e], &is_known) {
             let derivative = self.chain(node, direction);
             direction.memo.insert(node, derivative);
         }
-        direction.memo[&e]
+        let zero = self.integer(0);
+        direction.memo.get(&e).copied().unwrap_or(zero)
     }
 
-    /// The chain rule at one node whose children are done.
+    /// The chain rule at one node whose children are done, as far as they change.
     fn chain(&mut self, e: ExprId, direction: &Direction<S>) -> ExprId {
         let zero = self.integer(0);
-        let d = |x: &ExprId| direction.memo[x];
+        let d = |x: &ExprId| direction.memo.get(x).copied().unwrap_or(zero);
         match self.node(e).clone() {
             Node::Number(_) | Node::Pi => zero,
             Node::Symbol(symbol) => {

@@ -10,11 +10,11 @@
 //! description shares stays shared. Products are flattened, never expanded.
 
 use super::{Function, Function2, Number, Test};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxBuildHasher, FxHashMap};
 use std::collections::BTreeMap;
 use std::collections::hash_map::Entry;
 use std::fmt::Debug;
-use std::hash::Hash;
+use std::hash::{BuildHasher, Hash};
 
 /// An expression of a graph.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -59,6 +59,12 @@ pub enum Node<S> {
     Select(Test, [ExprId; 4]),
 }
 
+/// The mark of a symbol, one bit; others may have the same.
+pub(super) fn mark<S: Hash>(symbol: &S) -> u64 {
+    // The upper bits of the hash are those that are mixed well.
+    1 << (FxBuildHasher.hash_one(symbol) >> 58)
+}
+
 /// Derivatives that are known, by what they are derivatives of.
 pub(super) type Memo = FxHashMap<ExprId, ExprId>;
 
@@ -66,6 +72,8 @@ pub(super) type Memo = FxHashMap<ExprId, ExprId>;
 #[derive(Clone, Debug)]
 pub struct Graph<S> {
     nodes: Vec<Node<S>>,
+    /// Of each node, the marks of all symbols that it is made of.
+    marks: Vec<u64>,
     index: FxHashMap<Node<S>, ExprId>,
     pub(super) partials: FxHashMap<S, Memo>,
 }
@@ -74,6 +82,7 @@ impl<S> Default for Graph<S> {
     fn default() -> Self {
         Self {
             nodes: Vec::new(),
+            marks: Vec::new(),
             index: FxHashMap::default(),
             partials: FxHashMap::default(),
         }
@@ -106,10 +115,24 @@ impl<S: Symbolic> Graph<S> {
             Entry::Occupied(known) => *known.get(),
             Entry::Vacant(free) => {
                 let id = ExprId::at(self.nodes.len());
+                let mut marks = match free.key() {
+                    Node::Symbol(symbol) => mark(symbol),
+                    _ => 0,
+                };
+                let known = &self.marks;
+                free.key()
+                    .for_each_child(&mut |child| marks |= known[child.index()]);
+                self.marks.push(marks);
                 self.nodes.push(free.key().clone());
                 *free.insert(id)
             }
         }
+    }
+
+    /// Whether an expression is made of symbols with some of these marks: if not, it is made of
+    /// none of the symbols that have them.
+    pub(super) fn is_marked(&self, e: ExprId, marks: u64) -> bool {
+        self.marks[e.index()] & marks != 0
     }
 
     /// A number.

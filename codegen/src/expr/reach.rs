@@ -1,6 +1,6 @@
 //! What expressions are made of.
 
-use super::bits::Bits;
+use super::bits::Growing;
 use super::{ExprId, Function2, Graph, Node, Symbolic};
 use std::collections::BTreeSet;
 
@@ -52,7 +52,7 @@ impl<S: Symbolic> Graph<S> {
         roots: &[ExprId],
         known: &dyn Fn(ExprId) -> bool,
     ) -> Vec<ExprId> {
-        let mut seen = Bits::below(self.len());
+        let mut seen = Growing::below(self.len());
         let mut pending = Vec::new();
         for &root in roots {
             if !known(root) && seen.insert(root.index()) {

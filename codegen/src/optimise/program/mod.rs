@@ -144,6 +144,11 @@ impl Program {
         }
     }
 
+    /// The result of an operation, if it is there.
+    pub fn value(&self, operation: &Operation) -> Option<Value> {
+        self.index.get(operation).copied()
+    }
+
     /// The operation that a value is the result of.
     pub fn operation(&self, value: Value) -> &Operation {
         &self.operations[value.index()]

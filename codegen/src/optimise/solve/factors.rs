@@ -23,6 +23,10 @@ impl Algebra {
     pub fn factorise(&mut self, matrix: &Sparse, order: Vec<usize>) -> Factors {
         let n = order.len();
         let mut rest = matrix.clone();
+        let mut place = vec![0; n];
+        for (step, &k) in order.iter().enumerate() {
+            place[k] = step;
+        }
         let one = self.program.push(Operation::Number(Number::ONE));
         let mut inverse = vec![(false, one); n];
         let mut columns = vec![Vec::new(); n];
@@ -39,10 +43,12 @@ impl Algebra {
             inverse[k] = self.inverse(pivot);
             let whole = matrix.get(&(k, k)).copied().unwrap_or(zero);
             pivots[k] = (pivot, whole);
-            let below: Vec<(usize, Signed)> = order[step + 1..]
-                .iter()
-                .filter_map(|&i| rest.get(&(i, k)).map(|entry| (i, *entry)))
+            let row = rest.range((k, 0)..(k + 1, 0));
+            let mut below: Vec<(usize, Signed)> = row
+                .map(|((_, i), entry)| (*i, *entry))
+                .filter(|(i, _)| place[*i] > step)
                 .collect();
+            below.sort_by_key(|(i, _)| place[*i]);
             for &(i, entry) in &below {
                 let factor = self.product(Some(entry), Some(inverse[k]));
                 columns[k].extend(factor.map(|factor| (i, factor)));

@@ -7,6 +7,7 @@
 use super::algebra::{Algebra, Entry, Pivot, Sparse};
 use super::factors::Factors;
 use super::order::minimum_degree;
+use std::collections::BTreeSet;
 
 /// A factorised `M` and `S`.
 pub(super) struct Schur {
@@ -38,12 +39,13 @@ impl Schur {
         let scaled_rows: Vec<Vec<Entry>> =
             rows.iter().map(|row| algebra.scaled(&mass, row)).collect();
         let mut schur = Sparse::new();
+        let meeting = meeting(&rows, n);
         for (i, row) in rows.iter().enumerate() {
             if algebra.is_too_long() {
                 return None;
             }
-            for (j, scaled) in scaled_rows[..=i].iter().enumerate() {
-                if let Some(entry) = algebra.dot(row, scaled, None) {
+            for &j in meeting[i].range(..=i) {
+                if let Some(entry) = algebra.dot(row, &scaled_rows[j], None) {
                     schur.insert((i, j), entry);
                     schur.insert((j, i), entry);
                 }
@@ -91,4 +93,24 @@ impl Schur {
     pub fn row_pivots(&self) -> &[Pivot] {
         &self.schur.pivots
     }
+}
+
+/// By row, the rows that have an entry where it has one.
+fn meeting(rows: &[Vec<Entry>], n: usize) -> Vec<BTreeSet<usize>> {
+    let present = |row: &Vec<Entry>| -> Vec<usize> {
+        let entries = row.iter().enumerate();
+        entries.filter_map(|(j, entry)| entry.map(|_| j)).collect()
+    };
+    let present: Vec<Vec<usize>> = rows.iter().map(present).collect();
+    let mut by_coordinate = vec![Vec::new(); n];
+    for (i, row) in present.iter().enumerate() {
+        row.iter().for_each(|&j| by_coordinate[j].push(i));
+    }
+    let meeting = |row: &Vec<usize>| {
+        row.iter()
+            .flat_map(|&j| &by_coordinate[j])
+            .copied()
+            .collect()
+    };
+    present.iter().map(meeting).collect()
 }
