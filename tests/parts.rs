@@ -3,11 +3,11 @@
 
 use bricard::double_four_bar::DoubleFourBar;
 use bricard_codegen::CompileSettings;
-use bricard_fixtures::closed_rods::{self, ClosedRods};
 use bricard_fixtures::functions::Functions;
 use bricard_fixtures::in_parts;
 use bricard_fixtures::reserved::TypeOfThing;
-use bricard_fixtures::row::{self, Row};
+use bricard_fixtures::straight::closed_rods::{self, ClosedRods};
+use bricard_fixtures::straight::row::{self, Row};
 use bricard_fixtures::with_loops;
 use bricard_runtime::{Acceleration, Correction, Mechanism, Position, State, Terms};
 use bricard_testkit::Random;

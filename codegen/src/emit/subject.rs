@@ -167,7 +167,8 @@ impl Subject<'_> {
 
     /// The loops of a program, if it is long and they make it much shorter.
     pub fn loops(&self, program: &Program, decided: Decided) -> Option<Loops<'_>> {
-        if program.len() <= self.options.unrolled.unwrap_or(UNROLLED) {
+        let length = program.len() + program.outputs.len();
+        if length <= self.options.unrolled.unwrap_or(UNROLLED) {
             return None;
         }
         let taken = self.names.taken.clone();
