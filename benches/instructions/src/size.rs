@@ -59,7 +59,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 fn all<M: Mechanism<f64, N, R>, const N: usize, const R: usize>(mechanism: M) {
-    let mut state = State::default();
+    let mut state = State::<f64, N>::default();
     for (i, q) in state.q.iter_mut().enumerate() { *q = 0.3 + 0.1 * (i as f64).sin(); }
     for (i, v) in state.v.iter_mut().enumerate() { *v = (i as f64).cos(); }
     let state = black_box(state);
