@@ -14,6 +14,9 @@ const DAMPING: f64 = 1e-3;
 const LEAST_DAMPING: f64 = 1e-13;
 /// With this damping no step is worth taking.
 const MOST_DAMPING: f64 = 1e12;
+/// A step of this length, relative to the point, is round-off: if it does not help, no
+/// shorter one does.
+const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
 
 /// Values of functions, and their derivatives row by row.
 pub type ValuesAndJacobian = (Vec<f64>, Vec<Vec<f64>>);
@@ -44,6 +47,7 @@ pub fn minimise(
                 (values, slopes) = there;
                 damping = (damping / 10.0).max(LEAST_DAMPING);
             }
+            _ if norm(&step) <= ROUND_OFF * norm(&x) => break,
             _ => damping *= 10.0,
         }
     }

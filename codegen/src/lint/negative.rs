@@ -10,18 +10,17 @@ const ROUND_OFF: f64 = 1e-12;
 /// Warns of the summand that makes the kinetic energy negative, at the start or at a
 /// random position; whether there is one.
 pub fn energy(numbers: &Numbers, found: &mut Diagnostics) -> bool {
-    let places = [numbers.start().0].into_iter().chain(numbers.samples());
-    let negative = places
-        .filter_map(|place| direction(&numbers.mass(&place)).map(|v| (place, v)))
-        .next();
+    let start = numbers.start().0;
+    let mut places = [&start].into_iter().chain(numbers.samples());
+    let negative = places.find_map(|place| Some((place, direction(&numbers.mass(place))?)));
     let Some((place, v)) = negative else {
         return false;
     };
-    let mass = numbers.mass(&place);
+    let mass = numbers.mass(place);
     let share = |i: usize| v[i] * mass[i].iter().zip(&v).map(|(m, v)| m * v).sum::<f64>();
     let most = (0..v.len()).min_by(|&i, &j| share(i).total_cmp(&share(j)));
     let coordinate = &numbers.mechanism.coordinates[most.unwrap_or(0)].name;
-    let worst = summand(numbers, &place, &v);
+    let worst = summand(numbers, place, &v);
     let message = format!("the kinetic energy is negative where `{coordinate}` moves");
     let help = "a mass or moment of inertia is negative, or a sign is wrong";
     let span = numbers.mechanism.kinetic[worst].span;

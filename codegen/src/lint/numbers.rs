@@ -8,6 +8,7 @@ use super::least_squares::{ValuesAndJacobian, minimise};
 use crate::derive::{Equations, Matrix};
 use crate::expr::ExprId;
 use crate::model::{Constraint, Graph, Mechanism, Symbol};
+use std::cell::OnceCell;
 
 /// Mechanisms with more coordinates or equations are not looked at.
 const MOST_ROWS: usize = 64;
@@ -30,6 +31,8 @@ pub struct Numbers<'a> {
     rows: Vec<Row<'a>>,
     inertia: Inertia<'a>,
     parameters: Vec<f64>,
+    /// Random positions, once somebody asked for them.
+    samples: OnceCell<Vec<Place>>,
 }
 
 /// What `M` is found from.
@@ -125,6 +128,7 @@ impl<'a> Numbers<'a> {
             rows,
             inertia: Inertia::of(equations)?,
             parameters: Vec::new(),
+            samples: OnceCell::new(),
         };
         let defaults = mechanism.parameters.iter().map(|p| p.default);
         let defaults: Vec<ExprId> = defaults.collect();
@@ -253,14 +257,14 @@ impl<'a> Numbers<'a> {
         place: &Place,
     ) -> ValuesAndJacobian {
         let chosen = || rows.iter().map(|&row| &self.rows[row]);
-        let residuals: Vec<ExprId> = chosen().map(|row| row.constraint.residual).collect();
-        let slopes: Vec<&[ExprId]> = chosen().map(|row| row.slopes).collect();
-        let full = self.matrix(&slopes, place);
-        let slopes = full
-            .iter()
-            .map(|row| free.iter().map(|&j| row[j]).collect())
-            .collect();
-        (self.values(&residuals, place), slopes)
+        let mut wanted: Vec<ExprId> = chosen().map(|row| row.constraint.residual).collect();
+        for row in chosen() {
+            wanted.extend(free.iter().map(|&j| row.slopes[j]));
+        }
+        let mut values = self.values(&wanted, place);
+        let slopes = values.split_off(rows.len());
+        let slopes = (0..rows.len()).map(|i| slopes[i * free.len()..][..free.len()].to_vec());
+        (values, slopes.collect())
     }
 
     /// The equations for positions.
@@ -324,7 +328,11 @@ impl<'a> Numbers<'a> {
 
     /// Random positions near the start at which the constraints hold; fewer than
     /// asked for where none is found.
-    pub fn samples(&self) -> Vec<Place> {
+    pub fn samples(&self) -> &[Place] {
+        self.samples.get_or_init(|| self.new_samples())
+    }
+
+    fn new_samples(&self) -> Vec<Place> {
         let (rows, free) = (
             self.positions(),
             (0..self.mechanism.coordinates.len()).collect::<Vec<_>>(),

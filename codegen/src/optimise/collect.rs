@@ -13,7 +13,10 @@ use rustc_hash::FxHashMap;
 /// The program with factors shared; never costlier.
 pub(super) fn factored(program: &Program) -> Program {
     let shared = share_pairs(program);
-    let collected = share_pairs(&collect_factors(program));
+    let Some(collected) = collect_factors(program) else {
+        return shared;
+    };
+    let collected = share_pairs(&collected);
     if cost(&collected).weight() < cost(&shared).weight() {
         collected
     } else {
@@ -29,8 +32,9 @@ struct Builder {
 /// A term of a sum: subtracted or added, and its factors.
 type Term = (bool, Vec<Value>);
 
-/// `a·x + a·y + z` becomes `a·(x + y) + z`, the commonest factor first.
-pub(super) fn collect_factors(program: &Program) -> Program {
+/// `a·x + a·y + z` becomes `a·(x + y) + z`, the commonest factor first; `None` where no sum has
+/// a common factor.
+pub(super) fn collect_factors(program: &Program) -> Option<Program> {
     let uses = program.uses();
     let mut builder = Builder {
         program: program.clone(),
@@ -52,9 +56,12 @@ pub(super) fn collect_factors(program: &Program) -> Program {
             moved.insert(value, builder.sum(collected));
         }
     }
+    if moved.is_empty() {
+        return None;
+    }
     let grown = builder.program;
     let instead = |value: Value| moved.get(&value).copied().unwrap_or(value);
-    ordered(grown.list(), &grown.outputs, &instead)
+    Some(ordered(grown.list(), &grown.outputs, &instead))
 }
 
 impl Builder {

@@ -57,10 +57,11 @@ const MULTIPLIED: (usize, usize) = (14, 20_000);
 /// If a pass leaves a program that breaks an invariant: a bug of this crate, with
 /// the program in the message.
 pub fn optimise(graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -> Program {
-    optimise_among(graph, &mut Polynomials::default(), laws, wanted)
+    optimise_among(graph, &mut Polynomials::default(), laws, wanted).program
 }
 
-/// As [`optimise`], with what is known of the graph from programs before.
+/// As [`optimise`], with what is known of the graph from programs before; and what the program
+/// would cost as it was derived, each shared expression computed once.
 ///
 /// # Panics
 ///
@@ -70,13 +71,21 @@ pub fn optimise_among(
     memory: &mut Polynomials,
     laws: &[ExprId],
     wanted: &[(Slot, ExprId)],
-) -> Program {
+) -> Optimised {
     let mut arrays: Vec<&str> = wanted.iter().map(|(slot, _)| slot.array).collect();
     arrays.dedup();
     let mut chosen = wanted.to_vec();
     let scheduled = schedule::schedule(graph, laws, &chosen);
+    let finished = |best: &Program| {
+        let program = checked(order::arranged(best));
+        Optimised {
+            cost: cost(&program),
+            derived: cost(&scheduled),
+            program,
+        }
+    };
     if scheduled.len() > REWRITTEN_MAX {
-        return checked(order::arranged(&scheduled));
+        return finished(&scheduled);
     }
     let mut best = collect::factored(&scheduled);
     let operands: usize = scheduled.uses().iter().sum();
@@ -87,7 +96,7 @@ pub fn optimise_among(
         .map(|(slot, e)| Some((*slot, ring.reduced(*e)?)))
         .collect();
     let Some(reduced) = reduced else {
-        return checked(order::arranged(&best));
+        return finished(&best);
     };
     // Arrays share work, so each is judged by what the whole then costs.
     for array in arrays {
@@ -105,7 +114,7 @@ pub fn optimise_among(
             (chosen, best) = (candidate, program);
         }
     }
-    checked(order::arranged(&best))
+    finished(&best)
 }
 
 /// The program for the accelerations at regular states, from the program for `mass`, `force`,
@@ -159,11 +168,6 @@ fn checked(program: Program) -> Program {
         panic!("internal error, please report: {broken} in\n{program}");
     }
     program
-}
-
-/// What expressions would cost as they were derived, each shared one computed once.
-pub fn derived_cost(graph: &Graph, laws: &[ExprId], wanted: &[(Slot, ExprId)]) -> Cost {
-    cost(&schedule::schedule(graph, laws, wanted))
 }
 
 /// The program for expressions without rewriting: for defaults and the like, where

@@ -46,7 +46,7 @@ pub fn alone(pass: Pass, graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, Ex
     let program = schedule::schedule(graph, laws, &wanted);
     match pass {
         Pass::Ring | Pass::Schedule => program,
-        Pass::Collect => collect::collect_factors(&program),
+        Pass::Collect => collect::collect_factors(&program).unwrap_or(program),
         Pass::Share => share::share_pairs(&program),
     }
 }

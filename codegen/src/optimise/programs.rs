@@ -12,7 +12,7 @@ use super::functions::{Array, LeftOut, List, Optimised, Programs, StartPrograms}
 use super::wanted::{Wanted, matrix, sparse, vector};
 use super::{
     Polynomials, Program, Slot, Solved, Way, acceleration_solve, correction_solve, cost,
-    derived_cost, optimise_among, plain, shared_solve,
+    optimise_among, plain, shared_solve,
 };
 use crate::derive::{
     Equations, Linearisation, Partials, Shared, StartRows, coriolis_matrix, differentiate,
@@ -98,18 +98,13 @@ struct Optimiser<'a> {
 }
 
 impl Optimiser<'_> {
-    fn program(&mut self, wanted: &Wanted) -> Program {
+    fn optimised(&mut self, wanted: &Wanted) -> Optimised {
         let graph = &mut self.mechanism.graph;
         optimise_among(graph, &mut self.polynomials, &self.laws, wanted)
     }
 
-    fn optimised(&mut self, wanted: &Wanted) -> Optimised {
-        let program = self.program(wanted);
-        Optimised {
-            cost: cost(&program),
-            derived: derived_cost(&self.mechanism.graph, &self.laws, wanted),
-            program,
-        }
+    fn program(&mut self, wanted: &Wanted) -> Program {
+        self.optimised(wanted).program
     }
 
     fn list(&mut self, array: &'static str, entries: &[ExprId]) -> List {
