@@ -1,14 +1,19 @@
 //! The block that near-dependent rows leave when all others are eliminated.
 //!
 //! In:  its entries.
-//! Out: about its smallest singular value; how many eigenvalues changed their sign.
+//! Out: about its smallest singular value; what another one is in bases in which it is diagonal.
+//!
+//! Not here: how many eigenvalues changed their sign ([`super::sylvester`]).
 
 use super::workspace::Workspace;
 use super::{add_scaled, pair};
 use crate::Real;
+use core::ops::Range;
 
 /// Near-dependent rows up to which the compiler knows all loops over them.
-const FEW: usize = 2;
+pub(super) const FEW: usize = 2;
+/// A pivot of at least this part of the largest one is as good, if its row is sparser.
+const COMPARABLE: f64 = 0.5;
 
 /// A square matrix of the size of the near-dependent rows, row by row.
 #[derive(Debug)]
@@ -128,38 +133,6 @@ impl<'a, T: Real> Block<'a, T> {
         }
     }
 
-    /// How many eigenvalues change their sign from another block to this one: the
-    /// number of negative eigenvalues of the symmetric part of this block in bases in
-    /// which the other one is the identity.
-    pub(crate) fn sign_changes_from(
-        &self,
-        other: &Block<'_, T>,
-        workspace: &Workspace<'_, T>,
-    ) -> usize {
-        let (here, there) = (self.all(), other.all());
-        let mut small = [[T::zero(); FEW * FEW]; 2];
-        for (copy, entries) in small.iter_mut().zip([here, there]) {
-            for (copy, entry) in copy.iter_mut().zip(entries) {
-                *copy = *entry;
-            }
-        }
-        let [first, second] = &mut small;
-        let mut pivots = [T::zero(); FEW];
-        match self.size {
-            0 => 0,
-            1 => count_changes(1, [first, second], &mut pivots),
-            FEW => count_changes(FEW, [first, second], &mut pivots),
-            size => workspace.scope(|workspace| {
-                let copies = [here, there].map(|entries| {
-                    let copy = workspace.any(entries.len());
-                    copy.copy_from_slice(entries);
-                    copy
-                });
-                count_changes(size, copies, workspace.any(size))
-            }),
-        }
-    }
-
     /// This block in bases in which another one is diagonal, and what it is there: its
     /// pivots in an elimination with complete pivoting, the largest first, none negative.
     pub(crate) fn in_bases_of<'b>(
@@ -171,9 +144,9 @@ impl<'a, T: Real> Block<'a, T> {
         let pivots = workspace.numbers(self.size);
         let blocks = [&mut *here.entries, &mut *there.entries];
         match self.size {
-            1 => make_diagonal(1, blocks, pivots),
-            FEW => make_diagonal(FEW, blocks, pivots),
-            size => make_diagonal(size, blocks, pivots),
+            1 => make_diagonal(1, blocks, pivots, Next::Largest),
+            FEW => make_diagonal(FEW, blocks, pivots, Next::Largest),
+            size => make_diagonal(size, blocks, pivots, Next::Largest),
         }
         (here, pivots)
     }
@@ -233,103 +206,121 @@ fn smallest_pivot<T: Real>(
     smallest
 }
 
-/// How many eigenvalues change their sign from the second block to the first one, which are
-/// used up.
-#[inline(always)]
-fn count_changes<T: Real>(size: usize, [here, there]: [&mut [T]; 2], pivots: &mut [T]) -> usize {
-    make_diagonal(size, [here, there], pivots);
-    let scales = &mut pivots[..size];
-    if scales.contains(&T::zero()) {
-        return 0;
-    }
-    scales.iter_mut().for_each(|x| *x = T::one() / x.sqrt());
-    let symmetric = &mut there[..size * size];
-    for i in 0..size {
-        for j in 0..size {
-            let sum = here[i * size + j] + here[j * size + i];
-            symmetric[i * size + j] = sum * scales[i] * scales[j];
-        }
-    }
-    count_negative(size, symmetric)
+/// Which row of those that are left an elimination takes next.
+pub(super) enum Next<'a> {
+    /// The one with the largest entry.
+    Largest,
+    /// The one with the fewest entries of those whose largest entry is [`COMPARABLE`] to the
+    /// largest one; with room for the numbers of entries.
+    Sparsest(&'a mut [usize]),
 }
 
-/// By elimination with complete pivoting finds bases in which the second block is diagonal,
-/// and what the first one is there; its pivots are the absolute diagonal.
+impl Next<'_> {
+    /// Takes note of what a row has from a column on.
+    #[inline(always)]
+    fn see<T: Real>(&mut self, row: usize, entries: &[T]) {
+        if let Self::Sparsest(counts) = self {
+            counts[row] = entries.iter().filter(|entry| **entry != T::zero()).count();
+        }
+    }
+
+    /// The row that comes in a step, and its largest entry.
+    #[inline(always)]
+    fn choose<T: Real>(&mut self, peaks: &[T], step: usize) -> (usize, T) {
+        let (ahead, most) = largest_of(&peaks[step..]);
+        let Self::Sparsest(counts) = self else {
+            return (step + ahead, most);
+        };
+        let least = most * T::from_f64(COMPARABLE);
+        let mut next = step + ahead;
+        for row in step..peaks.len() {
+            if peaks[row] >= least && counts[row] < counts[next] {
+                next = row;
+            }
+        }
+        counts.swap(step, next);
+        (next, peaks[next])
+    }
+}
+
+/// By elimination finds bases in which the second block is diagonal, and what the first one is
+/// there; its pivots are the absolute diagonal.
+///
+/// Where only a few entries are not zero, the loops go from the first of them to the last.
 #[inline(always)]
-fn make_diagonal<T: Real>(size: usize, [here, there]: [&mut [T]; 2], pivots: &mut [T]) {
+pub(super) fn make_diagonal<T: Real>(
+    size: usize,
+    [here, there]: [&mut [T]; 2],
+    pivots: &mut [T],
+    mut next: Next<'_>,
+) {
     let (here, there) = (&mut here[..size * size], &mut there[..size * size]);
+    let pivots = &mut pivots[..size];
     // The largest entries of the rows that are left, in the place of their pivots.
-    for (peak, row) in pivots.iter_mut().zip(there.chunks_exact(size)) {
-        *peak = peak_of(row);
+    for (row, (peak, entries)) in pivots.iter_mut().zip(there.chunks_exact(size)).enumerate() {
+        *peak = peak_of(entries);
+        next.see(row, entries);
     }
     for step in 0..size {
-        let (ahead, most) = largest_of(&pivots[step..size]);
+        let (row, most) = next.choose(pivots, step);
         if most == T::zero() {
             break;
         }
-        let row = step + ahead;
         pivots.swap(step, row);
         let (ahead, _) = largest_of(&there[row * size + step..(row + 1) * size]);
         swap(there, size, step, (row, step + ahead));
         swap(here, size, step, (row, step + ahead));
         let pivot = there[step * size + step];
         pivots[step] = pivot.abs();
+        let reaches = [&*here, &*there].map(|block| reach_of(&block[step * size..][..size]));
         for later in step + 1..size {
             if there[later * size + step] == T::zero() {
                 continue;
             }
             let share = -there[later * size + step] / pivot;
-            for entries in [&mut *here, &mut *there] {
+            for (entries, reach) in [&mut *here, &mut *there].into_iter().zip(&reaches) {
                 let (above, rows) = entries.split_at_mut(later * size);
-                add_scaled(&mut rows[..size], share, &above[step * size..][..size]);
+                let above = &above[step * size..][reach.clone()];
+                add_scaled(&mut rows[reach.clone()], share, above);
             }
-            pivots[later] = peak_of(&there[later * size + step + 1..(later + 1) * size]);
+            let left = &there[later * size + step + 1..(later + 1) * size];
+            pivots[later] = peak_of(left);
+            next.see(later, left);
         }
+        let above = &there[step * size + step + 1..(step + 1) * size];
+        let reach = reach_of(above);
         for row in here.chunks_exact_mut(size) {
             if row[step] != T::zero() {
-                let above = &there[step * size + step + 1..(step + 1) * size];
                 let share = -row[step] / pivot;
-                add_scaled(&mut row[step + 1..], share, above);
+                let row_left = &mut row[step + 1..][reach.clone()];
+                add_scaled(row_left, share, &above[reach.clone()]);
                 row[step] *= pivot.sign();
             }
         }
     }
 }
 
-/// How many eigenvalues of a symmetric block are negative: by Sylvester's law of inertia, from
-/// symmetric elimination with the largest diagonal entry first. A product of blocks that are
-/// nearly multiples of each other has no diagonal that vanishes before the rest does.
+/// From the first entry that is not zero to the last one; of a few entries, all.
 #[inline(always)]
-fn count_negative<T: Real>(size: usize, entries: &mut [T]) -> usize {
-    let entries = &mut entries[..size * size];
-    let mut count = 0;
-    for step in 0..size {
-        let diagonal = |k: usize| entries[k * size + k].abs();
-        let mut next = step;
-        for k in step + 1..size {
-            if diagonal(k) > diagonal(next) {
-                next = k;
-            }
-        }
-        swap(entries, size, step, (next, next));
-        let pivot = entries[step * size + step];
-        if pivot == T::zero() {
-            break;
-        }
-        count += usize::from(pivot < T::zero());
-        let (done, rest) = entries.split_at_mut((step + 1) * size);
-        for row in rest.chunks_exact_mut(size) {
-            if row[step] != T::zero() {
-                add_scaled(row, -row[step] / pivot, &done[step * size..]);
-            }
-        }
+fn reach_of<T: Real>(vector: &[T]) -> Range<usize> {
+    if vector.len() <= FEW {
+        return 0..vector.len();
     }
-    count
+    let is_there = |entry: &T| *entry != T::zero();
+    match vector.iter().position(is_there) {
+        Some(first) => first..vector.iter().rposition(is_there).unwrap_or(first) + 1,
+        None => 0..0,
+    }
 }
 
 /// Makes a row and a column those of a step.
 #[inline(always)]
-fn swap<T: Real>(entries: &mut [T], size: usize, step: usize, (row, column): (usize, usize)) {
+pub(super) fn swap<T: Real>(
+    entries: &mut [T],
+    size: usize,
+    step: usize,
+    (row, column): (usize, usize),
+) {
     if row != step {
         let [row, other] = pair(entries, size, row, step);
         row.swap_with_slice(other);
@@ -343,13 +334,18 @@ fn swap<T: Real>(entries: &mut [T], size: usize, step: usize, (row, column): (us
 
 /// Where the largest of some entries is, and its size.
 pub(crate) fn largest_of<T: Real>(entries: &[T]) -> (usize, T) {
-    let mut best = (0, -T::one());
-    for (column, entry) in entries.iter().enumerate() {
-        if entry.abs() > best.1 {
-            best = (column, entry.abs());
+    if entries.len() < 2 * LANES {
+        let mut best = (0, -T::one());
+        for (column, entry) in entries.iter().enumerate() {
+            if entry.abs() > best.1 {
+                best = (column, entry.abs());
+            }
         }
+        return best;
     }
-    best
+    let most = peak_of(entries);
+    let place = entries.iter().position(|entry| entry.abs() == most);
+    (place.unwrap_or(0), most)
 }
 
 /// Numbers that are compared side by side.

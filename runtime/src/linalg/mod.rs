@@ -28,6 +28,7 @@ mod short;
 pub(crate) mod small;
 mod subset;
 mod substitution;
+mod sylvester;
 mod symmetric;
 #[cfg(test)]
 mod tests;

@@ -267,6 +267,40 @@ fn the_smallest_pivot_of_a_block_is_that_of_complete_pivoting() {
     }
 }
 
+#[test]
+fn changes_of_sign_of_long_blocks_are_counted() {
+    const K: usize = 24;
+    const TURNED: usize = 9;
+    let mut random = Matrices::seeded(SEED);
+    for round in 0..20 {
+        // Two chains of loops, each closed by a row with entries everywhere in it.
+        let is_in = |i: usize, j: usize| (i < TURNED) == (j < TURNED);
+        let chain = SMatrix::<f64, K, K>::from_fn(|i, j| match i + 1 == TURNED || i + 1 == K {
+            true if is_in(i, j) => random.number(),
+            false if is_in(i, j) && (i == j || i + 1 == j) => 1.0 + 0.3 * random.number(),
+            _ => 0.0,
+        });
+        // The first is passed through, and all of it is a little different behind it.
+        let behind = SMatrix::<f64, K, K>::from_fn(|i, j| {
+            let factor = if i < TURNED { -0.6 } else { 0.8 };
+            chain[(i, j)] * factor * (1.0 + 1e-3 * random.number())
+        });
+        let (mut numbers, mut indices) = ([0.0; 5 * K * K], [0; 2 * K]);
+        let workspace = Workspace::new(&mut numbers, &mut [], &mut indices);
+        let [before, after] = [chain, behind].map(|matrix| {
+            let mut block = Block::zeros(K, &workspace);
+            for i in 0..K {
+                let row = matrix.row(i).transpose();
+                block.row_mut(i).copy_from_slice(row.as_slice());
+            }
+            block
+        });
+        let changes = after.sign_changes_from(&before, &workspace);
+        assert_eq!(changes, TURNED, "round {round}");
+        assert_eq!(before.sign_changes_from(&before, &workspace), 0, "{round}");
+    }
+}
+
 /// Eliminates a random system of `N` rows, the last constraint row of which is nearly a
 /// combination of the others, and checks what is told of it.
 fn check_frame<const N: usize>(
