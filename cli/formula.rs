@@ -207,6 +207,10 @@ fn evaluated(text: &str) -> Result<Result<f64, String>, String> {
 fn with_unit(number: &str, unit: &str) -> Option<String> {
     Some(match unit {
         "deg" | "°" | "degree" | "degrees" => format!("write `{number}*deg`"),
+        // Tonnes, or the time in the law of an input.
+        "t" => format!(
+            "a product with the time is written `{number}*t`; values are in SI units, `{number}*1e3` for tonnes"
+        ),
         _ => match si(unit)? {
             "1" => format!("values are in SI units and have none behind them: write `{number}`"),
             factor => format!("values are in SI units: write `{number}*{factor}`"),
@@ -342,6 +346,7 @@ mod tests {
         for (wrong, right) in [
             ("60deg", "write `60*deg`"),
             ("60°", "write `60*deg`"),
+            ("2t", "written `2*t`"),
             ("0.5m", "write `0.5`"),
             ("2 s", "write `2`"),
             ("-1.5e2mm", "write `-1.5e2*1e-3`"),

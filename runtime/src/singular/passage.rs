@@ -308,10 +308,9 @@ impl<T: Real> Sheet<'_, T> {
         let span = to.t - from.t;
         let ends = [from, to].map(|look| sign * look.determinant);
         let rates = rates.map(|rate| sign * rate * span);
-        let dips = rates[0] < T::zero() && rates[1] > T::zero();
-        let (mut x, lowest) = lowest_of_cubic(ends, rates);
+        let (mut x, lowest) = lowest_of_cubic(ends, rates)?;
         let worth_a_look = lowest <= ends[0].min(ends[1]) * T::from_f64(WORTH_A_LOOK);
-        if !dips || !worth_a_look || to.signs.changes_from(&from.signs, workspace) > 0 {
+        if !worth_a_look || to.signs.changes_from(&from.signs, workspace) > 0 {
             return None;
         }
         let (mut a, mut b) = (T::zero(), T::one());
