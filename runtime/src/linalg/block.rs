@@ -10,6 +10,8 @@ use super::{add_scaled, pair};
 use crate::Real;
 use core::ops::Range;
 
+/// Rows from which on it pays to look for zeros.
+pub(super) const LONG: usize = 16;
 /// Near-dependent rows up to which the compiler knows all loops over them.
 pub(super) const FEW: usize = 2;
 /// A pivot of at least this part of the largest one is as good, if its row is sparser.
@@ -300,10 +302,10 @@ pub(super) fn make_diagonal<T: Real>(
     }
 }
 
-/// From the first entry that is not zero to the last one; of a few entries, all.
+/// From the first entry that is not zero to the last one; of a short vector, all.
 #[inline(always)]
 fn reach_of<T: Real>(vector: &[T]) -> Range<usize> {
-    if vector.len() <= FEW {
+    if vector.len() < LONG {
         return 0..vector.len();
     }
     let is_there = |entry: &T| *entry != T::zero();
@@ -333,16 +335,22 @@ pub(super) fn swap<T: Real>(
 }
 
 /// Where the largest of some entries is, and its size.
+#[inline(always)]
 pub(crate) fn largest_of<T: Real>(entries: &[T]) -> (usize, T) {
-    if entries.len() < 2 * LANES {
-        let mut best = (0, -T::one());
-        for (column, entry) in entries.iter().enumerate() {
-            if entry.abs() > best.1 {
-                best = (column, entry.abs());
-            }
-        }
-        return best;
+    if entries.len() >= LONG {
+        return largest_of_many(entries);
     }
+    let mut best = (0, -T::one());
+    for (column, entry) in entries.iter().enumerate() {
+        if entry.abs() > best.1 {
+            best = (column, entry.abs());
+        }
+    }
+    best
+}
+
+#[inline(never)]
+fn largest_of_many<T: Real>(entries: &[T]) -> (usize, T) {
     let most = peak_of(entries);
     let place = entries.iter().position(|entry| entry.abs() == most);
     (place.unwrap_or(0), most)

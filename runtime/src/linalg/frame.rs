@@ -14,15 +14,12 @@
 //! so that what is local in a chain of loops stays local. Columns are kept in an order in
 //! which rows have their entries close to one another ([`by_first_row`](super::by_first_row)).
 
-use super::block::{Block, largest_of};
+use super::block::{Block, LONG, largest_of};
 use super::small::with_size;
 use super::workspace::Workspace;
 use super::{add_scaled, pair};
 use crate::Real;
 use core::ops::Range;
-
-/// Rows from which on it pays to look for zeros.
-pub(super) const LONG: usize = 16;
 
 /// The factors of a square system.
 #[derive(Debug)]

@@ -6,8 +6,8 @@
 //! Not here: pivoting. The order of the rows is the caller's, and a small sine
 //! tells the caller that this factor is not to be used.
 
+use super::block::LONG;
 use super::dot;
-use super::frame::LONG;
 use crate::Real;
 use nalgebra::SMatrix;
 

@@ -3,7 +3,7 @@
 //! In:  a matrix, the order in which its rows are eliminated.
 //! Out: places in which rows have their entries close to one another.
 
-use super::frame::LONG;
+use super::block::LONG;
 use crate::Real;
 
 /// Places for the columns of a sparse matrix, given column by column, some rows of which are

@@ -7,7 +7,7 @@
 //! Near a singular configuration the two are nearly multiples of each other.
 
 use super::add_scaled;
-use super::block::{Block, FEW, Next, make_diagonal, swap};
+use super::block::{Block, FEW, LONG, Next, make_diagonal, swap};
 use super::workspace::Workspace;
 use crate::Real;
 
@@ -39,7 +39,11 @@ impl<T: Real> Block<'_, T> {
                     copy.copy_from_slice(entries);
                     copy
                 });
-                let next = Next::Sparsest(workspace.indices(size));
+                // In a short block nothing is spent on the search for zeros.
+                let next = match size < LONG {
+                    true => Next::Largest,
+                    false => Next::Sparsest(workspace.indices(size)),
+                };
                 count_changes(size, copies, workspace.any(size), next)
             }),
         }
