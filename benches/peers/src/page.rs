@@ -13,8 +13,7 @@ Chains of rods in the plane, open and with both ends on the ground, of 10 bodies
 descriptions are `benches/peers/mechanisms/*.mech`, three coordinates for each body and a
 constraint for each joint. All numbers that are not called recorded are from one run of
 `cargo run --release -p peers -- write`, in `benches/`, which writes this page; with
-`--features long` chains of 100 and 200 bodies are among them, whose code takes long to
-compile.
+`--features long` chains of 100 and 200 bodies are among them.
 
 The other solver of that run is diffsol 0.18, whose explicit method of order 5 has been the
 fastest of all peers on small mechanisms. It is given what its own users would write at their
