@@ -22,7 +22,7 @@ description could have, too, is told what stands under [Descriptions](#descripti
 ";
 
 /// The words behind `bricard simulate slider_crank`.
-const LINES: [&str; 33] = [
+const LINES: [&str; 34] = [
     "--until 2s",
     "--until 500ms",
     "--until 60deg",
@@ -42,6 +42,7 @@ const LINES: [&str; 33] = [
     "--set L1=0.4,2/5",
     "--set L1=0.4,x",
     "--set L1=0.5m",
+    "--set L1=2t",
     "--start q1",
     "--start ~3",
     "--start 'q1 = 45 deg'",
