@@ -209,7 +209,7 @@ fn with_unit(number: &str, unit: &str) -> Option<String> {
         "deg" | "°" | "degree" | "degrees" => format!("write `{number}*deg`"),
         // Tonnes, or the time in the law of an input.
         "t" => format!(
-            "a product with the time is written `{number}*t`; values are in SI units, `{number}*1e3` for tonnes"
+            "values are in SI units: write `{number}*1e3` for tonnes; a product with the time, in the law of an input, is written `{number}*t`"
         ),
         _ => match si(unit)? {
             "1" => format!("values are in SI units and have none behind them: write `{number}`"),
