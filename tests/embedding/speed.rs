@@ -1,64 +1,94 @@
-//! What the border costs.
+//! What the border costs, in instructions: times of one program say little where others run.
 
 use bricard_capi::{Handle, Status};
 use bricard_embedding::engine::Engine;
 use bricard_embedding::engine_interface;
 use bricard_runtime::{Interface, Options, State, Stepper, assemble};
+use std::env;
+use std::process::Command;
 use std::ptr;
-use std::time::Instant;
 
-/// Measurements of each, of which the best counts.
-const TRIALS: usize = 15;
-/// Steps of a measurement.
 const STEPS: usize = 400;
-/// What the border may cost. On a machine that others use, measurements are off by more
-/// than the few per cent that are meant; a second allocation or a lock would cost more.
-const BOUND: f64 = 1.25;
+/// The seconds of a step.
+const STEP: f64 = 1e-3;
+/// What the border may cost: the handle is checked, and the state copied. A second
+/// evaluation a step would be a twelfth.
+const BOUND: f64 = 1.03;
 
-fn best(mut once: impl FnMut()) -> f64 {
-    let times = (0..TRIALS).map(|_| {
-        let begun = Instant::now();
-        once();
-        begun.elapsed().as_secs_f64()
-    });
-    times.fold(f64::INFINITY, f64::min)
+/// Assembles the mechanism, and moves it in Rust.
+#[inline(never)]
+fn moved_in_rust() -> State<f64, 3> {
+    let engine = Engine::default();
+    let mut state = assemble(&engine, &engine.start(), 0.0).expect("it assembles");
+    let options = Options::dop853(0.0, 1e-9);
+    let stepper = Stepper::new(options.method, options.step_control, options.settings);
+    let mut stepper = stepper.expect("a step control");
+    for _ in 0..STEPS {
+        stepper.step(&engine, &mut state, STEP).expect("it goes on");
+    }
+    state
 }
 
-#[test]
-fn a_step_through_the_border_costs_what_a_step_costs() {
-    let engine = Engine::default();
-    let start: State<f64, 3> = assemble(&engine, &engine.start(), 0.0).expect("it assembles");
-    let options = Options::dop853(0.0, 1e-9);
-    let new = || {
-        Stepper::new(options.method, options.step_control, options.settings)
-            .expect("a step control")
-    };
-    let rust = best(|| {
-        let (mut stepper, mut state) = (new(), start);
-        for _ in 0..STEPS {
-            stepper.step(&engine, &mut state, 1e-3).expect("it goes on");
-        }
-    });
+/// The same through the C interface.
+#[inline(never)]
+fn moved_through_the_border() {
     // SAFETY: the table is there for this version, and the handle is what `create` gave.
-    let border = unsafe {
+    unsafe {
         let table = engine_interface(bricard_capi::ABI)
             .as_ref()
             .expect("it is there");
         let mut handle: *mut Handle = ptr::null_mut();
         assert_eq!((table.create)(&raw mut handle), Status::Ok);
-        let border = best(|| {
-            assert_eq!((table.assemble)(handle, 0.0), Status::Ok);
-            for _ in 0..STEPS {
-                assert_eq!((table.step)(handle, 1e-3), Status::Ok);
-            }
-        });
+        assert_eq!((table.assemble)(handle, 0.0), Status::Ok);
+        for _ in 0..STEPS {
+            assert_eq!((table.step)(handle, STEP), Status::Ok);
+        }
         (table.free)(&raw mut handle);
-        border
-    };
-    println!(
-        "{:.3} µs in Rust, {:.3} through the border",
-        rust * 1e6,
-        border * 1e6
+    }
+}
+
+#[test]
+fn steps_in_rust() {
+    let reached = moved_in_rust().t - STEPS as f64 * STEP;
+    assert!(reached.abs() < 1e-9, "{reached}");
+}
+
+#[test]
+fn steps_through_the_border() {
+    moved_through_the_border();
+}
+
+/// The instructions of a function that one of the tests above calls.
+fn instructions(function: &str, test: &str) -> f64 {
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
+        .arg(format!("--toggle-collect=*{function}*"))
+        .arg(env::current_exe().expect("the running tests"))
+        .args(["--exact", test])
+        .output()
+        .expect("valgrind runs");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    let count = said
+        .lines()
+        .find_map(|line| line.split_once("Collected : "));
+    let (_, count) = count.expect("callgrind counts");
+    count.trim().parse().expect("a number")
+}
+
+/// Instructions are counted where valgrind is installed.
+#[test]
+fn a_step_through_the_border_costs_what_a_step_costs() {
+    if Command::new("valgrind").arg("--version").output().is_err() {
+        return;
+    }
+    let rust = instructions("moved_in_rust", "speed::steps_in_rust");
+    let border = instructions(
+        "moved_through_the_border",
+        "speed::steps_through_the_border",
     );
+    let each = STEPS as f64;
+    println!("a step: {} instructions, {}", rust / each, border / each);
+    assert!(border > 0.9 * rust, "{border} {rust}");
     assert!(border < rust * BOUND, "{border} {rust}");
 }
