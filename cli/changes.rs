@@ -5,6 +5,7 @@
 
 use crate::error::CommandError;
 use crate::formula::{Assignment, Setting};
+use crate::mistakes::{all, both};
 use bricard_driver::{AnyMechanism, Changes, Given};
 use bricard_runtime::{Quantity, Structure};
 
@@ -21,20 +22,16 @@ pub fn find(
     start: &[Assignment],
 ) -> Result<Changes, CommandError> {
     let names: Vec<&str> = set.iter().map(Setting::name).collect();
-    once("--set", &names)?;
-    let names: Vec<&str> = start.iter().map(|given| given.name.as_str()).collect();
-    once("--start", &names)?;
+    let started: Vec<&str> = start.iter().map(|given| given.name.as_str()).collect();
+    let each_once = both(once("--set", &names), once("--start", &started));
     let mut changes = Changes::default();
-    for setting in set {
-        match setting {
-            Setting::Number(assignment) => put(&mut changes, structure, owner, assignment)?,
-            Setting::Law { name, why, .. } => no_law(structure, owner, name, why)?,
-        }
-    }
-    for assignment in start {
-        changes.given.push(given(structure, owner, assignment)?);
-    }
-    Ok(changes)
+    let set = all(set.iter().map(|setting| match setting {
+        Setting::Number(assignment) => put(&mut changes, structure, owner, assignment),
+        Setting::Law { name, why, .. } => no_law(structure, owner, name, why),
+    }));
+    let given = all(start.iter().map(|one| given(structure, owner, one)));
+    let (_, (_, given)) = both(each_once, both(set, given))?;
+    Ok(Changes { given, ..changes })
 }
 
 /// What is set to a negative mass or moment of inertia. The kinetic energy may be
@@ -156,7 +153,7 @@ fn unknown(kind: &'static str, owner: &str, name: &str, known: Vec<String>) -> C
     CommandError::UnknownName {
         kind,
         owner: owner.to_string(),
-        name: name.to_string(),
+        names: vec![name.to_string()],
         known,
     }
 }

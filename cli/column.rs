@@ -4,6 +4,7 @@
 //! Out: [`Column`]s with names and units.
 
 use crate::error::CommandError;
+use crate::mistakes::all;
 pub use bricard_driver::Column;
 use bricard_driver::{WORDS, heads};
 use bricard_runtime::{Quantity, Structure};
@@ -39,19 +40,15 @@ pub fn columns(
     structure: &Structure,
     mechanism: &str,
 ) -> Result<Vec<Column>, CommandError> {
-    let mut columns = Vec::new();
-    for word in words
-        .iter()
-        .map(|word| word.trim())
-        .filter(|word| !word.is_empty())
-    {
+    let words = words.iter().map(|word| word.trim());
+    let found = words.filter(|word| !word.is_empty()).map(|word| {
         let found = named(word, structure);
-        if found.is_empty() {
-            return Err(unknown(word, structure, mechanism));
+        match found.is_empty() {
+            true => Err(unknown(word, structure, mechanism)),
+            false => Ok(found),
         }
-        columns.extend(found);
-    }
-    Ok(columns)
+    });
+    Ok(all(found)?.concat())
 }
 
 /// The columns that one word stands for: an output, else a word that is known, else the
@@ -128,7 +125,7 @@ fn unknown(word: &str, structure: &Structure, mechanism: &str) -> CommandError {
     CommandError::UnknownName {
         kind: "column or output",
         owner: mechanism.to_string(),
-        name: word.to_string(),
+        names: vec![word.to_string()],
         known: known.chain(named).collect(),
     }
 }

@@ -18,14 +18,16 @@ const FAILED: u8 = 1;
 /// Why a command could not do what it was asked to.
 #[derive(Debug)]
 pub enum CommandError {
-    /// A name that nothing has.
+    /// Several mistakes, to be told at once.
+    Several(Vec<Self>),
+    /// Names that nothing has.
     UnknownName {
-        /// What the name should be of: `mechanism`, `parameter`, …
+        /// What the names should be of: `mechanism`, `parameter`, …
         kind: &'static str,
-        /// Whose it should be; empty for the library's own.
+        /// Whose they should be; empty for the library's own.
         owner: String,
-        /// The name as given.
-        name: String,
+        /// The names as given.
+        names: Vec<String>,
         /// What there is.
         known: Vec<String>,
     },
@@ -213,6 +215,7 @@ impl CommandError {
     /// The exit status.
     pub fn status(&self) -> u8 {
         match self {
+            Self::Several(all) => all.first().map_or(FAILED, Self::status),
             Self::UnknownName { .. }
             | Self::NoColumn { .. }
             | Self::OutOfRange { .. }
@@ -242,12 +245,13 @@ impl CommandError {
 impl Display for CommandError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Several(all) => several(f, all),
             Self::UnknownName {
                 kind,
                 owner,
-                name,
+                names,
                 known,
-            } => unknown_name(f, kind, owner, name, known),
+            } => unknown_names(f, kind, owner, names, known),
             Self::NoColumn { name, reason } => write!(f, "`{name}` {reason}"),
             Self::OutOfRange {
                 option,
@@ -421,11 +425,19 @@ fn read_here(f: &mut Formatter<'_>, option: &str, path: &Path) -> fmt::Result {
     )
 }
 
-fn unknown_name(
+fn several(f: &mut Formatter<'_>, all: &[CommandError]) -> fmt::Result {
+    for (i, error) in all.iter().enumerate() {
+        let between = if i == 0 { "" } else { "\n" };
+        write!(f, "{between}{error}")?;
+    }
+    Ok(())
+}
+
+fn unknown_names(
     f: &mut Formatter<'_>,
     kind: &str,
     owner: &str,
-    name: &str,
+    names: &[String],
     known: &[String],
 ) -> fmt::Result {
     let of = if owner.is_empty() {
@@ -433,13 +445,16 @@ fn unknown_name(
     } else {
         format!(" in `{owner}`")
     };
-    write!(f, "there is no {kind} `{name}`{of}")?;
-    if let Some(meant) = nearest(name, known.iter().map(String::as_str)) {
-        write!(f, "; did you mean `{meant}`?")?;
+    for name in names {
+        write!(f, "there is no {kind} `{name}`{of}")?;
+        if let Some(meant) = nearest(name, known.iter().map(String::as_str)) {
+            write!(f, "; did you mean `{meant}`?")?;
+        }
+        writeln!(f)?;
     }
     match known {
-        [] => write!(f, "\nthere are none"),
-        _ => write!(f, "\nthere are: {}", known.join(", ")),
+        [] => write!(f, "there are none"),
+        _ => write!(f, "there are: {}", known.join(", ")),
     }
 }
 

@@ -29,6 +29,7 @@ mod law;
 mod list;
 mod manual;
 mod mechanism;
+mod mistakes;
 mod new;
 mod number;
 mod output;

@@ -28,7 +28,7 @@ fn unknown(name: &str) -> CommandError {
     CommandError::UnknownName {
         kind: "mechanism",
         owner: String::new(),
-        name: name.to_string(),
+        names: vec![name.to_string()],
         known: names().map(str::to_string).collect(),
     }
 }

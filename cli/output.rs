@@ -4,9 +4,9 @@
 //! Out: standard output, standard error, files.
 
 use crate::error::CommandError;
+use crate::mistakes::each;
 use anstyle::AnsiColor;
 use std::ffi::OsStr;
-use std::fmt::Display;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -34,9 +34,11 @@ pub fn say(line: &str) {
 }
 
 /// Prints an error to standard error, in colour on a terminal unless `NO_COLOR` is set.
-pub fn complain(error: &dyn Display) {
+pub fn complain(error: &CommandError) {
     let red = AnsiColor::Red.on_default().bold();
-    let _unread = writeln!(anstream::stderr().lock(), "{red}error:{red:#} {error}");
+    for error in each(error) {
+        let _unread = writeln!(anstream::stderr().lock(), "{red}error:{red:#} {error}");
+    }
 }
 
 /// Writes a whole file.

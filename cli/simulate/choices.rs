@@ -4,6 +4,7 @@ use super::record::is_parquet;
 use crate::arguments::{MethodName, Simulate};
 use crate::error::CommandError;
 use crate::files::apart;
+use crate::mistakes::{all, both};
 use crate::page::is_page;
 use crate::parquet::MISSING;
 use crate::run::Plan;
@@ -34,32 +35,17 @@ const PLOTTED: f64 = 1000.0;
 const FRAMES: f64 = 100.0;
 const MOST_FRAMES: f64 = 6000.0;
 
-/// The plan of a run, without columns.
+/// The plan of a run, without columns. Its files are of kinds that can be written.
 ///
 /// # Errors
 ///
-/// [`CommandError::OutOfRange`], [`CommandError::UselessOption`].
+/// [`CommandError::OutOfRange`], [`CommandError::UselessOption`], and those of
+/// [`check_files`].
 pub fn plan(arguments: &Simulate) -> Result<Plan, CommandError> {
-    if arguments.until < 0.0 {
-        let (option, value) = ("--until", arguments.until);
-        return Err(CommandError::OutOfRange {
-            option,
-            value,
-            wanted: "zero or positive".to_string(),
-        });
-    }
-    let every = positive("--every", arguments.every)?;
-    let fixed = arguments.step.is_some();
-    let method = arguments.method.unwrap_or(if fixed {
-        MethodName::Rk4
-    } else {
-        MethodName::Dop853
-    });
-    let mut options = Options::new(
-        arguments.until,
-        method.into(),
-        step_control(arguments, method)?,
-    );
+    both(check_numbers(arguments), check_files(arguments))?;
+    let method = method(arguments);
+    let step_control = step_control(arguments, method);
+    let mut options = Options::new(arguments.until, method.into(), step_control);
     options.settings = Settings {
         form: arguments.form.into(),
         stabilisation: arguments.stabilisation,
@@ -75,7 +61,9 @@ pub fn plan(arguments: &Simulate) -> Result<Plan, CommandError> {
         true => (FRAMES * arguments.until).clamp(PLOTTED, MOST_FRAMES),
         false => PLOTTED,
     };
-    let every = every.or(smooth.then_some(arguments.until / intervals));
+    let every = arguments
+        .every
+        .or(smooth.then_some(arguments.until / intervals));
     bounded(arguments, every, options.step_control)?;
     Ok(Plan {
         watched: !arguments.quiet,
@@ -83,38 +71,55 @@ pub fn plan(arguments: &Simulate) -> Result<Plan, CommandError> {
     })
 }
 
-fn step_control(
-    arguments: &Simulate,
-    method: MethodName,
-) -> Result<StepControl<f64>, CommandError> {
-    let step = positive("--step", arguments.step)?;
-    let relative = positive("--rtol", arguments.rtol)?;
-    if let Some(value) = relative.filter(|relative| *relative >= 1.0) {
-        return Err(CommandError::OutOfRange {
-            option: "--rtol",
-            value,
-            wanted: "less than 1: it is the part of a value that may be wrong".to_string(),
-        });
-    }
-    let absolute = positive("--atol", arguments.atol)?;
-    let fixed = step.or((method == MethodName::Rk4).then_some(STEP));
-    let useless = |option| CommandError::UselessOption {
-        option,
-        method: "rk4",
-        instead: "give --step, or take --method dp5, dop853, radau5 or radau9",
-    };
-    match (fixed, relative, absolute) {
-        (Some(_), Some(_), _) => Err(useless("--rtol")),
-        (Some(_), _, Some(_)) => Err(useless("--atol")),
-        (Some(step), None, None) => Ok(StepControl::Fixed { step }),
-        (None, relative, absolute) => {
-            let relative = relative.unwrap_or(TOLERANCE);
-            Ok(StepControl::Adaptive {
+/// The method that is asked for, or the one that suits what is.
+fn method(arguments: &Simulate) -> MethodName {
+    arguments.method.unwrap_or(match arguments.step {
+        Some(_) => MethodName::Rk4,
+        None => MethodName::Dop853,
+    })
+}
+
+/// The step of a method whose steps are all of one length.
+fn fixed_step(arguments: &Simulate, method: MethodName) -> Option<f64> {
+    let always = method == MethodName::Rk4;
+    arguments.step.or(always.then_some(STEP))
+}
+
+fn step_control(arguments: &Simulate, method: MethodName) -> StepControl<f64> {
+    match fixed_step(arguments, method) {
+        Some(step) => StepControl::Fixed { step },
+        None => {
+            let relative = arguments.rtol.unwrap_or(TOLERANCE);
+            StepControl::Adaptive {
                 relative,
-                absolute: absolute.unwrap_or(relative),
-            })
+                absolute: arguments.atol.unwrap_or(relative),
+            }
         }
     }
+}
+
+/// Refuses lengths and tolerances that make no sense, or that the method has no use for.
+fn check_numbers(arguments: &Simulate) -> Result<(), CommandError> {
+    let fixed = fixed_step(arguments, method(arguments)).is_some();
+    let useless = |option, given: Option<f64>| match given {
+        Some(_) if fixed => Err(CommandError::UselessOption {
+            option,
+            method: "rk4",
+            instead: "give --step, or take --method dp5, dop853, radau5 or radau9",
+        }),
+        _ => Ok(()),
+    };
+    all([
+        not_before_the_start(arguments.until),
+        positive("--every", arguments.every),
+        positive("--step", arguments.step),
+        positive("--rtol", arguments.rtol),
+        below_one(arguments.rtol),
+        positive("--atol", arguments.atol),
+        useless("--rtol", arguments.rtol),
+        useless("--atol", arguments.atol),
+    ])?;
+    Ok(())
 }
 
 /// Refuses steps that are longer than the run, and more rows than can be meant.
@@ -124,15 +129,9 @@ fn bounded(
     step_control: StepControl<f64>,
 ) -> Result<(), CommandError> {
     let until = arguments.until;
-    let refuse = |option, value, wanted| {
-        Err(CommandError::OutOfRange {
-            option,
-            value,
-            wanted,
-        })
-    };
     if let Some(step) = arguments.step.filter(|step| *step > until && until > 0.0) {
-        return refuse("--step", step, format!("at most the {until} s of the run"));
+        let wanted = format!("at most the {until} s of the run");
+        return out_of_range("--step", step, &wanted);
     }
     let (option, distance) = match (every, step_control) {
         (Some(every), _) => ("--every", every),
@@ -141,27 +140,45 @@ fn bounded(
     };
     let least = until / MOST_ROWS;
     match distance < least {
-        true => refuse(
-            option,
-            distance,
-            format!(
+        true => {
+            let wanted = format!(
                 "at least {} s, for a run of {until} s with at most {MOST_ROWS:e} rows",
                 figure(least)
-            ),
-        ),
+            );
+            out_of_range(option, distance, &wanted)
+        }
         false => Ok(()),
     }
 }
 
-fn positive(option: &'static str, value: Option<f64>) -> Result<Option<f64>, CommandError> {
-    match value {
-        Some(value) if value <= 0.0 => Err(CommandError::OutOfRange {
-            option,
-            value,
-            wanted: "a positive number".to_string(),
-        }),
-        _ => Ok(value),
+fn not_before_the_start(until: f64) -> Result<(), CommandError> {
+    match until < 0.0 {
+        true => out_of_range("--until", until, "zero or positive"),
+        false => Ok(()),
     }
+}
+
+fn positive(option: &'static str, value: Option<f64>) -> Result<(), CommandError> {
+    match value {
+        Some(value) if value <= 0.0 => out_of_range(option, value, "a positive number"),
+        _ => Ok(()),
+    }
+}
+
+fn below_one(relative: Option<f64>) -> Result<(), CommandError> {
+    let wanted = "less than 1: it is the part of a value that may be wrong";
+    match relative {
+        Some(value) if value >= 1.0 => out_of_range("--rtol", value, wanted),
+        _ => Ok(()),
+    }
+}
+
+fn out_of_range(option: &'static str, value: f64, wanted: &str) -> Result<(), CommandError> {
+    Err(CommandError::OutOfRange {
+        option,
+        value,
+        wanted: wanted.to_string(),
+    })
 }
 
 /// Refuses kinds of file that can't be written, before anything is computed.
@@ -169,7 +186,7 @@ fn positive(option: &'static str, value: Option<f64>) -> Result<Option<f64>, Com
 /// # Errors
 ///
 /// [`CommandError::FileKind`], [`CommandError::SameFile`], [`CommandError::ReadHere`].
-pub fn check_files(arguments: &Simulate) -> Result<(), CommandError> {
+fn check_files(arguments: &Simulate) -> Result<(), CommandError> {
     different(arguments)?;
     wide(arguments).and_then(|()| live(arguments))?;
     rows(arguments)?;

@@ -17,7 +17,6 @@ pub use cases::only_one;
 pub use choices::TOLERANCE;
 
 use crate::arguments::Simulate;
-use crate::column::columns;
 use crate::comparison::Called;
 use crate::compiled::browser;
 use crate::description::Description;
@@ -29,7 +28,7 @@ use crate::page::Live;
 use crate::run::{Stopped, run};
 use cases::Case;
 use picture::Picture;
-use prepare::{prepared, tell};
+use prepare::{Prepared, prepared, tell};
 use record::Record;
 
 /// Simulates a mechanism, once or for each value of a list.
@@ -61,11 +60,13 @@ fn module(arguments: &Simulate, case: &Case) -> Result<Option<Vec<u8>>, CommandE
 pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), CommandError> {
     // What can be told from the command line is told before anything is compiled.
     let mut plan = choices::plan(arguments)?;
-    choices::check_files(arguments)?;
     let case = cases::single(arguments);
-    let (mechanism, changes) = prepared(arguments, &case)?;
+    let Prepared {
+        mechanism,
+        changes,
+        columns,
+    } = prepared(arguments, &case)?;
     let structure = mechanism.structure();
-    let columns = columns(&arguments.columns, structure, &arguments.name)?;
     plan.columns = columns.clone();
     plan.checkpoints = checkpoints::checkpoints((arguments, &case), &plan, &changes, structure)?;
     let mut record = Record::open(arguments, structure, &columns, None)?;

@@ -104,7 +104,7 @@ fn places(
         CommandError::UnknownName { known, .. } => CommandError::UnknownName {
             kind: "coordinate, velocity, column or output",
             owner: owner.to_string(),
-            name: word.to_string(),
+            names: vec![word.to_string()],
             known: always.iter().cloned().chain(known).collect(),
         },
         error => error,

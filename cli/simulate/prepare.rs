@@ -1,13 +1,15 @@
 //! What comes before a run.
 //!
 //! In:  the options of `simulate`, a case.
-//! Out: the mechanism of the case, and what is said about it.
+//! Out: the mechanism of the case, the columns to record, and what is said about them.
 
 use super::cases::Case;
 use crate::arguments::Simulate;
 use crate::changes;
+use crate::column::{Column, columns};
 use crate::error::CommandError;
 use crate::law::find_with;
+use crate::mistakes::both;
 use crate::output::say;
 use bricard_driver::{AnyMechanism, Changes};
 
@@ -18,22 +20,35 @@ pub fn tell(arguments: &Simulate, text: &str) {
     }
 }
 
-/// A mechanism with the changes of a case.
+/// What a run begins with.
+pub struct Prepared {
+    /// The mechanism, with the changes of the case.
+    pub mechanism: Box<dyn AnyMechanism>,
+    /// The changes.
+    pub changes: Changes,
+    /// The columns that the command line asks for.
+    pub columns: Vec<Column>,
+}
+
+/// Finds what the command line names for a case.
 ///
 /// # Errors
 ///
-/// As [`find_with`] and [`changes::find`].
-pub fn prepared(
-    arguments: &Simulate,
-    case: &Case,
-) -> Result<(Box<dyn AnyMechanism>, Changes), CommandError> {
+/// As [`find_with`], [`changes::find`] and [`columns`].
+pub fn prepared(arguments: &Simulate, case: &Case) -> Result<Prepared, CommandError> {
     let (mut mechanism, set) = find_with(&arguments.name, &case.set)?;
     let structure = mechanism.structure();
-    let changes = changes::find(structure, &arguments.name, &set, &case.start)?;
+    let changes = changes::find(structure, &arguments.name, &set, &case.start);
+    let columns = columns(&arguments.columns, structure, &arguments.name);
+    let (changes, columns) = both(changes, columns)?;
     for name in changes::negative_inertia(&changes, structure) {
         let text = format!("warning: `{name}` is an inertia, and negative");
         tell(arguments, &text);
     }
     changes::apply(&changes, mechanism.as_mut());
-    Ok((mechanism, changes))
+    Ok(Prepared {
+        mechanism,
+        changes,
+        columns,
+    })
 }

@@ -9,7 +9,6 @@ use super::prepare::{prepared, tell};
 use super::record::Record;
 use super::{choices, summary};
 use crate::arguments::Simulate;
-use crate::column::columns;
 use crate::comparison::Called;
 use crate::error::CommandError;
 use crate::interrupt;
@@ -37,10 +36,9 @@ struct Done {
 pub fn simulate(arguments: &Simulate, varied: &Varied) -> Result<(), CommandError> {
     varied.check(arguments)?;
     let mut plan = choices::plan(arguments)?;
-    choices::check_files(arguments)?;
     // What is wrong with the command line is wrong for the first run, too.
-    let structure = prepared(arguments, &varied.first)?.0.structure();
-    let columns = columns(&arguments.columns, structure, &arguments.name)?;
+    let first = prepared(arguments, &varied.first)?;
+    let (structure, columns) = (first.mechanism.structure(), first.columns);
     let mut record = Record::open(arguments, structure, &columns, Some(varied.column()))?;
     let shown = shown(arguments, &columns, structure)?;
     plan.columns = shown.columns.clone();
@@ -49,7 +47,7 @@ pub fn simulate(arguments: &Simulate, varied: &Varied) -> Result<(), CommandErro
     let mut runs = Vec::new();
     for (value, case) in varied.runs() {
         record.begin(value);
-        let (mechanism, _) = prepared(arguments, case)?;
+        let mechanism = prepared(arguments, case)?.mechanism;
         let (report, error) = match run(mechanism.as_ref(), &plan, &mut record) {
             Ok(report) => (report, None),
             Err(stopped) => {

@@ -38,6 +38,14 @@ pub const CASES: &[Case] = &[
          number",
     ),
     (
+        "Several",
+        "simulate slider_crank --set mass=1 --set length=2 --columns force",
+        2,
+        "there is no parameter or input `mass` in `slider_crank`\nthere is no parameter or input \
+         `length` in `slider_crank`\nthere are: …\nerror: there is no column or output `force` in \
+         `slider_crank`\nthere are: …",
+    ),
+    (
         "TwoLists",
         "simulate slider_crank --set L1=0.4,0.5 --set L2=1,2",
         2,
