@@ -52,7 +52,7 @@ pub enum Command {
     Watch(Box<Simulate>),
     /// Say where compiled descriptions are kept, and how large they are
     Cache(Cache),
-    /// Write a mechanism as a crate of Rust, a library for C and C++, an FMU, or a package for npm
+    /// Export a mechanism: a Rust crate, a library for C and C++, a Python wheel, an FMU, or an npm package
     Export(Export),
     /// Print what makes a shell complete the command's words
     Completions(Completions),
@@ -295,7 +295,8 @@ pub struct Simulate {
     #[arg(long, value_name = "NAME=VALUE", value_parser = formula::starts)]
     pub start: Vec<Choice<Assignment>>,
     /// Columns to add, with commas between them: energy, kinetic, potential,
-    /// constraint_error, velocity_error, rank, reactions, or outputs by name
+    /// constraint_error, velocity_error, rank, reactions, accelerations, inputs, or outputs,
+    /// inputs and multipliers by name
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub columns: Vec<String>,
     /// Where the rows go [default: standard output, or nowhere with --plot]

@@ -2,7 +2,7 @@
 //!
 //! In:  a command line.
 //! Out: tables, equations, rows of numbers and pictures; exit status 0, 1 for a
-//!      run that failed, 2 for a command line that is wrong.
+//!      run that failed, 2 for a command line that is wrong, 130 after Ctrl-C.
 //!
 //! Not here: mechanics. This is a host program like any other, which happens to
 //! know every mechanism of the library by its name.

@@ -44,14 +44,13 @@ pub(crate) fn critical<T: Real>() -> T {
     T::from_f64(50.0)
 }
 
-/// Error of an interpolation, relative to what is interpolated, that is as good as none
-/// (3e-13 for `f64`).
+/// Relative error of an interpolation that is regarded as zero (3e-13 for `f64`).
 pub(crate) fn resolved<T: Real>() -> T {
     T::EPSILON.powf(T::from_f64(0.8))
 }
 
-/// Relative error that can always be reached next to a singular configuration (1e-11 for
-/// `f64`).
+/// Smallest relative error of an interpolation that is ever demanded: it can always be
+/// reached next to a singular configuration (1e-11 for `f64`).
 pub(crate) fn resolvable<T: Real>() -> T {
     T::EPSILON.powf(T::from_f64(0.7))
 }
@@ -63,8 +62,8 @@ pub(crate) fn accepted<T: Real>(step: Option<T>) -> T {
     (step * T::from_f64(0.1)).max(resolvable())
 }
 
-/// Error of an interpolation above which no step is accepted for the reason that round-off
-/// makes it so large (1e-8 for `f64`): half of the digits.
+/// Upper bound on the error of an interpolation that round-off may excuse (1e-8 for `f64`):
+/// half of the digits.
 pub(crate) fn excusable<T: Real>() -> T {
     T::EPSILON.sqrt()
 }

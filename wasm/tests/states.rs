@@ -1,4 +1,4 @@
-//! States of the first order, and runs, by the functions of a module.
+//! First-order states, and runs, by the functions of a module.
 
 use bricard_runtime::nalgebra::{SMatrix, SVector};
 use bricard_runtime::{

@@ -3,8 +3,8 @@
 //! In:  a mechanism and [`Settings`].
 //! Out: a [`ConstrainedSystem`](super::ConstrainedSystem), by [`Core::on`].
 //!
-//! Nothing allocates: all buffers have the sizes of the mechanism and live here
-//! or on the stack.
+//! Nothing allocates after construction: buffers have the sizes of the mechanism; large
+//! ones are taken from the heap once.
 //!
 //! Not here: where it lives itself ([`super::held`]).
 
