@@ -118,19 +118,19 @@ impl Builder {
         self
     }
 
-    /// The most operations, 8,000 unless it is given, of a function in which what comes again and
-    /// again, as bodies and loops of a row do, is no loop. Loops are compiled in a fraction of the
-    /// time. From 3,000 operations on they are also faster, on processors that are allowed to fuse
-    /// products with sums (`target-cpu`) from 8,000 on.
+    /// The number of operations, 8,000 unless it is given, above which repeated patterns of a
+    /// function, such as the bodies of a chain or the loops of a row, are emitted as loops
+    /// instead of being unrolled. Loops are compiled in a fraction of the time. They are also
+    /// faster from 3,000 operations on, where processors may fuse products with sums
+    /// (`target-cpu`) from 8,000 on.
     pub fn unrolled(mut self, operations: usize) -> Self {
         self.settings.options.unrolled = Some(operations);
         self
     }
 
-    /// The most operations, 20,000 unless it is given, of a function without loops that is one
-    /// straight line. A longer one is emitted as parts that are called one after the other: it
-    /// takes less time to compile, and more to run, since what one part computes and another one
-    /// reads goes through memory.
+    /// The number of operations, 20,000 unless it is given, above which a function without
+    /// loops is split into several, called one after the other. That compiles faster and runs
+    /// slower, since values that one of them computes and another one reads go through memory.
     pub fn straight_line(mut self, operations: usize) -> Self {
         self.settings.options.straight_line = Some(operations);
         self

@@ -29,7 +29,7 @@ macro_rules! compiled_once {
 }
 pub(crate) use compiled_once;
 
-/// What is of one type, whatever it is called.
+/// The same value under another name of its type.
 pub(crate) fn same<A: Any, B: Any + Copy>(it: &'static A) -> B {
     match (it as &dyn Any).downcast_ref() {
         Some(same) => *same,

@@ -7,8 +7,8 @@
 //! inertia of its body, and of all bodies behind it, to that of the body before. These are the
 //! sweeps of the composite-rigid-body algorithm (Featherstone, Rigid Body Dynamics Algorithms
 //! (2008), section 6.2): the work for an entry is proportional to the number of velocities
-//! that its body has in common with the one before it; derivatives of a momentum take as much
-//! for each body behind.
+//! that its body has in common with the one before it; derivatives of momenta would take that
+//! for every outboard body.
 
 use super::equations::Matrix;
 use super::reduced::Reduced;

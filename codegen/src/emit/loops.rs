@@ -219,8 +219,8 @@ impl Writer<'_> {
         assigned.collect()
     }
 
-    /// Steps that come again; those of the first turn. What is the same in all turns is brought
-    /// into scope before.
+    /// A loop, from the steps of its first iteration. What is the same in all iterations is
+    /// brought into scope before.
     fn repeated(&mut self, steps: Vec<Step>, repeated: &Loop) {
         let references = steps.iter().flat_map(|step| step.references.clone());
         let references: Vec<(Reference, Stride)> =
@@ -243,8 +243,8 @@ impl Writer<'_> {
             .push(quote!(for #turn in 0..#turns { #inside }));
     }
 
-    /// What is done in each turn. Some values are in scope `here`, and in arrays it is so `far`
-    /// from one turn to the next.
+    /// The statements of an iteration. Some values are in scope `here`, and in arrays it is so `far`
+    /// from one iteration to the next.
     fn turn(
         &mut self,
         steps: Vec<Step>,

@@ -31,7 +31,8 @@ pub(super) enum Address {
     Single(usize),
 }
 
-/// How far it is, in rows and columns, from what one turn refers to, to what the next does.
+/// Distance, in rows and columns, between what one iteration refers to and what the next
+/// one does.
 pub(super) type Stride = [isize; 2];
 
 /// A part of a list of steps.

@@ -1,8 +1,8 @@
 //! The symbolic engine: hash-consed expressions over exact numbers.
 //!
-//! Knows no mechanics: what symbols stand for is told by others ([`Symbolic`]). An expression is an [`ExprId`] into a [`Graph`]; equal
-//! expressions have equal ids, ids are given in order of creation, and nothing
-//! depends on the order of a hash map.
+//! Knows no mechanics: what symbols stand for is told by others ([`Symbolic`]). An
+//! expression is an [`ExprId`] into a [`Graph`]; equal expressions have equal ids, ids are
+//! given in order of creation, and nothing depends on the order of a hash map.
 
 mod adjoint;
 mod bits;

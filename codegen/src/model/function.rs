@@ -1,8 +1,9 @@
 //! Functions that the description declares.
 //!
 //! In:  `fn f(x, y: unit): unit = formula;`.
-//! Out: [`Functions`](super::declared::Functions), and the value of a call: that of the formula with the values of
-//!      the arguments, looked up where the function stands, not where it is called.
+//! Out: [`Functions`](super::declared::Functions), and the value of a call: that of the
+//!      formula with the values of the arguments, looked up where the function stands, not
+//!      where it is called.
 //!
 //! A finding inside a function points to its use as well.
 

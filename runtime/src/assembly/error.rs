@@ -107,7 +107,7 @@ fn not_finite<T: Real>(f: &mut Formatter<'_>, t: T) -> Result {
     )
 }
 
-/// Of positions, or of velocities.
+/// Writes which held values contradict the constraints: positions, or velocities.
 fn contradiction<T: Real>(
     f: &mut Formatter<'_>,
     structure: &Structure,

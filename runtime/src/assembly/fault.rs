@@ -41,7 +41,7 @@ fn not_finite<T: Real>(f: &mut Formatter<'_>, t: T) -> fmt::Result {
     )
 }
 
-/// Of positions, or of velocities.
+/// Writes which held values contradict the constraints: positions, or velocities.
 fn contradiction<T: Real>(
     f: &mut Formatter<'_>,
     structure: &Structure,

@@ -35,7 +35,8 @@ pub(crate) struct Decided<T> {
     pub(super) sides: Sides,
     /// Those that the motion slides along, a bit for each.
     pub(super) sliding: u128,
-    /// How much of the force above zero acts on a motion that slides, at the last state.
+    /// Filippov's weights of the forces above zero, for a motion that slides, at the last
+    /// state.
     pub(super) shares: [T; Sides::ROOM],
     /// Sides, and those slid along, with which the last step was made.
     pub(super) made: Option<(Sides, u128)>,

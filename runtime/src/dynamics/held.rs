@@ -1,4 +1,4 @@
-//! The solver that programs have: small, wherever its matrices are.
+//! The public solver: its matrices live in it where they are small, else on the heap.
 //!
 //! Out: [`Solver`].
 

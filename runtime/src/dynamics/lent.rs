@@ -4,7 +4,7 @@
 //! Out: [`Lent`], which is [`Constrained`]: equations with the metric of the kinetic energy,
 //!      and what is known of the constraint rows.
 //!
-//! What is not in a hurry works on these, so that it is compiled once, whatever the sizes of
+//! Code outside of the evaluations works on these, so that it is compiled once, whatever the sizes of
 //! mechanisms are.
 
 use super::Core;

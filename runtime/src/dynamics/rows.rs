@@ -18,7 +18,8 @@ use crate::{ConstraintRow, Real};
 pub(crate) struct Rows<T, const R: usize> {
     /// Squared reference sizes.
     size: [T; R],
-    /// The largest ratio of squared sizes with and without coupling that counts.
+    /// Bound on the ratio of a row's squared sizes with and without the coupling of the
+    /// coordinates by M; beyond it M is nearly singular, and the size is ignored.
     coupling: [T; R],
     /// Their inverses.
     inverse_size: [T; R],

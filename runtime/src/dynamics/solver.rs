@@ -236,7 +236,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 }
 
 /// The largest length of coordinates so far, with `q`, which are used up, and up to which sizes
-/// it is not measured again. Functions of an angle have the round-off of an angle of one, however small it is.
+/// it is not measured again. Functions of an angle have the round-off of an angle of one,
+/// however small it is.
 fn coordinate_scale<T: Real>(
     structure: &Structure,
     factor: &[T],

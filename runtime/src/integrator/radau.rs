@@ -84,7 +84,7 @@ impl<T: Real, Y: System<T, N> + ?Sized, const N: usize> Flow<T> for Counted<'_, 
 }
 
 impl<T: Real, const N: usize> Radau<T, N> {
-    /// The method; `tolerance` tells Newton's iteration when to end, which at a
+    /// The method; `tolerance` tells Newton's iteration when to end, which with
     /// fixed steps is near round-off.
     #[inline(never)]
     pub(super) fn new(digits: &Digits, tolerance: Option<Tolerance<T, N>>) -> Self {

@@ -140,9 +140,9 @@ impl<T: Real> Grid<T> {
 
 /// Calls a function with the states at `t₀`, `t₀ + dt`, `t₀ + 2 dt`, …
 ///
-/// Row `i` is at `t₀ + i·dt`, rounded once where `dt` is a decimal: nothing accumulates. States within a step come
-/// from its interpolant and are brought back onto the constraints. The function
-/// may break the run off.
+/// Row `i` is at `t₀ + i·dt`, rounded once where `dt` is a decimal: nothing accumulates. States
+/// within a step come from its interpolant and are brought back onto the constraints. The
+/// function may break the run off.
 #[derive(Clone, Debug)]
 pub struct Sampler<T, F> {
     grid: Grid<T>,

@@ -11,16 +11,16 @@ use crate::equations::At;
 use crate::linalg::Workspace;
 use crate::once::compiled_once;
 
-/// Looks into a step without a chart that came nearer to a singular configuration: it may
-/// have crossed two.
+/// States within a step without a chart that are looked at if it came nearer to a singular
+/// configuration: it may have crossed two sheets.
 const LOOKS: usize = 4;
 /// Halvings of a step in the search for a singular configuration.
 const BISECTIONS: usize = 20;
 
 impl<T: Real> Sheet<'_, T> {
-    /// How many sheets are crossed on the way from one state to another, `None` where that
-    /// can't be told; and after which part of the way, if that is sought, where it is not
-    /// clear that none is.
+    /// Counts the sheets crossed on the way from one state to another, `None` where that
+    /// can't be told. If it is sought, also the fraction of the way up to which no crossing
+    /// is seen.
     pub(super) fn crossed(
         &mut self,
         (start, end): (At<'_, T>, At<'_, T>),
@@ -72,8 +72,7 @@ impl<T: Real> Sheet<'_, T> {
 }
 
 impl<T: Real> Sheet<'_, T> {
-    /// How many sheets are crossed between two states, `None` where that can't be told, and
-    /// after which part of the way if that is sought.
+    /// As [`crossed`](Self::crossed), compiled once for `f64`.
     pub(crate) fn count_crossed(
         &mut self,
         ends: (At<'_, T>, At<'_, T>),
