@@ -356,7 +356,8 @@ impl<T: Real> Sheet<'_, T> {
             }
             let t = b - fb * (b - a) / (fb - fa);
             let Some(f) = self.determinant_at(view, t, workspace) else {
-                break;
+                // Signs can't be told in the singular configuration itself.
+                return t;
             };
             if (f < T::zero()) != (fb < T::zero()) {
                 (a, fa) = (b, fb);

@@ -1,9 +1,10 @@
-//! Very many passages with two degrees of freedom.
+//! Very many passages with two degrees of freedom, and the time of one.
 
 use crate::is_long;
-use bricard_runtime::{DynamicsError, Observer, Probe, Step};
+use bricard_runtime::{DynamicsError, Observer, Passage, Probe, Step};
 use bricard_runtime::{Options, State, Whole, assemble, simulate};
 use bricard_singular::descriptions::parallelogram_pendulum::ParallelogramPendulum;
+use bricard_singular::descriptions::two_lines::TwoLines;
 use core::f64::consts::PI;
 use core::ops::ControlFlow;
 
@@ -48,4 +49,47 @@ fn a_hundred_thousand_passages_with_two_freedoms_stay_on_their_branch() {
     assert!(passed >= wanted, "only {passed} passages");
     assert_eq!(summary.passages, Some(passed as u64));
     assert!(largest.0 < 1e-5, "the branch was left by {}", largest.0);
+}
+
+/// Keeps the times of passages.
+#[derive(Default)]
+struct Times(Vec<f64>);
+
+impl Observer<f64, 2> for Times {
+    fn step(
+        &mut self,
+        _step: &Step<f64, 2>,
+        _probe: &mut dyn Probe<f64, 2>,
+    ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn passage(&mut self, passage: &Passage<f64>) -> ControlFlow<()> {
+        self.0.push(passage.t);
+        ControlFlow::Continue(())
+    }
+}
+
+/// The determinant is linear in time here, so that its zero is hit to the last digit, where
+/// nothing can be evaluated.
+#[test]
+fn a_passage_is_reported_when_it_is_wherever_steps_end() {
+    for speed in [0.3, 1.0, 1.3, 5.0] {
+        for after in [0.01, 0.05, 0.1, 0.5, 1.0] {
+            let mut mechanism = TwoLines::<f64>::default();
+            mechanism.parameters.speed = speed;
+            let mechanism: &dyn Whole<f64, 2, 1> = &mechanism;
+            let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+            let exact = 1.0 / speed;
+            let options = Options::dop853(exact * (1.0 + after), 1e-9);
+            let mut times = Times::default();
+            let ran = simulate(mechanism, &start, &options, &mut [&mut times]);
+            ran.unwrap_or_else(|failure| panic!("{failure}"));
+            let [time] = times.0[..] else {
+                panic!("{:?} instead of one passage at {exact}", times.0);
+            };
+            let error = (time - exact).abs() / exact;
+            assert!(error < 1e-9, "{time} instead of {exact}");
+        }
+    }
 }
