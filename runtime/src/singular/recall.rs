@@ -47,11 +47,15 @@ impl<T: Real> Sheet<'_, T> {
         self.nodes.quality.known = false;
         self.nodes.quality.spacing = best.spacing;
         self.nodes.quality.score = best.score;
+        // Without a degree of freedom there is nothing to measure along.
+        if !self.is_curve() {
+            return;
+        }
         let speed = self.along(state.v);
         let square = speed * speed;
         // False for NaN, too.
         let moves = square > T::zero();
-        if !self.is_curve() || !moves {
+        if !moves {
             return;
         }
         let n = self.chart.n();

@@ -3,6 +3,7 @@
 use crate::is_long;
 use bricard_runtime::{DynamicsError, Observer, Passage, Probe, Step};
 use bricard_runtime::{Options, State, Whole, assemble, simulate};
+use bricard_singular::descriptions::driven_lines::DrivenLines;
 use bricard_singular::descriptions::parallelogram_pendulum::ParallelogramPendulum;
 use bricard_singular::descriptions::two_lines::TwoLines;
 use core::f64::consts::PI;
@@ -91,5 +92,18 @@ fn a_passage_is_reported_when_it_is_wherever_steps_end() {
             let error = (time - exact).abs() / exact;
             assert!(error < 1e-9, "{time} instead of {exact}");
         }
+    }
+}
+
+#[test]
+fn a_mechanism_without_a_degree_of_freedom_passes_on_its_branch() {
+    let mechanism: &dyn Whole<f64, 2, 2> = &DrivenLines::<f64>::default();
+    let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+    for tolerance in [1e-6, 1e-9, 1e-12] {
+        let options = Options::dop853(2.0, tolerance);
+        let ran = simulate(mechanism, &start, &options, &mut []);
+        let end = ran.unwrap_or_else(|failure| panic!("{failure}")).end;
+        let error = (end.q[0] + 1.0).abs().max((end.q[1] + 1.0).abs());
+        assert!(error < 1e-9, "{:?}", end.q);
     }
 }
