@@ -4,8 +4,7 @@ use bricard_capi::{Handle, Status};
 use bricard_embedding::engine::Engine;
 use bricard_embedding::engine_interface;
 use bricard_runtime::{Interface, Options, State, Stepper, assemble};
-use std::env;
-use std::process::Command;
+use bricard_testkit::callgrind::{counted_in, is_there};
 use std::ptr;
 
 const STEPS: usize = 400;
@@ -58,32 +57,18 @@ fn steps_through_the_border() {
     moved_through_the_border();
 }
 
-/// The instructions of a function that one of the tests above calls.
-fn instructions(function: &str, test: &str) -> f64 {
-    let output = Command::new("valgrind")
-        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
-        .arg(format!("--toggle-collect=*{function}*"))
-        .arg(env::current_exe().expect("the running tests"))
-        .args(["--exact", test])
-        .output()
-        .expect("valgrind runs");
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{said}");
-    let count = said
-        .lines()
-        .find_map(|line| line.split_once("Collected : "));
-    let (_, count) = count.expect("callgrind counts");
-    count.trim().parse().expect("a number")
-}
-
 /// Instructions are counted where valgrind is installed.
 #[test]
 fn a_step_through_the_border_costs_what_a_step_costs() {
-    if Command::new("valgrind").arg("--version").output().is_err() {
+    if !is_there() {
         return;
     }
-    let rust = instructions("moved_in_rust", "speed::steps_in_rust");
-    let border = instructions(
+    let count = |function, test| {
+        let counted = counted_in(function, &["--exact", test]);
+        counted.unwrap_or_else(|error| panic!("{error}"))
+    };
+    let rust = count("moved_in_rust", "speed::steps_in_rust");
+    let border = count(
         "moved_through_the_border",
         "speed::steps_through_the_border",
     );

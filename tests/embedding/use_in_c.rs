@@ -1,6 +1,7 @@
 //! What the C programs check by themselves.
 
 use crate::program::{Language, Linked, compile, compile_text, finished};
+use bricard_testkit::callgrind::is_there;
 use std::process::Command;
 
 #[test]
@@ -52,7 +53,7 @@ fn the_controller_of_the_chapter_holds_its_speed() {
 
 /// Valgrind is asked where it is installed.
 fn valgrind_finds_nothing_in(name: &str) {
-    if Command::new("valgrind").arg("--version").output().is_err() {
+    if !is_there() {
         return;
     }
     let program = compile(name, Language::C, Linked::Shared);

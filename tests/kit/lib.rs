@@ -1,6 +1,7 @@
 //! What tests of several packages need, and the command that measures as they do. It knows
 //! nothing of the packages.
 
+pub mod callgrind;
 pub mod page;
 pub mod placement;
 mod random;

@@ -7,19 +7,11 @@
 //! difference is free of everything that is done once.
 
 use crate::kernels;
+use bricard_testkit::callgrind::collected;
 use std::error::Error;
-use std::process::Command;
 
 /// Rounds of the two runs.
 const ROUNDS: [u64; 2] = [2, 10];
-
-/// Whether valgrind can be called.
-pub fn is_there() -> bool {
-    Command::new("valgrind")
-        .arg("--version")
-        .output()
-        .is_ok_and(|output| output.status.success())
-}
 
 /// Instructions of one call of a kernel, the call itself and the loop around it taken
 /// off; `None` if this valgrind does not know an instruction of it.
@@ -44,7 +36,7 @@ fn per_call(name: &str) -> Result<Option<f64>, Box<dyn Error>> {
         ROUNDS
     };
     let calls = ((many - few) * kernels::calls(name)) as f64;
-    let collected = |rounds: u64| counting::collected(&["kernel", name, &rounds.to_string()]);
-    let counted = collected(many)?.zip(collected(few)?);
+    let of = |rounds: u64| collected(&["kernel", name, &rounds.to_string()]);
+    let counted = of(many)?.zip(of(few)?);
     Ok(counted.map(|(more, less)| (more - less) / calls))
 }

@@ -13,6 +13,7 @@ mod recorded;
 mod report;
 mod size;
 
+use bricard_testkit::callgrind::is_there;
 use recorded::Recorded;
 use report::Counts;
 use std::error::Error;
@@ -68,7 +69,7 @@ fn on_a_large_stack(
 }
 
 fn measure(kernels: Vec<&str>, record: bool) -> Result<ExitCode, Box<dyn Error>> {
-    if !callgrind::is_there() {
+    if !is_there() {
         println!(
             "skipped: instructions are counted by valgrind, which is not installed (apt-get install valgrind)"
         );

@@ -6,6 +6,7 @@
 use bricard_runtime::{
     Audit, Method, Options, Settings, State, StepControl, Stepper, Whole, assemble, simulate,
 };
+use bricard_testkit::callgrind::counted;
 use skipping::pairs::PAIRS;
 use std::error::Error;
 use std::fs;
@@ -105,7 +106,7 @@ fn audited<const N: usize, const R: usize>(
 /// Instructions of a run.
 fn collected(name: &str, needed: bool, audit: bool, steps: u32) -> Result<f64, Failed> {
     let [needed, audit] = [needed, audit].map(|flag| flag.to_string());
-    counting::counted(&["run", name, &needed, &audit, &steps.to_string()])
+    counted(&["run", name, &needed, &audit, &steps.to_string()])
 }
 
 /// Instructions of one step, or of a whole run through a singular position.

@@ -9,6 +9,7 @@ mod series;
 use beside::Reduced;
 use bricard_runtime::{Method, StepControl};
 use bricard_testkit::Reduction;
+use bricard_testkit::callgrind::counted;
 use std::error::Error;
 use std::f64::consts::FRAC_PI_4;
 use std::hint::black_box;
@@ -78,7 +79,7 @@ fn end(problem: &Problem, setting: Setting) -> Result<f64, Failed> {
 
 fn collected(index: usize, setting: Setting, rounds: u32) -> Result<f64, Failed> {
     let Setting { order, tolerance } = setting;
-    counting::counted(&[
+    counted(&[
         &index.to_string(),
         &order.to_string(),
         &tolerance.to_string(),
