@@ -10,6 +10,7 @@ use crate::error::CommandError;
 use crate::figure::{chosen, named, overview, places as places_of};
 use crate::formula::{Assignment, Setting};
 use crate::mechanism::description;
+use crate::mistakes::{self, both};
 use crate::number::exact;
 use crate::page::{self, Live, Sliders, is_page};
 use crate::plot::{Marks, Portrait, Sheet, Times, panels_as_svg, phase_as_svg};
@@ -67,22 +68,20 @@ pub fn shown(
         false => wanted.to_vec(),
     };
     let owner = &arguments.name;
-    let mut curves = Vec::new();
-    for word in &arguments.curves {
-        curves.extend(places(word, &mut all, structure, owner)?);
-    }
+    let curves = arguments.curves.iter();
+    let curves = mistakes::all(curves.map(|word| places(word, &mut all, structure, owner)))?;
     let mut place = |word: &String| {
         let found = places(word, &mut all, structure, owner)?;
         // Of a vector the first component.
         Ok(found.first().copied().unwrap_or(0))
     };
     let phase = match &arguments.phase {
-        Some([x, y]) => Some([place(x)?, place(y)?]),
+        Some([x, y]) => Some(both(place(x), place(y))?.into()),
         None => None,
     };
     Ok(Shown {
         columns: all,
-        curves,
+        curves: curves.concat(),
         phase,
     })
 }
