@@ -120,9 +120,9 @@ impl Builder {
 
     /// The number of operations, 8,000 unless it is given, above which repeated patterns of a
     /// function, such as the bodies of a chain or the loops of a row, are emitted as loops
-    /// instead of being unrolled. Loops are compiled in a fraction of the time. They are also
-    /// faster from 3,000 operations on, where processors may fuse products with sums
-    /// (`target-cpu`) from 8,000 on.
+    /// instead of being unrolled. Loops are compiled in a fraction of the time. From 3,000
+    /// operations on they also run faster; where processors may fuse products with sums
+    /// (`target-cpu`), from 8,000 on.
     pub fn unrolled(mut self, operations: usize) -> Self {
         self.settings.options.unrolled = Some(operations);
         self

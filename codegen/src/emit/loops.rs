@@ -243,8 +243,8 @@ impl Writer<'_> {
             .push(quote!(for #turn in 0..#turns { #inside }));
     }
 
-    /// The statements of an iteration. Some values are in scope `here`, and in arrays it is so `far`
-    /// from one iteration to the next.
+    /// The statements of an iteration. Some values are in scope `here`, and in arrays it is
+    /// so `far` from one iteration to the next.
     fn turn(
         &mut self,
         steps: Vec<Step>,

@@ -4,8 +4,8 @@
 //! Out: [`Lent`], which is [`Constrained`]: equations with the metric of the kinetic energy,
 //!      and what is known of the constraint rows.
 //!
-//! Code outside of the evaluations works on these, so that it is compiled once, whatever the sizes of
-//! mechanisms are.
+//! Code outside of the evaluations works on these, so that it is compiled once, whatever the
+//! sizes of mechanisms are.
 
 use super::Core;
 use super::metric::{Metric, MetricView};

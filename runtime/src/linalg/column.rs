@@ -3,8 +3,8 @@
 //! In:  slices of one length.
 //! Out: products and norms.
 //!
-//! Slices, not arrays, so that what is not in a hurry is compiled once, whatever its
-//! length; where the length of a short one is known, the compiler makes use of it.
+//! Slices, not arrays, so that code outside of the evaluations is compiled once, whatever
+//! their length; where the length of a short one is known, the compiler makes use of it.
 
 use crate::Real;
 

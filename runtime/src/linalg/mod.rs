@@ -6,7 +6,7 @@
 //!      Nothing allocates, panics or runs without a bound; what is not finite is
 //!      reported.
 //!
-//! What is not in a hurry works on slices inside, so that it exists once in a crate.
+//! Code outside of the evaluations works on slices inside, so that it exists once in a crate.
 //!
 //! Not here: mechanics, and tolerances ([`crate::tolerance`]). No routine knows what its
 //! matrix stands for.

@@ -47,7 +47,7 @@ impl<T: Real> Sheet<'_, T> {
         self.nodes.quality.known = false;
         self.nodes.quality.spacing = best.spacing;
         self.nodes.quality.score = best.score;
-        // Without a degree of freedom there is nothing to measure along.
+        // Only a curve has the one coordinate that nodes are kept by.
         if !self.is_curve() {
             return;
         }
