@@ -22,6 +22,7 @@ mod files;
 mod golden;
 mod identities;
 mod imports;
+mod inside;
 mod layering;
 mod library;
 mod licences;

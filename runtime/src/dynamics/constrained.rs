@@ -213,6 +213,7 @@ where
         if here.session.chart.is_some() || chart.is_some() {
             here.session.base = there.session.base;
             here.session.chart = chart.copied();
+            here.session.near = there.session.near;
             here.rows.clone_from(&there.rows);
             here.coordinate_scale = there.coordinate_scale;
             here.adopt(there);

@@ -111,6 +111,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism: &dyn Mechanism<T, N, R>,
     ) -> Result<bool, DynamicsError<T>> {
         let wanted = core::mem::take(&mut self.session.trial.wants_chart);
+        if wanted && self.session.chart.is_some() && !self.is_beside() {
+            // The form has a chart anyway, and looked no further.
+            self.session.near = true;
+            return Ok(true);
+        }
         let Some(base) = self
             .session
             .base
