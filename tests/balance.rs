@@ -5,8 +5,9 @@ use crate::library::time_scale;
 use crate::motion::run;
 use bricard_runtime::Options;
 
-/// Odd mechanisms on positions that are singular in unusual ways.
-const HARD: [&str; 1] = ["kite"];
+/// Odd mechanisms: on positions that are singular in unusual ways, or with steps in which
+/// they turn many times.
+const HARD: [&str; 2] = ["kite", "timed_crank"];
 
 /// How long (s), for a mechanism of usual speed.
 const SPAN: f64 = 10.0;

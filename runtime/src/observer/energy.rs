@@ -8,29 +8,65 @@
 //!
 //! [`Energy::balance`]: crate::Energy::balance
 
+use super::quadrature::Integral;
 use super::{Observer, Probe};
 use crate::{DynamicsError, Energy, Real, State, Step, Watched};
 use core::ops::ControlFlow;
 
+/// What a step may be off by in units of its tolerance, so that it is not asked whether the
+/// integral of the power is; the same of fixed steps, relative to the energy.
+const PART: f64 = 10.0;
+const OF_FIXED: f64 = 1e-6;
+/// The least of both, in units of round-off.
+const ROUND_OFF: f64 = 1e3;
+
 /// Compares the energy with the power that was supplied.
 ///
 /// The power is integrated over each step's interpolant by Gauss's formula of
-/// order 8, so that the result is as accurate as the interpolant.
-#[derive(Clone, Copy, Debug, Default)]
+/// order 8, on parts of it where it changes fast, so that the result is as accurate as the
+/// interpolant.
+#[derive(Clone, Copy, Debug)]
 pub struct EnergyAudit<T> {
     start: T,
     supplied: T,
     /// What the sum of the supplied energy lost to round-off so far.
     lost: T,
     conservative: bool,
+    /// By which part of the energy a step may be off before the power is integrated again.
+    accuracy: T,
     error: T,
     largest: T,
+}
+
+impl<T: Real> Default for EnergyAudit<T> {
+    fn default() -> Self {
+        Self::new()
+    }
 }
 
 impl<T: Real> EnergyAudit<T> {
     /// Nothing seen yet.
     pub fn new() -> Self {
-        Self::default()
+        Self::of(None)
+    }
+
+    /// The same for steps of an accepted relative error, or of a fixed length.
+    pub(crate) fn of(tolerance: Option<T>) -> Self {
+        let number = T::from_f64;
+        let part = tolerance.map_or(number(OF_FIXED), |tolerance| tolerance * number(PART));
+        Self::with_accuracy(part.max(T::EPSILON * number(ROUND_OFF)))
+    }
+
+    fn with_accuracy(accuracy: T) -> Self {
+        Self {
+            start: T::zero(),
+            supplied: T::zero(),
+            lost: T::zero(),
+            conservative: false,
+            accuracy,
+            error: T::zero(),
+            largest: T::zero(),
+        }
     }
 
     /// The largest difference so far (J).
@@ -51,8 +87,37 @@ impl<T: Real> EnergyAudit<T> {
     /// Goes on where the audit of an earlier part of the run ended: from the energy
     /// at its start and what was supplied since (J).
     pub(crate) fn go_on(&mut self, start: T, supplied: T) {
+        self.error = self.start - start - supplied;
         self.start = start;
         self.supplied = supplied;
+    }
+
+    /// The energy that is supplied within a step which changes the energy by so much.
+    ///
+    /// If that is not the same but for `least`, the step is off by it or the integral is,
+    /// whose parts tell which.
+    fn supplied_in<const N: usize>(
+        &self,
+        step: &Step<T, N>,
+        probe: &mut dyn Probe<T, N>,
+        change: T,
+        least: T,
+    ) -> Result<T, DynamicsError<T>> {
+        let mut power = |t: T| {
+            let power = probe.power(&step.at(t))?;
+            match power.is_finite() {
+                true => Ok(power),
+                false => Err(DynamicsError::WatchedNotFinite {
+                    t,
+                    quantity: Watched::Power,
+                }),
+            }
+        };
+        let whole = Integral::over(&mut power, step.start().t, step.length())?;
+        if (change - whole.value).abs() <= least {
+            return Ok(whole.value);
+        }
+        whole.refined(&mut power, self.accuracy, least)
     }
 
     /// Adds to the supplied energy without losing small parts (Kahan).
@@ -77,31 +142,13 @@ pub(crate) fn balance<T: Real>(t: T, energy: &Energy<T>) -> Result<T, DynamicsEr
     Err(DynamicsError::WatchedNotFinite { t, quantity })
 }
 
-/// Gauss's formula with four nodes on [0, 1], exact for polynomials of degree 7:
-/// `(node, weight)`.
-fn gauss<T: Real>() -> [(T, T); 4] {
-    let number = T::from_f64;
-    let root = number(2.0) / number(7.0) * (number(6.0) / number(5.0)).sqrt();
-    let inner = (number(3.0) / number(7.0) - root).sqrt() / number(2.0);
-    let outer = (number(3.0) / number(7.0) + root).sqrt() / number(2.0);
-    let half = number(0.5);
-    let part = number(30.0).sqrt() / number(72.0);
-    let (more, less) = (number(0.25) + part, number(0.25) - part);
-    [
-        (half - outer, less),
-        (half - inner, more),
-        (half + inner, more),
-        (half + outer, less),
-    ]
-}
-
 impl<T: Real, const N: usize> Observer<T, N> for EnergyAudit<T> {
     fn begin(
         &mut self,
         state: &State<T, N>,
         probe: &mut dyn Probe<T, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<T>> {
-        *self = Self::default();
+        *self = Self::with_accuracy(self.accuracy);
         self.start = balance(state.t, &probe.energy(state))?;
         self.conservative = probe.structure().conservative;
         Ok(ControlFlow::Continue(()))
@@ -112,21 +159,14 @@ impl<T: Real, const N: usize> Observer<T, N> for EnergyAudit<T> {
         step: &Step<T, N>,
         probe: &mut dyn Probe<T, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<T>> {
+        let energy = probe.energy(step.end());
+        let balance = balance(step.end().t, &energy)?;
         if !self.conservative {
-            let h = step.length();
-            let mut mean = T::zero();
-            for (node, weight) in gauss::<T>() {
-                let t = step.start().t + h * node;
-                let power = probe.power(&step.at(t))?;
-                if !power.is_finite() {
-                    let quantity = Watched::Power;
-                    return Err(DynamicsError::WatchedNotFinite { t, quantity });
-                }
-                mean += weight * power;
-            }
-            self.supply(mean * h);
+            let size = energy.kinetic.abs() + energy.potential.abs() + self.supplied.abs();
+            let change = balance - self.start - self.supplied - self.error;
+            let supplied = self.supplied_in(step, probe, change, size * self.accuracy)?;
+            self.supply(supplied);
         }
-        let balance = balance(step.end().t, &probe.energy(step.end()))?;
         self.error = balance - self.start - self.supplied;
         self.largest = self.largest.max(self.error.abs());
         Ok(ControlFlow::Continue(()))

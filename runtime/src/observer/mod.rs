@@ -9,6 +9,7 @@
 mod constraint;
 mod energy;
 mod probe;
+mod quadrature;
 #[cfg(feature = "std")]
 mod recorder;
 mod sampler;

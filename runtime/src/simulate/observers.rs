@@ -4,7 +4,7 @@
 //! Out: whether the run goes on.
 
 use super::event::{Events, Functions};
-use super::{Audit, Options, Origin, SimulateError, Summary};
+use super::{Audit, Options, Origin, SimulateError, StepControl, Summary};
 use crate::integrator::Inside;
 use crate::singular::Found;
 use crate::{ConstraintAudit, DynamicsError, EnergyAudit, Observer, Probe, Real, State, Step};
@@ -36,9 +36,13 @@ impl<'a, 'b, T: Real, const N: usize> Observers<'a, 'b, T, N> {
             energy,
             passages,
         } = options.audit;
+        let tolerance = match options.step_control {
+            StepControl::Adaptive { relative, .. } => Some(relative),
+            StepControl::Fixed { .. } => None,
+        };
         Self {
             constraints: constraints.then(ConstraintAudit::new),
-            energy: energy.then(EnergyAudit::new),
+            energy: energy.then(|| EnergyAudit::of(tolerance)),
             passages: (rows > 0 && passages).then_some(0),
             events: Events::default(),
             observers,
