@@ -2,8 +2,8 @@
 
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    DynamicsError, IntegrateError, Interface, Method, Options, SimulateError, State, StepControl,
-    Stepper, Summary, Whole, assemble, simulate,
+    DynamicsError, IntegrateError, Interface, Method, Observer, Options, Probe, SimulateError,
+    State, Step, StepControl, Stepper, Summary, Whole, assemble, simulate,
 };
 use bricard_switching::contact::Contact;
 use bricard_switching::friction::Friction;
@@ -11,6 +11,7 @@ use bricard_switching::frozen::Frozen;
 use bricard_switching::looped::Looped;
 use bricard_switching::placed::Placed;
 use bricard_switching::timed::Timed;
+use std::ops::ControlFlow;
 
 /// Every method with a step control of its own: polynomials of the second degree are exact for all.
 fn methods(until: f64) -> Vec<Options<f64>> {
@@ -68,6 +69,46 @@ fn a_force_that_ends_at_a_time_leaves_the_exact_parabola_and_line() {
             near(summary.end.v[0], v, 2e-14, &options);
             near(summary.end.q[0], x + v * (2.0 - until), 2e-14, &options);
         }
+    }
+}
+
+/// The acceleration at the start of a run.
+struct First(SVector<f64, 2>);
+
+impl Observer<f64, 2> for First {
+    fn begin(
+        &mut self,
+        state: &State<f64, 2>,
+        probe: &mut dyn Probe<f64, 2>,
+    ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
+        self.0 = probe.acceleration(state, &mut [])?;
+        Ok(ControlFlow::Break(()))
+    }
+
+    fn step(
+        &mut self,
+        _: &Step<f64, 2>,
+        _: &mut dyn Probe<f64, 2>,
+    ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
+        unreachable!("the run is broken off at its start")
+    }
+}
+
+#[test]
+fn a_motion_from_rest_begins_with_the_acceleration_that_friction_leaves() {
+    let mechanism = Friction::default();
+    for (t, exact) in [
+        (0.5, [0.0, 0.0]),
+        (1.5, [0.5, 0.0]),
+        (3.0, [2.0, 1.0]),
+        (-2.5, [-1.5, -0.5]),
+    ] {
+        let mut first = First(SVector::zeros());
+        let start = State::new(t, SVector::zeros(), SVector::zeros());
+        let options = Options::dop853(4.0, 1e-9);
+        simulate(&mechanism, &start, &options, &mut [&mut first]).expect("a start");
+        let error = (first.0 - SVector::from(exact)).amax();
+        assert!(error <= 1e-15, "at {t} s: {} instead of {exact:?}", first.0);
     }
 }
 

@@ -78,6 +78,6 @@ fn a_mass_on_a_hill_given_by_a_spline_keeps_its_energy() {
     let end = simulate::<_, _, 3, 1>(&mechanism, &start, &Options::dop853(1.0, 1e-12), &mut [])
         .unwrap_or_else(|failure| panic!("{failure}"))
         .end;
-    assert!((energy(&end) - energy(&start)).abs() < 1e-10, "{end:?}");
+    assert!((energy(&end) - energy(&start)).abs() < 2e-9, "{end:?}");
     assert!((end.q[2] - 0.2).abs() > 0.5, "it has moved");
 }

@@ -97,7 +97,7 @@ where
     }
 
     /// Begins at a state, which is moved onto the constraints if it is not on them to
-    /// round-off.
+    /// round-off, and decides the conditions of forces there.
     #[inline(never)]
     pub(crate) fn start(
         &mut self,
@@ -106,9 +106,15 @@ where
     ) -> Result<(), DynamicsError<T>> {
         self.solver.expect_error(tolerance);
         self.solver.begin_step(state);
-        if !self.solver.places_starts() {
-            return Ok(());
+        if self.solver.places_starts() {
+            self.put_onto_constraints(state)?;
         }
+        escalating(self, |system| {
+            system.solver.settle(&system.mechanism, state)
+        })
+    }
+
+    fn put_onto_constraints(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
         self.solver.prepare(&self.mechanism, state)?;
         let mut placed = *state;
         self.project_within(&mut placed)?;

@@ -10,7 +10,7 @@
 use super::Core;
 use super::conditions::Decided;
 use super::sliding::{ROOM, sliding};
-use super::switching::{Motion, switching};
+use super::switching::{Motion, settling, switching};
 use crate::{DynamicsError, Mechanism, Real, Sides, State, Step, Switch, Switching};
 use nalgebra::SVector;
 
@@ -24,6 +24,13 @@ struct Attempt<'a, T, const N: usize, const R: usize> {
     core: &'a mut Core<T, N, R>,
     mechanism: &'a dyn Mechanism<T, N, R>,
     step: &'a Step<T, N>,
+}
+
+/// A motion that has not begun yet.
+struct Start<'a, T, const N: usize, const R: usize> {
+    core: &'a mut Core<T, N, R>,
+    mechanism: &'a dyn Mechanism<T, N, R>,
+    state: &'a State<T, N>,
 }
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
@@ -61,6 +68,42 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             self.conditions.at = Some(*state);
         }
         self.decide(self.conditions.decided.sides);
+    }
+
+    /// Holds the conditions as a motion does that begins at a state.
+    #[inline(never)]
+    pub(super) fn settle(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        if !self.hold(mechanism, state) {
+            return Ok(());
+        }
+        let core = &mut *self;
+        settling()(&mut Start {
+            core,
+            mechanism,
+            state,
+        })?;
+        self.decide(self.conditions.decided.sides);
+        Ok(())
+    }
+
+    /// Switching functions at a state, and their rates with the conditions held as was
+    /// decided.
+    fn switches(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &State<T, N>,
+        values: &mut [Switch<T>],
+    ) -> Result<(), DynamicsError<T>> {
+        self.decide(self.conditions.decided.sides);
+        let acceleration = self.held_acceleration(mechanism, state)?;
+        if !values.is_empty() {
+            mechanism.switches(state, &acceleration, values);
+        }
+        Ok(())
     }
 
     /// Where the first condition changes within a step that was made with those at its
@@ -165,11 +208,29 @@ impl<T: Real, const N: usize, const R: usize> Motion<T> for Attempt<'_, T, N, R>
 
     fn rates(&mut self, t: T, values: &mut [Switch<T>]) -> Result<(), DynamicsError<T>> {
         let state = self.at(t);
-        self.core.decide(self.core.conditions.decided.sides);
-        let acceleration = self.core.held_acceleration(self.mechanism, &state)?;
-        if !values.is_empty() {
-            self.mechanism.switches(&state, &acceleration, values);
-        }
-        Ok(())
+        self.core.switches(self.mechanism, &state, values)
+    }
+}
+
+impl<T: Real, const N: usize, const R: usize> Motion<T> for Start<'_, T, N, R> {
+    fn decided(&mut self) -> &mut Decided<T> {
+        &mut self.core.conditions.decided
+    }
+
+    fn ends(&self) -> (T, T) {
+        (self.state.t, self.state.t)
+    }
+
+    fn noise(&self) -> T {
+        T::zero()
+    }
+
+    fn values(&self, _t: T, values: &mut [Switch<T>]) {
+        self.mechanism
+            .switches(self.state, &SVector::zeros(), values);
+    }
+
+    fn rates(&mut self, _t: T, values: &mut [Switch<T>]) -> Result<(), DynamicsError<T>> {
+        self.core.switches(self.mechanism, self.state, values)
     }
 }

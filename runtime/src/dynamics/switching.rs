@@ -98,6 +98,34 @@ impl<T: Real> dyn Motion<T> + '_ {
         Ok(Switching::AtEnd)
     }
 
+    /// Decides the conditions at a start: those that are at zero there as the motion goes on.
+    pub(crate) fn settle(&mut self) -> Result<(), DynamicsError<T>> {
+        let (t, _) = self.ends();
+        while let Some(index) = self.wrong_at(t)? {
+            self.turn(index, t)?;
+        }
+        let decided = self.decided();
+        decided.turns = 0;
+        decided.made = Some((decided.sides, decided.sliding));
+        Ok(())
+    }
+
+    /// A condition that holds no longer as soon as the motion goes on: its function is at zero
+    /// and leaves its side, or it is slid along and one side doesn't push back.
+    fn wrong_at(&mut self, t: T) -> Result<Option<usize>, DynamicsError<T>> {
+        let mut values = [Switch::default(); Sides::ROOM];
+        self.rates(t, &mut values)?;
+        let decided = self.decided();
+        let count = decided.list.len().min(Sides::ROOM);
+        Ok((0..count).find(|&index| {
+            let Switch { value, rate } = values[index];
+            match decided.slides(index) {
+                true => !(T::zero()..=T::one()).contains(&decided.shares[index]),
+                false => value == T::zero() && rate * decided.side(index) < T::zero(),
+            }
+        }))
+    }
+
     /// A better time for a function to pass zero, by Newton's method from the end of an
     /// attempt; none if that was good enough.
     fn refined(&mut self, aim: Aim<T>, same: T) -> Result<Option<T>, DynamicsError<T>> {
@@ -278,4 +306,9 @@ compiled_once! {
     /// [`Motion::switch`].
     pub(super) fn switching<T>: fn(&mut (dyn Motion<T> + '_)) -> Result<Switching<T>, DynamicsError<T>> =
         |motion| motion.switch();
+}
+compiled_once! {
+    /// [`Motion::settle`].
+    pub(super) fn settling<T>: fn(&mut (dyn Motion<T> + '_)) -> Result<(), DynamicsError<T>> =
+        |motion| motion.settle();
 }
