@@ -60,8 +60,18 @@ pub fn unassembled(numbers: &Numbers, found: &mut Diagnostics) {
         }
     }
     if let Some((_, errors)) = best {
-        let message = "the start can't be assembled: the constraints don't hold together with the held values";
-        let help = "write `~` for a value that may change, or correct the lengths";
+        let given = held.contains(&true) || of_start(numbers, &rows);
+        let (message, help) = match given {
+            true => (
+                "the start can't be assembled: the constraints don't hold together with the held \
+                 values",
+                "write `~` for a value that may change, or correct the lengths",
+            ),
+            false => (
+                "the start can't be assembled: no position was found at which all constraints hold",
+                "correct the constraints or the lengths in them, or guess nearer with `~`",
+            ),
+        };
         warn(
             numbers,
             message,
@@ -111,11 +121,25 @@ fn unassembled_velocities(numbers: &Numbers, place: &Place, found: &mut Diagnost
         error.abs() <= HOLDS * terms.sum::<f64>()
     });
     if !holds {
-        let message =
-            "the start can't be assembled: the held velocities contradict the constraints";
-        let help = "write `~` for a velocity that may change, or leave it out";
+        let given = held.contains(&true) || of_start(numbers, &rows);
+        let (message, help) = match given {
+            true => (
+                "the start can't be assembled: the held velocities contradict the constraints",
+                "write `~` for a velocity that may change, or leave it out",
+            ),
+            false => (
+                "the start can't be assembled: no velocities satisfy all constraints",
+                "correct the constraints that contradict one another here",
+            ),
+        };
         warn(numbers, message, help, rows.into_iter().zip(errors), found);
     }
+}
+
+/// Whether an equation of the start is among the rows, which holds a value, too.
+fn of_start(numbers: &Numbers, rows: &[usize]) -> bool {
+    let constraints = numbers.mechanism.constraints.len();
+    rows.iter().any(|row| *row >= constraints)
 }
 
 /// Warns at the first entry of the start block (or the first constraint), with the
