@@ -80,6 +80,27 @@ const SCALED: [(&str, &str, &str); 37] = [
     ("mV", "V", "1e-3"),
 ];
 
+/// Units that are written out or shortened otherwise.
+const WRITTEN_OUT: [(&str, &str); 17] = [
+    ("sec", "s"),
+    ("second", "s"),
+    ("seconds", "s"),
+    ("meter", "m"),
+    ("metre", "m"),
+    ("meters", "m"),
+    ("metres", "m"),
+    ("kilogram", "kg"),
+    ("newton", "N"),
+    ("joule", "J"),
+    ("watt", "W"),
+    ("pascal", "Pa"),
+    ("hertz", "Hz"),
+    ("volt", "V"),
+    ("ampere", "A"),
+    ("radian", "rad"),
+    ("radians", "rad"),
+];
+
 /// The names of units.
 pub fn units() -> impl Iterator<Item = &'static str> {
     NAMED.iter().map(|(name, _)| *name)
@@ -116,6 +137,62 @@ fn unknown(name: &str) -> String {
     }
 }
 
+/// What to write instead of `m2`, `mm2` and `kgm2`: names and powers without signs between
+/// them.
+fn run_together(name: &str, exponent: i32) -> Option<String> {
+    let letters = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    let power = name[letters.len()..].parse::<i32>().ok();
+    if let (Some(power @ 2..=9), Some((_, si, factor))) =
+        (power, prefixed().find(|(known, ..)| *known == letters))
+    {
+        let si = match si.chars().all(char::is_alphanumeric) {
+            true => format!("{si}^{power}"),
+            false => format!("({si})^{power}"),
+        };
+        let total = exponent * power;
+        let size = total.unsigned_abs();
+        return Some(match total {
+            0.. => format!("write SI: `{si}`, and multiply the value by `({factor})^{size}`"),
+            _ => format!("write SI: `{si}`, and divide the value by `({factor})^{size}`"),
+        });
+    }
+    let factors = split(name)?;
+    let product = factors.join("*");
+    Some(match factors.len() {
+        1 => format!("write `{product}`"),
+        _ if exponent == 1 => format!("write `{product}`"),
+        _ => format!("write `({product})`"),
+    })
+}
+
+/// The units with a factor.
+fn prefixed() -> impl Iterator<Item = &'static (&'static str, &'static str, &'static str)> {
+    SCALED.iter().filter(|(.., factor)| *factor != "1")
+}
+
+/// The units and powers that a name is put together of, none of them with a prefix.
+fn split(name: &str) -> Option<Vec<String>> {
+    if name.is_empty() || prefixed().any(|(known, ..)| name.starts_with(known)) {
+        return None;
+    }
+    let mut units: Vec<&str> = units().filter(|unit| name.starts_with(unit)).collect();
+    units.sort_by_key(|unit| std::cmp::Reverse(unit.len()));
+    units.into_iter().find_map(|unit| {
+        let rest = &name[unit.len()..];
+        let power = rest.chars().take_while(char::is_ascii_digit).count();
+        let (power, rest) = rest.split_at(power);
+        let first = match power {
+            "" => unit.to_string(),
+            _ => format!("{unit}^{power}"),
+        };
+        let mut factors = vec![first];
+        if !rest.is_empty() {
+            factors.extend(split(rest)?);
+        }
+        Some(factors)
+    })
+}
+
 fn instead(name: &str, exponent: i32) -> String {
     if let Some((_, si, factor)) = SCALED.iter().find(|(known, ..)| *known == name) {
         let alone = exponent == 1 || si.chars().all(char::is_alphanumeric);
@@ -136,6 +213,15 @@ fn instead(name: &str, exponent: i32) -> String {
                 exponent.unsigned_abs()
             ),
         };
+    }
+    if let Some((_, short)) = WRITTEN_OUT
+        .iter()
+        .find(|(long, _)| *long == name.to_lowercase())
+    {
+        return format!("write `{short}`");
+    }
+    if let Some(help) = run_together(name, exponent) {
+        return help;
     }
     let known = NAMED.iter().map(|(known, _)| *known);
     match nearest(name, known) {
