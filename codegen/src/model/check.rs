@@ -7,6 +7,7 @@
 
 use super::analysis::{Analysis, NOT_POLYNOMIAL};
 use super::lowering::Lowering;
+use super::symbol::Symbol;
 use super::unit::{AREA, ENERGY, FREQUENCY2, POWER, Unit};
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span, figure};
@@ -192,6 +193,24 @@ impl Lowering<'_> {
             return Some(());
         }
         let span = self.culprit(e, |analysis| analysis.acceleration);
+        let freedoms = self.mechanism.freedoms() as u32;
+        let of_state = |s: &Symbol| !matches!(s, Symbol::Acceleration(i) if *i < freedoms);
+        let graph = &self.evaluator.graph;
+        if scalars
+            .iter()
+            .all(|s| graph.symbols(s.id).iter().all(of_state))
+        {
+            let error =
+                Diagnostic::error(span, format!("{what} can't contain `der(…)` of a state"));
+            let help = match what {
+                "a force" | "an event function" | "the rate of a state" => {
+                    "give the formula of that rate a name with `let`, and write the name in both \
+                     places"
+                }
+                _ => STATES_ACT,
+            };
+            return self.report(error.help(help));
+        }
         let error = Diagnostic::error(span, format!("{what} can't contain an acceleration"));
         let help = "accelerations follow from the equations of motion; they may stand in outputs";
         self.report(error.help(help))

@@ -7,7 +7,7 @@
 use super::Force;
 use super::lowering::Lowering;
 use super::symbol::{Node, Symbol};
-use super::unit::{PER_SECOND, Unit};
+use super::unit::{Dimension, PER_SECOND, Unit};
 use super::value::Scalar;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::ExprId;
@@ -36,8 +36,9 @@ impl Lowering<'_> {
                 unit: state.unit.times(Unit::Known(PER_SECOND)),
                 ..state
             };
-            let sides = [(per_second, of.span), (rate, value.span)];
-            self.evaluator.same_unit(sides, "this rate")?;
+            if let Err((wanted, found)) = per_second.unit.meet(rate.unit) {
+                return self.not_per_second([wanted, found], value.span);
+            }
             let force = vec![self.evaluator.valid(rate.id, value.span)?];
             self.mechanism.forces.push(Force {
                 force,
@@ -47,6 +48,22 @@ impl Lowering<'_> {
             });
         }
         Some(())
+    }
+
+    /// Says that the rate of a state is in another unit than that of the state per second.
+    fn not_per_second(&mut self, [wanted, found]: [Dimension; 2], span: Span) -> Option<()> {
+        let message = format!(
+            "the rate of this state is in {}, this is in {}",
+            wanted.text(),
+            found.text()
+        );
+        let error = Diagnostic::error(span, message);
+        let factor = found.power(-1.0).map(|found| wanted.times(found).text());
+        self.report(error.maybe_help(
+            factor.map(|unit| {
+                format!("a factor that is missing is declared: `const a: {unit} = …;`")
+            }),
+        ))
     }
 
     /// Takes note that the rate of a state is given; refuses a second one.

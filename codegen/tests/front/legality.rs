@@ -188,7 +188,7 @@ fn states_act_by_forces_alone() {
         ("der(z) = 2;", "this state has a rate already"),
         (
             "force der(z) on q;",
-            "a force can't contain an acceleration",
+            "a force can't contain `der(…)` of a state",
         ),
     ] {
         let text = format!("state z; der(z) = 1 - z; force z on q; {statement}");
@@ -197,7 +197,7 @@ fn states_act_by_forces_alone() {
     refuse_saying(&with("state z; force z on q;"), "the state `z` has no rate");
     refuse_saying(
         &with("param k: N = 1; state z: m; der(z) = k; force z on q;"),
-        "this rate",
+        "the rate of this state is in m/s, this is in N",
     );
     refuse_saying(
         &with("state z; der(z) = [1, 2]; force z on q;"),
