@@ -9,7 +9,8 @@ use super::unit::{PER_SECOND, Unit};
 use super::value::{Matrix, Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::expr::{Function, Function2};
-use crate::syntax::ast::{Expr, ExprKind, Name};
+use crate::syntax;
+use crate::syntax::ast::{Expr, ExprKind, Item, ItemKind, Name};
 use crate::syntax::messages::did_you_mean;
 
 impl Evaluator {
@@ -38,7 +39,11 @@ impl Evaluator {
                 _ => count(arity),
             };
             let message = takes_others(&name.text, &takes, arguments.len());
-            return self.report(Diagnostic::error(span, message).help(format!("write `{form}`")));
+            let help = match name.text.as_str() {
+                "dot" => format!("write `{form}`; a derivative in time is `der(x)`"),
+                _ => format!("write `{form}`"),
+            };
+            return self.report(Diagnostic::error(span, message).help(help));
         }
         if let Some((function, _)) = unary {
             return self
@@ -257,10 +262,15 @@ impl Evaluator {
         let built_in = Function::ALL.iter().map(|(_, name)| *name);
         let functions = built_in.chain(other_functions()).map(|name| name as &str);
         let functions: Vec<&str> = functions.chain(self.functions.names()).collect();
-        let help = if self.scope.get(text).is_some() || text == "t" || text == "pi" {
+        let value = self.scope.get(text).and_then(|entry| entry.value.as_ref());
+        let help = if matches!(value, Some(Value::Array(_) | Value::Vector(_))) {
+            format!("an element is written `{text}[0]`")
+        } else if self.scope.get(text).is_some() || text == "t" || text == "pi" {
             format!("`{text}` is no function; a product is written `{text}*(…)`")
         } else if let Some((_, form)) = ELSEWHERE.iter().find(|(other, _)| *other == text) {
             format!("write `{form}`")
+        } else if in_library(text) {
+            format!("`{text}` is in the library of parts: write `use parts;` above")
         } else if let Some(near) = nearest(text, functions.iter().copied()) {
             did_you_mean(near)
         } else {
@@ -268,4 +278,11 @@ impl Evaluator {
         };
         self.report(Diagnostic::error(name.span, format!("unknown function `{text}`")).help(help))
     }
+}
+
+/// Whether the library has a part of a name.
+fn in_library(name: &str) -> bool {
+    let library = syntax::library();
+    let part = |item: &Item| matches!(&item.kind, ItemKind::Part(part) if part.name.text == name);
+    library.iter().any(part)
 }

@@ -24,7 +24,7 @@ pub const OTHERS: [(&str, usize, &str); 17] = [
 ];
 
 /// Names that other languages have for the same.
-pub const ELSEWHERE: [(&str, &str); 25] = [
+pub const ELSEWHERE: [(&str, &str); 41] = [
     ("integral", "state z; der(z) = x;"),
     ("integrate", "state z; der(z) = x;"),
     ("int", "state z; der(z) = x;"),
@@ -50,6 +50,22 @@ pub const ELSEWHERE: [(&str, &str); 25] = [
     ("hypot", "norm([x, y])"),
     ("cot", "1/tan(x)"),
     ("cbrt", "x^(1/3)"),
+    ("velocity", "der(x)"),
+    ("vel", "der(x)"),
+    ("derivative", "der(x)"),
+    ("deriv", "der(x)"),
+    ("D", "der(x)"),
+    ("acceleration", "der(der(x))"),
+    ("acc", "der(der(x))"),
+    ("der2", "der(der(x))"),
+    ("sind", "sin(x*deg)"),
+    ("cosd", "cos(x*deg)"),
+    ("tand", "tan(x*deg)"),
+    ("radians", "x*deg"),
+    ("deg2rad", "x*deg"),
+    ("degrees", "x/deg"),
+    ("rad2deg", "x/deg"),
+    ("power", "x^n"),
 ];
 
 /// Whether a name is that of a function (those of one number aside).

@@ -13,6 +13,9 @@ use crate::diagnostic::{Diagnostic, Span, nearest};
 use crate::syntax::ast::{Argument, Expr, ExprKind, Let, Name};
 use crate::syntax::messages::{COMPONENT, did_you_mean, no_axis};
 
+/// How many names in a part are listed where one is missing.
+const SHOWN: usize = 4;
+
 impl Evaluator {
     /// Whether a formula names a part or an array of them.
     pub fn names_part(&self, e: &Expr) -> bool {
@@ -123,7 +126,16 @@ impl Evaluator {
         if kind == Kind::Part {
             let message = format!("`{full}` is a part");
             let error = Diagnostic::error(span, message);
-            self.report::<()>(error.help(format!("write a name in it behind a dot: `{full}.…`")));
+            let names = self.parts.used.get(full).into_iter().flatten();
+            let names: Vec<String> = names
+                .take(SHOWN)
+                .map(|name| format!("`{full}.{name}`"))
+                .collect();
+            let names = match names.is_empty() {
+                true => format!("`{full}.…`"),
+                false => names.join(", "),
+            };
+            self.report::<()>(error.help(format!("write a name in it behind a dot: {names}")));
             return;
         }
         if self.parts.open.iter().any(|open| open == full) {
