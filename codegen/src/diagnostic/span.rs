@@ -25,6 +25,20 @@ pub struct Span {
 }
 
 impl Span {
+    /// The beginning of a file.
+    pub const START: Span = {
+        let start = Position {
+            line: 1,
+            column: 1,
+            offset: 0,
+        };
+        Span {
+            start,
+            end: start,
+            library: false,
+        }
+    };
+
     /// The piece from the start of this one to the end of another.
     pub fn to(self, other: Span) -> Span {
         Span {

@@ -159,20 +159,26 @@ impl<'a> Cursor<'a> {
     pub fn unexpected(&mut self, expected: &str, help: &str) -> Reported {
         let next = self.peek();
         let new_line = self.at > 0 && next.span.start.line > self.last_span().end.line;
-        let (span, found) = if new_line || next.kind == TokenKind::End {
-            let span = if self.at > 0 {
-                self.last_span().after()
-            } else {
-                next.span
-            };
-            (span, String::new())
-        } else {
-            (
-                next.span,
-                format!(", found `{}`", next.span.text(self.source)),
-            )
+        if !new_line && next.kind != TokenKind::End {
+            return self.unexpected_here(expected, help);
+        }
+        let span = match self.at {
+            0 => Span::START,
+            _ => self.last_span().after(),
         };
-        let mut diagnostic = Diagnostic::error(span, format!("expected {expected}{found}"));
+        self.expected(span, format!("expected {expected}"), help)
+    }
+
+    /// Records that something else was expected than what comes next, also where that
+    /// stands on a line of its own.
+    pub fn unexpected_here(&mut self, expected: &str, help: &str) -> Reported {
+        let span = self.span();
+        let found = span.text(self.source);
+        self.expected(span, format!("expected {expected}, found `{found}`"), help)
+    }
+
+    fn expected(&mut self, span: Span, message: String, help: &str) -> Reported {
+        let mut diagnostic = Diagnostic::error(span, message);
         if !help.is_empty() {
             diagnostic = diagnostic.help(help);
         }
@@ -274,26 +280,6 @@ impl<'a> Cursor<'a> {
             }
             self.advance();
         }
-    }
-
-    /// What to write where a word on the same line follows a number, instead of what was
-    /// expected: in a vector, or elsewhere.
-    pub fn number_in_front(&self, in_vector: bool) -> Option<String> {
-        let TokenKind::Word(word) = &self.peek().kind else {
-            return None;
-        };
-        let number = self.behind(1);
-        let here = number.span.end.line == self.span().start.line;
-        if !matches!(number.kind, TokenKind::Number(_)) || !here {
-            return None;
-        }
-        let number = number.span.text(self.source);
-        let unit = match in_vector {
-            true => format!("stands behind the whole vector, `[…] {word}`"),
-            false => format!("stands in a declaration, `const a: {word} = {number};`"),
-        };
-        let product = format!("a product is written `{number}*{word}`");
-        Some(format!("{product}; a unit {unit}"))
     }
 
     /// Whether a word that begins a statement comes next.

@@ -5,14 +5,16 @@
 //! tightly than a product: `-x^2 = -(x^2)`, `2^-1 = 1/2`.
 
 use super::ast::{Expr, ExprKind, Name, Range};
+use super::beside::place_of;
 use super::cursor::{Cursor, Parsed};
-use super::keyword::{CONNECTIVES, DIRECTIONS};
+use super::keyword::{CONNECTIVES, DIRECTIONS, takes_one};
 use super::literal::read_number;
-use super::messages::{AXIS, COMPONENT, FORMULA, NAME_INSIDE, NO_ELEMENTS, NUMBERS, POINT};
+use super::messages::{
+    AXIS, COMPONENT, FORMULA, NAME_INSIDE, NO_DOUBLE_STAR, NO_ELEMENTS, NUMBERS, POINT,
+};
 use super::scan::NESTING;
 use super::token::TokenKind;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::expr::Function;
 
 impl Cursor<'_> {
     /// Reads a formula.
@@ -35,7 +37,7 @@ impl Cursor<'_> {
         let mut factors = vec![(false, first)];
         loop {
             if self.at_symbol("**") {
-                let error = Diagnostic::error(self.span(), "`**` is not an operator");
+                let error = Diagnostic::error(self.span(), NO_DOUBLE_STAR);
                 return Err(self.fail(error.help("a power is written `x^2`")));
             }
             if !self.at_symbol("*") && !self.at_symbol("/") {
@@ -81,8 +83,7 @@ impl Cursor<'_> {
         let ExprKind::Name(name) = &base.kind else {
             return Ok(());
         };
-        let unary = Function::ALL.iter().map(|(_, name)| *name);
-        let known = unary.chain(["norm", "norm2", "der"]).any(|f| f == name);
+        let known = takes_one(name);
         let open = TokenKind::Symbol("(");
         let [exponent, next] = [self.peek(), self.peek_at(1)];
         if !known || next.kind != open || !matches!(exponent.kind, TokenKind::Number(_)) {
@@ -130,7 +131,13 @@ impl Cursor<'_> {
                 return Err(self.fail(error.help(help)));
             } else if self.take_symbol("[") {
                 let index = self.expression()?;
-                self.expect_symbol("]", "an index is written `theta[0]` or `R[0][1]`")?;
+                let help = match self.at_symbol(",") {
+                    true => {
+                        "an index is written `R[0][1]`; a vector stands behind `,` or an operator"
+                    }
+                    false => "an index is written `theta[0]` or `R[0][1]`",
+                };
+                self.expect_symbol("]", help)?;
                 let span = value.span.to(self.last_span());
                 value = Expr {
                     span,
@@ -161,6 +168,12 @@ impl Cursor<'_> {
         let Some(axis) = axis else {
             if let Some(error) = self.broken_number() {
                 return Err(self.fail(error));
+            }
+            if ["*", "/", "^"].iter().any(|sign| self.at_symbol(sign)) {
+                let dotted = self.last_span().to(self.span());
+                let message = format!("`{}` is not an operator", dotted.text(self.source));
+                let help = "operators stand without a dot, between numbers: `x^2`, `x*y`";
+                return Err(self.fail(Diagnostic::error(dotted, message).help(help)));
             }
             return Err(self.unexpected(AXIS, COMPONENT));
         };
@@ -202,7 +215,8 @@ impl Cursor<'_> {
             TokenKind::Word(word)
                 if ["then", "else", "in", "on", "for"].contains(&word.as_str()) =>
             {
-                Err(self.unexpected(FORMULA, ""))
+                let place = place_of(&word).unwrap_or_default();
+                Err(self.unexpected(FORMULA, &format!("`{word}` is no name: {place}")))
             }
             TokenKind::Word(word) => self.name_or_call(word, token.span),
             TokenKind::Symbol("(") => self.parenthesis(),
@@ -313,7 +327,8 @@ impl Cursor<'_> {
             return Err(self.fail(error.help(POINT)));
         }
         self.comparison_stands_after_if()?;
-        let help = self.number_in_front(false).unwrap_or_default();
+        let help = self.number_in_front(false);
+        let help = help.or_else(|| self.operator_missing()).unwrap_or_default();
         self.expect_symbol(")", &help)?;
         Ok(Expr {
             span: start.to(self.last_span()),

@@ -1,13 +1,13 @@
 //! Statements: the words that begin them, and the file around them.
 
-use super::ast::{Declaration, Declared, Energy, Expr, ExprKind, Item, ItemKind, Let, Name, Size};
-use super::cursor::{Cursor, Parsed};
-use super::keyword::{DIRECTIONS, SHAPES, STATEMENTS, Statement};
-use super::messages::{CHOICE, FOR, NO_ASSIGNMENT, NO_UNIT_BEHIND, REMOVE, did_you_mean};
+use super::ast::{Declaration, Declared, Energy, Item, ItemKind, Let, Name, Size};
+use super::cursor::{Cursor, Parsed, Reported};
+use super::foreign::statement_help;
+use super::keyword::{SHAPES, Statement, example};
+use super::messages::{FOR, REMOVE};
 use super::model::Model;
 use super::token::TokenKind;
-use crate::diagnostic::{Diagnostic, nearest};
-use crate::expr::Function;
+use crate::diagnostic::Diagnostic;
 
 const FILE: &str = "a description is written `mechanism Name { … }`";
 
@@ -20,9 +20,17 @@ impl Cursor<'_> {
                 true => format!("{FILE}, and this stands inside the braces"),
                 false => FILE.to_string(),
             };
-            return Err(self.unexpected("`mechanism`", &help));
+            let reported = self.unexpected("`mechanism`", &help);
+            let named = matches!(self.peek_at(1).kind, TokenKind::Word(_));
+            if !named || self.peek_at(2).kind != TokenKind::Symbol("{") {
+                return Err(reported);
+            }
+            self.advance();
         }
-        let name = self.expect_name("the name of the mechanism", FILE)?;
+        let name = match self.expect_name("the name of the mechanism", FILE) {
+            Ok(name) => name,
+            Err(reported) => self.nameless(reported)?,
+        };
         let mut model = Model::named(name, docs);
         self.block(FILE, |item| model.add(item))?;
         if self.peek().kind != TokenKind::End {
@@ -37,12 +45,32 @@ impl Cursor<'_> {
         Ok(model)
     }
 
+    /// Goes on at the brace behind what is no name, and gives the mechanism none: mistakes
+    /// inside are told all the same.
+    fn nameless(&mut self, reported: Reported) -> Parsed<Name> {
+        let span = self.span();
+        while !self.at_symbol("{") {
+            let ends = [";", "}"].iter().any(|sign| self.at_symbol(sign));
+            if ends || self.peek().kind == TokenKind::End {
+                return Err(reported);
+            }
+            self.advance();
+        }
+        let text = String::new();
+        Ok(Name { text, span })
+    }
+
     /// Hands over the statements of a block.
     pub fn block(&mut self, help: &str, mut add: impl FnMut(Item)) -> Parsed<()> {
         self.expect_symbol("{", help)?;
         let depth = self.block_depth();
         while !self.at_block_end(depth) {
             if self.take_symbol(";") {
+                continue;
+            }
+            if self.at_symbol(",") {
+                let _reported = self.unexpected_here("a statement", REMOVE);
+                self.advance();
                 continue;
             }
             if let Some(item) = self.statement(depth, Self::item, is_block) {
@@ -79,19 +107,12 @@ impl Cursor<'_> {
         let docs = self.docs();
         let start = self.span();
         let TokenKind::Word(word) = self.peek().kind.clone() else {
-            return Err(self.unexpected("a statement", &statement_help("")));
+            return Err(self.unexpected_here("a statement", &statement_help("", false)));
         };
-        if !self.at_statement() && !self.at_rate() {
+        if !self.at_statement() && word != "der" {
             let error = Diagnostic::error(start, format!("`{word}` does not begin a statement"));
-            let help = match self.peek_at(1).kind {
-                TokenKind::Symbol("=") => {
-                    format!(
-                        "a quantity is written `let {word} = …;`, an equation `constraint {word} = …;`"
-                    )
-                }
-                _ => statement_help(&word),
-            };
-            return Err(self.fail(error.help(help)));
+            let assigned = self.peek_at(1).kind == TokenKind::Symbol("=");
+            return Err(self.fail(error.help(statement_help(&word, assigned))));
         }
         self.advance();
         let kind = self.item_kind(&word)?;
@@ -124,11 +145,9 @@ impl Cursor<'_> {
             Some(Statement::Use) => {
                 ItemKind::Use(self.expect_name("the name of a library", &example(word))?)
             }
-            Some(Statement::Kinetic) => ItemKind::Energy(Energy::Kinetic, self.expression()?),
-            Some(Statement::Potential) => ItemKind::Energy(Energy::Potential, self.expression()?),
-            Some(Statement::Dissipation) => {
-                ItemKind::Energy(Energy::Dissipation, self.expression()?)
-            }
+            Some(Statement::Kinetic) => self.energy(Energy::Kinetic, word)?,
+            Some(Statement::Potential) => self.energy(Energy::Potential, word)?,
+            Some(Statement::Dissipation) => self.energy(Energy::Dissipation, word)?,
             Some(Statement::Force) => self.force()?,
             Some(Statement::Constraint) => self.constraint()?,
             Some(Statement::Event) => self.event()?,
@@ -138,66 +157,8 @@ impl Cursor<'_> {
         Ok(kind)
     }
 
-    /// Reads the `;`. What is missing is rather an operator if a formula goes on.
-    fn end_of_statement(&mut self, word: &str, kind: &ItemKind) -> Parsed<()> {
-        if self.take_symbol(";") {
-            return Ok(());
-        }
-        if let ItemKind::Declaration(declaration) = kind {
-            self.no_unit_behind(word, declaration)?;
-        }
-        self.comparison_stands_after_if()?;
-        let next = self.peek();
-        let goes_on = match &next.kind {
-            TokenKind::Word(_) | TokenKind::Number(_) => true,
-            TokenKind::Symbol(symbol) => *symbol == "(",
-            TokenKind::Text(_) | TokenKind::End => false,
-        };
-        if goes_on && !self.at_next_statement() && !matches!(word, "coord" | "state") {
-            let [left, right] = [self.last_span(), next.span].map(|span| span.text(self.source));
-            let left = if left == ")" { "(…)" } else { left };
-            let right = if right == "(" { "(…)" } else { right };
-            let help = match right {
-                "if" => CHOICE.to_string(),
-                _ if Function::ALL.iter().any(|(_, name)| *name == left) => {
-                    format!("write `{left}({right})`")
-                }
-                _ => format!("a product is written with `*`: `{left}*{right}`"),
-            };
-            return Err(self.unexpected("an operator or `;`", &help));
-        }
-        self.no_foreign_operator()?;
-        Err(self.unexpected("`;`", &example(word)))
-    }
-
-    /// Whether what comes next stands on a line of its own, or begins a statement.
-    fn at_next_statement(&self) -> bool {
-        let below = self.span().start.line > self.last_span().end.line;
-        below || STATEMENTS.iter().any(|(word, ..)| self.at_word(word))
-    }
-
-    /// Refuses a unit behind a number: `param m = 1 kg;`.
-    fn no_unit_behind(&mut self, word: &str, declaration: &Declaration) -> Parsed<()> {
-        let number = matches!(declaration.value.kind, ExprKind::Number(_));
-        let TokenKind::Word(unit) = self.peek().kind.clone() else {
-            return Ok(());
-        };
-        let declared = declaration.unit.as_ref();
-        let other = self.at_next_statement();
-        if !number || other || declared.is_some_and(|declared| declared.text != unit) {
-            return Ok(());
-        }
-        let error = Diagnostic::error(self.span(), NO_UNIT_BEHIND);
-        let (name, value) = (&declaration.name.text, declaration.value.span);
-        let value = value.text(self.source);
-        let help = format!(
-            "the unit goes behind `:`: `{word} {name}: {unit} = {value};`; a product is written \
-             `{value}*{unit}`"
-        );
-        Err(self.fail(error.help(help)))
-    }
-
-    fn name(&mut self, what: &str, word: &str) -> Parsed<Name> {
+    /// Reads the name of something that a statement declares.
+    pub fn name(&mut self, what: &str, word: &str) -> Parsed<Name> {
         self.expect_name(&format!("the name of {what}"), &example(word))
     }
 
@@ -290,15 +251,14 @@ impl Cursor<'_> {
         })
     }
 
-    /// Whether `der(` comes next, which begins a statement only where one has to begin:
+    /// `der(state) = formula`. The word begins a statement only where one has to begin:
     /// lines of formulas may begin so, too.
-    fn at_rate(&self) -> bool {
-        self.at_word("der") && self.peek_at(1).kind == TokenKind::Symbol("(")
-    }
-
-    /// `der(state) = formula`
     fn rate(&mut self) -> Parsed<ItemKind> {
         let help = "the rate of a state is written `der(z) = goal - x;`";
+        if let TokenKind::Word(state) = &self.peek().kind {
+            let help = format!("write `der({state}) = …;`");
+            return Err(self.unexpected("`(`", &help));
+        }
         self.expect_symbol("(", help)?;
         let of = self.expression()?;
         self.expect_symbol(")", help)?;
@@ -326,8 +286,23 @@ impl Cursor<'_> {
         })))
     }
 
+    fn energy(&mut self, energy: Energy, word: &str) -> Parsed<ItemKind> {
+        if self.at_symbol("=") || self.at_symbol(":") {
+            let message = format!("nothing stands between `{word}` and its formula");
+            let error = Diagnostic::error(self.span(), message);
+            return Err(self.fail(error.help(REMOVE)));
+        }
+        Ok(ItemKind::Energy(energy, self.expression()?))
+    }
+
     fn force(&mut self) -> Parsed<ItemKind> {
         let force = self.expression()?;
+        if self.at_symbol("=") {
+            let error = Diagnostic::error(self.span(), "a force has no name");
+            let help =
+                "write `force -k*x on x;`; a name for its formula is written `let F = -k*x;`";
+            return Err(self.fail(error.help(help)));
+        }
         if !self.take_word("on") {
             let help = self.number_in_front(false);
             let help = help.unwrap_or_else(|| example("force"));
@@ -335,90 +310,6 @@ impl Cursor<'_> {
         }
         let on = self.expression()?;
         Ok(ItemKind::Force { force, on })
-    }
-
-    fn constraint(&mut self) -> Parsed<ItemKind> {
-        let named = self.peek_at(1).kind == TokenKind::Symbol(":");
-        let name = match named {
-            true => Some(self.name("the constraint", "constraint")?),
-            false => None,
-        };
-        if named {
-            self.expect_symbol(":", "")?;
-            if self.at_symbol("=") {
-                let error = Diagnostic::error(self.span(), NO_ASSIGNMENT);
-                let help = "write `constraint a = b;`; in front of `:` stands a name";
-                return Err(self.fail(error.help(help)));
-            }
-        }
-        let left = self.expression()?;
-        if self.at_symbol("==") {
-            let error = Diagnostic::error(self.span(), "an equation is written with one `=`");
-            return Err(self.fail(error.help(example("constraint"))));
-        }
-        self.no_inequality(&left)?;
-        self.comparison_stands_after_if()?;
-        self.expect_symbol("=", &example("constraint"))?;
-        let right = self.expression()?;
-        let equation = one_line(left.span.to(right.span).text(self.source));
-        let text = match &name {
-            Some(name) => format!("{}: {equation}", name.text),
-            None => equation,
-        };
-        Ok(ItemKind::Constraint {
-            name,
-            left,
-            right,
-            text,
-        })
-    }
-
-    /// Refuses an inequality, which no constraint is.
-    fn no_inequality(&mut self, left: &Expr) -> Parsed<()> {
-        let upper = self.at_symbol("<") || self.at_symbol("<=");
-        if !upper && !self.at_symbol(">") && !self.at_symbol(">=") {
-            return Ok(());
-        }
-        let place = self.span();
-        self.advance();
-        let right = self.expression()?;
-        let x = one_line(left.span.text(self.source));
-        let bound = one_line(right.span.text(self.source));
-        let less = match right.kind {
-            ExprKind::Sum(_) | ExprKind::Negative(_) => format!("{x} - ({bound})"),
-            _ => format!("{x} - {bound}"),
-        };
-        let beyond = if upper { ">" } else { "<" };
-        let error = Diagnostic::error(place, "a constraint is an equation");
-        let help = format!(
-            "what stops a motion is a force, such as \
-             `force if {x} {beyond} {bound} then -k*({less}) else 0 on {x};`; \
-             `event e: {less} crossing;` finds the instant"
-        );
-        Err(self.fail(error.help(help)))
-    }
-
-    fn event(&mut self) -> Parsed<ItemKind> {
-        let name = self.name("the event", "event")?;
-        self.expect_symbol(":", &example("event"))?;
-        let value = self.expression()?;
-        let direction = DIRECTIONS.iter().find(|(word, _)| self.at_word(word));
-        let Some((_, direction)) = direction.copied() else {
-            if self.at_symbol("=") {
-                let message = "an event is a formula that passes zero, not an equation";
-                let error = Diagnostic::error(self.span(), message);
-                let name = &name.text;
-                let help = format!("write `event {name}: a - b crossing;` for `a = b`");
-                return Err(self.fail(error.help(help)));
-            }
-            return Err(self.unexpected("`rising`, `falling` or `crossing`", &example("event")));
-        };
-        self.advance();
-        Ok(ItemKind::Event {
-            name,
-            value,
-            direction,
-        })
     }
 
     fn draw(&mut self) -> Parsed<ItemKind> {
@@ -440,35 +331,4 @@ fn is_block(item: &Item) -> bool {
         item.kind,
         ItemKind::For(..) | ItemKind::Start(_) | ItemKind::Part(_)
     )
-}
-
-/// How a statement is written.
-fn example(word: &str) -> String {
-    let example = STATEMENTS.iter().find(|(known, ..)| *known == word);
-    example.map_or(String::new(), |(_, _, text)| {
-        format!("write for example `{text}`")
-    })
-}
-
-/// What may begin a statement, or the word that was probably meant.
-fn statement_help(word: &str) -> String {
-    let words = STATEMENTS.iter().map(|(word, ..)| *word).chain(["for"]);
-    match nearest(word, words.clone()) {
-        Some(near) => did_you_mean(near),
-        None => {
-            let list: Vec<_> = words.collect();
-            format!("a statement begins with one of: {}", list.join(", "))
-        }
-    }
-}
-
-/// A piece of source without comments and line breaks.
-fn one_line(text: &str) -> String {
-    let lines = text
-        .lines()
-        .map(|line| line.split("//").next().unwrap_or(""));
-    lines
-        .flat_map(str::split_whitespace)
-        .collect::<Vec<_>>()
-        .join(" ")
 }

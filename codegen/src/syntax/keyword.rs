@@ -1,6 +1,7 @@
 //! The words of the language, in one table for the reader, the printer and other tools.
 
 use super::ast::{Crossing, Drawing};
+use crate::expr::Function;
 
 /// The statements that a word of their own begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,3 +110,27 @@ pub const DIRECTIONS: [(&str, Crossing); 3] = [
 pub const RESERVED: [&str; 11] = [
     "if", "then", "else", "in", "on", "for", "_", "self", "Self", "super", "crate",
 ];
+
+/// Whether a word is a function of one formula.
+pub fn takes_one(word: &str) -> bool {
+    const OTHERS: [&str; 9] = [
+        "der",
+        "norm",
+        "norm2",
+        "transpose",
+        "rot",
+        "rotx",
+        "roty",
+        "rotz",
+        "omega",
+    ];
+    OTHERS.contains(&word) || Function::ALL.iter().any(|(_, known)| *known == word)
+}
+
+/// How a statement is written.
+pub fn example(word: &str) -> String {
+    let example = STATEMENTS.iter().find(|(known, ..)| *known == word);
+    example.map_or(String::new(), |(_, _, text)| {
+        format!("write for example `{text}`")
+    })
+}

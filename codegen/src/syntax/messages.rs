@@ -19,6 +19,7 @@ pub const AXIS: &str = "`x`, `y` or `z` behind the dot";
 
 pub const NO_ELEMENTS: &str = "a number has no elements";
 pub const NO_ASSIGNMENT: &str = "`:=` is not used here";
+pub const NO_DOUBLE_STAR: &str = "`**` is not an operator";
 pub const NO_QUOTES: &str = "quoted text has no meaning here";
 pub const NO_UNIT_BEHIND: &str = "a unit can't stand behind a number";
 

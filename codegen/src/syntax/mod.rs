@@ -13,11 +13,14 @@
 //! Not here: the meaning of names, shapes and units.
 
 pub mod ast;
+mod beside;
 mod build;
 mod choice;
 mod cursor;
+mod equation;
 mod error;
 mod expression;
+mod foreign;
 mod formula;
 mod function;
 mod item;
@@ -34,6 +37,7 @@ mod stray;
 mod token;
 mod unit;
 
+pub(crate) use beside::place_of;
 pub use error::ModelError;
 pub use formula::Formula;
 pub(crate) use keyword::{CONNECTIVES, DIRECTIONS, SHAPES, STATEMENTS};

@@ -5,7 +5,7 @@
 //! Out: [`Scanned`]: everything that is wrong with its characters, and the text with
 //!      blanks in their place, so that one of them does not hide all other mistakes.
 
-use super::messages::{NAME_INSIDE, NO_QUOTES, REMOVE};
+use super::messages::{NAME_INSIDE, NO_QUOTES, NUMBERS, REMOVE};
 use super::stray::{instead, shown};
 use crate::diagnostic::{Diagnostic, Diagnostics, Position, Span};
 use std::iter::Peekable;
@@ -84,7 +84,7 @@ pub fn scan(text: &str) -> Scanned {
     } else {
         let message = format!("a description of {} bytes is too large", text.len());
         let help = format!("the limit is {LARGEST} bytes; use arrays and `for`");
-        let error = Diagnostic::error(Span::default(), message).help(help);
+        let error = Diagnostic::error(Span::START, message).help(help);
         scanner.diagnostics.push(error);
     }
     Scanned {
@@ -256,16 +256,12 @@ impl Scanner<'_> {
         let first = self.before.is_none();
         self.next();
         let span = self.span_from(start);
-        let matching = self
-            .open
-            .iter()
-            .rposition(|open| partner(open.sign) == bracket);
-        let Some(last) = self.open.last() else {
-            let message = format!("this `{bracket}` closes nothing");
-            self.diagnostics
-                .push(Diagnostic::error(span, message).help(REMOVE));
-            self.blank(span);
-            return;
+        let matching = self.matching(bracket, span);
+        let Some(last) = self.open.last().filter(|last| {
+            // A block that a parenthesis can't close is one that it doesn't belong to.
+            matching.is_some() || last.sign != '{'
+        }) else {
+            return self.closes_nothing(bracket, span);
         };
         if partner(last.sign) == bracket {
             if first && last.indent != self.indent && bracket == '}' {
@@ -280,6 +276,28 @@ impl Scanner<'_> {
         let help = format!("write the matching `{}` first", partner(open));
         self.diagnostics.push(error.help(help));
         self.forget(matching, span);
+    }
+
+    /// The open bracket that a closing one belongs to. Blocks stand in no parentheses: on
+    /// another line in front of a block is one that was never closed.
+    fn matching(&self, bracket: char, closing: Span) -> Option<usize> {
+        let mut inside_out = self.open.iter().enumerate().rev();
+        let (place, found) = inside_out.find(|(_, open)| partner(open.sign) == bracket)?;
+        let block = self.open[place..].iter().any(|open| open.sign == '{');
+        let here = found.span.start.line == closing.start.line;
+        (bracket == '}' || !block || here).then_some(place)
+    }
+
+    fn closes_nothing(&mut self, bracket: char, span: Span) {
+        let message = format!("this `{bracket}` closes nothing");
+        let help = match bracket {
+            ')' => "remove it, or write the `(` that it closes",
+            ']' => "remove it, or write the `[` that it closes",
+            _ => REMOVE,
+        };
+        self.diagnostics
+            .push(Diagnostic::error(span, message).help(help));
+        self.blank(span);
     }
 
     /// What is open inside the bracket that a closing one belongs to was forgotten; if
@@ -379,12 +397,20 @@ impl Scanner<'_> {
         let text = self.text.get(..span.range().start).unwrap_or("");
         let help = match (character, text.ends_with([')', ']'])) {
             ('\'' | '’', true) => TRANSPOSED.to_string(),
+            ('\'' | '’', false) if ends_with_number(text) => NUMBERS.to_string(),
+            ('π', false) if ends_with_number(text) => "write `*pi`".to_string(),
             _ => instead(character),
         };
         self.diagnostics
             .push(Diagnostic::error(span, message).help(help));
         self.blank(span);
     }
+}
+
+/// Whether a number ends a text.
+fn ends_with_number(text: &str) -> bool {
+    let before = text.trim_end_matches(|c: char| c.is_ascii_alphanumeric() || "._".contains(c));
+    text[before.len()..].starts_with(|c: char| c.is_ascii_digit())
 }
 
 fn partner(bracket: char) -> char {

@@ -1,7 +1,9 @@
 //! The `start` block: values that are held, guesses, and `for` over them.
 
 use super::ast::{Expr, ExprKind, StartItem};
+use super::beside::holds_together;
 use super::cursor::{Cursor, Parsed};
+use super::keyword::example;
 use super::messages::{FOR, NO_UNIT_BEHIND};
 use super::token::TokenKind;
 use crate::diagnostic::Diagnostic;
@@ -11,10 +13,18 @@ const HELP: &str = "an entry is written `q1 = 45*deg;` (held) or `q2 ~ 0.7;` (a 
 impl Cursor<'_> {
     /// Reads `{ entries }`.
     pub fn start_block(&mut self) -> Parsed<Vec<StartItem>> {
-        self.expect_symbol("{", HELP)?;
+        self.expect_symbol("{", &example("start"))?;
         let depth = self.block_depth();
         let mut items = Vec::new();
         while !self.at_block_end(depth) {
+            if self.take_symbol(";") {
+                continue;
+            }
+            if self.at_symbol(",") {
+                let _reported = self.unexpected_here("an entry", HELP);
+                self.advance();
+                continue;
+            }
             let is_block = |item: &StartItem| matches!(item, StartItem::For(..));
             items.extend(self.statement(depth, Self::start_item, is_block));
         }
@@ -31,12 +41,17 @@ impl Cursor<'_> {
         let target = self.expression()?;
         let held = self.at_symbol("=");
         if !held && !self.at_symbol("~") {
-            return Err(self.unexpected("`=` or `~`", HELP));
+            let help = match self.at_symbol("(") {
+                true => "all these values are at the beginning: `der(q1) = 2;`",
+                false => HELP,
+            };
+            return Err(self.unexpected("`=` or `~`", help));
         }
         self.advance();
         let value = self.expression()?;
         if !self.at_symbol("}") {
             self.no_unit_behind_value(&value)?;
+            self.no_decimal_comma()?;
             self.expect_symbol(";", HELP)?;
         }
         Ok(StartItem::Entry {
@@ -54,6 +69,7 @@ impl Cursor<'_> {
             .iter()
             .any(|sign| self.peek_at(1).kind == TokenKind::Symbol(sign));
         let same_line = next.span.start.line == value.span.end.line && !next_entry;
+        let same_line = same_line && !holds_together(next.span.text(self.source));
         let (TokenKind::Word(unit), ExprKind::Number(_), true) =
             (next.kind.clone(), &value.kind, same_line)
         else {

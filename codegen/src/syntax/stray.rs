@@ -5,12 +5,17 @@
 
 use super::messages::{CHOICE, REMOVE};
 
+/// Dots over letters, alone or with the letter: derivatives in time.
+const DOTS: [char; 8] = ['\u{307}', '\u{308}', 'ẋ', 'ẏ', 'ż', 'ṙ', 'ẍ', 'ÿ'];
+
+const VELOCITY: &str = "the velocity of a coordinate `q` is written `der(q)`";
+
 /// A character as a message names it.
 pub fn shown(character: char) -> String {
     match character {
         '\r' => "a carriage return without a line feed".to_string(),
         '\u{a0}' => "a no-break space".to_string(),
-        c if c.is_control() || c.is_whitespace() => {
+        c if c.is_control() || c.is_whitespace() || ('\u{300}'..='\u{36f}').contains(&c) => {
             format!("the character U+{:04X}", u32::from(c))
         }
         c => format!("`{c}`"),
@@ -21,7 +26,8 @@ pub fn shown(character: char) -> String {
 pub fn instead(character: char) -> String {
     let write = |text: &str| format!("write `{text}`");
     match character {
-        '\'' | '’' => "the velocity of a coordinate `q` is written `der(q)`".into(),
+        '\'' | '’' | '′' => VELOCITY.into(),
+        c if DOTS.contains(&c) => VELOCITY.into(),
         '"' => "there is no quoted text; comments begin with `//`, doc comments with `///`".into(),
         '·' | '×' | '∗' | '⋅' => write("*"),
         '÷' | '∕' => write("/"),

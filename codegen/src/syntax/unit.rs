@@ -1,8 +1,9 @@
 //! Units: products and quotients of names with whole exponents.
 
 use super::ast::{Name, UnitExpr};
+use super::beside::holds_together;
 use super::cursor::{Cursor, Parsed};
-use super::messages::NO_ASSIGNMENT;
+use super::messages::{NO_ASSIGNMENT, NO_DOUBLE_STAR};
 use super::scan;
 use super::token::{TokenKind, tokenize};
 use crate::diagnostic::{Diagnostic, Diagnostics};
@@ -38,7 +39,39 @@ impl Cursor<'_> {
             let error = Diagnostic::error(self.last_span().to(self.span()), NO_ASSIGNMENT);
             return Err(self.fail(error.help("write `=`; behind `:` stands a unit")));
         }
-        self.unit().map(Some)
+        let unit = self.unit()?;
+        self.unit_goes_on(&unit)?;
+        Ok(Some(unit))
+    }
+
+    /// Refuses `kg m^2` and `m/s-2`.
+    fn unit_goes_on(&mut self, unit: &UnitExpr) -> Parsed<()> {
+        let here = self.span().start.line == self.last_span().end.line;
+        let next = self.peek_at(1).kind.clone();
+        let unit = &unit.text;
+        match (self.peek().kind.clone(), next) {
+            (TokenKind::Word(other), next)
+                if here
+                    && !holds_together(&other)
+                    && ![TokenKind::Symbol(":"), TokenKind::Symbol("(")].contains(&next) =>
+            {
+                let help = format!("a product of units is written `{unit}*{other}`");
+                Err(self.unexpected("`*` or the end of the unit", &help))
+            }
+            (TokenKind::Symbol("-"), TokenKind::Number(power)) => {
+                let help = format!("a power of a unit is written `{unit}^-{power}`");
+                Err(self.unexpected("`^` or the end of the unit", &help))
+            }
+            (TokenKind::Symbol("."), TokenKind::Word(other)) => {
+                let help = format!("a product of units is written `{unit}*{other}`");
+                Err(self.unexpected("`*` or the end of the unit", &help))
+            }
+            (TokenKind::Symbol("**"), _) => {
+                let error = Diagnostic::error(self.span(), NO_DOUBLE_STAR);
+                Err(self.fail(error.help("a power of a unit is written `m^2`")))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Reads a unit.
@@ -118,7 +151,7 @@ impl Cursor<'_> {
     fn unit_atom(&mut self) -> Parsed<Factors> {
         let token = self.peek().clone();
         match token.kind {
-            TokenKind::Word(text) => {
+            TokenKind::Word(text) if !holds_together(&text) => {
                 self.advance();
                 Ok(vec![(
                     Name {
@@ -137,6 +170,14 @@ impl Cursor<'_> {
                 let factors = self.unit_product()?;
                 self.expect_symbol(")", HELP)?;
                 Ok(factors)
+            }
+            TokenKind::Number(_) => {
+                let help = "a value stands behind `=`: `param m: kg = 1.5;`";
+                Err(self.unexpected("a unit", help))
+            }
+            TokenKind::Symbol("[") => Err(self.unexpected("a unit", "it stands without brackets")),
+            TokenKind::Symbol("-") => {
+                Err(self.unexpected("a unit", "the unit of a ratio is written `1`"))
             }
             _ => Err(self.unexpected("a unit", HELP)),
         }

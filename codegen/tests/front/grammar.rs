@@ -1,6 +1,6 @@
 //! Formulas and statements as they are written.
 
-use super::{accept, assert_close, refuse_saying, value, with};
+use super::{accept, assert_close, refuse, refuse_saying, value, with};
 
 const Q: f64 = 0.51;
 const W: f64 = 0.80;
@@ -138,7 +138,7 @@ fn symbols_functions_and_units_have_names_of_their_own() {
 fn several_mistakes_are_found_at_once() {
     let source =
         "mechanism M {\n  coord q rad;\n  kinetic 2m*der(q)^2;\n  potential sin(q\u{20};\n}";
-    let count = |source: &str| super::refuse(source).error_count();
+    let count = |source: &str| refuse(source).error_count();
     assert_eq!(
         count(source),
         3,
@@ -150,7 +150,7 @@ fn several_mistakes_are_found_at_once() {
 #[test]
 fn the_first_line_of_a_message_names_file_line_and_column() {
     let source = "mechanism M {\n  coord q;\n  kinetic der(p)^2;\n}";
-    let message = super::refuse(source).render("a/b.mech", source);
+    let message = refuse(source).render("a/b.mech", source);
     assert!(
         message.starts_with("a/b.mech:3:15: error: `p` is not declared\n"),
         "{message}"
@@ -161,7 +161,7 @@ fn the_first_line_of_a_message_names_file_line_and_column() {
 fn a_missing_semicolon_is_reported_where_it_is_missing() {
     let source = "mechanism M {\n  coord q\n  kinetic der(q)^2;\n}";
     refuse_saying(source, "test.mech:2:10: error: expected `;`");
-    assert_eq!(super::refuse(source).error_count(), 1);
+    assert_eq!(refuse(source).error_count(), 1);
 }
 
 #[test]
@@ -177,4 +177,45 @@ fn a_semicolon_that_is_missing_behind_a_number_is_no_unit_and_no_product() {
     }
     refuse_saying(&with("param a = 1 kg;"), "a unit can't stand behind");
     refuse_saying(&with("start { q = 1 m; }"), "a unit can't stand behind");
+}
+
+#[test]
+fn what_is_missing_in_an_empty_file_is_missing_at_its_beginning() {
+    for text in ["", "   \n\n   \n", "\n\n// nothing yet\n"] {
+        refuse_saying(text, "test.mech:1:1: error: expected `mechanism`");
+    }
+    let large = " ".repeat(1 << 25);
+    refuse_saying(&large, "test.mech:1:1: error: a description of");
+}
+
+#[test]
+fn a_comma_alone_is_told_where_it_stands_and_hides_nothing() {
+    for (statements, place) in [
+        ("\n ,\n potential foo;", "2:2: error: expected a statement"),
+        ("\n , potential foo;", "2:2: error: expected a statement"),
+        (
+            "start {\n ,\n q = foo; }",
+            "2:2: error: expected an entry, found `,`",
+        ),
+    ] {
+        let description = with(statements);
+        refuse_saying(&description, place);
+        refuse_saying(&description, "`foo` is not declared");
+    }
+}
+
+#[test]
+fn a_mechanism_without_a_name_is_read_all_the_same() {
+    for head in [
+        "mechanism",
+        "mechanism for",
+        "mechanism 3D",
+        "mechansim Test",
+        "Mechanism Test",
+    ] {
+        let description = format!("{head} {{ coord q; kinetic der(q)^2; potential foo; }}");
+        refuse_saying(&description, "error: ");
+        refuse_saying(&description, "`foo` is not declared");
+        assert_eq!(refuse(&description).len(), 2, "{head}");
+    }
 }

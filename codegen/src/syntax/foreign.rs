@@ -1,0 +1,81 @@
+//! Statements as other languages write them.
+//!
+//! In:  a word that begins no statement.
+//! Out: what to write instead.
+
+use super::keyword::STATEMENTS;
+use super::messages::{FOR, did_you_mean};
+use crate::diagnostic::nearest;
+
+/// Words that begin statements elsewhere, and the one of the same meaning.
+const WORDS: [(&str, &str); 36] = [
+    ("parameter", "param"),
+    ("parameters", "param"),
+    ("constant", "const"),
+    ("coordinate", "coord"),
+    ("coordinates", "coord"),
+    ("variable", "coord"),
+    ("var", "coord"),
+    ("dof", "coord"),
+    ("real", "param"),
+    ("Real", "param"),
+    ("float", "param"),
+    ("double", "param"),
+    ("def", "fn"),
+    ("function", "fn"),
+    ("func", "fn"),
+    ("initial", "start"),
+    ("init", "start"),
+    ("equation", "constraint"),
+    ("eq", "constraint"),
+    ("joint", "constraint"),
+    ("import", "use"),
+    ("include", "use"),
+    ("using", "use"),
+    ("signal", "input"),
+    ("control", "input"),
+    ("print", "output"),
+    ("plot", "output"),
+    ("record", "output"),
+    ("measure", "output"),
+    ("friction", "dissipation"),
+    ("damping", "dissipation"),
+    ("body", "part"),
+    ("class", "part"),
+    ("model", "part"),
+    ("block", "part"),
+    ("torque", "force"),
+];
+
+/// What may begin a statement, or what was probably meant by a word, which perhaps stands in
+/// front of `=`.
+pub fn statement_help(word: &str, assigned: bool) -> String {
+    if assigned {
+        let quantity = format!("a quantity is written `let {word} = …;`");
+        return match word {
+            "T" | "V" | "U" => {
+                format!("an energy is written `kinetic …;` or `potential …;`, {quantity}")
+            }
+            _ => format!("{quantity}, an equation `constraint {word} = …;`"),
+        };
+    }
+    if word == "if" {
+        return "a choice stands in a formula: `force if x < 0 then -k*x else 0 on x;`".to_string();
+    }
+    if ["while", "repeat", "loop"].contains(&word) {
+        return FOR.to_string();
+    }
+    if let Some((_, ours)) = WORDS.iter().find(|(theirs, _)| *theirs == word) {
+        let example = STATEMENTS.iter().find(|(known, ..)| known == ours);
+        let example = example.map_or("", |(.., example)| example);
+        return format!("the word is `{ours}`: `{example}`");
+    }
+    let words = STATEMENTS.iter().map(|(word, ..)| *word).chain(["for"]);
+    match nearest(word, words.clone()) {
+        Some(near) => did_you_mean(near),
+        None => {
+            let list: Vec<_> = words.collect();
+            format!("a statement begins with one of: {}", list.join(", "))
+        }
+    }
+}
