@@ -37,7 +37,7 @@ pub use equations::{Energies, Equations, Matrix, StartRows};
 pub use linearised::{Linearisation, Partials, differentiate, linearise};
 pub use mass::mass_matrix;
 pub use shared::{Shared, shared};
-pub use swell::{EXPRESSIONS_MAX, SWELL, swell};
+pub use swell::{SWELL, swell};
 
 use crate::diagnostic::Diagnostics;
 use crate::model::Mechanism;
@@ -58,7 +58,7 @@ const MUCH_SHORTER: (usize, usize) = (2, 3);
 ///
 /// # Errors
 ///
-/// More than [`EXPRESSIONS_MAX`] expressions, with the lines that most of them come
+/// More than [`EXPRESSIONS_MAX`](crate::model::EXPRESSIONS_MAX) expressions, with the lines that most of them come
 /// from; more conditions than a run has room for.
 pub fn derive(mechanism: &mut Mechanism) -> Result<Equations, Diagnostics> {
     switch::hold(mechanism)?;

@@ -8,16 +8,12 @@
 use super::equations::Equations;
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::expr::ExprId;
-use crate::model::{Graph, Mechanism, Symbol};
+use crate::model::{EXPRESSIONS_MAX, Graph, Mechanism, Symbol};
 use std::collections::BTreeMap;
 
 /// The most distinct expressions in the equations of motion that pass without a
 /// word: about what rustc takes ten seconds for.
 pub const SWELL: usize = 10_000;
-
-/// The most expressions that a mechanism may have when its equations are derived: about
-/// what rustc takes ten minutes for.
-pub const EXPRESSIONS_MAX: usize = 150_000;
 
 /// How many contributors are named.
 const NAMED: usize = 3;

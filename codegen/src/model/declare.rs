@@ -3,6 +3,7 @@
 
 use super::declared::Waiting;
 use super::lowering::Lowering;
+use super::messages::SIZE;
 use super::order::{Definition, QUANTITIES, order};
 use super::part::Placed;
 use super::scope::Kind;
@@ -133,8 +134,8 @@ impl<'a> Lowering<'a> {
                 .set(&name.text, Some(Value::Scalar(scalar)));
             return;
         };
-        self.evaluator.constant = Some("the size of an array");
-        let size = self.evaluator.integer(size_expr, "the size of an array");
+        self.evaluator.constant = Some(SIZE);
+        let size = self.evaluator.integer(size_expr, SIZE);
         self.evaluator.constant = None;
         let Some(size) = size.and_then(|size| self.size_fits(size, size_expr.span)) else {
             return;

@@ -9,19 +9,29 @@
 use super::analysis::{Analyses, Analysis};
 use super::declared::{Functions, Parts};
 use super::language;
+use super::messages::SIZE;
+use super::order::{Mention, collect};
 use super::scope::{BUILT_IN, Kind, Scope};
 use super::symbol::{Graph, Symbol};
 use super::unit::Unit;
+use super::unit_names;
 use super::value::{Scalar, Value};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, nearest};
 use crate::expr::{Direction, ExprId, Function, Number, Table};
-use crate::syntax::NESTING;
 use crate::syntax::ast::{Expr, ExprKind, Range};
 use crate::syntax::messages::{DECLARED, NO_QUOTES, did_you_mean};
+use crate::syntax::{NESTING, SHAPES, STATEMENTS, place_of};
 use std::path::PathBuf;
 
 /// The most formulas that are evaluated for one description, loops unrolled.
-const WORK: u64 = 10_000_000;
+const WORK: usize = 10_000_000;
+/// The most indices of a range, and the most rounds of all loops together.
+const ROUNDS: usize = 1_000_000;
+/// The most expressions that a mechanism may have, before and after its equations are derived:
+/// about what rustc takes ten minutes for.
+pub const EXPRESSIONS_MAX: usize = 150_000;
+
+const UNIT_BEHIND: &str = "in `[…]` stands the size of an array; a unit goes behind `:`";
 
 /// Evaluates formulas.
 #[derive(Debug, Default)]
@@ -49,7 +59,10 @@ pub struct Evaluator {
     pub files: Vec<PathBuf>,
     /// The tables that code holds as data.
     pub tables: Vec<&'static Table>,
-    work: u64,
+    work: usize,
+    rounds: usize,
+    /// Whether too much work was refused.
+    exhausted: bool,
     /// The number of formulas inside one another.
     depth: usize,
 }
@@ -69,13 +82,25 @@ impl Evaluator {
     /// Counts one piece of work; `None` if there was too much.
     pub fn spend(&mut self, span: Span) -> Option<()> {
         self.work += 1;
-        if self.work == WORK {
-            let message = format!("unrolled, this description has more than {WORK} formulas");
+        let (most, what) = match self.graph.len() > EXPRESSIONS_MAX {
+            true => (EXPRESSIONS_MAX, "expressions"),
+            false if self.rounds > ROUNDS => (ROUNDS, "rounds of loops"),
+            false if self.work > WORK => (WORK, "formulas"),
+            false => return Some(()),
+        };
+        if !std::mem::replace(&mut self.exhausted, true) {
+            let message = format!("unrolled, this description has more than {most} {what}");
             let error = Diagnostic::error(span, message);
             self.diagnostics
                 .push(error.help("make the ranges of `for` and `sum` smaller"));
         }
-        (self.work < WORK).then_some(())
+        None
+    }
+
+    /// Counts one round of a loop of statements, which takes longer than a formula.
+    pub fn spend_round(&mut self, span: Span) -> Option<()> {
+        self.rounds += 1;
+        self.spend(span)
     }
 
     /// The value of a formula.
@@ -153,7 +178,25 @@ impl Evaluator {
         };
         let message =
             format!("{what} has to be a whole number known when the code is generated, {found}");
-        self.report(Diagnostic::error(e.span, message).help("build it of integers and constants"))
+        let help = self.make_constant(e);
+        let help = help.unwrap_or_else(|| "build it of integers and constants".to_string());
+        self.report(Diagnostic::error(e.span, message).help(help))
+    }
+
+    /// What to do about the parameters in a formula that has to be constant, if there are any.
+    pub fn make_constant(&self, e: &Expr) -> Option<String> {
+        let mut names: Vec<String> = Vec::new();
+        collect(e, &mut |mention| {
+            if let Mention::Name(name) = mention
+                && let Some(entry) = self.scope.get(name)
+                && entry.kind == Kind::Parameter
+            {
+                names.push(format!("`{name}`"));
+            }
+        });
+        names.dedup();
+        let names = names.join(" and ");
+        (!names.is_empty()).then(|| format!("declare {names} with `const` instead of `param`"))
     }
 
     /// The bounds of a range.
@@ -161,14 +204,14 @@ impl Evaluator {
         let from = self.integer(&range.from, "the bound of a range");
         let to = self.integer(&range.to, "the bound of a range");
         let (from, to) = (from?, to?);
-        if to.saturating_sub(from) > WORK as i64 {
+        if to.saturating_sub(from) > ROUNDS as i64 {
             let span = range.from.span.to(range.to.span);
             let message = format!(
                 "a range of {} indices is too large",
                 to.saturating_sub(from)
             );
             return self
-                .report(Diagnostic::error(span, message).help(format!("the limit is {WORK}")));
+                .report(Diagnostic::error(span, message).help(format!("the limit is {ROUNDS}")));
         }
         Some(from..to)
     }
@@ -193,13 +236,25 @@ impl Evaluator {
         }
         let value = self.scope.look_up(name, full)?.value.clone();
         match self.constant {
+            // What is wrong with a part has been said.
+            Some(_) if kind == Kind::Part => None,
             Some(what) if !matches!(kind, Kind::Constant | Kind::Index | Kind::Argument) => {
                 let message = format!(
                     "{what} is built of numbers and constants; `{name}` is {}",
                     kind.words()
                 );
                 let error = Diagnostic::error(span, message).also(place, DECLARED);
-                self.report(error.help("what depends on parameters is written with `let`"))
+                let help = match (what, kind) {
+                    (SIZE, Kind::Parameter) if unit_names::units().any(|unit| unit == name) => {
+                        format!("{UNIT_BEHIND}; for a size, declare `{name}` with `const`")
+                    }
+                    (SIZE, Kind::Parameter) => {
+                        format!("declare `{name}` with `const` instead of `param`")
+                    }
+                    (SIZE, _) => "build it of integers and constants".to_string(),
+                    _ => format!("what depends on {} is written with `let`", kind.words()),
+                };
+                self.report(error.help(help))
             }
             _ => value,
         }
@@ -232,21 +287,31 @@ impl Evaluator {
         if self.scope.unreadable.contains(name) {
             return None;
         }
+        if self.parts.known(name) {
+            let error = Diagnostic::error(span, format!("`{name}` is a part, no quantity"));
+            return self.report(error.help(format!(
+                "use it, `let a = {name}(…);`, and write a name in it behind a dot: `a.…`"
+            )));
+        }
         if let Some(help) = self.elsewhere(name) {
             let error = Diagnostic::error(span, format!("`{name}` is not declared"));
             return self.report(error.help(help));
         }
-        // Whoever writes `phi` or `psi` means no `pi`.
+        // Whoever writes `phi` or `psi` means no `pi`, nor by `T` the time.
         let built_in = BUILT_IN.iter().map(|(name, _)| *name);
-        let built_in = built_in.filter(|known| *known != "pi");
+        let built_in = built_in.filter(|known| *known != "pi" && name != "T");
         let near = nearest(name, self.scope.names().chain(built_in)).map(str::to_string);
-        let help = if let Some(near) = near {
-            did_you_mean(&near)
-        } else if Function::ALL.iter().any(|(_, known)| *known == name)
+        let help = if Function::ALL.iter().any(|(_, known)| *known == name)
             || language::known(name)
             || self.functions.contains(name)
         {
             format!("`{name}` is a function: write `{name}(…)`")
+        } else if let Some(place) = place_of(name) {
+            place
+        } else if let Some(near) = near {
+            did_you_mean(&near)
+        } else if let Some(statement) = begins_a_statement(name) {
+            statement
         } else {
             format!("declare it, for example `param {name} = 1;`, or `coord {name};` if it moves")
         };
@@ -261,13 +326,24 @@ impl Evaluator {
         if ["Pi", "PI"].contains(&name) {
             return Some("the number π is `pi`".to_string());
         }
-        let behind = ["_dot", "dot", "_d", "d"].map(|end| name.strip_suffix(end));
-        let before = ["d", "v_", "v"].map(|start| name.strip_prefix(start));
+        if name == "dt" {
+            return Some("a derivative in time is written `der(x)`".to_string());
+        }
+        if name == "g" {
+            return Some("declare it: `const g: m/s^2 = 9.81;`".to_string());
+        }
+        if self.constant == Some(SIZE) && unit_names::units().any(|unit| unit == name) {
+            return Some(UNIT_BEHIND.to_string());
+        }
+        let behind = ["_dot", "dot", "Dot", "_d", "d"].map(|end| name.strip_suffix(end));
+        let before = ["d", "D", "v_", "v"].map(|start| name.strip_prefix(start));
         let moves = |name: &&str| {
             let entry = self.scope.get(name);
-            entry.is_some_and(|entry| entry.kind == Kind::Coordinate)
+            entry.map_or(self.scope.unreadable.contains(*name), |entry| {
+                entry.kind == Kind::Coordinate
+            })
         };
-        let twice = ["_ddot", "ddot", "_dd", "dd"].map(|end| name.strip_suffix(end));
+        let twice = ["_ddot", "ddot", "DDot", "_dd", "dd"].map(|end| name.strip_suffix(end));
         let twice = twice.into_iter().chain([name.strip_prefix("dd")]);
         if let Some(coordinate) = twice.flatten().find(moves) {
             return Some(format!(
@@ -280,4 +356,13 @@ impl Evaluator {
             "the velocity of `{coordinate}` is written `der({coordinate})`"
         ))
     }
+}
+
+/// How a statement is written that a word begins, or goes on with behind `draw`.
+fn begins_a_statement(name: &str) -> Option<String> {
+    if SHAPES.iter().any(|(shape, _)| *shape == name) {
+        return Some(format!("`{name}` stands behind `draw`: `draw {name}(…);`"));
+    }
+    let (.., example) = STATEMENTS.iter().find(|(known, ..)| *known == name)?;
+    Some(format!("`{name}` begins a statement: `{example}`"))
 }

@@ -8,6 +8,9 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::syntax::ast::Name;
 use crate::syntax::messages::RENAME;
 
+/// What is constant because code depends on it.
+pub const SIZE: &str = "the size of an array";
+
 /// What to do where two sides have different shapes.
 pub const ONE_SIZE: &str = "both sides are numbers, or vectors of one size";
 

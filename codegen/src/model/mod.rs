@@ -40,6 +40,7 @@ mod unit_names;
 mod validity;
 mod value;
 
+pub use evaluate::EXPRESSIONS_MAX;
 pub(crate) use language::other_functions;
 pub use lower::lower;
 pub(crate) use scope::built_in;

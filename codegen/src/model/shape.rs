@@ -6,7 +6,7 @@
 
 use super::evaluate::Evaluator;
 use super::lowering::Lowering;
-use super::messages::elements_differ;
+use super::messages::{SIZE, elements_differ};
 use super::unit::Unit;
 use super::unit_names;
 use super::value::{Array, Scalar, Value};
@@ -109,8 +109,8 @@ impl Evaluator {
 
     /// The number of elements of an array.
     fn count(&mut self, size: &Expr) -> Option<i64> {
-        let around = self.constant.replace("the size of an array");
-        let count = self.integer(size, "the size of an array");
+        let around = self.constant.replace(SIZE);
+        let count = self.integer(size, SIZE);
         self.constant = around;
         self.elements_fit(0..count?, size.span).map(|all| all.end)
     }

@@ -52,6 +52,12 @@ impl Lowering<'_> {
                 direction,
             } => self.event(name, value, *direction, item.span),
             ItemKind::Draw { shape, arguments } => self.draw(*shape, arguments, item.span),
+            ItemKind::For(range, body) if is_empty(body) => {
+                self.evaluator.bounds(range)?;
+                self.evaluator.with_index(range, 0, |_| Some(()))?;
+                let warning = Diagnostic::warning(item.span, "nothing stands in this loop");
+                self.report(warning.help(REMOVE))
+            }
             ItemKind::For(range, body) => self.repeat(range, |this| {
                 let mark = this.evaluator.scope.open();
                 this.local_quantities(body);
@@ -85,9 +91,14 @@ impl Lowering<'_> {
     /// next round would only say the same.
     pub fn repeat(&mut self, range: &Range, mut body: impl FnMut(&mut Self)) -> Option<()> {
         let bounds = self.evaluator.bounds(range)?;
+        if bounds.start > bounds.end {
+            let span = range.from.span.to(range.to.span);
+            let warning = Diagnostic::warning(span, "this range ends before it begins");
+            self.report::<()>(warning.help("nothing is repeated; write the smaller bound first"));
+        }
         let errors = self.evaluator.diagnostics.error_count();
         for i in bounds {
-            self.evaluator.spend(range.index.span)?;
+            self.evaluator.spend_round(range.index.span)?;
             let mark = self.evaluator.scope.open();
             if let Err(diagnostic) = self.evaluator.scope.declare(&range.index, Kind::Index) {
                 return self.report(*diagnostic);
@@ -370,4 +381,10 @@ fn multiplier_unit(equation: Unit, holonomic: bool) -> String {
         Unit::Known(inverse) => work.times(inverse).text(),
         _ => String::new(),
     }
+}
+
+/// Whether nothing but loops in which nothing stands is in the body of a loop.
+fn is_empty(body: &[Item]) -> bool {
+    let empty = |item: &Item| matches!(&item.kind, ItemKind::For(_, inner) if is_empty(inner));
+    body.iter().all(empty)
 }

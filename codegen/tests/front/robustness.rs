@@ -262,15 +262,39 @@ fn endless_work_is_refused() {
     )));
 }
 
-// With sums in place of the loops every day: `messages/statements.rs`.
 #[test]
-#[ignore = "long: ten million passes through a loop"]
 fn loops_that_are_within_bounds_one_by_one_are_refused_together() {
-    let nested = "for i in 0..100000 { for j in 0..100000 { } }";
-    super::refuse_saying(
-        &super::with(nested),
-        "unrolled, this description has more than",
-    );
+    for (nested, most) in [
+        (
+            "for i in 0..2000 { for j in 0..2000 { let a = 1; } }",
+            "1000000 rounds of loops",
+        ),
+        (
+            "start { for i in 0..2000 { for j in 0..2000 { } } }",
+            "1000000 rounds of loops",
+        ),
+        ("for i in 0..200000 { let a = 1; }", "150000 expressions"),
+    ] {
+        super::refuse_saying(
+            &super::with(nested),
+            &format!("unrolled, this description has more than {most}"),
+        );
+    }
+}
+
+#[test]
+fn loops_in_which_nothing_stands_cost_nothing_and_are_warned_of() {
+    for loops in [
+        "for i in 0..1000000 { }",
+        "for i in 0..1000000 { for j in 0..1000000 { } }",
+    ] {
+        let said = super::warnings(&super::with(loops));
+        assert_eq!(
+            said.matches("nothing stands in this loop").count(),
+            1,
+            "{said}"
+        );
+    }
 }
 
 #[test]
