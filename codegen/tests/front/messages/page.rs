@@ -99,13 +99,17 @@ fn printed(heard: &Heard) -> String {
 /// The section of the page.
 pub fn page(templates: &[Sentence], said: &[Heard]) -> String {
     let examples = examples(templates, said);
-    for (_, heard) in &examples {
-        assert!(
-            heard.input.chars().count() <= LONGEST,
-            "`{}` wants a shorter description that brings it about",
-            heard.message
-        );
-    }
+    let long = examples
+        .iter()
+        .filter(|(_, heard)| heard.input.chars().count() > LONGEST);
+    let long: Vec<String> = long
+        .map(|(_, heard)| format!("{}\n  help: {:?}", heard.message, heard.help))
+        .collect();
+    assert!(
+        long.is_empty(),
+        "these want shorter descriptions that bring them about:\n{}",
+        long.join("\n")
+    );
     let mut text = INTRODUCTION.to_string();
     for (stage, about) in ABOUT {
         text += &format!("\n### {about}\n\n| message | what to write | input |\n|---|---|---|\n");
