@@ -41,6 +41,9 @@ impl Evaluator {
             let message = takes_others(&name.text, &takes, arguments.len());
             let help = match name.text.as_str() {
                 "dot" => format!("write `{form}`; a derivative in time is `der(x)`"),
+                "min" | "max" if arguments.len() > arity => {
+                    format!("write `{name}(a, {name}(b, c))`", name = name.text)
+                }
                 _ => format!("write `{form}`"),
             };
             return self.report(Diagnostic::error(span, message).help(help));

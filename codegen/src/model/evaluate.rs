@@ -190,11 +190,11 @@ impl Evaluator {
             if let Mention::Name(name) = mention
                 && let Some(entry) = self.scope.get(name)
                 && entry.kind == Kind::Parameter
+                && !names.contains(&format!("`{name}`"))
             {
                 names.push(format!("`{name}`"));
             }
         });
-        names.dedup();
         let names = names.join(" and ");
         (!names.is_empty()).then(|| format!("declare {names} with `const` instead of `param`"))
     }
@@ -328,6 +328,9 @@ impl Evaluator {
         }
         if name == "dt" {
             return Some("a derivative in time is written `der(x)`".to_string());
+        }
+        if name == "e" {
+            return Some("declare it; the exponential function is `exp(x)`".to_string());
         }
         if name == "g" {
             return Some("declare it: `const g: m/s^2 = 9.81;`".to_string());

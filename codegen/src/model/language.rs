@@ -24,7 +24,7 @@ pub const OTHERS: [(&str, usize, &str); 17] = [
 ];
 
 /// Names that other languages have for the same.
-pub const ELSEWHERE: [(&str, &str); 41] = [
+pub const ELSEWHERE: [(&str, &str); 43] = [
     ("integral", "state z; der(z) = x;"),
     ("integrate", "state z; der(z) = x;"),
     ("int", "state z; der(z) = x;"),
@@ -40,6 +40,8 @@ pub const ELSEWHERE: [(&str, &str); 41] = [
     ("arctan", "atan(x)"),
     ("arctan2", "atan2(y, x)"),
     ("log", "ln(x)"),
+    ("log10", "ln(x)/ln(10)"),
+    ("log2", "ln(x)/ln(2)"),
     ("pow", "x^n"),
     ("sgn", "sign(x)"),
     ("diff", "der(x)"),

@@ -101,6 +101,9 @@ const WRITTEN_OUT: [(&str, &str); 17] = [
     ("radians", "rad"),
 ];
 
+/// The longest name, in bytes, that is split into units.
+const LONGEST: usize = 20;
+
 /// The names of units.
 pub fn units() -> impl Iterator<Item = &'static str> {
     NAMED.iter().map(|(name, _)| *name)
@@ -172,7 +175,10 @@ fn prefixed() -> impl Iterator<Item = &'static (&'static str, &'static str, &'st
 
 /// The units and powers that a name is put together of, none of them with a prefix.
 fn split(name: &str) -> Option<Vec<String>> {
-    if name.is_empty() || prefixed().any(|(known, ..)| name.starts_with(known)) {
+    if name.is_empty()
+        || name.len() > LONGEST
+        || prefixed().any(|(known, ..)| name.starts_with(known))
+    {
         return None;
     }
     let mut units: Vec<&str> = units().filter(|unit| name.starts_with(unit)).collect();

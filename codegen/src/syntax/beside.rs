@@ -16,6 +16,9 @@ use crate::diagnostic::Diagnostic;
 const JOINED: &str = "`and`, `or` and `not` stand in conditions: `if a < b and not c < d then x \
                       else y`";
 
+/// The longest unit that is repeated in a message, in bytes.
+const LONGEST_UNIT: usize = 40;
+
 /// Whether a word has a meaning between or behind formulas, so that it is probably neither a
 /// quantity nor a unit.
 pub fn holds_together(word: &str) -> bool {
@@ -77,7 +80,7 @@ impl Cursor<'_> {
     }
 
     /// Whether what comes next stands on a line of its own, or begins a statement.
-    fn at_next_statement(&self) -> bool {
+    pub fn at_next_statement(&self) -> bool {
         let below = self.span().start.line > self.last_span().end.line;
         below || STATEMENTS.iter().any(|(word, ..)| self.at_word(word))
     }
@@ -88,7 +91,8 @@ impl Cursor<'_> {
         let TokenKind::Word(first) = self.peek().kind.clone() else {
             return Ok(());
         };
-        let unit = self.rest_of_statement();
+        let unit = Some(self.rest_of_statement()).filter(|unit| unit.len() <= LONGEST_UNIT);
+        let unit = unit.unwrap_or_else(|| first.clone());
         let declared = declaration.unit.as_ref();
         let called = self.peek_at(1).kind == TokenKind::Symbol("(");
         let other = self.at_next_statement() || holds_together(&first) || called;

@@ -2,7 +2,7 @@
 
 use super::ast::{Condition, Expr, ExprKind};
 use super::cursor::{Cursor, Parsed};
-use super::messages::{AND, CHOICE};
+use super::messages::{AND, CHOICE, FORMULA};
 use super::token::TokenKind;
 use crate::diagnostic::Diagnostic;
 use crate::expr::Comparison;
@@ -33,7 +33,14 @@ impl Cursor<'_> {
         self.advance();
         let condition = self.condition(help)?;
         if !self.take_word("then") {
+            let help = match self.at_symbol("<") || self.at_symbol("<=") {
+                true => AND,
+                false => help,
+            };
             return Err(self.unexpected("`then`", help));
+        }
+        if self.at_symbol("{") {
+            return Err(self.unexpected(FORMULA, help));
         }
         let then = self.expression()?;
         if !self.take_word("else") {

@@ -130,8 +130,12 @@ impl<'a> Cursor<'a> {
     /// Reads the name of something new.
     pub fn expect_name(&mut self, what: &str, help: &str) -> Parsed<Name> {
         let token = self.peek().clone();
-        let TokenKind::Word(text) = token.kind else {
-            return Err(self.unexpected(what, help));
+        let text = match token.kind {
+            TokenKind::Word(text) => text,
+            TokenKind::Number(text) if text.contains(char::is_alphabetic) => {
+                return Err(self.unexpected(what, "a name begins with a letter"));
+            }
+            _ => return Err(self.unexpected(what, help)),
         };
         if RESERVED.contains(&text.as_str()) {
             let message = format!("`{text}` can't be a name: it is a word of the language");
@@ -271,7 +275,14 @@ impl<'a> Cursor<'a> {
                 return;
             }
             if same && (closing(";") || closing("}")) {
+                let brace = closing("}");
                 self.advance();
+                // Behind a brace inside a formula the statement goes on.
+                let here = self.span().start.line == self.last_span().end.line;
+                let begins = self.at_statement() || self.at_symbol("}");
+                if brace && here && !begins {
+                    continue;
+                }
                 return;
             }
             let new_line = self.at > 0 && token.span.start.line > self.last_span().end.line;

@@ -15,7 +15,9 @@ impl Cursor<'_> {
             true => Some(self.name("the constraint", "constraint")?),
             false => None,
         };
-        if named {
+        if !named {
+            self.no_sign_behind("constraint")?;
+        } else {
             self.expect_symbol(":", "")?;
             if self.at_symbol("=") {
                 let error = Diagnostic::error(self.span(), NO_ASSIGNMENT);
@@ -59,9 +61,15 @@ impl Cursor<'_> {
         let place = self.span();
         self.advance();
         let right = self.expression()?;
+        // `0 < x` is `x > 0`.
+        let number = matches!(left.kind, ExprKind::Number(_));
+        let (left, right, upper) = match number {
+            true => (&right, left, !upper),
+            false => (left, &right, upper),
+        };
         let x = one_line(left.span.text(self.source));
         let bound = one_line(right.span.text(self.source));
-        let less = self.difference(left, &right);
+        let less = self.difference(left, right);
         let beyond = if upper { ">" } else { "<" };
         let error = Diagnostic::error(place, "a constraint is an equation");
         let help = format!(

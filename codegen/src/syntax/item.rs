@@ -4,7 +4,7 @@ use super::ast::{Declaration, Declared, Energy, Item, ItemKind, Let, Name, Size}
 use super::cursor::{Cursor, Parsed, Reported};
 use super::foreign::statement_help;
 use super::keyword::{SHAPES, Statement, example};
-use super::messages::{FOR, REMOVE};
+use super::messages::{FOR, NAMES, REMOVE};
 use super::model::Model;
 use super::token::TokenKind;
 use crate::diagnostic::Diagnostic;
@@ -181,7 +181,17 @@ impl Cursor<'_> {
         ))?;
         self.one_name(&name, word, " = …")?;
         let unit = self.optional_unit()?;
-        self.expect_symbol("=", &example(word))?;
+        let help = match &self.peek().kind {
+            TokenKind::Symbol("-" | ".") if unit.is_none() => NAMES.to_string(),
+            TokenKind::Word(other) if unit.is_none() && !self.at_next_statement() => {
+                format!(
+                    "a unit stands behind `:`: `{word} {}: {other} = …;`",
+                    name.text
+                )
+            }
+            _ => example(word),
+        };
+        self.expect_symbol("=", &help)?;
         let value = self.expression()?;
         Ok(ItemKind::Declaration(Declaration {
             kind,
@@ -287,15 +297,22 @@ impl Cursor<'_> {
     }
 
     fn energy(&mut self, energy: Energy, word: &str) -> Parsed<ItemKind> {
-        if self.at_symbol("=") || self.at_symbol(":") {
-            let message = format!("nothing stands between `{word}` and its formula");
-            let error = Diagnostic::error(self.span(), message);
-            return Err(self.fail(error.help(REMOVE)));
-        }
+        self.no_sign_behind(word)?;
         Ok(ItemKind::Energy(energy, self.expression()?))
     }
 
+    /// Refuses `kinetic = …` and `force: …`.
+    pub fn no_sign_behind(&mut self, word: &str) -> Parsed<()> {
+        if !self.at_symbol("=") && !self.at_symbol(":") {
+            return Ok(());
+        }
+        let message = format!("nothing stands between `{word}` and its formula");
+        let error = Diagnostic::error(self.span(), message);
+        Err(self.fail(error.help(REMOVE)))
+    }
+
     fn force(&mut self) -> Parsed<ItemKind> {
+        self.no_sign_behind("force")?;
         let force = self.expression()?;
         if self.at_symbol("=") {
             let error = Diagnostic::error(self.span(), "a force has no name");
@@ -304,7 +321,11 @@ impl Cursor<'_> {
             return Err(self.fail(error.help(help)));
         }
         if !self.take_word("on") {
-            let help = self.number_in_front(false);
+            let preposition = match &self.peek_at(1).kind {
+                TokenKind::Word(word) => word != "on",
+                _ => false,
+            };
+            let help = self.number_in_front(false).filter(|_| !preposition);
             let help = help.unwrap_or_else(|| example("force"));
             return Err(self.unexpected("`on` and what the force works on", &help));
         }

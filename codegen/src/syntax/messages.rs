@@ -24,6 +24,7 @@ pub const NO_QUOTES: &str = "quoted text has no meaning here";
 pub const NO_UNIT_BEHIND: &str = "a unit can't stand behind a number";
 
 /// How something is written.
+pub const NAMES: &str = "names are made of the letters a–z and A–Z, digits and `_`";
 pub const NUMBERS: &str = "numbers are written like `12`, `0.5` or `1e-3`";
 pub const LARGE_AND_SMALL: &str = "numbers lie between 1e-308 and 1e308";
 pub const CHOICE: &str = "a choice is written `if a < b then x else y`";

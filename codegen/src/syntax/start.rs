@@ -4,7 +4,7 @@ use super::ast::{Expr, ExprKind, StartItem};
 use super::beside::holds_together;
 use super::cursor::{Cursor, Parsed};
 use super::keyword::example;
-use super::messages::{FOR, NO_UNIT_BEHIND};
+use super::messages::{FOR, NO_ASSIGNMENT, NO_UNIT_BEHIND};
 use super::token::TokenKind;
 use crate::diagnostic::Diagnostic;
 
@@ -41,6 +41,10 @@ impl Cursor<'_> {
         let target = self.expression()?;
         let held = self.at_symbol("=");
         if !held && !self.at_symbol("~") {
+            if self.at_symbol(":") && self.peek_at(1).kind == TokenKind::Symbol("=") {
+                let error = Diagnostic::error(self.span(), NO_ASSIGNMENT);
+                return Err(self.fail(error.help(HELP)));
+            }
             let help = match self.at_symbol("(") {
                 true => "all these values are at the beginning: `der(q1) = 2;`",
                 false => HELP,

@@ -3,7 +3,7 @@
 //! In:  a character.
 //! Out: its name, and what to write instead.
 
-use super::messages::{CHOICE, REMOVE};
+use super::messages::{CHOICE, NAMES, REMOVE};
 
 /// Dots over letters, alone or with the letter: derivatives in time.
 const DOTS: [char; 8] = ['\u{307}', '\u{308}', 'ẋ', 'ẏ', 'ż', 'ṙ', 'ẍ', 'ÿ'];
@@ -29,7 +29,9 @@ pub fn instead(character: char) -> String {
         '\'' | '’' | '′' => VELOCITY.into(),
         c if DOTS.contains(&c) => VELOCITY.into(),
         '"' => "there is no quoted text; comments begin with `//`, doc comments with `///`".into(),
-        '·' | '×' | '∗' | '⋅' => write("*"),
+        '·' | '⋅' => "write `*`, between vectors `dot(a, b)`".into(),
+        '×' => "write `*`, between vectors `cross(a, b)`".into(),
+        '∗' => write("*"),
         '÷' | '∕' => write("/"),
         '−' | '–' | '—' => write("-"),
         '²' => write("^2"),
@@ -44,9 +46,7 @@ pub fn instead(character: char) -> String {
         '√' => write("sqrt(…)"),
         '?' => CHOICE.into(),
         c if greek(c).is_some() => write(greek(c).unwrap_or_default()),
-        c if c.is_alphabetic() => {
-            "names are made of the letters a–z and A–Z, digits and `_`".into()
-        }
+        c if c.is_alphabetic() => NAMES.into(),
         '\r' => "save the file with line feeds".into(),
         c if c.is_whitespace() => "write an ordinary blank".into(),
         _ => REMOVE.into(),
@@ -54,7 +54,7 @@ pub fn instead(character: char) -> String {
 }
 
 fn greek(character: char) -> Option<&'static str> {
-    const NAMES: [(char, &str); 18] = [
+    const LETTERS: [(char, &str); 28] = [
         ('α', "alpha"),
         ('β', "beta"),
         ('γ', "gamma"),
@@ -73,8 +73,18 @@ fn greek(character: char) -> Option<&'static str> {
         ('ϕ', "phi"),
         ('ψ', "psi"),
         ('ω', "omega"),
+        ('ν', "nu"),
+        ('χ', "chi"),
+        ('ϑ', "theta"),
+        ('ϵ', "epsilon"),
+        ('Δ', "Delta"),
+        ('Θ', "Theta"),
+        ('Φ', "Phi"),
+        ('Ψ', "Psi"),
+        ('Ω', "Omega"),
+        ('Γ', "Gamma"),
     ];
-    NAMES
+    LETTERS
         .iter()
         .find(|(letter, _)| *letter == character)
         .map(|(_, name)| *name)

@@ -171,7 +171,7 @@ impl Cursor<'_> {
                 self.expect_symbol(")", HELP)?;
                 Ok(factors)
             }
-            TokenKind::Number(_) => {
+            TokenKind::Number(_) if self.behind(1).kind == TokenKind::Symbol(":") => {
                 let help = "a value stands behind `=`: `param m: kg = 1.5;`";
                 Err(self.unexpected("a unit", help))
             }
