@@ -278,14 +278,35 @@ impl Scanner<'_> {
         self.forget(matching, span);
     }
 
-    /// The open bracket that a closing one belongs to. Blocks stand in no parentheses: on
-    /// another line in front of a block is one that was never closed.
+    /// The open bracket that a closing one belongs to. Statements stand in no parentheses: in
+    /// front of them is one that was never closed.
     fn matching(&self, bracket: char, closing: Span) -> Option<usize> {
         let mut inside_out = self.open.iter().enumerate().rev();
         let (place, found) = inside_out.find(|(_, open)| partner(open.sign) == bracket)?;
-        let block = self.open[place..].iter().any(|open| open.sign == '{');
-        let here = found.span.start.line == closing.start.line;
-        (bracket == '}' || !block || here).then_some(place)
+        let inside = found.span.range().start..closing.range().start;
+        let block = || self.open[place..].iter().any(|open| open.sign == '{');
+        let statements = || self.text.get(inside).unwrap_or("").contains(';');
+        let stands_inside = bracket != '}' && block() && statements();
+        (!stands_inside && !self.is_mistyped(closing)).then_some(place)
+    }
+
+    /// Whether a closing bracket was typed instead of the one that is due: those behind it close
+    /// all that is open around it in the formula.
+    fn is_mistyped(&self, closing: Span) -> bool {
+        let around = self.open.iter().rev().skip(1);
+        let around = around.take_while(|open| open.sign != '{');
+        let rest = self.text.get(closing.range().end..).unwrap_or("");
+        let mut rest = rest.chars().filter(|c| !c.is_whitespace());
+        let last = self.open.last().map(|open| partner(open.sign));
+        let other = last
+            != self
+                .text
+                .get(closing.range())
+                .and_then(|text| text.chars().next());
+        let mut around = around.peekable();
+        other
+            && around.peek().is_some()
+            && around.all(|open| rest.next() == Some(partner(open.sign)))
     }
 
     fn closes_nothing(&mut self, bracket: char, span: Span) {
@@ -305,7 +326,6 @@ impl Scanner<'_> {
     fn forget(&mut self, matching: Option<usize>, closing: Span) {
         let from = matching.map_or(self.open.len() - 1, |place| place + 1);
         let gone: Vec<Bracket> = self.open.drain(from..).collect();
-        self.readable &= gone.iter().all(|bracket| bracket.sign != '{');
         gone.iter().for_each(|bracket| self.blank(bracket.span));
         match matching {
             Some(_) => drop(self.open.pop()),
