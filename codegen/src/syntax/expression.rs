@@ -297,6 +297,9 @@ impl Cursor<'_> {
             let help = "a range `0..K` ends before K; write `0..K+1` to include it";
             return Err(self.fail(error.help(help)));
         }
+        if self.at_symbol(".") {
+            return Err(self.unexpected("a bound", "a range is written with two dots: `0..K`"));
+        }
         let to = self.expression()?;
         Ok(Range { index, from, to })
     }

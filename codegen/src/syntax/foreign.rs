@@ -47,10 +47,19 @@ const WORDS: [(&str, &str); 36] = [
     ("torque", "force"),
 ];
 
-/// What may begin a statement, or what was probably meant by a word, which perhaps stands in
-/// front of `=`.
-pub fn statement_help(word: &str, assigned: bool) -> String {
-    if assigned {
+/// What stands behind a word that begins no statement.
+pub enum Follows<'a> {
+    /// `=`.
+    Value,
+    /// A name and arguments.
+    Call(&'a str),
+    /// Something else.
+    Other,
+}
+
+/// What may begin a statement, or what was probably meant by a word.
+pub fn statement_help(word: &str, follows: &Follows) -> String {
+    if let Follows::Value = follows {
         let quantity = format!("a quantity is written `let {word} = …;`");
         return match word {
             "T" | "V" | "U" => {
@@ -71,9 +80,10 @@ pub fn statement_help(word: &str, assigned: bool) -> String {
         return format!("the word is `{ours}`: `{example}`");
     }
     let words = STATEMENTS.iter().map(|(word, ..)| *word).chain(["for"]);
-    match nearest(word, words.clone()) {
-        Some(near) => did_you_mean(near),
-        None => {
+    match (nearest(word, words.clone()), follows) {
+        (Some(near), _) => did_you_mean(near),
+        (None, Follows::Call(name)) => format!("a part is used by `let {name} = {word}(…);`"),
+        (None, _) => {
             let list: Vec<_> = words.collect();
             format!("a statement begins with one of: {}", list.join(", "))
         }

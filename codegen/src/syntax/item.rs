@@ -2,12 +2,14 @@
 
 use super::ast::{Declaration, Declared, Energy, Item, ItemKind, Let, Name, Size};
 use super::cursor::{Cursor, Parsed, Reported};
-use super::foreign::statement_help;
+use super::foreign::{Follows, statement_help};
 use super::keyword::{SHAPES, Statement, example};
 use super::messages::{FOR, NAMES, REMOVE};
 use super::model::Model;
 use super::token::TokenKind;
 use crate::diagnostic::Diagnostic;
+
+const MATRIX: &str = "the size of a matrix is that of its value, `[[1, 0], [0, 1]]`, without `[…]`";
 
 const FILE: &str = "a description is written `mechanism Name { … }`";
 
@@ -107,12 +109,18 @@ impl Cursor<'_> {
         let docs = self.docs();
         let start = self.span();
         let TokenKind::Word(word) = self.peek().kind.clone() else {
-            return Err(self.unexpected_here("a statement", &statement_help("", false)));
+            return Err(self.unexpected_here("a statement", &statement_help("", &Follows::Other)));
         };
         if !self.at_statement() && word != "der" {
             let error = Diagnostic::error(start, format!("`{word}` does not begin a statement"));
-            let assigned = self.peek_at(1).kind == TokenKind::Symbol("=");
-            return Err(self.fail(error.help(statement_help(&word, assigned))));
+            let [next, open] = [1, 2].map(|ahead| &self.peek_at(ahead).kind);
+            let follows = match (next, open) {
+                (TokenKind::Symbol("="), _) => Follows::Value,
+                (TokenKind::Word(name), TokenKind::Symbol("(")) => Follows::Call(name),
+                _ => Follows::Other,
+            };
+            let help = statement_help(&word, &follows);
+            return Err(self.fail(error.help(help)));
         }
         self.advance();
         let kind = self.item_kind(&word)?;
@@ -183,6 +191,7 @@ impl Cursor<'_> {
         let unit = self.optional_unit()?;
         let help = match &self.peek().kind {
             TokenKind::Symbol("-" | ".") if unit.is_none() => NAMES.to_string(),
+            TokenKind::Symbol("[") if size.is_some() => MATRIX.to_string(),
             TokenKind::Word(other) if unit.is_none() && !self.at_next_statement() => {
                 format!(
                     "a unit stands behind `:`: `{word} {}: {other} = …;`",
@@ -212,6 +221,7 @@ impl Cursor<'_> {
             true => Size::Each(self.range(help)?),
             false => Size::Count(self.expression()?),
         };
+        let help = if self.at_symbol(",") { MATRIX } else { help };
         self.expect_symbol("]", help)?;
         Ok(Some(Box::new(size)))
     }

@@ -5,7 +5,8 @@
 //!
 //! Four steps: `scan` looks at the characters (so that the lexer cannot fail and
 //! no nesting is too deep for a recursive reader), `token` has proc-macro2 lex
-//! them, `item`, `start` and `unit` read statements, `expression` reads formulas.
+//! them, `item`, `equation`, `start` and `unit` read statements, `expression` reads formulas.
+//! `stray`, `beside` and `foreign` say what was meant by what belongs to other notations.
 //! A mistake inside a statement is reported and reading goes on behind it; the names
 //! that such a statement may have declared are remembered, so that nobody complains of
 //! them.
