@@ -6,5 +6,6 @@ include!(concat!(env!("OUT_DIR"), "/frozen.rs"));
 include!(concat!(env!("OUT_DIR"), "/looped.rs"));
 include!(concat!(env!("OUT_DIR"), "/measured.rs"));
 include!(concat!(env!("OUT_DIR"), "/placed.rs"));
+include!(concat!(env!("OUT_DIR"), "/shifted.rs"));
 include!(concat!(env!("OUT_DIR"), "/tabled.rs"));
 include!(concat!(env!("OUT_DIR"), "/timed.rs"));

@@ -2,6 +2,7 @@
 
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{Interface, Method, Options, State, StepControl, simulate};
+use bricard_switching::shifted::Shifted;
 use bricard_switching::tabled::Tabled;
 
 /// Where the mass is after four seconds: the table pushes by 2 t, then 2, then 8 - 2 t.
@@ -80,4 +81,25 @@ fn a_mass_on_a_hill_given_by_a_spline_keeps_its_energy() {
         .end;
     assert!((energy(&end) - energy(&start)).abs() < 2e-9, "{end:?}");
     assert!((end.q[2] - 0.2).abs() > 0.5, "it has moved");
+}
+
+/// The end of the run of masses that splines push, with fixed steps.
+fn pushed(method: Method, step: f64) -> State<f64, 2> {
+    let start = State::new(0.0, SVector::zeros(), SVector::zeros());
+    let options = Options::new(2.0, method, StepControl::Fixed { step });
+    simulate::<_, _, 2, 0>(&Shifted::default(), &start, &options, &mut [])
+        .unwrap_or_else(|failure| panic!("{method}: {failure}"))
+        .end
+}
+
+#[test]
+fn no_step_goes_across_the_knots_of_a_spline_of_the_time() {
+    let fine = pushed(Method::Dop853, 0.01);
+    for method in [Method::Dp5, Method::Dop853, Method::Radau5, Method::Radau9] {
+        // Cubic forces are integrated exactly between knots.
+        let coarse = pushed(method, 0.13);
+        assert!((coarse.v[0] + 0.125).abs() < 1e-14, "{method}: {coarse:?}");
+        let off = (coarse.q - fine.q).abs().max();
+        assert!(off < 1e-13, "{method}: {off:e}");
+    }
 }

@@ -31,6 +31,19 @@ pub struct Switches {
     known: FxHashMap<ExprId, ExprId>,
 }
 
+impl Switches {
+    /// Adds a function that nothing depends on, unless it is there: steps end where it is zero.
+    pub(super) fn add(&mut self, function: ExprId, met_in: ExprId) {
+        if self.list.iter().all(|switch| switch.function != function) {
+            self.list.push(Switch {
+                function,
+                met_in,
+                kinks: true,
+            });
+        }
+    }
+}
+
 impl Graph {
     /// Makes what jumps or kinks in an expression depend on switching functions.
     pub fn hold(&mut self, root: ExprId, switches: &mut Switches) -> ExprId {
@@ -114,7 +127,7 @@ impl Graph {
 
     /// The first of the switching functions that tell an interval of a table; none if it
     /// never changes.
-    fn interval(
+    pub(super) fn interval(
         &mut self,
         switches: &mut Switches,
         lookup: Lookup,

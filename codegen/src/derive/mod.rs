@@ -20,6 +20,7 @@ mod gradient;
 mod hold;
 mod independent;
 mod inertia;
+mod knots;
 mod linearised;
 mod local;
 mod mass;

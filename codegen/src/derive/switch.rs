@@ -3,7 +3,8 @@
 //! In:  a mechanism.
 //! Out: the same mechanism, in whose forces and laws each comparison, `abs`, `sign`, `min` and
 //!      `max` that can change along a motion depends on the sign of a switching function,
-//!      which a run may hold over a step; the list of those functions with their rates.
+//!      which a run may hold over a step; the list of those functions with their rates, and
+//!      others that are zero where a spline of the time goes on with another polynomial.
 //!
 //! Energies and constraints have no conditions. Outputs and events keep theirs, which
 //! follow the state.
@@ -42,6 +43,10 @@ pub(super) fn hold(mechanism: &mut Mechanism) -> Result<(), Diagnostics> {
     if switches.list.len() > ROOM {
         return Err(too_many(switches.list.len(), spans[ROOM]));
     }
+    for (roots, span) in smooth(mechanism, &used) {
+        mechanism.graph.add_knots(&roots, &mut switches, ROOM);
+        spans.resize(switches.list.len(), span);
+    }
     for (found, span) in switches.list.iter().zip(spans) {
         let rate = rate(mechanism, found.function);
         let names = |symbol| mechanism.symbol_text(symbol);
@@ -55,6 +60,26 @@ pub(super) fn hold(mechanism: &mut Mechanism) -> Result<(), Diagnostics> {
         });
     }
     Ok(())
+}
+
+/// What the accelerations are made of, statement by statement.
+fn smooth(mechanism: &Mechanism, used: &BTreeSet<u32>) -> Vec<(Vec<ExprId>, Span)> {
+    let energies = [
+        &mechanism.kinetic,
+        &mechanism.potential,
+        &mechanism.dissipation,
+    ];
+    let energies = energies.into_iter().flatten();
+    let energies = energies.map(|summand| (vec![summand.value], summand.span));
+    let forces = mechanism.forces.iter();
+    let forces = forces.map(|force| ([&force.force[..], &force.on].concat(), force.span));
+    let inputs = (0..)
+        .zip(&mechanism.inputs)
+        .filter(|(i, _)| used.contains(i));
+    let inputs = inputs.map(|(_, input)| (vec![input.law], input.quantity.span));
+    let rows = mechanism.constraints.iter();
+    let rows = rows.map(|row| (vec![row.residual], row.span));
+    energies.chain(forces).chain(inputs).chain(rows).collect()
 }
 
 /// The inputs that forces or dissipation are made of.

@@ -1,0 +1,89 @@
+//! Where splines of the time go on with another polynomial.
+//!
+//! In:  expressions.
+//! Out: switching functions that pass zero there. Nothing depends on their sides: a spline
+//!      and its first two derivatives are continuous, so it is enough that no step goes
+//!      across the jump of the third.
+//!
+//! A spline that code has choices for gets one function, which is zero at all of its knots:
+//! the distance from the nearest, with signs in turn. One that is data has a function for
+//! each bit of its interval, as a table has.
+
+use super::hold::Switches;
+use crate::expr::{Comparison, ExprId, Function, Number};
+use crate::model::{Graph, Node, Symbol};
+use rustc_hash::FxHashMap;
+
+/// The knots of a spline, and what it is a function of.
+#[derive(Clone, PartialEq)]
+struct Chain {
+    of: ExprId,
+    knots: Vec<ExprId>,
+}
+
+impl Graph {
+    /// Adds the knots of all splines of the time in some expressions to the switching
+    /// functions, as long as there is room for so many: without them a step across a knot is
+    /// less accurate, and no more than that.
+    pub(super) fn add_knots(&mut self, roots: &[ExprId], switches: &mut Switches, room: usize) {
+        let mut chains: FxHashMap<ExprId, Chain> = FxHashMap::default();
+        let mut splines: Vec<(ExprId, Chain)> = Vec::new();
+        for e in self.reachable(roots) {
+            match *self.node(e) {
+                Node::Function(Function::Table(lookup), x)
+                    if lookup.is_differentiable()
+                        && self.follows_time(x)
+                        && switches.list.len() + lookup.table.bits() as usize <= room =>
+                {
+                    self.interval(switches, lookup, x, e);
+                }
+                Node::Select(test, [x, knot, _, rest]) if test.smooth && self.follows_time(x) => {
+                    // Those that come later contain those before.
+                    let inner = chains.get(&rest).filter(|inner| inner.of == x);
+                    let inner = inner.map_or(&[][..], |inner| &inner.knots);
+                    let knots = [&[knot], inner].concat();
+                    splines.retain(|(part, chain)| *part != rest || chain.of != x);
+                    let chain = Chain { of: x, knots };
+                    splines.push((e, chain.clone()));
+                    chains.insert(e, chain);
+                }
+                _ => {}
+            }
+        }
+        for (_, Chain { of, knots }) in splines {
+            let function = self.zigzag(of, &knots);
+            if switches.list.len() < room {
+                switches.add(function, of);
+            }
+        }
+    }
+
+    /// Whether an expression changes along a motion as the time alone says.
+    fn follows_time(&self, e: ExprId) -> bool {
+        let symbols = self.symbols(e);
+        let known = |symbol: &Symbol| matches!(symbol, Symbol::Time | Symbol::Parameter(_));
+        symbols.contains(&Symbol::Time) && symbols.iter().all(known)
+    }
+
+    /// The distance from the nearest of some places in rising order, above the first one
+    /// positive, above the second one negative, and so on.
+    fn zigzag(&mut self, x: ExprId, places: &[ExprId]) -> ExprId {
+        let mut result = self.integer(0);
+        for (i, &place) in places.iter().enumerate().rev() {
+            let (one, other) = match i % 2 {
+                0 => (Number::ONE, Number::MINUS_ONE),
+                _ => (Number::MINUS_ONE, Number::ONE),
+            };
+            let distance = self.weighted_sum(Number::ZERO, &[(x, one), (place, other)]);
+            result = match places.get(i + 1) {
+                None => distance,
+                Some(&next) => {
+                    let half = Number::float(0.5);
+                    let middle = self.weighted_sum(Number::ZERO, &[(place, half), (next, half)]);
+                    self.select(Comparison::Less, x, middle, distance, result)
+                }
+            };
+        }
+        result
+    }
+}
