@@ -80,13 +80,34 @@ impl Table {
         }
     }
 
+    /// The distance from the nearest place: above the first one positive, above the second
+    /// one negative, and so on.
+    pub fn knot<T: Real>(&self, x: T) -> T {
+        let (place, positive_above) = self.nearest(x, self.interval(x), (0, 1));
+        if positive_above { x - place } else { place - x }
+    }
+
+    /// Its derivative.
+    pub fn passing<T: Real>(&self, x: T) -> T {
+        match self.nearest(x, self.interval(x), (0, 1)) {
+            (_, true) => T::one(),
+            (_, false) => -T::one(),
+        }
+    }
+
     /// The nearest place at which a bit changes, and whether the bit is set above it.
     fn change<T: Real>(&self, bit: u32, x: T) -> (T, bool) {
         let (half, period) = (1_usize << bit, 2_usize << bit);
         // The bit changes where an interval begins whose number is an odd multiple of `half`.
         let below = (self.interval(x) + half) / period;
+        self.nearest(x, below, (half - 1, period))
+    }
+
+    /// The nearest of the places from `first` on in distances of `period`, so many of which
+    /// are below, and whether it is the first of them, the third, and so on.
+    fn nearest<T: Real>(&self, x: T, below: usize, (first, period): (usize, usize)) -> (T, bool) {
         let at = |count: usize| {
-            let place = count * period + half - 1;
+            let place = count * period + first;
             let there = place < self.places.len();
             there.then(|| (self.place::<T>(place), count.is_multiple_of(2)))
         };
@@ -142,6 +163,24 @@ mod tests {
             (9.0, 5),
         ] {
             assert_eq!(told(x), interval, "at {x}");
+        }
+    }
+
+    #[test]
+    fn distances_from_knots_change_their_sign_at_each_of_them() {
+        for (x, distance) in [
+            (-5.0, -5.0),
+            (0.25, 0.25),
+            (0.75, 0.25),
+            (1.5, -0.5),
+            (2.5, -0.5),
+            (3.25, 0.25),
+            (6.0, -1.0),
+            (9.0, 2.0),
+        ] {
+            assert_eq!(STEPS.knot(x), distance, "at {x}");
+            let rate = (STEPS.knot(x + 1e-3) - distance) / 1e-3;
+            assert!((STEPS.passing(x) - rate).abs() < 1e-9, "at {x}");
         }
     }
 

@@ -127,7 +127,7 @@ impl Graph {
 
     /// The first of the switching functions that tell an interval of a table; none if it
     /// never changes.
-    pub(super) fn interval(
+    fn interval(
         &mut self,
         switches: &mut Switches,
         lookup: Lookup,

@@ -5,12 +5,11 @@
 //!      and its first two derivatives are continuous, so it is enough that no step goes
 //!      across the jump of the third.
 //!
-//! A spline that code has choices for gets one function, which is zero at all of its knots:
-//! the distance from the nearest, with signs in turn. One that is data has a function for
-//! each bit of its interval, as a table has.
+//! Each spline gets one function, which is zero at all of its knots: the distance from the
+//! nearest, with signs in turn.
 
 use super::hold::Switches;
-use crate::expr::{Comparison, ExprId, Function, Number};
+use crate::expr::{Comparison, Entry, ExprId, Function, Lookup, Number};
 use crate::model::{Graph, Node, Symbol};
 use rustc_hash::FxHashMap;
 
@@ -28,14 +27,15 @@ impl Graph {
     pub(super) fn add_knots(&mut self, roots: &[ExprId], switches: &mut Switches, room: usize) {
         let mut chains: FxHashMap<ExprId, Chain> = FxHashMap::default();
         let mut splines: Vec<(ExprId, Chain)> = Vec::new();
+        let mut functions: Vec<(ExprId, ExprId)> = Vec::new();
         for e in self.reachable(roots) {
             match *self.node(e) {
                 Node::Function(Function::Table(lookup), x)
-                    if lookup.is_differentiable()
-                        && self.follows_time(x)
-                        && switches.list.len() + lookup.table.bits() as usize <= room =>
+                    if lookup.is_differentiable() && self.follows_time(x) =>
                 {
-                    self.interval(switches, lookup, x, e);
+                    let entry = Entry::Knot;
+                    let function = self.function(Function::Table(Lookup { entry, ..lookup }), x);
+                    functions.push((function, x));
                 }
                 Node::Select(test, [x, knot, _, rest]) if test.smooth && self.follows_time(x) => {
                     // Those that come later contain those before.
@@ -51,7 +51,9 @@ impl Graph {
             }
         }
         for (_, Chain { of, knots }) in splines {
-            let function = self.zigzag(of, &knots);
+            functions.push((self.zigzag(of, &knots), of));
+        }
+        for (function, of) in functions {
             if switches.list.len() < room {
                 switches.add(function, of);
             }

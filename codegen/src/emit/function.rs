@@ -346,6 +346,8 @@ impl<'a> Writer<'a> {
                 let bit = number(bit);
                 quote!(#table.turn(#bit, #argument))
             }
+            (Entry::Knot, _) => quote!(#table.knot(#argument)),
+            (Entry::Passing, _) => quote!(#table.passing(#argument)),
         };
         Piece {
             operands: self.operands([x]),

@@ -49,18 +49,38 @@ impl Table {
 
     /// The nearest place at which a bit changes, and whether the bit is set above it.
     fn change(&self, bit: u32, x: f64) -> (f64, bool) {
-        let interval = self.interval(x);
         let (half, period) = (1 << bit, 2 << bit);
-        let below = (interval + half) / period;
+        let below = (self.interval(x) + half) / period;
+        self.nearest(x, below, (half - 1, period))
+    }
+
+    /// The nearest of the places from `first` on in distances of `period`, so many of which
+    /// are below, and whether it is the first of them, the third, and so on.
+    fn nearest(&self, x: f64, below: usize, (first, period): (usize, usize)) -> (f64, bool) {
         let at = |count: usize| {
-            let place = (count * period + half).checked_sub(1)?;
-            Some((*self.places.get(place)?, count.is_multiple_of(2)))
+            let place = self.places.get(count * period + first)?;
+            Some((*place, count.is_multiple_of(2)))
         };
         let before = below.checked_sub(1).and_then(at);
         match (before, at(below)) {
             (Some(before), Some(after)) if x - before.0 <= after.0 - x => before,
             (before, after) => after.or(before).unwrap_or((x, true)),
         }
+    }
+
+    /// The nearest place, and whether it is the first one, the third, and so on.
+    fn knot(&self, x: f64) -> (f64, bool) {
+        self.nearest(x, self.interval(x), (0, 1))
+    }
+
+    /// The distance from the nearest place, positive above it or below it.
+    fn distance((place, positive_above): (f64, bool), x: f64) -> f64 {
+        if positive_above { x - place } else { place - x }
+    }
+
+    /// The derivative of that.
+    fn slope((_, positive_above): (f64, bool)) -> f64 {
+        if positive_above { 1.0 } else { -1.0 }
     }
 }
 
@@ -74,6 +94,11 @@ pub enum Entry {
     Side(u32),
     /// The derivative of that.
     Turn(u32),
+    /// The distance from the nearest place: above the first one positive, above the second
+    /// one negative, and so on.
+    Knot,
+    /// The derivative of that.
+    Passing,
 }
 
 /// Something in a table, as a function of one number.
@@ -101,14 +126,10 @@ impl Lookup {
     pub fn apply(self, x: f64) -> f64 {
         match self.entry {
             Entry::Derivative(order) => self.table.derivative(order, x),
-            Entry::Side(bit) => {
-                let (place, set_above) = self.table.change(bit, x);
-                if set_above { x - place } else { place - x }
-            }
-            Entry::Turn(bit) => match self.table.change(bit, x) {
-                (_, true) => 1.0,
-                (_, false) => -1.0,
-            },
+            Entry::Side(bit) => Table::distance(self.table.change(bit, x), x),
+            Entry::Turn(bit) => Table::slope(self.table.change(bit, x)),
+            Entry::Knot => Table::distance(self.table.knot(x), x),
+            Entry::Passing => Table::slope(self.table.knot(x)),
         }
     }
 
@@ -118,7 +139,8 @@ impl Lookup {
         let entry = match self.entry {
             Entry::Derivative(order) if order < degree => Entry::Derivative(order + 1),
             Entry::Side(bit) => Entry::Turn(bit),
-            Entry::Derivative(_) | Entry::Turn(_) => return None,
+            Entry::Knot => Entry::Passing,
+            Entry::Derivative(_) | Entry::Turn(_) | Entry::Passing => return None,
         };
         Some(Self { entry, ..self })
     }
