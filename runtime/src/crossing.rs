@@ -44,6 +44,18 @@ const MOST_INTERVALS: usize = 256;
 /// pair of numbers of a float type; it never takes three times as many.
 const MOST_STEPS: usize = 400;
 
+/// Functions of states within a step are off by this part of its accepted error.
+const NOISE: f64 = 0.01;
+/// The same in units of round-off, at least and with fixed steps.
+const NOISE_OF_FIXED: f64 = 4096.0;
+
+/// What functions of states within a step are off by, relative to their size there, if steps
+/// follow a tolerance.
+pub(crate) fn noise<T: Real>(tolerance: Option<T>) -> T {
+    let accepted = tolerance.unwrap_or(T::zero()) * T::from_f64(NOISE);
+    accepted.max(T::EPSILON * T::from_f64(NOISE_OF_FIXED))
+}
+
 /// Samples of a function on an interval.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Samples<T> {
@@ -90,22 +102,27 @@ impl<T: Real> Samples<T> {
         (self.times[0], self.times[DEGREE])
     }
 
-    /// The side on which the function goes away from zero, if it does all the way.
-    pub(crate) fn leaves_zero(&self) -> Option<T> {
+    /// The largest of them.
+    pub(crate) fn size(&self) -> T {
+        let values = self.values.iter();
+        values.fold(T::zero(), |most: T, x| most.max(x.abs()))
+    }
+
+    /// The side on which the function goes away from zero, if it does all the way and is
+    /// beyond some noise from the beginning.
+    pub(crate) fn leaves_zero(&self, noise: T) -> Option<T> {
         let side = self.values[0].sign();
         let away = self
             .values
             .windows(2)
             .all(|pair| side * pair[1] >= side * pair[0]);
-        (side != T::zero() && away).then_some(side)
+        let clear = self.values[0].abs() > noise;
+        (clear && away).then_some(side)
     }
 
     /// What the polynomial through the samples does.
     fn shape(&self) -> Shape {
-        let largest = self
-            .values
-            .iter()
-            .fold(T::zero(), |most: T, x| most.max(x.abs()));
+        let largest = self.size();
         if largest == T::zero() {
             return Shape::Monotone;
         }

@@ -179,7 +179,7 @@ mod tests {
             (9.0, 2.0),
         ] {
             assert_eq!(STEPS.knot(x), distance, "at {x}");
-            let rate = (STEPS.knot(x + 1e-3) - distance) / 1e-3;
+            let rate: f64 = (STEPS.knot(x + 1e-3) - distance) / 1e-3;
             assert!((STEPS.passing(x) - rate).abs() < 1e-9, "at {x}");
         }
     }

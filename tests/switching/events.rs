@@ -5,6 +5,7 @@ use bricard_runtime::{
     DynamicsError, Method, Observer, Occurrence, Options, Probe, State, Step, StepControl, simulate,
 };
 use bricard_switching::contact::Contact;
+use bricard_switching::timed::Timed;
 use core::ops::ControlFlow;
 
 /// Collects when events happen.
@@ -93,4 +94,24 @@ fn a_function_that_only_just_misses_zero_has_no_event() {
         "{:?}",
         diary.0
     );
+}
+
+#[test]
+fn what_stays_within_round_off_of_zero_for_a_while_happens_once() {
+    let start = State::new(0.0, SVector::from([0.0]), SVector::zeros());
+    let fixed = Options::new(8.0, Method::Rk4, StepControl::Fixed { step: 0.05 });
+    for options in [Options::dp5(8.0, 1e-6), Options::dop853(8.0, 1e-9), fixed] {
+        for until in [0.31, 0.65, 0.7, 1.3, 2.2, 3.7, 7.3] {
+            let mut mechanism = Timed::default();
+            mechanism.parameters.until = until;
+            let mut diary = Diary::default();
+            simulate::<_, _, 1, 0>(&mechanism, &start, &options, &mut [&mut diary])
+                .unwrap_or_else(|failure| panic!("{failure}"));
+            let [(_, t, rising)] = diary.0[..] else {
+                panic!("{:?} until {until}: {:?}", options.method, diary.0);
+            };
+            // The cube root of round-off.
+            assert!(rising && (t - until).abs() < 1e-4, "{t} instead of {until}");
+        }
+    }
 }

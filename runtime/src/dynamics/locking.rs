@@ -11,13 +11,9 @@ use super::Core;
 use super::conditions::Decided;
 use super::sliding::{ROOM, sliding};
 use super::switching::{Motion, settling, switching};
+use crate::crossing::noise;
 use crate::{DynamicsError, Mechanism, Real, Sides, State, Step, Switch, Switching};
 use nalgebra::SVector;
-
-/// Functions of states within a step are off by this part of its accepted error.
-const NOISE: f64 = 0.01;
-/// The same in units of round-off, at least and with fixed steps.
-const NOISE_OF_FIXED: f64 = 4096.0;
 
 /// An attempt at a step, with who made it.
 struct Attempt<'a, T, const N: usize, const R: usize> {
@@ -197,8 +193,7 @@ impl<T: Real, const N: usize, const R: usize> Motion<T> for Attempt<'_, T, N, R>
     }
 
     fn noise(&self) -> T {
-        let tolerance = self.core.session.tolerance.unwrap_or(T::zero());
-        (tolerance * T::from_f64(NOISE)).max(T::EPSILON * T::from_f64(NOISE_OF_FIXED))
+        noise(self.core.session.tolerance)
     }
 
     fn values(&self, t: T, values: &mut [Switch<T>]) {

@@ -7,12 +7,14 @@
 //! those that come in pairs. The zero is then found by Brent's method to the round-off of
 //! time, with the function evaluated on states that are back on the constraints. An event
 //! whose function is zero at the start of a run has not happened; one that reaches zero
-//! has, even if it turns back.
+//! has, even if it turns back. It happens again once its function has been clear of zero:
+//! one that only touches zero, or stays there for a while, changes its sign as often as
+//! round-off lets it.
 //!
 //! All of that is over times and values, and compiled once for mechanisms of all sizes.
 
 use super::SimulateError;
-use crate::crossing::{Left, NODES, Samples, first_crossing, nodes, zero};
+use crate::crossing::{Left, NODES, Samples, first_crossing, nodes, noise, zero};
 use crate::linalg::column;
 use crate::once::compiled_once;
 use crate::{Direction, DynamicsError, Event, Occurrence, Probe, Real, State, Step, Watched};
@@ -21,6 +23,8 @@ use crate::{Direction, DynamicsError, Event, Occurrence, Probe, Real, State, Ste
 const ROOM: usize = 64;
 /// An event can happen again after this multiple of the round-off of time.
 const SAME_TIME: f64 = 8.0;
+/// A function is clear of zero beyond this part of its size in a step, even if it goes back.
+const CLEARLY: f64 = 1e-6;
 
 /// Writes the event functions of a mechanism at a state.
 pub(super) type Functions<'a, T, const N: usize> = &'a dyn Fn(&State<T, N>, &mut [T]);
@@ -29,8 +33,13 @@ pub(super) type Functions<'a, T, const N: usize> = &'a dyn Fn(&State<T, N>, &mut
 #[derive(Clone, Debug)]
 pub(crate) struct Events<T> {
     events: &'static [Event],
-    /// The signs that the functions had last; zero where they were zero.
+    /// The signs that the functions had last; zero where they have not been clear of zero
+    /// since.
     sides: [T; ROOM],
+    /// How large the functions are in the step at hand and in those shortly before.
+    sizes: [T; ROOM],
+    /// What they are off by, relative to that.
+    noise: T,
     /// When each event happens next within the step at hand.
     next: [Option<Next<T>>; ROOM],
 }
@@ -73,17 +82,18 @@ pub(crate) struct Along<'a, T> {
     write: &'a mut Write<'a, T>,
 }
 
-impl<T: Real> Default for Events<T> {
-    fn default() -> Self {
+impl<T: Real> Events<T> {
+    /// None yet, in steps that follow a tolerance, if they do.
+    pub(super) fn new(tolerance: Option<T>) -> Self {
         Self {
             events: &[],
             sides: [T::zero(); ROOM],
+            sizes: [T::zero(); ROOM],
+            noise: noise(tolerance),
             next: [None; ROOM],
         }
     }
-}
 
-impl<T: Real> Events<T> {
     /// Begins at the initial state.
     pub(super) fn begin<const N: usize>(
         &mut self,
@@ -173,7 +183,21 @@ impl<T: Real> Events<T> {
         for index in 0..self.events.len() {
             let values = values_of(index);
             let samples = Samples { times, values };
-            self.next[index] = self.search(along, index, samples)?;
+            // After a long step a short one sees nothing but what is near zero.
+            let before = self.sizes[index] * T::from_f64(0.5);
+            self.sizes[index] = samples.size().max(before);
+            let side = &mut self.sides[index];
+            if values[0].abs() > T::from_f64(CLEARLY) * self.sizes[index] && *side == T::zero() {
+                *side = values[0].sign();
+            }
+            let samples = match *side == T::zero() {
+                true => self.rest(along, index, along.ends.0)?,
+                false => Some(samples),
+            };
+            self.next[index] = match samples {
+                Some(samples) => self.search(along, index, samples)?,
+                None => None,
+            };
         }
         Ok(())
     }
@@ -259,8 +283,8 @@ impl<T: Real> Events<T> {
     }
 
     /// Samples of a function in what is left of a step after it was zero: from where it has
-    /// clearly left zero, to whichever side. Before that round-off may change its sign very
-    /// many times.
+    /// clearly left zero, to whichever side. Before that noise may change its sign very many
+    /// times.
     fn rest(
         &mut self,
         along: &mut Along<'_, T>,
@@ -268,12 +292,13 @@ impl<T: Real> Events<T> {
         from: T,
     ) -> Result<Option<Samples<T>>, DynamicsError<T>> {
         self.sides[index] = T::zero();
+        let noise = self.noise * self.sizes[index];
         let to = along.ends.1;
         let mut value = |t| along.value(self.events, t, On::Interpolant, index);
         let mut pause = T::EPSILON * T::from_f64(SAME_TIME) * from.abs().max(to.abs());
         while from + pause + pause < to {
             let (begin, end) = (from + pause, from + pause + pause);
-            if let Some(side) = Samples::of(&mut value, (begin, end))?.leaves_zero() {
+            if let Some(side) = Samples::of(&mut value, (begin, end))?.leaves_zero(noise) {
                 self.sides[index] = side;
                 return Samples::of(&mut value, (begin, to)).map(Some);
             }

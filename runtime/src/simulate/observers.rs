@@ -44,7 +44,7 @@ impl<'a, 'b, T: Real, const N: usize> Observers<'a, 'b, T, N> {
             constraints: constraints.then(ConstraintAudit::new),
             energy: energy.then(|| EnergyAudit::of(tolerance)),
             passages: (rows > 0 && passages).then_some(0),
-            events: Events::default(),
+            events: Events::new(options.step_control.tolerance()),
             observers,
         }
     }

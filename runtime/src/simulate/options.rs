@@ -21,6 +21,16 @@ pub enum StepControl<T> {
     },
 }
 
+impl<T: Copy> StepControl<T> {
+    /// Accepted error of a step, relative, if the steps follow one.
+    pub(super) fn tolerance(&self) -> Option<T> {
+        match self {
+            Self::Fixed { .. } => None,
+            Self::Adaptive { relative, .. } => Some(*relative),
+        }
+    }
+}
+
 /// What is checked along the way, for the summary. Each check costs a little.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Audit {
