@@ -199,15 +199,15 @@ pub struct WorkPrecision {
     /// Forms of the equations of motion, with commas between them [default: all]
     #[arg(long, value_enum, value_delimiter = ',')]
     pub forms: Vec<FormName>,
-    /// Change a parameter, or hold an input at a value
-    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::setting)]
-    pub set: Vec<Setting>,
+    /// Change a parameter, hold an input at a value, or give it a formula
+    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::settings)]
+    pub set: Vec<Choice<Setting>>,
     /// Hold a coordinate, or a velocity der(NAME), at a value at the start (NAME=VALUE), or
     /// guess it (NAME~VALUE)
-    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::start)]
-    pub start: Vec<Assignment>,
+    #[arg(long, value_name = "NAME=VALUE", value_parser = formula::starts)]
+    pub start: Vec<Choice<Assignment>>,
     /// Draw time over error
-    #[arg(long, value_name = "FILE.svg")]
+    #[arg(long, value_name = "FILE.svg|.png|.pdf")]
     pub out: Option<PathBuf>,
     /// Write the numbers behind the drawing
     #[arg(long, value_name = "FILE.csv")]

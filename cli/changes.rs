@@ -5,7 +5,9 @@
 
 use crate::error::CommandError;
 use crate::formula::{Assignment, Setting};
+use crate::mechanism::description;
 use crate::mistakes::{all, both};
+use bricard_codegen::internals::syntax::parse;
 use bricard_driver::{AnyMechanism, Changes, Given};
 use bricard_runtime::{Quantity, Structure};
 
@@ -14,7 +16,7 @@ use bricard_runtime::{Quantity, Structure};
 ///
 /// # Errors
 ///
-/// [`CommandError::UnknownName`], [`CommandError::Twice`].
+/// [`CommandError::UnknownName`], [`CommandError::Twice`], [`CommandError::Law`].
 pub fn find(
     structure: &Structure,
     owner: &str,
@@ -70,30 +72,36 @@ fn put(
         (Some(index), _) => changes.parameters.push((index, assignment.value)),
         (None, Some(index)) => changes.inputs.push((index, assignment.value)),
         (None, None) => {
-            let all = structure.parameters.iter().chain(structure.inputs);
-            let known = all.map(|quantity| quantity.name.to_string()).collect();
-            let name = &assignment.name;
-            return Err(unknown("parameter or input", owner, name, known));
+            return Err(not_there(structure, owner, &assignment.name));
         }
     }
     Ok(())
 }
 
-/// Refuses a formula for what is a number, or where laws are not taken.
+/// Refuses a formula for what is a number, or nothing.
 fn no_law(structure: &Structure, owner: &str, name: &str, why: &str) -> Result<(), CommandError> {
     if place(structure.parameters, name).is_some() {
         let (name, reason) = (name.to_string(), format!("{why}; a parameter is a number"));
         return Err(CommandError::Law { name, reason });
     }
-    if place(structure.inputs, name).is_some() {
-        let reason = "an input has a formula in `simulate` and `watch` alone; elsewhere give it a \
-                      number";
-        let (name, reason) = (name.to_string(), reason.to_string());
-        return Err(CommandError::Law { name, reason });
+    Err(not_there(structure, owner, name))
+}
+
+/// A name that is no parameter and no input.
+fn not_there(structure: &Structure, owner: &str, name: &str) -> CommandError {
+    // What the description says of it is worth a look, if it is still there.
+    let parsed = description(owner).ok().and_then(|d| parse(&d.source).ok());
+    if parsed.is_some_and(|model| model.is_constant(name)) {
+        let reason = format!(
+            "it is a constant, which is a number in the code; where the description says `const \
+             {name}`, write `param {name}`"
+        );
+        let name = name.to_string();
+        return CommandError::Law { name, reason };
     }
     let all = structure.parameters.iter().chain(structure.inputs);
     let known = all.map(|quantity| quantity.name.to_string()).collect();
-    Err(unknown("parameter or input", owner, name, known))
+    unknown("parameter or input", owner, name, known)
 }
 
 /// Refuses a name that is given two values, of which the last would win silently.

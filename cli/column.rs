@@ -29,7 +29,7 @@ fn every(count: usize, column: fn(usize) -> Column) -> Vec<Column> {
     (0..count).map(column).collect()
 }
 
-/// The columns that words ask for. An output that is called like a word is
+/// The columns that words ask for, each once. An output that is called like a word is
 /// what the word means.
 ///
 /// # Errors
@@ -48,7 +48,13 @@ pub fn columns(
             false => Ok(found),
         }
     });
-    Ok(all(found)?.concat())
+    let mut once = Vec::new();
+    for column in all(found)?.concat() {
+        if !once.contains(&column) {
+            once.push(column);
+        }
+    }
+    Ok(once)
 }
 
 /// The columns that one word stands for: an output, else a word that is known, else the
@@ -96,6 +102,9 @@ fn no_column(word: &str, structure: &Structure) -> Option<String> {
     let has = |list: &[Quantity]| list.iter().any(|x| x.name == word);
     if heads(structure).iter().any(|head| head == word) {
         return Some("is in every row; `--columns` adds others".to_string());
+    }
+    if KINDS.iter().any(|(kind, _)| *kind == word) {
+        return Some(format!("stands for all {word}, and there are none"));
     }
     if has(structure.parameters) {
         return Some("is a parameter, which stays as it is; leave it out".to_string());

@@ -31,6 +31,8 @@ pub enum CommandError {
         /// What there is.
         known: Vec<String>,
     },
+    /// A name that no mechanism of the library has, beside the file that is meant.
+    NameOfFile(PathBuf),
     /// A name of something that is no column to add.
     NoColumn {
         /// The name.
@@ -54,7 +56,7 @@ pub enum CommandError {
         /// The name.
         name: String,
     },
-    /// A formula that can't be the value of a name.
+    /// What a name can't be set to, or at all.
     Law {
         /// The name.
         name: String,
@@ -217,6 +219,7 @@ impl CommandError {
         match self {
             Self::Several(all) => all.first().map_or(FAILED, Self::status),
             Self::UnknownName { .. }
+            | Self::NameOfFile(_)
             | Self::NoColumn { .. }
             | Self::OutOfRange { .. }
             | Self::Twice { .. }
@@ -252,6 +255,7 @@ impl Display for CommandError {
                 names,
                 known,
             } => unknown_names(f, kind, owner, names, known),
+            Self::NameOfFile(file) => name_of_file(f, file),
             Self::NoColumn { name, reason } => write!(f, "`{name}` {reason}"),
             Self::OutOfRange {
                 option,
@@ -351,8 +355,12 @@ fn unwritten(f: &mut Formatter<'_>, path: &Path, error: &io::Error) -> fmt::Resu
 }
 
 /// The file of the same kind in a folder whose name is most like that of one that is not
-/// there.
+/// there, or the description of that name.
 fn similar(path: &Path) -> Option<PathBuf> {
+    let description = path.with_extension("mech");
+    if path.extension().is_none() && description.is_file() {
+        return Some(description);
+    }
     let folder = path.parent()?;
     let here = if folder == Path::new("") {
         Path::new(".")
@@ -376,6 +384,15 @@ fn no_file(f: &mut Formatter<'_>, name: &str) -> fmt::Result {
     write!(
         f,
         "`{name}` is a name, and this takes the file of a description, such as `./{name}.mech`"
+    )
+}
+
+fn name_of_file(f: &mut Formatter<'_>, file: &Path) -> fmt::Result {
+    write!(
+        f,
+        "there is no mechanism `{}` in the library; for the description here write its file, `{}`",
+        file.with_extension("").display(),
+        file.display()
     )
 }
 

@@ -16,7 +16,8 @@ use std::path::{self, Path};
 ///
 /// # Errors
 ///
-/// [`CommandError::UnknownName`]; what stands in the way of the file.
+/// [`CommandError::UnknownName`], [`CommandError::NameOfFile`]; what stands in the way of the
+/// file.
 pub fn find(name: &str) -> Result<Box<dyn AnyMechanism>, CommandError> {
     if let Some(file) = file(name) {
         return Ok(Box::new(compiled::open(file)?));
@@ -25,6 +26,10 @@ pub fn find(name: &str) -> Result<Box<dyn AnyMechanism>, CommandError> {
 }
 
 fn unknown(name: &str) -> CommandError {
+    let file = Path::new(name).with_extension("mech");
+    if file.is_file() {
+        return CommandError::NameOfFile(file);
+    }
     CommandError::UnknownName {
         kind: "mechanism",
         owner: String::new(),

@@ -61,7 +61,7 @@ const SMALLEST: f64 = 1e-9;
 ///
 /// # Errors
 ///
-/// As [`svg::write`](super::svg::write).
+/// [`CommandError::Draw`] and [`CommandError::Write`].
 pub fn frames(path: &Path, title: &str, frames: &[Frame]) -> Result<(), CommandError> {
     let text = frames_as_svg(&Sheet::screen(path, title), frames)?;
     fs::write(path, text).map_err(|error| CommandError::write(path, error))

@@ -1,6 +1,6 @@
 //! Panels of curves over time, one below the other.
 
-use super::axis::{power_of_ten, px, short};
+use super::axis::{Axis, power_of_ten, px};
 use super::curve::{Curve, curves, has_place};
 use super::legend::{self, Entry, Kind};
 use super::style::{DETAIL, DOT, FONT, GRID, HEADING, INK, STROKE, TEXT, colour, mark};
@@ -17,10 +17,12 @@ const WIDTH: u32 = 860;
 const PANEL: u32 = 190;
 /// Height that the axis of time adds to the last panel (pixels).
 const TIME_AXIS: u32 = 44;
-/// Width of the vertical axis with its labels (pixels).
-const LABELS: u32 = 78;
+/// Width of the vertical axis without its labels (pixels).
+const BESIDE_LABELS: u32 = 36;
+/// Margins to the left and to the right of a diagram (pixels).
+const MARGINS: (u32, u32) = (14, 8);
 /// Width that a tick of time has for its number (pixels), about.
-const WIDTH_OF_TICK: u32 = 92;
+const WIDTH_OF_TICK: u32 = 75;
 /// Spans of time shorter than this part of the time itself are not drawn.
 const SHORTEST: f64 = 1e-9;
 /// Lines of the grid, about.
@@ -48,7 +50,7 @@ pub struct Marks {
 ///
 /// # Errors
 ///
-/// As [`svg::write`](super::svg::write).
+/// [`CommandError::Draw`] and [`CommandError::Write`].
 pub fn panels(
     path: &Path,
     title: &str,
@@ -87,38 +89,66 @@ pub fn panels_as_svg(
         Some(width) => width - beside.min(width / 2),
         None => WIDTH,
     };
+    let ranges = panels.iter().zip(&prepared);
+    let axes: Vec<Axis> = ranges
+        .map(|(panel, (_, range))| vertical(panel.scale, *range))
+        .collect();
+    let labels = BESIDE_LABELS + axes.iter().map(Axis::longest).fold(0.0, f64::max) as u32;
+    let inside = wide - labels;
     let heads: Vec<u32> = match narrow {
         true => legends
             .iter()
-            .map(|legend| legend::height(legend, wide - LABELS))
+            .map(|legend| legend::height(legend, inside))
             .collect(),
         false => vec![0; panels.len()],
     };
     let count = u32::try_from(panels.len()).unwrap_or(1);
     let height = sheet.head() + PANEL * count + heads.iter().sum::<u32>() + TIME_AXIS;
-    let mut known = times.values.iter().copied().filter(|t| has_place(*t));
-    let from = known.next().unwrap_or(0.0);
-    let time = widened((from, known.next_back().unwrap_or(from)));
+    let time = axis_of_time(times.values, inside - MARGINS.0 - MARGINS.1);
     sheet.draw((width.unwrap_or(WIDTH + beside), height), |root| {
         let (head, mut rest) = root.split_vertically(sheet.head() * DETAIL);
         if sheet.head() > 0 {
-            heading(&head, sheet.title)?;
+            heading(&head, sheet.title, labels)?;
         }
-        for (i, (panel, (curves, range))) in panels.iter().zip(&prepared).enumerate() {
+        for (i, (panel, (curves, _))) in panels.iter().zip(&prepared).enumerate() {
             let last = i + 1 == panels.len();
             let (above, below) = rest.split_vertically(heads[i] * DETAIL);
             let height = if last { PANEL + TIME_AXIS } else { PANEL };
             let (area, below) = below.split_vertically(height * DETAIL);
             let (left, right) = area.split_horizontally(wide * DETAIL);
-            diagram(&left, panel, curves, (time, *range), (&happens, last))?;
+            let axes = (&time, &axes[i], labels);
+            diagram(&left, panel, curves, axes, (&happens, last))?;
             match narrow {
-                true => legend::above(&above, &legends[i], LABELS, wide - LABELS)?,
+                true => legend::above(&above, &legends[i], labels, inside)?,
                 false => legend::beside(&right, &legends[i], PANEL)?,
             }
             rest = below;
         }
         Ok(())
     })
+}
+
+/// The axis of some times, so wide (pixels).
+fn axis_of_time(times: &[f64], width: u32) -> Axis {
+    let mut known = times.iter().copied().filter(|t| has_place(*t));
+    let from = known.next().unwrap_or(0.0);
+    let range = widened((from, known.next_back().unwrap_or(from)));
+    Axis::numbers_across(range, (width / WIDTH_OF_TICK) as usize + 1, width)
+}
+
+/// The axis of values in a range.
+fn vertical(scale: Scale, range: Range) -> Axis {
+    let decades = (range.1 - range.0).ceil() as usize;
+    match scale {
+        Scale::Linear => Axis::numbers(range, TICKS),
+        Scale::Whole => Axis::whole(range, TICKS, |y| format!("{y:.0}")),
+        Scale::Logarithmic { low, .. } => {
+            Axis::whole(range, decades / 2 + 1, |y| match y <= f64::from(low) {
+                true => format!("≤{}", power_of_ten(y)),
+                false => power_of_ten(y),
+            })
+        }
+    }
 }
 
 /// What explains the curves and the marks of a panel; the first one explains the marks.
@@ -135,9 +165,9 @@ fn entries(curves: &[Curve], happens: &[&Marks]) -> Vec<Entry> {
     curves.iter().map(curve).chain(marks).collect()
 }
 
-fn heading(area: &Area, title: &str) -> Drawn {
+fn heading(area: &Area, title: &str, left: u32) -> Drawn {
     let style = TextStyle::from((FONT, HEADING).into_font()).color(&INK);
-    area.draw(&Text::new(title.to_string(), px(LABELS, 10), style))
+    area.draw(&Text::new(title.to_string(), px(left, 10), style))
 }
 
 type Range = (f64, f64);
@@ -146,45 +176,44 @@ fn diagram(
     area: &Area,
     panel: &Panel,
     curves: &[Curve],
-    (time, range): (Range, Range),
+    (time, axis, labels): (&Axis, &Axis, u32),
     (marks, last): (&[&Marks], bool),
 ) -> Drawn {
+    let below = if last { TIME_AXIS } else { 0 };
+    let above = axis.head();
     let mut chart = ChartBuilder::on(area)
-        .margin_top(12 * DETAIL)
+        .margin_top(above * DETAIL)
         .margin_bottom(10 * DETAIL)
-        .margin_left(14 * DETAIL)
-        .margin_right(8 * DETAIL)
-        .set_label_area_size(LabelAreaPosition::Left, LABELS * DETAIL)
-        .set_label_area_size(
-            LabelAreaPosition::Bottom,
-            if last { TIME_AXIS * DETAIL } else { 0 },
-        )
-        .build_cartesian_2d(time.0..time.1, range.0..range.1)?;
-    let label = |y: &f64| tick(*y, panel.scale, range);
+        .margin_left(MARGINS.0 * DETAIL)
+        .margin_right(MARGINS.1 * DETAIL)
+        .set_label_area_size(LabelAreaPosition::Left, labels * DETAIL)
+        .set_label_area_size(LabelAreaPosition::Bottom, below * DETAIL)
+        .build_cartesian_2d(time.clone(), axis.clone())?;
+    let text = TextStyle::from((FONT, TEXT).into_font()).color(&INK);
     chart
         .configure_mesh()
         .disable_x_mesh()
         .max_light_lines(0)
         .bold_line_style(GRID.stroke_width(DETAIL))
         .axis_style(INK.stroke_width(DETAIL))
-        .label_style(TextStyle::from((FONT, TEXT).into_font()).color(&INK))
-        .axis_desc_style(TextStyle::from((FONT, TEXT).into_font()).color(&INK))
+        .label_style(text.clone())
+        .axis_desc_style(text)
         .set_tick_mark_size(LabelAreaPosition::Left, 5 * DETAIL)
         .set_tick_mark_size(LabelAreaPosition::Bottom, 5 * DETAIL)
-        .y_labels(ticks(panel.scale, range))
-        .x_labels((area.dim_in_pixel().0 / (WIDTH_OF_TICK * DETAIL)) as usize)
         .y_desc(panel.axis.as_str())
         .x_desc("time t [s]")
-        .y_label_formatter(&label)
-        .x_label_formatter(&|t| short(*t, time.1 - time.0))
         .draw()?;
+    axis.note_above(area, MARGINS.0 + labels)?;
+    if last {
+        time.note_below(area, MARGINS.1)?;
+    }
     for (place, marks) in marks.iter().enumerate() {
         let style = mark(place).stroke_width(DETAIL);
-        let line = |t: f64| PathElement::new(vec![(t, range.0), (t, range.1)], style);
+        let line = |t: f64| PathElement::new(vec![(t, axis.range.0), (t, axis.range.1)], style);
         let shown = marks
             .times
             .iter()
-            .filter(|t| (time.0..=time.1).contains(*t));
+            .filter(|t| (time.range.0..=time.range.1).contains(*t));
         chart.draw_series(shown.map(|t| line(*t)))?;
     }
     for curve in curves {
@@ -208,27 +237,5 @@ fn widened((from, to): Range) -> Range {
     match to - from > SHORTEST * size {
         true => (from, to),
         false => (from, from + size.max(1.0)),
-    }
-}
-
-/// How many ticks the vertical axis has, about.
-fn ticks(scale: Scale, range: Range) -> usize {
-    match scale {
-        Scale::Linear => TICKS,
-        Scale::Whole => TICKS.min(((range.1 - range.0) as usize).saturating_add(1)),
-        Scale::Logarithmic { .. } => {
-            (((range.1 - range.0) / 2.0).ceil() as usize).saturating_add(1)
-        }
-    }
-}
-
-/// The text at a tick of the vertical axis.
-fn tick(y: f64, scale: Scale, range: Range) -> String {
-    match scale {
-        Scale::Linear => short(y, range.1 - range.0),
-        Scale::Whole if (y - y.round()).abs() > 1e-9 => String::new(),
-        Scale::Whole => format!("{y:.0}"),
-        Scale::Logarithmic { low, .. } if y <= f64::from(low) => format!("≤{}", power_of_ten(y)),
-        Scale::Logarithmic { .. } => power_of_ten(y),
     }
 }

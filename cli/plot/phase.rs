@@ -1,7 +1,7 @@
 //! One quantity over another: a phase portrait.
 
 use super::Sheet;
-use super::axis::{px, short};
+use super::axis::{Axis, px};
 use super::curve::has_place;
 use super::legend::{self, Entry, Kind};
 use super::style::{DETAIL, FONT, GRID, HEADING, INK, STROKE, TEXT, colour};
@@ -10,8 +10,12 @@ use plotters::prelude::*;
 
 /// Size of a picture (pixels).
 const SIZE: (u32, u32) = (620, 484);
-/// Width of the vertical axis with its labels (pixels).
-const LABELS: u32 = 78;
+/// Width of the vertical axis without its labels (pixels).
+const BESIDE_LABELS: u32 = 36;
+/// Width that a tick has (pixels), about.
+const WIDTH_OF_TICK: u32 = 90;
+/// Margin around the diagram (pixels).
+const EDGE: u32 = 12;
 /// Margin around the values, as a part of their range.
 const MARGIN: f64 = 0.06;
 /// Points of a curve, at most.
@@ -42,7 +46,12 @@ pub fn phase_as_svg(
     let y = range(all().filter(placed).map(|point| point.1));
     let legend = entries(portraits);
     let width = sheet.pixels().unwrap_or(SIZE.0);
-    let above = legend::height(&legend, width - LABELS);
+    let most = (width / WIDTH_OF_TICK) as usize;
+    let up_axis = Axis::numbers(y, most);
+    let labels = BESIDE_LABELS + up_axis.longest() as u32;
+    let inside = width - labels - 2 * EDGE;
+    let across_axis = Axis::numbers_across(x, most, inside);
+    let above = legend::height(&legend, width - labels);
     let height = width * SIZE.1 / SIZE.0 + sheet.head() + above;
     sheet.draw((width, height), |root| {
         let (head, rest) = root.split_vertically((sheet.head() + above) * DETAIL);
@@ -50,15 +59,15 @@ pub fn phase_as_svg(
         let (title, explained) = head.split_vertically(sheet.head() * DETAIL);
         if sheet.head() > 0 {
             let heading = sheet.title.to_string();
-            title.draw(&Text::new(heading, px(LABELS, 10), style(HEADING)))?;
+            title.draw(&Text::new(heading, px(labels, 10), style(HEADING)))?;
         }
-        legend::above(&explained, &legend, LABELS, width - LABELS)?;
-        let labels = (width / 90) as usize;
+        legend::above(&explained, &legend, labels, width - labels)?;
         let mut chart = ChartBuilder::on(&rest)
-            .margin(12 * DETAIL)
-            .set_label_area_size(LabelAreaPosition::Left, LABELS * DETAIL)
+            .margin(EDGE * DETAIL)
+            .margin_top(up_axis.head() * DETAIL)
+            .set_label_area_size(LabelAreaPosition::Left, labels * DETAIL)
             .set_label_area_size(LabelAreaPosition::Bottom, 44 * DETAIL)
-            .build_cartesian_2d(x.0..x.1, y.0..y.1)?;
+            .build_cartesian_2d(across_axis.clone(), up_axis.clone())?;
         chart
             .configure_mesh()
             .max_light_lines(0)
@@ -66,13 +75,11 @@ pub fn phase_as_svg(
             .axis_style(INK.stroke_width(DETAIL))
             .label_style(style(TEXT))
             .axis_desc_style(style(TEXT))
-            .x_labels(labels)
-            .y_labels(labels)
             .x_desc(across)
             .y_desc(up)
-            .x_label_formatter(&|value| short(*value, x.1 - x.0))
-            .y_label_formatter(&|value| short(*value, y.1 - y.0))
             .draw()?;
+        up_axis.note_above(&rest, EDGE + labels)?;
+        across_axis.note_below(&rest, EDGE)?;
         for (place, portrait) in portraits.iter().enumerate() {
             let points = || portrait.points.iter().filter(placed).copied();
             let step = portrait.points.len().div_ceil(POINTS).max(1);

@@ -1,30 +1,15 @@
-//! Drawings to SVG files.
+//! Drawings to the text of SVG files.
 
 use super::style::DETAIL;
 use crate::error::CommandError;
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use std::fs;
 use std::path::Path;
 
 /// What drawing on the SVG backend can come to.
 pub type Drawn = Result<(), DrawingAreaErrorKind<std::io::Error>>;
 /// A part of a picture.
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-
-/// Draws a picture of a size (pixels) and writes it, whole or not at all.
-///
-/// # Errors
-///
-/// [`CommandError::Draw`] and [`CommandError::Write`].
-pub fn write(
-    path: &Path,
-    size: (u32, u32),
-    draw: impl FnOnce(&Area) -> Drawn,
-) -> Result<(), CommandError> {
-    let text = text(path, size, draw)?;
-    fs::write(path, text).map_err(|error| CommandError::write(path, error))
-}
 
 /// Draws a picture of a size (pixels); `path` is where it will go, for messages.
 ///

@@ -47,14 +47,14 @@ pub enum Mark {
     Triangle,
 }
 
-/// Draws time (s) over error.
+/// Draws time (s) over error; `path` is where it will go, for messages.
 ///
 /// # Errors
 ///
-/// As [`svg::write`].
-pub fn work_diagram(path: &Path, title: &str, clouds: &[Cloud]) -> Result<(), CommandError> {
+/// As [`svg::text`].
+pub fn work_diagram(path: &Path, title: &str, clouds: &[Cloud]) -> Result<String, CommandError> {
     let size = (SIZE.0 + LEGEND, SIZE.1 + TITLE);
-    svg::write(path, size, |root| {
+    svg::text(path, size, |root| {
         let (head, rest) = root.split_vertically(TITLE * DETAIL);
         let style = TextStyle::from((FONT, HEADING).into_font()).color(&INK);
         head.draw(&Text::new(title.to_string(), px(86, 10), style))?;

@@ -33,6 +33,10 @@ pub fn skipped(mechanism: &Mechanism, equations: &Equations, programs: &Programs
     }
 }
 
+fn counted(operations: usize) -> String {
+    plural(operations, "operation", "operations")
+}
+
 /// All operations.
 fn operations(cost: Cost) -> usize {
     cost.sums + cost.products + cost.quotients + cost.angles + cost.functions
@@ -53,10 +57,10 @@ fn coriolis(graph: &Graph, equations: &Equations) -> Option<String> {
     // Christoffel symbols take n²(n + 1)/2 slopes of M; each entry n² products with them.
     let each = 2 * n * n;
     (absent > 0).then(|| match absent == n {
-        true => format!("Coriolis terms: there are none; {} operations", n * each),
+        true => format!("Coriolis terms: there are none; {}", counted(n * each)),
         false => format!(
-            "Coriolis terms that are zero, {absent} of {n}; {} operations",
-            absent * each
+            "Coriolis terms that are zero, {absent} of {n}; {}",
+            counted(absent * each)
         ),
     })
 }
@@ -65,7 +69,7 @@ fn coriolis(graph: &Graph, equations: &Equations) -> Option<String> {
 fn constant_mass(graph: &Graph, equations: &Equations) -> Option<String> {
     let (n, _) = equations.sizes();
     equations.has_constant_mass(graph).then(|| {
-        format!("slopes of M, and its factorisation but for the first: M is constant; {} operations a factorisation", (n * n * n + 2 * n) / 3)
+        format!("slopes of M, and its factorisation but for the first: M is constant; {} a factorisation", counted((n * n * n + 2 * n) / 3))
     })
 }
 
@@ -84,8 +88,9 @@ fn solve(graph: &Graph, equations: &Equations, programs: &Programs) -> Option<St
     let dense = cube(n) + n * n * r + n * r * r + cube(r) + 2 * n * n + 2 * r * r + 4 * n * r;
     (absent > 0 && spent < dense).then(|| {
         format!(
-            "zeros of M and G in the solve: {absent} of {} entries; {spent} operations instead of {dense}",
-            n * n + 2 * n * r
+            "zeros of M and G in the solve: {absent} of {} entries; {} instead of {dense}",
+            n * n + 2 * n * r,
+            counted(spent)
         )
     })
 }
@@ -193,14 +198,14 @@ fn on_request(mechanism: &Mechanism, programs: &Programs) -> Option<String> {
         true => operations(programs.signals.cost),
         false => 0,
     };
-    let counted = [
+    let costs = [
         ("the energies", operations(programs.energy.cost)),
         ("outputs", operations(programs.outputs.cost) + signals),
     ];
-    let said: Vec<String> = counted
+    let said: Vec<String> = costs
         .into_iter()
         .filter(|(_, spent)| *spent > 0)
-        .map(|(name, spent)| format!("{name} ({spent} operations)"))
+        .map(|(name, spent)| format!("{name} ({})", counted(spent)))
         .collect();
     (!said.is_empty()).then(|| format!("{}, until they are asked for", said.join(" and ")))
 }

@@ -65,7 +65,7 @@ pub fn series(
         points: Vec::new(),
         failed: None,
     };
-    for (setting, step_control) in settings(method) {
+    for (setting, step_control) in settings(method, until) {
         let mut options = Options::new(until, method.into(), step_control);
         options.settings.form = form.into();
         options.audit = Audit::NONE;
@@ -89,12 +89,13 @@ pub fn series(
     series
 }
 
-/// The settings of a method, and what to call them.
-fn settings(method: MethodName) -> Vec<(String, StepControl<f64>)> {
+/// The settings of a method, and what to call them; steps are no longer than the run.
+fn settings(method: MethodName, until: f64) -> Vec<(String, StepControl<f64>)> {
     if method == MethodName::Rk4 {
         let step = |halving: i32| LONGEST_STEP * 0.5_f64.powi(halving);
         let of = |step| (format!("h = {step}"), StepControl::Fixed { step });
-        return (0..HALVINGS).map(step).map(of).collect();
+        let steps = (0..HALVINGS).map(step).filter(|step| *step <= until);
+        return steps.map(of).collect();
     }
     let adaptive = |exponent: i32| {
         let tolerance = 10.0_f64.powi(-exponent);

@@ -8,16 +8,33 @@ mod reference;
 
 use crate::arguments::{FormName, MethodName, WorkPrecision};
 use crate::changes;
-use crate::error::CommandError;
+use crate::error::{CommandError, TooMany};
 use crate::files::apart;
-use crate::mechanism::find;
+use crate::formula::Choice;
+use crate::law::{described_with, find_with};
+use crate::mistakes::both;
 use crate::output::{print, probe, say};
 use crate::plot::{Cloud, Mark, work_diagram};
+use crate::raster;
 use crate::table::{Align, headed};
 use clap::ValueEnum;
 use measure::{Series, series};
 use reference::exact;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// Kinds of files, and what to write instead of others.
+type Kinds = (&'static [&'static str], &'static str);
+
+/// What the diagram can be written to.
+const DRAWINGS: Kinds = (
+    &["svg", "png", "pdf"],
+    "the diagram is SVG, PNG or PDF; write `--out work.svg`, `--out work.png` or `--out work.pdf`",
+);
+/// What the numbers behind it can be written to.
+const TABLES: Kinds = (
+    &["csv", "txt", "dat"],
+    "the numbers are written as CSV; write `--csv work.csv`",
+);
 
 /// Measures all methods and forms.
 ///
@@ -35,15 +52,24 @@ pub fn workprecision(arguments: &WorkPrecision) -> Result<(), CommandError> {
     }
     let written = [("--out", &arguments.out), ("--csv", &arguments.csv)];
     apart(&arguments.name, &written)?;
-    let mut mechanism = find(&arguments.name)?;
+    both(
+        kind(&arguments.out, &DRAWINGS),
+        kind(&arguments.csv, &TABLES),
+    )?;
+    let (set, start) = both(
+        single(&arguments.set, |set| format!("--set {}", set.name())),
+        single(&arguments.start, |start| format!("--start {}", start.name)),
+    )?;
+    let (mut mechanism, numbers) = find_with(&arguments.name, &set)?;
     let structure = mechanism.structure();
-    let changes = changes::find(structure, &arguments.name, &arguments.set, &arguments.start)?;
+    let changes = changes::find(structure, &arguments.name, &numbers, &start)?;
     changes::apply(&changes, mechanism.as_mut());
     for path in [&arguments.out, &arguments.csv].into_iter().flatten() {
         probe(path)?;
     }
     say("computing the motion to compare with, in numbers of 106 bits");
-    let exact = exact(&arguments.name, &changes, arguments.until)?;
+    let described = described_with(&arguments.name, &set)?;
+    let exact = exact(&described, &changes, arguments.until)?;
     let forms = forms(&arguments.forms, structure.constraints.is_empty());
     let mut all = Vec::new();
     for method in methods(&arguments.methods) {
@@ -193,5 +219,37 @@ fn draw(path: &Path, arguments: &WorkPrecision, all: &[Series]) -> Result<(), Co
         })
         .collect();
     let title = format!("{}: {} s of motion", arguments.name, arguments.until);
-    work_diagram(path, &title, &clouds)
+    raster::write(path, &work_diagram(path, &title, &clouds)?, false)
+}
+
+/// The values of an option that takes one for each name.
+fn single<T: Clone>(
+    choices: &[Choice<T>],
+    called: impl Fn(&T) -> String,
+) -> Result<Vec<T>, CommandError> {
+    let value = |choice: &Choice<T>| match choice.all().count() {
+        1 => Ok(choice.first.clone()),
+        count => Err(CommandError::Runs(TooMany {
+            what: "workprecision measures one mechanism from one start",
+            varied: called(&choice.first),
+            count,
+            instead: "give it one value",
+        })),
+    };
+    choices.iter().map(value).collect()
+}
+
+/// Refuses a kind of file that can't be written.
+fn kind(path: &Option<PathBuf>, (kinds, instead): &Kinds) -> Result<(), CommandError> {
+    let known = |path: &Path| {
+        let ending = path.extension();
+        ending.is_some_and(|ending| kinds.iter().any(|kind| ending.eq_ignore_ascii_case(kind)))
+    };
+    match path {
+        Some(path) if !known(path) => Err(CommandError::FileKind {
+            path: path.clone(),
+            instead,
+        }),
+        _ => Ok(()),
+    }
 }

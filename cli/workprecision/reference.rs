@@ -1,11 +1,12 @@
 //! What runs are compared with: the same motion in numbers of 106 bits.
 //!
-//! In:  a name, what is changed, the time of the end.
+//! In:  a description, what is changed, the time of the end.
 //! Out: the coordinates there.
 
+use crate::compiled::open_precise;
+use crate::description::Description;
 use crate::error::CommandError;
-use crate::mechanism::precise;
-use bricard_driver::{Changes, Exact};
+use bricard_driver::{Changes, Exact, Precise};
 
 /// Computes a motion with the parameters that runs in `f64` have, rounded as they are
 /// there.
@@ -13,10 +14,15 @@ use bricard_driver::{Changes, Exact};
 /// # Errors
 ///
 /// [`CommandError::Run`] if the mechanism can't be assembled or a run failed.
-pub fn exact(name: &str, changes: &Changes, until: f64) -> Result<Exact, CommandError> {
+pub fn exact(
+    Description { file, source }: &Description,
+    changes: &Changes,
+    until: f64,
+) -> Result<Exact, CommandError> {
     let refuse = |reason: String| CommandError::Run {
         reason: format!("the motion to compare with could not be computed: {reason}"),
         kept: String::new(),
     };
-    precise(name)?.exact(changes, until).map_err(refuse)
+    let mut precise = open_precise(file, source)?;
+    precise.exact(changes, until).map_err(refuse)
 }

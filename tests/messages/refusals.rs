@@ -150,6 +150,52 @@ pub const CASES: &[Case] = &[
          digits, `-` and `_`",
     ),
     (
+        "NameOfFile",
+        "simulate broken",
+        2,
+        "there is no mechanism `broken` in the library; for the description here write its file, \
+         `broken.mech`",
+    ),
+    (
+        "Read",
+        "simulate ./broken",
+        1,
+        "could not read ./broken: …; did you mean `./broken.mech`?",
+    ),
+    (
+        "Law",
+        "simulate slider_crank --set g=1.62",
+        2,
+        "`--set g=…`: it is a constant, which is a number in the code; where the description says \
+         `const g`, write `param g`",
+    ),
+    (
+        "NoColumn",
+        "simulate slider_crank --columns inputs",
+        2,
+        "`inputs` stands for all inputs, and there are none",
+    ),
+    (
+        "Runs",
+        "workprecision slider_crank --set L1=0.4,0.5",
+        2,
+        "workprecision measures one mechanism from one start, and `--set L1` asks for 2; give it \
+         one value",
+    ),
+    (
+        "FileKind",
+        "workprecision slider_crank --out work.jpg",
+        2,
+        "work.jpg can't be written: the diagram is SVG, PNG or PDF; write `--out work.svg`, `--out \
+         work.png` or `--out work.pdf`",
+    ),
+    (
+        "FileKind",
+        "workprecision slider_crank --csv work.xlsx",
+        2,
+        "work.xlsx can't be written: the numbers are written as CSV; write `--csv work.csv`",
+    ),
+    (
         "NoColumn",
         "simulate slider_crank --columns q1",
         2,

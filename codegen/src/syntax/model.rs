@@ -58,6 +58,15 @@ impl Model {
         })
     }
 
+    /// Whether a name is that of a constant of the mechanism itself.
+    #[doc(hidden)]
+    pub fn is_constant(&self, name: &str) -> bool {
+        self.items.iter().any(|item| match &item.kind {
+            ItemKind::Declaration(d) => d.kind == Declared::Constant && d.name.text == name,
+            _ => false,
+        })
+    }
+
     /// As the parser begins one.
     pub(crate) fn named(name: Name, docs: String) -> Self {
         Self {
