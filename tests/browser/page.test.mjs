@@ -350,3 +350,18 @@ test("an open page follows its file, at its time, and shows what is wrong with i
     watch.kill("SIGINT");
   }
 });
+
+test("ticks are told apart in few digits", () => {
+  const text = fs.readFileSync(path.join(import.meta.dirname, "../../cli/page/assets/text.js"), "utf8");
+  const labels = new Function(`${text}; return labels;`)();
+  for (const [ticks, texts] of [
+    [[-0.25, 0, 0.25], "−0.25 0 0.25"],
+    [[123456, 123456.5, 123457], "123456 123456.5 123457"],
+    [[1234560, 1234580, 1234600], "1.23456e6 1.23458e6 1.2346e6"],
+    [[-5e-7, 0, 5e-7, 1e-6], "−5e−7 0 5e−7 1e−6"],
+    [[9.80999, 9.81, 9.81001], "9.80999 9.81 9.81001"],
+    [[3], "3"],
+  ]) {
+    assert.equal(labels(ticks).join(" "), texts);
+  }
+});

@@ -78,7 +78,7 @@ class Curves {
       },
       axes: [
         { ...axis, values: (u, ticks) => ticks.map((t) => `${Number(t.toPrecision(10))}`), size: 32 },
-        { ...axis, size: 68, values: logarithmic ? (u, ticks) => ticks.map((y) => (y && Math.round(Math.log10(y)) % 2 === 0 ? y.toExponential(0) : "")) : (u, ticks) => ticks.map((y) => short(y, Math.abs(ticks[ticks.length - 1] - ticks[0])).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "")) },
+        { ...axis, size: (u, texts) => Math.max(68, 22 + 7 * Math.max(...(texts ?? []).map((text) => text.length))), values: logarithmic ? (u, ticks) => ticks.map((y) => (y && Math.round(Math.log10(y)) % 2 === 0 ? y.toExponential(0) : "")) : (u, ticks) => labels(ticks) },
       ],
       series: [
         { label: "t", value: (u, t) => (t === null || t === undefined ? "–" : `${Number(t.toPrecision(9))} s`) },

@@ -19,6 +19,25 @@ function short(value, range = Math.abs(value)) {
   return value.toFixed(digits).replace("-", "−");
 }
 
+/** Numbers at ticks of equal distance, in as many digits as tell them apart. */
+function labels(ticks) {
+  const step = Math.abs(ticks[1] - ticks[0]) || Math.abs(ticks[0]) || 1;
+  const order = (x) => Math.floor(Math.log10(x) + 1e-9);
+  // A step of 2.5 takes a digit more than one of 1, 2 or 5.
+  const digit = step / 10 ** order(step);
+  const whole = Math.abs(digit - Math.round(digit)) < 1e-6;
+  const last = order(step) - (whole ? 0 : 1);
+  const large = Math.max(...ticks.map(Math.abs));
+  const digits = (count) => Math.min(15, Math.max(0, count));
+  const label = (y) => {
+    if (Math.abs(y) < 1e-6 * step) return "0";
+    const powers = large >= 1e6 || large < 1e-4;
+    const text = powers ? y.toExponential(digits(order(Math.abs(y)) - last)) : y.toFixed(digits(-last));
+    return text.replace(/(\.\d*?)0+(e|$)/, "$1$2").replace(/\.(e|$)/, "$1").replace("e+", "e").replaceAll("-", "−");
+  };
+  return ticks.map(label);
+}
+
 /** Splits a description into words, numbers and comments, for colouring. */
 function* tokens(text, words) {
   const kinds = new Map();
