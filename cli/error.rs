@@ -261,9 +261,7 @@ impl Display for CommandError {
                 option,
                 value,
                 wanted,
-            } => {
-                write!(f, "{option} must be {wanted}, not {}", exact(*value))
-            }
+            } => write!(f, "{option} must be {wanted}, not {}", exact(*value)),
             Self::Twice { option, name } => {
                 write!(f, "{option} gives `{name}` two values; leave one out")
             }

@@ -512,6 +512,30 @@ fn a_file_is_compared_with_many_digits_as_the_mechanism_of_the_library_is() {
 }
 
 #[test]
+#[ignore = "long: compiles for numbers of 106 bits what all descriptions of one coordinate share"]
+fn time_is_measured_over_errors_of_a_motion_with_an_input_by_formula() {
+    let folder = folder("measured");
+    let pushed = "coord q: rad;\n    input u: N*m = 0;\n    force u on q;";
+    write(
+        &folder,
+        "plain.mech",
+        &pendulum("Measured", 1.0).replace("coord q: rad;", pushed),
+    );
+    let law = "u=3*sin(2*t)";
+    let arguments = ["workprecision", "plain.mech", "--set", law];
+    let some = ["--until", "0.05", "--methods", "rk4,dop853"];
+    let ran = done(&folder, &[&arguments[..], &some].concat());
+    let lines: Vec<&str> = ran.out.lines().collect();
+    assert!(
+        lines.iter().all(|line| !line.contains("h = 0.08")),
+        "longer than the run"
+    );
+    let errors = lines.iter().filter(|line| line.contains("tolerance 1e-13"));
+    let error = errors.filter_map(|line| line.split_whitespace().find(|x| x.contains("e-1")));
+    assert!(error.count() > 0, "{}", ran.out);
+}
+
+#[test]
 fn an_input_follows_a_formula_of_the_command_line_as_it_would_one_of_its_file() {
     let folder = folder("laws");
     let description = |law: &str| {

@@ -89,11 +89,7 @@ pub fn panels_as_svg(
         Some(width) => width - beside.min(width / 2),
         None => WIDTH,
     };
-    let ranges = panels.iter().zip(&prepared);
-    let axes: Vec<Axis> = ranges
-        .map(|(panel, (_, range))| vertical(panel.scale, *range))
-        .collect();
-    let labels = BESIDE_LABELS + axes.iter().map(Axis::longest).fold(0.0, f64::max) as u32;
+    let (axes, labels) = verticals(panels, prepared.iter().map(|(_, range)| *range));
     let inside = wide - labels;
     let heads: Vec<u32> = match narrow {
         true => legends
@@ -134,6 +130,16 @@ fn axis_of_time(times: &[f64], width: u32) -> Axis {
     let from = known.next().unwrap_or(0.0);
     let range = widened((from, known.next_back().unwrap_or(from)));
     Axis::numbers_across(range, (width / WIDTH_OF_TICK) as usize + 1, width)
+}
+
+/// The axes of panels with these ranges, and their width (pixels).
+fn verticals(panels: &[Panel], ranges: impl Iterator<Item = Range>) -> (Vec<Axis>, u32) {
+    let axes = panels.iter().zip(ranges);
+    let axes: Vec<Axis> = axes
+        .map(|(panel, range)| vertical(panel.scale, range))
+        .collect();
+    let longest = axes.iter().map(Axis::longest).fold(0.0, f64::max);
+    (axes, BESIDE_LABELS + longest as u32)
 }
 
 /// The axis of values in a range.
