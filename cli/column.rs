@@ -122,7 +122,8 @@ fn unknown(word: &str, structure: &Structure, mechanism: &str) -> CommandError {
         };
     }
     let words = WORDS.iter().map(|(word, _)| word.to_string());
-    let kinds = KINDS.iter().map(|(word, _)| word.to_string());
+    let kinds = KINDS.iter().filter(|(_, all)| !all(structure).is_empty());
+    let kinds = kinds.map(|(word, _)| word.to_string());
     let known = words.chain(kinds);
     // Those of coordinates are clear from the words for all of them.
     let of_coordinate =

@@ -373,9 +373,16 @@ fn similar(path: &Path) -> Option<PathBuf> {
         .filter(|name| Path::new(name).extension() == path.extension())
         .filter_map(|name| name.into_string().ok())
         .collect();
-    let name = path.file_name()?.to_str()?;
-    let meant = nearest(name, names.iter().map(String::as_str))?;
-    Some(folder.join(meant))
+    // What they end in makes no name more like another.
+    let stems = names.iter().filter_map(|name| Path::new(name).file_stem());
+    let stems = stems.filter_map(|stem| stem.to_str());
+    let meant = nearest(path.file_stem()?.to_str()?, stems)?;
+    let mut meant = folder.join(meant).into_os_string();
+    if let Some(kind) = path.extension() {
+        meant.push(".");
+        meant.push(kind);
+    }
+    Some(meant.into())
 }
 
 fn no_file(f: &mut Formatter<'_>, name: &str) -> fmt::Result {

@@ -9,7 +9,8 @@ use bricard_driver::{AnyMechanism, Exact, TimedRun};
 use bricard_runtime::{Audit, Options, StepControl};
 use std::time::Duration;
 
-/// Steps of RK4 (s), from the longest on each half of the one before.
+/// Steps of RK4 (s), from the longest on, or from a run that is shorter, each half of the one
+/// before.
 const LONGEST_STEP: f64 = 0.08;
 /// How many of them.
 const HALVINGS: i32 = 10;
@@ -92,10 +93,10 @@ pub fn series(
 /// The settings of a method, and what to call them; steps are no longer than the run.
 fn settings(method: MethodName, until: f64) -> Vec<(String, StepControl<f64>)> {
     if method == MethodName::Rk4 {
-        let step = |halving: i32| LONGEST_STEP * 0.5_f64.powi(halving);
+        let longest = LONGEST_STEP.min(until);
+        let step = |halving: i32| longest * 0.5_f64.powi(halving);
         let of = |step| (format!("h = {step}"), StepControl::Fixed { step });
-        let steps = (0..HALVINGS).map(step).filter(|step| *step <= until);
-        return steps.map(of).collect();
+        return (0..HALVINGS).map(step).map(of).collect();
     }
     let adaptive = |exponent: i32| {
         let tolerance = 10.0_f64.powi(-exponent);
