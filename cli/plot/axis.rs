@@ -21,6 +21,8 @@ const POINT: f64 = 5.0;
 const APART: f64 = 14.0;
 /// What an end may be off by to be a tick, as a part of the range.
 const SLACK: f64 = 1e-9;
+/// The power of ten below all numbers.
+const LEAST_POWER: i32 = -330;
 /// Numbers with more digits are written as distances from one that all have in common.
 const MOST_DIGITS: f64 = 1e5;
 /// Numbers below this power of ten have a common power of ten, and those from the other on.
@@ -49,7 +51,7 @@ impl Even {
     /// At most so many ticks in a range, of no smaller power of ten than a least one.
     fn new((from, to): (f64, f64), most: usize, least: i32) -> Self {
         let finest = ((to - from) / most.max(1) as f64).log10().floor() as i32;
-        let mut exponent = finest.max(least);
+        let mut exponent = finest.max(LEAST_POWER).max(least);
         loop {
             for digit in [1.0, 2.0, 5.0] {
                 let place = |x: f64| scaled(x / digit, -exponent);
@@ -80,9 +82,10 @@ impl Axis {
         let (mut counts, exponent) = (even.counts.clone(), even.exponent);
         let offset = common(&counts);
         counts.iter_mut().for_each(|count| *count -= offset);
-        let power = match size(&counts).log10().floor() as i32 + exponent {
-            power if power >= POWERS.0 && power < POWERS.1 || size(&counts) == 0.0 => 0,
-            power => power,
+        let largest = size(&counts).max(1.0).log10().floor() as i32 + exponent;
+        let power = match largest >= POWERS.0 && largest < POWERS.1 || size(&counts) == 0.0 {
+            true => 0,
+            false => largest,
         };
         let mut note = String::new();
         if power != 0 {
@@ -336,6 +339,14 @@ mod tests {
             assert!(axis.ticks.len() >= 2, "{from} to {to}: {axis:?}");
             assert_eq!(distinct.len(), axis.ticks.len(), "{from} to {to}: {axis:?}");
             assert!(axis.longest() < 90.0, "{from} to {to}: {axis:?}");
+        }
+    }
+
+    #[test]
+    fn the_least_and_the_largest_ranges_have_ticks() {
+        for range in [(0.0, 5e-324), (1e-310, 2e-310), (-1e300, 1e300)] {
+            let axis = Axis::numbers(range, 6);
+            assert!((1..=6).contains(&axis.ticks.len()), "{range:?}: {axis:?}");
         }
     }
 

@@ -102,7 +102,7 @@ fn the_points_of_a_long_table_are_data_and_not_choices() {
     fs::create_dir_all(&folder).expect("a folder");
     fs::write(folder.join("data.csv"), rows(1000)).expect("a file");
     let settings = CompileSettings::beside(&folder.join("test.mech"));
-    for (function, conditions) in [("table", 10), ("spline", 0)] {
+    for (function, conditions) in [("table", 10), ("spline", 1)] {
         let source = with(&format!("force {function}(\"data.csv\", t) on q;"));
         let code = compile_source(&source, "long", "test.mech", &settings)
             .expect("a right description")
@@ -112,6 +112,44 @@ fn the_points_of_a_long_table_are_data_and_not_choices() {
         assert_eq!(code.matches("Condition {").count(), conditions);
         assert_eq!(code.matches("TABLE_0: Table").count(), 1);
     }
+}
+
+/// How many conditions statements come to, beside a file of a thousand rows.
+fn conditions(name: &str, statements: &str) -> usize {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::create_dir_all(&folder).expect("a folder");
+    fs::write(folder.join("data.csv"), rows(1000)).expect("a file");
+    let settings = CompileSettings::beside(&folder.join("test.mech"));
+    let compiled = compile_source(&with(statements), "room", "test.mech", &settings);
+    let code = compiled.expect("a right description").code;
+    code.matches("Condition {").count()
+}
+
+#[test]
+fn splines_of_the_time_take_a_condition_each_as_long_as_there_is_room() {
+    let few = "spline([[0, 1], [1, 2], [3, 0]], 2*t + 1)";
+    for (place, count, statements) in [
+        ("alone", 1, format!("force {few} on q;")),
+        ("rate", 1, format!("force {few} + der({few}) on q;")),
+        (
+            "place",
+            0,
+            format!("force {} on q;", few.replace("*t", "*q")),
+        ),
+        ("constraint", 1, format!("constraint q = {few};")),
+        ("output", 0, format!("output o = {few};")),
+    ] {
+        assert_eq!(
+            conditions(&format!("files_{place}"), &statements),
+            count,
+            "{statements}"
+        );
+    }
+    let table = |i: usize| format!("force table(\"data.csv\", t + {i}) on q;\n");
+    let tables: String = (0..12).map(table).collect();
+    let spline = |i: usize| format!("force spline(\"data.csv\", t + {i}) on q;\n");
+    let splines: String = (0..10).map(spline).collect();
+    assert_eq!(conditions("files_full", &(tables + &splines)), 128);
 }
 
 #[test]
