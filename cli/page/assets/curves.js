@@ -68,7 +68,7 @@ class Curves {
     const ink = (name) => () => colour(name);
     const axis = { stroke: ink("quiet"), grid: { stroke: ink("grid"), width: 1 }, ticks: { stroke: ink("rule"), width: 1 }, font: "12px system-ui, sans-serif" };
     const logarithmic = panel.scale === "logarithmic";
-    const value = (series) => (u, y, i, at) => (at === null || at === undefined ? "–" : Number(raw[series][at].toPrecision(9)).toString().replace("-", "−"));
+    const value = (series) => (u, y, i, at) => (at === null || at === undefined ? "–" : Number(raw[series][at].toPrecision(9)).toString().replaceAll("-", "−"));
     return {
       width: Math.max(260, box.clientWidth),
       height: 180,

@@ -14,7 +14,7 @@ function short(value, range = Math.abs(value)) {
   if (!Number.isFinite(value)) return "–";
   if (value === 0 || Math.abs(value) < 1e-12 * range) return "0";
   const large = Math.max(Math.abs(value), range);
-  if (large >= 1e6 || large < 1e-4) return value.toExponential(3).replace("-", "−");
+  if (large >= 1e6 || large < 1e-4) return value.toExponential(3).replaceAll("-", "−");
   const digits = Math.min(12, Math.max(0, 4 - Math.floor(Math.log10(large))));
   return value.toFixed(digits).replace("-", "−");
 }
