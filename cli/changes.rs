@@ -89,6 +89,13 @@ fn no_law(structure: &Structure, owner: &str, name: &str, why: &str) -> Result<(
 
 /// A name that is no parameter and no input.
 fn not_there(structure: &Structure, owner: &str, name: &str) -> CommandError {
+    let inside = velocity(name).unwrap_or(name);
+    if place(structure.coordinates, inside).is_some() {
+        let reason =
+            format!("it is a part of the state; write `--start {name}=…` for where it begins");
+        let name = name.to_string();
+        return CommandError::Law { name, reason };
+    }
     // What the description says of it is worth a look, if it is still there.
     let parsed = description(owner).ok().and_then(|d| parse(&d.source).ok());
     if parsed.is_some_and(|model| model.is_constant(name)) {
@@ -120,10 +127,7 @@ fn given(
     owner: &str,
     assignment: &Assignment,
 ) -> Result<Given, CommandError> {
-    let inside = assignment
-        .name
-        .strip_prefix("der(")
-        .and_then(|name| name.strip_suffix(')'));
+    let inside = velocity(&assignment.name);
     let name = inside.unwrap_or(&assignment.name);
     let freedoms = structure.freedoms();
     let found = match inside {
@@ -131,6 +135,11 @@ fn given(
         None => place(structure.coordinates, name),
     };
     let Some(coordinate) = found else {
+        let mut set = structure.parameters.iter().chain(structure.inputs);
+        if set.any(|quantity| quantity.name == assignment.name) {
+            let name = assignment.name.clone();
+            return Err(CommandError::SetInstead { name });
+        }
         let known = match inside {
             Some(_) => freedoms
                 .iter()
@@ -151,6 +160,11 @@ fn given(
         held: assignment.held,
         value: assignment.value,
     })
+}
+
+/// The coordinate of a velocity, `der(NAME)`.
+fn velocity(name: &str) -> Option<&str> {
+    name.strip_prefix("der(")?.strip_suffix(')')
 }
 
 fn place(list: &[Quantity], name: &str) -> Option<usize> {

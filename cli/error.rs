@@ -63,6 +63,11 @@ pub enum CommandError {
         /// Why, and what to write instead.
         reason: String,
     },
+    /// A start of what is no part of the state.
+    SetInstead {
+        /// The parameter or input.
+        name: String,
+    },
     /// Two options with several values each.
     TwoLists {
         /// The options with their names.
@@ -224,6 +229,7 @@ impl CommandError {
             | Self::OutOfRange { .. }
             | Self::Twice { .. }
             | Self::Law { .. }
+            | Self::SetInstead { .. }
             | Self::TwoLists { .. }
             | Self::Runs(_)
             | Self::SameFile { .. }
@@ -266,6 +272,7 @@ impl Display for CommandError {
                 write!(f, "{option} gives `{name}` two values; leave one out")
             }
             Self::Law { name, reason } => write!(f, "`--set {name}=…`: {reason}"),
+            Self::SetInstead { name } => set_instead(f, name),
             Self::TwoLists { options } => two_lists(f, options),
             Self::Runs(runs) => write!(f, "{runs}"),
             Self::SameFile {
@@ -310,6 +317,13 @@ impl Display for CommandError {
 fn out_of_bounds(f: &mut Formatter<'_>, broken: &[String]) -> fmt::Result {
     f.write_str("these bounds are not kept:")?;
     broken.iter().try_for_each(|bound| write!(f, "\n  {bound}"))
+}
+
+fn set_instead(f: &mut Formatter<'_>, name: &str) -> fmt::Result {
+    write!(
+        f,
+        "`--start {name}=…`: it is a parameter or an input; write `--set {name}=…`"
+    )
 }
 
 fn two_lists(f: &mut Formatter<'_>, [one, other]: &[String; 2]) -> fmt::Result {
@@ -373,16 +387,9 @@ fn similar(path: &Path) -> Option<PathBuf> {
         .filter(|name| Path::new(name).extension() == path.extension())
         .filter_map(|name| name.into_string().ok())
         .collect();
-    // What they end in makes no name more like another.
-    let stems = names.iter().filter_map(|name| Path::new(name).file_stem());
-    let stems = stems.filter_map(|stem| stem.to_str());
-    let meant = nearest(path.file_stem()?.to_str()?, stems)?;
-    let mut meant = folder.join(meant).into_os_string();
-    if let Some(kind) = path.extension() {
-        meant.push(".");
-        meant.push(kind);
-    }
-    Some(meant.into())
+    let name = path.file_name()?.to_str()?;
+    let meant = nearest(name, names.iter().map(String::as_str))?;
+    Some(folder.join(meant))
 }
 
 fn no_file(f: &mut Formatter<'_>, name: &str) -> fmt::Result {

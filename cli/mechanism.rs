@@ -10,7 +10,7 @@ use crate::error::CommandError;
 use crate::hash::hash;
 use bricard_driver::{AnyMechanism, Precise};
 use bricard_runtime::Structure;
-use std::path::{self, Path};
+use std::path::{self, Path, PathBuf};
 
 /// Finds a mechanism of the library or of the benchmark problems, or compiles a file.
 ///
@@ -26,7 +26,7 @@ pub fn find(name: &str) -> Result<Box<dyn AnyMechanism>, CommandError> {
 }
 
 fn unknown(name: &str) -> CommandError {
-    let file = Path::new(name).with_extension("mech");
+    let file = PathBuf::from(format!("{name}.mech"));
     if file.is_file() {
         return CommandError::NameOfFile(file);
     }

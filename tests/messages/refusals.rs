@@ -170,6 +170,19 @@ pub const CASES: &[Case] = &[
          `const g`, write `param g`",
     ),
     (
+        "Law",
+        "simulate slider_crank --set der(q1)=1",
+        2,
+        "`--set der(q1)=…`: it is a part of the state; write `--start der(q1)=…` for where it \
+         begins",
+    ),
+    (
+        "SetInstead",
+        "simulate slider_crank --start m1=2",
+        2,
+        "`--start m1=…`: it is a parameter or an input; write `--set m1=…`",
+    ),
+    (
         "NoColumn",
         "simulate slider_crank --columns inputs",
         2,
