@@ -88,6 +88,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// Switching functions at a state, and their rates with the conditions held as was
     /// decided.
+    #[inline(never)]
     fn switches(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,

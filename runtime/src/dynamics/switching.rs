@@ -142,6 +142,7 @@ impl<T: Real> dyn Motion<T> + '_ {
 
     /// Changes a condition at an end: to its other side, or to sliding if the motion is
     /// pushed back from there; off that again where one side no longer pushes.
+    #[inline(never)]
     fn turn(&mut self, index: usize, t: T) -> Result<(), DynamicsError<T>> {
         let decided = self.decided();
         decided.count_turn(index, t)?;
@@ -247,6 +248,7 @@ impl<T: Real> dyn Motion<T> + '_ {
     }
 
     /// One switching function at a time, with its rate.
+    #[inline(never)]
     fn rate(&mut self, t: T, index: usize) -> Result<Switch<T>, DynamicsError<T>> {
         let mut values = [Switch::default(); Sides::ROOM];
         self.rates(t, &mut values[..=index])?;

@@ -27,6 +27,7 @@ pub(super) struct Integral<T> {
 
 impl<T: Real> Integral<T> {
     /// The integral over a span of time.
+    #[inline(never)]
     pub(super) fn over<E>(function: Function<'_, T, E>, start: T, length: T) -> Result<Self, E> {
         let (mut mean, mut largest) = (T::zero(), T::zero());
         for (node, weight) in gauss::<T>() {
@@ -54,6 +55,7 @@ impl<T: Real> Integral<T> {
         self.bisected(function, (accuracy, least), DEEPEST)
     }
 
+    #[inline(never)]
     fn bisected<E>(
         &self,
         function: Function<'_, T, E>,
