@@ -39,6 +39,24 @@ pub fn apart(name: &str, written: &[(&'static str, &Option<PathBuf>)]) -> Result
     Ok(())
 }
 
+/// Whether a file is of one of some kinds, by its ending.
+pub fn is_of(path: &Path, kinds: &[&str]) -> bool {
+    let kind = path.extension();
+    kind.is_some_and(|kind| kinds.iter().any(|known| kind.eq_ignore_ascii_case(known)))
+}
+
+/// Refuses a file of a kind that can't be written, with what to write instead.
+///
+/// # Errors
+///
+/// [`CommandError::FileKind`], always.
+pub fn refuse(path: &Path, instead: &'static str) -> Result<(), CommandError> {
+    Err(CommandError::FileKind {
+        path: path.to_path_buf(),
+        instead,
+    })
+}
+
 /// Where a file is, whatever links and folders lead to it, or where it would be.
 fn place(path: &Path) -> PathBuf {
     let folder = match path.parent() {

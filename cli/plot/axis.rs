@@ -13,6 +13,8 @@ pub fn px(x: u32, y: u32) -> (i32, i32) {
     (scaled(x), scaled(y))
 }
 
+/// Width of a vertical axis without its numbers (pixels).
+const BESIDE_NUMBERS: u32 = 36;
 /// Width of a digit (pixels), generously.
 const DIGIT: f64 = 9.0;
 /// Width of a point (pixels).
@@ -132,8 +134,13 @@ impl Axis {
         }
     }
 
+    /// The width that it takes at the left of a diagram (pixels).
+    pub fn width(&self) -> u32 {
+        BESIDE_NUMBERS + self.longest() as u32
+    }
+
     /// The width of the longest text (pixels).
-    pub fn longest(&self) -> f64 {
+    fn longest(&self) -> f64 {
         let letter = |c: char| if c == '.' { POINT } else { DIGIT };
         let widths = self
             .texts

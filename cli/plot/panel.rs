@@ -17,8 +17,6 @@ const WIDTH: u32 = 860;
 const PANEL: u32 = 190;
 /// Height that the axis of time adds to the last panel (pixels).
 const TIME_AXIS: u32 = 44;
-/// Width of the vertical axis without its labels (pixels).
-const BESIDE_LABELS: u32 = 36;
 /// Margins to the left and to the right of a diagram (pixels).
 const MARGINS: (u32, u32) = (14, 8);
 /// Width that a tick of time has for its number (pixels), about.
@@ -138,8 +136,8 @@ fn verticals(panels: &[Panel], ranges: impl Iterator<Item = Range>) -> (Vec<Axis
     let axes: Vec<Axis> = axes
         .map(|(panel, range)| vertical(panel.scale, range))
         .collect();
-    let longest = axes.iter().map(Axis::longest).fold(0.0, f64::max);
-    (axes, BESIDE_LABELS + longest as u32)
+    let width = axes.iter().map(Axis::width).max().unwrap_or(0);
+    (axes, width)
 }
 
 /// The axis of values in a range.

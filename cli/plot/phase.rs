@@ -10,8 +10,6 @@ use plotters::prelude::*;
 
 /// Size of a picture (pixels).
 const SIZE: (u32, u32) = (620, 484);
-/// Width of the vertical axis without its labels (pixels).
-const BESIDE_LABELS: u32 = 36;
 /// Width that a tick has (pixels), about.
 const WIDTH_OF_TICK: u32 = 90;
 /// Margin around the diagram (pixels).
@@ -48,7 +46,7 @@ pub fn phase_as_svg(
     let width = sheet.pixels().unwrap_or(SIZE.0);
     let most = (width / WIDTH_OF_TICK) as usize;
     let up_axis = Axis::numbers(y, most);
-    let labels = BESIDE_LABELS + up_axis.longest() as u32;
+    let labels = up_axis.width();
     let inside = width - labels - 2 * EDGE;
     let across_axis = Axis::numbers_across(x, most, inside);
     let above = legend::height(&legend, width - labels);

@@ -3,7 +3,7 @@
 use super::record::is_parquet;
 use crate::arguments::{MethodName, Simulate};
 use crate::error::CommandError;
-use crate::files::apart;
+use crate::files::{apart, is_of, refuse};
 use crate::mistakes::{all, both};
 use crate::page::is_page;
 use crate::parquet::MISSING;
@@ -240,19 +240,6 @@ fn rows(arguments: &Simulate) -> Result<(), CommandError> {
         ),
         _ => Ok(()),
     }
-}
-
-fn refuse(path: &Path, instead: &'static str) -> Result<(), CommandError> {
-    Err(CommandError::FileKind {
-        path: path.to_path_buf(),
-        instead,
-    })
-}
-
-/// Whether a file is of one of some kinds, by its ending.
-fn is_of(path: &Path, kinds: &[&str]) -> bool {
-    let kind = path.extension();
-    kind.is_some_and(|kind| kinds.iter().any(|known| kind.eq_ignore_ascii_case(known)))
 }
 
 /// Refuses sliders where there is no page.

@@ -9,7 +9,7 @@ mod reference;
 use crate::arguments::{FormName, MethodName, WorkPrecision};
 use crate::changes;
 use crate::error::{CommandError, TooMany};
-use crate::files::apart;
+use crate::files::{apart, is_of, refuse};
 use crate::formula::Choice;
 use crate::law::{described_with, find_with};
 use crate::mistakes::both;
@@ -241,15 +241,8 @@ fn single<T: Clone>(
 
 /// Refuses a kind of file that can't be written.
 fn kind(path: &Option<PathBuf>, (kinds, instead): &Kinds) -> Result<(), CommandError> {
-    let known = |path: &Path| {
-        let ending = path.extension();
-        ending.is_some_and(|ending| kinds.iter().any(|kind| ending.eq_ignore_ascii_case(kind)))
-    };
     match path {
-        Some(path) if !known(path) => Err(CommandError::FileKind {
-            path: path.clone(),
-            instead,
-        }),
+        Some(path) if !is_of(path, kinds) => refuse(path, instead),
         _ => Ok(()),
     }
 }

@@ -59,8 +59,8 @@ const MUCH_SHORTER: (usize, usize) = (2, 3);
 ///
 /// # Errors
 ///
-/// More than [`EXPRESSIONS_MAX`](crate::model::EXPRESSIONS_MAX) expressions, with the lines that most of them come
-/// from; more conditions than a run has room for.
+/// More than [`EXPRESSIONS_MAX`](crate::model::EXPRESSIONS_MAX) expressions, with the lines
+/// that most of them come from; more conditions than a run has room for.
 pub fn derive(mechanism: &mut Mechanism) -> Result<Equations, Diagnostics> {
     switch::hold(mechanism)?;
     let begun = mechanism.clone();

@@ -5,7 +5,7 @@ use super::cursor::{Cursor, Parsed};
 use super::keyword::{DIRECTIONS, example};
 use super::messages::NO_ASSIGNMENT;
 use super::token::TokenKind;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Span};
 
 impl Cursor<'_> {
     /// Reads what stands behind `constraint`.
@@ -52,14 +52,21 @@ impl Cursor<'_> {
         })
     }
 
-    /// Refuses an inequality, which no constraint is.
-    fn no_inequality(&mut self, left: &Expr) -> Parsed<()> {
-        let upper = self.at_symbol("<") || self.at_symbol("<=");
-        if !upper && !self.at_symbol(">") && !self.at_symbol(">=") {
-            return Ok(());
-        }
+    /// Reads the sign of an inequality, if one comes next: where it is, and whether what
+    /// stands behind it is an upper bound.
+    fn take_inequality(&mut self) -> Option<(Span, bool)> {
+        let signs = [("<", true), ("<=", true), (">", false), (">=", false)];
+        let (_, upper) = signs.into_iter().find(|(sign, _)| self.at_symbol(sign))?;
         let place = self.span();
         self.advance();
+        Some((place, upper))
+    }
+
+    /// Refuses an inequality, which no constraint is.
+    fn no_inequality(&mut self, left: &Expr) -> Parsed<()> {
+        let Some((place, upper)) = self.take_inequality() else {
+            return Ok(());
+        };
         let right = self.expression()?;
         // `0 < x` is `x > 0`.
         let number = matches!(left.kind, ExprKind::Number(_));
@@ -107,19 +114,16 @@ impl Cursor<'_> {
 
     /// Refuses a comparison, which no event is.
     fn no_comparison(&mut self, name: &Name, value: &Expr) -> Parsed<()> {
-        let upwards = self.at_symbol(">") || self.at_symbol(">=");
-        if !upwards && !self.at_symbol("<") && !self.at_symbol("<=") {
+        let Some((place, upper)) = self.take_inequality() else {
             return Ok(());
-        }
-        let place = self.span();
-        self.advance();
+        };
         let bound = self.expression()?;
         let error = Diagnostic::error(
             place,
             "an event is a formula that passes zero, no comparison",
         );
         let (name, less) = (&name.text, self.difference(value, &bound));
-        let direction = if upwards { "rising" } else { "falling" };
+        let direction = if upper { "falling" } else { "rising" };
         Err(self.fail(error.help(format!("write `event {name}: {less} {direction};`"))))
     }
 

@@ -66,15 +66,7 @@ impl Cursor<'_> {
     pub fn block(&mut self, help: &str, mut add: impl FnMut(Item)) -> Parsed<()> {
         self.expect_symbol("{", help)?;
         let depth = self.block_depth();
-        while !self.at_block_end(depth) {
-            if self.take_symbol(";") {
-                continue;
-            }
-            if self.at_symbol(",") {
-                let _reported = self.unexpected_here("a statement", REMOVE);
-                self.advance();
-                continue;
-            }
+        while self.next_in_block(depth, "a statement", REMOVE) {
             if let Some(item) = self.statement(depth, Self::item, is_block) {
                 add(item);
             }
@@ -91,9 +83,20 @@ impl Cursor<'_> {
         }
     }
 
-    /// Whether the bracket that closes a block comes next.
-    pub fn at_block_end(&self, depth: usize) -> bool {
-        self.peek().kind == TokenKind::End || (self.at_symbol("}") && self.depth() < depth)
+    /// Goes on to the next statement of a block; `false` at the bracket that closes it. A `;`
+    /// too many does no harm, a `,` is refused where `what` is expected.
+    pub fn next_in_block(&mut self, depth: usize, what: &str, help: &str) -> bool {
+        loop {
+            if self.peek().kind == TokenKind::End || (self.at_symbol("}") && self.depth() < depth) {
+                return false;
+            }
+            if self.at_symbol(",") {
+                let _reported = self.unexpected_here(what, help);
+                self.advance();
+            } else if !self.take_symbol(";") {
+                return true;
+            }
+        }
     }
 
     /// Reads statements that stand in no mechanism, up to the end of the file.

@@ -16,15 +16,7 @@ impl Cursor<'_> {
         self.expect_symbol("{", &example("start"))?;
         let depth = self.block_depth();
         let mut items = Vec::new();
-        while !self.at_block_end(depth) {
-            if self.take_symbol(";") {
-                continue;
-            }
-            if self.at_symbol(",") {
-                let _reported = self.unexpected_here("an entry", HELP);
-                self.advance();
-                continue;
-            }
+        while self.next_in_block(depth, "an entry", HELP) {
             let is_block = |item: &StartItem| matches!(item, StartItem::For(..));
             items.extend(self.statement(depth, Self::start_item, is_block));
         }

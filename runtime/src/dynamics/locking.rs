@@ -19,14 +19,9 @@ use nalgebra::SVector;
 struct Attempt<'a, T, const N: usize, const R: usize> {
     core: &'a mut Core<T, N, R>,
     mechanism: &'a dyn Mechanism<T, N, R>,
-    step: &'a Step<T, N>,
-}
-
-/// A motion that has not begun yet.
-struct Start<'a, T, const N: usize, const R: usize> {
-    core: &'a mut Core<T, N, R>,
-    mechanism: &'a dyn Mechanism<T, N, R>,
-    state: &'a State<T, N>,
+    /// None for a motion that has not begun yet.
+    step: Option<&'a Step<T, N>>,
+    end: &'a State<T, N>,
 }
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
@@ -77,29 +72,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             return Ok(());
         }
         let core = &mut *self;
-        settling()(&mut Start {
+        settling()(&mut Attempt {
             core,
             mechanism,
-            state,
+            step: None,
+            end: state,
         })?;
         self.decide(self.conditions.decided.sides);
-        Ok(())
-    }
-
-    /// Switching functions at a state, and their rates with the conditions held as was
-    /// decided.
-    #[inline(never)]
-    fn switches(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        state: &State<T, N>,
-        values: &mut [Switch<T>],
-    ) -> Result<(), DynamicsError<T>> {
-        self.decide(self.conditions.decided.sides);
-        let acceleration = self.held_acceleration(mechanism, state)?;
-        if !values.is_empty() {
-            mechanism.switches(state, &acceleration, values);
-        }
         Ok(())
     }
 
@@ -127,7 +106,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let found = switching()(&mut Attempt {
             core,
             mechanism,
-            step,
+            step: Some(step),
+            end: step.end(),
         })?;
         if matches!(found, Switching::Nowhere | Switching::AtEnd) {
             self.conditions.at = Some(*step.end());
@@ -177,9 +157,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 impl<T: Real, const N: usize, const R: usize> Attempt<'_, T, N, R> {
     /// The state at a time; at the ends those that the attempt began and ended with.
     fn at(&self, t: T) -> State<T, N> {
-        match t >= self.step.end().t {
-            true => *self.step.end(),
-            false => self.step.at(t),
+        match self.step {
+            Some(step) if t < self.end.t => step.at(t),
+            _ => *self.end,
         }
     }
 }
@@ -190,7 +170,8 @@ impl<T: Real, const N: usize, const R: usize> Motion<T> for Attempt<'_, T, N, R>
     }
 
     fn ends(&self) -> (T, T) {
-        (self.step.start().t, self.step.end().t)
+        let start = self.step.map_or(self.end, Step::start);
+        (start.t, self.end.t)
     }
 
     fn noise(&self) -> T {
@@ -204,29 +185,11 @@ impl<T: Real, const N: usize, const R: usize> Motion<T> for Attempt<'_, T, N, R>
 
     fn rates(&mut self, t: T, values: &mut [Switch<T>]) -> Result<(), DynamicsError<T>> {
         let state = self.at(t);
-        self.core.switches(self.mechanism, &state, values)
-    }
-}
-
-impl<T: Real, const N: usize, const R: usize> Motion<T> for Start<'_, T, N, R> {
-    fn decided(&mut self) -> &mut Decided<T> {
-        &mut self.core.conditions.decided
-    }
-
-    fn ends(&self) -> (T, T) {
-        (self.state.t, self.state.t)
-    }
-
-    fn noise(&self) -> T {
-        T::zero()
-    }
-
-    fn values(&self, _t: T, values: &mut [Switch<T>]) {
-        self.mechanism
-            .switches(self.state, &SVector::zeros(), values);
-    }
-
-    fn rates(&mut self, _t: T, values: &mut [Switch<T>]) -> Result<(), DynamicsError<T>> {
-        self.core.switches(self.mechanism, self.state, values)
+        self.core.decide(self.core.conditions.decided.sides);
+        let acceleration = self.core.held_acceleration(self.mechanism, &state)?;
+        if !values.is_empty() {
+            self.mechanism.switches(&state, &acceleration, values);
+        }
+        Ok(())
     }
 }

@@ -279,18 +279,15 @@ impl<T: Real> Decided<T> {
 /// When a sampled function leaves a side for the other one, if it does by more than noise.
 fn earliest<T: Real>(
     function: &mut dyn FnMut(T) -> Result<T, DynamicsError<T>>,
-    (times, mut values): ([T; NODES], [T; NODES]),
+    (times, values): ([T; NODES], [T; NODES]),
     side: T,
     noise: T,
 ) -> Result<Option<T>, DynamicsError<T>> {
-    let size = values
-        .iter()
-        .fold(T::zero(), |most: T, x| most.max(x.abs()));
-    let margin = noise * size * side;
-    for value in &mut values {
+    let mut samples = Samples { times, values };
+    let margin = noise * samples.size() * side;
+    for value in &mut samples.values {
         *value += margin;
     }
-    let samples = Samples { times, values };
     let mut beyond = |t| Ok(function(t)? + margin);
     let found = first_crossing(&mut beyond, &samples, &mut side.clone(), Left::BeyondZero)?;
     let Some((from, to)) = found else {

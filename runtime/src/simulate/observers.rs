@@ -4,7 +4,7 @@
 //! Out: whether the run goes on.
 
 use super::event::{Events, Functions};
-use super::{Audit, Options, Origin, SimulateError, StepControl, Summary};
+use super::{Audit, Options, Origin, SimulateError, Summary};
 use crate::integrator::Inside;
 use crate::singular::Found;
 use crate::{ConstraintAudit, DynamicsError, EnergyAudit, Observer, Probe, Real, State, Step};
@@ -36,15 +36,12 @@ impl<'a, 'b, T: Real, const N: usize> Observers<'a, 'b, T, N> {
             energy,
             passages,
         } = options.audit;
-        let tolerance = match options.step_control {
-            StepControl::Adaptive { relative, .. } => Some(relative),
-            StepControl::Fixed { .. } => None,
-        };
+        let tolerance = options.step_control.tolerance();
         Self {
             constraints: constraints.then(ConstraintAudit::new),
             energy: energy.then(|| EnergyAudit::of(tolerance)),
             passages: (rows > 0 && passages).then_some(0),
-            events: Events::new(options.step_control.tolerance()),
+            events: Events::new(tolerance),
             observers,
         }
     }
