@@ -80,7 +80,16 @@ impl Even {
 impl Axis {
     /// Numbers in a range, at most so many.
     pub fn numbers(range: (f64, f64), most: usize) -> Self {
-        let even = Even::new(range, most, i32::MIN);
+        Self::written(range, Even::new(range, most, i32::MIN))
+    }
+
+    /// Whole numbers in a range, at most so many.
+    pub fn whole(range: (f64, f64), most: usize) -> Self {
+        Self::written(range, Even::new(range, most, 0))
+    }
+
+    /// Ticks, and as many digits as tell them apart.
+    fn written(range: (f64, f64), even: Even) -> Self {
         let (mut counts, exponent) = (even.counts.clone(), even.exponent);
         let offset = common(&counts);
         counts.iter_mut().for_each(|count| *count -= offset);
@@ -123,8 +132,8 @@ impl Axis {
         found.unwrap_or_else(|| Self::numbers(range, 1))
     }
 
-    /// Whole numbers in a range, at most so many, with what `text` makes of them.
-    pub fn whole(range: (f64, f64), most: usize, text: impl Fn(f64) -> String) -> Self {
+    /// The same with what `text` makes of them.
+    pub fn labelled(range: (f64, f64), most: usize, text: impl Fn(f64) -> String) -> Self {
         let ticks = Even::new(range, most, 0).ticks();
         Self {
             range,
@@ -354,6 +363,19 @@ mod tests {
         for range in [(0.0, 5e-324), (1e-310, 2e-310), (-1e300, 1e300)] {
             let axis = Axis::numbers(range, 6);
             assert!((1..=6).contains(&axis.ticks.len()), "{range:?}: {axis:?}");
+        }
+    }
+
+    #[test]
+    fn whole_numbers_of_any_size_are_short() {
+        for (range, shown, note) in [
+            ((0.0, 3.0), "0 1 2 3", ""),
+            ((0.0, 0.4), "0", ""),
+            ((0.0, 1e250), "0 0.2 0.4 0.6 0.8 1", "×10²⁵⁰"),
+        ] {
+            let axis = Axis::whole(range, 6);
+            assert_eq!(axis.texts.join(" "), shown, "{range:?}");
+            assert_eq!(axis.note, note, "{range:?}");
         }
     }
 

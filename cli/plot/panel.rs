@@ -145,9 +145,9 @@ fn vertical(scale: Scale, range: Range) -> Axis {
     let decades = (range.1 - range.0).ceil() as usize;
     match scale {
         Scale::Linear => Axis::numbers(range, TICKS),
-        Scale::Whole => Axis::whole(range, TICKS, |y| format!("{y:.0}")),
+        Scale::Whole => Axis::whole(range, TICKS),
         Scale::Logarithmic { low, .. } => {
-            Axis::whole(range, decades / 2 + 1, |y| match y <= f64::from(low) {
+            Axis::labelled(range, decades / 2 + 1, |y| match y <= f64::from(low) {
                 true => format!("≤{}", power_of_ten(y)),
                 false => power_of_ten(y),
             })
