@@ -80,8 +80,20 @@ pub struct Condition {
     pub text: &'static str,
     /// The line of the statement.
     pub line: u32,
-    /// Whether the forces are continuous where it changes, but for the slope.
-    pub kinks: bool,
+    /// What the forces do where it changes.
+    pub discontinuity: Discontinuity,
+}
+
+/// What forces do where a condition of theirs changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Discontinuity {
+    /// They may jump.
+    Jump,
+    /// They are continuous, but for the slope.
+    Kink,
+    /// They go on with another polynomial of a spline: nothing depends on the side, and the
+    /// switching function counts distances between knots.
+    Knot,
 }
 
 #[cfg(test)]

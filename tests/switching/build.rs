@@ -19,7 +19,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         write(&folder.join(name), &text)?;
     }
     for name in [
-        "contact", "friction", "frozen", "looped", "placed", "shifted", "tabled", "timed",
+        "contact", "friction", "frozen", "knotted", "looped", "placed", "shifted", "tabled",
+        "timed",
     ] {
         Builder::new().compile(format!("{name}.mech"))?;
     }

@@ -3,6 +3,7 @@
 include!(concat!(env!("OUT_DIR"), "/contact.rs"));
 include!(concat!(env!("OUT_DIR"), "/friction.rs"));
 include!(concat!(env!("OUT_DIR"), "/frozen.rs"));
+include!(concat!(env!("OUT_DIR"), "/knotted.rs"));
 include!(concat!(env!("OUT_DIR"), "/looped.rs"));
 include!(concat!(env!("OUT_DIR"), "/measured.rs"));
 include!(concat!(env!("OUT_DIR"), "/placed.rs"));

@@ -9,7 +9,7 @@
 //! and stays as it is; so does what tells equal from unequal, which no step can find.
 
 use crate::expr::{Comparison, Entry, ExprId, Function, Function2, Lookup, Number, Side, Test};
-use crate::model::{Graph, Node, Symbol};
+use crate::model::{Discontinuity, Graph, Node, Symbol};
 use rustc_hash::FxHashMap;
 
 /// A function whose sign decides something.
@@ -19,8 +19,8 @@ pub struct Switch {
     pub function: ExprId,
     /// The expression that it was first met in.
     pub met_in: ExprId,
-    /// Whether all that it decides is continuous where it is zero, but for the slope.
-    pub kinks: bool,
+    /// What that which it decides does where it is zero.
+    pub discontinuity: Discontinuity,
 }
 
 /// Switching functions, each once.
@@ -38,7 +38,7 @@ impl Switches {
             self.list.push(Switch {
                 function,
                 met_in,
-                kinks: true,
+                discontinuity: Discontinuity::Knot,
             });
         }
     }
@@ -66,7 +66,7 @@ impl Graph {
                 let ordered = matches!(test.comparison, Comparison::Less | Comparison::LessEqual);
                 let [a, b, then, otherwise] = [a, b, then, otherwise].map(of);
                 let held = match ordered {
-                    true => self.side(switches, (a, b), e, false),
+                    true => self.side(switches, (a, b), e, Discontinuity::Jump),
                     false => None,
                 };
                 self.select(Test { held, ..*test }, a, b, then, otherwise)
@@ -79,7 +79,7 @@ impl Graph {
             Node::Function(Function::Sign, x) => {
                 let x = of(x);
                 let (one, minus) = (self.integer(1), self.integer(-1));
-                let held = self.side(switches, (zero, x), e, false);
+                let held = self.side(switches, (zero, x), e, Discontinuity::Jump);
                 let [less, at_most] =
                     [Comparison::Less, Comparison::LessEqual].map(|comparison| Test {
                         held,
@@ -117,7 +117,7 @@ impl Graph {
         met_in: ExprId,
         [then, otherwise]: [ExprId; 2],
     ) -> ExprId {
-        let held = self.side(switches, (a, b), met_in, true);
+        let held = self.side(switches, (a, b), met_in, Discontinuity::Kink);
         let test = Test {
             held,
             ..Comparison::Less.into()
@@ -153,7 +153,7 @@ impl Graph {
             list.extend(functions.iter().map(|&function| Switch {
                 function,
                 met_in,
-                kinks: true,
+                discontinuity: Discontinuity::Kink,
             }));
             first
         });
@@ -161,7 +161,7 @@ impl Graph {
     }
 
     /// Whether an expression is the same all along a motion.
-    fn is_fixed(&self, e: ExprId) -> bool {
+    pub(super) fn is_fixed(&self, e: ExprId) -> bool {
         let fixed = |symbol: &Symbol| matches!(symbol, Symbol::Parameter(_));
         self.symbols(e).iter().all(fixed)
     }
@@ -172,7 +172,7 @@ impl Graph {
         switches: &mut Switches,
         (a, b): (ExprId, ExprId),
         met_in: ExprId,
-        kinks: bool,
+        discontinuity: Discontinuity,
     ) -> Option<Side> {
         let difference =
             self.weighted_sum(Number::ZERO, &[(b, Number::ONE), (a, Number::MINUS_ONE)]);
@@ -190,13 +190,14 @@ impl Graph {
                     list.push(Switch {
                         function: difference,
                         met_in,
-                        kinks: true,
+                        discontinuity: Discontinuity::Kink,
                     });
                     (list.len() - 1, true)
                 }
             },
         };
-        list[place].kinks &= kinks;
+        let worst = list[place].discontinuity.min(discontinuity);
+        list[place].discontinuity = worst;
         let index = u32::try_from(place).unwrap_or(u32::MAX);
         Some(if above {
             Side::Above(index)

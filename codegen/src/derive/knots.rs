@@ -1,4 +1,4 @@
-//! Where splines of the time go on with another polynomial.
+//! Where splines go on with another polynomial.
 //!
 //! In:  expressions.
 //! Out: switching functions that pass zero there. Nothing depends on their sides: a spline
@@ -6,11 +6,11 @@
 //!      across the jump of the third.
 //!
 //! Each spline gets one function, which is zero at all of its knots: the distance from the
-//! nearest, with signs in turn.
+//! nearest by the mean distance between knots, with signs in turn.
 
 use super::hold::Switches;
 use crate::expr::{Comparison, Entry, ExprId, Function, Lookup, Number};
-use crate::model::{Graph, Node, Symbol};
+use crate::model::{Graph, Node};
 use rustc_hash::FxHashMap;
 
 /// The knots of a spline, and what it is a function of.
@@ -21,9 +21,9 @@ struct Chain {
 }
 
 impl Graph {
-    /// Adds the knots of all splines of the time in some expressions to the switching
-    /// functions, as long as there is room for so many: without them a step across a knot is
-    /// less accurate, and no more than that.
+    /// Adds the knots of all splines in some expressions to the switching functions, as long
+    /// as there is room for so many: without them a step across a knot is less accurate, and
+    /// no more than that.
     pub(super) fn add_knots(&mut self, roots: &[ExprId], switches: &mut Switches, room: usize) {
         let mut chains: FxHashMap<ExprId, Chain> = FxHashMap::default();
         let mut splines: Vec<(ExprId, Chain)> = Vec::new();
@@ -31,13 +31,17 @@ impl Graph {
         for e in self.reachable(roots) {
             match *self.node(e) {
                 Node::Function(Function::Table(lookup), x)
-                    if lookup.is_differentiable() && self.follows_time(x) =>
+                    if lookup.is_differentiable() && !self.is_fixed(x) =>
                 {
                     let entry = Entry::Knot;
-                    let function = self.function(Function::Table(Lookup { entry, ..lookup }), x);
-                    functions.push((function, x));
+                    let distance = self.function(Function::Table(Lookup { entry, ..lookup }), x);
+                    let places = &lookup.table.places;
+                    let spacing =
+                        (places[places.len() - 1] - places[0]) / (places.len() - 1) as f64;
+                    let spacing = self.number(Number::float(spacing));
+                    functions.push((self.div(distance, spacing), x));
                 }
-                Node::Select(test, [x, knot, _, rest]) if test.smooth && self.follows_time(x) => {
+                Node::Select(test, [x, knot, _, rest]) if test.smooth && !self.is_fixed(x) => {
                     // Those that come later contain those before.
                     let inner = chains.get(&rest).filter(|inner| inner.of == x);
                     let inner = inner.map_or(&[][..], |inner| &inner.knots);
@@ -51,7 +55,9 @@ impl Graph {
             }
         }
         for (_, Chain { of, knots }) in splines {
-            functions.push((self.zigzag(of, &knots), of));
+            let distance = self.zigzag(of, &knots);
+            let spacing = self.spacing(&knots);
+            functions.push((self.div(distance, spacing), of));
         }
         for (function, of) in functions {
             if switches.list.len() < room {
@@ -60,11 +66,12 @@ impl Graph {
         }
     }
 
-    /// Whether an expression changes along a motion as the time alone says.
-    fn follows_time(&self, e: ExprId) -> bool {
-        let symbols = self.symbols(e);
-        let known = |symbol: &Symbol| matches!(symbol, Symbol::Time | Symbol::Parameter(_));
-        symbols.contains(&Symbol::Time) && symbols.iter().all(known)
+    /// The mean distance of neighbours among some places in rising order.
+    fn spacing(&mut self, places: &[ExprId]) -> ExprId {
+        let (first, last) = (places[0], places[places.len() - 1]);
+        let length = self.sub(last, first);
+        let count = self.integer((places.len() - 1) as i64);
+        self.div(length, count)
     }
 
     /// The distance from the nearest of some places in rising order, above the first one

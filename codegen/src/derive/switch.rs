@@ -56,7 +56,7 @@ pub(super) fn hold(mechanism: &mut Mechanism) -> Result<(), Diagnostics> {
             rate,
             text,
             span,
-            kinks: found.kinks,
+            discontinuity: found.discontinuity,
         });
     }
     Ok(())

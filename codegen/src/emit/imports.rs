@@ -46,7 +46,10 @@ pub(super) fn imports(subject: &Subject) -> TokenStream {
         (guessed, &["guess"]),
         (held || guessed, &["StartEquations", "StartFault"]),
         (!mechanism.events.is_empty(), &["Direction", "Event"]),
-        (!mechanism.switches.is_empty(), &["Condition", "Switch"]),
+        (
+            !mechanism.switches.is_empty(),
+            &["Condition", "Discontinuity", "Switch"],
+        ),
         (!mechanism.tables.is_empty(), &["Table"]),
     ];
     let used = parts.into_iter().filter(|(used, _)| *used);

@@ -5,6 +5,7 @@
 //!      functions; nothing where there are none.
 
 use super::subject::{Subject, Written};
+use crate::model::Discontinuity;
 use crate::optimise::Slot;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -16,9 +17,14 @@ pub(super) fn table(subject: &Subject) -> TokenStream {
         return TokenStream::new();
     }
     let entries = switches.iter().map(|switch| {
-        let (text, kinks) = (&switch.text, switch.kinks);
+        let text = &switch.text;
+        let discontinuity = match switch.discontinuity {
+            Discontinuity::Jump => quote!(Discontinuity::Jump),
+            Discontinuity::Kink => quote!(Discontinuity::Kink),
+            Discontinuity::Knot => quote!(Discontinuity::Knot),
+        };
         let line = Literal::u32_unsuffixed(switch.span.start.line);
-        quote!(Condition { text: #text, line: #line, kinks: #kinks })
+        quote!(Condition { text: #text, line: #line, discontinuity: #discontinuity })
     });
     quote!(static CONDITIONS: &[Condition] = &[#(#entries),*];)
 }

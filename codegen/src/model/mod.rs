@@ -118,8 +118,19 @@ pub struct Switch {
     pub text: String,
     /// Where it was written: the statement.
     pub span: Span,
-    /// Whether the forces are continuous where it is zero, but for the slope.
-    pub kinks: bool,
+    /// What the forces do where it is zero.
+    pub discontinuity: Discontinuity,
+}
+
+/// What forces do where a switching function is zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Discontinuity {
+    /// They may jump.
+    Jump,
+    /// They are continuous, but for the slope.
+    Kink,
+    /// They go on with another polynomial of a spline: nothing depends on the side.
+    Knot,
 }
 
 /// A coordinate as the description declares it, in terms of those that were kept.

@@ -18,7 +18,7 @@
 use super::conditions::{Aim, Decided};
 use crate::crossing::{Left, NODES, Samples, first_crossing, nodes, zero};
 use crate::once::compiled_once;
-use crate::{DynamicsError, Real, Sides, Switch, Switching, Watched};
+use crate::{Discontinuity, DynamicsError, Real, Sides, Switch, Switching, Watched};
 
 /// Attempts to end a step where one function passes zero, after the first.
 const REFINEMENTS: u32 = 3;
@@ -161,7 +161,7 @@ impl<T: Real> dyn Motion<T> + '_ {
         }
         let [leaves, returns] = [pushes[0] < T::zero(), pushes[1] > T::zero()];
         let decided = self.decided();
-        if leaves && returns && !decided.list[index].kinks {
+        if leaves && returns && decided.list[index].discontinuity == Discontinuity::Jump {
             decided.sliding |= 1 << index;
         }
         Ok(())
@@ -192,9 +192,18 @@ impl<T: Real> dyn Motion<T> + '_ {
                     self.values(t, &mut values[..=index]);
                     defined(t, values[index].value)
                 };
-                let samples = sampled[index % AT_ONCE];
-                defined(ends.1, samples[NODES - 1])?;
-                earliest(&mut value, (times, samples), side, self.noise())?
+                let samples = Samples {
+                    times,
+                    values: sampled[index % AT_ONCE],
+                };
+                defined(ends.1, samples.values[NODES - 1])?;
+                // Cubics that join smoothly differ by the third power of the distance from the
+                // knot: what comes no farther beyond does not matter.
+                let margin = match condition.discontinuity {
+                    Discontinuity::Knot => self.noise().sqrt(),
+                    Discontinuity::Jump | Discontinuity::Kink => self.noise() * samples.size(),
+                };
+                earliest(&mut value, samples, side, margin)?
             };
             if let Some(t) = found {
                 first = match first {
@@ -208,8 +217,7 @@ impl<T: Real> dyn Motion<T> + '_ {
 
     /// When one side no longer pushes back within a step that slides along a condition.
     fn end_of_sliding(&mut self, index: usize) -> Result<Option<T>, DynamicsError<T>> {
-        let times = nodes(self.ends());
-        let noise = self.noise();
+        let (ends, noise) = (self.ends(), self.noise());
         let mut first: Option<T> = None;
         // What is left of either side's share.
         for above in [true, false] {
@@ -218,11 +226,8 @@ impl<T: Real> dyn Motion<T> + '_ {
                 let share = self.decided().shares[index];
                 Ok(if above { T::one() - share } else { share })
             };
-            let mut samples = [T::zero(); NODES];
-            for (sample, t) in samples.iter_mut().zip(times) {
-                *sample = left(t)?;
-            }
-            let found = earliest(&mut left, (times, samples), T::one(), noise)?;
+            let samples = Samples::of(&mut left, ends)?;
+            let found = earliest(&mut left, samples, T::one(), noise * samples.size())?;
             first = match (first, found) {
                 (Some(a), Some(b)) => Some(a.min(b)),
                 (a, b) => a.or(b),
@@ -276,15 +281,14 @@ impl<T: Real> Decided<T> {
     }
 }
 
-/// When a sampled function leaves a side for the other one, if it does by more than noise.
+/// When a sampled function leaves a side for the other one, if it does by more than a margin.
 fn earliest<T: Real>(
     function: &mut dyn FnMut(T) -> Result<T, DynamicsError<T>>,
-    (times, values): ([T; NODES], [T; NODES]),
+    mut samples: Samples<T>,
     side: T,
-    noise: T,
+    margin: T,
 ) -> Result<Option<T>, DynamicsError<T>> {
-    let mut samples = Samples { times, values };
-    let margin = noise * samples.size() * side;
+    let margin = margin * side;
     for value in &mut samples.values {
         *value += margin;
     }

@@ -2,8 +2,8 @@
 
 use bricard_runtime::nalgebra::{SMatrix, SVector};
 use bricard_runtime::{
-    Condition, ConstraintRow, Direction, Energy, Event, Mechanism, Position, Quantity, Sides,
-    Start, StartEquations, StartFault, State, Structure, Switch, Terms, meet,
+    Condition, ConstraintRow, Direction, Discontinuity, Energy, Event, Mechanism, Position,
+    Quantity, Sides, Start, StartEquations, StartFault, State, Structure, Switch, Terms, meet,
 };
 
 /// A function of the position: its value, gradient and second derivatives.
@@ -107,7 +107,7 @@ static WITH_START: [Structure; 2] = [
 static CONDITIONS: [Condition; 1] = [Condition {
     text: "if x < 1/2",
     line: 5,
-    kinks: false,
+    discontinuity: Discontinuity::Jump,
 }];
 
 impl Mechanism<f64, 2, 1> for Point {
