@@ -180,6 +180,9 @@ fn sample_mass<T: Real>(
             }
         }
     }
+    if !named.is_empty() {
+        observe_parameters(solver, state, turned);
+    }
     let mut learning = solver.learn();
     let inertia = learning.metric.inertia();
     let mut uneven = learning.rows.weigh_unevenly(levers, inertia, workspace);
@@ -194,6 +197,29 @@ fn sample_mass<T: Real>(
     }
     if !definite || uneven {
         solver.learn().metric.parts.augment();
+    }
+}
+
+/// Takes note of the inertia of coordinates without a unit where they have other values. Of
+/// Euler parameters one is nearly one and the others nearly zero at some positions, where it
+/// has next to no inertia, and so would the direction along which they do not move.
+fn observe_parameters<T: Real>(
+    solver: &mut dyn Constrained<T>,
+    state: At<'_, T>,
+    moved: &mut [T],
+) {
+    for sample in 1..=SAMPLES {
+        turn(solver, state.q, sample, moved);
+        let coordinates: &[Quantity] = solver.structure().coordinates;
+        for (j, (q, coordinate)) in moved.iter_mut().zip(coordinates).enumerate() {
+            if coordinate.unit == "1" {
+                *q += T::from_f64(2.0 * stride(sample, j) - 1.0);
+            }
+        }
+        solver.locate(state.t, moved);
+        let mut learning = solver.learn();
+        let mass = learning.at.mass;
+        learning.metric.observe(mass);
     }
 }
 
@@ -247,10 +273,14 @@ fn turn<T: Real>(solver: &dyn Constrained<T>, q: &[T], sample: usize, turned: &m
     let coordinates: &[Quantity] = solver.structure().coordinates;
     for (j, (q, coordinate)) in turned.iter_mut().zip(coordinates).enumerate() {
         if coordinate.may_be_angle() {
-            let share = STRIDES[0] * sample as f64 + STRIDES[1] * (j * sample) as f64;
-            *q += T::from_f64(core::f64::consts::TAU * (share % 1.0));
+            *q += T::from_f64(core::f64::consts::TAU * stride(sample, j));
         }
     }
+}
+
+/// A number between zero and one, another for each coordinate of each sample.
+fn stride(sample: usize, coordinate: usize) -> f64 {
+    (STRIDES[0] * sample as f64 + STRIDES[1] * (coordinate * sample) as f64) % 1.0
 }
 
 /// The median of the numbers that are finite; infinite if there is none.
