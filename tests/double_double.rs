@@ -70,14 +70,25 @@ fn example(name: &str, until: f64) -> End {
     }
 }
 
-#[test]
-fn reference_motions_have_18_decimals_through_singular_positions() {
-    for (name, until, angle, rate) in ENDS {
+/// Holds the ends of some motions against exact ones.
+fn ends(motions: &[(&str, f64, &str, &str)]) {
+    for &(name, until, angle, rate) in motions {
         let (q, v, error) = example(name, until);
         check(name, "q1", q[0], angle);
         check(name, "q1'", v[0], rate);
         assert!(error <= ERROR, "{name}: estimated error {error:e}");
     }
+}
+
+#[test]
+fn a_reference_motion_has_18_decimals_through_singular_positions() {
+    ends(&ENDS[..1]);
+}
+
+#[test]
+#[ignore = "long: two motions of eight seconds in numbers of 106 bits"]
+fn reference_motions_have_18_decimals_through_singular_positions() {
+    ends(&ENDS[1..]);
 }
 
 #[test]

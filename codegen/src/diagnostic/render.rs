@@ -8,10 +8,14 @@
 
 use super::{Diagnostic, Diagnostics, LIBRARY, Label, Severity, without_mark};
 use annotate_snippets::{Annotation, AnnotationKind, Level, Renderer, Snippet};
+use std::ops::Range;
 
 /// More findings than this are counted, not shown: the first ones usually cause
 /// the rest.
 const SHOWN: usize = 40;
+/// Bytes of a long line that are looked at before and behind what is underlined; the screen
+/// has room for fewer.
+const BESIDE: usize = 4096;
 
 impl Diagnostics {
     /// The findings with their source lines; empty if there are none. The first
@@ -70,21 +74,45 @@ fn snippet<'a>(
     let primary = std::iter::once((AnnotationKind::Primary, &diagnostic.primary));
     let others = diagnostic.secondary.iter();
     let labels = primary.chain(others.map(|label| (AnnotationKind::Context, label)));
-    let here = labels.filter(|(_, label)| label.span.library == library);
-    let here = here.map(|(kind, label)| annotation(kind, label, source));
-    Snippet::source(source).annotations(here)
+    let here: Vec<_> = labels
+        .filter(|(_, label)| label.span.library == library)
+        .map(|(kind, label)| (kind, label, covered(label, source)))
+        .collect();
+    let part = surroundings(here.iter().map(|(_, _, range)| range), source);
+    let here = here.into_iter().map(|(kind, label, range)| {
+        let annotation = kind.span(range.start - part.start..range.end - part.start);
+        match label.text.as_str() {
+            "" => annotation,
+            text => annotation.label(text),
+        }
+    });
+    let line = 1 + source[..part.start].matches('\n').count();
+    Snippet::source(&source[part.clone()])
+        .line_start(line)
+        .annotations(here)
 }
 
-/// A label on the bytes that its span covers, as far as the text has them.
-fn annotation<'a>(kind: AnnotationKind, label: &'a Label, source: &str) -> Annotation<'a> {
+/// The bytes that a label covers, as far as the text has them.
+fn covered(label: &Label, source: &str) -> Range<usize> {
     let range = label.span.range();
     let end = floor_char_boundary(source, range.end);
-    let start = floor_char_boundary(source, range.start.min(end));
-    let annotation = kind.span(start..end);
-    match label.text.as_str() {
-        "" => annotation,
-        text => annotation.label(text),
-    }
+    floor_char_boundary(source, range.start.min(end))..end
+}
+
+/// The lines that some labels stand in, without what is far from all of them in long ones: a
+/// text of many megabytes takes no longer to show than its lines do.
+fn surroundings<'a>(
+    labels: impl Iterator<Item = &'a Range<usize>> + Clone,
+    source: &str,
+) -> Range<usize> {
+    let first = labels.clone().map(|range| range.start).min().unwrap_or(0);
+    let last = labels.map(|range| range.end).max().unwrap_or(0);
+    let begin = source[..first].rfind('\n').map_or(0, |newline| newline + 1);
+    let end = source[last..]
+        .find('\n')
+        .map_or(source.len(), |length| last + length);
+    let begin = begin.max(floor_char_boundary(source, first.saturating_sub(BESIDE)));
+    begin..end.min(floor_char_boundary(source, last + BESIDE))
 }
 
 /// The last boundary between characters at or before a byte of the text.

@@ -126,15 +126,20 @@ fn conditions(name: &str, statements: &str) -> usize {
 }
 
 #[test]
-fn splines_of_the_time_take_a_condition_each_as_long_as_there_is_room() {
+fn splines_take_a_condition_each_as_long_as_there_is_room() {
     let few = "spline([[0, 1], [1, 2], [3, 0]], 2*t + 1)";
     for (place, count, statements) in [
         ("alone", 1, format!("force {few} on q;")),
         ("rate", 1, format!("force {few} + der({few}) on q;")),
         (
             "place",
-            0,
+            1,
             format!("force {} on q;", few.replace("*t", "*q")),
+        ),
+        (
+            "parameter",
+            0,
+            format!("param p = 1; force {} on q;", few.replace("*t", "*p")),
         ),
         ("constraint", 1, format!("constraint q = {few};")),
         ("output", 0, format!("output o = {few};")),

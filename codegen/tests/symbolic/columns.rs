@@ -152,7 +152,7 @@ fn the_code_of_a_chain_grows_as_the_chain_does() {
             let compiled = compile_source(&source, "chain", "chain.mech", &of_length(links));
             compiled.expect("it is compiled").code.lines().count()
         };
-        let (short, long) = (lines(40), lines(120));
+        let (short, long) = (lines(30), lines(90));
         assert!(10 * long <= 32 * short, "{short} and {long} lines");
     }
 }
@@ -161,7 +161,7 @@ fn the_code_of_a_chain_grows_as_the_chain_does() {
 fn equations_of_a_chain_grow_as_the_chain_does() {
     for source in [of_joints(), of_rods()] {
         let expressions = |links| Case::of(&source, &of_length(links)).mechanism.graph.len();
-        let (short, long) = (expressions(40), expressions(640));
-        assert!(10 * long <= 184 * short, "{short} and {long} expressions");
+        let (short, long) = (expressions(40), expressions(320));
+        assert!(10 * long <= 92 * short, "{short} and {long} expressions");
     }
 }

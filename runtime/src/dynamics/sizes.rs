@@ -203,11 +203,7 @@ fn sample_mass<T: Real>(
 /// Takes note of the inertia of coordinates without a unit where they have other values. Of
 /// Euler parameters one is nearly one and the others nearly zero at some positions, where it
 /// has next to no inertia, and so would the direction along which they do not move.
-fn observe_parameters<T: Real>(
-    solver: &mut dyn Constrained<T>,
-    state: At<'_, T>,
-    moved: &mut [T],
-) {
+fn observe_parameters<T: Real>(solver: &mut dyn Constrained<T>, state: At<'_, T>, moved: &mut [T]) {
     for sample in 1..=SAMPLES {
         turn(solver, state.q, sample, moved);
         let coordinates: &[Quantity] = solver.structure().coordinates;

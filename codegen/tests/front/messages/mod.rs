@@ -13,6 +13,7 @@ mod templates;
 use bricard_testkit::page::hold_section;
 use bricard_testkit::sentences::Sentence;
 use heard::{Heard, Hearing};
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::LazyLock;
 use templates::templates;
@@ -34,10 +35,10 @@ fn sentences() -> Vec<Sentence> {
 fn every_text_of_the_front_end_is_said_about_some_description() {
     let templates = sentences();
     assert!(templates.len() > 400, "only {} texts", templates.len());
+    let said: BTreeSet<&String> = SAID.iter().flat_map(Heard::texts).collect();
     let mut silent = Vec::new();
     for template in &templates {
-        let heard = SAID.iter().flat_map(Heard::texts);
-        let heard = heard.into_iter().any(|text| template.is_in(text));
+        let heard = said.iter().any(|text| template.is_in(text));
         if heard == template.place.contains(NEVER) {
             silent.push(template.place.as_str());
         }
