@@ -1,7 +1,7 @@
 //! Any numbers are drawn, whatever a run came to.
 
 #![no_main]
-#![allow(dead_code)]
+#![allow(dead_code, unused_imports)]
 
 #[path = "../../cli/error.rs"]
 mod error;
