@@ -37,7 +37,7 @@ pub(crate) struct Decided<T> {
     pub(super) sliding: u128,
     /// Filippov's weights of the forces above zero, for a motion that slides, at the last
     /// state.
-    pub(super) shares: [T; Sides::ROOM],
+    pub(super) weights: [T; Sides::ROOM],
     /// Sides, and those slid along, with which the last step was made.
     pub(super) made: Option<(Sides, u128)>,
     pub(super) aim: Option<Aim<T>>,
@@ -73,7 +73,7 @@ impl<T: Real> Decided<T> {
             list: &[],
             sides: Sides::FREE,
             sliding: 0,
-            shares: [T::zero(); Sides::ROOM],
+            weights: [T::zero(); Sides::ROOM],
             made: None,
             aim: None,
             turned: T::zero(),
@@ -100,7 +100,7 @@ impl<T: Real> Decided<T> {
     pub(super) fn adopt(&mut self, other: &Self) {
         self.made = other.made;
         if let Some((sides, sliding)) = self.made {
-            self.shares = other.shares;
+            self.weights = other.weights;
             (self.sides, self.sliding) = (sides, sliding);
         }
     }

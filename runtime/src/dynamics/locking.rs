@@ -139,15 +139,15 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let slid = self.conditions.decided.slid(state.t)?;
         let mut vectors = [[T::zero(); N]; ROOM + 1];
         let room = vectors.as_flattened_mut();
-        let shares = sliding()(&slid, N, room, &mut |sides, rates, out| {
+        let weights = sliding()(&slid, N, room, &mut |sides, rates, out| {
             self.decide(sides);
             let acceleration = self.acceleration(mechanism, state)?;
             mechanism.switches(state, &acceleration, rates);
             out.copy_from_slice(acceleration.as_slice());
             Ok(())
         })?;
-        for (&index, share) in slid.list().iter().zip(shares) {
-            self.conditions.decided.shares[index] = share;
+        for (&index, weight) in slid.list().iter().zip(weights) {
+            self.conditions.decided.weights[index] = weight;
         }
         self.decide(self.conditions.decided.sides);
         Ok(SVector::from(vectors[0]))

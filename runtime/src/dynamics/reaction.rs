@@ -95,7 +95,7 @@ where
 }
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
-    /// `p₁ − M q̈`, of a motion that slides with the shares of its forces.
+    /// `p₁ − M q̈`, of a motion that slides with the weights of its forces.
     #[inline(never)]
     fn held_reaction(
         &mut self,
@@ -108,10 +108,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let sides = terms.sides;
         let mut below = sides;
         let mut reaction = SVector::<T, N>::zeros();
-        let mut add = |sides, share| {
+        let mut add = |sides, weight| {
             terms.sides = sides;
             mechanism.terms(state, terms);
-            add_scaled(reaction.as_mut_slice(), share, terms.force.as_slice());
+            add_scaled(reaction.as_mut_slice(), weight, terms.force.as_slice());
         };
         let sliding = (0..decided.list.len()).filter(|index| decided.slides(*index));
         for index in sliding.clone() {
@@ -120,9 +120,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         for index in sliding {
             let mut above = below;
             above.hold(index as u32, true);
-            let share = decided.shares[index];
-            add(above, share);
-            add(below, -share);
+            let weight = decided.weights[index];
+            add(above, weight);
+            add(below, -weight);
         }
         add(below, T::one());
         terms.sides = sides;

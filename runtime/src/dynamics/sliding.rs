@@ -5,7 +5,7 @@
 //!      pushes back.
 //!
 //! Dry friction that holds a body, `force -F*sign(der(x)) on x`, is of this kind: the
-//! share of each side says how much of the friction acts. Several conditions are taken
+//! weight of each side says how much of the friction acts. Several conditions are taken
 //! together, each with the difference that it makes to the acceleration.
 //!
 //! Source: Filippov, Differential Equations with Discontinuous Righthand Sides (1988),
@@ -27,8 +27,8 @@ pub(crate) struct Slid {
     below: Sides,
 }
 
-/// How much of the force above zero acts for each condition.
-pub(crate) type Shares<T> = [T; ROOM];
+/// Filippov's weight of the force above zero for each condition.
+pub(crate) type Weights<T> = [T; ROOM];
 
 /// An acceleration with the conditions held on these sides, which it writes, and the
 /// switching functions with their rates.
@@ -62,17 +62,17 @@ impl Slid {
     }
 
     /// The acceleration of `n` coordinates, in the first of `ROOM + 1` vectors, and the
-    /// shares.
+    /// weights.
     pub(crate) fn slide<T: Real>(
         &self,
         n: usize,
         vectors: &mut [T],
         accelerate: Accelerate<'_, T>,
-    ) -> Result<Shares<T>, DynamicsError<T>> {
+    ) -> Result<Weights<T>, DynamicsError<T>> {
         let (below, above) = vectors.split_at_mut(n);
         let mut rates = [Switch::default(); Sides::ROOM];
         accelerate(self.below, &mut rates, below)?;
-        // Row `j`: how the rate of function `j` changes with each share; what it lacks.
+        // Row `j`: how the rate of function `j` changes with each weight; what it lacks.
         let mut table = [[T::zero(); ROOM + 1]; ROOM];
         for (row, &j) in table.iter_mut().zip(self.list()) {
             row[self.count] = -rates[j].rate;
@@ -86,19 +86,19 @@ impl Slid {
                 row[i] = changed[j].rate - rates[j].rate;
             }
         }
-        let shares = solve(&mut table, self.count);
+        let weights = solve(&mut table, self.count);
         for (j, sum) in below.iter_mut().enumerate() {
             let held = *sum;
-            for (i, share) in shares[..self.count].iter().enumerate() {
-                *sum += (above[i * n + j] - held) * *share;
+            for (i, weight) in weights[..self.count].iter().enumerate() {
+                *sum += (above[i * n + j] - held) * *weight;
             }
         }
-        Ok(shares)
+        Ok(weights)
     }
 }
 
 /// Solves `count` equations by elimination with the largest pivot of each column.
-/// Conditions that make no difference of their own have no share.
+/// Conditions that make no difference of their own have no weight.
 #[inline(never)]
 fn solve<T: Real>(table: &mut [[T; ROOM + 1]; ROOM], count: usize) -> [T; ROOM] {
     for k in 0..count {
@@ -130,6 +130,6 @@ fn solve<T: Real>(table: &mut [[T; ROOM + 1]; ROOM], count: usize) -> [T; ROOM] 
 compiled_once! {
     /// [`Slid::slide`].
     pub(super) fn sliding<T>:
-        fn(&Slid, usize, &mut [T], Accelerate<'_, T>) -> Result<Shares<T>, DynamicsError<T>> =
+        fn(&Slid, usize, &mut [T], Accelerate<'_, T>) -> Result<Weights<T>, DynamicsError<T>> =
         |slid, n, vectors, accelerate| slid.slide(n, vectors, accelerate);
 }

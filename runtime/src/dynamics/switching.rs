@@ -45,7 +45,7 @@ pub(crate) trait Motion<T> {
     /// Writes the values of switching functions at a time, as many as there is room for.
     fn values(&self, t: T, values: &mut [Switch<T>]);
     /// The same with their rates, with the conditions held as was decided. Without room, no
-    /// more than the shares of the conditions that are slid along.
+    /// more than the weights of the conditions that are slid along.
     fn rates(&mut self, t: T, values: &mut [Switch<T>]) -> Result<(), DynamicsError<T>>;
 }
 
@@ -120,7 +120,7 @@ impl<T: Real> dyn Motion<T> + '_ {
         Ok((0..count).find(|&index| {
             let Switch { value, rate } = values[index];
             match decided.slides(index) {
-                true => !(T::zero()..=T::one()).contains(&decided.shares[index]),
+                true => !(T::zero()..=T::one()).contains(&decided.weights[index]),
                 false => value == T::zero() && rate * decided.side(index) < T::zero(),
             }
         }))
@@ -148,7 +148,7 @@ impl<T: Real> dyn Motion<T> + '_ {
         decided.count_turn(index, t)?;
         let place = index as u32;
         if decided.slides(index) {
-            let above = decided.shares[index] > T::from_f64(0.5);
+            let above = decided.weights[index] > T::from_f64(0.5);
             decided.sliding &= !(1 << index);
             decided.sides.hold(place, above);
             return Ok(());
@@ -219,12 +219,12 @@ impl<T: Real> dyn Motion<T> + '_ {
     fn end_of_sliding(&mut self, index: usize) -> Result<Option<T>, DynamicsError<T>> {
         let (ends, noise) = (self.ends(), self.noise());
         let mut first: Option<T> = None;
-        // What is left of either side's share.
+        // What is left of either side's weight.
         for above in [true, false] {
             let mut left = |t| {
                 self.rates(t, &mut [])?;
-                let share = self.decided().shares[index];
-                Ok(if above { T::one() - share } else { share })
+                let weight = self.decided().weights[index];
+                Ok(if above { T::one() - weight } else { weight })
             };
             let samples = Samples::of(&mut left, ends)?;
             let found = earliest(&mut left, samples, T::one(), noise * samples.size())?;
@@ -234,7 +234,7 @@ impl<T: Real> dyn Motion<T> + '_ {
             };
         }
         if let Some(t) = first {
-            // The shares there say which side it leaves to.
+            // The weights there say which side it leaves to.
             self.rates(t, &mut [])?;
         }
         Ok(first)
