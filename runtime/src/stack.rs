@@ -10,20 +10,20 @@
 
 /// A large part of something, kept on the heap so that its owner fits onto any stack.
 #[cfg(feature = "std")]
-pub(crate) type Held<V> = Box<V>;
+pub(crate) type MaybeBoxed<V> = Box<V>;
 /// A large part of something, kept inside its owner, since there is no heap.
 #[cfg(not(feature = "std"))]
-pub(crate) type Held<V> = V;
+pub(crate) type MaybeBoxed<V> = V;
 
 /// Makes a large part in place, so that it need not be moved.
 #[cfg(feature = "std")]
 #[inline(always)]
-pub(crate) fn held<V>(make: impl FnOnce() -> V) -> Held<V> {
+pub(crate) fn maybe_boxed<V>(make: impl FnOnce() -> V) -> MaybeBoxed<V> {
     Box::write(Box::new_uninit(), make())
 }
 /// Makes a large part.
 #[cfg(not(feature = "std"))]
-pub(crate) fn held<V>(make: impl FnOnce() -> V) -> Held<V> {
+pub(crate) fn maybe_boxed<V>(make: impl FnOnce() -> V) -> MaybeBoxed<V> {
     make()
 }
 

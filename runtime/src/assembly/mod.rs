@@ -25,7 +25,7 @@ mod memory;
 mod position;
 mod room;
 mod scales;
-mod vanishing;
+mod vanishing_gradient;
 mod velocity;
 
 pub use equations::{StartEquations, guess, meet};

@@ -10,7 +10,7 @@
 use super::decomposition::Decomposition;
 use super::draft::{Assemble, Draft, Refusal};
 use super::scales::{Scales, disturb};
-use super::vanishing::vanishing_row;
+use super::vanishing_gradient::vanishing_row;
 use crate::Real;
 use crate::equations::Equations;
 use crate::linalg::Workspace;

@@ -186,9 +186,9 @@ where
             });
         }
         let (mut rank, mut sine) = (0, T::one());
-        solver.combine(Source::Position, state.t, &mut |combined| {
-            rank = combined.above(regular()).min(full);
-            for value in &combined.values[..full] {
+        solver.decompose(Source::Position, state.t, &mut |decomposition| {
+            rank = decomposition.above(regular()).min(full);
+            for value in &decomposition.values[..full] {
                 sine = sine.min(*value);
             }
         })?;

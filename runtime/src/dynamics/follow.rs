@@ -7,7 +7,7 @@
 //! come near one is taken again with a chart.
 
 use super::{Core, Source};
-use crate::linalg::{is_finite, projecting};
+use crate::linalg::{is_finite, solving_in_subspace};
 use crate::singular::{Found, Obstacle, Placed, Placement, Point};
 use crate::state::all_finite;
 use crate::tolerance::{regular, round_off, window};
@@ -276,7 +276,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         point: &Point<T, N>,
         mut force: SVector<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        let projected = projecting()(
+        let projected = solving_in_subspace()(
             self.terms.mass.as_slice(),
             &point.tangent.as_slice()[..N * self.freedoms()],
             force.as_mut_slice(),

@@ -4,13 +4,13 @@
 //! Out: [`Independent`], where a lower bound of their singular values tells; the directions
 //!      that they leave free.
 //!
-//! Not here: singular values, which decide where this does not ([`super::combined`]).
+//! Not here: singular values, which decide where this does not ([`super::singular_values`]).
 
-use super::combined::lift;
-use super::lent::Constrained;
+use super::erased::Constrained;
+use super::singular_values::lift;
 use crate::Real;
 use crate::linalg::{
-    Frame, Right, Workspace, by_first_row, orthonormalise, scale, solve_upper_transposed,
+    Frame, Right, Workspace, order_by_first_row, orthonormalise, scale, solve_upper_transposed,
 };
 use crate::tolerance::near_dependent;
 
@@ -36,7 +36,7 @@ impl<'a, T: Real> Independent<'a, T> {
             return None;
         }
         let (places, first) = workspace.indices(2 * n).split_at_mut(n);
-        by_first_row(jacobian, rows, places, first);
+        order_by_first_row(jacobian, rows, places, first);
         let mut frame = Frame::new(places, n, workspace);
         frame.clear();
         let (ones, vector) = workspace.any(2 * n).split_at_mut(n);

@@ -10,7 +10,7 @@
 
 use super::Core;
 use super::full::set_units;
-use crate::linalg::{Elimination, Workspace, add_along, add_scaled};
+use crate::linalg::{Elimination, Workspace, add_scaled, add_subspace_solution};
 use crate::once::compiled_once;
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
@@ -96,7 +96,7 @@ pub(crate) fn partition<'a, T: Real>(
     }
     let columns = &mut columns[..count * n];
     // What the weights were in is free.
-    add_along(mass, columns, rest, units, acceleration)
+    add_subspace_solution(mass, columns, rest, units, acceleration)
         .map_err(|column| (0..n).filter(is_free).nth(column).unwrap_or(column))
 }
 

@@ -4,13 +4,13 @@
 //! Out: its rank at regular configurations, an independent subset of its rows; the
 //!      null-space form by a rank decision alone.
 //!
-//! Not here: singular values ([`super::combined`]), and constraints whose gradient vanishes
-//! wherever they hold ([`super::square`]).
+//! Not here: singular values ([`super::singular_values`]), and constraints whose gradient vanishes
+//! wherever they hold ([`super::vanishing_gradient`]).
 
-use super::combined::{Combined, lift, lift_rows};
+use super::erased::Constrained;
 use super::independent::Independent;
-use super::lent::Constrained;
-use super::square::is_square;
+use super::singular_values::{SingularValueDecomposition, lift, lift_rows};
+use super::vanishing_gradient::has_one_sign;
 use super::{Core, Source, Which};
 use crate::equations::At;
 use crate::linalg::{Workspace, add_scaled, length, norm};
@@ -59,8 +59,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let right = self.scaled(&bias);
         let mut w = self.free_acceleration(&bias);
         let limit = self.rows.regular(Which::All);
-        self.combine(Source::Terms, state.t, &mut |combined| {
-            combined.decide(limit, negligible(), &right, &mut w);
+        self.decompose(Source::Terms, state.t, &mut |decomposition| {
+            decomposition.decide(limit, negligible(), &right, &mut w);
         })?;
         Ok(self.lower(w))
     }
@@ -119,8 +119,8 @@ fn rank_nearby<T: Real>(
     workspace: &Workspace<'_, T>,
 ) -> Result<usize, DynamicsError<T>> {
     solver.visit(state.t, state.q)?;
-    let combined = Combined::here(solver, which, state.t, workspace)?;
-    let rank_here = combined.above(regular());
+    let decomposition = SingularValueDecomposition::here(solver, which, state.t, workspace)?;
+    let rank_here = decomposition.above(regular());
     regular_at.copy_from_slice(state.q);
     if rank_here == solver.known().count(which) {
         return Ok(rank_here);
@@ -128,7 +128,7 @@ fn rank_nearby<T: Real>(
     let vanishing = vanishing_row(solver, which, workspace);
     let mut lost = None;
     let least = difference::<T>() * T::from_f64(RETURNS);
-    for q in neighbours(solver, state, &combined, workspace) {
+    for q in neighbours(solver, state, &decomposition, workspace) {
         solver.visit(state.t, q)?;
         let rank = rank_above(solver, which, state.t, least, workspace)?;
         if rank <= rank_here {
@@ -148,7 +148,7 @@ fn rank_nearby<T: Real>(
     let Some((row, rank)) = lost else {
         return Ok(rank_here);
     };
-    if is_square(solver, state, &combined, rank_here, workspace) {
+    if has_one_sign(solver, state, &decomposition, rank_here, workspace) {
         return Err(DynamicsError::SingularConfiguration {
             t: state.t,
             kind: Singularity::Vanishing,
@@ -193,7 +193,9 @@ fn rank_above<T: Real>(
     if are_independent(solver, which, least, workspace) {
         return Ok(solver.known().count(which));
     }
-    workspace.scope(|workspace| Ok(Combined::here(solver, which, t, workspace)?.above(least)))
+    workspace.scope(|workspace| {
+        Ok(SingularValueDecomposition::here(solver, which, t, workspace)?.above(least))
+    })
 }
 
 /// Whether a rank next to a state is still there where the constraints hold.
@@ -212,10 +214,10 @@ fn stays<T: Real>(
             solver.visit(t, moved)?;
             w.fill(T::zero());
             let stays = workspace.scope(|workspace| {
-                let combined = Combined::here(solver, which, t, workspace)?;
-                let rank = combined.above(least);
+                let decomposition = SingularValueDecomposition::here(solver, which, t, workspace)?;
+                let rank = decomposition.above(least);
                 solver.known().scaled(solver.constraints().residual, right);
-                combined.decide(rank, least, right, w);
+                decomposition.decide(rank, least, right, w);
                 Ok(rank >= wanted)
             })?;
             if !stays {
@@ -249,7 +251,7 @@ fn vanishing_row<T: Real>(
 fn neighbours<'a, T: Real>(
     solver: &dyn Constrained<T>,
     state: At<'_, T>,
-    combined: &Combined<'_, T>,
+    decomposition: &SingularValueDecomposition<'_, T>,
     workspace: &Workspace<'a, T>,
 ) -> core::slice::ChunksExactMut<'a, T> {
     let (n, known) = (state.q.len(), solver.known());
@@ -270,7 +272,7 @@ fn neighbours<'a, T: Real>(
     for j in 0..n {
         axis.fill(T::zero());
         axis[j] = T::one();
-        combined.remove_from(axis);
+        decomposition.remove_from(axis);
         let size = norm(axis);
         if size > regular() {
             known.lower(axis);

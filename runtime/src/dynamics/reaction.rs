@@ -143,8 +143,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let mut lifted = reaction.data.0[0];
         self.metric.factor.forward(&mut lifted);
         let (mut multipliers, mut shared) = ([T::zero(); R], [false; R]);
-        self.combine(Source::Terms, t, &mut |combined| {
-            combined.share(&lifted, &mut multipliers, &mut shared);
+        self.decompose(Source::Terms, t, &mut |decomposition| {
+            decomposition.share(&lifted, &mut multipliers, &mut shared);
         })?;
         Ok(column(|row| {
             (!shared[row]).then_some(multipliers[row] * self.rows.scale(row))

@@ -10,8 +10,8 @@
 //! its turning is evidence only for rows that vanish at the first state.
 
 use super::Core;
-use super::combined::lift;
-use super::lent::Constrained;
+use super::erased::Constrained;
+use super::singular_values::lift;
 use crate::equations::At;
 use crate::linalg::{Workspace, dot, independent_columns, is_definite, norm, scale};
 use crate::once::compiled_once;

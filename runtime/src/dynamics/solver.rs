@@ -6,7 +6,7 @@
 //! Nothing allocates after construction: buffers have the sizes of the mechanism; large
 //! ones are taken from the heap once.
 //!
-//! Not here: where it lives itself ([`super::held`]).
+//! Not here: where it lives itself ([`super::public_solver`]).
 
 use super::conditions::Conditions;
 use super::{Metric, Rows, SchurComplement, Which};

@@ -10,14 +10,14 @@ use super::step::Step;
 use super::step_control::Controlled;
 use super::tableau::{DOP853, DP5, RADAU5, RADAU9};
 use super::{IntegrateError, Integrator, Tolerance};
-use crate::stack::{Held, held, with_room};
+use crate::stack::{MaybeBoxed, maybe_boxed, with_room};
 use crate::{Real, State, System};
 
 macro_rules! method {
     ($(#[$docs:meta])* $name:ident, $make:ident, $method:ident, $tableau:ident, $new:expr) => {
         $(#[$docs])*
         #[derive(Debug)]
-        pub struct $name<T, const N: usize>(Held<Controlled<$method<T, N>, T, N>>);
+        pub struct $name<T, const N: usize>(MaybeBoxed<Controlled<$method<T, N>, T, N>>);
 
         /// The method by itself, wherever it will live.
         pub(crate) fn $make<T: Real, const N: usize>(
@@ -49,7 +49,7 @@ macro_rules! method {
             }
 
             fn with(tolerance: Option<Tolerance<T, N>>) -> Self {
-                with_room::<T, _, N, N>(|| Self(held(|| $make(tolerance))))
+                with_room::<T, _, N, N>(|| Self(maybe_boxed(|| $make(tolerance))))
             }
 
             /// Forgets the derivative at the last step's end, because the system has

@@ -12,7 +12,8 @@
 //! Rows are visited in the given order, of each row only the columns between its first and
 //! last entry are touched, and of the rows before it only those that it shares a column with,
 //! so that what is local in a chain of loops stays local. Columns are kept in an order in
-//! which rows have their entries close to one another ([`by_first_row`](super::by_first_row)).
+//! which rows have their entries close to one another
+//! ([`order_by_first_row`](super::order_by_first_row)).
 
 use super::block::{Block, LONG, largest_of};
 use super::small::with_size;
@@ -255,7 +256,7 @@ impl<'a, T: Real> Frame<'a, T> {
             let row = self.order.rows[place];
             self.reduce(row, self.marks[row]..done);
         }
-        self.take_late()
+        self.take_near_dependent()
     }
 
     /// Eliminates the rows in the order of another elimination, so that the blocks of both
@@ -281,7 +282,7 @@ impl<'a, T: Real> Frame<'a, T> {
             let row = self.order.rows[place];
             self.reduce(row, 0..done);
         }
-        self.take_late()
+        self.take_near_dependent()
     }
 
     /// Subtracts from a row what makes its entries in some pivot columns vanish.

@@ -11,22 +11,22 @@
 //! Not here: mechanics, and tolerances ([`crate::tolerance`]). No routine knows what its
 //! matrix stands for.
 
-mod along;
 mod block;
 mod cholesky;
 mod column;
+mod column_ordering;
 mod complement;
 mod completion;
 mod elimination;
+mod fixed_frame;
 mod frame;
 mod gram;
 mod jacobi;
-mod late;
-mod places;
+mod near_dependent;
 mod products;
-mod short;
 pub(crate) mod small;
 mod subset;
+mod subspace_solution;
 mod substitution;
 mod sylvester;
 mod symmetric;
@@ -35,7 +35,6 @@ mod tests;
 mod triangle;
 mod workspace;
 
-pub(crate) use along::{add_along, projecting};
 pub(crate) use block::Block;
 pub(crate) use cholesky::{
     Cholesky, NotDefinite, is_definite, length, multiply_upper, multiply_upper_transposed,
@@ -45,14 +44,15 @@ pub(crate) use column::{
     add_product, add_scaled, column, count_above, dot, is_finite, is_zero, norm, pair, scale,
     scaled,
 };
+pub(crate) use column_ordering::order_by_first_row;
 pub(crate) use complement::{orthonormal, orthonormalise, remove};
 pub(crate) use elimination::Elimination;
 pub(crate) use frame::{Eliminated, Frame, Matrix};
 pub(crate) use gram::Gram;
 pub(crate) use jacobi::{Breakdown, orthogonalise};
-pub(crate) use places::by_first_row;
 pub(crate) use products::RowProducts;
 pub(crate) use subset::independent_columns;
+pub(crate) use subspace_solution::{add_subspace_solution, solving_in_subspace};
 pub(crate) use substitution::Right;
 pub(crate) use symmetric::diagonalise;
 pub(crate) use triangle::Triangle;

@@ -8,9 +8,9 @@
 mod conserve;
 mod driver;
 mod error;
+mod evaluation_limit;
 mod event;
 mod grid;
-mod metered;
 mod observers;
 mod options;
 mod stepper;

@@ -6,11 +6,11 @@
 //! Not here: observers and audits ([`super::simulate`]).
 
 use super::driver::{Driver, tolerance};
-use super::metered::Metered;
+use super::evaluation_limit::LimitedEvaluations;
 use super::options::StepControl;
 use super::{Grid, SimulateError};
 use crate::integrator::Inside;
-use crate::stack::{Held, held, with_room};
+use crate::stack::{MaybeBoxed, maybe_boxed, with_room};
 use crate::{Counters, Integrator, Mechanism, Method, Real, Settings, Solver, State, System};
 
 /// Makes steps on demand and does not hold the mechanism in between, so that a
@@ -20,7 +20,7 @@ use crate::{Counters, Integrator, Mechanism, Method, Real, Settings, Solver, Sta
 #[derive(Debug)]
 pub struct Stepper<T, const N: usize, const R: usize> {
     solver: Solver<T, N, R>,
-    driver: Held<Driver<T, N>>,
+    driver: MaybeBoxed<Driver<T, N>>,
     step_control: StepControl<T>,
 }
 
@@ -58,7 +58,7 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
             let tolerance = tolerance(method, step_control)?;
             Ok(Self {
                 solver: Solver::new(settings),
-                driver: held(|| Driver::new(method, tolerance, Inside::Nothing)),
+                driver: maybe_boxed(|| Driver::new(method, tolerance, Inside::Nothing)),
                 step_control,
             })
         })
@@ -138,12 +138,12 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
     where
         M: Mechanism<T, N, R> + ?Sized,
     {
-        let metered = Metered::new(mechanism, most);
-        let result = self.step(&metered, state, span);
-        if metered.is_exceeded() {
+        let limited = LimitedEvaluations::new(mechanism, most);
+        let result = self.step(&limited, state, span);
+        if limited.is_exceeded() {
             return Err(SimulateError::TooMuchWork { t: state.t, most });
         }
-        result.map(|()| metered.asked())
+        result.map(|()| limited.asked())
     }
 
     /// Moves `state` on by one accepted step, as long as the step control wants it and at most to

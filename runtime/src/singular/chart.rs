@@ -12,8 +12,8 @@
 use crate::dynamics::{Metric, Rows, Which};
 use crate::equations::At;
 use crate::linalg::{
-    Cholesky, add_scaled, by_first_row, dot, multiply_upper, multiply_upper_transposed, norm, pair,
-    solve_upper_transposed,
+    Cholesky, add_scaled, dot, multiply_upper, multiply_upper_transposed, norm, order_by_first_row,
+    pair, solve_upper_transposed,
 };
 use crate::{Real, State};
 use nalgebra::{SMatrix, SVector};
@@ -82,7 +82,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             places[*row] = place;
         }
         let mut column_places = [0; N];
-        by_first_row(
+        order_by_first_row(
             jacobian.as_slice(),
             &list[..count],
             &mut column_places,

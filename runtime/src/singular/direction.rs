@@ -7,9 +7,9 @@
 //! matrix for each coordinate of the chart. Of the directions the one is taken along
 //! which all of its singular values pass zero fast and at one place.
 
-use super::kept::SIDE;
 use super::obstacle::Obstacle;
 use super::sheet::Sheet;
+use super::stored_nodes::SIDE;
 use crate::Real;
 use crate::equations::At;
 use crate::linalg::{Block, Eliminated, Workspace, add_scaled, norm};

@@ -7,14 +7,14 @@ use super::chart::Chart;
 use super::obstacle::Obstacle;
 use super::place::Placement;
 use super::sheet::{Point, Sheet};
-use crate::dynamics::{Core, Lent};
+use crate::dynamics::{Core, SolverView};
 use crate::linalg::Workspace;
 use crate::{Mechanism, Real, State};
 
 /// Something that is done on a sheet.
 type Work<'a, T> = &'a mut dyn FnMut(&mut Sheet<'_, T>, &Workspace<'_, T>);
 
-impl<T: Real, const N: usize, const R: usize> Lent<'_, T, N, R> {
+impl<T: Real, const N: usize, const R: usize> SolverView<'_, T, N, R> {
     /// Does something on the sheet of a chart.
     #[inline(never)]
     fn on_sheet(&mut self, chart: &Chart<T, N, R>, workspace: &Workspace<'_, T>, work: Work<T>) {

@@ -23,9 +23,9 @@ const VECTORS: usize = 200
         0
     };
 /// Square matrices of all rows that there is room for where there are more rows than
-/// coordinates, or many of both. A rank decision looks at two sets of combined rows, each a
+/// coordinates, or many of both. A rank decision looks at two sets of decomposed rows, each a
 /// matrix of all rows and one of rows and coordinates, which is the smaller one then.
-const COMBINED: usize = 3;
+const DECOMPOSED: usize = 3;
 /// Lists of indices.
 const LISTS: usize = 16;
 /// Coordinates up to which a mechanism is small, and redundant rows.
@@ -42,7 +42,7 @@ type Matrices<T, const L: usize, const COUNT: usize> = [[[T; L]; L]; COUNT];
 pub(crate) struct Memory<T, const N: usize, const R: usize> {
     vectors: [[T; N]; VECTORS],
     matrices: Matrices<T, N, MATRICES>,
-    combined: Matrices<T, R, COMBINED>,
+    decomposed: Matrices<T, R, DECOMPOSED>,
     indices: [[usize; N]; LISTS],
 }
 
@@ -54,11 +54,11 @@ impl<T: Clone, const N: usize, const R: usize> Clone for Memory<T, N, R> {
             #[cfg(feature = "std")]
             matrices: Vec::new(),
             #[cfg(feature = "std")]
-            combined: Vec::new(),
+            decomposed: Vec::new(),
             #[cfg(not(feature = "std"))]
             matrices: self.matrices.clone(),
             #[cfg(not(feature = "std"))]
-            combined: self.combined.clone(),
+            decomposed: self.decomposed.clone(),
             indices: self.indices,
         }
     }
@@ -71,11 +71,11 @@ impl<T: Real, const N: usize, const R: usize> Memory<T, N, R> {
             #[cfg(feature = "std")]
             matrices: Vec::new(),
             #[cfg(feature = "std")]
-            combined: Vec::new(),
+            decomposed: Vec::new(),
             #[cfg(not(feature = "std"))]
             matrices: [[[T::zero(); N]; N]; MATRICES],
             #[cfg(not(feature = "std"))]
-            combined: [[[T::zero(); R]; R]; COMBINED],
+            decomposed: [[[T::zero(); R]; R]; DECOMPOSED],
             indices: [[0; N]; LISTS],
         }
     }
@@ -86,18 +86,18 @@ impl<T: Real, const N: usize, const R: usize> Memory<T, N, R> {
         if (N > SMALL || R > N + SMALL) && self.matrices.is_empty() {
             // Of zeros, which the system gives without a page being touched.
             self.matrices = vec![T::zero(); MATRICES * N * N];
-            self.combined = vec![T::zero(); COMBINED * R * R];
+            self.decomposed = vec![T::zero(); DECOMPOSED * R * R];
         }
         #[cfg(feature = "std")]
-        let (matrices, combined) = (&mut self.matrices, &mut self.combined);
+        let (matrices, decomposed) = (&mut self.matrices, &mut self.decomposed);
         #[cfg(not(feature = "std"))]
-        let (matrices, combined) = (
+        let (matrices, decomposed) = (
             self.matrices.as_flattened_mut().as_flattened_mut(),
-            self.combined.as_flattened_mut().as_flattened_mut(),
+            self.decomposed.as_flattened_mut().as_flattened_mut(),
         );
         let vectors = self.vectors.as_flattened_mut();
         Workspace::of(
-            [vectors, matrices, combined, &mut []],
+            [vectors, matrices, decomposed, &mut []],
             self.indices.as_flattened_mut(),
         )
     }
@@ -111,10 +111,10 @@ mod tests {
     /// counts of numbers.
     fn check<const N: usize, const R: usize>() {
         let mut memory = Memory::<f64, N, R>::new();
-        let combined = [(1, N * R), (1, R * R), (1, R)];
-        let decision = [combined, combined, [(1, N * N + N), (6, N), (6, R)]];
+        let decomposed = [(1, N * R), (1, R * R), (1, R)];
+        let decision = [decomposed, decomposed, [(1, N * N + N), (6, N), (6, R)]];
         let start = [
-            combined,
+            decomposed,
             [(7, N * N), (8, N), (1, R)],
             [(18, N * N), (185, N), (0, 0)],
         ];

@@ -13,9 +13,9 @@
 
 use super::chart::ChartView;
 use super::direction::Direction;
-use super::kept::NODES;
 use super::obstacle::Obstacle;
 use super::sheet::{PointView, Sheet};
+use super::stored_nodes::NODES;
 use crate::Real;
 use crate::equations::At;
 use crate::linalg::{Block, Eliminated, Workspace, add_scaled, column, dot};

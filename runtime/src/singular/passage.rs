@@ -5,8 +5,8 @@
 //!      other side.
 
 use super::cubic::lowest_of_cubic;
+use super::determinant_signs::DeterminantSigns;
 use super::sheet::Sheet;
-use super::signs::Signs;
 use crate::Real;
 use crate::equations::At;
 use crate::linalg::{Eliminated, Frame, Workspace};
@@ -84,7 +84,7 @@ impl<T: Real> Found<T> {
 /// A look into a step.
 struct Look<'a, T> {
     t: T,
-    signs: Signs<'a, T>,
+    signs: DeterminantSigns<'a, T>,
     /// The determinant of the whole system vanishes where the constraints are singular and
     /// nowhere else: the tangent space turns by far less than a right angle within a step.
     determinant: T,
@@ -92,7 +92,7 @@ struct Look<'a, T> {
 
 impl<'a, T: Real> Look<'a, T> {
     fn of(t: T, frame: &mut Frame<'_, T>, workspace: &Workspace<'a, T>) -> Self {
-        let signs = Signs::of(frame, workspace);
+        let signs = DeterminantSigns::of(frame, workspace);
         let determinant = signs.signed(frame.volume());
         Self {
             t,

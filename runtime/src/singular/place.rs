@@ -8,10 +8,10 @@
 //! more room where the sheet turns or other singular configurations are near.
 
 use super::direction::Direction;
-use super::kept::SIDE;
 use super::nodes::Interpolated;
 use super::obstacle::Obstacle;
 use super::sheet::{PointView, Sheet};
+use super::stored_nodes::SIDE;
 use crate::Real;
 use crate::equations::At;
 use crate::linalg::{Eliminated, Workspace, add_scaled, is_finite};
@@ -97,7 +97,7 @@ impl<T: Real> Sheet<'_, T> {
         point: &mut PointView<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> Result<Placement<T>, Obstacle> {
-        let best = match self.recall(state, workspace) {
+        let best = match self.reuse_nodes(state, workspace) {
             Some(best) => best,
             None => match self.find_nodes(state, like, workspace)? {
                 Ok(best) => best,
@@ -155,7 +155,7 @@ impl<T: Real> Sheet<'_, T> {
         if best.error > self.chart.accepted && best.error * sine * sine > T::EPSILON {
             return Ok(Err(Placement::Regular));
         }
-        self.remember(state, &direction, &best);
+        self.store_nodes(state, &direction, &best);
         Ok(Ok(best))
     }
 

@@ -7,8 +7,8 @@
 //! Trial states change nothing here but what is forgotten when the trial is.
 
 use super::chart::Chart;
-use super::kept::Nodes;
 use super::passage::Found;
+use super::stored_nodes::Nodes;
 use crate::tolerance::{passes, window};
 use crate::{Real, State};
 use nalgebra::SVector;

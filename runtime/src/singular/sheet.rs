@@ -11,8 +11,8 @@
 //! Not here: states where that system is nearly singular ([`super::nodes`]).
 
 use super::chart::ChartView;
-use super::kept::NodesView;
 use super::obstacle::Obstacle;
+use super::stored_nodes::NodesView;
 use crate::equations::{At, Equations};
 use crate::linalg::{Eliminated, Frame, Matrix, Right, Workspace, add_scaled, is_zero};
 use crate::once::compiled_once;

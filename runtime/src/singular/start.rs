@@ -11,10 +11,10 @@
 //! where it is off one of them.
 
 use super::chart::Chart;
-use super::meant::finding_tangent;
 use super::place::Placement;
 use super::sheet::Point;
-use crate::dynamics::{Core, Lent, Source};
+use super::sheet_selection::finding_tangent;
+use crate::dynamics::{Core, SolverView, Source};
 use crate::equations::{At, sized};
 use crate::linalg::{Workspace, is_zero};
 use crate::tolerance::accepted;
@@ -44,7 +44,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 }
 
-impl<T: Real, const N: usize, const R: usize> Lent<'_, T, N, R> {
+impl<T: Real, const N: usize, const R: usize> SolverView<'_, T, N, R> {
     /// A chart at a state whose metric is factorised.
     fn chart(
         &mut self,

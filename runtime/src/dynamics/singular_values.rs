@@ -1,13 +1,14 @@
-//! Constraint rows in the metric, combined until they are orthogonal.
+//! Singular values of the constraint rows in the metric.
 //!
 //! In:  a Jacobian, and what is known of the metric and the rows.
-//! Out: [`Combined`]: singular values, and the directions that the combinations decide;
-//!      the second derivatives of the one that loses its gradient.
+//! Out: [`SingularValueDecomposition`]: combinations of rows that are orthogonal, their
+//!      lengths, which are the singular values, and the directions that they decide;
+//!      the second derivatives of the combination that loses its gradient.
 //!
 //! Not here: what follows for the rank ([`super::rank`]).
 
 use super::Core;
-use super::lent::{Constrained, Known};
+use super::erased::{Constrained, Known};
 use super::rows::Which;
 use super::solver::Source;
 use crate::equations::At;
@@ -21,7 +22,7 @@ use crate::{DynamicsError, Real};
 
 /// Rows in the metric, combined until they are orthogonal.
 #[derive(Debug)]
-pub(crate) struct Combined<'a, T> {
+pub(crate) struct SingularValueDecomposition<'a, T> {
     /// The directions that the combinations decide, of length one, largest first.
     directions: &'a mut [T],
     /// The combinations, as columns.
@@ -32,7 +33,7 @@ pub(crate) struct Combined<'a, T> {
     n: usize,
 }
 
-impl<'a, T: Real> Combined<'a, T> {
+impl<'a, T: Real> SingularValueDecomposition<'a, T> {
     /// Combines the rows of a Jacobian.
     pub(crate) fn new(
         jacobian: &[T],
@@ -73,8 +74,8 @@ impl<'a, T: Real> Combined<'a, T> {
     ) -> Result<Self, DynamicsError<T>> {
         solver.learn().counters.rank_decisions += 1;
         let (jacobian, known) = (solver.constraints().jacobian, solver.known());
-        let combined = Self::new(jacobian, known, which, workspace);
-        combined.map_err(|Breakdown| DynamicsError::NotFinite { t })
+        let decomposition = Self::new(jacobian, known, which, workspace);
+        decomposition.map_err(|Breakdown| DynamicsError::NotFinite { t })
     }
 
     /// How many singular values are above a bound.
@@ -203,19 +204,19 @@ fn make_symmetric<T: Real>(matrix: &mut [T], n: usize) {
 }
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
-    /// Combines the rows of a Jacobian in the metric at hand, and does something with them.
+    /// Decomposes the rows of a Jacobian in the metric at hand, and does something with them.
     #[inline(never)]
-    pub(crate) fn combine(
+    pub(crate) fn decompose(
         &mut self,
         source: Source,
         t: T,
-        work: &mut dyn FnMut(&Combined<'_, T>),
+        work: &mut dyn FnMut(&SingularValueDecomposition<'_, T>),
     ) -> Result<(), DynamicsError<T>> {
         self.counters.rank_decisions += 1;
         let (known, jacobian, workspace) = self.known(source);
-        let combined = combining()(jacobian, known, &workspace);
-        combined
-            .map(|combined| work(&combined))
+        let decomposition = decomposing()(jacobian, known, &workspace);
+        decomposition
+            .map(|decomposition| work(&decomposition))
             .map_err(|Breakdown| DynamicsError::NotFinite { t })
     }
 
@@ -227,16 +228,20 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         least: T,
     ) -> Result<usize, DynamicsError<T>> {
         let mut rank = 0;
-        self.combine(source, t, &mut |combined| rank = combined.above(least))?;
+        self.decompose(source, t, &mut |decomposition| {
+            rank = decomposition.above(least)
+        })?;
         Ok(rank)
     }
 }
 
 compiled_once! {
-    fn combining<T>: for<'b> fn(
+    fn decomposing<T>: for<'b> fn(
         &[T],
         Known<'_, T>,
         &Workspace<'b, T>,
-    ) -> Result<Combined<'b, T>, Breakdown> =
-        |jacobian, known, workspace| Combined::new(jacobian, known, Which::All, workspace);
+    ) -> Result<SingularValueDecomposition<'b, T>, Breakdown> =
+        |jacobian, known, workspace| {
+            SingularValueDecomposition::new(jacobian, known, Which::All, workspace)
+        };
 }

@@ -16,13 +16,13 @@ use core::cell::Cell;
 use nalgebra::SVector;
 
 /// Counts the evaluations of a mechanism's equations and spoils those beyond a limit.
-pub(super) struct Metered<'a, M: ?Sized> {
+pub(super) struct LimitedEvaluations<'a, M: ?Sized> {
     mechanism: &'a M,
     most: u32,
     asked: Cell<u32>,
 }
 
-impl<'a, M: ?Sized> Metered<'a, M> {
+impl<'a, M: ?Sized> LimitedEvaluations<'a, M> {
     /// None asked for yet.
     pub(super) fn new(mechanism: &'a M, most: u32) -> Self {
         Self {
@@ -62,7 +62,7 @@ fn spoil<'b, T: Real>(entries: impl IntoIterator<Item = &'b mut T>) {
     }
 }
 
-impl<M, T: Real, const N: usize, const R: usize> Mechanism<T, N, R> for Metered<'_, M>
+impl<M, T: Real, const N: usize, const R: usize> Mechanism<T, N, R> for LimitedEvaluations<'_, M>
 where
     M: Mechanism<T, N, R> + ?Sized,
 {

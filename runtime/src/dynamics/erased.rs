@@ -1,8 +1,8 @@
 //! The solver of a mechanism whose sizes are forgotten.
 //!
 //! In:  a solver and its mechanism.
-//! Out: [`Lent`], which is [`Constrained`]: equations with the metric of the kinetic energy,
-//!      and what is known of the constraint rows.
+//! Out: [`SolverView`], which is [`Constrained`]: equations with the metric of the kinetic
+//!      energy, and what is known of the constraint rows.
 //!
 //! Code outside of the evaluations works on these, so that it is compiled once, whatever the
 //! sizes of mechanisms are.
@@ -97,8 +97,8 @@ impl<'s, T: Real> dyn Constrained<T> + 's {
     }
 }
 
-/// The parts of a solver that are lent.
-pub(crate) struct Lent<'a, T, const N: usize, const R: usize> {
+/// The parts of a solver that are worked on through [`Constrained`].
+pub(crate) struct SolverView<'a, T, const N: usize, const R: usize> {
     pub(crate) equations: Bound<'a, T, N, R>,
     pub(crate) metric: &'a mut Metric<T, N>,
     pub(crate) rows: &'a mut Rows<T, R>,
@@ -113,7 +113,7 @@ pub(crate) struct Lent<'a, T, const N: usize, const R: usize> {
 
 /// A solver, memory, and a chart.
 type Loan<'a, T, const N: usize, const R: usize> = (
-    Lent<'a, T, N, R>,
+    SolverView<'a, T, N, R>,
     Workspace<'a, T>,
     Option<&'a Chart<T, N, R>>,
 );
@@ -131,7 +131,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             tolerance,
             ..
         } = &mut self.session;
-        let lent = Lent {
+        let view = SolverView {
             equations: Bound {
                 mechanism,
                 position: &mut self.position,
@@ -147,7 +147,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             sizes: &self.sizes,
             tolerance: *tolerance,
         };
-        (lent, self.memory.workspace(), chart.as_ref())
+        (view, self.memory.workspace(), chart.as_ref())
     }
 
     /// What is known of the metric and the rows, the Jacobian in a buffer, and memory to work
@@ -177,7 +177,7 @@ pub(super) fn known<'a, T: Real, const N: usize, const R: usize>(
     }
 }
 
-impl<T: Real, const N: usize, const R: usize> Equations<T> for Lent<'_, T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Equations<T> for SolverView<'_, T, N, R> {
     fn structure(&self) -> &'static Structure {
         self.equations.structure()
     }
@@ -195,7 +195,7 @@ impl<T: Real, const N: usize, const R: usize> Equations<T> for Lent<'_, T, N, R>
     }
 }
 
-impl<T: Real, const N: usize, const R: usize> Constrained<T> for Lent<'_, T, N, R> {
+impl<T: Real, const N: usize, const R: usize> Constrained<T> for SolverView<'_, T, N, R> {
     fn factorise(&mut self, t: T) -> Result<(), DynamicsError<T>> {
         *self.expected = false;
         let Bound {

@@ -3,7 +3,7 @@
 //! Out: [`Solver`].
 
 use super::{ConstrainedSystem, Core};
-use crate::stack::{Held, held, with_room};
+use crate::stack::{MaybeBoxed, maybe_boxed, with_room};
 use crate::{Counters, Mechanism, Real, Settings, Structure};
 use core::ptr;
 
@@ -18,7 +18,7 @@ use core::ptr;
 /// made; after that nothing is allocated. Without it they are part of it.
 #[derive(Debug)]
 pub struct Solver<T, const N: usize, const R: usize> {
-    core: Held<Core<T, N, R>>,
+    core: MaybeBoxed<Core<T, N, R>>,
     /// What is known of the mechanism that it was bound to last.
     structure: Option<&'static Structure>,
 }
@@ -42,7 +42,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
     /// A solver that knows nothing yet.
     pub fn new(settings: Settings<T>) -> Self {
         with_room::<T, _, N, R>(|| Self {
-            core: held(|| Core::new(settings)),
+            core: maybe_boxed(|| Core::new(settings)),
             structure: None,
         })
     }

@@ -12,7 +12,7 @@ impl<T: Real> Frame<'_, T> {
     /// Keeps the block of the near-dependent rows, which are reduced by all others, and
     /// eliminates it, the largest entry first; as far as it goes where the block is
     /// singular, which leaves a frame that solves nothing.
-    pub(super) fn take_late(&mut self) -> Result<(), NotRegular> {
+    pub(super) fn take_near_dependent(&mut self) -> Result<(), NotRegular> {
         let first = self.order.independent;
         self.smallest = T::one();
         for step in 0..first {
@@ -49,7 +49,7 @@ impl<T: Real> Frame<'_, T> {
         }
         match first + 1 == self.n {
             true => self.take_only(),
-            false => self.eliminate_late(),
+            false => self.eliminate_near_dependent(),
         }
     }
 
@@ -66,7 +66,7 @@ impl<T: Real> Frame<'_, T> {
     }
 
     /// Eliminates the near-dependent rows, the largest entry first.
-    fn eliminate_late(&mut self) -> Result<(), NotRegular> {
+    fn eliminate_near_dependent(&mut self) -> Result<(), NotRegular> {
         let first = self.order.independent;
         for place in first..self.n {
             let row = self.order.rows[place];

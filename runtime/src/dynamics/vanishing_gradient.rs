@@ -3,8 +3,8 @@
 //! In:  a state at which a combination of rows loses its gradient.
 //! Out: whether that is like a square.
 
-use super::combined::{Combined, second_derivatives};
-use super::lent::Constrained;
+use super::erased::Constrained;
+use super::singular_values::{SingularValueDecomposition, second_derivatives};
 use crate::Real;
 use crate::equations::At;
 use crate::linalg::{Workspace, add_scaled, diagonalise, dot, orthonormal, remove};
@@ -19,18 +19,18 @@ const ASIDE: f64 = 1e-2;
 /// that vanishes along a line, or a sum of squares that vanishes at a point: its second
 /// derivatives have one sign but for directions along which it is flat, and there it
 /// does not become negative.
-pub(super) fn is_square<T: Real>(
+pub(super) fn has_one_sign<T: Real>(
     solver: &mut dyn Constrained<T>,
     state: At<'_, T>,
-    combined: &Combined<'_, T>,
+    decomposition: &SingularValueDecomposition<'_, T>,
     rank: usize,
     workspace: &Workspace<'_, T>,
 ) -> bool {
     let n = state.q.len();
     let count = n - rank;
-    let combination = combined.left(rank);
+    let combination = decomposition.left(rank);
     let kernel = workspace.numbers(n * count);
-    let strong = combined.decided(rank);
+    let strong = decomposition.decided(rank);
     orthonormal(kernel, n, &|axis| remove(axis, strong), workspace);
     let second = workspace.numbers(count * count);
     let vectors = workspace.numbers(count * count);

@@ -1,9 +1,11 @@
-//! Which of two sheets that cross is meant.
+//! Selection of one of two sheets that cross.
 //!
 //! In:  a state in a singular configuration, or next to one.
 //! Out: the tangent space of the sheet that it is on, or the news that nothing tells.
 
-use crate::dynamics::{Combined, Constrained, Independent, Which, choose_rows, second_derivatives};
+use crate::dynamics::{
+    Constrained, Independent, SingularValueDecomposition, Which, choose_rows, second_derivatives,
+};
 use crate::equations::At;
 use crate::linalg::{
     Workspace, add_scaled, count_above, diagonalise, dot, is_zero, length,
@@ -13,7 +15,7 @@ use crate::once::compiled_once;
 use crate::tolerance::{critical, difference, regular, round_off, window};
 use crate::{DynamicsError, Real};
 
-/// A sheet is meant if the state is nearer to it than to the other by this factor.
+/// A sheet is selected if the state is nearer to it than to the other by this factor.
 const NEARER: f64 = 4.0;
 /// A velocity that is not so much nearer to one sheet than to the other is off both.
 const CLEARLY_NEARER: f64 = 1e3;
@@ -57,10 +59,10 @@ pub(super) fn singular_tangent<T: Real>(
             return Ok(true);
         }
     }
-    let combined = Combined::here(solver, Which::All, state.t, workspace)?;
-    let values = &combined.values[..count];
+    let decomposition = SingularValueDecomposition::here(solver, Which::All, state.t, workspace)?;
+    let values = &decomposition.values[..count];
     if count_above(values, regular()) == count {
-        let remove = |axis: &mut [T]| remove(axis, combined.decided(count));
+        let remove = |axis: &mut [T]| remove(axis, decomposition.decided(count));
         span_free(solver.known().factor, tangent, n, &remove, workspace);
         return Ok(true);
     }
@@ -72,7 +74,7 @@ pub(super) fn singular_tangent<T: Real>(
     if near != 1 || !solver.known().holonomic.iter().all(|row| *row) || !still {
         return Ok(false);
     }
-    one_of_two(solver, state, &combined, tangent, workspace)
+    one_of_two(solver, state, &decomposition, tangent, workspace)
 }
 
 /// Finds the tangent space where the constraints were evaluated last; `false` where it is not
@@ -123,12 +125,13 @@ fn tangent_along<T: Real>(
         add_scaled(moved, span, state.v);
         solver.visit(state.t + span, moved)?;
         workspace.scope(|workspace| {
-            let combined = Combined::here(solver, Which::All, state.t, workspace)?;
-            let values = combined.values[..count].iter();
+            let decomposition =
+                SingularValueDecomposition::here(solver, Which::All, state.t, workspace)?;
+            let values = decomposition.values[..count].iter();
             let least = values.fold(T::one(), |a, b| a.min(*b));
             if least > best {
                 (best, found) = (least, true);
-                let remove = |axis: &mut [T]| remove(axis, combined.decided(count));
+                let remove = |axis: &mut [T]| remove(axis, decomposition.decided(count));
                 span_free(solver.known().factor, tangent, n, &remove, workspace);
             }
             Ok(())
@@ -142,18 +145,18 @@ fn tangent_along<T: Real>(
 fn one_of_two<T: Real>(
     solver: &mut dyn Constrained<T>,
     state: At<'_, T>,
-    combined: &Combined<'_, T>,
+    decomposition: &SingularValueDecomposition<'_, T>,
     tangent: &mut [T],
     workspace: &Workspace<'_, T>,
 ) -> Result<bool, DynamicsError<T>> {
     let n = state.q.len();
     let freedoms = tangent.len() / n;
     let weakest = n - freedoms - 1;
-    let strong = combined.decided(weakest);
+    let strong = decomposition.decided(weakest);
     let kernel = workspace.numbers(n * (freedoms + 1));
     orthonormal(kernel, n, &|axis| remove(axis, strong), workspace);
     let normals = workspace.numbers(2 * n);
-    let weak = (combined.left(weakest), &*kernel);
+    let weak = (decomposition.left(weakest), &*kernel);
     if !find_normals(solver, state, weak, normals, workspace) {
         return Ok(false);
     }
@@ -171,19 +174,19 @@ fn one_of_two<T: Real>(
     }
     let sheets = [&*sheets[0], &*sheets[1]];
     let distances = distances(solver, state, sheets, workspace)?;
-    let meant = meant(
+    let selected = select(
         (away, norm(velocity)),
         distances,
         solver.known().coordinate_scale,
     );
-    if let Some(meant) = meant {
-        tangent.copy_from_slice(sheets[meant]);
+    if let Some(selected) = selected {
+        tangent.copy_from_slice(sheets[selected]);
     }
-    Ok(meant.is_some())
+    Ok(selected.is_some())
 }
 
-/// Which of two sheets is meant, from how far the velocity and the position are off them.
-fn meant<T: Real>(
+/// Selects one of two sheets, from how far the velocity and the position are off them.
+fn select<T: Real>(
     (away, speed): ([T; 2], T),
     distances: Option<[T; 2]>,
     coordinate_scale: T,

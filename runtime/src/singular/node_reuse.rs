@@ -1,4 +1,4 @@
-//! Nodes that serve again.
+//! Reuse of nodes.
 //!
 //! In:  the nodes between which one state of a passage was interpolated.
 //! Out: the sheet at the other states of the passage, between the same nodes.
@@ -10,9 +10,9 @@
 //! `D* D̃ = 1`, and `D* aₚ = 0`.
 
 use super::direction::Direction;
-use super::kept::{NODES, SIDE};
 use super::nodes::{BEYOND, Interpolated, weights_of_sets};
 use super::sheet::Sheet;
+use super::stored_nodes::{NODES, SIDE};
 use crate::Real;
 use crate::equations::At;
 use crate::linalg::small::with_size;
@@ -38,7 +38,7 @@ impl<T: Real> Sheet<'_, T> {
     }
 
     /// Keeps the nodes between which a state was interpolated.
-    pub(super) fn remember(
+    pub(super) fn store_nodes(
         &mut self,
         state: At<'_, T>,
         direction: &Direction<'_, T>,
@@ -81,7 +81,7 @@ impl<T: Real> Sheet<'_, T> {
     /// Interpolates between the nodes that are kept, if the state is well between them and
     /// they resolve the sheet there as well as where they were found.
     #[inline(never)]
-    pub(super) fn recall<'b>(
+    pub(super) fn reuse_nodes<'b>(
         &self,
         state: At<'_, T>,
         workspace: &Workspace<'b, T>,

@@ -1,4 +1,4 @@
-//! Where the columns of a sparse matrix are kept.
+//! The order in which the columns of a sparse matrix are kept.
 //!
 //! In:  a matrix, the order in which its rows are eliminated.
 //! Out: places in which rows have their entries close to one another.
@@ -10,7 +10,7 @@ use crate::Real;
 /// eliminated in their order: by the first of these that has an entry there. `first` is room
 /// for as many. Those of a short matrix stay where they are.
 #[inline(never)]
-pub(crate) fn by_first_row<T: Real>(
+pub(crate) fn order_by_first_row<T: Real>(
     matrix: &[T],
     rows: &[usize],
     places: &mut [usize],

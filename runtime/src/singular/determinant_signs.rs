@@ -9,13 +9,13 @@ use crate::equations::At;
 use crate::linalg::{Block, Eliminated, Frame, Workspace};
 
 /// What changes its sign where sheets cross.
-pub(super) struct Signs<'a, T> {
+pub(super) struct DeterminantSigns<'a, T> {
     block: Block<'a, T>,
     /// That of the determinant of the whole system.
     pub(super) negative: bool,
 }
 
-impl<'a, T: Real> Signs<'a, T> {
+impl<'a, T: Real> DeterminantSigns<'a, T> {
     pub(super) fn of(frame: &mut Frame<'_, T>, workspace: &Workspace<'a, T>) -> Self {
         Self {
             block: frame.block().copy(workspace),
@@ -29,7 +29,11 @@ impl<'a, T: Real> Signs<'a, T> {
     }
 
     /// How many sheets were crossed on the way from others.
-    pub(super) fn changes_from(&self, other: &Signs<'_, T>, workspace: &Workspace<'_, T>) -> usize {
+    pub(super) fn changes_from(
+        &self,
+        other: &DeterminantSigns<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> usize {
         other.changes_to((&self.block, self.negative), workspace)
     }
 
@@ -53,7 +57,7 @@ impl<'a, T: Real> Signs<'a, T> {
 /// The start of a step: the order of elimination for all of its states, and the signs.
 pub(crate) struct Reference<'a, T> {
     pub(super) like: Eliminated<'a, T>,
-    pub(super) signs: Signs<'a, T>,
+    pub(super) signs: DeterminantSigns<'a, T>,
 }
 
 impl<T: Real> Sheet<'_, T> {
@@ -67,7 +71,7 @@ impl<T: Real> Sheet<'_, T> {
         self.eliminate_widely(start.t, start.q).ok()?;
         Some(Reference {
             like: self.frame.eliminated(workspace),
-            signs: Signs::of(&mut self.frame, workspace),
+            signs: DeterminantSigns::of(&mut self.frame, workspace),
         })
     }
 

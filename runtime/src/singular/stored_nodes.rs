@@ -1,6 +1,6 @@
-//! The nodes that are kept of an interpolation.
+//! The nodes that are stored of an interpolation.
 //!
-//! Out: [`Nodes`], which [`super::recall`] writes and reads.
+//! Out: [`Nodes`], which [`super::node_reuse`] writes and reads.
 
 use crate::Real;
 

@@ -1,4 +1,4 @@
-//! A force projected onto a few directions.
+//! The solution of a symmetric system in the subspace of a few directions.
 //!
 //! In:  a symmetric matrix, the directions as the columns of `D`, a force.
 //! Out: `D z` with `DᵀMD z = Dᵀf`.
@@ -11,8 +11,9 @@ use super::{Workspace, add_product, add_scaled, dot};
 use crate::Real;
 use crate::once::compiled_once;
 
-/// Replaces a force by `D z`; the column at which `DᵀMD` is not definite, where one is.
-fn project_onto<T: Real>(
+/// Replaces a force by the solution `D z`; the column at which `DᵀMD` is not definite, where
+/// one is.
+fn solve_in_subspace<T: Real>(
     mass: &[T],
     columns: &[T],
     force: &mut [T],
@@ -26,8 +27,8 @@ fn project_onto<T: Real>(
         sum.fill(T::zero());
         with_size!(
             force.len(),
-            |N| add_along_of(N, mass, directions, force, image, sum),
-            add_along(mass, directions, force, image, sum)
+            |N| add_subspace_solution_of(N, mass, directions, force, image, sum),
+            add_subspace_solution(mass, directions, force, image, sum)
         )?;
         force.copy_from_slice(sum);
         Ok(())
@@ -36,19 +37,19 @@ fn project_onto<T: Real>(
 
 /// Adds `D z` to a sum, with room for a vector; `D` is used up.
 #[inline(never)]
-pub(crate) fn add_along<T: Real>(
+pub(crate) fn add_subspace_solution<T: Real>(
     mass: &[T],
     directions: &mut [T],
     force: &[T],
     image: &mut [T],
     sum: &mut [T],
 ) -> Result<(), usize> {
-    add_along_of(force.len(), mass, directions, force, image, sum)
+    add_subspace_solution_of(force.len(), mass, directions, force, image, sum)
 }
 
 /// The same for so many coordinates.
 #[inline(always)]
-fn add_along_of<T: Real>(
+fn add_subspace_solution_of<T: Real>(
     n: usize,
     mass: &[T],
     directions: &mut [T],
@@ -75,8 +76,8 @@ fn add_along_of<T: Real>(
 }
 
 compiled_once! {
-    /// [`project_onto`].
-    pub(crate) fn projecting<T>:
+    /// [`solve_in_subspace`].
+    pub(crate) fn solving_in_subspace<T>:
         fn(&[T], &[T], &mut [T], &Workspace<'_, T>) -> Result<(), usize> =
-        |mass, columns, force, workspace| project_onto(mass, columns, force, workspace);
+        |mass, columns, force, workspace| solve_in_subspace(mass, columns, force, workspace);
 }

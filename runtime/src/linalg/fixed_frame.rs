@@ -1,10 +1,10 @@
-//! Short frames, whose sizes the compiler knows.
+//! Frames of fixed size, which the compiler knows.
 //!
 //! In:  a frame of up to eight rows.
 //! Out: its rows, their elimination, solutions, without a check of any index that is in sight.
 //!
-//! What is done here is what [`super::frame`] and [`super::late`] do with frames of any size,
-//! but for zeros, which are not looked for.
+//! What is done here is what [`super::frame`] and [`super::near_dependent`] do with frames of
+//! any size, but for zeros, which are not looked for.
 
 use super::block::{Block, largest_of};
 use super::frame::{Frame, Matrix, NotRegular};
@@ -41,19 +41,19 @@ impl<T: Real> Frame<'_, T> {
     /// Eliminates all rows; a constraint row of which less than `least` is left by those
     /// before it comes last.
     pub(super) fn factorise_in<const N: usize>(&mut self, least: T) -> Result<(), NotRegular> {
-        let mut short = Short::<T, N>::of(self);
-        let result = short.factorise(least);
-        let result = result.and_then(|()| short.take_late(&mut self.block));
-        short.give_back(self);
+        let mut fixed = FixedFrame::<T, N>::of(self);
+        let result = fixed.factorise(least);
+        let result = result.and_then(|()| fixed.take_near_dependent(&mut self.block));
+        fixed.give_back(self);
         result
     }
 
     /// Eliminates the rows in the order at hand.
     pub(super) fn factorise_ordered_in<const N: usize>(&mut self) -> Result<(), NotRegular> {
-        let mut short = Short::<T, N>::of(self);
-        let result = short.factorise_ordered();
-        let result = result.and_then(|()| short.take_late(&mut self.block));
-        short.give_back(self);
+        let mut fixed = FixedFrame::<T, N>::of(self);
+        let result = fixed.factorise_ordered();
+        let result = result.and_then(|()| fixed.take_near_dependent(&mut self.block));
+        fixed.give_back(self);
         result
     }
 
@@ -119,8 +119,8 @@ impl<T: Real> Frame<'_, T> {
     }
 }
 
-/// A short frame that is eliminated.
-struct Short<T, const N: usize> {
+/// A frame of fixed size that is eliminated.
+struct FixedFrame<T, const N: usize> {
     upper: [[T; N]; N],
     lower: [[T; N]; N],
     /// Rows in the order of elimination, and the column of each one's pivot.
@@ -133,10 +133,10 @@ struct Short<T, const N: usize> {
     smallest: T,
 }
 
-impl<T: Real, const N: usize> Short<T, N> {
+impl<T: Real, const N: usize> FixedFrame<T, N> {
     #[inline(always)]
     fn of(frame: &Frame<'_, T>) -> Self {
-        let mut short = Self {
+        let mut fixed = Self {
             upper: [[T::zero(); N]; N],
             lower: [[T::zero(); N]; N],
             rows: [0; N],
@@ -145,10 +145,10 @@ impl<T: Real, const N: usize> Short<T, N> {
             constraints: frame.order.constraints,
             smallest: T::one(),
         };
-        short.upper.as_flattened_mut().copy_from_slice(frame.upper);
-        short.rows.copy_from_slice(frame.order.rows);
-        short.columns.copy_from_slice(frame.order.columns);
-        short
+        fixed.upper.as_flattened_mut().copy_from_slice(frame.upper);
+        fixed.rows.copy_from_slice(frame.order.rows);
+        fixed.columns.copy_from_slice(frame.order.columns);
+        fixed
     }
 
     #[inline(always)]
@@ -240,17 +240,17 @@ impl<T: Real, const N: usize> Short<T, N> {
     /// Keeps the block of the near-dependent rows, which are reduced by all others, and
     /// eliminates it.
     #[inline(always)]
-    fn take_late(&mut self, block: &mut Block<'_, T>) -> Result<(), NotRegular> {
+    fn take_near_dependent(&mut self, block: &mut Block<'_, T>) -> Result<(), NotRegular> {
         block.resize(N - self.independent);
         match self.independent == N {
             true => Ok(()),
-            false => self.eliminate_late(block),
+            false => self.eliminate_near_dependent(block),
         }
     }
 
     /// Eliminates the near-dependent rows, the largest entry first.
     #[inline(never)]
-    fn eliminate_late(&mut self, block: &mut Block<'_, T>) -> Result<(), NotRegular> {
+    fn eliminate_near_dependent(&mut self, block: &mut Block<'_, T>) -> Result<(), NotRegular> {
         let first = self.independent;
         self.open_columns();
         let mut peaks = [(0, T::zero()); N];
