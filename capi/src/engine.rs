@@ -8,7 +8,7 @@
 //! Not here: how it moves (`motion`).
 
 use crate::Embedded;
-use crate::fed::{Fed, Law};
+use crate::input_functions::{Driven, Law};
 use crate::names::{Known, List, Names};
 use crate::status::Status;
 use crate::text::Text;
@@ -28,7 +28,7 @@ const TOLERANCE: f64 = 1e-9;
 /// A mechanism, where it is, and how it is integrated.
 #[derive(Debug)]
 pub struct Engine<M, const N: usize, const R: usize> {
-    pub(crate) fed: Fed<M>,
+    pub(crate) driven: Driven<M>,
     /// The values that inputs without a function are held at.
     held: Box<[Option<f64>]>,
     pub(crate) names: Names,
@@ -69,14 +69,14 @@ where
             partials: vec![0.0; room::<N>(structure)].into(),
             text: Text::new(),
             failed_at: None,
-            fed: Fed::new(mechanism, structure.inputs.len()),
+            driven: Driven::new(mechanism, structure.inputs.len()),
         })
     }
 
     /// A copy, which goes on to the same bits.
     pub fn copy(&self) -> Self {
         Self {
-            fed: self.fed.clone(),
+            driven: self.driven.clone(),
             held: self.held.clone(),
             names: self.names.clone(),
             start: self.start,
@@ -92,7 +92,7 @@ where
 
     /// Becomes a copy of another, without allocating.
     pub fn assign(&mut self, other: &Self) {
-        self.fed.clone_from(&other.fed);
+        self.driven.clone_from(&other.driven);
         self.held.clone_from(&other.held);
         self.start = other.start;
         self.state = other.state;
@@ -109,7 +109,7 @@ where
 
     /// What was known when the code was generated.
     pub fn structure(&self) -> &'static Structure {
-        self.fed.mechanism.structure()
+        self.driven.mechanism.structure()
     }
 
     /// Refuses something, with a reason.
@@ -181,7 +181,7 @@ where
     }
 
     pub(crate) fn parameter_at(&self, index: usize) -> Option<f64> {
-        self.fed.mechanism.parameter(index)
+        self.driven.mechanism.parameter(index)
     }
 
     /// Sets a parameter.
@@ -194,9 +194,9 @@ where
         self.expect_finite(value, List::Parameters, index)?;
         // The start of the description may depend on parameters, as long as nothing else
         // was given.
-        let before = self.fed.mechanism.start();
-        self.fed.mechanism.set_parameter(index, value);
-        let after = self.fed.mechanism.start();
+        let before = self.driven.mechanism.start();
+        self.driven.mechanism.set_parameter(index, value);
+        let after = self.driven.mechanism.start();
         let given = self.start.q.iter_mut().chain(&mut self.start.v);
         let before = before.q.iter().chain(&before.v);
         let after = after.q.iter().chain(&after.v);
@@ -248,9 +248,9 @@ where
     }
 
     fn feed(&mut self, index: usize, value: Option<f64>, law: Option<Law>) {
-        self.fed.mechanism.set_input(index, value);
+        self.driven.mechanism.set_input(index, value);
         self.held[index] = value;
-        self.fed.follow(index, law);
+        self.driven.follow(index, law);
     }
 
     /// What is given for the start.
@@ -308,7 +308,7 @@ where
             let reason = format_args!("the start can't be at t = {t} s");
             return self.refuse(Status::NotFinite, &reason);
         }
-        match assemble::<f64, _, N, R>(&self.fed, &self.start, t) {
+        match assemble::<f64, _, N, R>(&self.driven, &self.start, t) {
             Ok(state) => {
                 self.place(state);
                 Ok(())

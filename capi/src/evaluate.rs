@@ -4,7 +4,7 @@
 //! Out: numbers; matrices row by row.
 
 use crate::Embedded;
-use crate::fed::Fed;
+use crate::input_functions::Driven;
 use bricard_runtime::nalgebra::SMatrix;
 use bricard_runtime::{
     DynamicsError, Interface, Mechanism, Position, Probe, Solver, State, Structure, Terms,
@@ -104,7 +104,7 @@ impl Quantity {
 
 /// Writes a quantity at a state, one that is no derivative; there is room for all of it.
 pub(crate) fn evaluate<M, const N: usize, const R: usize>(
-    fed: &Fed<M>,
+    driven: &Driven<M>,
     solver: &mut Solver<f64, N, R>,
     quantity: Quantity,
     state: &State<f64, N>,
@@ -116,7 +116,7 @@ where
     match quantity {
         Quantity::Mass | Quantity::Force | Quantity::Jacobian | Quantity::Bias => {
             let mut terms = Terms::<f64, N, R>::default();
-            fed.terms(state, &mut terms);
+            driven.terms(state, &mut terms);
             match quantity {
                 Quantity::Mass => rows(&terms.mass, out),
                 Quantity::Force => rows(&terms.force, out),
@@ -126,18 +126,18 @@ where
         }
         Quantity::Residual | Quantity::Rate => {
             let mut position = Position::<f64, N, R>::default();
-            fed.position(state, &mut position);
+            driven.position(state, &mut position);
             match quantity {
                 Quantity::Residual => rows(&position.residual, out),
                 _ => rows(&(position.jacobian * state.v + position.drift), out),
             }
         }
-        Quantity::Acceleration => rows(&solver.on(fed).acceleration(state)?, out),
-        Quantity::Reaction => rows(&solver.on(fed).reaction(state)?.1, out),
-        Quantity::Outputs => Probe::outputs(&mut solver.on(fed), state, out, &mut [])?,
-        Quantity::Events => fed.events(state, out),
+        Quantity::Acceleration => rows(&solver.on(driven).acceleration(state)?, out),
+        Quantity::Reaction => rows(&solver.on(driven).reaction(state)?.1, out),
+        Quantity::Outputs => Probe::outputs(&mut solver.on(driven), state, out, &mut [])?,
+        Quantity::Events => driven.events(state, out),
         Quantity::Energy => {
-            let energy = fed.energy(state);
+            let energy = driven.energy(state);
             let values = [
                 energy.kinetic,
                 energy.potential,
@@ -147,7 +147,7 @@ where
             out.copy_from_slice(&values);
         }
         Quantity::Rank => {
-            let rank = solver.on(fed).rank(state)?;
+            let rank = solver.on(driven).rank(state)?;
             out.copy_from_slice(&[rank.rank as f64, rank.regular as f64, rank.sine]);
         }
         Quantity::Slope | Quantity::OutputSlope | Quantity::EventSlope => {}

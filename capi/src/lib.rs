@@ -9,7 +9,7 @@
 //! ```
 //!
 //! [`Engine`] is safe Rust: a mechanism, where it is, and how it is integrated. What is
-//! `unsafe` stands in `pointer`, `border`, `states` and `conduct`, where pointers are read and
+//! `unsafe` stands in `pointer`, `border`, `states` and `run`, where pointers are read and
 //! written, in `handle`, which lends the engine out, and in `callback`, where functions of
 //! the program are called.
 //!
@@ -18,15 +18,15 @@
 mod abi;
 mod border;
 mod callback;
-mod conduct;
 mod draw;
 mod engine;
 mod evaluate;
-mod fed;
 mod handle;
+mod input_functions;
 mod motion;
 mod names;
 mod pointer;
+mod run;
 mod saved;
 mod slopes;
 mod states;

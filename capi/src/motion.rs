@@ -58,7 +58,7 @@ where
         };
         let mut writer = Writer::new(listeners, sampler, &sampled, stop);
         let observers: &mut [&mut dyn Observer<f64, N>] = &mut [&mut writer];
-        let result = simulate::<_, _, N, R>(&self.fed, &state, &options, observers);
+        let result = simulate::<_, _, N, R>(&self.driven, &state, &options, observers);
         let mut ended = writer.ended;
         if !listeners.sheet.hand_over() {
             ended = ended.or(Some(Ended::Stopped));
@@ -79,7 +79,7 @@ where
     pub(crate) fn fault(&mut self, error: &SimulateError<f64>) -> Status {
         let last = self.state.map(|state| state.t);
         self.failed_at = time(error).or(last);
-        match self.fed.take_failed() {
+        match self.driven.take_failed() {
             None => {
                 self.text.say(error);
                 Status::of(error)
@@ -103,7 +103,7 @@ where
     /// As [`run`](Self::run).
     pub fn step(&mut self, span: f64) -> Outcome {
         let mut state = self.state()?;
-        let result = self.stepper.step(&self.fed, &mut state, span);
+        let result = self.stepper.step(&self.driven, &mut state, span);
         self.stepped(state, result)
     }
 
@@ -114,7 +114,7 @@ where
     /// As [`run`](Self::run).
     pub fn step_once(&mut self, bound: f64) -> Outcome {
         let mut state = self.state()?;
-        let result = self.stepper.step_once(&self.fed, &mut state, bound);
+        let result = self.stepper.step_once(&self.driven, &mut state, bound);
         self.stepped(state, result)
     }
 
@@ -156,8 +156,8 @@ where
             out.fill(0.0);
             self.slopes(quantity, &state, out)?;
         }
-        match evaluate(&self.fed, &mut self.inquiry, quantity, &state, out) {
-            Ok(()) if self.fed.take_failed().is_some() => self.refuse(
+        match evaluate(&self.driven, &mut self.inquiry, quantity, &state, out) {
+            Ok(()) if self.driven.take_failed().is_some() => self.refuse(
                 Status::Callback,
                 &format_args!("at t = {} s the function of an input failed", state.t),
             ),
@@ -193,7 +193,7 @@ where
     pub fn draw(&mut self, at: Option<State<f64, N>>, out: &mut [f64]) -> Outcome<usize> {
         let state = self.point(at)?;
         let mut pencil = Pencil::new(out);
-        self.fed.draw(&state, &mut pencil);
+        self.driven.draw(&state, &mut pencil);
         Ok(pencil.count)
     }
 
@@ -207,7 +207,7 @@ where
             let reason = "the state to project is infinite or NaN";
             return self.refuse(Status::NotFinite, &reason);
         }
-        match self.inquiry.on(&self.fed).project(&mut state) {
+        match self.inquiry.on(&self.driven).project(&mut state) {
             Ok(()) => Ok(state),
             Err(error) => Err(self.fault(&SimulateError::Observe(error))),
         }

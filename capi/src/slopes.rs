@@ -36,7 +36,7 @@ where
             events: &mut [],
         };
         let (state, acceleration) = (State::default(), SVector::zeros());
-        let mechanism = &self.fed.mechanism;
+        let mechanism = &self.driven.mechanism;
         mechanism.partials(&state, &acceleration, &mut nothing)
     }
 
@@ -62,7 +62,7 @@ where
         state: &State<f64, N>,
         out: &mut [f64],
     ) -> Outcome {
-        let mut system = self.inquiry.on(&self.fed);
+        let mut system = self.inquiry.on(&self.driven);
         let (acceleration, slopes) = match system.acceleration(state) {
             Ok(acceleration) => (
                 acceleration,
@@ -71,7 +71,7 @@ where
             Err(error) => return Err(self.fault(&SimulateError::Observe(error))),
         };
         self.partials.fill(0.0);
-        let structure = self.fed.mechanism.structure();
+        let structure = self.driven.mechanism.structure();
         let inputs = structure.inputs.len();
         let width = 3 * N + inputs;
         let (force_by_input, rest) = self.partials.split_at_mut(N * inputs);
@@ -81,7 +81,7 @@ where
             outputs,
             events,
         };
-        self.fed.partials(state, &acceleration, &mut parts);
+        self.driven.partials(state, &acceleration, &mut parts);
         let columns = Columns {
             freedoms: structure.freedoms().len(),
             inputs,

@@ -9,7 +9,7 @@ use crate::engine::Engine;
 use crate::handle::{Body, caught};
 use crate::pointer::{enter, give};
 use crate::status::Status;
-use crate::{border, conduct, states};
+use crate::{border, run, states};
 use core::marker::PhantomData;
 use core::ptr;
 
@@ -50,14 +50,14 @@ impl<M: Embedded<N, R>, const N: usize, const R: usize> Table<M, N, R> {
         assemble: border::assemble::<M, N, R>,
         state: states::state::<M, N, R>,
         set_state: states::set_state::<M, N, R>,
-        options: conduct::options::<M, N, R>,
-        set_options: conduct::set_options::<M, N, R>,
-        run: conduct::run::<M, N, R>,
-        stop: conduct::stop::<M, N, R>,
+        options: run::options::<M, N, R>,
+        set_options: run::set_options::<M, N, R>,
+        run: run::run::<M, N, R>,
+        stop: run::stop::<M, N, R>,
         step: border::step::<M, N, R>,
         step_once: border::step_once::<M, N, R>,
         size: states::size::<M, N, R>,
-        row_size: conduct::row_size::<M, N, R>,
+        row_size: run::row_size::<M, N, R>,
         evaluate: states::evaluate::<M, N, R>,
         draw: states::draw::<M, N, R>,
         project: states::project::<M, N, R>,

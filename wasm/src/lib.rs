@@ -13,12 +13,12 @@
 //! memory, where [`Session`] keeps them. No standard library and no allocator is needed.
 #![cfg_attr(not(test), no_std)]
 
-mod conduct;
 mod describe;
 mod picture;
 mod row;
 mod run;
 mod session;
+mod session_run;
 mod text;
 
 pub use picture::Picture;

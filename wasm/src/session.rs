@@ -6,7 +6,7 @@
 //! Functions that can fail give 0, or 1 with the reason as text. Those that give several
 //! numbers say how many. What doesn't exist fails.
 //!
-//! Not here: whole runs (`conduct`).
+//! Not here: whole runs (`session_run`).
 
 use crate::row::numbers;
 use crate::run::Log;

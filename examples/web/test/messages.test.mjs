@@ -9,7 +9,7 @@ import { test } from "node:test";
 import { Mechanism, MechanismError } from "bricard-engine";
 
 const PAGE = join(process.env.ROOT, "docs/messages.md");
-const SOURCES = ["wasm/js/index.js", "wasm/src/session.rs", "wasm/src/conduct.rs"];
+const SOURCES = ["wasm/js/index.js", "wasm/src/session.rs", "wasm/src/session_run.rs"];
 
 const INTRODUCTION = `\
 These are the messages of \`MechanismError\`, about the engine of \`examples/web\`; \

@@ -1,4 +1,4 @@
-//! The functions of C by which runs are conducted: options, who watches, when to stop.
+//! The functions of C for runs: options, who watches, when to stop.
 //!
 //! In:  structures of the header.
 //! Out: a [`Status`].

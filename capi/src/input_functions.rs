@@ -16,7 +16,7 @@ pub(crate) type Law = Callback<LawFunction>;
 
 /// A mechanism, and what its inputs follow.
 #[derive(Debug)]
-pub(crate) struct Fed<M> {
+pub(crate) struct Driven<M> {
     /// The mechanism; inputs without a function have their values in it.
     pub(crate) mechanism: M,
     laws: Box<[Option<Law>]>,
@@ -25,7 +25,7 @@ pub(crate) struct Fed<M> {
     failed: Cell<Option<usize>>,
 }
 
-impl<M> Fed<M> {
+impl<M> Driven<M> {
     /// A mechanism with a number of inputs, none of which follows a function.
     pub(crate) fn new(mechanism: M, inputs: usize) -> Self {
         Self {
@@ -50,7 +50,7 @@ impl<M> Fed<M> {
     }
 }
 
-impl<M: Clone> Clone for Fed<M> {
+impl<M: Clone> Clone for Driven<M> {
     fn clone(&self) -> Self {
         Self {
             mechanism: self.mechanism.clone(),
@@ -68,7 +68,7 @@ impl<M: Clone> Clone for Fed<M> {
     }
 }
 
-impl<M: Clone> Fed<M> {
+impl<M: Clone> Driven<M> {
     /// Does something with the mechanism as it is at a state.
     #[inline(always)]
     fn at<V, const N: usize>(&self, state: &State<f64, N>, act: impl FnOnce(&M) -> V) -> V
@@ -101,7 +101,7 @@ impl<M: Clone> Fed<M> {
     }
 }
 
-impl<M, const N: usize, const R: usize> Mechanism<f64, N, R> for Fed<M>
+impl<M, const N: usize, const R: usize> Mechanism<f64, N, R> for Driven<M>
 where
     M: Mechanism<f64, N, R> + Interface<f64, N> + Clone,
 {
@@ -163,7 +163,7 @@ where
     }
 }
 
-impl<M, const N: usize> Interface<f64, N> for Fed<M>
+impl<M, const N: usize> Interface<f64, N> for Driven<M>
 where
     M: Interface<f64, N> + Clone,
 {
@@ -219,7 +219,7 @@ where
     }
 }
 
-impl<M, const N: usize> Differentiated<f64, N> for Fed<M>
+impl<M, const N: usize> Differentiated<f64, N> for Driven<M>
 where
     M: Interface<f64, N> + Differentiated<f64, N> + Clone,
 {
