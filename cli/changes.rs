@@ -16,7 +16,7 @@ use bricard_runtime::{Quantity, Structure};
 ///
 /// # Errors
 ///
-/// [`CommandError::UnknownName`], [`CommandError::Twice`], [`CommandError::Law`].
+/// [`CommandError::UnknownName`], [`CommandError::Twice`], [`CommandError::InvalidSetting`].
 pub fn find(
     structure: &Structure,
     owner: &str,
@@ -82,7 +82,7 @@ fn put(
 fn no_law(structure: &Structure, owner: &str, name: &str, why: &str) -> Result<(), CommandError> {
     if place(structure.parameters, name).is_some() {
         let (name, reason) = (name.to_string(), format!("{why}; a parameter is a number"));
-        return Err(CommandError::Law { name, reason });
+        return Err(CommandError::InvalidSetting { name, reason });
     }
     Err(not_there(structure, owner, name))
 }
@@ -94,7 +94,7 @@ fn not_there(structure: &Structure, owner: &str, name: &str) -> CommandError {
         let reason =
             format!("it is a part of the state; write `--start {name}=…` for where it begins");
         let name = name.to_string();
-        return CommandError::Law { name, reason };
+        return CommandError::InvalidSetting { name, reason };
     }
     // What the description says of it is worth a look, if it is still there.
     let parsed = description(owner).ok().and_then(|d| parse(&d.source).ok());
@@ -104,7 +104,7 @@ fn not_there(structure: &Structure, owner: &str, name: &str) -> CommandError {
              {name}`, write `param {name}`"
         );
         let name = name.to_string();
-        return CommandError::Law { name, reason };
+        return CommandError::InvalidSetting { name, reason };
     }
     let all = structure.parameters.iter().chain(structure.inputs);
     let known = all.map(|quantity| quantity.name.to_string()).collect();

@@ -57,7 +57,7 @@ pub enum CommandError {
         name: String,
     },
     /// What a name can't be set to, or at all.
-    Law {
+    InvalidSetting {
         /// The name.
         name: String,
         /// Why, and what to write instead.
@@ -228,7 +228,7 @@ impl CommandError {
             | Self::NoColumn { .. }
             | Self::OutOfRange { .. }
             | Self::Twice { .. }
-            | Self::Law { .. }
+            | Self::InvalidSetting { .. }
             | Self::SetInstead { .. }
             | Self::TwoLists { .. }
             | Self::Runs(_)
@@ -271,7 +271,7 @@ impl Display for CommandError {
             Self::Twice { option, name } => {
                 write!(f, "{option} gives `{name}` two values; leave one out")
             }
-            Self::Law { name, reason } => write!(f, "`--set {name}=…`: {reason}"),
+            Self::InvalidSetting { name, reason } => write!(f, "`--set {name}=…`: {reason}"),
             Self::SetInstead { name } => set_instead(f, name),
             Self::TwoLists { options } => two_lists(f, options),
             Self::Runs(runs) => write!(f, "{runs}"),

@@ -22,7 +22,7 @@ type Law<'a> = (&'a str, &'a str);
 ///
 /// # Errors
 ///
-/// As [`find`]; [`CommandError::Law`], what is wrong with a formula.
+/// As [`find`]; [`CommandError::InvalidSetting`], what is wrong with a formula.
 pub fn find_with(
     name: &str,
     set: &[Setting],
@@ -123,5 +123,5 @@ fn whole(model: &Model, name: &str) -> Result<(), CommandError> {
         None => "the law of an input inside a part stands in the description".to_string(),
     };
     let name = name.to_string();
-    Err(CommandError::Law { name, reason })
+    Err(CommandError::InvalidSetting { name, reason })
 }

@@ -31,7 +31,7 @@ pub const CASES: &[Case] = &[
         "--set gives `m1` two values; leave one out",
     ),
     (
-        "Law",
+        "InvalidSetting",
         "simulate slider_crank --set m1=sin(t)",
         2,
         "`--set m1=…`: `t` has no value here; the constants are `pi` and `deg`; a parameter is a \
@@ -163,14 +163,14 @@ pub const CASES: &[Case] = &[
         "could not read ./broken: …; did you mean `./broken.mech`?",
     ),
     (
-        "Law",
+        "InvalidSetting",
         "simulate slider_crank --set g=1.62",
         2,
         "`--set g=…`: it is a constant, which is a number in the code; where the description says \
          `const g`, write `param g`",
     ),
     (
-        "Law",
+        "InvalidSetting",
         "simulate slider_crank --set der(q1)=1",
         2,
         "`--set der(q1)=…`: it is a part of the state; write `--start der(q1)=…` for where it \
