@@ -21,13 +21,6 @@ const REGULAR: f64 = 0.1;
 /// Consistent random states for each mechanism.
 const STATES: u64 = 40;
 
-const FORMS: [Form; 4] = [
-    Form::Reduced,
-    Form::Full,
-    Form::Multipliers,
-    Form::Partitioning,
-];
-
 /// What each form of the equations says at one state.
 struct Sample {
     name: &'static str,
@@ -77,7 +70,7 @@ impl Inspect<f64> for Ask {
         let numbers = |x: &SVector<f64, N>| x.as_slice().to_vec();
         let row = |i: usize| (0..N).map(|j| terms.jacobian[(i, j)]).collect();
         let still = State::new(state.t, state.q, SVector::zeros());
-        let forms = FORMS.map(|form| {
+        let forms = Form::ALL.map(|form| {
             let mut solver = Solver::new(Settings {
                 form,
                 ..Settings::default()
@@ -323,7 +316,7 @@ fn a_solver_knows_nothing_of_another_mechanism_of_its_sizes() {
     let (first, second) = (FourBar::<f64>::default(), SliderCrank::<f64>::default());
     let at_first = assemble(&first, &first.start(), 0.0).expect("the start assembles");
     let at_second = assemble(&second, &second.start(), 0.0).expect("the start assembles");
-    for form in FORMS {
+    for form in Form::ALL {
         let settings = Settings {
             form,
             ..Settings::default()

@@ -17,23 +17,6 @@ use bricard_runtime::{
 use core::ffi::c_int;
 use core::sync::atomic::Ordering;
 
-/// The methods, in the order of their numbers.
-const METHODS: [Method; 5] = [
-    Method::Rk4,
-    Method::Dp5,
-    Method::Dop853,
-    Method::Radau5,
-    Method::Radau9,
-];
-
-/// The forms of the equations of motion, in the order of their numbers.
-const FORMS: [Form; 4] = [
-    Form::Reduced,
-    Form::Full,
-    Form::Multipliers,
-    Form::Partitioning,
-];
-
 /// The place of a choice in a list.
 fn number<C: PartialEq>(list: &[C], choice: &C) -> c_int {
     let place = list.iter().position(|listed| listed == choice);
@@ -62,8 +45,8 @@ fn shown(options: &Options<f64>) -> Choices {
     };
     Choices {
         size: size_of::<Choices>(),
-        method: number(&METHODS, &options.method),
-        form: number(&FORMS, &options.settings.form),
+        method: number(&Method::ALL, &options.method),
+        form: number(&Form::ALL, &options.settings.form),
         stabilisation,
         keep_energy: options.keep_energy.into(),
         audit: (options.audit != Audit::NONE).into(),
@@ -82,8 +65,8 @@ fn chosen(choices: &Choices) -> Result<Options<f64>, &'static str> {
     if choices.size != size_of::<Choices>() {
         return Err("these options are of another size: begin with bricard_get_options");
     }
-    let method = choice(&METHODS, choices.method).ok_or("there is no method of this number")?;
-    let form = choice(&FORMS, choices.form).ok_or("there is no form of this number")?;
+    let method = choice(&Method::ALL, choices.method).ok_or("there is no method of this number")?;
+    let form = choice(&Form::ALL, choices.form).ok_or("there is no form of this number")?;
     let gains = [choices.alpha, choices.beta];
     let stabilisation = match choices.stabilisation {
         0 => Stabilisation::Projection,

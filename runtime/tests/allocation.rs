@@ -54,12 +54,7 @@ fn steps_allocate_nothing_with_any_form_method_and_stabilisation() {
         alpha: 10.0,
         beta: 10.0,
     };
-    for form in [
-        Form::Reduced,
-        Form::Full,
-        Form::Multipliers,
-        Form::Partitioning,
-    ] {
+    for form in Form::ALL {
         for stabilisation in [Stabilisation::Projection, baumgarte] {
             for (method, step_control) in STEP_CONTROLS {
                 let settings = Settings {

@@ -11,14 +11,6 @@ use bricard_runtime::{
     Stabilisation, State, Structure, Terms,
 };
 
-/// All forms.
-const FORMS: [Form; 4] = [
-    Form::Reduced,
-    Form::Full,
-    Form::Multipliers,
-    Form::Partitioning,
-];
-
 /// Round-off of an acceleration of a few rad/s² where the rows are within a factor of
 /// ten of dependent.
 const ROUND_OFF: f64 = 1e-11;
@@ -76,10 +68,10 @@ where
 
 #[test]
 fn all_forms_give_the_exact_acceleration_at_regular_positions() {
-    check_forms::<_, 3, 2>(&SliderCrank::default(), &FORMS, 0.8);
-    check_forms::<_, 3, 2>(&SliderCrank::DRIVEN, &FORMS, 0.8);
-    check_forms::<_, 5, 4>(&FourBars, &FORMS, 0.8);
-    check_forms::<_, 11, 10>(&FourBars, &FORMS, 0.8);
+    check_forms::<_, 3, 2>(&SliderCrank::default(), &Form::ALL, 0.8);
+    check_forms::<_, 3, 2>(&SliderCrank::DRIVEN, &Form::ALL, 0.8);
+    check_forms::<_, 5, 4>(&FourBars, &Form::ALL, 0.8);
+    check_forms::<_, 11, 10>(&FourBars, &Form::ALL, 0.8);
 }
 
 #[test]
@@ -104,7 +96,7 @@ fn forms_that_pass_are_exact_in_and_beside_singular_positions() {
 fn forms_agree_to_round_off_on_accelerations_and_reactions() {
     let state = Passing::<5, 4>::state(&FourBars, 0.0, 0.9, -3.0);
     let (q, r) = solve::<_, 5, 4>(&FourBars, form(Form::Reduced), &state).unwrap();
-    for which in FORMS {
+    for which in Form::ALL {
         let (other, reaction) = solve::<_, 5, 4>(&FourBars, form(which), &state).unwrap();
         assert!((other - q).amax() < ROUND_OFF, "{which}");
         assert!((reaction - r).amax() < ROUND_OFF, "{which}");
@@ -246,7 +238,7 @@ fn baumgarte_pulls_an_opened_loop_back_together() {
 #[test]
 fn what_is_not_finite_is_an_error_with_its_time_and_never_a_hang() {
     for bad in [f64::NAN, f64::INFINITY] {
-        for which in FORMS {
+        for which in Form::ALL {
             for entry in 0..3 {
                 let mut state = SliderCrank::default().state(1.5, 0.3, 1.0);
                 state.q[entry] = bad;
@@ -287,7 +279,7 @@ fn a_massless_coordinate_is_legal_where_a_constraint_holds_it() {
     let mechanism = Massless::default();
     let mut terms = Terms::default();
     mechanism.terms(&state, &mut terms);
-    for which in FORMS {
+    for which in Form::ALL {
         let (q, r) = solve(&mechanism, form(which), &state).unwrap();
         let gap = terms.jacobian * q - terms.bias;
         assert!(gap.amax() < 1e-12, "{which}: {gap}");

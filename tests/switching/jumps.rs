@@ -20,15 +20,8 @@ fn methods(until: f64) -> Vec<Options<f64>> {
         relative: 1e-8,
         absolute: 1e-8,
     };
-    let all = [
-        Method::Rk4,
-        Method::Dp5,
-        Method::Dop853,
-        Method::Radau5,
-        Method::Radau9,
-    ];
-    let fixed = all.map(|method| Options::new(until, method, fixed));
-    let adaptive = all[1..]
+    let fixed = Method::ALL.map(|method| Options::new(until, method, fixed));
+    let adaptive = Method::ALL[1..]
         .iter()
         .map(|method| Options::new(until, *method, adaptive));
     fixed.into_iter().chain(adaptive).collect()

@@ -30,13 +30,7 @@ fn a_mass_pushed_by_a_table_is_where_its_integral_says() {
     let mechanism = Tabled::default();
     let start = State::new(0.0, SVector::zeros(), SVector::from([0.0, 1.5, 0.0]));
     let fixed = StepControl::Fixed { step: 0.13 };
-    for method in [
-        Method::Rk4,
-        Method::Dp5,
-        Method::Dop853,
-        Method::Radau5,
-        Method::Radau9,
-    ] {
+    for method in Method::ALL {
         let options = Options::new(4.0, method, fixed);
         let end = simulate::<_, _, 3, 1>(&mechanism, &start, &options, &mut [])
             .unwrap_or_else(|failure| panic!("{method}: {failure}"))

@@ -410,22 +410,9 @@ where
 }
 
 fn method_of(number: u32) -> Option<Method> {
-    let all = [
-        Method::Rk4,
-        Method::Dp5,
-        Method::Dop853,
-        Method::Radau5,
-        Method::Radau9,
-    ];
-    all.get(number as usize).copied()
+    Method::ALL.get(number as usize).copied()
 }
 
 fn form_of(number: u32) -> Option<Form> {
-    let all = [
-        Form::Reduced,
-        Form::Full,
-        Form::Multipliers,
-        Form::Partitioning,
-    ];
-    all.get(number as usize).copied()
+    Form::ALL.get(number as usize).copied()
 }

@@ -17,13 +17,6 @@ const REGULAR_SINE: f64 = 0.05;
 /// What forms may differ by, relative to the largest acceleration.
 const FORMS: f64 = 1e-8;
 
-const FORMS_OF_THE_EQUATIONS: [Form; 4] = [
-    Form::Reduced,
-    Form::Full,
-    Form::Multipliers,
-    Form::Partitioning,
-];
-
 /// A coordinate as random descriptions have them: without a unit. Like those of any
 /// mechanism they are turned to find out which rows and masses are small everywhere,
 /// and which only at one position.
@@ -192,7 +185,7 @@ fn forms_agree<const N: usize, const R: usize>(case: &Case) -> Result<bool, Test
     let free = null_space(&terms.jacobian, &metric.l());
     prop_assert_eq!(free.len(), N - R);
     let mut first: Option<SVector<f64, N>> = None;
-    for form in FORMS_OF_THE_EQUATIONS {
+    for form in Form::ALL {
         let mut solver = Solver::<f64, N, R>::new(Settings {
             form,
             ..Settings::default()

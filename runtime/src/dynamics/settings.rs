@@ -25,6 +25,14 @@ pub enum Form {
 }
 
 impl Form {
+    /// All forms, in the order of their numbers in the interfaces of other languages.
+    pub const ALL: [Self; 4] = [
+        Self::Reduced,
+        Self::Full,
+        Self::Multipliers,
+        Self::Partitioning,
+    ];
+
     /// Whether it passes singular configurations.
     pub(crate) fn passes(self) -> bool {
         match self {

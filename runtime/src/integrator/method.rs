@@ -35,6 +35,15 @@ impl Display for Method {
 }
 
 impl Method {
+    /// All methods, in the order of their numbers in the interfaces of other languages.
+    pub const ALL: [Self; 5] = [
+        Self::Rk4,
+        Self::Dp5,
+        Self::Dop853,
+        Self::Radau5,
+        Self::Radau9,
+    ];
+
     /// The abscissae `c_i` of the stages of a step: where each lies, as a part of the step,
     /// in the order in which explicit methods compute them.
     pub fn abscissae(self) -> impl Iterator<Item = f64> {
