@@ -32,6 +32,8 @@ const COSINES: [f64; NODES] = [
     -0.923_879_532_511_286_7,
     -1.0,
 ];
+/// Times closer than this multiple of the round-off of time are one.
+pub(crate) const SAME_TIME: f64 = 8.0;
 /// What coefficients are off by, relative to the largest sample.
 const ROUND_OFF: f64 = 1e-15;
 /// Every sample.

@@ -9,7 +9,7 @@
 
 use super::decomposition::Decomposition;
 use super::draft::{Assemble, Draft, Refusal};
-use super::scales::{Scales, disturb};
+use super::scales::{CONTRADICTION, Scales, disturb};
 use super::vanishing_gradient::vanishing_row;
 use crate::Real;
 use crate::equations::Equations;
@@ -19,10 +19,6 @@ use crate::tolerance::negligible;
 use core::mem::swap;
 use core::ops::Range;
 
-/// Constraint errors up to this multiple of the round-off of an equation's terms
-/// are no contradiction. The iteration doesn't stop here: it ends where nothing
-/// improves.
-const CONTRADICTION: f64 = 4096.0;
 /// Trial steps of one descent.
 const MOST_TRIALS: usize = 300;
 /// Damping at which steps are too short to change anything.

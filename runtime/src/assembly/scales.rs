@@ -21,6 +21,11 @@ const NEIGHBOURHOOD: [f64; 3] = [0.0, 0.3, -0.2];
 /// influential one could are named as conflicting.
 const INFLUENCE: f64 = 1e-3;
 
+/// Errors of positions and velocities up to this multiple of the round-off of an equation's
+/// terms are no contradiction. The iteration for positions does not stop here: it ends where
+/// nothing improves.
+pub(super) const CONTRADICTION: f64 = 4096.0;
+
 /// Scales of coordinates and equations.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scales<'a, T> {

@@ -10,16 +10,13 @@
 
 use super::decomposition::Decomposition;
 use super::draft::{Assemble, Draft, Refusal};
-use super::scales::Scales;
+use super::scales::{CONTRADICTION, Scales};
 use crate::Real;
 use crate::equations::{At, Equations};
 use crate::linalg::{Workspace, add_scaled, is_zero, norm};
 use crate::once::compiled_once;
 use crate::tolerance::regular;
 
-/// Velocity errors up to this multiple of the round-off of an equation's terms
-/// are no contradiction.
-const CONTRADICTION: f64 = 4096.0;
 /// Newton steps towards a branch.
 const MOST_STEPS: usize = 60;
 /// The rest of `p₂` that the rows can't produce is accepted below this part of

@@ -47,7 +47,7 @@ pub(crate) use emitted::MAX_ITERATIONS;
 pub(crate) use erased::{Constrained, SolverView};
 pub(crate) use independent::Independent;
 pub(crate) use metric::Metric;
-pub(crate) use rank::choose_rows;
+pub(crate) use rank::{RETURNING_GRADIENT, choose_rows};
 pub(crate) use rows::{Rows, Which};
 pub(crate) use schur_complement::SchurComplement;
 pub(crate) use singular_values::{SingularValueDecomposition, second_derivatives};

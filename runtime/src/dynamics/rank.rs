@@ -21,7 +21,7 @@ use nalgebra::SVector;
 
 /// Part of a displacement that the singular value of a row is, at least, whose gradient
 /// is lost only where the displacement begins.
-const RETURNS: f64 = 1e-2;
+pub(crate) const RETURNING_GRADIENT: f64 = 1e-2;
 /// Newton's corrections that bring a neighbour onto the constraints. Where their gradient
 /// vanishes wherever they hold, each halves the distance, and the gradient with it.
 const CORRECTIONS: usize = 16;
@@ -127,7 +127,7 @@ fn rank_nearby<T: Real>(
     }
     let vanishing = vanishing_row(solver, which, workspace);
     let mut lost = None;
-    let least = difference::<T>() * T::from_f64(RETURNS);
+    let least = difference::<T>() * T::from_f64(RETURNING_GRADIENT);
     for q in neighbours(solver, state, &decomposition, workspace) {
         solver.visit(state.t, q)?;
         let rank = rank_above(solver, which, state.t, least, workspace)?;

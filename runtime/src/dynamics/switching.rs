@@ -16,7 +16,7 @@
 //! 137–165 (discontinuity locking).
 
 use super::conditions::{Aim, Decided};
-use crate::crossing::{Left, NODES, Samples, first_crossing, nodes, zero};
+use crate::crossing::{Left, NODES, SAME_TIME, Samples, first_crossing, nodes, zero};
 use crate::once::compiled_once;
 use crate::{Discontinuity, DynamicsError, Real, Sides, Switch, Switching, Watched};
 
@@ -24,8 +24,6 @@ use crate::{Discontinuity, DynamicsError, Real, Sides, Switch, Switching, Watche
 const REFINEMENTS: u32 = 3;
 /// Switching functions that are sampled at once: the room for more has to be cleared.
 const AT_ONCE: usize = 8;
-/// Times closer than this multiple of the round-off of time are one.
-const SAME_TIME: f64 = 8.0;
 /// Conditions that change again after this part of an attempt at a step get nowhere.
 const HARDLY_LATER: f64 = 1e-6;
 /// Changes in a row that get nowhere, besides some for each condition there is.

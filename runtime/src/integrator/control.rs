@@ -14,7 +14,7 @@ use nalgebra::SVector;
 /// Relative tolerances below this multiple of the round-off of 1 are refused.
 const SMALLEST_TOLERANCE: f64 = 10.0;
 /// Steps below this multiple of the round-off of time are refused.
-const SMALLEST_STEP: f64 = 4.0;
+pub(crate) const SMALLEST_STEP: f64 = 4.0;
 /// Power of round-off that a step beside a singular configuration is given up at, in units of
 /// the longest one (4e-11 for `f64`).
 const CREEPING: f64 = 2.0 / 3.0;

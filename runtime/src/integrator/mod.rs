@@ -34,6 +34,7 @@ mod step_control;
 mod tableau;
 
 pub use classical::Rk4;
+pub(crate) use control::SMALLEST_STEP;
 pub use control::Tolerance;
 pub use error::IntegrateError;
 pub(crate) use explicit::Explicit;

@@ -14,15 +14,13 @@
 //! All of that is over times and values, and compiled once for mechanisms of all sizes.
 
 use super::SimulateError;
-use crate::crossing::{Left, NODES, Samples, first_crossing, nodes, noise, zero};
+use crate::crossing::{Left, NODES, SAME_TIME, Samples, first_crossing, nodes, noise, zero};
 use crate::linalg::column;
 use crate::once::compiled_once;
 use crate::{Direction, DynamicsError, Event, Occurrence, Probe, Real, State, Step, Watched};
 
 /// Events a mechanism may have.
 const ROOM: usize = 64;
-/// An event can happen again after this multiple of the round-off of time.
-const SAME_TIME: f64 = 8.0;
 /// A function is clear of zero beyond this part of its size in a step, even if it goes back.
 const CLEARLY: f64 = 1e-6;
 

@@ -6,12 +6,11 @@
 use super::SimulateError;
 use super::options::StepControl;
 use crate::Real;
+use crate::integrator::SMALLEST_STEP;
 
 /// A last step shorter than this part of the others is made one with the step
 /// before it.
 const SLIVER: f64 = 1e-6;
-/// Fixed steps below this multiple of the round-off of time are refused.
-const SMALLEST_STEP: f64 = 4.0;
 
 /// The times at which steps must end. Each is computed from its number: nothing
 /// accumulates.

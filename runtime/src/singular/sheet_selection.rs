@@ -4,7 +4,8 @@
 //! Out: the tangent space of the sheet that it is on, or the news that nothing tells.
 
 use crate::dynamics::{
-    Constrained, Independent, SingularValueDecomposition, Which, choose_rows, second_derivatives,
+    Constrained, Independent, RETURNING_GRADIENT, SingularValueDecomposition, Which, choose_rows,
+    second_derivatives,
 };
 use crate::equations::At;
 use crate::linalg::{
@@ -19,8 +20,6 @@ use crate::{DynamicsError, Real};
 const NEARER: f64 = 4.0;
 /// A velocity that is not so much nearer to one sheet than to the other is off both.
 const CLEARLY_NEARER: f64 = 1e3;
-/// Part of a displacement that the gradient which is lost is at least, where it returns.
-const RETURNS: f64 = 1e-2;
 /// Eigenvalues of `H` below this part of the largest are zero.
 const FLAT: f64 = 0.1;
 
@@ -118,7 +117,7 @@ fn tangent_along<T: Real>(
         return Ok(false);
     }
     let span = difference::<T>() * solver.known().coordinate_scale / speed;
-    let mut best = difference::<T>() * T::from_f64(RETURNS);
+    let mut best = difference::<T>() * T::from_f64(RETURNING_GRADIENT);
     let mut found = false;
     for span in [span, -span] {
         moved.copy_from_slice(state.q);
