@@ -278,8 +278,9 @@ pub struct Simulate {
     /// accurate; for comparison)
     #[arg(long, alias = "no-branch-rows")]
     pub published: bool,
-    /// Integrate across jumps and kinks of forces, instead of ending steps where they are
-    /// (less accurate; for forces that change sides more often than is worth a step)
+    /// Integrate across jumps and kinks of forces and points of splines, instead of ending
+    /// steps where they are (less accurate; for forces that change sides more often than is
+    /// worth a step)
     #[arg(long)]
     pub across_switches: bool,
     /// Distance of the rows in time, in seconds [default: a row after each step;

@@ -81,8 +81,9 @@ pub struct Settings<T> {
     /// Whether singular positions are passed as published, by a decision on the rank
     /// alone: less accurate, for comparison.
     pub published: bool,
-    /// Whether steps go across jumps and kinks of the forces instead of ending there: less
-    /// accurate, for forces that change sides more often than is worth a step.
+    /// Whether steps go across jumps and kinks of the forces, and points of splines, instead
+    /// of ending there: less accurate, for forces that change sides more often than is worth
+    /// a step.
     pub across_switches: bool,
 }
 
