@@ -21,7 +21,7 @@ mod run {
 }
 
 use bricard_driver::{Segment, Watch, erase_type};
-use bricard_runtime::{Interface, Mechanism, Options, Visitor};
+use bricard_runtime::{Mechanism, Options};
 use libfuzzer_sys::fuzz_target;
 use serde_json::Value;
 use slider_crank::SliderCrank;
@@ -33,50 +33,6 @@ const RUN: &str = "fuzz";
 const FURTHER: f64 = 0.05;
 /// Steps after which it has gone far enough.
 const MOST_STEPS: u64 = 20;
-
-/// Goes on where a text says, if it is a checkpoint of a mechanism.
-struct GoesOn<'a>(&'a str);
-
-impl Visitor<f64> for GoesOn<'_> {
-    type Output = ();
-
-    fn visit<M, const N: usize, const R: usize>(self, mechanism: M)
-    where
-        M: Mechanism<f64, N, R> + Interface<f64, N> + Clone + 'static,
-    {
-        let checkpoint = match Checkpoint::read(self.0, RUN, mechanism.structure()) {
-            Ok(checkpoint) => checkpoint,
-            Err(reason) => return assert!(!reason.is_empty(), "refused without a word"),
-        };
-        let again = checkpoint.text(RUN);
-        let read = Checkpoint::read(&again, RUN, mechanism.structure());
-        assert_eq!(read.map(|read| read.text(RUN)), Ok(again), "read otherwise");
-        let Some(t) = checkpoint.state.first() else {
-            panic!("a checkpoint without a state");
-        };
-        let mut options = Options::dop853(t + FURTHER, 1e-6);
-        options.most_steps = Some(MOST_STEPS);
-        options.origin = Some(checkpoint.origin);
-        let segment = Segment {
-            options,
-            from: Some(checkpoint.state.clone()),
-            every: None,
-            columns: Vec::new(),
-            rows: checkpoint.rows.count,
-            short: false,
-        };
-        let structure = mechanism.structure();
-        let mut report = checkpoint.report;
-        match erase_type::<N, R>(Box::new(mechanism)).segment(&segment, &mut Nobody) {
-            Ok(reached) => {
-                let silent = reached.error.as_ref().is_some_and(String::is_empty);
-                assert!(!silent, "failed without a word");
-                report.add(&reached, structure);
-            }
-            Err(reason) => assert!(!reason.is_empty(), "refused without a word"),
-        }
-    }
-}
 
 /// Watches nothing.
 struct Nobody;
@@ -91,9 +47,40 @@ impl Watch for Nobody {
     }
 }
 
+/// Goes on where a text says, if it is a checkpoint of a loop with singular positions.
 fn goes_on(text: &str) {
-    // A loop with singular positions.
-    GoesOn(text).visit(SliderCrank::<f64>::default());
+    let mechanism = SliderCrank::<f64>::default();
+    let checkpoint = match Checkpoint::read(text, RUN, mechanism.structure()) {
+        Ok(checkpoint) => checkpoint,
+        Err(reason) => return assert!(!reason.is_empty(), "refused without a word"),
+    };
+    let again = checkpoint.text(RUN);
+    let read = Checkpoint::read(&again, RUN, mechanism.structure());
+    assert_eq!(read.map(|read| read.text(RUN)), Ok(again), "read otherwise");
+    let Some(t) = checkpoint.state.first() else {
+        panic!("a checkpoint without a state");
+    };
+    let mut options = Options::dop853(t + FURTHER, 1e-6);
+    options.most_steps = Some(MOST_STEPS);
+    options.origin = Some(checkpoint.origin);
+    let segment = Segment {
+        options,
+        from: Some(checkpoint.state.clone()),
+        every: None,
+        columns: Vec::new(),
+        rows: checkpoint.rows.count,
+        short: false,
+    };
+    let structure = mechanism.structure();
+    let mut report = checkpoint.report;
+    match erase_type(Box::new(mechanism)).segment(&segment, &mut Nobody) {
+        Ok(reached) => {
+            let silent = reached.error.as_ref().is_some_and(String::is_empty);
+            assert!(!silent, "failed without a word");
+            report.add(&reached, structure);
+        }
+        Err(reason) => assert!(!reason.is_empty(), "refused without a word"),
+    }
 }
 
 fuzz_target!(|text: &str| {
