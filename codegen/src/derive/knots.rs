@@ -36,10 +36,9 @@ impl Graph {
                     let entry = Entry::Knot;
                     let distance = self.function(Function::Table(Lookup { entry, ..lookup }), x);
                     let places = &lookup.table.places;
-                    let spacing =
-                        (places[places.len() - 1] - places[0]) / (places.len() - 1) as f64;
-                    let spacing = self.number(Number::float(spacing));
-                    functions.push((self.div(distance, spacing), x));
+                    let ends = [places[0], places[places.len() - 1]];
+                    let ends = ends.map(|place| self.number(Number::float(place)));
+                    functions.push((self.in_spacings(distance, ends, places.len()), x));
                 }
                 Node::Select(test, [x, knot, _, rest]) if test.smooth && !self.is_fixed(x) => {
                     // Those that come later contain those before.
@@ -56,8 +55,8 @@ impl Graph {
         }
         for (_, Chain { of, knots }) in splines {
             let distance = self.zigzag(of, &knots);
-            let spacing = self.spacing(&knots);
-            functions.push((self.div(distance, spacing), of));
+            let ends = [knots[0], knots[knots.len() - 1]];
+            functions.push((self.in_spacings(distance, ends, knots.len()), of));
         }
         for (function, of) in functions {
             if switches.list.len() < room {
@@ -66,12 +65,18 @@ impl Graph {
         }
     }
 
-    /// The mean distance of neighbours among some places in rising order.
-    fn spacing(&mut self, places: &[ExprId]) -> ExprId {
-        let (first, last) = (places[0], places[places.len() - 1]);
+    /// A distance by the mean distance of neighbours among so many places, the first and the
+    /// last of which are given.
+    fn in_spacings(
+        &mut self,
+        distance: ExprId,
+        [first, last]: [ExprId; 2],
+        count: usize,
+    ) -> ExprId {
         let length = self.sub(last, first);
-        let count = self.integer((places.len() - 1) as i64);
-        self.div(length, count)
+        let gaps = self.integer((count - 1) as i64);
+        let spacing = self.div(length, gaps);
+        self.div(distance, spacing)
     }
 
     /// The distance from the nearest of some places in rising order, above the first one
