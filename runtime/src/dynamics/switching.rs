@@ -152,15 +152,19 @@ impl<T: Real> dyn Motion<T> + '_ {
             return Ok(());
         }
         let side = decided.side(index);
+        if decided.list[index].discontinuity != Discontinuity::Jump {
+            // Forces that are continuous push to the same side from both.
+            decided.sides.hold(place, side < T::zero());
+            return Ok(());
+        }
         let mut pushes = [T::zero(); 2];
         for (push, above) in pushes.iter_mut().zip([side > T::zero(), side < T::zero()]) {
             self.decided().sides.hold(place, above);
             *push = self.rate(t, index)?.rate * side;
         }
         let [leaves, returns] = [pushes[0] < T::zero(), pushes[1] > T::zero()];
-        let decided = self.decided();
-        if leaves && returns && decided.list[index].discontinuity == Discontinuity::Jump {
-            decided.sliding |= 1 << index;
+        if leaves && returns {
+            self.decided().sliding |= 1 << index;
         }
         Ok(())
     }
