@@ -1,7 +1,7 @@
 //! Functions by name.
 
 use super::evaluate::Evaluator;
-use super::language::{ELSEWHERE, OTHERS, other_functions};
+use super::language::{ELSEWHERE, JUMPING, OTHERS, other_functions};
 use super::linear::transposed;
 use super::messages::{count, takes_others};
 use super::scope::Kind;
@@ -257,14 +257,19 @@ impl Evaluator {
         })
     }
 
+    /// The names of all functions, built in and of the description.
+    pub fn function_names(&self) -> Vec<&str> {
+        let built_in = Function::ALL.iter().map(|(_, name)| *name);
+        let built_in = built_in.chain(other_functions()).map(|name| name as &str);
+        built_in.chain(self.functions.names()).collect()
+    }
+
     fn unknown_function(&mut self, name: &Name) -> Option<Value> {
         let text = name.text.as_str();
         if self.scope.unreadable.contains(text) {
             return None;
         }
-        let built_in = Function::ALL.iter().map(|(_, name)| *name);
-        let functions = built_in.chain(other_functions()).map(|name| name as &str);
-        let functions: Vec<&str> = functions.chain(self.functions.names()).collect();
+        let functions = self.function_names();
         let value = self.scope.get(text).and_then(|entry| entry.value.as_ref());
         let help = if matches!(value, Some(Value::Array(_) | Value::Vector(_))) {
             format!("an element is written `{text}[0]`")
@@ -272,6 +277,9 @@ impl Evaluator {
             format!("`{text}` is no function; a product is written `{text}*(…)`")
         } else if let Some((_, form)) = ELSEWHERE.iter().find(|(other, _)| *other == text) {
             format!("write `{form}`")
+        } else if JUMPING.contains(&text) {
+            "steps are written with `if` or as a `table`, what is periodic with `sin` and `cos`"
+                .into()
         } else if in_library(text) {
             format!("`{text}` is in the library of parts: write `use parts;` above")
         } else if let Some(near) = nearest(text, functions.iter().copied()) {

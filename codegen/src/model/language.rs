@@ -70,6 +70,11 @@ pub const ELSEWHERE: [(&str, &str); 43] = [
     ("power", "x^n"),
 ];
 
+/// Functions of other languages that jump again and again.
+pub const JUMPING: [&str; 10] = [
+    "mod", "modulo", "fmod", "rem", "floor", "ceil", "ceiling", "round", "trunc", "frac",
+];
+
 /// Whether a name is that of a function (those of one number aside).
 pub fn known(name: &str) -> bool {
     other_functions().any(|known| known == name)

@@ -7,7 +7,7 @@ use super::value::{Scalar, Value};
 use super::{Constraint, Point, Shape, Start};
 use crate::diagnostic::{Diagnostic, Span, figure};
 use crate::expr::Number;
-use crate::syntax::ast::{Drawing, Expr, StartItem};
+use crate::syntax::ast::{Drawing, Expr, ExprKind, StartItem};
 use crate::syntax::messages::{GIVEN, REMOVE_ONE};
 use crate::syntax::written;
 
@@ -35,6 +35,7 @@ impl Lowering<'_> {
     }
 
     fn start_entry(&mut self, target: &Expr, held: bool, value: &Expr) -> Option<()> {
+        self.without_time(target)?;
         let wanted = self.evaluator.evaluate(target)?.operand();
         let given = self.evaluator.evaluate(value)?.operand();
         for (side, value) in [(target, &wanted), (value, &given)] {
@@ -71,6 +72,23 @@ impl Lowering<'_> {
                 Some(coordinate) => self.start_value(coordinate, wanted, held, given)?,
                 None => self.start_equation(wanted, held, given, suffix)?,
             }
+        }
+        Some(())
+    }
+
+    /// Refuses `q(0)`, as papers write what `q` is at the start.
+    fn without_time(&mut self, target: &Expr) -> Option<()> {
+        if let ExprKind::Call(name, arguments) = &target.kind
+            && self.evaluator.scope.get(&name.text).is_some()
+            && !self
+                .evaluator
+                .function_names()
+                .contains(&name.text.as_str())
+            && arguments.len() == 1
+        {
+            let message = "values of `start` are those at the beginning";
+            let help = format!("write `{} = …;`, without a time", name.text);
+            return self.report(Diagnostic::error(target.span, message).help(help));
         }
         Some(())
     }

@@ -120,7 +120,8 @@ pub fn resolve(unit: &UnitExpr) -> Result<Dimension, Box<Diagnostic>> {
     for (name, exponent) in &unit.factors {
         let Some((_, powers)) = NAMED.iter().find(|(known, _)| *known == name.text) else {
             let error = Diagnostic::error(name.span, unknown(&name.text));
-            return Err(Box::new(error.help(instead(&name.text, *exponent))));
+            let help = instead_of_all(unit).unwrap_or_else(|| instead(&name.text, *exponent));
+            return Err(Box::new(error.help(help)));
         };
         let mut factor = Dimension(*powers);
         factor
@@ -196,6 +197,37 @@ fn split(name: &str) -> Option<Vec<String>> {
             factors.extend(split(rest)?);
         }
         Some(factors)
+    })
+}
+
+/// What to write instead of a unit of which several names are refused, as of `km/h`.
+fn instead_of_all(unit: &UnitExpr) -> Option<String> {
+    let power = |base: &str, exponent: i32| {
+        let is_power = exponent.abs() > 1 && !base.chars().all(char::is_alphanumeric);
+        let base = match is_power || base.contains(['*', '/']) {
+            true => format!("({base})"),
+            false => base.to_string(),
+        };
+        (base, PARTS * exponent)
+    };
+    let (mut units, mut factors, mut refused) = (Vec::new(), Vec::new(), 0);
+    for (name, exponent) in &unit.factors {
+        if NAMED.iter().any(|(known, _)| *known == name.text) {
+            units.push(power(&name.text, *exponent));
+            continue;
+        }
+        let (_, si, factor) = SCALED.iter().find(|(known, ..)| *known == name.text)?;
+        units.push(power(si, *exponent));
+        factors.extend((*factor != "1").then(|| power(factor, *exponent)));
+        refused += 1;
+    }
+    let text = |powers: &[(String, i32)]| {
+        let powers: Vec<_> = powers.iter().map(|(base, p)| (base.as_str(), *p)).collect();
+        quotient(&powers)
+    };
+    (refused > 1 && !factors.is_empty()).then(|| {
+        let (si, factor) = (text(&units), text(&factors));
+        format!("write SI: `{si}`, and multiply the value by `{factor}`")
     })
 }
 

@@ -92,3 +92,11 @@ fn components_that_are_as_they_begin_anyway_are_no_equations() {
         "only coordinates and their velocities have start values",
     );
 }
+
+#[test]
+fn a_function_has_a_start_value_beside_a_name_like_it() {
+    accept(
+        "mechanism Test { coord q; let sin = 2; coord f; fn f(x) = 2*x; kinetic der(q)^2 + der(f)^2;
+         output a = sin; start { sin(q) = 0.5; f(q) ~ 1; f = 1; } }",
+    );
+}

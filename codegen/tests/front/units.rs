@@ -27,6 +27,23 @@ fn sums_have_one_unit() {
 }
 
 #[test]
+fn a_unit_of_several_that_are_not_si_is_written_anew_as_a_whole() {
+    for (unit, si, factor) in [
+        ("km/h", "m/s", "1e3/3600"),
+        ("kN/mm^2", "N/m^2", "1e3/(1e-3)^2"),
+        ("1/(mm*g)", "1/(m*kg)", "1/(1e-3*1e-3)"),
+        ("rpm/ms", "(rad/s)/s", "(2*pi/60)/1e-3"),
+        ("Nm/ms", "(N*m)/s", "1/1e-3"),
+    ] {
+        let help = format!("write SI: `{si}`, and multiply the value by `{factor}`");
+        refuse_saying(&with(&format!("param a: {unit} = 2;")), &help);
+        accept(&with(&format!(
+            "const a: {si} = 2*{factor}; output b: {si} = a;"
+        )));
+    }
+}
+
+#[test]
 fn functions_take_angles_and_ratios() {
     refuse_saying(&with("let a = sin(L);"), "the argument of `sin` is in m");
     refuse_saying(&with("let a = exp(m*g);"), "the argument of `exp` is in N");
