@@ -7,9 +7,9 @@
 //! Not here: what to do where rows of `A` are near-dependent
 //! ([`crate::dynamics`], `follow.rs`).
 
-use crate::dynamics::{Core, MAX_ITERATIONS, Source, Which};
+use crate::dynamics::{CoordinateScale, Core, MAX_ITERATIONS, Source, Which};
 use crate::singular::Obstacle;
-use crate::tolerance::{contraction, negligible, passes, round_off, window};
+use crate::tolerance::{contraction, critical, negligible, passes, round_off, window};
 use crate::{DynamicsError, Mechanism, Real, Stabilisation, State};
 use nalgebra::SVector;
 
@@ -129,8 +129,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// and is small enough.
     pub(crate) fn is_on_constraints(&self, worst: T, before: Option<T>) -> bool {
         let stuck = before.is_some_and(|before| worst > before / T::from_f64(2.0));
-        worst <= round_off::<T>() * self.coordinate_scale
-            || stuck && worst <= negligible::<T>() * self.coordinate_scale
+        worst <= round_off::<T>() * self.coordinate_scale.size || stuck && self.is_negligible(worst)
+    }
+
+    /// Whether a constraint error is small enough, if it can't be smaller.
+    pub(crate) fn is_negligible(&self, worst: T) -> bool {
+        let CoordinateScale { size, range } = self.coordinate_scale;
+        worst <= (negligible::<T>() * range).max(round_off::<T>() * critical() * size)
     }
 
     /// The largest of some constraint errors, as a length in the metric, and its row.

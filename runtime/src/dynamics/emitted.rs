@@ -220,7 +220,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         // The squares of the lengths of a correction and of a position.
         let (moved, coordinate_scale) = (
             worst * worst,
-            squared_sine * self.coordinate_scale * self.coordinate_scale,
+            squared_sine * self.coordinate_scale.range * self.coordinate_scale.range,
         );
         let (most, round_off) = (negligible::<T>(), T::EPSILON);
         moved <= most * most * coordinate_scale

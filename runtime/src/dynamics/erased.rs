@@ -8,6 +8,7 @@
 //! sizes of mechanisms are.
 
 use super::Core;
+use super::coordinate_scale::CoordinateScale;
 use super::metric::{Metric, MetricView};
 use super::rows::{Rows, RowsView, Which};
 use super::solver::{Source, factorise};
@@ -45,8 +46,8 @@ pub(crate) struct Known<'a, T> {
     pub(crate) scale: &'a [T],
     /// Which rows restrict positions.
     pub(crate) holonomic: &'a [bool],
-    /// The length of the coordinates in the metric.
-    pub(crate) coordinate_scale: T,
+    /// The lengths that round-off and differences of positions are measured by.
+    pub(crate) coordinate_scale: CoordinateScale<T>,
 }
 
 /// What is known of the metric and the rows, to be changed.
@@ -106,7 +107,7 @@ pub(crate) struct SolverView<'a, T, const N: usize, const R: usize> {
     pub(crate) nodes: &'a mut Nodes<T, N>,
     pub(crate) weakest: &'a mut usize,
     expected: &'a mut bool,
-    pub(crate) coordinate_scale: T,
+    pub(crate) coordinate_scale: CoordinateScale<T>,
     pub(crate) sizes: &'a [T; N],
     pub(crate) tolerance: Option<T>,
 }
@@ -166,7 +167,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 pub(super) fn known<'a, T: Real, const N: usize, const R: usize>(
     metric: &'a Metric<T, N>,
     rows: &'a Rows<T, R>,
-    coordinate_scale: T,
+    coordinate_scale: CoordinateScale<T>,
 ) -> Known<'a, T> {
     let (scale, holonomic) = rows.scales();
     Known {

@@ -58,7 +58,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let most = T::from_f64(MOST_ROUND_OFF) * round_off();
         // False for NaN, too.
         let (is_on, stays_on) = (
-            worst <= most * self.coordinate_scale,
+            worst <= most * self.coordinate_scale.size,
             fastest <= most * rate,
         );
         let moved = self.metric.factor.length(&(placed.q - state.q).data.0[0]);
@@ -68,7 +68,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             .placed
             .as_ref()
             .is_some_and(|placed| placed.leaves);
-        if is_on && (placed_elsewhere || moved > regular::<T>() * self.coordinate_scale) {
+        if is_on && (placed_elsewhere || moved > regular::<T>() * self.coordinate_scale.size) {
             return Err(self.refusal(mechanism, Obstacle::Undetermined, state.t));
         }
         if !is_on {
@@ -304,7 +304,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let size = self.metric.factor.length(&least.data.0[0]);
         let base = self.session.base.map(|base| (base.q, base.v));
         // What forces do elsewhere: in equilibrium they tell nothing of their own size.
-        let aside = self.lower([self.coordinate_scale * T::from_f64(0.25); N]);
+        let aside = self.lower([self.coordinate_scale.range * T::from_f64(0.25); N]);
         let moved = State::new(state.t, state.q + aside, state.v);
         let elsewhere = self.published(mechanism, &moved)?;
         let free = size.max(self.metric.factor.length(&elsewhere.data.0[0]));

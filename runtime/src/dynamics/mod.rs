@@ -14,6 +14,7 @@ mod acceleration;
 mod acceleration_jacobian;
 mod conditions;
 mod constrained;
+mod coordinate_scale;
 mod emitted;
 mod erased;
 mod follow;
@@ -43,6 +44,7 @@ pub use public_solver::Solver;
 pub use settings::{Counters, Form, Settings, Stabilisation};
 pub(crate) use solver::Core;
 
+pub(crate) use coordinate_scale::CoordinateScale;
 pub(crate) use emitted::MAX_ITERATIONS;
 pub(crate) use erased::{Constrained, SolverView};
 pub(crate) use independent::Independent;

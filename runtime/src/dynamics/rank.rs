@@ -255,7 +255,7 @@ fn neighbours<'a, T: Real>(
     workspace: &Workspace<'a, T>,
 ) -> core::slice::ChunksExactMut<'a, T> {
     let (n, known) = (state.q.len(), solver.known());
-    let distance = difference::<T>() * known.coordinate_scale;
+    let distance = difference::<T>() * known.coordinate_scale.range;
     let positions = workspace.numbers((n + 1) * n);
     let mut count = 0;
     let mut add = |size: T, direction: &[T]| {

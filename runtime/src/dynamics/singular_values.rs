@@ -163,7 +163,7 @@ pub(crate) fn second_derivatives<T: Real>(
 ) {
     let n = state.q.len();
     let count = kernel.len() / n;
-    let distance = difference::<T>() * solver.known().coordinate_scale;
+    let distance = difference::<T>() * solver.known().coordinate_scale.range;
     workspace.scope(|workspace| {
         let lowered = workspace.numbers(kernel.len());
         lowered.copy_from_slice(kernel);

@@ -9,18 +9,15 @@
 //! Not here: where it lives itself ([`super::public_solver`]).
 
 use super::conditions::Conditions;
+use super::coordinate_scale::CoordinateScale;
 use super::{Metric, Rows, SchurComplement, Which};
-use crate::linalg::{NotDefinite, is_finite, length};
+use crate::linalg::{NotDefinite, is_finite};
 use crate::singular::{Memory, Obstacle, Session};
 use crate::{
     Acceleration, Correction, Counters, DynamicsError, Mechanism, Position, Real, Settings,
     Singularity, State, Structure, Terms,
 };
 use nalgebra::{SMatrix, SVector};
-
-/// By which factor a coordinate grows before the length of the coordinates is measured
-/// again: round-off is needed to no more digits.
-const SCALE_STEP: f64 = 1.125;
 
 /// Solves the equations of motion of a mechanism with `N` coordinates and `R`
 /// constraint equations.
@@ -53,9 +50,8 @@ pub(crate) struct Core<T, const N: usize, const R: usize> {
     pub(crate) expected: bool,
     /// The time and position that the general factors at hand belong to.
     pub(crate) safe: Option<(T, SVector<T, N>)>,
-    /// The largest length of the coordinates in the metric so far: what their
-    /// round-off is measured by.
-    pub(crate) coordinate_scale: T,
+    /// The lengths that round-off and differences of positions are measured by.
+    pub(crate) coordinate_scale: CoordinateScale<T>,
     /// The sizes of the coordinates up to which that is not measured again.
     pub(crate) sizes: [T; N],
     /// The inverse squares of those sizes; zero where a coordinate has only been zero.
@@ -92,7 +88,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             emitted: true,
             expected: false,
             safe: None,
-            coordinate_scale: T::zero(),
+            coordinate_scale: CoordinateScale::default(),
             sizes: [-T::one(); N],
             weights: [T::zero(); N],
             prepared: false,
@@ -180,36 +176,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         Ok(())
     }
 
-    /// Takes note of the length of the coordinates in the metric, where one of them is
-    /// larger than it was.
-    #[inline]
-    pub(crate) fn observe_coordinate_scale(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        state: &State<T, N>,
-    ) {
-        let [q] = &state.q.data.0;
-        let sizes = q.iter().zip(&self.sizes);
-        if sizes.fold(false, |any, (q, size)| any | (q.abs() > *size)) {
-            self.extend_coordinate_scale(mechanism, state);
-        }
-    }
-
-    /// Measures that length.
-    #[inline(never)]
-    fn extend_coordinate_scale(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) {
-        let [mut q] = state.q.data.0;
-        let factor = self.metric.factor.as_slice();
-        let known = (&mut self.sizes[..], &mut self.weights[..]);
-        self.coordinate_scale = coordinate_scale(
-            mechanism.structure(),
-            factor,
-            &mut q,
-            known,
-            self.coordinate_scale,
-        );
-    }
-
     /// What a run is told of an obstacle.
     #[inline(never)]
     pub(crate) fn refusal(
@@ -232,45 +198,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             row: self.rows.listed(self.weakest),
             structure,
         }
-    }
-}
-
-/// The largest length of coordinates so far, with `q`, which are used up, and up to which sizes
-/// it is not measured again. Functions of an angle have the round-off of an angle of one,
-/// however small it is.
-fn coordinate_scale<T: Real>(
-    structure: &Structure,
-    factor: &[T],
-    q: &mut [T],
-    (sizes, weights): (&mut [T], &mut [T]),
-    before: T,
-) -> T {
-    let moved = weights.iter().any(|weight| *weight > T::zero());
-    let lengths = q.len().saturating_sub(structure.states);
-    // Integrals of states are no lengths.
-    q[lengths..].fill(T::zero());
-    sizes[lengths..].fill(T::from_f64(f64::INFINITY));
-    for (size, coordinate) in q.iter_mut().zip(structure.freedoms()) {
-        *size = size.abs();
-        if coordinate.may_be_angle() {
-            *size = size.max(T::one());
-        }
-    }
-    for ((known, weight), size) in sizes.iter_mut().zip(weights).zip(&*q) {
-        *known = known.max(*size * T::from_f64(SCALE_STEP));
-        if *known > T::zero() {
-            *weight = T::one() / (*known * *known);
-        }
-    }
-    let mut coordinate_scale = length(factor, q);
-    if coordinate_scale == T::zero() {
-        // Where all are lengths of zero, one unit stands for them until they move.
-        q.fill(T::one());
-        coordinate_scale = length(factor, q);
-    }
-    match moved {
-        true => before.max(coordinate_scale),
-        false => coordinate_scale,
     }
 }
 

@@ -3,6 +3,7 @@
 //! In:  a state at which a combination of rows loses its gradient.
 //! Out: whether that is like a square.
 
+use super::CoordinateScale;
 use super::erased::Constrained;
 use super::singular_values::{SingularValueDecomposition, second_derivatives};
 use crate::Real;
@@ -49,7 +50,7 @@ pub(super) fn has_one_sign<T: Real>(
         return false;
     };
     let (along, moved) = (workspace.numbers(n), workspace.numbers(n));
-    let coordinate_scale = solver.known().coordinate_scale;
+    let CoordinateScale { size, range } = solver.known().coordinate_scale;
     for (value, vector) in values().zip(vectors.chunks_exact(count)) {
         if !flat(value) {
             continue;
@@ -59,11 +60,11 @@ pub(super) fn has_one_sign<T: Real>(
             add_scaled(along, *share, axis);
         }
         solver.known().lower(along);
-        for side in [coordinate_scale, -coordinate_scale] {
+        for side in [range, -range] {
             moved.copy_from_slice(state.q);
             add_scaled(moved, side * T::from_f64(ASIDE), along);
             solver.locate(state.t, moved);
-            if value_of(solver, combination, workspace) * sign < -T::EPSILON * coordinate_scale {
+            if value_of(solver, combination, workspace) * sign < -T::EPSILON * size {
                 return false;
             }
         }

@@ -7,7 +7,7 @@
 use super::{Core, Source, Which};
 use crate::linalg::is_zero;
 use crate::singular::{Chart, Obstacle, Placed, Placement, Point};
-use crate::tolerance::{accepted, negligible, safe_steps, window};
+use crate::tolerance::{accepted, safe_steps, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
 
 /// A sine that falls below this part of what it is at both ends of a step may have been
@@ -254,7 +254,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<(), DynamicsError<T>> {
         let (worst, _) = self.residual(&self.position.residual);
         // False for NaN, too.
-        let small = worst <= negligible::<T>() * self.coordinate_scale;
+        let small = self.is_negligible(worst);
         if small || self.settings.stabilisation != Stabilisation::Projection {
             Ok(())
         } else {

@@ -9,12 +9,13 @@
 //! measures how far a vector goes along `D`, and vanishes on `N`. A chart belongs to one
 //! step: it changes at accepted states only.
 
-use crate::dynamics::{Metric, Rows, Which};
+use crate::dynamics::{CoordinateScale, Metric, Rows, Which};
 use crate::equations::At;
 use crate::linalg::{
     Cholesky, add_scaled, dot, multiply_upper, multiply_upper_transposed, norm, order_by_first_row,
     pair, solve_upper_transposed,
 };
+use crate::tolerance::excusable;
 use crate::{Real, State};
 use nalgebra::{SMatrix, SVector};
 
@@ -43,8 +44,8 @@ pub(crate) struct Chart<T, const N: usize, const R: usize> {
     /// What rows and columns are multiplied by to have size one.
     row_scale: [T; R],
     column_scale: [T; N],
-    /// The length of the coordinates in the metric.
-    coordinate_scale: T,
+    /// The lengths that round-off and differences of positions are measured by.
+    coordinate_scale: CoordinateScale<T>,
     /// How large each of them is.
     sizes: [T; N],
     /// The spacing of the nodes that served last, as a change of the sine.
@@ -65,7 +66,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
         freedoms: usize,
         metric: &Metric<T, N>,
         (rows, jacobian): (&Rows<T, R>, &SMatrix<T, R, N>),
-        (coordinate_scale, sizes, accepted): (T, &[T; N], T),
+        (coordinate_scale, sizes, accepted): (CoordinateScale<T>, &[T; N], T),
     ) -> Option<Self> {
         let (list, count) = rows.active(Which::All)?;
         if count + freedoms != N {
@@ -106,7 +107,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             coordinate_scale,
             sizes: *sizes,
             spacing: T::zero(),
-            accepted,
+            accepted: accepted.max((accepted * coordinate_scale.turns()).min(excusable())),
             gap: false,
         })
     }
@@ -201,7 +202,7 @@ pub(crate) struct ChartView<'a, T> {
     pub(super) factor: &'a [T],
     pub(super) row_scale: &'a [T],
     pub(super) column_scale: &'a [T],
-    pub(super) coordinate_scale: T,
+    pub(super) coordinate_scale: CoordinateScale<T>,
     pub(super) sizes: &'a [T],
     pub(super) spacing: T,
     pub(super) accepted: T,

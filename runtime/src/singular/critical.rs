@@ -72,9 +72,10 @@ impl<T: Real> Sheet<'_, T> {
         let Search { aside, unsure, .. } = search;
         let most = self.largest_residual();
         let bound = critical::<T>() * cross.round_off;
-        let off = (best.error + resolved()) * self.chart.coordinate_scale * T::from_f64(ASIDE);
+        let off =
+            (best.error + resolved()) * self.chart.coordinate_scale.range * T::from_f64(ASIDE);
         // The directions are those at the nodes; by so much they turn on the way.
-        let turned = search.distance * search.distance / self.chart.coordinate_scale;
+        let turned = search.distance * search.distance / self.chart.coordinate_scale.range;
         let settles = unsure <= cross.round_off || aside <= off + turned;
         if unsure > bound || !settles {
             return Err(Obstacle::Unresolved);
@@ -104,7 +105,7 @@ impl<T: Real> Sheet<'_, T> {
         best.add_offset_at(T::zero(), q);
         self.eliminate((t, q), Some(like))?;
         let unsure = T::from_f64(4.0) * best.error * self.frame.smallest();
-        let bound = critical::<T>() * round_off + unsure * self.chart.coordinate_scale;
+        let bound = critical::<T>() * round_off + unsure * self.chart.coordinate_scale.range;
         match self.largest_residual() <= bound {
             true => Ok(true),
             false => Err(Obstacle::Unresolved),
@@ -205,7 +206,7 @@ impl<T: Real> Sheet<'_, T> {
                 most = most.max(coordinate_scale / length);
             }
         }
-        most.min(chart.coordinate_scale)
+        most.min(chart.coordinate_scale.size)
     }
 }
 

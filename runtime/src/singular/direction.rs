@@ -265,7 +265,7 @@ impl<T: Real> Sheet<'_, T> {
         };
         (direction.centre, direction.rate) = (centre, rate);
         direction.change.set(change);
-        let step = spacing::<T>() * self.chart.coordinate_scale.min(T::one() / rate);
+        let step = spacing::<T>() * self.chart.coordinate_scale.range.min(T::one() / rate);
         if centre.abs() > step * hull(SIDE) {
             return;
         }
@@ -285,7 +285,7 @@ impl<T: Real> Sheet<'_, T> {
         change: &mut Block<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> Result<(), Obstacle> {
-        let distance = difference::<T>() * self.chart.coordinate_scale;
+        let distance = difference::<T>() * self.chart.coordinate_scale.range;
         workspace.scope(|workspace| {
             let q = workspace.numbers(self.chart.n());
             let t = direction.moved(search.state, distance, q);

@@ -13,6 +13,7 @@ use super::obstacle::Obstacle;
 use super::sheet::{PointView, Sheet};
 use super::stored_nodes::SIDE;
 use crate::Real;
+use crate::dynamics::CoordinateScale;
 use crate::equations::At;
 use crate::linalg::{Eliminated, Workspace, add_scaled, is_finite};
 use crate::once::compiled_once;
@@ -120,7 +121,7 @@ impl<T: Real> Sheet<'_, T> {
             .block()
             .sign_changes_from(like.block(), workspace)
             > 0;
-        let moved = self.chart.length(sum.offset) / self.chart.coordinate_scale;
+        let moved = self.chart.length(sum.offset) / self.chart.coordinate_scale.range;
         let several = T::from_f64(STRAYS);
         Ok(Placement::Crossing {
             spacing: best.spacing,
@@ -145,9 +146,15 @@ impl<T: Real> Sheet<'_, T> {
             return Ok(Err(Placement::Gap));
         }
         // Rows are no more exact than the coordinates, whose round-off grows with their size.
-        let size = (direction.rate * self.chart.coordinate_scale).max(T::one());
-        let noise = T::from_f64(NOISE) * T::EPSILON * best.noise * size;
-        if best.error > self.chart.accepted.max(noise.min(excusable::<T>() * size)) {
+        let CoordinateScale { size, range } = self.chart.coordinate_scale;
+        let reach = |length: T| (direction.rate * length).max(T::one());
+        let noise = T::from_f64(NOISE) * T::EPSILON * best.noise * reach(size);
+        if best.error
+            > self
+                .chart
+                .accepted
+                .max(noise.min(excusable::<T>() * reach(range)))
+        {
             return Err(Obstacle::Unresolved);
         }
         // Where neither is as good as wanted, the better one.
@@ -221,7 +228,8 @@ impl<T: Real> Sheet<'_, T> {
     /// change ever more slowly and then faster again, and a spacing that was right before says
     /// nothing of how far nodes are apart now.
     fn spacings(&self, direction: &Direction<'_, T>) -> (T, T) {
-        let widest = (spacing::<T>() * self.chart.coordinate_scale * direction.rate).min(spacing());
+        let widest =
+            (spacing::<T>() * self.chart.coordinate_scale.range * direction.rate).min(spacing());
         let known = self.chart.spacing;
         if self.chart.speed > T::zero() {
             return (T::zero(), widest);
@@ -269,7 +277,7 @@ impl<T: Real> Sheet<'_, T> {
         let bend = chart.length(all.particular) + speed * speed * rate;
         let mut differences = [T::zero(); 2];
         for (difference, (a, b)) in differences.iter_mut().zip([(all, fewer), (fewer, fewest)]) {
-            let offset = chart.apart(a.offset, b.offset) / chart.coordinate_scale;
+            let offset = chart.apart(a.offset, b.offset) / chart.coordinate_scale.range;
             let particular = match bend > T::zero() {
                 true => chart.apart(a.particular, b.particular) / bend,
                 false => T::zero(),

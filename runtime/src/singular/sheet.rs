@@ -346,7 +346,7 @@ impl<'a, T: Real> Sheet<'a, T> {
             if !size.is_finite() {
                 return Err(Obstacle::NotFinite);
             }
-            let noise = round_off::<T>() * self.chart.coordinate_scale / self.frame.smallest();
+            let noise = round_off::<T>() * self.chart.coordinate_scale.size / self.frame.smallest();
             if size <= noise {
                 return Ok(());
             }

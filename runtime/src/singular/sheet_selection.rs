@@ -4,8 +4,8 @@
 //! Out: the tangent space of the sheet that it is on, or the news that nothing tells.
 
 use crate::dynamics::{
-    Constrained, Independent, RETURNING_GRADIENT, SingularValueDecomposition, Which, choose_rows,
-    second_derivatives,
+    Constrained, CoordinateScale, Independent, RETURNING_GRADIENT, SingularValueDecomposition,
+    Which, choose_rows, second_derivatives,
 };
 use crate::equations::At;
 use crate::linalg::{
@@ -116,7 +116,7 @@ fn tangent_along<T: Real>(
     if speed == T::zero() {
         return Ok(false);
     }
-    let span = difference::<T>() * solver.known().coordinate_scale / speed;
+    let span = difference::<T>() * solver.known().coordinate_scale.range / speed;
     let mut best = difference::<T>() * T::from_f64(RETURNING_GRADIENT);
     let mut found = false;
     for span in [span, -span] {
@@ -188,16 +188,16 @@ fn one_of_two<T: Real>(
 fn select<T: Real>(
     (away, speed): ([T; 2], T),
     distances: Option<[T; 2]>,
-    coordinate_scale: T,
+    coordinate_scale: CoordinateScale<T>,
 ) -> Option<usize> {
     let crosses = larger(away) > regular::<T>() * speed;
     let by_velocity = nearer(away, T::from_f64(CLEARLY_NEARER)).filter(|_| crosses);
     // Distances that are nothing but round-off tell nothing.
     let least = match crosses {
-        true => regular(),
-        false => round_off::<T>() * critical(),
+        true => regular::<T>() * coordinate_scale.range,
+        false => round_off::<T>() * critical() * coordinate_scale.size,
     };
-    let known = distances.filter(|away| larger(*away) > least * coordinate_scale);
+    let known = distances.filter(|away| larger(*away) > least);
     let by_position = known.map(|away| nearer(away, T::from_f64(NEARER)));
     match (by_velocity, by_position) {
         (Some(one), None) => Some(one),

@@ -52,6 +52,33 @@ fn a_hundred_thousand_passages_with_two_freedoms_stay_on_their_branch() {
     assert!(largest.0 < 1e-5, "the branch was left by {}", largest.0);
 }
 
+/// What happens at an angle does not depend on the turns that were made before, but for their
+/// round-off.
+#[test]
+fn passages_after_very_many_turns_are_those_after_none() {
+    let run = |turns: f64| {
+        let mut mechanism = ParallelogramPendulum::<f64>::default();
+        mechanism.parameters.w0 = 60.0;
+        mechanism.parameters.a0 += turns * 2.0 * PI;
+        let mechanism: &dyn Whole<f64, 4, 2> = &mechanism;
+        let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+        let mut largest = Largest::default();
+        let options = Options::dop853(1.0, 1e-9);
+        let ran = simulate(mechanism, &start, &options, &mut [&mut largest]);
+        let summary = ran.unwrap_or_else(|failure| panic!("after {turns} turns: {failure}"));
+        assert!(
+            largest.0 < 1e-8,
+            "after {turns} turns, off by {}",
+            largest.0
+        );
+        summary
+    };
+    let first = run(0.0);
+    for turns in [1.0, 100.0, 12_000.0, 1e5, 1e6] {
+        assert_eq!(run(turns).passages, first.passages, "after {turns} turns");
+    }
+}
+
 /// Keeps the times of passages.
 #[derive(Default)]
 struct Times(Vec<f64>);
