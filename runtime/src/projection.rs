@@ -75,7 +75,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             mechanism.position(state, &mut self.position);
             let worst = self.finite_residual(state)?;
             if self.is_on_constraints(worst, before) {
-                self.factorise_metric(mechanism, Source::Position, state.t)?;
+                self.factorise_trial(mechanism, Source::Position, state.t)?;
                 let squared = self.factorise_constraints(Source::Position, Which::All);
                 self.session.trial.lowest = self.session.trial.lowest.min(squared);
                 if !passes(squared, window()) {
@@ -85,7 +85,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
                 return Ok(squared);
             }
             if before.is_none_or(|before| worst > before * contraction()) {
-                self.factorise_metric(mechanism, Source::Position, state.t)?;
+                self.factorise_trial(mechanism, Source::Position, state.t)?;
                 let squared = self.factorise_constraints(Source::Position, Which::Holonomic);
                 if !passes(squared, window()) {
                     return self.leave_to_chart(mechanism, state, squared);

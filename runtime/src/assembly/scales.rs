@@ -37,7 +37,8 @@ pub(super) struct Scales<'a, T> {
     pub(super) rows: &'a [T],
     /// How large each coordinate is, at least: 1 rad, or the largest length.
     pub(super) sizes: &'a [T],
-    /// How much each equation changes when the coordinates change by their sizes.
+    /// How much each equation changes when the coordinates change by their sizes, or by what
+    /// they are, if that is more: its round-off is relative to that.
     pub(super) reach: &'a [T],
 }
 
@@ -78,7 +79,7 @@ impl<'a, T: Real> Scales<'a, T> {
                 for (j, entry) in jacobian.iter().skip(k).step_by(n_rows).enumerate() {
                     let scaled = entry.abs() * columns[j];
                     square += scaled * scaled;
-                    length += entry.abs() * sizes[j];
+                    length += entry.abs() * sizes[j].max(q[j].abs());
                 }
                 // A neighbour outside the domain of a root tells nothing.
                 if square.is_finite() && length.is_finite() {

@@ -383,6 +383,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             return Ok(());
         }
         self.observe_coordinate_scale(mechanism, &step.end);
+        if self.session.chart.is_none() && self.metric.hides_dependence() {
+            self.metric.observe_pivots();
+        }
         self.session.sine = Some(self.session.trial.end.sqrt());
         self.session.near = self.session.trial.near;
         self.session.rate = self.session.trial.rate;

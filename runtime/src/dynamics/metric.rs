@@ -89,6 +89,16 @@ fn observe<T: Real>(inertia: &mut [T], mass: &[T]) {
     }
 }
 
+/// The pivots of a factor, relative to the diagonal of the matrix.
+fn pivot_ratios<T: Real>(factor: &[T], n: usize) -> impl Iterator<Item = T> {
+    (0..n).map(move |i| {
+        let row = factor[i * n..].iter().skip(i).step_by(n);
+        let diagonal = row.fold(T::zero(), |sum, entry| sum + *entry * *entry);
+        let pivot = factor[i * n + i];
+        pivot * pivot / diagonal
+    })
+}
+
 /// The factorised metric.
 #[derive(Clone, Debug)]
 pub(crate) struct Metric<T, const N: usize> {
@@ -97,12 +107,16 @@ pub(crate) struct Metric<T, const N: usize> {
     /// The largest inertia that each coordinate had: that of an Euler parameter
     /// vanishes at some positions, which says nothing about its scale.
     inertia: [T; N],
+    /// The largest ratio of each pivot to its diagonal entry so far.
+    ratios: [T; N],
 }
 
 /// What is known of the metric, over slices, to be changed.
 pub(crate) struct MetricView<'a, T> {
     pub(crate) parts: &'a mut Parts,
+    factor: &'a [T],
     inertia: &'a mut [T],
+    ratios: &'a mut [T],
 }
 
 impl<T: Real> MetricView<'_, T> {
@@ -117,11 +131,20 @@ impl<T: Real> MetricView<'_, T> {
             current: false,
         };
         self.inertia.fill(T::zero());
+        self.ratios.fill(T::zero());
     }
 
     /// Takes note of how much inertia the coordinates have.
     pub(crate) fn observe(&mut self, mass: &[T]) {
         observe(self.inertia, mass);
+    }
+
+    /// Takes note of how large the pivots are where it is factorised.
+    pub(crate) fn observe_pivots(&mut self) {
+        let ratios = pivot_ratios(self.factor, self.ratios.len());
+        for (largest, ratio) in self.ratios.iter_mut().zip(ratios) {
+            *largest = largest.max(ratio);
+        }
     }
 
     /// The largest inertia that each coordinate had.
@@ -140,6 +163,7 @@ impl<T: Real, const N: usize> Default for Metric<T, N> {
                 current: false,
             },
             inertia: [T::zero(); N],
+            ratios: [T::zero(); N],
         }
     }
 }
@@ -149,7 +173,9 @@ impl<T: Real, const N: usize> Metric<T, N> {
     pub(crate) fn view(&mut self) -> MetricView<'_, T> {
         MetricView {
             parts: &mut self.parts,
+            factor: self.factor.as_slice(),
             inertia: &mut self.inertia,
+            ratios: &mut self.ratios,
         }
     }
 
@@ -188,13 +214,38 @@ impl<T: Real, const N: usize> Metric<T, N> {
         }
         observe(&mut self.inertia, mass.as_slice());
         rows.weigh(&self.inertia, jacobian.as_slice());
-        match self.factor.factorise(&self.sum(mass, jacobian, rows)) {
-            Err(_) if self.parts.takes == Takes::Named => {
-                self.parts.augment();
-                self.factor.factorise(&self.sum(mass, jacobian, rows))
-            }
-            result => result,
+        let result = self.factor.factorise(&self.sum(mass, jacobian, rows));
+        if result.is_ok() || self.parts.takes != Takes::Named {
+            return result;
         }
+        self.parts.augment();
+        let result = self.factor.factorise(&self.sum(mass, jacobian, rows));
+        if result.is_err() {
+            // No other rows help here, and those that are named do elsewhere.
+            self.parts.takes = Takes::Named;
+        }
+        result
+    }
+
+    /// Whether constraints may become dependent without a row that shows it: where some
+    /// coordinates have no inertia but what constraints give them, it is the metric that
+    /// degenerates.
+    pub(crate) fn hides_dependence(&self) -> bool {
+        self.parts.takes != Takes::None && self.inertia.contains(&T::zero())
+    }
+
+    /// The smallest of its pivots, relative to the diagonal and to the largest such ratio so
+    /// far: of the order of the squared sine of constraints that become dependent.
+    pub(crate) fn smallest_pivot(&self) -> T {
+        let pairs = pivot_ratios(self.factor.as_slice(), N).zip(&self.ratios);
+        pairs.fold(T::one(), |least, (ratio, largest)| {
+            least.min(ratio / *largest)
+        })
+    }
+
+    /// Takes note of how large its pivots are at an accepted state.
+    pub(crate) fn observe_pivots(&mut self) {
+        self.view().observe_pivots();
     }
 
     /// `M + AᵀWA` of the rows that take part.

@@ -58,7 +58,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         state: &State<T, N>,
     ) -> Result<T, DynamicsError<T>> {
         self.safe = None;
-        self.factorise_metric(mechanism, Source::Terms, state.t)?;
+        self.factorise_trial(mechanism, Source::Terms, state.t)?;
         let squared = self.factorise_constraints(Source::Terms, Which::All);
         self.session.observe(state, squared);
         Ok(squared)

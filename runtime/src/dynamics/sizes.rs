@@ -77,6 +77,7 @@ impl<'a, T: Real> Sizes<'a, T> {
         if solver.visit(t, q).is_err() {
             return;
         }
+        solver.learn().metric.observe_pivots();
         workspace.scope(|workspace| {
             let (at, known) = (solver.constraints(), solver.known());
             let (alone, lifted) = (workspace.numbers(known.r()), workspace.numbers(q.len()));

@@ -133,6 +133,22 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         )
     }
 
+    /// Factorises the metric at a state of a trial step; where it is constraints that become
+    /// dependent, though no row shows it, the step wants a chart.
+    pub(crate) fn factorise_trial(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        source: Source,
+        t: T,
+    ) -> Result<(), DynamicsError<T>> {
+        let result = self.factorise_metric(mechanism, source, t);
+        let degenerates = matches!(result, Err(DynamicsError::MassSingular { .. }));
+        if degenerates && self.metric.hides_dependence() && self.session.wants_chart() {
+            return Err(self.refusal(mechanism, Obstacle::Unresolved, t));
+        }
+        result
+    }
+
     /// Factorises independent constraints in the metric and returns the smallest
     /// squared sine of a row; zero if none are known to be independent.
     #[inline(never)]

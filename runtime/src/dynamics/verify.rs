@@ -7,7 +7,7 @@
 use super::{Core, Source, Which};
 use crate::linalg::is_zero;
 use crate::singular::{Chart, Obstacle, Placed, Placement, Point};
-use crate::tolerance::{accepted, safe_steps, window};
+use crate::tolerance::{accepted, passes, safe_steps, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
 
 /// A sine that falls below this part of what it is at both ends of a step may have been
@@ -36,9 +36,32 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             self.session.sine = Some(self.sine_at(mechanism, start)?);
         }
         match self.session.chart {
-            None => self.verify_far(mechanism, start, end),
+            None => {
+                if self.metric.hides_dependence() {
+                    self.uncover_dependence(mechanism, end)?;
+                }
+                self.verify_far(mechanism, start, end)
+            }
             Some(_) => self.verify_beside(mechanism, start, end),
         }
+    }
+
+    /// The sine at the end of a step, where rows do not show it all.
+    #[inline(never)]
+    fn uncover_dependence(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        end: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        mechanism.position(end, &mut self.position);
+        let squared = match self.factorise_metric(mechanism, Source::Position, end.t) {
+            Ok(()) => self.metric.smallest_pivot(),
+            Err(DynamicsError::MassSingular { .. }) => T::zero(),
+            Err(error) => return Err(error),
+        };
+        self.session.trial.end = self.session.trial.end.min(squared);
+        self.session.trial.lowest = self.session.trial.lowest.min(squared);
+        Ok(())
     }
 
     /// A step with a chart, which is needed only where a state was near a singular
@@ -191,14 +214,36 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if !self.needs_chart(sines, end.t - start.t) && !placed.gap {
             return Ok(());
         }
-        mechanism.position(end, &mut self.position);
-        self.factorise_metric(mechanism, Source::Position, end.t)?;
+        self.factorise_end(mechanism, chart, end)?;
         self.verify_residual(mechanism, end)?;
         let next = self.chart_after(chart, end, placed);
         if next.is_none() {
             return Err(self.refusal(mechanism, Obstacle::NotRegular, end.t));
         }
         self.session.trial.chart = next;
+        Ok(())
+    }
+
+    /// Factorises the metric at the end of a step with a chart; where it is the metric that
+    /// degenerates, that of the chart is kept.
+    fn factorise_end(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        chart: &Chart<T, N, R>,
+        end: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        mechanism.position(end, &mut self.position);
+        let factorised = self.factorise_metric(mechanism, Source::Position, end.t);
+        if !self.metric.hides_dependence() {
+            return factorised;
+        }
+        match factorised {
+            Ok(()) if passes(self.metric.smallest_pivot(), window()) => {}
+            Ok(()) | Err(DynamicsError::MassSingular { .. }) => {
+                self.metric.factor = *chart.factor();
+            }
+            Err(error) => return Err(error),
+        }
         Ok(())
     }
 

@@ -118,6 +118,11 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
         self.speed = speed.max(self.view().length(drift.as_slice()));
     }
 
+    /// The factor of its metric.
+    pub(crate) fn factor(&self) -> &Cholesky<T, N> {
+        &self.factor
+    }
+
     /// The chart over slices.
     pub(crate) fn view(&self) -> ChartView<'_, T> {
         ChartView {

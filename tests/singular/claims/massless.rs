@@ -15,3 +15,18 @@ fn a_slider_runs_across_the_joint_of_a_coupler_without_inertia() {
         assert!(!verdict.miscounted(), "{trial}: {:?}", verdict.passages);
     }
 }
+
+/// Where rods could fold without kinetic energy, it is the metric that degenerates.
+#[test]
+fn rods_without_inertia_pass_where_they_could_fold() {
+    for tolerance in [1e-6, 1e-9, 1e-12] {
+        for speed in [-7.0, 1.0, 2.0, 4.0, 9.0, 15.0] {
+            let (mechanism, reduced) = ("massless_parallelogram", "massless_parallelogram_reduced");
+            let trial = Trial::short(mechanism, reduced, vec![("wa", speed)]).until(2.0);
+            let trial = Trial { tolerance, ..trial };
+            let verdict = judge(&trial);
+            assert_eq!(verdict.score, Score::Right, "{trial}\n    {}", verdict.why);
+            assert!(!verdict.miscounted(), "{trial}: {:?}", verdict.passages);
+        }
+    }
+}
