@@ -6,11 +6,9 @@
 //! Both are the same until an angle has gone round: its round-off grows with every turn,
 //! what depends on it does not.
 
-use super::Core;
 use crate::linalg::length;
-use crate::{Mechanism, Real, State, Structure};
+use crate::{Real, Structure};
 use core::f64::consts::TAU;
-use nalgebra::SMatrix;
 
 /// By which factor a coordinate grows before the length of the coordinates is measured
 /// again: round-off is needed to no more digits.
@@ -36,7 +34,7 @@ impl<T: Real> CoordinateScale<T> {
     /// Takes note of coordinates `q`, which are used up, and up to which sizes none is looked
     /// at again; `turns` tells which of them are angles that have gone round. Functions of an
     /// angle have the round-off of an angle of one, however small it is.
-    fn extend(
+    pub(super) fn extend(
         &mut self,
         structure: &Structure,
         factor: &[T],
@@ -81,68 +79,4 @@ impl<T: Real> CoordinateScale<T> {
             false => Self { size, range },
         };
     }
-}
-
-impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
-    /// Takes note of the length of the coordinates in the metric, where one of them is
-    /// larger than it was.
-    #[inline]
-    pub(crate) fn observe_coordinate_scale(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        state: &State<T, N>,
-    ) {
-        let [q] = &state.q.data.0;
-        let sizes = q.iter().zip(&self.sizes);
-        if sizes.fold(false, |any, (q, size)| any | (q.abs() > *size)) {
-            self.extend_coordinate_scale(mechanism, state);
-        }
-    }
-
-    /// Measures that length.
-    #[inline(never)]
-    fn extend_coordinate_scale(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) {
-        let turns = self.turns(mechanism, state);
-        let [mut q] = state.q.data.0;
-        self.coordinate_scale.extend(
-            mechanism.structure(),
-            self.metric.factor.as_slice(),
-            &mut q,
-            (&mut self.sizes, &mut self.weights),
-            &turns,
-        );
-    }
-
-    /// Which coordinates are beyond a turn, and leave the constraint rows as they are when
-    /// they go back by one: angles, and coordinates on which the rows do not depend.
-    fn turns(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) -> [bool; N] {
-        let turn = T::from_f64(TAU);
-        let is_beyond = |q: &T| q.abs() > turn;
-        let mut turns = [false; N];
-        if !state.q.iter().any(is_beyond) {
-            return turns;
-        }
-        mechanism.position(state, &mut self.position);
-        let here = self.position.jacobian;
-        for j in (0..N).filter(|&j| is_beyond(&state.q[j])) {
-            let mut back = *state;
-            back.q[j] -= turn * state.q[j].sign();
-            mechanism.position(&back, &mut self.position);
-            turns[j] = are_alike(&here, &self.position.jacobian);
-        }
-        mechanism.position(state, &mut self.position);
-        turns
-    }
-}
-
-/// Whether two Jacobians are the same to half of the digits.
-fn are_alike<T: Real, const N: usize, const R: usize>(
-    one: &SMatrix<T, R, N>,
-    other: &SMatrix<T, R, N>,
-) -> bool {
-    let most = one
-        .iter()
-        .fold(T::zero(), |most: T, entry| most.max(entry.abs()));
-    let mut pairs = one.iter().zip(other);
-    pairs.all(|(one, other)| (*one - *other).abs() <= most * T::EPSILON.sqrt())
 }

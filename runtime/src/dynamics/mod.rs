@@ -36,6 +36,7 @@ mod sizes;
 mod sliding;
 mod solver;
 mod switching;
+mod turns;
 mod vanishing_gradient;
 mod verify;
 
