@@ -138,11 +138,29 @@ impl<T: Real> Sheet<'_, T> {
         like: &Eliminated<'_, T>,
         workspace: &Workspace<'b, T>,
     ) -> Result<Result<Interpolated<'b, T>, Placement<T>>, Obstacle> {
-        let direction = self.direction(state, like, workspace)?;
-        let Some(best) = self.search(state, like, &direction, workspace)? else {
+        let mut direction = self.direction(state, like, workspace)?;
+        let found = self.find_nodes_along(state, like, &direction, workspace);
+        if !direction.is_of_time || !matches!(found, Err(Obstacle::Unresolved)) {
+            return found;
+        }
+        // A law of time may stop before it comes to where it leads now, and there is nothing to
+        // be crossed along it: nodes around the state itself serve as well.
+        direction.centre = T::zero();
+        self.find_nodes_along(state, like, &direction, workspace)
+    }
+
+    /// The same along a direction.
+    fn find_nodes_along<'b>(
+        &mut self,
+        state: At<'_, T>,
+        like: &Eliminated<'_, T>,
+        direction: &Direction<'_, T>,
+        workspace: &Workspace<'b, T>,
+    ) -> Result<Result<Interpolated<'b, T>, Placement<T>>, Obstacle> {
+        let Some(best) = self.search(state, like, direction, workspace)? else {
             return Err(Obstacle::Unresolved);
         };
-        if !workspace.scope(|inner| self.is_crossing(state, like, &direction, &best, inner))? {
+        if !workspace.scope(|inner| self.is_crossing(state, like, direction, &best, inner))? {
             return Ok(Err(Placement::Gap));
         }
         // Rows are no more exact than the coordinates, whose round-off grows with their size.
@@ -162,7 +180,7 @@ impl<T: Real> Sheet<'_, T> {
         if best.error > self.chart.accepted && best.error * sine * sine > T::EPSILON {
             return Ok(Err(Placement::Regular));
         }
-        self.store_nodes(state, &direction, &best);
+        self.store_nodes(state, direction, &best);
         Ok(Ok(best))
     }
 
