@@ -25,3 +25,10 @@ fn states_between_poor_nodes_are_as_good_as_without_any() {
 fn nodes_do_not_move_together_where_the_law_of_time_stops() {
     right(&[(7, 22), (101, 272), (104, 198), (104, 498)]);
 }
+
+/// A law that stops a little beyond a dead centre crosses it twice; what it does at an instant
+/// between does not say where.
+#[test]
+fn a_law_of_time_that_turns_between_two_crossings_is_followed() {
+    right(&[(1, 71), (1, 91), (1, 103)]);
+}
