@@ -45,6 +45,11 @@ impl Basis {
         None
     }
 
+    /// How many vectors it has.
+    pub fn size(&self) -> usize {
+        self.vectors.len()
+    }
+
     /// The part of a unit vector that lies outside the span.
     pub fn outside(&self, axis: usize, dimension: usize) -> Vec<f64> {
         let mut rest = vec![0.0; dimension];

@@ -3,7 +3,7 @@
 //! In:  a checked [`Mechanism`] and its equations of motion.
 //! Out: warnings: kinetic energy that is negative, statements that are not finite where the motion
 //!      begins, coordinates without inertia, equations whose derivatives vanish
-//!      where they hold, a start that can't be assembled ([`lints`]); equations
+//!      where they hold, a start that can't be assembled or goes with several branches ([`lints`]); equations
 //!      that follow from others ([`redundancies`]).
 //!
 //! Everything is evaluated at a few random positions that satisfy the constraints,
@@ -14,6 +14,7 @@
 //! Not here: errors. A run decides about each position by itself.
 
 mod basis;
+mod branch;
 mod finite;
 mod inertia;
 mod least_squares;

@@ -1,5 +1,6 @@
-//! A start whose held values contradict the constraints.
+//! A start whose held values contradict the constraints, or leave the branch of motion open.
 
+use super::branch;
 use super::least_squares::minimise;
 use super::numbers::{Numbers, Place};
 use crate::diagnostic::{Diagnostic, Diagnostics, Span, figure};
@@ -132,8 +133,9 @@ fn unassembled_velocities(numbers: &Numbers, place: &Place, found: &mut Diagnost
                 "correct the constraints that contradict one another here",
             ),
         };
-        warn(numbers, message, help, rows.into_iter().zip(errors), found);
+        return warn(numbers, message, help, rows.into_iter().zip(errors), found);
     }
+    branch::untold(numbers, place, (&v, &free), found);
 }
 
 /// Whether an equation of the start is among the rows, which holds a value, too.

@@ -427,6 +427,7 @@ pub const STATEMENTS: &[&str] = &[
     "constraint q = w; constraint q = w + 1;",
     "constraint q = w; constraint der(q) = der(w) + 1;",
     "constraint q = w; start { der(q) = 1; der(w) = 2; }",
+    "constraint q^2 = w^2; start { der(q) = 1; }",
     "force norm([q, w]) on q;",
     "potential norm([q, w]);",
     "potential 1/q;",
