@@ -2,8 +2,8 @@
 
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
-    DynamicsError, IntegrateError, Interface, Method, Observer, Options, Probe, SimulateError,
-    State, Step, StepControl, Stepper, Summary, Whole, assemble, simulate,
+    DynamicsError, EnergyAudit, IntegrateError, Interface, Method, Observer, Options, Probe,
+    SimulateError, State, Step, StepControl, Stepper, Summary, Whole, assemble, simulate,
 };
 use bricard_switching::contact::Contact;
 use bricard_switching::friction::Friction;
@@ -243,5 +243,23 @@ fn a_place_that_both_sides_push_back_to_from_rest_is_an_error_that_names_the_con
             "{}",
             condition.text
         );
+    }
+}
+
+/// Friction that holds a block on a belt takes exactly what the force brings in, and does not do
+/// the work of friction that slides.
+#[test]
+fn the_power_of_friction_that_holds_is_that_of_the_force_it_holds_against() {
+    let mut mechanism = Friction::default();
+    mechanism.parameters.belt = 0.3;
+    for options in methods(1.8) {
+        let mut audit = EnergyAudit::new();
+        let start = state([0.0, 0.0], [0.3, 0.3]);
+        let ran = simulate(&mechanism, &start, &options, &mut [&mut audit]);
+        let summary = ran.unwrap_or_else(|failure| panic!("{:?}: {failure}", options.method));
+        // The first block breaks away after a second, the second one is held all the time.
+        near(summary.end.v[0], 0.3 + 0.32, 1e-12, &options);
+        near(summary.end.v[1], 0.3, 1e-15, &options);
+        near(audit.largest(), 0.0, 1e-12, &options);
     }
 }

@@ -5,10 +5,10 @@
 //!      `r = Aᵀλ`, as far as they are determined.
 
 use super::{ConstrainedSystem, Core, Source};
-use crate::linalg::{add_scaled, column};
+use crate::linalg::{add_scaled, column, dot};
 use crate::stack::with_room;
 use crate::system::escalating;
-use crate::{DynamicsError, Mechanism, Real, State, Terms};
+use crate::{DynamicsError, Mechanism, Real, Sides, State, Terms};
 use nalgebra::SVector;
 
 impl<M, T: Real, const N: usize, const R: usize> ConstrainedSystem<'_, M, T, N, R>
@@ -84,6 +84,24 @@ where
             .held_reaction(&self.mechanism, state, &acceleration))
     }
 
+    /// By how much the power of the applied forces differs, for a motion that slides, from what
+    /// its state says of them, likewise: friction that holds a body on a belt moves it.
+    pub(crate) fn sliding_power(&mut self, state: &State<T, N>) -> Result<T, DynamicsError<T>> {
+        let slides = |(_, sliding)| sliding != 0;
+        if !self.solver.conditions.decided.made.is_some_and(slides) {
+            return Ok(T::zero());
+        }
+        // The weights of the forces are those of this state.
+        self.acceleration_within(state)?;
+        let sides = self.solver.terms.sides;
+        let held = self.solver.held_force(&self.mechanism, state);
+        self.solver.terms.sides = Sides::FREE;
+        self.mechanism.terms(state, &mut self.solver.terms);
+        self.solver.terms.sides = sides;
+        let more = held - self.solver.terms.force;
+        Ok(dot(more.as_slice(), state.v.as_slice()))
+    }
+
     /// The multipliers within a step, likewise.
     pub(crate) fn multipliers_within(
         &mut self,
@@ -103,15 +121,27 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         state: &State<T, N>,
         acceleration: &SVector<T, N>,
     ) -> SVector<T, N> {
+        let mut reaction = self.held_force(mechanism, state);
+        subtract_image(reaction.as_mut_slice(), &self.terms, acceleration);
+        reaction
+    }
+
+    /// `p₁`, of a motion that slides with the weights of its forces.
+    #[inline(never)]
+    fn held_force(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &State<T, N>,
+    ) -> SVector<T, N> {
         let terms = &mut self.terms;
         let decided = &self.conditions.decided;
         let sides = terms.sides;
         let mut below = sides;
-        let mut reaction = SVector::<T, N>::zeros();
+        let mut force = SVector::<T, N>::zeros();
         let mut add = |sides, weight| {
             terms.sides = sides;
             mechanism.terms(state, terms);
-            add_scaled(reaction.as_mut_slice(), weight, terms.force.as_slice());
+            add_scaled(force.as_mut_slice(), weight, terms.force.as_slice());
         };
         let sliding = (0..decided.list.len()).filter(|index| decided.slides(*index));
         for index in sliding.clone() {
@@ -126,8 +156,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         add(below, T::one());
         terms.sides = sides;
-        subtract_image(reaction.as_mut_slice(), terms, acceleration);
-        reaction
+        force
     }
 
     /// The `λ` of `Aᵀλ = r` at the state whose terms are in the buffer.

@@ -91,7 +91,7 @@ where
     }
 
     fn power(&mut self, state: &State<T, N>) -> Result<T, DynamicsError<T>> {
-        let supplied = self.mechanism().energy(state).power;
+        let supplied = self.mechanism().energy(state).power + self.sliding_power(state)?;
         let mut position = Position::<T, N, R>::default();
         self.mechanism().position(state, &mut position);
         if is_zero(position.drift.as_slice()) {
