@@ -1,7 +1,7 @@
 //! Functions by name.
 
 use super::evaluate::Evaluator;
-use super::language::{ELSEWHERE, JUMPING, OTHERS, other_functions};
+use super::language::{ELSEWHERE, JUMPING, OTHERS, REACTION, other_functions};
 use super::linear::transposed;
 use super::messages::{count, takes_others};
 use super::scope::Kind;
@@ -279,6 +279,10 @@ impl Evaluator {
             format!("write `{form}`")
         } else if JUMPING.contains(&text) {
             "steps are written with `if` or as a `table`, what is periodic with `sin` and `cos`"
+                .into()
+        } else if text == REACTION {
+            "the reaction of a constraint that has a name is a column of each run, not a part of a \
+             formula: `--columns 'reaction(name)'`"
                 .into()
         } else if in_library(text) {
             format!("`{text}` is in the library of parts: write `use parts;` above")

@@ -75,6 +75,9 @@ pub const JUMPING: [&str; 10] = [
     "mod", "modulo", "fmod", "rem", "floor", "ceil", "ceiling", "round", "trunc", "frac",
 ];
 
+/// What columns of reactions begin with.
+pub const REACTION: &str = "reaction";
+
 /// Whether a name is that of a function (those of one number aside).
 pub fn known(name: &str) -> bool {
     other_functions().any(|known| known == name)

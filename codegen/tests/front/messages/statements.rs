@@ -18,6 +18,7 @@ pub const STATEMENTS: &[&str] = &[
     "output a = q[];",
     "output a = q[1 2];",
     "output a = sum(q);",
+    "output a = reaction(pin);",
     "output a = sum(3 in 0..2, q);",
     "output a = max(q w);",
     "fn f;",
