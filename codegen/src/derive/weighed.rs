@@ -6,8 +6,9 @@
 //! The mass matrix of a body in Euler parameters is singular, and so is that of a
 //! coordinate without inertia. Whether a mass matrix is singular at all positions is tested at
 //! random ones. Only rows that restrict the motions without inertia at every position are
-//! named; where others are needed, the runtime lets all rows take part. Rows that couple
-//! coordinates which `M` couples already are preferred, so that elimination stays as sparse.
+//! named: a row each, if one does by itself, else all that do together. Where neither holds, the
+//! runtime lets all rows take part. Rows that couple coordinates which `M` couples already are
+//! preferred, so that elimination stays as sparse.
 //!
 //! A mass matrix that is definite almost everywhere may be singular where the inertia of a
 //! coordinate vanishes: that of a rod without mass about a pin, on which a slider runs across the
@@ -41,15 +42,74 @@ pub(super) fn weighed(graph: &Graph, mass: &Matrix, jacobian: &Matrix) -> Vec<us
     if without_inertia(&first_mass).is_empty() {
         return where_inertia_vanishes(graph, mass, jacobian);
     }
-    let mut holds = numbers.map(|(mass, jacobian)| holds_at(&mass, &jacobian));
+    let others: Vec<_> = numbers.collect();
     let first = holds_at(&first_mass, &first_jacobian);
-    let lasts = holds.all(|other| {
+    let last = others.iter().all(|(mass, jacobian)| {
+        let other = holds_at(mass, jacobian);
         let pairs = first.iter().zip(&other);
         first.len() == other.len() && pairs.clone().all(|(one, other)| one.lasts(other))
     });
-    match lasts {
-        true => first.into_iter().map(|hold| hold.row).collect(),
+    if last {
+        return first.into_iter().map(|hold| hold.row).collect();
+    }
+    let together = Together::at(&first_mass, &first_jacobian);
+    let mut others = others.iter();
+    let last = others.all(|(mass, jacobian)| Together::at(mass, jacobian).is_like(&together));
+    match last {
+        true => together.rows,
         false => Vec::new(),
+    }
+}
+
+/// All rows that restrict motions without inertia, and how they do together: those of both
+/// ends of a rod without mass hold its angle wherever it points, though none of them does alone.
+struct Together {
+    rows: Vec<usize>,
+    /// The motions, of length one.
+    motions: Vec<Sparse>,
+    /// For two of them that a row restricts, the sum over the rows of the products of a row with
+    /// both.
+    grips: BTreeMap<(usize, usize), f64>,
+}
+
+impl Together {
+    fn at(mass: &[Sparse], jacobian: &[Sparse]) -> Self {
+        let rows = holding(mass, jacobian);
+        let mut motions = without_inertia(mass);
+        for motion in &mut motions {
+            let size = dot(motion, motion).sqrt();
+            motion.values_mut().for_each(|x| *x /= size);
+        }
+        let mut grips = BTreeMap::new();
+        for row in &rows {
+            let products = motions.iter().map(|motion| dot(&jacobian[*row], motion));
+            let products = products.enumerate().filter(|(_, product)| *product != 0.0);
+            let products: Vec<(usize, f64)> = products.collect();
+            for (i, one) in &products {
+                for (j, other) in &products {
+                    *grips.entry((*i, *j)).or_insert(0.0) += one * other;
+                }
+            }
+        }
+        Self {
+            rows,
+            motions,
+            grips,
+        }
+    }
+
+    /// Whether the same rows hold the same motions as firmly at another position.
+    fn is_like(&self, other: &Self) -> bool {
+        let most = self.grips.values().fold(0.0, |most: f64, x| most.max(*x));
+        let motions = self.motions.iter().zip(&other.motions);
+        let mut products = motions.map(|(one, other)| dot(one, other));
+        let mut grips = self.grips.iter().zip(&other.grips);
+        !self.rows.is_empty()
+            && self.rows == other.rows
+            && self.motions.len() == other.motions.len()
+            && self.grips.len() == other.grips.len()
+            && products.all(|product| product >= 1.0 - ROUND_OFF)
+            && grips.all(|((a, x), (b, y))| a == b && (x - y).abs() <= ROUND_OFF * most)
     }
 }
 
@@ -109,11 +169,13 @@ impl Position {
 
     fn value(self, symbol: Symbol) -> f64 {
         // Fractional parts of multiples of irrational numbers, between 0.3 and 1.3.
-        let spread = |i: u32, stride: f64| 0.3 + (stride * f64::from(i + 7 * self.random)).fract();
+        let number = |i: u32, stride: f64| 0.3 + (stride * f64::from(i)).fract();
+        let spread = |i: u32, stride: f64| number(i + 7 * self.random, stride);
         match (symbol, self.moved) {
             (Symbol::Coordinate(i), Some((moved, value))) if i == moved => value,
             (Symbol::Coordinate(i), _) => spread(i, 0.618_033_988_749_894_9),
-            (Symbol::Parameter(i) | Symbol::Input(i), _) => spread(i, 0.414_213_562_373_095),
+            // The same ones everywhere, as in a run.
+            (Symbol::Parameter(i) | Symbol::Input(i), _) => number(i + 7, 0.414_213_562_373_095),
             (Symbol::Velocity(i), _) => spread(i, 0.732_050_807_568_877),
             _ => 1.0,
         }

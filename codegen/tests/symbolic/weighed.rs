@@ -48,6 +48,16 @@ const ROD: &str = "mechanism Rod {
     constraint A + 2*[cos(c), sin(c)] = B;
 }";
 
+/// Two loops of cranks, joined by couplers without mass: no row alone holds the angle of one
+/// wherever it points.
+const COUPLERS: &str = "mechanism Couplers {
+    param r = 0.5; param d = 2;
+    coord a[3]; coord s[2];
+    let tip[i in 0..3] = [i*d, 0] + r*[cos(a[i]), sin(a[i])];
+    for i in 0..3 { kinetic 1/2*(i + 1)*der(a[i])^2; potential tip[i].y; }
+    for i in 0..2 { constraint tip[i] + d*[cos(s[i]), sin(s[i])] = tip[i+1]; }
+}";
+
 /// A mechanism and its equations.
 pub(super) fn derived(source: &str) -> (Mechanism, Equations) {
     let (mut mechanism, _) = analyse(source, &CompileSettings::default()).expect("it is right");
@@ -63,6 +73,7 @@ fn state(symbol: Symbol) -> f64 {
     match symbol {
         Symbol::Coordinate(i) => 0.4 + (f64::from(i) * 0.37).sin(),
         Symbol::Velocity(i) => (f64::from(i) * 1.13).cos(),
+        Symbol::Parameter(i) => 0.5 + f64::from(i),
         _ => unreachable!("neither has {symbol:?}"),
     }
 }
@@ -136,6 +147,19 @@ fn the_row_that_holds_a_coordinate_without_inertia_takes_part() {
 }
 
 #[test]
+fn rows_that_hold_an_angle_without_inertia_together_take_part() {
+    assert_eq!(weighed(COUPLERS), [0, 1, 2, 3]);
+    // Two rods without mass in a row: where they are in line, nothing holds the joint.
+    let rods = "mechanism Rods {
+        coord a; coord s[2]; coord b;
+        kinetic 1/2*der(a)^2 + 1/2*der(b)^2;
+        constraint [cos(a), sin(a)] + [cos(s[0]), sin(s[0])] + [cos(s[1]), sin(s[1])]
+            = [2 + cos(b), sin(b)];
+    }";
+    assert_eq!(weighed(rods), [0; 0]);
+}
+
+#[test]
 fn the_rows_that_hold_a_coordinate_whose_inertia_vanishes_somewhere_take_part() {
     assert_eq!(weighed(ROD), [0, 1]);
     let with_mass = ROD.replace("1/2*der(a)^2", "1/2*der(a)^2 + 1/9*der(c)^2");
@@ -158,7 +182,7 @@ fn what_no_row_holds_brings_no_row_in() {
 #[test]
 fn a_singular_mass_matrix_gives_the_accelerations_of_the_equations_as_they_are() {
     let weights: [fn(u32) -> f64; 3] = [|_| 1.0, |row| 0.1 + f64::from(row), |_| 1e-3];
-    for source in [BODIES, MASSLESS, ROD] {
+    for source in [BODIES, MASSLESS, ROD, COUPLERS] {
         for weight in weights {
             let (found, exact) = accelerations(source, weight);
             let largest = exact.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
