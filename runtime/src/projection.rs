@@ -8,7 +8,6 @@
 //! ([`crate::dynamics`], `follow.rs`).
 
 use crate::dynamics::{CoordinateScale, Core, MAX_ITERATIONS, Source, Which};
-use crate::singular::Obstacle;
 use crate::tolerance::{contraction, critical, negligible, passes, round_off, window};
 use crate::{DynamicsError, Mechanism, Real, Stabilisation, State};
 use nalgebra::SVector;
@@ -111,8 +110,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if !self.follows() {
             return Ok(squared);
         }
-        self.session.trial.wants_chart = true;
-        Err(self.refusal(mechanism, Obstacle::Unresolved, state.t))
+        Err(self.want_chart(mechanism, state.t))
     }
 
     /// One linear solve for `A q̇ + b = 0` with the factors of the position in the

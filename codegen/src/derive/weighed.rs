@@ -52,6 +52,10 @@ pub(super) fn weighed(graph: &Graph, mass: &Matrix, jacobian: &Matrix) -> Vec<us
     if last {
         return first.into_iter().map(|hold| hold.row).collect();
     }
+    // Where they do not hold all motions at one position, nothing does at all of them.
+    if first.is_empty() {
+        return Vec::new();
+    }
     let together = Together::at(&first_mass, &first_jacobian);
     let mut others = others.iter();
     let last = others.all(|(mass, jacobian)| Together::at(mass, jacobian).is_like(&together));
@@ -74,8 +78,8 @@ struct Together {
 
 impl Together {
     fn at(mass: &[Sparse], jacobian: &[Sparse]) -> Self {
-        let rows = holding(mass, jacobian);
         let mut motions = without_inertia(mass);
+        let rows = restricting(jacobian, &motions);
         for motion in &mut motions {
             let size = dot(motion, motion).sqrt();
             motion.values_mut().for_each(|x| *x /= size);
@@ -104,8 +108,7 @@ impl Together {
         let motions = self.motions.iter().zip(&other.motions);
         let mut products = motions.map(|(one, other)| dot(one, other));
         let mut grips = self.grips.iter().zip(&other.grips);
-        !self.rows.is_empty()
-            && self.rows == other.rows
+        self.rows == other.rows
             && self.motions.len() == other.motions.len()
             && self.grips.len() == other.grips.len()
             && products.all(|product| product >= 1.0 - ROUND_OFF)
@@ -233,7 +236,11 @@ fn holding(mass: &[Sparse], jacobian: &[Sparse]) -> Vec<usize> {
     if holds_at(mass, jacobian).is_empty() {
         return Vec::new();
     }
-    let motions = without_inertia(mass);
+    restricting(jacobian, &without_inertia(mass))
+}
+
+/// The rows that restrict some of these motions.
+fn restricting(jacobian: &[Sparse], motions: &[Sparse]) -> Vec<usize> {
     let restricts = |row: &Sparse, motion: &Sparse| {
         let most = (dot(row, row) * dot(motion, motion)).sqrt();
         dot(row, motion).abs() > ROUND_OFF.sqrt() * most

@@ -8,6 +8,8 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 const ASIDE: f64 = 1e-2;
 /// The part of a velocity that nothing determines, above which it is one.
 const UNDETERMINED: f64 = 1e-3;
+/// The part of a row, relative to the whole of it, that is round-off.
+const ROUND_OFF: f64 = 1e-6;
 
 /// Warns where the mechanism moves, nothing is guessed of the velocities that are not held, and
 /// less of them follows from the constraints than does beside the start.
@@ -24,9 +26,8 @@ pub fn untold(
         return;
     }
     let determined = span(numbers, start, free);
-    let all: Vec<usize> = (0..v.len()).collect();
+    let (rows, all) = (numbers.positions(), Vec::from_iter(0..v.len()));
     let beside = places_beside(numbers, start, v).find_map(|moved| {
-        let rows = numbers.positions();
         let end = numbers.assemble(&rows, &all, &moved)?;
         let there = numbers
             .errors(&rows, &end)
@@ -86,9 +87,7 @@ fn span(numbers: &Numbers, place: &Place, free: &[usize]) -> Basis {
     let mut basis = Basis::default();
     for row in rows {
         let part: Vec<f64> = free.iter().map(|&j| row[j]).collect();
-        // An entry that is round-off beside the others of its row is none.
-        let levers = norm(&row) * UNDETERMINED * UNDETERMINED;
-        if norm(&part) > levers {
+        if norm(&part) > ROUND_OFF * norm(&row) {
             basis.add(&part);
         }
     }

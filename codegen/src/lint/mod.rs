@@ -3,8 +3,8 @@
 //! In:  a checked [`Mechanism`] and its equations of motion.
 //! Out: warnings: kinetic energy that is negative, statements that are not finite where the motion
 //!      begins, coordinates without inertia, equations whose derivatives vanish
-//!      where they hold, a start that can't be assembled or goes with several branches ([`lints`]); equations
-//!      that follow from others ([`redundancies`]).
+//!      where they hold, a start that can't be assembled or goes with several branches
+//!      ([`lints`]); equations that follow from others ([`redundancies`]).
 //!
 //! Everything is evaluated at a few random positions that satisfy the constraints,
 //! with parameters at their defaults: what is found at all of them is said, what

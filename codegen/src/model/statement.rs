@@ -1,5 +1,6 @@
 //! Statements: energies, forces, constraints, outputs, events, loops.
 
+use super::language::REACTION;
 use super::lowering::Lowering;
 use super::messages::{ONE_SIZE, sides_differ};
 use super::scope::{Kind, twice};
@@ -211,7 +212,7 @@ impl Lowering<'_> {
     fn constraint_name(&mut self, item: &Item, name: &Name) -> Option<Quantity> {
         let full = self.indexed(&name.text);
         let mut multiplier = self.quantity(item, name, None);
-        multiplier.name = format!("reaction({full})");
+        multiplier.name = format!("{REACTION}({full})");
         match self.named.constraints.insert(full, name.span) {
             Some(first) => self.report(twice(name, first)),
             None => Some(multiplier),

@@ -103,6 +103,17 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             && self.session.chart.is_none()
     }
 
+    /// Has a chart made for the trial step; the error of the step as it is.
+    #[cold]
+    pub(crate) fn want_chart(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        t: T,
+    ) -> DynamicsError<T> {
+        self.session.trial.wants_chart = true;
+        self.refusal(mechanism, Obstacle::Unresolved, t)
+    }
+
     /// Makes a chart at the last accepted state if the trial step wanted one; whether it
     /// did.
     #[inline(never)]
@@ -383,7 +394,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             return Ok(());
         }
         self.observe_coordinate_scale(mechanism, &step.end);
-        if self.session.chart.is_none() && self.metric.hides_dependence() {
+        if self.session.chart.is_none() {
             self.metric.observe_pivots();
         }
         self.session.sine = Some(self.session.trial.end.sqrt());

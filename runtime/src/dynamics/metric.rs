@@ -15,7 +15,7 @@
 //! `M + AᵀWA` brings all contributions to one size.
 
 use super::Rows;
-use crate::linalg::{Cholesky, NotDefinite};
+use crate::linalg::{Cholesky, NotDefinite, diagonal};
 use crate::{Counters, Real};
 use nalgebra::{SMatrix, SVector};
 
@@ -89,14 +89,16 @@ fn observe<T: Real>(inertia: &mut [T], mass: &[T]) {
     }
 }
 
+/// [`Metric::hides_dependence`].
+fn hides_dependence<T: Real>(parts: &Parts, inertia: &[T]) -> bool {
+    parts.takes != Takes::None && inertia.contains(&T::zero())
+}
+
 /// The pivots of a factor, relative to the diagonal of the matrix.
-fn pivot_ratios<T: Real>(factor: &[T], n: usize) -> impl Iterator<Item = T> {
-    (0..n).map(move |i| {
-        let row = factor[i * n..].iter().skip(i).step_by(n);
-        let diagonal = row.fold(T::zero(), |sum, entry| sum + *entry * *entry);
-        let pivot = factor[i * n + i];
-        pivot * pivot / diagonal
-    })
+fn pivot_ratios<T: Real>(factor: &[T], n: usize) -> impl Iterator<Item = T> + '_ {
+    let pivots = factor.iter().step_by(n + 1);
+    let pairs = pivots.zip(diagonal(factor, n));
+    pairs.map(|(root, diagonal)| *root * *root / diagonal)
 }
 
 /// The factorised metric.
@@ -139,8 +141,11 @@ impl<T: Real> MetricView<'_, T> {
         observe(self.inertia, mass);
     }
 
-    /// Takes note of how large the pivots are where it is factorised.
+    /// Takes note of how large the pivots are where it is factorised, if they are to be known.
     pub(crate) fn observe_pivots(&mut self) {
+        if !hides_dependence(self.parts, self.inertia) {
+            return;
+        }
         let ratios = pivot_ratios(self.factor, self.ratios.len());
         for (largest, ratio) in self.ratios.iter_mut().zip(ratios) {
             *largest = largest.max(ratio);
@@ -231,7 +236,7 @@ impl<T: Real, const N: usize> Metric<T, N> {
     /// coordinates have no inertia but what constraints give them, it is the metric that
     /// degenerates.
     pub(crate) fn hides_dependence(&self) -> bool {
-        self.parts.takes != Takes::None && self.inertia.contains(&T::zero())
+        hides_dependence(&self.parts, &self.inertia)
     }
 
     /// The smallest of its pivots, relative to the diagonal and to the largest such ratio so

@@ -9,7 +9,6 @@
 //! that directly; elsewhere the tangent space of the sheet does ([`super::follow`]).
 
 use super::{Core, Source, Which};
-use crate::singular::Obstacle;
 use crate::tolerance::{passes, window};
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
@@ -46,8 +45,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if self.settings.published {
             return self.published(mechanism, state);
         }
-        self.session.trial.wants_chart = true;
-        Err(self.refusal(mechanism, Obstacle::Unresolved, state.t))
+        Err(self.want_chart(mechanism, state.t))
     }
 
     /// Factorises metric and constraints of the terms in the buffer and returns the

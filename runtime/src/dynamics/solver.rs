@@ -143,10 +143,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<(), DynamicsError<T>> {
         let result = self.factorise_metric(mechanism, source, t);
         let degenerates = matches!(result, Err(DynamicsError::MassSingular { .. }));
-        if degenerates && self.metric.hides_dependence() && self.session.wants_chart() {
-            return Err(self.refusal(mechanism, Obstacle::Unresolved, t));
+        match degenerates && self.follows() && self.metric.hides_dependence() {
+            true => Err(self.want_chart(mechanism, t)),
+            false => result,
         }
-        result
     }
 
     /// Factorises independent constraints in the metric and returns the smallest

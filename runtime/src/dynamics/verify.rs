@@ -53,12 +53,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism: &dyn Mechanism<T, N, R>,
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        mechanism.position(end, &mut self.position);
-        let squared = match self.factorise_metric(mechanism, Source::Position, end.t) {
-            Ok(()) => self.metric.smallest_pivot(),
-            Err(DynamicsError::MassSingular { .. }) => T::zero(),
-            Err(error) => return Err(error),
-        };
+        let squared = self.pivot_at(mechanism, end)?;
         self.session.trial.end = self.session.trial.end.min(squared);
         self.session.trial.lowest = self.session.trial.lowest.min(squared);
         Ok(())
@@ -122,7 +117,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             return Ok(());
         }
         if after <= window() {
-            return self.want_chart(mechanism, end.t);
+            return Err(self.want_chart(mechanism, end.t));
         }
         self.look_between(mechanism, (start, end), comes_near)?;
         // Where nothing keeps a motion on the constraints, its energy drifts as it does.
@@ -141,14 +136,14 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         comes_near: bool,
     ) -> Result<(), DynamicsError<T>> {
         let Some(chart) = self.start_at(mechanism, end)? else {
-            return self.want_chart(mechanism, end.t);
+            return Err(self.want_chart(mechanism, end.t));
         };
         let mut stays = false;
         self.on_sheet(mechanism, &chart, &mut |sheet, workspace| {
             stays = sheet.stays_between((start.at(), end.at()), workspace);
         });
         if !stays {
-            return self.want_chart(mechanism, end.t);
+            return Err(self.want_chart(mechanism, end.t));
         }
         self.session.trial.chart = Some(chart).filter(|_| comes_near);
         Ok(())
@@ -161,15 +156,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.session.trial.rate = change / length;
         self.session.trial.near = after < window::<T>() + safe_steps::<T>() * change;
         self.settings.form != Form::Reduced || self.session.trial.near
-    }
-
-    fn want_chart(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        t: T,
-    ) -> Result<(), DynamicsError<T>> {
-        self.session.trial.wants_chart = true;
-        Err(self.refusal(mechanism, Obstacle::Unresolved, t))
     }
 
     /// A step with a chart: is its end on the same sheet?
@@ -232,19 +218,27 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         chart: &Chart<T, N, R>,
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        mechanism.position(end, &mut self.position);
-        let factorised = self.factorise_metric(mechanism, Source::Position, end.t);
-        if !self.metric.hides_dependence() {
-            return factorised;
-        }
-        match factorised {
-            Ok(()) if passes(self.metric.smallest_pivot(), window()) => {}
-            Ok(()) | Err(DynamicsError::MassSingular { .. }) => {
-                self.metric.factor = *chart.factor();
-            }
-            Err(error) => return Err(error),
+        if !passes(self.pivot_at(mechanism, end)?, window()) {
+            self.metric.factor = *chart.factor();
         }
         Ok(())
+    }
+
+    /// Factorises the metric at a state; its smallest pivot, where that is what shows that
+    /// constraints become dependent, else one.
+    fn pivot_at(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &State<T, N>,
+    ) -> Result<T, DynamicsError<T>> {
+        mechanism.position(state, &mut self.position);
+        let factorised = self.factorise_metric(mechanism, Source::Position, state.t);
+        match (factorised, self.metric.hides_dependence()) {
+            (Ok(()), true) => Ok(self.metric.smallest_pivot()),
+            (Ok(()), false) => Ok(T::one()),
+            (Err(DynamicsError::MassSingular { .. }), true) => Ok(T::zero()),
+            (Err(error), _) => Err(error),
+        }
     }
 
     /// The chart that a step ends with, where its end was placed; none if that is not regular.

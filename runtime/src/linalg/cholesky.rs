@@ -135,6 +135,14 @@ pub(crate) fn multiply_upper_transposed<T: Real>(upper: &[T], x: &[T], product: 
     }
 }
 
+/// The diagonal of `U Uᵀ`, of `n` rows.
+pub(crate) fn diagonal<T: Real>(upper: &[T], n: usize) -> impl Iterator<Item = T> {
+    (0..n).map(move |i| {
+        let row = upper[i * n..].iter().skip(i).step_by(n);
+        row.fold(T::zero(), |sum, entry| sum + *entry * *entry)
+    })
+}
+
 /// `√(xᵀ U Uᵀ x)`, the length of `x` in the metric of a factor of any size.
 pub(crate) fn length<T: Real>(upper: &[T], x: &[T]) -> T {
     let mut sum = T::zero();

@@ -12,8 +12,8 @@
 use crate::dynamics::{CoordinateScale, Metric, Rows, Which};
 use crate::equations::At;
 use crate::linalg::{
-    Cholesky, add_scaled, dot, multiply_upper, multiply_upper_transposed, norm, order_by_first_row,
-    pair, solve_upper_transposed,
+    Cholesky, add_scaled, diagonal, dot, multiply_upper, multiply_upper_transposed, norm,
+    order_by_first_row, pair, solve_upper_transposed,
 };
 use crate::tolerance::excusable;
 use crate::{Real, State};
@@ -90,7 +90,9 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             &mut [0; N],
         );
         let mut column_scale = [T::zero(); N];
-        scale_columns(factor, &mut column_scale);
+        for (scale, square) in column_scale.iter_mut().zip(diagonal(factor, N)) {
+            *scale = T::one() / square.sqrt();
+        }
         Some(Self {
             tangent,
             dual,
@@ -144,19 +146,6 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             accepted: self.accepted,
             gap: self.gap,
         }
-    }
-}
-
-/// What columns are multiplied by to have size one in the diagonal of a metric `U Uᵀ`.
-fn scale_columns<T: Real>(factor: &[T], scales: &mut [T]) {
-    let n = scales.len();
-    for (j, column) in factor.chunks_exact(n).enumerate() {
-        for (square, entry) in scales.iter_mut().zip(&column[..=j]) {
-            *square += *entry * *entry;
-        }
-    }
-    for scale in scales {
-        *scale = T::one() / scale.sqrt();
     }
 }
 

@@ -167,12 +167,8 @@ impl<T: Real> Sheet<'_, T> {
         let CoordinateScale { size, range } = self.chart.coordinate_scale;
         let reach = |length: T| (direction.rate * length).max(T::one());
         let noise = T::from_f64(NOISE) * T::EPSILON * best.noise * reach(size);
-        if best.error
-            > self
-                .chart
-                .accepted
-                .max(noise.min(excusable::<T>() * reach(range)))
-        {
+        let excused = noise.min(excusable::<T>() * reach(range));
+        if best.error > self.chart.accepted.max(excused) {
             return Err(Obstacle::Unresolved);
         }
         // Where neither is as good as wanted, the better one.

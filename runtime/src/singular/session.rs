@@ -137,12 +137,6 @@ impl<T: Real, const N: usize, const R: usize> Session<T, N, R> {
         self.passages.clear();
     }
 
-    /// Has a chart made for the trial step at hand; whether it has none yet.
-    pub(crate) fn wants_chart(&mut self) -> bool {
-        self.trial.wants_chart = self.base.is_some() && self.chart.is_none();
-        self.trial.wants_chart
-    }
-
     /// Takes note of the squared sine of the constraints at a state of the trial step.
     #[inline]
     pub(crate) fn observe(&mut self, state: &State<T, N>, squared: T) {

@@ -31,16 +31,24 @@ impl Observer<f64, 4> for Largest {
     }
 }
 
+/// The speed at which its cranks begin (rad/s).
+const SPEED: f64 = 60.0;
+
+/// A parallelogram with a pendulum whose cranks turn fast, and have turned so many times.
+fn fast(turns: f64) -> ParallelogramPendulum<f64> {
+    let mut mechanism = ParallelogramPendulum::default();
+    mechanism.parameters.w0 = SPEED;
+    mechanism.parameters.a0 += turns * 2.0 * PI;
+    mechanism
+}
+
 #[test]
 fn a_hundred_thousand_passages_with_two_freedoms_stay_on_their_branch() {
     let wanted = if is_long() { 100_000.0 } else { 1000.0 };
-    let mut mechanism = ParallelogramPendulum::<f64>::default();
-    let speed = 60.0;
-    mechanism.parameters.w0 = speed;
-    let mechanism: &dyn Whole<f64, 4, 2> = &mechanism;
+    let mechanism: &dyn Whole<f64, 4, 2> = &fast(0.0);
     let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
     // The pendulum takes a part of the speed; the crank never turns back.
-    let until = 1.2 * wanted * PI / speed;
+    let until = 1.2 * wanted * PI / SPEED;
     let mut largest = Largest::default();
     let options = Options::dop853(until, 1e-9);
     let ran = simulate(mechanism, &start, &options, &mut [&mut largest]);
@@ -57,10 +65,7 @@ fn a_hundred_thousand_passages_with_two_freedoms_stay_on_their_branch() {
 #[test]
 fn passages_after_very_many_turns_are_those_after_none() {
     let run = |turns: f64| {
-        let mut mechanism = ParallelogramPendulum::<f64>::default();
-        mechanism.parameters.w0 = 60.0;
-        mechanism.parameters.a0 += turns * 2.0 * PI;
-        let mechanism: &dyn Whole<f64, 4, 2> = &mechanism;
+        let mechanism: &dyn Whole<f64, 4, 2> = &fast(turns);
         let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
         let mut largest = Largest::default();
         let options = Options::dop853(1.0, 1e-9);
