@@ -55,6 +55,8 @@ pub use stack::with_room;
 pub use state::State;
 #[doc(hidden)]
 pub use structure::written_for;
-pub use structure::{ConstraintRow, Declared, Direction, Event, Multiplier, Quantity, Structure};
+pub use structure::{
+    ConnectedComponent, ConstraintRow, Declared, Direction, Event, Multiplier, Quantity, Structure,
+};
 pub use system::{AccelerationJacobian, Switching, System};
 pub use table::Table;

@@ -6,7 +6,7 @@
 /// The version of what generated code and this crate agree on: traits, buffers and this
 /// description. It goes up with every change that older code would not compile with, or
 /// would compile with to something else.
-const FORMAT: u32 = 4;
+const FORMAT: u32 = 5;
 
 /// Compiles where generated code was written for this version of the crate.
 ///
@@ -50,6 +50,18 @@ pub struct ConstraintRow {
     pub line: u32,
     /// Holonomic rows restrict positions; velocity constraints do not.
     pub holonomic: bool,
+}
+
+/// Coordinates that constraints tie together, and the rows that do. The constraint set is the
+/// product of those of its components, and singular where that of one of them is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ConnectedComponent {
+    /// The coordinates, in their order; one alone, without rows, where it is not constrained.
+    pub coordinates: &'static [usize],
+    /// The rows of `A`, in their order.
+    pub rows: &'static [usize],
+    /// They restrict positions only, to the same ones at all times.
+    pub scleronomic: bool,
 }
 
 /// The multiplier `λ` of a row of a constraint that has a name, `r = Aᵀλ`.
@@ -143,6 +155,9 @@ pub struct Structure {
     /// The rows of `A` that take part in the metric, `M + AᵀWA`, because `M` alone is
     /// singular at all positions.
     pub weighed: &'static [usize],
+    /// The connected components of the constraints, if there are several: each coordinate is
+    /// in one of them.
+    pub components: &'static [ConnectedComponent],
 }
 
 impl Structure {
@@ -168,6 +183,7 @@ impl Structure {
         drawn: false,
         assumed_regular: false,
         weighed: &[],
+        components: &[],
     };
 }
 

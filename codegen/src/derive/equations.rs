@@ -1,5 +1,6 @@
 //! The equations of motion, as data.
 
+use super::components::ConnectedComponent;
 use crate::expr::ExprId;
 
 /// A matrix of expressions, row by row.
@@ -32,6 +33,8 @@ pub struct Equations {
     pub jacobian: Matrix,
     /// Rows of `A` that take part in the metric `M + AᵀWA`, because `M` alone is singular.
     pub weighed: Vec<usize>,
+    /// The connected components of the constraints; none where all coordinates are in one.
+    pub components: Vec<ConnectedComponent>,
     /// `b`, `R`, of the velocity level `A q̇ + b = 0`.
     pub drift: Vec<ExprId>,
     /// `p₂ = −(Ȧ q̇ + ḃ)`, `R`.

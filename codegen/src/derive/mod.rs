@@ -10,6 +10,7 @@
 
 mod christoffel;
 mod closure;
+mod components;
 mod composite;
 mod eliminate;
 mod energy;
@@ -33,6 +34,7 @@ mod switch;
 mod weighed;
 
 pub use christoffel::coriolis_matrix;
+pub use components::ConnectedComponent;
 pub use eliminate::eliminate;
 pub use equations::{Energies, Equations, Matrix, StartRows};
 pub use linearised::{Linearisation, Partials, differentiate, linearise};
@@ -130,6 +132,7 @@ fn equations(mechanism: &mut Mechanism, by: Sweep) -> Option<Equations> {
     within_bounds(graph)?;
     let weighed = mass.as_ref();
     let weighed = weighed.map(|mass| weighed::weighed(graph, mass, &closure.jacobian));
+    let components = components::components(graph, &mechanism.constraints, &closure, n);
     Some(Equations {
         mass,
         inertia,
@@ -142,6 +145,7 @@ fn equations(mechanism: &mut Mechanism, by: Sweep) -> Option<Equations> {
         turn: closure.turn,
         jacobian: closure.jacobian,
         weighed: weighed.unwrap_or_default(),
+        components,
         drift: closure.drift,
         bias: closure.bias,
         energies,

@@ -2,7 +2,7 @@
 
 use super::equations::Equations;
 use crate::expr::ExprId;
-use crate::model::{Graph, Mechanism, Symbol};
+use crate::model::{Constraint, Graph, Mechanism, Symbol};
 
 impl Equations {
     /// Whether `M` is the same at all times and positions.
@@ -14,8 +14,8 @@ impl Equations {
 
     /// Whether the constraints restrict positions only, to the same ones at all times.
     pub fn are_scleronomic(&self, mechanism: &Mechanism) -> bool {
-        let still = |e: &ExprId| !mechanism.graph.symbols(*e).contains(&Symbol::Time);
-        mechanism.constraints.iter().all(|c| c.holonomic) && self.residual.iter().all(still)
+        let mut rows = mechanism.constraints.iter().zip(&self.residual);
+        rows.all(|(row, residual)| is_scleronomic(&mechanism.graph, row, *residual))
     }
 
     /// Whether nothing is supplied from outside: no power, and no moving constraint.
@@ -23,4 +23,9 @@ impl Equations {
         let still = |e: &ExprId| mechanism.graph.is_zero(*e);
         mechanism.states == 0 && still(&self.energies.power) && self.drift.iter().all(still)
     }
+}
+
+/// Whether a constraint restricts positions only, to the same ones at all times.
+pub(super) fn is_scleronomic(graph: &Graph, row: &Constraint, residual: ExprId) -> bool {
+    row.holonomic && !graph.symbols(residual).contains(&Symbol::Time)
 }

@@ -29,7 +29,8 @@ pub(super) fn imports(subject: &Subject) -> TokenStream {
     let held = !mechanism.start_equations.is_empty();
     let guessed = !mechanism.start_guesses.is_empty();
     let named = mechanism.constraints.iter().any(|c| c.multiplier.is_some());
-    let parts: [(bool, &[&str]); 15] = [
+    let split = !subject.equations.components.is_empty();
+    let parts: [(bool, &[&str]); 16] = [
         (true, &ALWAYS),
         (programs.acceleration.is_some(), &["Acceleration"]),
         (programs.position.is_some(), &["ConstraintRow", "Position"]),
@@ -37,6 +38,7 @@ pub(super) fn imports(subject: &Subject) -> TokenStream {
         (programs.linearised.is_ok(), &["Linearised"]),
         (subject.options.c_interface, &["Differentiated"]),
         (programs.partials.is_some(), &["Partials"]),
+        (split, &["ConnectedComponent"]),
         (named, &["Multiplier"]),
         (
             !mechanism.described.is_empty(),

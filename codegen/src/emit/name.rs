@@ -84,9 +84,10 @@ pub(super) fn snake_case(name: &str) -> String {
 }
 
 /// Types that stand beside a mechanism's in its module.
-const NEIGHBOURS: [&str; 39] = [
+const NEIGHBOURS: [&str; 40] = [
     "Canvas",
     "Condition",
+    "ConnectedComponent",
     "ConstraintRow",
     "Correction",
     "Declared",

@@ -64,7 +64,7 @@ pub(super) fn equations(subject: &Subject) -> TokenStream {
         let own = subject.mechanism.constraints.iter();
         let further = held.iter().filter(move |row| row.holonomic == holonomic);
         let rows: Vec<TokenStream> = own.chain(further).map(constraint_row).collect();
-        quote!(Structure { constraints: &[#(#rows),*], ..STRUCTURE })
+        quote!(Structure { constraints: &[#(#rows),*], components: &[], ..STRUCTURE })
     };
     let (positions, velocities) = (rows(true), rows(false));
     let (n, name) = (subject.sizes().0, subject.type_name());

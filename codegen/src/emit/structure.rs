@@ -5,6 +5,7 @@ use super::function::{Body, Decided};
 use super::quantity::{constraint_row, quantity};
 use super::subject::{Subject, doc_lines};
 use super::{described, name};
+use crate::derive::ConnectedComponent;
 use crate::model::{Constraint, Direction, Input, Quantity};
 use crate::optimise::{Program, Slot};
 use proc_macro2::{Literal, TokenStream};
@@ -42,6 +43,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
     let assumed_regular = subject.options.assumed_regular;
     let weighed = subject.equations.weighed.iter().copied();
     let weighed = weighed.map(Literal::usize_unsuffixed);
+    let components = subject.equations.components.iter().map(component);
     quote! {
         static STRUCTURE: Structure = Structure {
             name: #name,
@@ -64,6 +66,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
             drawn: #drawn,
             assumed_regular: #assumed_regular,
             weighed: &[#(#weighed),*],
+            components: &[#(#components),*],
         };
     }
 }
@@ -72,6 +75,19 @@ fn quantities<'a>(
     quantities: impl IntoIterator<Item = &'a Quantity>,
 ) -> impl Iterator<Item = TokenStream> {
     quantities.into_iter().map(quantity)
+}
+
+/// An entry of `Structure::components`.
+fn component(component: &ConnectedComponent) -> TokenStream {
+    let list = |indices: &[usize]| {
+        let indices = indices.iter().copied().map(Literal::usize_unsuffixed);
+        quote!(&[#(#indices),*])
+    };
+    let (coordinates, rows) = (list(&component.coordinates), list(&component.rows));
+    let scleronomic = component.scleronomic;
+    quote! {
+        ConnectedComponent { coordinates: #coordinates, rows: #rows, scleronomic: #scleronomic }
+    }
 }
 
 /// The entries of `Structure::multipliers`.

@@ -3,6 +3,7 @@
 
 mod canonical;
 mod columns;
+mod components;
 mod derivative;
 mod independent;
 mod jet;

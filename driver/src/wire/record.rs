@@ -5,8 +5,9 @@ use crate::{
     Around, Changes, Column, Drawn, Exact, Given, Path, Reached, Scene, Segment, TimedRun,
 };
 use bricard_runtime::{
-    Audit, ConstraintRow, Counters, Declared, Direction, Event, Form, Method, Multiplier, Options,
-    Origin, Passage, Quantity, Settings, Stabilisation, StepControl, Structure,
+    Audit, ConnectedComponent, ConstraintRow, Counters, Declared, Direction, Event, Form, Method,
+    Multiplier, Options, Origin, Passage, Quantity, Settings, Stabilisation, StepControl,
+    Structure,
 };
 
 /// Structs by their fields. A field that is missing here does not compile.
@@ -61,9 +62,10 @@ pub(super) use choices;
 records! {
     Structure {
         name, docs, file, coordinates, states, described, parameters, inputs, outputs, accelerated, events,
-        constraints, multipliers, weighed, constant_mass, conservative, scleronomic,
+        constraints, multipliers, weighed, components, constant_mass, conservative, scleronomic,
         independent, drawn, assumed_regular
     }
+    ConnectedComponent { coordinates, rows, scleronomic }
     Quantity { name, unit, docs }
     Declared { quantity, given_by }
     ConstraintRow { text, line, holonomic }

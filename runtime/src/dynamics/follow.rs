@@ -7,7 +7,7 @@
 //! come near one is taken again with a chart.
 
 use super::{Core, Source};
-use crate::linalg::{is_finite, solving_in_subspace};
+use crate::linalg::is_finite;
 use crate::singular::{Found, Obstacle, Placed, Placement, Point};
 use crate::state::all_finite;
 use crate::tolerance::{regular, round_off, window};
@@ -185,13 +185,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         let mut point = Point::zeros();
         let placement = self.place(mechanism, state, &mut point)?;
-        match placement {
-            Placement::Crossing { .. } => {
+        match placement.is_crossing() {
+            true => {
                 self.counters.robust_accelerations += 1;
                 mechanism.terms(&point.state, &mut self.terms);
             }
             // What the constraints demand was solved for with the terms at the same state.
-            _ => self.counters.beside_accelerations += 1,
+            false => self.counters.beside_accelerations += 1,
         }
         let acceleration = self.accelerate(mechanism, &point)?;
         Ok(self.stabilised(acceleration, state, &point))
@@ -236,11 +236,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         point: &mut Point<T, N>,
-    ) -> Result<Placement<T>, DynamicsError<T>> {
+    ) -> Result<Placement, DynamicsError<T>> {
         let result = self
             .place_here(mechanism, state, point)
             .unwrap_or(Err(Obstacle::Undetermined));
-        self.session.trial.crosses |= matches!(result, Ok(Placement::Crossing { .. }));
+        self.session.trial.crosses |= result.is_ok_and(Placement::is_crossing);
         result.map_err(|obstacle| self.refusal(mechanism, obstacle, state.t))
     }
 
@@ -252,7 +252,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         point: &mut Point<T, N>,
     ) -> bool {
         let measured = self.geometry_here(mechanism, state, point);
-        measured.is_some_and(|measured| measured.is_ok()) && point.sine > window()
+        measured.is_some_and(|measured| measured.is_ok()) && point.sine() > window()
     }
 
     /// The acceleration at a state on the sheet, whose terms are in the buffer:
@@ -287,17 +287,19 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         point: &Point<T, N>,
         mut force: SVector<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
-        let projected = solving_in_subspace()(
-            self.terms.mass.as_slice(),
-            &point.tangent.as_slice()[..N * self.freedoms()],
-            force.as_mut_slice(),
-            &self.memory.workspace(),
-        );
+        let solved = self.session.chart.as_ref().is_some_and(|chart| {
+            chart.view().solve_along(
+                self.terms.mass.as_slice(),
+                point.tangent.as_slice(),
+                force.as_mut_slice(),
+                &self.memory.workspace(),
+            )
+        });
         let t = point.state.t;
-        match projected {
-            Ok(()) if all_finite(&force) => Ok(force),
+        match solved {
+            true if all_finite(&force) => Ok(force),
             // The metric is definite, and so is the mass along what is a tangent space.
-            Err(_) if is_finite(self.terms.mass.as_slice()) => {
+            false if is_finite(self.terms.mass.as_slice()) => {
                 Err(self.refusal(mechanism, Obstacle::NotContracting, t))
             }
             _ => Err(DynamicsError::NotFinite { t }),
@@ -341,24 +343,20 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if matches!(placement, Placement::Crossing { strays: true, .. }) {
             return Err(self.refusal(mechanism, Obstacle::LeftSheet, state.t));
         }
-        if !matches!(placement, Placement::Crossing { .. }) {
+        if !placement.is_crossing() {
             // What is left out is orthogonal: round-off in the tangent space of a narrow gap
             // changes the energy by its square only.
             point.state.v = self.velocity_on_sheet(mechanism, &point, &state.v)?;
         }
         self.counters.robust_projections += 1;
         *state = point.state;
-        self.session.trial.end = point.sine * point.sine;
+        let sine = point.sine();
+        self.session.trial.end = sine * sine;
         self.session.trial.lowest = self.session.trial.lowest.min(self.session.trial.end);
         self.session.trial.placed = Some(Placed {
             tangent: point.tangent,
             drift: point.drift,
-            sine: point.sine,
-            spacing: match placement {
-                Placement::Crossing { spacing, .. } => spacing,
-                _ => T::zero(),
-            },
-            gap: placement == Placement::Gap,
+            met: point.met,
             leaves: matches!(placement, Placement::Crossing { leaves: true, .. }),
         });
         Ok(())

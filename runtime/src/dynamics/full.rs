@@ -48,13 +48,17 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         self.counters.robust_accelerations += 1;
         mechanism.terms(&point.state, &mut self.terms);
-        let freedoms = self.freedoms();
-        let chart = self.session.chart.as_ref();
+        let mut columns = [[[T::zero(); N]; N]; 2];
+        let [tangent, dual] = columns.each_mut().map(|it| it.as_flattened_mut());
+        if let Some(chart) = &self.session.chart {
+            chart.view().spread(point.tangent.as_slice(), tangent);
+            chart.view().spread_duals(dual);
+        }
         let squares = Squares {
             mass: self.terms.mass.as_slice(),
             force: self.terms.force.as_slice(),
-            tangent: &point.tangent.as_slice()[..N * freedoms],
-            dual: chart.map_or(&[], |chart| chart.dual.as_slice()),
+            tangent: &tangent[..N * self.freedoms()],
+            dual,
             particular: point.particular.as_slice(),
         };
         let mut matrices = [[[T::zero(); N]; N]; 3];

@@ -117,17 +117,6 @@ impl<T: Real, const R: usize> Rows<T, R> {
         }
     }
 
-    /// Whether any row restricts positions.
-    pub(crate) fn any_holonomic(&self) -> bool {
-        self.holonomic.iter().any(|holonomic| *holonomic)
-    }
-
-    /// A row of the active subset, by its place there; the first row if there is none.
-    pub(crate) fn listed(&self, place: usize) -> usize {
-        let list = self.active[..self.active_count].get(place);
-        list.copied().unwrap_or_default()
-    }
-
     /// Whether all rows are independent at regular positions.
     #[inline]
     pub(crate) fn all_independent(&self) -> bool {

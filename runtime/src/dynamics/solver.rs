@@ -36,7 +36,7 @@ pub(crate) struct Core<T, const N: usize, const R: usize> {
     pub(crate) schur: SchurComplement<T, N, R>,
     /// What cold code works in.
     pub(crate) memory: Memory<T, N, R>,
-    /// The row that came last when one was, by its place among the independent ones.
+    /// The row that came last where constraints were nearest to dependence.
     pub(crate) weakest: usize,
     pub(crate) acceleration: Acceleration<T, N, R>,
     pub(crate) correction: Correction<T, N, R>,
@@ -211,7 +211,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         DynamicsError::SingularConfiguration {
             t,
             kind,
-            row: self.rows.listed(self.weakest),
+            row: self.weakest,
             structure,
         }
     }

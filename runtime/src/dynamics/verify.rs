@@ -6,9 +6,9 @@
 
 use super::{Core, Source, Which};
 use crate::linalg::is_zero;
-use crate::singular::{Chart, Obstacle, Placed, Placement, Point};
+use crate::singular::{Chart, Obstacle, Placed, Point, smallest_sine};
 use crate::tolerance::{accepted, passes, safe_steps, window};
-use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State};
+use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State, Structure};
 
 /// A sine that falls below this part of what it is at both ends of a step may have been
 /// zero between.
@@ -194,15 +194,16 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let Some(placed) = self.session.trial.placed.take() else {
             return Ok(());
         };
-        let before = self.session.sine.unwrap_or(placed.sine);
-        let lowest = self.session.trial.lowest.sqrt().min(placed.sine);
-        let sines = (before, placed.sine, lowest);
-        if !self.needs_chart(sines, end.t - start.t) && !placed.gap {
+        let sine = smallest_sine(&placed.met);
+        let before = self.session.sine.unwrap_or(sine);
+        let lowest = self.session.trial.lowest.sqrt().min(sine);
+        let is_beside_gap = placed.met.iter().any(|met| met.gap);
+        if !self.needs_chart((before, sine, lowest), end.t - start.t) && !is_beside_gap {
             return Ok(());
         }
         self.factorise_end(mechanism, chart, end)?;
         self.verify_residual(mechanism, end)?;
-        let next = self.chart_after(chart, end, placed);
+        let next = self.chart_after(structure, chart, end, placed);
         if next.is_none() {
             return Err(self.refusal(mechanism, Obstacle::NotRegular, end.t));
         }
@@ -219,7 +220,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         if !passes(self.pivot_at(mechanism, end)?, window()) {
-            self.metric.factor = *chart.factor();
+            self.metric.factor = chart.metric();
         }
         Ok(())
     }
@@ -244,16 +245,17 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The chart that a step ends with, where its end was placed; none if that is not regular.
     #[inline(never)]
     fn chart_after(
-        &self,
+        &mut self,
+        structure: &'static Structure,
         chart: &Chart<T, N, R>,
         end: &State<T, N>,
         placed: Placed<T, N>,
     ) -> Option<Chart<T, N, R>> {
         let (metric, rows) = (&self.metric, &self.rows);
+        let workspace = self.memory.workspace();
         let mut next = Chart::new(
             end,
             placed.tangent,
-            chart.freedoms,
             metric,
             (rows, &self.position.jacobian),
             (
@@ -261,10 +263,15 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
                 &self.sizes,
                 accepted(self.session.tolerance),
             ),
+            structure.components,
+            &workspace,
         )?;
-        next.set_drift(placed.drift, chart.speed);
-        next.spacing = placed.spacing;
-        next.gap = placed.gap || chart.gap && placed.sine < window();
+        next.set_drift(&placed.drift, |factor| chart.factors()[factor].speed);
+        let factors = next.factors_mut().iter_mut().zip(chart.factors());
+        for ((next, before), met) in factors.zip(&placed.met) {
+            next.spacing = met.spacing;
+            next.gap = met.gap || before.gap && met.sine < window();
+        }
         Some(next)
     }
 
@@ -280,7 +287,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<(), DynamicsError<T>> {
         let mut point = Point::zeros();
         match self.place_on(mechanism, chart, state, &mut point) {
-            Ok(Placement::Crossing { .. }) => Ok(()),
+            Ok(placement) if placement.is_crossing() => Ok(()),
             _ => Err(self.refusal(mechanism, Obstacle::LeftSheet, state.t)),
         }
     }

@@ -37,7 +37,7 @@ mod workspace;
 
 pub(crate) use block::Block;
 pub(crate) use cholesky::{
-    Cholesky, NotDefinite, diagonal, is_definite, length, multiply_upper,
+    Cholesky, NotDefinite, diagonal, factorise_block, is_definite, length, multiply_upper,
     multiply_upper_transposed, solve_upper, solve_upper_transposed,
 };
 pub(crate) use column::{
@@ -52,7 +52,7 @@ pub(crate) use gram::Gram;
 pub(crate) use jacobi::{Breakdown, orthogonalise};
 pub(crate) use products::RowProducts;
 pub(crate) use subset::independent_columns;
-pub(crate) use subspace_solution::{add_subspace_solution, solving_in_subspace};
+pub(crate) use subspace_solution::{add_subspace_solution, solve_in_subspace};
 pub(crate) use substitution::Right;
 pub(crate) use symmetric::diagonalise;
 pub(crate) use triangle::Triangle;

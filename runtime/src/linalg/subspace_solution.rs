@@ -9,11 +9,10 @@
 use super::small::with_size;
 use super::{Workspace, add_product, add_scaled, dot};
 use crate::Real;
-use crate::once::compiled_once;
 
 /// Replaces a force by the solution `D z`; the column at which `DᵀMD` is not definite, where
 /// one is.
-fn solve_in_subspace<T: Real>(
+pub(crate) fn solve_in_subspace<T: Real>(
     mass: &[T],
     columns: &[T],
     force: &mut [T],
@@ -73,11 +72,4 @@ fn add_subspace_solution_of<T: Real>(
         add_scaled(sum, dot(direction, force) / square, direction);
     }
     Ok(())
-}
-
-compiled_once! {
-    /// [`solve_in_subspace`].
-    pub(crate) fn solving_in_subspace<T>:
-        fn(&[T], &[T], &mut [T], &Workspace<'_, T>) -> Result<(), usize> =
-        |mass, columns, force, workspace| solve_in_subspace(mass, columns, force, workspace);
 }

@@ -9,7 +9,6 @@ use super::sheet::Sheet;
 use crate::Real;
 use crate::equations::At;
 use crate::linalg::Workspace;
-use crate::once::compiled_once;
 
 /// States within a step without a chart that are looked at if it came nearer to a singular
 /// configuration: it may have crossed two sheets.
@@ -69,39 +68,4 @@ impl<T: Real> Sheet<'_, T> {
             })
         })
     }
-}
-
-impl<T: Real> Sheet<'_, T> {
-    /// As [`crossed`](Self::crossed), compiled once for `f64`.
-    pub(crate) fn count_crossed(
-        &mut self,
-        ends: (At<'_, T>, At<'_, T>),
-        seeks: bool,
-        workspace: &Workspace<'_, T>,
-    ) -> (Option<usize>, T) {
-        counting()(self, ends, seeks, workspace)
-    }
-
-    /// Whether no sheet is seen to be crossed between two states.
-    pub(crate) fn stays_between(
-        &mut self,
-        ends: (At<'_, T>, At<'_, T>),
-        workspace: &Workspace<'_, T>,
-    ) -> bool {
-        staying()(self, ends, workspace)
-    }
-}
-
-compiled_once! {
-    fn counting<T>: fn(
-        &mut Sheet<'_, T>,
-        (At<'_, T>, At<'_, T>),
-        bool,
-        &Workspace<'_, T>,
-    ) -> (Option<usize>, T) =
-        |sheet, ends, seeks, workspace| sheet.crossed(ends, seeks, workspace);
-}
-compiled_once! {
-    fn staying<T>: fn(&mut Sheet<'_, T>, (At<'_, T>, At<'_, T>), &Workspace<'_, T>) -> bool =
-        |sheet, ends, workspace| sheet.stays(ends, workspace);
 }

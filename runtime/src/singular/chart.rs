@@ -8,145 +8,290 @@
 //! `N`, `[D N]` orthonormal in the mass matrix `M` of the accepted state. `D* = DᵀM`
 //! measures how far a vector goes along `D`, and vanishes on `N`. A chart belongs to one
 //! step: it changes at accepted states only.
+//!
+//! Where the constraints have several connected components, the sheet is a product, and its
+//! chart is made of those of its factors, each in its own block of `M`.
 
+use super::part::{Part, parts};
 use crate::dynamics::{CoordinateScale, Metric, Rows, Which};
-use crate::equations::At;
 use crate::linalg::{
-    Cholesky, add_scaled, diagonal, dot, multiply_upper, multiply_upper_transposed, norm,
-    order_by_first_row, pair, solve_upper_transposed,
+    Cholesky, Workspace, add_scaled, diagonal, dot, factorise_block, is_finite, multiply_upper,
+    multiply_upper_transposed, norm, order_by_first_row, pair, solve_in_subspace, solve_upper,
+    solve_upper_transposed,
 };
+use crate::once::compiled_once;
 use crate::tolerance::excusable;
-use crate::{Real, State};
+use crate::{ConnectedComponent, Real, State};
 use nalgebra::{SMatrix, SVector};
 
-/// A chart of the sheet on which the motion lives.
+/// A chart of the sheet on which the motion lives. What there is of each coordinate or row
+/// is in the order of the factors.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Chart<T, const N: usize, const R: usize> {
-    /// `D`: orthonormal in the metric, in the first `freedoms` columns.
+    components: &'static [ConnectedComponent],
+    /// `D`: the columns of each factor one after the other, orthonormal in the metric.
     tangent: SMatrix<T, N, N>,
-    /// `M D`, in the same columns.
-    pub(crate) dual: SMatrix<T, N, N>,
-    pub(crate) freedoms: usize,
+    /// `M D`, likewise.
+    dual: SMatrix<T, N, N>,
+    /// The triangular factors of the blocks of the metric.
+    metric: SMatrix<T, N, N>,
     /// The accepted state.
-    base: State<T, N>,
+    t: T,
+    q: [T; N],
     /// The velocity of the sheet where the coordinates of the chart rest.
-    drift: SVector<T, N>,
-    /// The largest length of that so far.
-    pub(crate) speed: T,
-    /// Constraint rows that are independent at regular states, `N − freedoms` of them.
+    drift: [T; N],
+    /// How large the coordinates are.
+    sizes: [T; N],
+    /// What columns and rows are multiplied by to have size one.
+    column_scale: [T; N],
+    row_scale: [T; R],
+    /// The places of the columns in eliminations.
+    column_places: [usize; N],
+    /// Constraint rows that are independent at regular states.
     rows: [usize; R],
     /// The place of each row among these; their number for one that is not.
     places: [usize; R],
-    /// The places of the columns in eliminations.
-    column_places: [usize; N],
-    /// That of the metric.
-    factor: Cholesky<T, N>,
-    /// What rows and columns are multiplied by to have size one.
-    row_scale: [T; R],
-    column_scale: [T; N],
+    factors: [Factor<T>; N],
     /// The lengths that round-off and differences of positions are measured by.
     coordinate_scale: CoordinateScale<T>,
-    /// How large each of them is.
-    sizes: [T; N],
-    /// The spacing of the nodes that served last, as a change of the sine.
-    pub(crate) spacing: T,
     /// Error of an interpolation, relative, that is accepted.
     accepted: T,
+}
+
+/// What a chart knows of one factor of the product.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Factor<T> {
+    pub(super) freedoms: usize,
+    /// The largest velocity of the sheet where the coordinates of the chart rest, so far.
+    pub(crate) speed: T,
+    /// The spacing of the nodes that served last, as a change of the sine.
+    pub(crate) spacing: T,
     /// No sheets cross at the critical configuration nearby: a gap keeps them apart.
     pub(crate) gap: bool,
 }
 
+/// Where what belongs to a factor begins.
+#[derive(Clone, Copy, Default)]
+struct Offsets {
+    coordinates: usize,
+    rows: usize,
+    /// Among the independent rows.
+    chosen: usize,
+    tangents: usize,
+    squares: usize,
+}
+
+impl Offsets {
+    /// Those of the next factor.
+    fn after(&self, part: Part, freedoms: usize) -> Self {
+        Self {
+            coordinates: self.coordinates + part.n,
+            rows: self.rows + part.r,
+            chosen: self.chosen + part.n - freedoms,
+            tangents: self.tangents + part.n * freedoms,
+            squares: self.squares + part.n * part.n,
+        }
+    }
+}
+
 impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
-    /// A chart at a state from vectors that span the tangent space there; `None` if they
-    /// are dependent. The Jacobian may be that of any state.
+    /// A chart at a state from vectors that span the tangent space there, those of each factor
+    /// one after the other; `None` if they are dependent. The Jacobian may be that of any
+    /// state.
     #[inline(never)]
     pub(crate) fn new(
         base: &State<T, N>,
-        mut tangent: SMatrix<T, N, N>,
-        freedoms: usize,
+        tangent: SMatrix<T, N, N>,
         metric: &Metric<T, N>,
         (rows, jacobian): (&Rows<T, R>, &SMatrix<T, R, N>),
         (coordinate_scale, sizes, accepted): (CoordinateScale<T>, &[T; N], T),
+        components: &'static [ConnectedComponent],
+        workspace: &Workspace<'_, T>,
     ) -> Option<Self> {
         let (list, count) = rows.active(Which::All)?;
-        if count + freedoms != N {
-            return None;
+        let zero = T::zero();
+        let excused = (accepted * coordinate_scale.turns()).min(excusable());
+        let mut chart = Self {
+            components,
+            tangent,
+            dual: SMatrix::zeros(),
+            metric: SMatrix::zeros(),
+            t: base.t,
+            q: [zero; N],
+            drift: [zero; N],
+            sizes: [zero; N],
+            column_scale: [zero; N],
+            row_scale: [zero; R],
+            column_places: [0; N],
+            rows: [0; R],
+            places: [0; R],
+            factors: [Factor::new(); N],
+            coordinate_scale,
+            accepted: accepted.max(excused),
+        };
+        let mut at = Offsets::default();
+        for (index, part) in parts(components, (N, R)).enumerate() {
+            let freedoms = chart.choose_rows(part, at, &list[..count])?;
+            chart.factors[index].freedoms = freedoms;
+            let coordinates = at.coordinates..at.coordinates + part.n;
+            part.take(base.q.as_slice(), &mut chart.q[coordinates.clone()]);
+            part.take(sizes, &mut chart.sizes[coordinates.clone()]);
+            part.take_rows(rows.scales().0, &mut chart.row_scale[at.rows..][..part.r]);
+            let chosen = &chart.rows[at.chosen..][..part.n - freedoms];
+            let column_places = &mut chart.column_places[coordinates.clone()];
+            order_columns(part, jacobian.as_slice(), chosen, column_places, workspace);
+            let squares = at.squares..at.squares + part.n * part.n;
+            let block = &mut chart.metric.as_mut_slice()[squares];
+            take_metric(part, metric.factor.as_slice(), block);
+            let scales = chart.column_scale[coordinates].iter_mut();
+            for (scale, square) in scales.zip(diagonal(block, part.n)) {
+                *scale = T::one() / square.sqrt();
+            }
+            let columns = at.tangents..at.tangents + part.n * freedoms;
+            let tangent = &mut chart.tangent.as_mut_slice()[columns.clone()];
+            let dual = &mut chart.dual.as_mut_slice()[columns];
+            if !orthonormalise(block, tangent, dual, part.n) {
+                return None;
+            }
+            at = at.after(part, freedoms);
         }
-        let mut dual: SMatrix<T, N, N> = SMatrix::zeros();
-        let factor = metric.factor.as_slice();
-        let (columns, duals) = (tangent.as_mut_slice(), dual.as_mut_slice());
-        if !orthonormalise(factor, &mut columns[..N * freedoms], duals, N) {
-            return None;
+        Some(chart)
+    }
+
+    /// Takes the rows of a part among those that are independent at regular states; how many
+    /// directions they leave free, `None` if they are too many.
+    fn choose_rows(&mut self, part: Part, at: Offsets, independent: &[usize]) -> Option<usize> {
+        let mut count = 0;
+        for row in independent {
+            if let Some(place) = part.place_of_row(*row) {
+                self.rows[at.chosen + count] = place;
+                count += 1;
+            }
         }
-        let mut places = [count; R];
-        for (place, row) in list[..count].iter().enumerate() {
+        let freedoms = part.n.checked_sub(count)?;
+        let places = &mut self.places[at.rows..][..part.r];
+        places.fill(count);
+        for (place, row) in self.rows[at.chosen..][..count].iter().enumerate() {
             places[*row] = place;
         }
-        let mut column_places = [0; N];
-        order_by_first_row(
-            jacobian.as_slice(),
-            &list[..count],
-            &mut column_places,
-            &mut [0; N],
-        );
-        let mut column_scale = [T::zero(); N];
-        for (scale, square) in column_scale.iter_mut().zip(diagonal(factor, N)) {
-            *scale = T::one() / square.sqrt();
+        Some(freedoms)
+    }
+
+    /// Takes note of how fast the sheet moves, and of how fast it was known to.
+    pub(crate) fn set_drift(&mut self, drift: &SVector<T, N>, known: impl Fn(usize) -> T) {
+        let mut at = 0;
+        for (index, part) in parts(self.components, (N, R)).enumerate() {
+            let coordinates = at..at + part.n;
+            let own = &mut self.drift[coordinates.clone()];
+            part.take(drift.as_slice(), own);
+            let speed = length(own, &self.column_scale[coordinates]);
+            self.factors[index].speed = known(index).max(speed);
+            at += part.n;
         }
-        Some(Self {
-            tangent,
-            dual,
-            freedoms,
-            base: *base,
-            drift: SVector::zeros(),
-            speed: T::zero(),
-            rows: list,
-            places,
-            column_places,
-            factor: metric.factor,
-            row_scale: *rows.scales().0,
-            column_scale,
-            coordinate_scale,
-            sizes: *sizes,
-            spacing: T::zero(),
-            accepted: accepted.max((accepted * coordinate_scale.turns()).min(excusable())),
-            gap: false,
-        })
     }
 
-    /// Takes note of how fast the sheet moves.
-    pub(crate) fn set_drift(&mut self, drift: SVector<T, N>, speed: T) {
-        self.drift = drift;
-        self.speed = speed.max(self.view().length(drift.as_slice()));
+    /// A factor of its metric, in which coordinates of different parts are orthogonal.
+    pub(crate) fn metric(&self) -> Cholesky<T, N> {
+        let mut factor = SMatrix::<T, N, N>::zeros();
+        let mut at = 0;
+        for part in parts(self.components, (N, R)) {
+            let block = &self.metric.as_slice()[at..at + part.n * part.n];
+            for (j, column) in block.chunks_exact(part.n).enumerate() {
+                for (i, entry) in column[..=j].iter().enumerate() {
+                    factor[(part.coordinate(i), part.coordinate(j))] = *entry;
+                }
+            }
+            at += part.n * part.n;
+        }
+        Cholesky::of_factor(factor)
     }
 
-    /// The factor of its metric.
-    pub(crate) fn factor(&self) -> &Cholesky<T, N> {
-        &self.factor
+    /// What is known of its factors.
+    pub(crate) fn factors(&self) -> &[Factor<T>; N] {
+        &self.factors
+    }
+
+    /// The same, to be changed.
+    pub(crate) fn factors_mut(&mut self) -> &mut [Factor<T>; N] {
+        &mut self.factors
     }
 
     /// The chart over slices.
-    pub(crate) fn view(&self) -> ChartView<'_, T> {
-        ChartView {
-            tangent: &self.tangent.as_slice()[..N * self.freedoms],
-            dual: &self.dual.as_slice()[..N * self.freedoms],
-            freedoms: self.freedoms,
-            base: self.base.at(),
-            drift: self.drift.as_slice(),
-            speed: self.speed,
-            rows: &self.rows[..N - self.freedoms],
-            places: &self.places,
-            column_places: &self.column_places,
-            factor: self.factor.as_slice(),
-            row_scale: &self.row_scale,
-            column_scale: &self.column_scale,
-            coordinate_scale: self.coordinate_scale,
+    pub(crate) fn view(&self) -> Product<'_, T> {
+        Product {
+            components: self.components,
+            tangent: self.tangent.as_slice(),
+            dual: self.dual.as_slice(),
+            metric: self.metric.as_slice(),
+            t: self.t,
+            q: &self.q,
+            drift: &self.drift,
             sizes: &self.sizes,
-            spacing: self.spacing,
+            column_scale: &self.column_scale,
+            row_scale: &self.row_scale,
+            column_places: &self.column_places,
+            rows: &self.rows,
+            places: &self.places,
+            factors: &self.factors,
+            coordinate_scale: self.coordinate_scale,
             accepted: self.accepted,
-            gap: self.gap,
         }
     }
+}
+
+impl<T: Real> Factor<T> {
+    fn new() -> Self {
+        Self {
+            freedoms: 0,
+            speed: T::zero(),
+            spacing: T::zero(),
+            gap: false,
+        }
+    }
+}
+
+/// The triangular factor of the block of the metric that is a part's own.
+fn take_metric<T: Real>(part: Part, factor: &[T], block: &mut [T]) {
+    if part.is_whole() {
+        block.copy_from_slice(factor);
+        return;
+    }
+    let (n, own) = (part.whole_n, part.n);
+    for j in 0..own {
+        for i in 0..=j {
+            let (row, other) = (part.coordinate(i), part.coordinate(j));
+            let columns = factor.chunks_exact(n).skip(other);
+            block[j * own + i] =
+                columns.fold(T::zero(), |sum, column| sum + column[row] * column[other]);
+        }
+    }
+    factorise_block(block, own);
+}
+
+/// Places of columns in which rows have their entries close to one another.
+fn order_columns<T: Real>(
+    part: Part,
+    jacobian: &[T],
+    rows: &[usize],
+    places: &mut [usize],
+    workspace: &Workspace<'_, T>,
+) {
+    workspace.scope(|workspace| {
+        let own = workspace.any(part.n * part.r);
+        part.take_jacobian(jacobian, own);
+        order_by_first_row(own, rows, places, workspace.indices(part.n));
+    });
+}
+
+/// The length of a vector in a diagonal metric, of which the scales are given.
+fn length<T: Real>(x: &[T], scales: &[T]) -> T {
+    let (n, mut sum) = (x.len(), T::zero());
+    let scales = &scales[..n];
+    for i in 0..n {
+        let x = x[i] / scales[i];
+        sum += x * x;
+    }
+    sum.sqrt()
 }
 
 /// Makes vectors of length `n` orthonormal in a metric `U Uᵀ`, one after the other, so that
@@ -183,23 +328,198 @@ fn orthonormalise<T: Real>(factor: &[T], vectors: &mut [T], duals: &mut [T], n: 
 
 /// A chart over slices.
 #[derive(Clone, Copy, Debug)]
+pub(crate) struct Product<'a, T> {
+    components: &'static [ConnectedComponent],
+    tangent: &'a [T],
+    dual: &'a [T],
+    metric: &'a [T],
+    t: T,
+    q: &'a [T],
+    drift: &'a [T],
+    sizes: &'a [T],
+    column_scale: &'a [T],
+    row_scale: &'a [T],
+    column_places: &'a [usize],
+    rows: &'a [usize],
+    places: &'a [usize],
+    factors: &'a [Factor<T>],
+    coordinate_scale: CoordinateScale<T>,
+    accepted: T,
+}
+
+impl<'a, T: Real> Product<'a, T> {
+    /// How many coordinates and rows there are.
+    fn sizes(&self) -> (usize, usize) {
+        (self.q.len(), self.row_scale.len())
+    }
+
+    /// Whether there are several factors.
+    pub(super) fn has_several(&self) -> bool {
+        !self.components.is_empty()
+    }
+
+    /// How many constraint rows are independent at regular states.
+    pub(super) fn rank(&self) -> usize {
+        let freedoms: usize = self.factors.iter().map(|factor| factor.freedoms).sum();
+        self.q.len() - freedoms
+    }
+
+    /// The tangent vectors of all factors.
+    pub(super) fn tangents(&self) -> &'a [T] {
+        self.tangent
+    }
+
+    /// The length of a vector of all coordinates in the diagonal of the metric.
+    pub(crate) fn length(&self, x: &[T]) -> T {
+        let mut sum = T::zero();
+        let mut scales = self.column_scale.iter();
+        for part in parts(self.components, self.sizes()) {
+            for (place, scale) in (0..part.n).zip(&mut scales) {
+                let entry = x[part.coordinate(place)] / *scale;
+                sum += entry * entry;
+            }
+        }
+        sum.sqrt()
+    }
+
+    /// Makes columns of all coordinates of those of each factor.
+    pub(crate) fn spread(&self, own: &[T], columns: &mut [T]) {
+        let n = self.q.len();
+        let mut all = columns.chunks_exact_mut(n);
+        let mut at = 0;
+        for (part, chart) in self.factors() {
+            let end = at + part.n * chart.freedoms;
+            for (own, column) in own[at..end].chunks_exact(part.n).zip(&mut all) {
+                column.fill(T::zero());
+                part.put(own, column);
+            }
+            at = end;
+        }
+    }
+
+    /// The same of the duals of the tangent vectors.
+    pub(crate) fn spread_duals(&self, columns: &mut [T]) {
+        self.spread(self.dual, columns);
+    }
+
+    /// Replaces a force by `D z` with `DᵀMD z = Dᵀf`, for these tangent vectors of each
+    /// factor; `false` where `DᵀMD` is not definite.
+    pub(crate) fn solve_along(
+        &self,
+        mass: &[T],
+        tangent: &[T],
+        force: &mut [T],
+        workspace: &Workspace<'_, T>,
+    ) -> bool {
+        solving_along()(self, mass, tangent, force, workspace)
+    }
+
+    fn solve(
+        &self,
+        mass: &[T],
+        tangent: &[T],
+        force: &mut [T],
+        workspace: &Workspace<'_, T>,
+    ) -> bool {
+        let n = self.q.len();
+        if !self.has_several() {
+            let columns = &tangent[..n * (n - self.rank())];
+            return solve_in_subspace(mass, columns, force, workspace).is_ok();
+        }
+        workspace.scope(|workspace| {
+            let freedoms = n - self.rank();
+            let square = workspace.numbers(freedoms * freedoms);
+            let (right, image) = (workspace.numbers(freedoms), workspace.numbers(n));
+            for (k, (part, column)) in self.columns(tangent).enumerate() {
+                image.fill(T::zero());
+                for (place, entry) in column.iter().enumerate() {
+                    let mass = &mass[part.coordinate(place) * n..][..n];
+                    add_scaled(image, *entry, mass);
+                }
+                let entries = square[k * freedoms..].iter_mut();
+                for (entry, (part, column)) in entries.zip(self.columns(tangent).take(k + 1)) {
+                    *entry = part.dot(column, image);
+                }
+                right[k] = part.dot(column, force);
+            }
+            factorise_block(square, freedoms);
+            solve_upper(square, right);
+            solve_upper_transposed(square, right);
+            force.fill(T::zero());
+            for (z, (part, column)) in right.iter().zip(self.columns(tangent)) {
+                part.add_scaled(*z, column, force);
+            }
+            is_finite(force)
+        })
+    }
+
+    /// Tangent vectors of each factor, one after the other.
+    fn columns<'b>(&self, tangent: &'b [T]) -> impl Iterator<Item = (Part, &'b [T])> {
+        let mut at = 0;
+        self.factors().flat_map(move |(part, chart)| {
+            let own = &tangent[at..at + part.n * chart.freedoms];
+            at += own.len();
+            own.chunks_exact(part.n).map(move |column| (part, column))
+        })
+    }
+
+    /// Its factors: the coordinates and rows of each, and its chart.
+    pub(super) fn factors(self) -> impl Iterator<Item = (Part, ChartView<'a, T>)> {
+        let all = parts(self.components, self.sizes());
+        let factors = all.zip(self.factors);
+        factors.scan(Offsets::default(), move |at, (part, factor)| {
+            let chart = self.factor(part, factor, *at);
+            *at = at.after(part, factor.freedoms);
+            Some((part, chart))
+        })
+    }
+
+    fn factor(&self, part: Part, factor: &Factor<T>, at: Offsets) -> ChartView<'a, T> {
+        let (coordinates, n) = (at.coordinates, part.n);
+        let columns = at.tangents..at.tangents + n * factor.freedoms;
+        ChartView {
+            tangent: &self.tangent[columns.clone()],
+            dual: &self.dual[columns],
+            metric: &self.metric[at.squares..][..n * n],
+            freedoms: factor.freedoms,
+            t: self.t,
+            q: &self.q[coordinates..][..n],
+            drift: &self.drift[coordinates..][..n],
+            sizes: &self.sizes[coordinates..][..n],
+            column_scale: &self.column_scale[coordinates..][..n],
+            row_scale: &self.row_scale[at.rows..][..part.r],
+            column_places: &self.column_places[coordinates..][..n],
+            rows: &self.rows[at.chosen..][..n - factor.freedoms],
+            places: &self.places[at.rows..][..part.r],
+            coordinate_scale: self.coordinate_scale,
+            accepted: self.accepted,
+            speed: factor.speed,
+            spacing: factor.spacing,
+            gap: factor.gap,
+        }
+    }
+}
+
+/// The chart of one factor, over slices.
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct ChartView<'a, T> {
     pub(super) tangent: &'a [T],
     pub(super) dual: &'a [T],
+    pub(super) metric: &'a [T],
     pub(super) freedoms: usize,
-    pub(super) base: At<'a, T>,
+    pub(super) t: T,
+    pub(super) q: &'a [T],
     pub(super) drift: &'a [T],
-    pub(super) speed: T,
+    pub(super) sizes: &'a [T],
+    pub(super) column_scale: &'a [T],
+    pub(super) row_scale: &'a [T],
+    pub(super) column_places: &'a [usize],
     pub(super) rows: &'a [usize],
     pub(super) places: &'a [usize],
-    pub(super) column_places: &'a [usize],
-    pub(super) factor: &'a [T],
-    pub(super) row_scale: &'a [T],
-    pub(super) column_scale: &'a [T],
     pub(super) coordinate_scale: CoordinateScale<T>,
-    pub(super) sizes: &'a [T],
-    pub(super) spacing: T,
     pub(super) accepted: T,
+    pub(super) speed: T,
+    pub(super) spacing: T,
     pub(super) gap: bool,
 }
 
@@ -210,14 +530,8 @@ impl<T: Real> ChartView<'_, T> {
     }
 
     /// The length of a vector in the diagonal of the metric.
-    pub(crate) fn length(&self, x: &[T]) -> T {
-        let (n, mut sum) = (x.len(), T::zero());
-        let scales = &self.column_scale[..n];
-        for i in 0..n {
-            let x = x[i] / scales[i];
-            sum += x * x;
-        }
-        sum.sqrt()
+    pub(super) fn length(&self, x: &[T]) -> T {
+        length(x, self.column_scale)
     }
 
     /// The length of what two vectors differ by.
@@ -243,4 +557,10 @@ impl<T: Real> ChartView<'_, T> {
     pub(super) fn tangents(&self) -> impl Iterator<Item = &[T]> {
         self.tangent.chunks_exact(self.n())
     }
+}
+
+compiled_once! {
+    fn solving_along<T>:
+        fn(&Product<'_, T>, &[T], &[T], &mut [T], &Workspace<'_, T>) -> bool =
+        |chart, mass, tangent, force, workspace| chart.solve(mass, tangent, force, workspace);
 }

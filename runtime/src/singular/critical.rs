@@ -59,7 +59,7 @@ impl<T: Real> Sheet<'_, T> {
         best: &Interpolated<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> Result<bool, Obstacle> {
-        if !self.holonomic {
+        if !self.kind.holonomic {
             return Ok(true);
         }
         // Several loops have no one place where all of them are singular, and a law of time may
@@ -200,7 +200,7 @@ impl<T: Real> Sheet<'_, T> {
                     coordinate_scale += entry.abs() * *size;
                 }
             }
-            solve_upper(chart.factor, lifted);
+            solve_upper(chart.metric, lifted);
             let length = norm(lifted);
             if length > T::zero() {
                 most = most.max(coordinate_scale / length);

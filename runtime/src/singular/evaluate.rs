@@ -1,36 +1,32 @@
 //! Sheets of a mechanism of known sizes.
 //!
 //! In:  a mechanism, its solver, a [`Chart`].
-//! Out: what is asked of the [`Sheet`] of the chart, in the memory of the solver.
+//! Out: what is asked of the [`Sheets`] of the chart, in the memory of the solver.
 
 use super::chart::Chart;
 use super::obstacle::Obstacle;
 use super::place::Placement;
-use super::sheet::{Point, Sheet};
+use super::point::Point;
+use super::sheets::Sheets;
 use crate::dynamics::{Core, SolverView};
 use crate::linalg::Workspace;
 use crate::{Mechanism, Real, State};
 
-/// Something that is done on a sheet.
-type Work<'a, T> = &'a mut dyn FnMut(&mut Sheet<'_, T>, &Workspace<'_, T>);
+/// Something that is done on the sheet.
+type Work<'a, T> = &'a mut dyn FnMut(&mut Sheets<'_, T>, &Workspace<'_, T>);
 
 impl<T: Real, const N: usize, const R: usize> SolverView<'_, T, N, R> {
     /// Does something on the sheet of a chart.
     #[inline(never)]
     fn on_sheet(&mut self, chart: &Chart<T, N, R>, workspace: &Workspace<'_, T>, work: Work<T>) {
-        workspace.scope(|workspace| {
-            let mut free = workspace.all();
-            let workspace = free.workspace();
-            let mut sheet = Sheet::new(
-                &mut self.equations,
-                chart.view(),
-                self.nodes.view(),
-                self.rows.any_holonomic(),
-                &workspace,
-            );
-            work(&mut sheet, &workspace);
-            *self.weakest = sheet.weakest_row();
-        });
+        let mut sheets = Sheets {
+            equations: &mut self.equations,
+            chart: chart.view(),
+            nodes: self.nodes.slices(),
+            holonomic: self.rows.scales().1,
+            weakest: self.weakest,
+        };
+        work(&mut sheets, workspace);
     }
 
     /// Puts a state onto the sheet of a chart.
@@ -41,11 +37,10 @@ impl<T: Real, const N: usize, const R: usize> SolverView<'_, T, N, R> {
         state: &State<T, N>,
         point: &mut Point<T, N>,
         workspace: &Workspace<'_, T>,
-    ) -> Result<Placement<T>, Obstacle> {
+    ) -> Result<Placement, Obstacle> {
         let mut placed = Err(Obstacle::Undetermined);
-        self.on_sheet(chart, workspace, &mut |sheet, workspace| {
-            let at = state.at();
-            placed = point.change(chart.freedoms, |point| sheet.put(at, point, workspace));
+        self.on_sheet(chart, workspace, &mut |sheets, workspace| {
+            placed = sheets.put(state.at(), &mut point.slices(), workspace);
         });
         placed
     }
@@ -70,7 +65,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         chart: &Chart<T, N, R>,
         state: &State<T, N>,
         point: &mut Point<T, N>,
-    ) -> Result<Placement<T>, Obstacle> {
+    ) -> Result<Placement, Obstacle> {
         let (mut solver, workspace, _) = self.lend(mechanism);
         solver.place(chart, state, point, &workspace)
     }
@@ -82,7 +77,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         point: &mut Point<T, N>,
-    ) -> Option<Result<Placement<T>, Obstacle>> {
+    ) -> Option<Result<Placement, Obstacle>> {
         let (mut solver, workspace, chart) = self.lend(mechanism);
         Some(solver.place(chart?, state, point, &workspace))
     }
@@ -98,8 +93,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let (mut solver, workspace, chart) = self.lend(mechanism);
         let chart = chart?;
         let mut measured = Ok(());
-        solver.on_sheet(chart, &workspace, &mut |sheet, _| {
-            measured = point.change(chart.freedoms, |point| sheet.look_at(state.at(), point));
+        solver.on_sheet(chart, &workspace, &mut |sheets, workspace| {
+            measured = sheets.look_at(state.at(), &mut point.slices(), workspace);
         });
         Some(measured)
     }

@@ -20,11 +20,6 @@ use crate::linalg::{Workspace, add_scaled, dot};
 use crate::tolerance::hull;
 
 impl<T: Real> Sheet<'_, T> {
-    /// Whether the sheet is a curve that stays where it is.
-    fn is_curve(&self) -> bool {
-        self.chart.freedoms == 1 && self.equations.structure().scleronomic
-    }
-
     /// The first coordinate in the chart.
     fn along(&self, x: &[T]) -> T {
         dot(&self.chart.dual[..x.len()], x)
@@ -48,7 +43,7 @@ impl<T: Real> Sheet<'_, T> {
         self.nodes.quality.spacing = best.spacing;
         self.nodes.quality.score = best.score;
         // Only a curve has the one coordinate that nodes are kept by.
-        if !self.is_curve() {
+        if !self.kind.is_curve {
             return;
         }
         let speed = self.along(state.v);
@@ -75,7 +70,7 @@ impl<T: Real> Sheet<'_, T> {
         let quality = &mut *self.nodes.quality;
         quality.noise = best.noises;
         quality.rate = direction.rate;
-        quality.known = true;
+        self.nodes.set_known();
     }
 
     /// Interpolates between the nodes that are kept, if the state is well between them and
@@ -87,7 +82,7 @@ impl<T: Real> Sheet<'_, T> {
         workspace: &Workspace<'b, T>,
     ) -> Option<Interpolated<'b, T>> {
         let quality = &*self.nodes.quality;
-        if !quality.known || !self.is_curve() {
+        if !quality.known || !self.kind.is_curve {
             return None;
         }
         let n = self.chart.n();

@@ -347,14 +347,13 @@ impl<T: Real> Sheet<'_, T> {
         bend: &mut Bend<'_, T>,
         workspace: &Workspace<'_, T>,
     ) {
-        let base = &self.chart.base;
         let (along, change) = (
             workspace.numbers(self.chart.freedoms),
             workspace.numbers(self.chart.freedoms),
         );
         bend.whole.copy_from_slice(state.q);
-        add_scaled(bend.whole, -T::one(), base.q);
-        add_scaled(bend.whole, base.t - state.t, self.chart.drift);
+        add_scaled(bend.whole, -T::one(), self.chart.q);
+        add_scaled(bend.whole, self.chart.t - state.t, self.chart.drift);
         self.chart.coordinates(bend.whole, along);
         self.chart.coordinates(direction.q, change);
         bend.share = step * dot(along, change) / dot(along, along);

@@ -10,7 +10,7 @@ use super::sheet::Sheet;
 use crate::Real;
 use crate::equations::At;
 use crate::linalg::{Eliminated, Frame, Workspace};
-use crate::once::compiled_once;
+use core::cmp::Ordering;
 
 /// Passages that are kept of one step.
 const ROOM: usize = 8;
@@ -78,6 +78,30 @@ impl<T: Real> Found<T> {
             *place = Some(passage);
             self.count += 1;
         }
+    }
+
+    /// Adds the passages of one of several parts of a mechanism, whose constraints have this
+    /// rank together, in a step of this length.
+    pub(super) fn add(&mut self, others: &Self, regular: usize, length: T) {
+        let at_once = length * T::from_f64(AT_ONCE);
+        for passage in others.iter() {
+            let lost = passage.regular - passage.rank;
+            let mut known = self.list.iter_mut().flatten();
+            match known.find(|known| (known.t - passage.t).abs() <= at_once) {
+                Some(known) => {
+                    known.rank = known.rank.saturating_sub(lost);
+                    known.sine = known.sine.min(passage.sine);
+                }
+                None => self.push(Passage {
+                    rank: regular - lost,
+                    regular,
+                    ..*passage
+                }),
+            }
+        }
+        let time = |passage: &Option<Passage<T>>| passage.map(|passage| passage.t);
+        self.list[..self.count]
+            .sort_unstable_by(|a, b| time(a).partial_cmp(&time(b)).unwrap_or(Ordering::Equal));
     }
 }
 
@@ -413,29 +437,4 @@ fn rates<T: Real>(looks: &[Option<Look<'_, T>>; LOOKS], part: T) -> [Option<T>; 
             .map(|(weight, value)| T::from_f64(*weight) * value);
         Some(terms.fold(T::zero(), |sum, term| sum + term) / (part * T::from_f64(12.0)))
     })
-}
-
-impl<T: Real> Sheet<'_, T> {
-    /// The passages of a step of this length whose positions are `at`.
-    pub(crate) fn find_passages(
-        &mut self,
-        start: At<'_, T>,
-        length: T,
-        at: &dyn Fn(T, &mut [T]),
-        workspace: &Workspace<'_, T>,
-    ) -> Found<T> {
-        finding()(self, start, length, at, workspace)
-    }
-}
-
-compiled_once! {
-    fn finding<T>: fn(
-        &mut Sheet<'_, T>,
-        At<'_, T>,
-        T,
-        &dyn Fn(T, &mut [T]),
-        &Workspace<'_, T>,
-    ) -> Found<T> = |sheet, start, length, at, workspace| {
-        sheet.passages(start, length, at, workspace)
-    };
 }

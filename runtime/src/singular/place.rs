@@ -16,7 +16,6 @@ use crate::Real;
 use crate::dynamics::CoordinateScale;
 use crate::equations::At;
 use crate::linalg::{Eliminated, Workspace, add_scaled, is_finite};
-use crate::once::compiled_once;
 use crate::tolerance::{excusable, hull, resolvable, resolved, spacing, window};
 
 /// How much larger than the round-off of one node, magnified by the weights, the
@@ -32,13 +31,12 @@ const STRAYS: f64 = 10.0;
 const NEARLY: f64 = 4.0;
 
 /// How a state was put onto its sheet.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Placement<T> {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Placement {
     /// Where the constraints are regular.
     Regular,
-    /// Between nodes of this spacing, across a configuration where sheets cross.
+    /// Between nodes, across a configuration where sheets cross.
     Crossing {
-        spacing: T,
         /// Whether it was moved past the other sheet, by more than a step may be off.
         strays: bool,
         /// The same, by more than this placement may be off: the state is on the other sheet
@@ -50,6 +48,34 @@ pub(crate) enum Placement<T> {
     Gap,
 }
 
+impl Placement {
+    /// That on a product of two sheets.
+    pub(super) fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (
+                Self::Crossing { strays, leaves },
+                Self::Crossing {
+                    strays: too,
+                    leaves: also,
+                },
+            ) => Self::Crossing {
+                strays: strays || too,
+                leaves: leaves || also,
+            },
+            (crossing @ Self::Crossing { .. }, _) | (_, crossing @ Self::Crossing { .. }) => {
+                crossing
+            }
+            (Self::Regular, other) => other,
+            (Self::Gap, _) => Self::Gap,
+        }
+    }
+
+    /// Whether sheets cross nearby.
+    pub(crate) fn is_crossing(self) -> bool {
+        matches!(self, Self::Crossing { .. })
+    }
+}
+
 impl<T: Real> Sheet<'_, T> {
     /// Puts a state onto its sheet.
     pub(super) fn place(
@@ -57,7 +83,7 @@ impl<T: Real> Sheet<'_, T> {
         state: At<'_, T>,
         point: &mut PointView<'_, T>,
         workspace: &Workspace<'_, T>,
-    ) -> Result<Placement<T>, Obstacle> {
+    ) -> Result<Placement, Obstacle> {
         if !(state.t.is_finite() && is_finite(state.q) && is_finite(state.v)) {
             return Err(Obstacle::NotFinite);
         }
@@ -97,7 +123,7 @@ impl<T: Real> Sheet<'_, T> {
         like: &Eliminated<'_, T>,
         point: &mut PointView<'_, T>,
         workspace: &Workspace<'_, T>,
-    ) -> Result<Placement<T>, Obstacle> {
+    ) -> Result<Placement, Obstacle> {
         let best = match self.reuse_nodes(state, workspace) {
             Some(best) => best,
             None => match self.find_nodes(state, like, workspace)? {
@@ -123,8 +149,8 @@ impl<T: Real> Sheet<'_, T> {
             > 0;
         let moved = self.chart.length(sum.offset) / self.chart.coordinate_scale.range;
         let several = T::from_f64(STRAYS);
+        point.spacing = best.spacing;
         Ok(Placement::Crossing {
-            spacing: best.spacing,
             strays: flips && moved > self.chart.accepted * several,
             leaves: flips && moved > (best.error + resolved()) * several,
         })
@@ -137,7 +163,7 @@ impl<T: Real> Sheet<'_, T> {
         state: At<'_, T>,
         like: &Eliminated<'_, T>,
         workspace: &Workspace<'b, T>,
-    ) -> Result<Result<Interpolated<'b, T>, Placement<T>>, Obstacle> {
+    ) -> Result<Result<Interpolated<'b, T>, Placement>, Obstacle> {
         let mut direction = self.direction(state, like, workspace)?;
         let found = self.find_nodes_along(state, like, &direction, workspace);
         if !direction.is_of_time || !matches!(found, Err(Obstacle::Unresolved)) {
@@ -156,7 +182,7 @@ impl<T: Real> Sheet<'_, T> {
         like: &Eliminated<'_, T>,
         direction: &Direction<'_, T>,
         workspace: &Workspace<'b, T>,
-    ) -> Result<Result<Interpolated<'b, T>, Placement<T>>, Obstacle> {
+    ) -> Result<Result<Interpolated<'b, T>, Placement>, Obstacle> {
         let Some(best) = self.search(state, like, direction, workspace)? else {
             return Err(Obstacle::Unresolved);
         };
@@ -318,26 +344,4 @@ impl<T: Real> Sheet<'_, T> {
         };
         found.score = found.error + found.noise * T::EPSILON;
     }
-}
-
-impl<T: Real> Sheet<'_, T> {
-    /// Puts a state onto its sheet.
-    pub(crate) fn put(
-        &mut self,
-        state: At<'_, T>,
-        point: &mut PointView<'_, T>,
-        workspace: &Workspace<'_, T>,
-    ) -> Result<Placement<T>, Obstacle> {
-        placing()(self, state, point, workspace)
-    }
-}
-
-compiled_once! {
-    fn placing<T>: fn(
-        &mut Sheet<'_, T>,
-        At<'_, T>,
-        &mut PointView<'_, T>,
-        &Workspace<'_, T>,
-    ) -> Result<Placement<T>, Obstacle> =
-        |sheet, state, point, workspace| sheet.place(state, point, workspace);
 }

@@ -8,6 +8,7 @@
 
 use super::chart::Chart;
 use super::passage::Found;
+use super::point::Met;
 use super::stored_nodes::Nodes;
 use crate::tolerance::{passes, window};
 use crate::{Real, State};
@@ -56,7 +57,7 @@ pub(crate) struct Trial<T, const N: usize, const R: usize> {
     pub(crate) wants_chart: bool,
     /// The chart at its end.
     pub(crate) chart: Option<Chart<T, N, R>>,
-    /// The end's tangent space, drift, and the spacing of its nodes, if any.
+    /// The end's tangent space, drift, and how the sheets were met there.
     pub(crate) placed: Option<Placed<T, N>>,
     /// Emitted code projected its end.
     pub(crate) by_emitted: bool,
@@ -69,9 +70,7 @@ pub(crate) struct Trial<T, const N: usize, const R: usize> {
 pub(crate) struct Placed<T, const N: usize> {
     pub(crate) tangent: nalgebra::SMatrix<T, N, N>,
     pub(crate) drift: SVector<T, N>,
-    pub(crate) sine: T,
-    pub(crate) spacing: T,
-    pub(crate) gap: bool,
+    pub(crate) met: [Met<T>; N],
     /// Whether it was moved past another sheet, by more than the placement may be off.
     pub(crate) leaves: bool,
 }

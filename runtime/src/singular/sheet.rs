@@ -1,7 +1,7 @@
 //! The sheet of the constraint set on which the motion lives, at regular states.
 //!
 //! In:  a [`ChartView`], a state near the sheet.
-//! Out: the state on the sheet that has the same coordinates in the chart ([`Point`]),
+//! Out: the state on the sheet that has the same coordinates in the chart ([`PointView`]),
 //!      its tangent space there, and the accelerations that the constraints demand.
 //!
 //! All are solutions of one square system, `[A; D*] x = right`: the constraint rows, and
@@ -13,12 +13,10 @@
 use super::chart::ChartView;
 use super::obstacle::Obstacle;
 use super::stored_nodes::NodesView;
+use crate::Real;
 use crate::equations::{At, Equations};
 use crate::linalg::{Eliminated, Frame, Matrix, Right, Workspace, add_scaled, is_zero};
-use crate::once::compiled_once;
 use crate::tolerance::{contraction, critical, near_dependent, round_off};
-use crate::{Real, State};
-use nalgebra::{SMatrix, SVector};
 
 /// Corrections after which a state is given up.
 const MAX_CORRECTIONS: usize = 12;
@@ -31,62 +29,22 @@ const MAY_TURN: f64 = 0.5;
 const GLANCE: usize = 8;
 
 /// A state on the sheet, and the sheet's geometry there.
-#[derive(Clone, Debug)]
-pub(crate) struct Point<T, const N: usize> {
-    pub(crate) state: State<T, N>,
-    /// The tangent space: `D* D̃ = 1`, in the chart's first columns.
-    pub(crate) tangent: SMatrix<T, N, N>,
-    /// The velocity of the sheet where the coordinates of the chart rest.
-    pub(crate) drift: SVector<T, N>,
-    /// The acceleration where the coordinates of the chart do not accelerate.
-    pub(crate) particular: SVector<T, N>,
-    /// About the sine by which the weakest combination of constraint rows is independent
-    /// of the others.
-    pub(crate) sine: T,
-}
-
-impl<T: Real, const N: usize> Point<T, N> {
-    pub(crate) fn zeros() -> Self {
-        Self {
-            state: State::default(),
-            tangent: SMatrix::zeros(),
-            drift: SVector::zeros(),
-            particular: SVector::zeros(),
-            sine: T::zero(),
-        }
-    }
-
-    /// Changes it over slices.
-    pub(crate) fn change<V>(
-        &mut self,
-        freedoms: usize,
-        change: impl FnOnce(&mut PointView<'_, T>) -> V,
-    ) -> V {
-        let mut view = PointView {
-            t: self.state.t,
-            q: self.state.q.as_mut_slice(),
-            v: self.state.v.as_mut_slice(),
-            tangent: &mut self.tangent.as_mut_slice()[..N * freedoms],
-            drift: self.drift.as_mut_slice(),
-            particular: self.particular.as_mut_slice(),
-            sine: self.sine,
-        };
-        let done = change(&mut view);
-        (self.state.t, self.sine) = (view.t, view.sine);
-        done
-    }
-}
-
-/// A [`Point`] over slices.
 #[derive(Debug)]
-pub(crate) struct PointView<'a, T> {
+pub(super) struct PointView<'a, T> {
     pub(super) t: T,
     pub(super) q: &'a mut [T],
     pub(super) v: &'a mut [T],
+    /// The tangent space: `D* D̃ = 1`.
     pub(super) tangent: &'a mut [T],
+    /// The velocity of the sheet where the coordinates of the chart rest.
     pub(super) drift: &'a mut [T],
+    /// The acceleration where the coordinates of the chart do not accelerate.
     pub(super) particular: &'a mut [T],
+    /// About the sine by which the weakest combination of constraint rows is independent
+    /// of the others.
     pub(super) sine: T,
+    /// The spacing of nodes, as a change of the sine; zero without any.
+    pub(super) spacing: T,
 }
 
 impl<'a, T: Real> PointView<'a, T> {
@@ -101,6 +59,7 @@ impl<'a, T: Real> PointView<'a, T> {
             drift: workspace.any(n),
             particular: workspace.any(n),
             sine: T::zero(),
+            spacing: T::zero(),
         }
     }
 
@@ -129,26 +88,34 @@ impl<'a, T: Real> PointView<'a, T> {
     }
 }
 
+/// Of which kind a sheet is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Kind {
+    /// Whether any row restricts positions.
+    pub(super) holonomic: bool,
+    /// Whether it is a curve that stays where it is.
+    pub(super) is_curve: bool,
+}
+
 /// What evaluates the sheet: a mechanism, a chart, and buffers.
-pub(crate) struct Sheet<'a, T> {
+pub(super) struct Sheet<'a, T> {
     pub(super) equations: &'a mut dyn Equations<T>,
     pub(super) chart: ChartView<'a, T>,
     pub(super) frame: Frame<'a, T>,
     /// The nodes of the last interpolation.
     pub(super) nodes: NodesView<'a, T>,
-    /// Whether any row restricts positions.
-    pub(super) holonomic: bool,
+    pub(super) kind: Kind,
     /// A right-hand side in the order and scale of the frame's rows, and a solution.
     right: &'a mut [T],
     solution: &'a mut [T],
 }
 
 impl<'a, T: Real> Sheet<'a, T> {
-    pub(crate) fn new(
+    pub(super) fn new(
         equations: &'a mut dyn Equations<T>,
         chart: ChartView<'a, T>,
         nodes: NodesView<'a, T>,
-        holonomic: bool,
+        kind: Kind,
         workspace: &Workspace<'a, T>,
     ) -> Self {
         let n = chart.n();
@@ -158,7 +125,7 @@ impl<'a, T: Real> Sheet<'a, T> {
             chart,
             frame: Frame::new(chart.column_places, chart.rows.len(), workspace),
             nodes,
-            holonomic,
+            kind,
             right,
             solution,
         }
@@ -166,8 +133,18 @@ impl<'a, T: Real> Sheet<'a, T> {
 
     /// The constraint row that comes last in the elimination, by its place among the
     /// independent ones.
-    pub(crate) fn weakest_row(&self) -> usize {
+    pub(super) fn weakest_row(&self) -> usize {
         self.frame.weakest_row()
+    }
+
+    /// Its chart.
+    pub(super) fn chart(&self) -> &ChartView<'a, T> {
+        &self.chart
+    }
+
+    /// The smallest pivot of a constraint row in the last elimination.
+    pub(super) fn smallest(&self) -> T {
+        self.frame.smallest()
     }
 
     /// How many constraint rows take part.
@@ -335,7 +312,7 @@ impl<'a, T: Real> Sheet<'a, T> {
     ) -> Result<(), Obstacle> {
         let mut before: Option<T> = None;
         for _ in 0..MAX_CORRECTIONS {
-            if !self.holonomic {
+            if !self.kind.holonomic {
                 return Ok(());
             }
             let residual = self.equations.constraints().residual;
@@ -433,21 +410,4 @@ impl<'a, T: Real> ChartView<'a, T> {
         };
         Right::Column(factor, column)
     }
-}
-
-impl<T: Real> Sheet<'_, T> {
-    /// The geometry at a state as it is.
-    pub(crate) fn look_at(
-        &mut self,
-        state: At<'_, T>,
-        point: &mut PointView<'_, T>,
-    ) -> Result<(), Obstacle> {
-        measuring()(self, state, point)
-    }
-}
-
-compiled_once! {
-    fn measuring<T>:
-        fn(&mut Sheet<'_, T>, At<'_, T>, &mut PointView<'_, T>) -> Result<(), Obstacle> =
-        |sheet, state, point| sheet.measure_here(state, point);
 }

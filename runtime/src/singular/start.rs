@@ -11,10 +11,10 @@
 //! where it is off one of them.
 
 use super::chart::Chart;
-use super::place::Placement;
-use super::sheet::Point;
+use super::part::split_tangent;
+use super::point::Point;
 use super::sheet_selection::finding_tangent;
-use crate::dynamics::{Core, SolverView, Source};
+use crate::dynamics::{Core, SolverView, Source, Which};
 use crate::equations::{At, sized};
 use crate::linalg::{Workspace, is_zero};
 use crate::tolerance::accepted;
@@ -40,7 +40,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if !finding_tangent()(&mut solver, state.at(), free, &workspace)? {
             return Ok(None);
         }
-        Ok(solver.chart(state, tangent, freedoms, &workspace))
+        Ok(solver.chart(state, (tangent, freedoms), &workspace))
     }
 }
 
@@ -49,24 +49,38 @@ impl<T: Real, const N: usize, const R: usize> SolverView<'_, T, N, R> {
     fn chart(
         &mut self,
         state: &State<T, N>,
-        tangent: SMatrix<T, N, N>,
-        freedoms: usize,
+        (tangent, freedoms): (SMatrix<T, N, N>, usize),
         workspace: &Workspace<'_, T>,
     ) -> Option<Chart<T, N, R>> {
         let equations = &mut self.equations;
+        let components = equations.mechanism.structure().components;
+        let mut own = tangent;
+        if !components.is_empty() {
+            let (independent, count) = self.rows.active(Which::All)?;
+            let all = &tangent.as_slice()[..N * freedoms];
+            let rows = &independent[..count];
+            split_tangent(
+                components,
+                (N, R),
+                (all, rows),
+                own.as_mut_slice(),
+                workspace,
+            );
+        }
         let mut chart = Chart::new(
             state,
-            tangent,
-            freedoms,
+            own,
             self.metric,
             (self.rows, &equations.position.jacobian),
             (self.coordinate_scale, self.sizes, accepted(self.tolerance)),
+            components,
+            workspace,
         )?;
         equations.mechanism.position(state, equations.position);
         if !is_zero(equations.position.drift.as_slice()) {
             let mut point = Point::zeros();
             if self.place(&chart, state, &mut point, workspace).is_ok() {
-                chart.set_drift(point.drift, T::zero());
+                chart.set_drift(&point.drift, |_| T::zero());
             }
         }
         Some(chart)
@@ -85,11 +99,11 @@ impl<T: Real, const N: usize, const R: usize> SolverView<'_, T, N, R> {
         let mut columns = SMatrix::<T, N, N>::zeros();
         columns.as_mut_slice()[..tangent.len()].copy_from_slice(tangent);
         let mut point = Point::zeros();
-        let chart = self.chart(&state, columns, tangent.len() / N, workspace)?;
+        let chart = self.chart(&state, (columns, tangent.len() / N), workspace)?;
         let placed = self.place(&chart, &state, &mut point, workspace);
         let moved = point.state.q - state.q;
         match placed {
-            Ok(Placement::Crossing { .. }) => Some(chart.view().length(moved.as_slice())),
+            Ok(placement) if placement.is_crossing() => Some(chart.view().length(moved.as_slice())),
             _ => None,
         }
     }

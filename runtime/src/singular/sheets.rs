@@ -1,0 +1,327 @@
+//! The sheet of a mechanism as the product of those of its parts.
+//!
+//! In:  a [`Product`] of charts, a state near the sheet.
+//! Out: what is asked of the [`Sheet`] of each part, put together.
+//!
+//! What happens in one part says nothing of the others: each is placed for itself, between
+//! nodes of its own where its constraints are nearly singular.
+
+use super::chart::{ChartView, Product};
+use super::obstacle::Obstacle;
+use super::part::{Frozen, Part, PartOf};
+use super::passage::Found;
+use super::place::Placement;
+use super::point::PointSlices;
+use super::sheet::{Kind, PointView, Sheet};
+use super::stored_nodes::NodesSlices;
+use crate::Real;
+use crate::equations::{At, Equations};
+use crate::linalg::Workspace;
+use crate::once::compiled_once;
+use core::cell::Cell;
+use core::ops::Range;
+
+/// What evaluates the sheet of a mechanism.
+pub(crate) struct Sheets<'a, T> {
+    pub(super) equations: &'a mut dyn Equations<T>,
+    pub(super) chart: Product<'a, T>,
+    pub(super) nodes: NodesSlices<'a, T>,
+    /// Which rows restrict positions.
+    pub(super) holonomic: &'a [bool],
+    /// The row that came last where constraints were nearest to dependence.
+    pub(super) weakest: &'a mut usize,
+}
+
+/// A part, and where what belongs to it is.
+pub(super) struct Place {
+    pub(super) part: Part,
+    /// Its place among the parts.
+    pub(super) index: usize,
+    /// Its coordinates, where these are in the order of the parts.
+    coordinates: Range<usize>,
+    /// Its tangent vectors among those of all.
+    pub(super) tangents: Range<usize>,
+}
+
+/// Something that is done on the sheet of a part.
+type Work<'a, T> =
+    &'a mut dyn FnMut(&Place, &mut Sheet<'_, T>, &Workspace<'_, T>) -> Result<(), Obstacle>;
+
+impl<T: Real> Sheets<'_, T> {
+    /// Does something on the sheet of each part that has constraints, until it fails. The
+    /// other coordinates are those of a state, or where they were moved before.
+    fn on_each(
+        &mut self,
+        state: At<'_, T>,
+        workspace: &Workspace<'_, T>,
+        work: Work<'_, T>,
+    ) -> Result<(), Obstacle> {
+        workspace.scope(|workspace| {
+            let mut frozen = Frozen::new(state, workspace);
+            let mut least = T::from_f64(f64::INFINITY);
+            let (mut index, mut coordinates, mut tangents) = (0, 0, 0);
+            for (part, chart) in self.chart.factors() {
+                let place = Place {
+                    part,
+                    index,
+                    coordinates: coordinates..coordinates + part.n,
+                    tangents: tangents..tangents + part.n * chart.freedoms,
+                };
+                index += 1;
+                (coordinates, tangents) = (place.coordinates.end, place.tangents.end);
+                if chart.rows.is_empty() {
+                    continue;
+                }
+                let known = (&mut frozen, &mut least);
+                workspace.scope(|inner| self.on_part(&place, chart, known, inner, work))?;
+            }
+            Ok(())
+        })
+    }
+
+    /// Does something on the sheet of a part.
+    fn on_part(
+        &mut self,
+        place: &Place,
+        chart: ChartView<'_, T>,
+        (frozen, least): (&mut Frozen<'_, T>, &mut T),
+        workspace: &Workspace<'_, T>,
+        work: Work<'_, T>,
+    ) -> Result<(), Obstacle> {
+        let part = place.part;
+        let is_curve = chart.freedoms == 1 && part.is_scleronomic(self.equations.structure());
+        let holonomic = (0..part.r).any(|row| self.holonomic[part.row(row)]);
+        let nodes = self.nodes.of(place.index, place.coordinates.clone());
+        let mut own;
+        let equations: &mut dyn Equations<T> = match part.is_whole() {
+            true => self.equations,
+            false => {
+                own = PartOf::new(part, self.equations, frozen, workspace);
+                &mut own
+            }
+        };
+        let kind = Kind {
+            holonomic,
+            is_curve,
+        };
+        // Slices for those who hold borrows of their own.
+        let mut free = workspace.all();
+        let workspace = free.workspace();
+        let mut sheet = Sheet::new(equations, chart, nodes, kind, &workspace);
+        let done = work(place, &mut sheet, &workspace);
+        let sine = sheet.smallest();
+        if done.is_err() || sine < *least {
+            *least = sine;
+            // What comes last may be a row of the tangent space.
+            let row = chart.rows.get(sheet.weakest_row()).or(chart.rows.first());
+            *self.weakest = row.map_or(0, |row| part.row(*row));
+        }
+        done
+    }
+}
+
+impl<T: Real> Sheets<'_, T> {
+    /// Puts a state onto the sheet, and evaluates all terms there unless sheets cross nearby.
+    fn place(
+        &mut self,
+        state: At<'_, T>,
+        point: &mut PointSlices<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Result<Placement, Obstacle> {
+        let mut all = Placement::Regular;
+        point.begin(state, &self.chart);
+        self.on_each(state, workspace, &mut |place, sheet, workspace| {
+            let own = place.part.state(state, workspace);
+            let mut there = PointView::new(sheet.chart(), workspace);
+            let placement = sheet.place(own, &mut there, workspace)?;
+            point.keep(place, &there, placement);
+            all = all.and(placement);
+            Ok(())
+        })?;
+        // The terms at hand are those of the part that was measured last.
+        if self.chart.has_several() && !all.is_crossing() {
+            self.equations.evaluate(point.at());
+        }
+        Ok(all)
+    }
+
+    /// The geometry at a state as it is.
+    fn measure(
+        &mut self,
+        state: At<'_, T>,
+        point: &mut PointSlices<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Result<(), Obstacle> {
+        point.begin(state, &self.chart);
+        self.on_each(state, workspace, &mut |place, sheet, workspace| {
+            let own = place.part.state(state, workspace);
+            let mut there = PointView::new(sheet.chart(), workspace);
+            sheet.measure_here(own, &mut there)?;
+            point.keep(place, &there, Placement::Regular);
+            Ok(())
+        })
+    }
+
+    /// Counts the sheets crossed on the way from one state to another, `None` where that
+    /// can't be told. If it is sought, also the fraction of the way up to which no crossing
+    /// is seen.
+    fn crossed(
+        &mut self,
+        (start, end): (At<'_, T>, At<'_, T>),
+        seeks: bool,
+        workspace: &Workspace<'_, T>,
+    ) -> (Option<usize>, T) {
+        let (mut count, mut part) = (Some(0), T::one());
+        // Nothing is refused here.
+        let _ = self.on_each(start, workspace, &mut |place, sheet, workspace| {
+            let ends = [start, end].map(|state| place.part.state(state, workspace));
+            let (own, until) = sheet.crossed((ends[0], ends[1]), seeks, workspace);
+            count = count.zip(own).map(|(count, own)| count + own);
+            part = part.min(until);
+            Ok(())
+        });
+        (count, part)
+    }
+
+    /// Whether no sheet is seen to be crossed on the way from one state to another.
+    fn stays(
+        &mut self,
+        (start, end): (At<'_, T>, At<'_, T>),
+        workspace: &Workspace<'_, T>,
+    ) -> bool {
+        let stays = self.on_each(start, workspace, &mut |place, sheet, workspace| {
+            let ends = [start, end].map(|state| place.part.state(state, workspace));
+            match sheet.stays((ends[0], ends[1]), workspace) {
+                true => Ok(()),
+                false => Err(Obstacle::LeftSheet),
+            }
+        });
+        stays.is_ok()
+    }
+
+    /// The passages of a step of this length whose positions are `at`.
+    fn passages(
+        &mut self,
+        start: At<'_, T>,
+        length: T,
+        at: &dyn Fn(T, &mut [T]),
+        workspace: &Workspace<'_, T>,
+    ) -> Found<T> {
+        let mut found = Found::new();
+        let (several, regular) = (self.chart.has_several(), self.chart.rank());
+        let _ = self.on_each(start, workspace, &mut |place, sheet, workspace| {
+            let own = place.part.state(start, workspace);
+            let whole = Cell::new(workspace.any(start.q.len()));
+            let at = |t: T, q: &mut [T]| {
+                let all = whole.take();
+                at(t, all);
+                place.part.take(all, q);
+                whole.set(all);
+            };
+            let own = sheet.passages(own, length, &at, workspace);
+            match several {
+                true => found.add(&own, regular, length),
+                false => found = own,
+            }
+            Ok(())
+        });
+        found
+    }
+}
+
+impl<T: Real> Sheets<'_, T> {
+    /// Puts a state onto the sheet, and evaluates all terms there unless sheets cross nearby.
+    pub(crate) fn put(
+        &mut self,
+        state: At<'_, T>,
+        point: &mut PointSlices<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Result<Placement, Obstacle> {
+        placing()(self, state, point, workspace)
+    }
+
+    /// The geometry at a state as it is.
+    pub(crate) fn look_at(
+        &mut self,
+        state: At<'_, T>,
+        point: &mut PointSlices<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Result<(), Obstacle> {
+        measuring()(self, state, point, workspace)
+    }
+
+    /// Counts the sheets crossed on the way from one state to another, `None` where that
+    /// can't be told. If it is sought, also the fraction of the way up to which no crossing
+    /// is seen.
+    pub(crate) fn count_crossed(
+        &mut self,
+        ends: (At<'_, T>, At<'_, T>),
+        seeks: bool,
+        workspace: &Workspace<'_, T>,
+    ) -> (Option<usize>, T) {
+        counting()(self, ends, seeks, workspace)
+    }
+
+    /// Whether no sheet is seen to be crossed between two states.
+    pub(crate) fn stays_between(
+        &mut self,
+        ends: (At<'_, T>, At<'_, T>),
+        workspace: &Workspace<'_, T>,
+    ) -> bool {
+        staying()(self, ends, workspace)
+    }
+
+    /// The passages of a step of this length whose positions are `at`.
+    pub(crate) fn find_passages(
+        &mut self,
+        start: At<'_, T>,
+        length: T,
+        at: &dyn Fn(T, &mut [T]),
+        workspace: &Workspace<'_, T>,
+    ) -> Found<T> {
+        finding()(self, start, length, at, workspace)
+    }
+}
+
+compiled_once! {
+    fn placing<T>: fn(
+        &mut Sheets<'_, T>,
+        At<'_, T>,
+        &mut PointSlices<'_, T>,
+        &Workspace<'_, T>,
+    ) -> Result<Placement, Obstacle> =
+        |sheets, state, point, workspace| sheets.place(state, point, workspace);
+}
+compiled_once! {
+    fn measuring<T>: fn(
+        &mut Sheets<'_, T>,
+        At<'_, T>,
+        &mut PointSlices<'_, T>,
+        &Workspace<'_, T>,
+    ) -> Result<(), Obstacle> =
+        |sheets, state, point, workspace| sheets.measure(state, point, workspace);
+}
+compiled_once! {
+    fn counting<T>: fn(
+        &mut Sheets<'_, T>,
+        (At<'_, T>, At<'_, T>),
+        bool,
+        &Workspace<'_, T>,
+    ) -> (Option<usize>, T) =
+        |sheets, ends, seeks, workspace| sheets.crossed(ends, seeks, workspace);
+}
+compiled_once! {
+    fn staying<T>: fn(&mut Sheets<'_, T>, (At<'_, T>, At<'_, T>), &Workspace<'_, T>) -> bool =
+        |sheets, ends, workspace| sheets.stays(ends, workspace);
+}
+compiled_once! {
+    fn finding<T>: fn(
+        &mut Sheets<'_, T>,
+        At<'_, T>,
+        T,
+        &dyn Fn(T, &mut [T]),
+        &Workspace<'_, T>,
+    ) -> Found<T> = |sheets, start, length, at, workspace| {
+        sheets.passages(start, length, at, workspace)
+    };
+}
