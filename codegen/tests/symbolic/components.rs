@@ -65,6 +65,9 @@ fn one_component_of_all_coordinates_is_none() {
 #[test]
 fn each_component_knows_whether_it_stays_what_it_is() {
     let several = "constraint a = b; constraint c = d*(1 + w*t); constraint der(e) = f*w;";
-    let still: Vec<bool> = components(several).iter().map(|it| it.scleronomic).collect();
+    let still: Vec<bool> = components(several)
+        .iter()
+        .map(|it| it.scleronomic)
+        .collect();
     assert_eq!(still, [true, false, false]);
 }

@@ -13,13 +13,12 @@
 //! chart is made of those of its factors, each in its own block of `M`.
 
 use super::part::{Part, parts};
+use super::product::{Factor, Offsets, Product, length};
 use crate::dynamics::{CoordinateScale, Metric, Rows, Which};
 use crate::linalg::{
-    Cholesky, Workspace, add_scaled, diagonal, dot, factorise_block, is_finite, multiply_upper,
-    multiply_upper_transposed, norm, order_by_first_row, pair, solve_in_subspace, solve_upper,
-    solve_upper_transposed,
+    Cholesky, Workspace, add_scaled, diagonal, dot, factorise_block, multiply_upper,
+    multiply_upper_transposed, norm, order_by_first_row, pair, solve_upper_transposed,
 };
-use crate::once::compiled_once;
 use crate::tolerance::excusable;
 use crate::{ConnectedComponent, Real, State};
 use nalgebra::{SMatrix, SVector};
@@ -56,42 +55,6 @@ pub(crate) struct Chart<T, const N: usize, const R: usize> {
     coordinate_scale: CoordinateScale<T>,
     /// Error of an interpolation, relative, that is accepted.
     accepted: T,
-}
-
-/// What a chart knows of one factor of the product.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Factor<T> {
-    pub(super) freedoms: usize,
-    /// The largest velocity of the sheet where the coordinates of the chart rest, so far.
-    pub(crate) speed: T,
-    /// The spacing of the nodes that served last, as a change of the sine.
-    pub(crate) spacing: T,
-    /// No sheets cross at the critical configuration nearby: a gap keeps them apart.
-    pub(crate) gap: bool,
-}
-
-/// Where what belongs to a factor begins.
-#[derive(Clone, Copy, Default)]
-struct Offsets {
-    coordinates: usize,
-    rows: usize,
-    /// Among the independent rows.
-    chosen: usize,
-    tangents: usize,
-    squares: usize,
-}
-
-impl Offsets {
-    /// Those of the next factor.
-    fn after(&self, part: Part, freedoms: usize) -> Self {
-        Self {
-            coordinates: self.coordinates + part.n,
-            rows: self.rows + part.r,
-            chosen: self.chosen + part.n - freedoms,
-            tangents: self.tangents + part.n * freedoms,
-            squares: self.squares + part.n * part.n,
-        }
-    }
 }
 
 impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
@@ -239,17 +202,6 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
     }
 }
 
-impl<T: Real> Factor<T> {
-    fn new() -> Self {
-        Self {
-            freedoms: 0,
-            speed: T::zero(),
-            spacing: T::zero(),
-            gap: false,
-        }
-    }
-}
-
 /// The triangular factor of the block of the metric that is a part's own.
 fn take_metric<T: Real>(part: Part, factor: &[T], block: &mut [T]) {
     if part.is_whole() {
@@ -283,17 +235,6 @@ fn order_columns<T: Real>(
     });
 }
 
-/// The length of a vector in a diagonal metric, of which the scales are given.
-fn length<T: Real>(x: &[T], scales: &[T]) -> T {
-    let (n, mut sum) = (x.len(), T::zero());
-    let scales = &scales[..n];
-    for i in 0..n {
-        let x = x[i] / scales[i];
-        sum += x * x;
-    }
-    sum.sqrt()
-}
-
 /// Makes vectors of length `n` orthonormal in a metric `U Uᵀ`, one after the other, so that
 /// the orientation of charts is carried along, and finds what they are times the metric;
 /// `false` if they are dependent.
@@ -324,243 +265,4 @@ fn orthonormalise<T: Real>(factor: &[T], vectors: &mut [T], duals: &mut [T], n: 
         multiply_upper(factor, lifted);
     }
     true
-}
-
-/// A chart over slices.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Product<'a, T> {
-    components: &'static [ConnectedComponent],
-    tangent: &'a [T],
-    dual: &'a [T],
-    metric: &'a [T],
-    t: T,
-    q: &'a [T],
-    drift: &'a [T],
-    sizes: &'a [T],
-    column_scale: &'a [T],
-    row_scale: &'a [T],
-    column_places: &'a [usize],
-    rows: &'a [usize],
-    places: &'a [usize],
-    factors: &'a [Factor<T>],
-    coordinate_scale: CoordinateScale<T>,
-    accepted: T,
-}
-
-impl<'a, T: Real> Product<'a, T> {
-    /// How many coordinates and rows there are.
-    fn sizes(&self) -> (usize, usize) {
-        (self.q.len(), self.row_scale.len())
-    }
-
-    /// Whether there are several factors.
-    pub(super) fn has_several(&self) -> bool {
-        !self.components.is_empty()
-    }
-
-    /// How many constraint rows are independent at regular states.
-    pub(super) fn rank(&self) -> usize {
-        let freedoms: usize = self.factors.iter().map(|factor| factor.freedoms).sum();
-        self.q.len() - freedoms
-    }
-
-    /// The tangent vectors of all factors.
-    pub(super) fn tangents(&self) -> &'a [T] {
-        self.tangent
-    }
-
-    /// The length of a vector of all coordinates in the diagonal of the metric.
-    pub(crate) fn length(&self, x: &[T]) -> T {
-        let mut sum = T::zero();
-        let mut scales = self.column_scale.iter();
-        for part in parts(self.components, self.sizes()) {
-            for (place, scale) in (0..part.n).zip(&mut scales) {
-                let entry = x[part.coordinate(place)] / *scale;
-                sum += entry * entry;
-            }
-        }
-        sum.sqrt()
-    }
-
-    /// Makes columns of all coordinates of those of each factor.
-    pub(crate) fn spread(&self, own: &[T], columns: &mut [T]) {
-        let n = self.q.len();
-        let mut all = columns.chunks_exact_mut(n);
-        let mut at = 0;
-        for (part, chart) in self.factors() {
-            let end = at + part.n * chart.freedoms;
-            for (own, column) in own[at..end].chunks_exact(part.n).zip(&mut all) {
-                column.fill(T::zero());
-                part.put(own, column);
-            }
-            at = end;
-        }
-    }
-
-    /// The same of the duals of the tangent vectors.
-    pub(crate) fn spread_duals(&self, columns: &mut [T]) {
-        self.spread(self.dual, columns);
-    }
-
-    /// Replaces a force by `D z` with `DᵀMD z = Dᵀf`, for these tangent vectors of each
-    /// factor; `false` where `DᵀMD` is not definite.
-    pub(crate) fn solve_along(
-        &self,
-        mass: &[T],
-        tangent: &[T],
-        force: &mut [T],
-        workspace: &Workspace<'_, T>,
-    ) -> bool {
-        solving_along()(self, mass, tangent, force, workspace)
-    }
-
-    fn solve(
-        &self,
-        mass: &[T],
-        tangent: &[T],
-        force: &mut [T],
-        workspace: &Workspace<'_, T>,
-    ) -> bool {
-        let n = self.q.len();
-        if !self.has_several() {
-            let columns = &tangent[..n * (n - self.rank())];
-            return solve_in_subspace(mass, columns, force, workspace).is_ok();
-        }
-        workspace.scope(|workspace| {
-            let freedoms = n - self.rank();
-            let square = workspace.numbers(freedoms * freedoms);
-            let (right, image) = (workspace.numbers(freedoms), workspace.numbers(n));
-            for (k, (part, column)) in self.columns(tangent).enumerate() {
-                image.fill(T::zero());
-                for (place, entry) in column.iter().enumerate() {
-                    let mass = &mass[part.coordinate(place) * n..][..n];
-                    add_scaled(image, *entry, mass);
-                }
-                let entries = square[k * freedoms..].iter_mut();
-                for (entry, (part, column)) in entries.zip(self.columns(tangent).take(k + 1)) {
-                    *entry = part.dot(column, image);
-                }
-                right[k] = part.dot(column, force);
-            }
-            factorise_block(square, freedoms);
-            solve_upper(square, right);
-            solve_upper_transposed(square, right);
-            force.fill(T::zero());
-            for (z, (part, column)) in right.iter().zip(self.columns(tangent)) {
-                part.add_scaled(*z, column, force);
-            }
-            is_finite(force)
-        })
-    }
-
-    /// Tangent vectors of each factor, one after the other.
-    fn columns<'b>(&self, tangent: &'b [T]) -> impl Iterator<Item = (Part, &'b [T])> {
-        let mut at = 0;
-        self.factors().flat_map(move |(part, chart)| {
-            let own = &tangent[at..at + part.n * chart.freedoms];
-            at += own.len();
-            own.chunks_exact(part.n).map(move |column| (part, column))
-        })
-    }
-
-    /// Its factors: the coordinates and rows of each, and its chart.
-    pub(super) fn factors(self) -> impl Iterator<Item = (Part, ChartView<'a, T>)> {
-        let all = parts(self.components, self.sizes());
-        let factors = all.zip(self.factors);
-        factors.scan(Offsets::default(), move |at, (part, factor)| {
-            let chart = self.factor(part, factor, *at);
-            *at = at.after(part, factor.freedoms);
-            Some((part, chart))
-        })
-    }
-
-    fn factor(&self, part: Part, factor: &Factor<T>, at: Offsets) -> ChartView<'a, T> {
-        let (coordinates, n) = (at.coordinates, part.n);
-        let columns = at.tangents..at.tangents + n * factor.freedoms;
-        ChartView {
-            tangent: &self.tangent[columns.clone()],
-            dual: &self.dual[columns],
-            metric: &self.metric[at.squares..][..n * n],
-            freedoms: factor.freedoms,
-            t: self.t,
-            q: &self.q[coordinates..][..n],
-            drift: &self.drift[coordinates..][..n],
-            sizes: &self.sizes[coordinates..][..n],
-            column_scale: &self.column_scale[coordinates..][..n],
-            row_scale: &self.row_scale[at.rows..][..part.r],
-            column_places: &self.column_places[coordinates..][..n],
-            rows: &self.rows[at.chosen..][..n - factor.freedoms],
-            places: &self.places[at.rows..][..part.r],
-            coordinate_scale: self.coordinate_scale,
-            accepted: self.accepted,
-            speed: factor.speed,
-            spacing: factor.spacing,
-            gap: factor.gap,
-        }
-    }
-}
-
-/// The chart of one factor, over slices.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ChartView<'a, T> {
-    pub(super) tangent: &'a [T],
-    pub(super) dual: &'a [T],
-    pub(super) metric: &'a [T],
-    pub(super) freedoms: usize,
-    pub(super) t: T,
-    pub(super) q: &'a [T],
-    pub(super) drift: &'a [T],
-    pub(super) sizes: &'a [T],
-    pub(super) column_scale: &'a [T],
-    pub(super) row_scale: &'a [T],
-    pub(super) column_places: &'a [usize],
-    pub(super) rows: &'a [usize],
-    pub(super) places: &'a [usize],
-    pub(super) coordinate_scale: CoordinateScale<T>,
-    pub(super) accepted: T,
-    pub(super) speed: T,
-    pub(super) spacing: T,
-    pub(super) gap: bool,
-}
-
-impl<T: Real> ChartView<'_, T> {
-    /// How many coordinates there are.
-    pub(super) fn n(&self) -> usize {
-        self.column_scale.len()
-    }
-
-    /// The length of a vector in the diagonal of the metric.
-    pub(super) fn length(&self, x: &[T]) -> T {
-        length(x, self.column_scale)
-    }
-
-    /// The length of what two vectors differ by.
-    pub(super) fn apart(&self, a: &[T], b: &[T]) -> T {
-        let (n, mut sum) = (a.len(), T::zero());
-        let (b, scales) = (&b[..n], &self.column_scale[..n]);
-        for i in 0..n {
-            let x = (a[i] - b[i]) / scales[i];
-            sum += x * x;
-        }
-        sum.sqrt()
-    }
-
-    /// `D* x`.
-    pub(super) fn coordinates(&self, x: &[T], along: &mut [T]) {
-        let duals = self.dual.chunks_exact(self.n());
-        for (along, dual) in along.iter_mut().zip(duals) {
-            *along = dot(dual, x);
-        }
-    }
-
-    /// The columns of the tangent space.
-    pub(super) fn tangents(&self) -> impl Iterator<Item = &[T]> {
-        self.tangent.chunks_exact(self.n())
-    }
-}
-
-compiled_once! {
-    fn solving_along<T>:
-        fn(&Product<'_, T>, &[T], &[T], &mut [T], &Workspace<'_, T>) -> bool =
-        |chart, mass, tangent, force, workspace| chart.solve(mass, tangent, force, workspace);
 }

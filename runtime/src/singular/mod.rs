@@ -27,6 +27,7 @@ mod part;
 mod passage;
 mod place;
 mod point;
+mod product;
 mod session;
 mod sheet;
 mod sheet_selection;

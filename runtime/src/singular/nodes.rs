@@ -11,9 +11,9 @@
 //! sheet is interpolated: position, tangent space, the acceleration that curvature
 //! demands. Masses and forces are taken at the state itself.
 
-use super::chart::ChartView;
 use super::direction::Direction;
 use super::obstacle::Obstacle;
+use super::product::ChartView;
 use super::sheet::{PointView, Sheet};
 use super::stored_nodes::NODES;
 use crate::Real;

@@ -11,6 +11,7 @@
 use crate::equations::{At, Constraints, Equations};
 use crate::linalg::{Workspace, add_scaled, dot, norm};
 use crate::{ConnectedComponent, Real, Structure};
+use core::ops::Range;
 
 /// The coordinates and rows of one sheet.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +24,17 @@ pub(crate) struct Part {
     /// How many there are of the whole mechanism.
     pub(super) whole_n: usize,
     whole_r: usize,
+}
+
+/// A part, and where what belongs to it is.
+pub(super) struct Place {
+    pub(super) part: Part,
+    /// Its place among the parts.
+    pub(super) index: usize,
+    /// Its coordinates, where these are in the order of the parts.
+    pub(super) coordinates: Range<usize>,
+    /// Its tangent vectors among those of all.
+    pub(super) tangents: Range<usize>,
 }
 
 /// The parts of a mechanism of `n` coordinates and `r` rows.

@@ -3,10 +3,10 @@
 //! In:  what was found on the sheet of each part.
 //! Out: [`Point`], of vectors of all coordinates.
 
-use super::chart::Product;
+use super::part::Place;
 use super::place::Placement;
+use super::product::Product;
 use super::sheet::PointView;
-use super::sheets::Place;
 use crate::equations::At;
 use crate::{Real, State};
 use nalgebra::{SMatrix, SVector};

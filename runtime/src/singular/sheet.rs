@@ -10,8 +10,8 @@
 //!
 //! Not here: states where that system is nearly singular ([`super::nodes`]).
 
-use super::chart::ChartView;
 use super::obstacle::Obstacle;
+use super::product::ChartView;
 use super::stored_nodes::NodesView;
 use crate::Real;
 use crate::equations::{At, Equations};

@@ -6,12 +6,12 @@
 //! What happens in one part says nothing of the others: each is placed for itself, between
 //! nodes of its own where its constraints are nearly singular.
 
-use super::chart::{ChartView, Product};
 use super::obstacle::Obstacle;
-use super::part::{Frozen, Part, PartOf};
+use super::part::{Frozen, PartOf, Place};
 use super::passage::Found;
 use super::place::Placement;
 use super::point::PointSlices;
+use super::product::{ChartView, Product};
 use super::sheet::{Kind, PointView, Sheet};
 use super::stored_nodes::NodesSlices;
 use crate::Real;
@@ -19,7 +19,6 @@ use crate::equations::{At, Equations};
 use crate::linalg::Workspace;
 use crate::once::compiled_once;
 use core::cell::Cell;
-use core::ops::Range;
 
 /// What evaluates the sheet of a mechanism.
 pub(crate) struct Sheets<'a, T> {
@@ -30,17 +29,6 @@ pub(crate) struct Sheets<'a, T> {
     pub(super) holonomic: &'a [bool],
     /// The row that came last where constraints were nearest to dependence.
     pub(super) weakest: &'a mut usize,
-}
-
-/// A part, and where what belongs to it is.
-pub(super) struct Place {
-    pub(super) part: Part,
-    /// Its place among the parts.
-    pub(super) index: usize,
-    /// Its coordinates, where these are in the order of the parts.
-    coordinates: Range<usize>,
-    /// Its tangent vectors among those of all.
-    pub(super) tangents: Range<usize>,
 }
 
 /// Something that is done on the sheet of a part.
