@@ -7,21 +7,11 @@
 //! what these depend on: the constraint set is the product of those of its components.
 
 use super::closure::Closure;
+use super::equations::ConnectedComponent;
 use super::properties::is_scleronomic;
 use crate::expr::ExprId;
 use crate::model::{Constraint, Graph, Node, Symbol};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Coordinates that constraints tie together, and the rows that do.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ConnectedComponent {
-    /// Coordinates, in their order; one alone, without rows, where it is not constrained.
-    pub coordinates: Vec<usize>,
-    /// Rows of `A`, in their order.
-    pub rows: Vec<usize>,
-    /// They restrict positions only, to the same ones at all times.
-    pub scleronomic: bool,
-}
 
 /// The connected components, in the order of their first coordinates; none where all
 /// coordinates are in one, or there are no constraints.

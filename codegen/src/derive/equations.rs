@@ -1,6 +1,5 @@
 //! The equations of motion, as data.
 
-use super::components::ConnectedComponent;
 use crate::expr::ExprId;
 
 /// A matrix of expressions, row by row.
@@ -58,6 +57,17 @@ impl Equations {
         let entries = || self.mass.iter().flatten().flatten().copied().collect();
         self.inertia.clone().unwrap_or_else(entries)
     }
+}
+
+/// Coordinates that constraints tie together, and the rows that do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ConnectedComponent {
+    /// Coordinates, in their order; one alone, without rows, where it is not constrained.
+    pub coordinates: Vec<usize>,
+    /// Rows of `A`, in their order.
+    pub rows: Vec<usize>,
+    /// They restrict positions only, to the same ones at all times.
+    pub scleronomic: bool,
 }
 
 /// Equations of the start.

@@ -34,9 +34,8 @@ mod switch;
 mod weighed;
 
 pub use christoffel::coriolis_matrix;
-pub use components::ConnectedComponent;
 pub use eliminate::eliminate;
-pub use equations::{Energies, Equations, Matrix, StartRows};
+pub use equations::{ConnectedComponent, Energies, Equations, Matrix, StartRows};
 pub use linearised::{Linearisation, Partials, differentiate, linearise};
 pub use mass::mass_matrix;
 pub use shared::{Shared, shared};
