@@ -52,11 +52,12 @@ pub struct ConstraintRow {
     pub holonomic: bool,
 }
 
-/// Coordinates that constraints tie together, and the rows that do. The constraint set is the
-/// product of those of its components, and singular where that of one of them is.
+/// Coordinates that constraints or entries of `M` tie together, and the rows that do. The
+/// constraint set is the product of those of its components, which are orthogonal in the metric
+/// of the kinetic energy, and singular where that of one of them is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ConnectedComponent {
-    /// The coordinates, in their order; one alone, without rows, where it is not constrained.
+    /// The coordinates, in their order.
     pub coordinates: &'static [usize],
     /// The rows of `A`, in their order.
     pub rows: &'static [usize],
@@ -155,8 +156,8 @@ pub struct Structure {
     /// The rows of `A` that take part in the metric, `M + AᵀWA`, because `M` alone is
     /// singular at all positions.
     pub weighed: &'static [usize],
-    /// The connected components of the constraints, if there are several: each coordinate is
-    /// in one of them.
+    /// The connected components of the constraints and `M`, if there are several: each
+    /// coordinate is in one of them.
     pub components: &'static [ConnectedComponent],
 }
 

@@ -1,17 +1,20 @@
-//! Connected components of the constraints.
+//! Connected components of the constraints and the mass matrix.
 //!
-//! In:  the constraints `g`, their Jacobian `A` and the velocity `b`.
-//! Out: coordinates that constraints tie together, and the rows that do.
+//! In:  the constraints `g`, their Jacobian `A` and the velocity `b`; `M`.
+//! Out: coordinates that are tied together, and the rows that do.
 //!
 //! Rows of different components have no coordinate in common, neither in their entries nor in
-//! what these depend on: the constraint set is the product of those of its components.
+//! what these depend on: the constraint set is the product of those of its components. Nor has
+//! `M` an entry between them, so that they are orthogonal in the metric of the kinetic energy:
+//! what moves a state onto the set of one takes no momentum from another.
 
 use super::closure::Closure;
-use super::equations::ConnectedComponent;
+use super::equations::{ConnectedComponent, Matrix};
+use super::partition::Partition;
 use super::properties::is_scleronomic;
 use crate::expr::ExprId;
 use crate::model::{Constraint, Graph, Node, Symbol};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 /// The connected components, in the order of their first coordinates; none where all
 /// coordinates are in one, or there are no constraints.
@@ -19,34 +22,34 @@ pub(super) fn components(
     graph: &Graph,
     constraints: &[Constraint],
     closure: &Closure,
-    n: usize,
+    mass: &Matrix,
 ) -> Vec<ConnectedComponent> {
     let rows = 0..constraints.len();
     let tied: Vec<BTreeSet<usize>> = rows.map(|row| tied(graph, closure, row)).collect();
-    let mut first: Vec<usize> = (0..n).collect();
+    let mut partition = Partition::of(mass.len());
     for coordinates in &tied {
-        join(&mut first, coordinates);
+        partition.join(coordinates.iter().copied());
     }
-    let mut components = BTreeMap::new();
-    for (coordinate, first) in first.iter().enumerate() {
-        let component = components.entry(*first).or_insert(ConnectedComponent {
-            coordinates: Vec::new(),
-            rows: Vec::new(),
-            scleronomic: true,
-        });
-        component.coordinates.push(coordinate);
+    for (i, row) in mass.iter().enumerate() {
+        let coupled = (0..row.len()).filter(|j| !graph.is_zero(row[*j]));
+        partition.join(coupled.chain([i]));
     }
-    for (row, coordinates) in tied.iter().enumerate() {
-        let of = coordinates.first().map(|coordinate| first[*coordinate]);
-        if let Some(component) = of.and_then(|first| components.get_mut(&first)) {
-            component.rows.push(row);
-            component.scleronomic &=
-                is_scleronomic(graph, &constraints[row], closure.residual[row]);
+    let sets = partition.sets();
+    if sets.len() == 1 || constraints.is_empty() {
+        return Vec::new();
+    }
+    let component = |coordinates: Vec<usize>| {
+        let is_own = |first: &usize| coordinates.contains(first);
+        let rows = (0..tied.len()).filter(|row| tied[*row].first().is_some_and(is_own));
+        let rows: Vec<usize> = rows.collect();
+        let still = |row: &usize| is_scleronomic(graph, &constraints[*row], closure.residual[*row]);
+        ConnectedComponent {
+            scleronomic: rows.iter().all(still),
+            coordinates,
+            rows,
         }
-    }
-    let is_one = components.len() == 1 || constraints.is_empty();
-    let components = components.into_values().filter(|_| !is_one);
-    components.collect()
+    };
+    sets.into_iter().map(component).collect()
 }
 
 /// The coordinates that a row ties together.
@@ -63,21 +66,4 @@ fn tied(graph: &Graph, closure: &Closure, row: usize) -> BTreeSet<usize> {
         }
     }
     tied
-}
-
-/// Gives all components that some coordinates are in the first of them.
-fn join(first: &mut [usize], coordinates: &BTreeSet<usize>) {
-    let Some(least) = coordinates
-        .iter()
-        .map(|coordinate| first[*coordinate])
-        .min()
-    else {
-        return;
-    };
-    let joined: BTreeSet<usize> = coordinates.iter().map(|c| first[*c]).collect();
-    for first in first {
-        if joined.contains(first) {
-            *first = least;
-        }
-    }
 }

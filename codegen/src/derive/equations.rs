@@ -32,7 +32,8 @@ pub struct Equations {
     pub jacobian: Matrix,
     /// Rows of `A` that take part in the metric `M + AᵀWA`, because `M` alone is singular.
     pub weighed: Vec<usize>,
-    /// The connected components of the constraints; none where all coordinates are in one.
+    /// The connected components of the constraints and `M`; none where all coordinates are in
+    /// one.
     pub components: Vec<ConnectedComponent>,
     /// `b`, `R`, of the velocity level `A q̇ + b = 0`.
     pub drift: Vec<ExprId>,
@@ -59,10 +60,10 @@ impl Equations {
     }
 }
 
-/// Coordinates that constraints tie together, and the rows that do.
+/// Coordinates that constraints or `M` tie together, and the rows that do.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ConnectedComponent {
-    /// Coordinates, in their order; one alone, without rows, where it is not constrained.
+    /// Coordinates, in their order.
     pub coordinates: Vec<usize>,
     /// Rows of `A`, in their order.
     pub rows: Vec<usize>,

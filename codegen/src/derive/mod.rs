@@ -26,6 +26,7 @@ mod linearised;
 mod local;
 mod mass;
 mod motion;
+mod partition;
 mod properties;
 mod reduced;
 mod shared;
@@ -38,6 +39,7 @@ pub use eliminate::eliminate;
 pub use equations::{ConnectedComponent, Energies, Equations, Matrix, StartRows};
 pub use linearised::{Linearisation, Partials, differentiate, linearise};
 pub use mass::mass_matrix;
+pub use partition::Partition;
 pub use shared::{Shared, shared};
 pub use swell::{SWELL, swell};
 
@@ -131,7 +133,9 @@ fn equations(mechanism: &mut Mechanism, by: Sweep) -> Option<Equations> {
     within_bounds(graph)?;
     let weighed = mass.as_ref();
     let weighed = weighed.map(|mass| weighed::weighed(graph, mass, &closure.jacobian));
-    let components = components::components(graph, &mechanism.constraints, &closure, n);
+    let components = mass
+        .as_ref()
+        .map(|mass| components::components(graph, &mechanism.constraints, &closure, mass));
     Some(Equations {
         mass,
         inertia,
@@ -144,7 +148,7 @@ fn equations(mechanism: &mut Mechanism, by: Sweep) -> Option<Equations> {
         turn: closure.turn,
         jacobian: closure.jacobian,
         weighed: weighed.unwrap_or_default(),
-        components,
+        components: components.unwrap_or_default(),
         drift: closure.drift,
         bias: closure.bias,
         energies,

@@ -15,7 +15,7 @@ use super::stored_nodes::SIDE;
 use crate::Real;
 use crate::dynamics::CoordinateScale;
 use crate::equations::At;
-use crate::linalg::{Eliminated, Workspace, add_scaled, is_finite};
+use crate::linalg::{Eliminated, Workspace, add_scaled};
 use crate::tolerance::{excusable, hull, resolvable, resolved, spacing, window};
 
 /// How much larger than the round-off of one node, magnified by the weights, the
@@ -84,9 +84,6 @@ impl<T: Real> Sheet<'_, T> {
         point: &mut PointView<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> Result<Placement, Obstacle> {
-        if !(state.t.is_finite() && is_finite(state.q) && is_finite(state.v)) {
-            return Err(Obstacle::NotFinite);
-        }
         let here = (state.t, state.q);
         self.eliminate(here, None)?;
         let sine = self.frame.smallest();

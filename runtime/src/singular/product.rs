@@ -176,13 +176,14 @@ impl<'a, T: Real> Product<'a, T> {
                 right[k] = part.dot(column, force);
             }
             factorise_block(square, freedoms);
+            let is_definite = is_finite(square);
             solve_upper(square, right);
             solve_upper_transposed(square, right);
             force.fill(T::zero());
             for (z, (part, column)) in right.iter().zip(self.columns(tangent)) {
                 part.add_scaled(*z, column, force);
             }
-            is_finite(force)
+            is_definite
         })
     }
 

@@ -16,7 +16,7 @@ use super::sheet::{Kind, PointView, Sheet};
 use super::stored_nodes::NodesSlices;
 use crate::Real;
 use crate::equations::{At, Equations};
-use crate::linalg::Workspace;
+use crate::linalg::{Workspace, is_finite};
 use crate::once::compiled_once;
 use core::cell::Cell;
 
@@ -116,6 +116,9 @@ impl<T: Real> Sheets<'_, T> {
         point: &mut PointSlices<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> Result<Placement, Obstacle> {
+        if !(state.t.is_finite() && is_finite(state.q) && is_finite(state.v)) {
+            return Err(Obstacle::NotFinite);
+        }
         let mut all = Placement::Regular;
         point.begin(state, &self.chart);
         self.on_each(state, workspace, &mut |place, sheet, workspace| {
