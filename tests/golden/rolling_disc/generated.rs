@@ -11,9 +11,8 @@
 pub mod rolling_disc {
     use bricard_runtime::nalgebra::{SMatrix, SVector};
     use bricard_runtime::{
-        Acceleration, Canvas, ConnectedComponent, ConstraintRow, Correction, Energy,
-        Initial, Interface, Linearised, Mechanism, Position, Quantity, Real, Start,
-        State, Structure, Terms,
+        Acceleration, Canvas, ConstraintRow, Correction, Energy, Initial, Interface,
+        Linearised, Mechanism, Position, Quantity, Real, Start, State, Structure, Terms,
     };
     const _: () = bricard_runtime::written_for(5);
     /// The description that this module was generated from.
@@ -103,18 +102,7 @@ pub mod rolling_disc {
         drawn: true,
         assumed_regular: false,
         weighed: &[],
-        components: &[
-            ConnectedComponent {
-                coordinates: &[0, 1, 2, 4],
-                rows: &[0, 1],
-                scleronomic: false,
-            },
-            ConnectedComponent {
-                coordinates: &[3],
-                rows: &[],
-                scleronomic: true,
-            },
-        ],
+        components: &[],
     };
     /// Run-time parameters, in SI units.
     #[derive(Clone, Copy, Debug, PartialEq)]
