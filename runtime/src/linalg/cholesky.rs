@@ -71,24 +71,6 @@ fn eliminate_definite<T: Real>(matrix: &[T], rest: &mut [T], n: usize, open: &mu
 /// Size from which on it pays to look for zeros.
 const LONG: usize = 16;
 
-/// Replaces a matrix of `n` rows, of which the upper triangle is read, by its factor; what is
-/// not definite has a factor that is not finite.
-pub(crate) fn factorise_block<T: Real>(matrix: &mut [T], n: usize) {
-    for j in (0..n).rev() {
-        let (rest, done) = matrix.split_at_mut((j + 1) * n);
-        let column = &mut rest[j * n..][..=j];
-        for later in done.chunks_exact(n) {
-            add_scaled(column, -later[j], &later[..=j]);
-        }
-        let root = column[j].sqrt();
-        let inverse = T::one() / root;
-        column[j] = root;
-        for entry in &mut column[..j] {
-            *entry *= inverse;
-        }
-    }
-}
-
 /// The upper factor `U`; entries below the diagonal are not used.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cholesky<T, const N: usize> {

@@ -16,8 +16,8 @@ use super::part::{Part, parts};
 use super::product::{Factor, Offsets, Product, length};
 use crate::dynamics::{CoordinateScale, Metric, Rows, Which};
 use crate::linalg::{
-    Cholesky, Workspace, add_scaled, diagonal, dot, factorise_block, multiply_upper,
-    multiply_upper_transposed, norm, order_by_first_row, pair, solve_upper_transposed,
+    Cholesky, Workspace, add_scaled, diagonal, dot, multiply_upper, multiply_upper_transposed,
+    norm, order_by_first_row, pair, solve_upper_transposed,
 };
 use crate::tolerance::excusable;
 use crate::{ConnectedComponent, Real, State};
@@ -105,7 +105,8 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             order_columns(part, jacobian.as_slice(), chosen, column_places, workspace);
             let squares = at.squares..at.squares + part.n * part.n;
             let block = &mut chart.metric.as_mut_slice()[squares];
-            take_metric(part, metric.factor.as_slice(), block);
+            // Between the parts there is nothing, and nothing is filled in.
+            part.take_block(metric.factor.as_slice(), block);
             let scales = chart.column_scale[coordinates].iter_mut();
             for (scale, square) in scales.zip(diagonal(block, part.n)) {
                 *scale = T::one() / square.sqrt();
@@ -200,24 +201,6 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             accepted: self.accepted,
         }
     }
-}
-
-/// The triangular factor of the block of the metric that is a part's own.
-fn take_metric<T: Real>(part: Part, factor: &[T], block: &mut [T]) {
-    if part.is_whole() {
-        block.copy_from_slice(factor);
-        return;
-    }
-    let (n, own) = (part.whole_n, part.n);
-    for j in 0..own {
-        for i in 0..=j {
-            let (row, other) = (part.coordinate(i), part.coordinate(j));
-            let columns = factor.chunks_exact(n).skip(other);
-            block[j * own + i] =
-                columns.fold(T::zero(), |sum, column| sum + column[row] * column[other]);
-        }
-    }
-    factorise_block(block, own);
 }
 
 /// Places of columns in which rows have their entries close to one another.

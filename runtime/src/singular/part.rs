@@ -22,7 +22,7 @@ pub(crate) struct Part {
     pub(super) n: usize,
     pub(super) r: usize,
     /// How many there are of the whole mechanism.
-    pub(super) whole_n: usize,
+    whole_n: usize,
     whole_r: usize,
 }
 
@@ -103,18 +103,10 @@ impl Part {
         }
     }
 
-    /// The product of a vector of its coordinates with one of all.
-    pub(super) fn dot<T: Real>(&self, own: &[T], all: &[T]) -> T {
-        let entries = own.iter().enumerate();
-        entries.fold(T::zero(), |sum, (place, entry)| {
-            sum + *entry * all[self.coordinate(place)]
-        })
-    }
-
-    /// Adds a multiple of a vector of its coordinates to one of all.
-    pub(super) fn add_scaled<T: Real>(&self, factor: T, own: &[T], all: &mut [T]) {
-        for (place, entry) in own.iter().enumerate() {
-            all[self.coordinate(place)] += factor * *entry;
+    /// Takes its block out of a matrix of all coordinates, both column by column.
+    pub(super) fn take_block<T: Copy>(&self, all: &[T], own: &mut [T]) {
+        for (place, column) in own.chunks_exact_mut(self.n).enumerate() {
+            self.take(&all[self.coordinate(place) * self.whole_n..], column);
         }
     }
 

@@ -3,12 +3,9 @@
 //! In:  a [`Chart`](super::Chart).
 //! Out: [`Product`], and of each of its factors a [`ChartView`].
 
-use super::part::{Part, parts};
+use super::part::{Part, Place, parts};
 use crate::dynamics::CoordinateScale;
-use crate::linalg::{
-    Workspace, add_scaled, dot, factorise_block, is_finite, solve_in_subspace, solve_upper,
-    solve_upper_transposed,
-};
+use crate::linalg::{Workspace, dot, solve_in_subspace};
 use crate::once::compiled_once;
 use crate::{ConnectedComponent, Real};
 
@@ -117,16 +114,13 @@ impl<'a, T: Real> Product<'a, T> {
 
     /// Makes columns of all coordinates of those of each factor.
     pub(crate) fn spread(&self, own: &[T], columns: &mut [T]) {
-        let n = self.q.len();
-        let mut all = columns.chunks_exact_mut(n);
-        let mut at = 0;
-        for (part, chart) in self.factors() {
-            let end = at + part.n * chart.freedoms;
-            for (own, column) in own[at..end].chunks_exact(part.n).zip(&mut all) {
+        let mut all = columns.chunks_exact_mut(self.q.len());
+        for (place, _) in self.factors() {
+            let own = own[place.tangents].chunks_exact(place.part.n);
+            for (own, column) in own.zip(&mut all) {
                 column.fill(T::zero());
-                part.put(own, column);
+                place.part.put(own, column);
             }
-            at = end;
         }
     }
 
@@ -159,52 +153,35 @@ impl<'a, T: Real> Product<'a, T> {
             let columns = &tangent[..n * (n - self.rank())];
             return solve_in_subspace(mass, columns, force, workspace).is_ok();
         }
-        workspace.scope(|workspace| {
-            let freedoms = n - self.rank();
-            let square = workspace.numbers(freedoms * freedoms);
-            let (right, image) = (workspace.numbers(freedoms), workspace.numbers(n));
-            for (k, (part, column)) in self.columns(tangent).enumerate() {
-                image.fill(T::zero());
-                for (place, entry) in column.iter().enumerate() {
-                    let mass = &mass[part.coordinate(place) * n..][..n];
-                    add_scaled(image, *entry, mass);
-                }
-                let entries = square[k * freedoms..].iter_mut();
-                for (entry, (part, column)) in entries.zip(self.columns(tangent).take(k + 1)) {
-                    *entry = part.dot(column, image);
-                }
-                right[k] = part.dot(column, force);
-            }
-            factorise_block(square, freedoms);
-            let is_definite = is_finite(square);
-            solve_upper(square, right);
-            solve_upper_transposed(square, right);
-            force.fill(T::zero());
-            for (z, (part, column)) in right.iter().zip(self.columns(tangent)) {
-                part.add_scaled(*z, column, force);
-            }
-            is_definite
-        })
-    }
-
-    /// Tangent vectors of each factor, one after the other.
-    fn columns<'b>(&self, tangent: &'b [T]) -> impl Iterator<Item = (Part, &'b [T])> {
-        let mut at = 0;
-        self.factors().flat_map(move |(part, chart)| {
-            let own = &tangent[at..at + part.n * chart.freedoms];
-            at += own.len();
-            own.chunks_exact(part.n).map(move |column| (part, column))
+        let mut factors = self.factors();
+        factors.all(|(place, _)| {
+            let (part, tangent) = (place.part, &tangent[place.tangents]);
+            workspace.scope(|workspace| {
+                let own = workspace.any(part.n);
+                let block = workspace.any(part.n * part.n);
+                part.take(force, own);
+                part.take_block(mass, block);
+                let solved = solve_in_subspace(block, tangent, own, workspace);
+                part.put(own, force);
+                solved.is_ok()
+            })
         })
     }
 
     /// Its factors: the coordinates and rows of each, and its chart.
-    pub(super) fn factors(self) -> impl Iterator<Item = (Part, ChartView<'a, T>)> {
+    pub(super) fn factors(self) -> impl Iterator<Item = (Place, ChartView<'a, T>)> {
         let all = parts(self.components, self.sizes());
-        let factors = all.zip(self.factors);
-        factors.scan(Offsets::default(), move |at, (part, factor)| {
-            let chart = self.factor(part, factor, *at);
-            *at = at.after(part, factor.freedoms);
-            Some((part, chart))
+        let factors = all.zip(self.factors).enumerate();
+        factors.scan(Offsets::default(), move |at, (index, (part, factor))| {
+            let (begin, freedoms) = (*at, factor.freedoms);
+            *at = begin.after(part, freedoms);
+            let place = Place {
+                part,
+                index,
+                coordinates: begin.coordinates..at.coordinates,
+                tangents: begin.tangents..at.tangents,
+            };
+            Some((place, self.factor(part, factor, begin)))
         })
     }
 

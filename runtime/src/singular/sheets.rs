@@ -47,16 +47,7 @@ impl<T: Real> Sheets<'_, T> {
         workspace.scope(|workspace| {
             let mut frozen = Frozen::new(state, workspace);
             let mut least = T::from_f64(f64::INFINITY);
-            let (mut index, mut coordinates, mut tangents) = (0, 0, 0);
-            for (part, chart) in self.chart.factors() {
-                let place = Place {
-                    part,
-                    index,
-                    coordinates: coordinates..coordinates + part.n,
-                    tangents: tangents..tangents + part.n * chart.freedoms,
-                };
-                index += 1;
-                (coordinates, tangents) = (place.coordinates.end, place.tangents.end);
+            for (place, chart) in self.chart.factors() {
                 if chart.rows.is_empty() {
                     continue;
                 }
