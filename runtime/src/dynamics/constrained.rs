@@ -199,14 +199,10 @@ where
         })
     }
 
-    /// Chooses whether passages through singular configurations are looked for.
-    pub(crate) fn seek_passages(&mut self, wanted: bool) {
-        self.solver.seeks_passages = wanted;
-    }
-
-    /// The passages of the last accepted step.
-    pub(crate) fn passages(&self) -> &Found<T> {
-        &self.solver.session.passages
+    /// The passages after a time of a step that was accepted last; none where it was far
+    /// from singular configurations.
+    pub(crate) fn passages_after(&mut self, step: &Step<T, N>, after: T) -> Option<Found<T>> {
+        self.solver.passages_after(&self.mechanism, step, after)
     }
 
     /// Takes over what another solver of the same mechanism knows about its last

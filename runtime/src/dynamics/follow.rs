@@ -362,23 +362,23 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         Ok(())
     }
 
-    /// Finds the passages of an accepted step, if anyone wants them, and puts its chart
-    /// aside.
+    /// The passages after a time of a step that was accepted last.
     #[inline(never)]
-    fn look_back(&mut self, mechanism: &dyn Mechanism<T, N, R>, step: &Step<T, N>) {
-        let Some(chart) = self.session.chart.take() else {
-            return;
-        };
-        if self.seeks_passages {
-            let at = |t, q: &mut [T]| q.copy_from_slice(step.inside_at(t).q.as_slice());
-            let (start, length) = (step.start.at(), step.end.t - step.start.t);
-            let mut passages = Found::new();
-            self.on_sheet(mechanism, &chart, &mut |sheet, workspace| {
-                passages = sheet.find_passages(start, length, &at, workspace);
-            });
-            self.session.passages = passages;
-        }
+    pub(crate) fn passages_after(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        step: &Step<T, N>,
+        after: T,
+    ) -> Option<Found<T>> {
+        let chart = self.session.used.take()?;
+        let at = |t, q: &mut [T]| q.copy_from_slice(step.inside_at(t).q.as_slice());
+        let (start, length) = (step.start.at(), step.end.t - step.start.t);
+        let mut found = None;
+        self.on_sheet(mechanism, &chart, &mut |sheet, workspace| {
+            found = Some(sheet.find_passages(start, (length, after), &at, workspace));
+        });
         self.session.used = Some(chart);
+        found
     }
 
     /// Takes note that a trial step was accepted.
@@ -400,10 +400,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.session.rate = self.session.trial.rate;
         if self.session.used.is_some() {
             self.session.used = None;
-            self.session.passages.clear();
         }
         if self.session.chart.is_some() {
-            self.look_back(mechanism, step);
+            self.put_chart_aside();
         } else if self.session.trial.by_emitted {
             self.learn_emitted_rows(mechanism, &step.end);
         }
@@ -412,6 +411,12 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         self.expect_regular();
         Ok(())
+    }
+
+    /// The chart of the step remains for those who look into it.
+    #[inline(never)]
+    fn put_chart_aside(&mut self) {
+        self.session.used = self.session.chart.take();
     }
 
     /// The chart of the trial step is that of the next one, too. A function of its own: a

@@ -42,8 +42,6 @@ pub(crate) struct Core<T, const N: usize, const R: usize> {
     pub(crate) correction: Correction<T, N, R>,
     pub(crate) session: Session<T, N, R>,
     pub(super) conditions: Conditions<T, N>,
-    /// Whether passages through singular configurations are looked for.
-    pub(crate) seeks_passages: bool,
     /// Whether the mechanism provides emitted solves, as far as is known.
     pub(crate) emitted: bool,
     /// Whether emitted code may be called before anything else is asked.
@@ -84,7 +82,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             correction: Correction::default(),
             session: Session::new(),
             conditions: Conditions::new(),
-            seeks_passages: false,
             emitted: true,
             expected: false,
             safe: None,

@@ -56,14 +56,9 @@ where
         self.system.start(state, tolerance)
     }
 
-    /// Chooses whether passages through singular configurations are looked for.
-    pub(super) fn seek_passages(&mut self, wanted: bool) {
-        self.system.seek_passages(wanted);
-    }
-
     /// The system whose energy is kept.
-    pub(super) fn system(&self) -> &ConstrainedSystem<'a, M, T, N, R> {
-        &self.system
+    pub(super) fn system(&mut self) -> &mut ConstrainedSystem<'a, M, T, N, R> {
+        &mut self.system
     }
 
     /// Keeps the energy of a state from now on, or a given one.

@@ -129,8 +129,6 @@ where
             return Ok(());
         }
         let mut driver = Driver::new(method, tolerance, self.observers.inside());
-        let seeks_passages = self.observers.want_passages();
-        self.system.seek_passages(seeks_passages);
         for interval in first..=grid.intervals() {
             let bound = grid.time(interval);
             while self.done.end.t < bound {
@@ -178,7 +176,8 @@ where
         let step = driver.step(&mut self.system, &state, bound)?;
         self.done.count(step);
         self.probe.follow(self.system.system());
-        let passages = self.system.system().passages();
+        let system = self.system.system();
+        let passages = &mut |after| system.passages_after(step, after);
         let events = |state: &_, values: &mut _| self.mechanism.events(state, values);
         self.observers
             .show(&events, step, passages, &mut self.probe, self.done)

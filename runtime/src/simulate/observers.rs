@@ -14,6 +14,10 @@ use core::ops::ControlFlow;
 type Show<'a, T, const N: usize> =
     dyn FnMut(&mut dyn Observer<T, N>) -> Result<ControlFlow<()>, DynamicsError<T>> + 'a;
 
+/// Finds the passages of a step after a time; none where the step was far from singular
+/// configurations.
+type Passages<'a, T> = &'a mut dyn FnMut(T) -> Option<Found<T>>;
+
 /// Audits, events and observers of a run.
 pub(super) struct Observers<'a, 'b, T, const N: usize> {
     constraints: Option<ConstraintAudit<T>>,
@@ -102,22 +106,16 @@ impl<'a, 'b, T: Real, const N: usize> Observers<'a, 'b, T, N> {
         }
     }
 
-    /// Whether anyone wants to know of passages.
-    pub(super) fn want_passages(&self) -> bool {
-        self.passages.is_some()
-    }
-
     /// Shows everyone a step; `done.end` becomes its end.
     #[inline(never)]
     pub(super) fn show(
         &mut self,
         functions: Functions<'_, T, N>,
         step: &Step<T, N>,
-        passages: &Found<T>,
+        passages: Passages<'_, T>,
         probe: &mut dyn Probe<T, N>,
         done: &mut Summary<T, N>,
     ) -> Result<ControlFlow<()>, SimulateError<T>> {
-        let mut flow = self.tell(passages);
         let cut = match self.events.is_empty() {
             true => None,
             false => self
@@ -125,27 +123,38 @@ impl<'a, 'b, T: Real, const N: usize> Observers<'a, 'b, T, N> {
                 .map_err(SimulateError::Observe)?,
         };
         let step = cut.as_ref().unwrap_or(step);
+        let told = self.tell(passages, step.end().t);
         let shown = self
             .all(&mut |watcher| watcher.step(step, probe))
             .map_err(SimulateError::Observe)?;
-        if cut.is_some() || shown.is_break() {
-            flow = ControlFlow::Break(());
-        }
         done.end = *step.end();
-        Ok(flow)
+        let breaks = cut.is_some() || told.is_break() || shown.is_break();
+        Ok(match breaks {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        })
     }
 
-    /// Counts passages through singular configurations and tells all observers of them.
-    fn tell(&mut self, passages: &Found<T>) -> ControlFlow<()> {
+    /// Counts passages through singular configurations up to a time and tells all observers
+    /// of them.
+    fn tell(&mut self, passages: Passages<'_, T>, until: T) -> ControlFlow<()> {
         let mut flow = ControlFlow::Continue(());
-        if let Some(count) = &mut self.passages {
-            for passage in passages.iter() {
+        let Some(count) = &mut self.passages else {
+            return flow;
+        };
+        let mut after = -T::from_f64(f64::INFINITY);
+        while let Some(found) = passages(after) {
+            for passage in found.iter().take_while(|passage| passage.t <= until) {
                 *count += 1;
                 for observer in self.observers.iter_mut() {
                     if observer.passage(passage).is_break() {
                         flow = ControlFlow::Break(());
                     }
                 }
+            }
+            match found.rest_after() {
+                Some(last) => after = last,
+                None => break,
             }
         }
         flow

@@ -10,9 +10,8 @@ use super::sheet::Sheet;
 use crate::Real;
 use crate::equations::At;
 use crate::linalg::{Eliminated, Frame, Workspace};
-use core::cmp::Ordering;
 
-/// Passages that are kept of one step.
+/// Passages that are found in one search.
 const ROOM: usize = 8;
 /// Blocks of near-dependent rows that a look takes, and what follows from it.
 const BLOCKS: usize = 6;
@@ -46,48 +45,60 @@ pub struct Passage<T> {
     pub regular: usize,
 }
 
-/// The passages of one step.
+/// Passages of one step after some time: the first of them, in the order of time.
 #[derive(Clone, Debug)]
 pub(crate) struct Found<T> {
     list: [Option<Passage<T>>; ROOM],
     count: usize,
+    after: T,
+    /// Passages that are no farther apart happen at once.
+    at_once: T,
+    has_more: bool,
 }
 
 impl<T: Real> Found<T> {
-    pub(crate) fn new() -> Self {
+    /// None yet of those after a time, in a step of this length.
+    pub(super) fn new(after: T, length: T) -> Self {
         Self {
             list: [None; ROOM],
             count: 0,
+            after,
+            at_once: length * T::from_f64(AT_ONCE),
+            has_more: false,
         }
     }
 
-    pub(crate) fn clear(&mut self) {
-        for passage in self.list.iter_mut().take(self.count) {
-            *passage = None;
-        }
-        self.count = 0;
-    }
-
-    /// In the order of time.
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Passage<T>> {
         self.list.iter().flatten()
     }
 
+    /// The time after which there are more passages than found room, if there are.
+    pub(crate) fn rest_after(&self) -> Option<T> {
+        let last = self.list.last()?.filter(|_| self.has_more)?;
+        Some(last.t + self.at_once)
+    }
+
     fn push(&mut self, passage: Passage<T>) {
-        if let Some(place) = self.list.get_mut(self.count) {
-            *place = Some(passage);
-            self.count += 1;
+        if passage.t <= self.after {
+            return;
+        }
+        let earlier = self.iter().take_while(|known| known.t <= passage.t);
+        let place = earlier.count();
+        self.has_more |= self.count == ROOM;
+        if place < ROOM {
+            self.count = ROOM.min(self.count + 1);
+            self.list[place..self.count].rotate_right(1);
+            self.list[place] = Some(passage);
         }
     }
 
     /// Adds the passages of one of several parts of a mechanism, whose constraints have this
-    /// rank together, in a step of this length.
-    pub(super) fn add(&mut self, others: &Self, regular: usize, length: T) {
-        let at_once = length * T::from_f64(AT_ONCE);
+    /// rank together.
+    pub(super) fn add(&mut self, others: &Self, regular: usize) {
         for passage in others.iter() {
             let lost = passage.regular - passage.rank;
             let mut known = self.list.iter_mut().flatten();
-            match known.find(|known| (known.t - passage.t).abs() <= at_once) {
+            match known.find(|known| (known.t - passage.t).abs() <= self.at_once) {
                 Some(known) => {
                     known.rank = known.rank.saturating_sub(lost);
                     known.sine = known.sine.min(passage.sine);
@@ -99,9 +110,7 @@ impl<T: Real> Found<T> {
                 }),
             }
         }
-        let time = |passage: &Option<Passage<T>>| passage.map(|passage| passage.t);
-        self.list[..self.count]
-            .sort_unstable_by(|a, b| time(a).partial_cmp(&time(b)).unwrap_or(Ordering::Equal));
+        self.has_more |= others.has_more;
     }
 }
 
@@ -136,17 +145,17 @@ struct View<'a, T> {
 }
 
 impl<T: Real> Sheet<'_, T> {
-    /// The passages of a step of this length whose positions are `at`, by its chart.
+    /// Finds the passages of a step of this length whose positions are `at`, by its chart.
     pub(super) fn passages(
         &mut self,
         start: At<'_, T>,
         length: T,
         at: &dyn Fn(T, &mut [T]),
+        found: &mut Found<T>,
         workspace: &Workspace<'_, T>,
-    ) -> Found<T> {
-        let mut found = Found::new();
+    ) {
         let Some(reference) = self.reference(start, workspace) else {
-            return found;
+            return;
         };
         let view = View {
             like: reference.like,
@@ -181,16 +190,15 @@ impl<T: Real> Sheet<'_, T> {
                     let rates = [rate_before, rate];
                     match self.beyond(&view, (before, here), rates, inner) {
                         Some(middle) => {
-                            self.between(&view, (before, &middle), false, &mut found, inner);
-                            self.between(&view, (&middle, here), false, &mut found, inner);
+                            self.between(&view, (before, &middle), false, found, inner);
+                            self.between(&view, (&middle, here), false, found, inner);
                         }
-                        None => self.between(&view, (before, here), false, &mut found, inner),
+                        None => self.between(&view, (before, here), false, found, inner),
                     }
                 });
             }
             before = Some((here, rate));
         }
-        found
     }
 
     /// Eliminates the constraints at a time within a step.

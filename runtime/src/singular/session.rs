@@ -7,7 +7,6 @@
 //! Trial states change nothing here but what is forgotten when the trial is.
 
 use super::chart::Chart;
-use super::passage::Found;
 use super::point::Met;
 use super::stored_nodes::Nodes;
 use crate::tolerance::{passes, window};
@@ -36,8 +35,6 @@ pub(crate) struct Session<T, const N: usize, const R: usize> {
     pub(crate) trial: Trial<T, N, R>,
     /// The nodes of the last interpolation.
     pub(crate) nodes: Nodes<T, N>,
-    /// Passages of the last accepted step.
-    pub(crate) passages: Found<T>,
     /// Accepted error of a step, relative; none for fixed steps.
     pub(crate) tolerance: Option<T>,
 }
@@ -115,7 +112,6 @@ impl<T: Real, const N: usize, const R: usize> Session<T, N, R> {
             rate: T::zero(),
             trial: Trial::new(),
             nodes: Nodes::new(),
-            passages: Found::new(),
             tolerance: None,
         }
     }
@@ -133,7 +129,6 @@ impl<T: Real, const N: usize, const R: usize> Session<T, N, R> {
         self.rate = T::zero();
         self.trial.forget();
         self.nodes.forget();
-        self.passages.clear();
     }
 
     /// Takes note of the squared sine of the constraints at a state of the trial step.

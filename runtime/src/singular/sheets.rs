@@ -181,18 +181,18 @@ impl<T: Real> Sheets<'_, T> {
         stays.is_ok()
     }
 
-    /// The passages of a step of this length whose positions are `at`.
+    /// The passages after a time of a step of this length whose positions are `at`.
     fn passages(
         &mut self,
         start: At<'_, T>,
-        length: T,
+        (length, after): (T, T),
         at: &dyn Fn(T, &mut [T]),
         workspace: &Workspace<'_, T>,
     ) -> Found<T> {
-        let mut found = Found::new();
+        let mut found = Found::new(after, length);
         let (several, regular) = (self.chart.has_several(), self.chart.rank());
         let _ = self.on_each(start, workspace, &mut |place, sheet, workspace| {
-            let own = place.part.state(start, workspace);
+            let own_start = place.part.state(start, workspace);
             let whole = Cell::new(workspace.any(start.q.len()));
             let at = |t: T, q: &mut [T]| {
                 let all = whole.take();
@@ -200,9 +200,10 @@ impl<T: Real> Sheets<'_, T> {
                 place.part.take(all, q);
                 whole.set(all);
             };
-            let own = sheet.passages(own, length, &at, workspace);
+            let mut own = Found::new(after, length);
+            sheet.passages(own_start, length, &at, &mut own, workspace);
             match several {
-                true => found.add(&own, regular, length),
+                true => found.add(&own, regular),
                 false => found = own,
             }
             Ok(())
@@ -253,15 +254,15 @@ impl<T: Real> Sheets<'_, T> {
         staying()(self, ends, workspace)
     }
 
-    /// The passages of a step of this length whose positions are `at`.
+    /// The passages after a time of a step of this length whose positions are `at`.
     pub(crate) fn find_passages(
         &mut self,
         start: At<'_, T>,
-        length: T,
+        (length, after): (T, T),
         at: &dyn Fn(T, &mut [T]),
         workspace: &Workspace<'_, T>,
     ) -> Found<T> {
-        finding()(self, start, length, at, workspace)
+        finding()(self, start, (length, after), at, workspace)
     }
 }
 
@@ -300,10 +301,10 @@ compiled_once! {
     fn finding<T>: fn(
         &mut Sheets<'_, T>,
         At<'_, T>,
-        T,
+        (T, T),
         &dyn Fn(T, &mut [T]),
         &Workspace<'_, T>,
-    ) -> Found<T> = |sheets, start, length, at, workspace| {
-        sheets.passages(start, length, at, workspace)
+    ) -> Found<T> = |sheets, start, times, at, workspace| {
+        sheets.passages(start, times, at, workspace)
     };
 }

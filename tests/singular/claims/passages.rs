@@ -1,9 +1,10 @@
 //! Very many passages with two degrees of freedom, and the time of one.
 
 use crate::is_long;
-use bricard_runtime::{DynamicsError, Observer, Passage, Probe, Step};
+use bricard_runtime::{DynamicsError, Observer, Occurrence, Passage, Probe, Step};
 use bricard_runtime::{Options, State, Whole, assemble, simulate};
 use bricard_singular::descriptions::driven_lines::DrivenLines;
+use bricard_singular::descriptions::many_lines::ManyLines;
 use bricard_singular::descriptions::parallelogram_pendulum::ParallelogramPendulum;
 use bricard_singular::descriptions::two_lines::TwoLines;
 use core::f64::consts::PI;
@@ -86,20 +87,31 @@ fn passages_after_very_many_turns_are_those_after_none() {
 
 /// Keeps the times of passages.
 #[derive(Default)]
-struct Times(Vec<f64>);
+struct Times {
+    passages: Vec<f64>,
+    /// Whether the run ends at an event.
+    stops: bool,
+}
 
-impl Observer<f64, 2> for Times {
+impl<const N: usize> Observer<f64, N> for Times {
     fn step(
         &mut self,
-        _step: &Step<f64, 2>,
-        _probe: &mut dyn Probe<f64, 2>,
+        _step: &Step<f64, N>,
+        _probe: &mut dyn Probe<f64, N>,
     ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
         Ok(ControlFlow::Continue(()))
     }
 
     fn passage(&mut self, passage: &Passage<f64>) -> ControlFlow<()> {
-        self.0.push(passage.t);
+        self.passages.push(passage.t);
         ControlFlow::Continue(())
+    }
+
+    fn event(&mut self, _occurrence: &Occurrence<f64, N>) -> ControlFlow<()> {
+        match self.stops {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
     }
 }
 
@@ -118,8 +130,8 @@ fn a_passage_is_reported_when_it_is_wherever_steps_end() {
             let mut times = Times::default();
             let ran = simulate(mechanism, &start, &options, &mut [&mut times]);
             ran.unwrap_or_else(|failure| panic!("{failure}"));
-            let [time] = times.0[..] else {
-                panic!("{:?} instead of one passage at {exact}", times.0);
+            let [time] = times.passages[..] else {
+                panic!("{:?} instead of one passage at {exact}", times.passages);
             };
             let error = (time - exact).abs() / exact;
             assert!(error < 1e-9, "{time} instead of {exact}");
@@ -138,4 +150,40 @@ fn a_mechanism_without_a_degree_of_freedom_passes_on_its_branch() {
         let error = (end.q[0] + 1.0).abs().max((end.q[1] + 1.0).abs());
         assert!(error < 1e-9, "{:?}", end.q);
     }
+}
+
+/// However many passages there are in one step, each is reported once, when it is.
+#[test]
+fn many_passages_in_one_step_are_all_reported() {
+    for lag in [0.001, 0.01, 0.05] {
+        let mut mechanism = ManyLines::<f64>::default();
+        mechanism.parameters.lag = lag;
+        let mechanism: &dyn Whole<f64, 24, 12> = &mechanism;
+        let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+        let options = Options::dop853(2.0, 1e-9);
+        let mut times = Times::default();
+        let ran = simulate(mechanism, &start, &options, &mut [&mut times]);
+        let summary = ran.unwrap_or_else(|failure| panic!("{failure}"));
+        assert_eq!(summary.passages, Some(12), "{:?}", times.passages);
+        for (i, t) in times.passages.iter().enumerate() {
+            let exact = 1.0 + i as f64 * lag;
+            assert!((t - exact).abs() < 1e-12, "{t} instead of {exact}");
+        }
+    }
+}
+
+/// What lies behind the event that ends a run does not happen.
+#[test]
+fn no_passage_behind_the_end_is_reported() {
+    let mechanism: &dyn Whole<f64, 24, 12> = &ManyLines::<f64>::default();
+    let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+    let mut times = Times {
+        stops: true,
+        ..Times::default()
+    };
+    let options = Options::dop853(2.0, 1e-9);
+    let ran = simulate(mechanism, &start, &options, &mut [&mut times]);
+    let summary = ran.unwrap_or_else(|failure| panic!("{failure}"));
+    assert!((summary.end.t - 0.5).abs() < 1e-12, "{}", summary.end.t);
+    assert_eq!(summary.passages, Some(0), "{:?}", times.passages);
 }
