@@ -43,26 +43,49 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Which coordinates are beyond a turn, and leave the constraint rows as they are when
     /// they go back by one: angles, and coordinates on which the rows do not depend.
     fn turns(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) -> [bool; N] {
-        let turn = T::from_f64(TAU);
-        let is_beyond = |q: &T| q.abs() > turn;
-        let mut turns = [false; N];
-        if !state.q.iter().any(is_beyond) {
-            return turns;
+        let beyond = state.q.data.0[0].map(|q| q.abs() > T::from_f64(TAU));
+        if !beyond.contains(&true) {
+            return beyond;
         }
-        mechanism.position(state, &mut self.position);
-        let here = products(&self.position.jacobian);
-        for j in (0..N).filter(|&j| is_beyond(&state.q[j])) {
-            let mut back = *state;
-            back.q[j] -= turn * state.q[j].sign();
-            mechanism.position(&back, &mut self.position);
-            let there = products(&self.position.jacobian);
-            turns[j] = here.iter().zip(&there).all(|(here, there)| {
-                let most = T::EPSILON.sqrt() * here.size;
-                (here.sum - there.sum).abs() <= most
-            });
+        let here = self.rows_at(mechanism, state);
+        let mut turns = beyond;
+        // All of them together, one by one where that tells apart what they are.
+        if !self.returns(mechanism, state, &here, |j| beyond[j]) {
+            for j in (0..N).filter(|&j| beyond[j]) {
+                turns[j] = self.returns(mechanism, state, &here, |other| other == j);
+            }
         }
         mechanism.position(state, &mut self.position);
         turns
+    }
+
+    /// Whether the rows are the same where some coordinates are one turn before.
+    fn returns(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &State<T, N>,
+        here: &[Product<T>; R],
+        goes_back: impl Fn(usize) -> bool,
+    ) -> bool {
+        let mut back = *state;
+        for (j, q) in back.q.iter_mut().enumerate().filter(|(j, _)| goes_back(*j)) {
+            *q -= T::from_f64(TAU) * state.q[j].sign();
+        }
+        let there = self.rows_at(mechanism, &back);
+        here.iter().zip(&there).all(|(here, there)| {
+            let most = T::EPSILON.sqrt() * here.size;
+            (here.sum - there.sum).abs() <= most
+        })
+    }
+
+    /// Products of the rows at a position.
+    fn rows_at(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &State<T, N>,
+    ) -> [Product<T>; R] {
+        mechanism.position(state, &mut self.position);
+        products(&self.position.jacobian)
     }
 }
 

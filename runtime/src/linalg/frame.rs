@@ -405,6 +405,21 @@ impl<'a, T: Real> Frame<'a, T> {
         size
     }
 
+    /// The logarithm of the size of the determinant, however small that is; not finite where
+    /// a pivot is zero.
+    pub(crate) fn log_volume(&self) -> T {
+        let (mut sum, mut size) = (T::zero(), T::one());
+        for (row, column) in self.order.rows.iter().zip(&*self.order.columns) {
+            // Pivots are no larger than one, and seldom so small.
+            if size < T::EPSILON {
+                sum += size.ln();
+                size = T::one();
+            }
+            size *= self.upper[row * self.n + column].abs();
+        }
+        sum + size.ln()
+    }
+
     /// The sign of the determinant.
     pub(crate) fn is_negative(&mut self) -> bool {
         with_size!(

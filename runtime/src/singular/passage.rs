@@ -121,16 +121,21 @@ struct Look<'a, T> {
     /// The determinant of the whole system vanishes where the constraints are singular and
     /// nowhere else: the tangent space turns by far less than a right angle within a step.
     determinant: T,
+    /// The logarithm of its size, which the determinant of many rows is too small to tell.
+    logarithm: T,
 }
 
 impl<'a, T: Real> Look<'a, T> {
     fn of(t: T, frame: &mut Frame<'_, T>, workspace: &Workspace<'a, T>) -> Self {
-        let signs = DeterminantSigns::of(frame, workspace);
-        let determinant = signs.signed(frame.volume());
+        Self::with(t, DeterminantSigns::of(frame, workspace), frame)
+    }
+
+    fn with(t: T, signs: DeterminantSigns<'a, T>, frame: &Frame<'_, T>) -> Self {
         Self {
             t,
+            determinant: signs.signed(frame.volume()),
+            logarithm: frame.log_volume(),
             signs,
-            determinant,
         }
     }
 }
@@ -164,18 +169,18 @@ impl<T: Real> Sheet<'_, T> {
             length,
             regular: self.constraints(),
         };
-        let mut first = Some(Look {
-            t: start.t,
-            determinant: reference.signs.signed(self.frame.volume()),
-            signs: reference.signs,
-        });
+        let mut first = Some(Look::with(start.t, reference.signs, &self.frame));
         let part = length / T::from_f64((LOOKS - 1) as f64);
         let looks: [_; LOOKS] = core::array::from_fn(|k| match k {
             0 => first.take(),
             _ if k + 1 == LOOKS => self.look(&view, start.t + length, workspace),
             _ => self.look(&view, start.t + part * T::from_f64(k as f64), workspace),
         });
-        let rates = rates(&looks, part);
+        // A polynomial of fourth degree is no picture of the determinant of more rows.
+        let rates = match view.like.block().size() < LOOKS {
+            true => rates(&looks, part),
+            false => [None; LOOKS],
+        };
         let mut before: Option<(&Look<'_, T>, T)> = None;
         for (look, rate) in looks.iter().zip(rates) {
             let Some(here) = look else {
@@ -410,15 +415,13 @@ impl<T: Real> Sheet<'_, T> {
 /// determinant vanishes like that power of the time. It is put a little away from the
 /// nearer end, so that the shorter part holds what is looked for.
 fn beside<T: Real>(from: &Look<'_, T>, to: &Look<'_, T>, loops: usize, at_once: T) -> T {
-    let root = |look: &Look<'_, T>| {
-        let power = T::one() / T::from_f64(loops as f64);
-        look.determinant.abs().powf(power)
-    };
-    let (start, end) = (root(from), root(to));
+    let ratio = (to.logarithm - from.logarithm) / T::from_f64(loops as f64);
     let (width, little) = (to.t - from.t, at_once * T::from_f64(0.25));
-    match start + end > T::zero() {
-        true if end >= start => from.t + width * start / (start + end) + little,
-        true => to.t - width * end / (start + end) - little,
+    let to_nearer = width / (T::one() + ratio.abs().exp());
+    // False where either determinant is zero.
+    match to_nearer.is_finite() {
+        true if ratio >= T::zero() => from.t + to_nearer + little,
+        true => to.t - to_nearer - little,
         false => from.t + width * T::from_f64(0.5),
     }
 }

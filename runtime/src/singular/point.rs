@@ -100,7 +100,8 @@ impl<T: Real> PointSlices<'_, T> {
         *self.t = state.t;
         self.q.copy_from_slice(state.q);
         self.v.copy_from_slice(state.v);
-        self.tangent.copy_from_slice(chart.tangents());
+        let tangents = chart.tangents();
+        self.tangent[..tangents.len()].copy_from_slice(tangents);
         self.drift.fill(T::zero());
         self.particular.fill(T::zero());
         self.met.fill(Met::far());

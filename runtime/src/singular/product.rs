@@ -96,7 +96,11 @@ impl<'a, T: Real> Product<'a, T> {
 
     /// The tangent vectors of all factors.
     pub(super) fn tangents(&self) -> &'a [T] {
-        self.tangent
+        let parts = parts(self.components, self.sizes());
+        let entries = parts
+            .zip(self.factors)
+            .map(|(part, factor)| part.n * factor.freedoms);
+        &self.tangent[..entries.sum()]
     }
 
     /// The length of a vector of all coordinates in the diagonal of the metric.

@@ -207,16 +207,24 @@ impl<'a, T: Real> Sheet<'a, T> {
         let jacobian = self.equations.constraints().jacobian;
         let columns = jacobian.chunks_exact(chart.row_scale.len());
         for (j, (entries, column)) in columns.zip(chart.column_scale).enumerate() {
-            for (first, entries) in entries.chunks(GLANCE).enumerate() {
-                if is_zero(entries) {
+            let (glances, rest) = entries.as_chunks::<GLANCE>();
+            let mut set = |row: usize, entry: T| {
+                if entry != T::zero() && chart.places[row] < chart.rows.len() {
+                    let entry = chart.row_scale[row] * entry * *column;
+                    self.frame.set_entry(chart.places[row], j, entry);
+                }
+            };
+            for (first, glance) in glances.iter().enumerate() {
+                // All are compared, which takes fewer instructions than to stop at the first.
+                if glance.iter().fold(true, |none, x| none & (*x == T::zero())) {
                     continue;
                 }
-                for (row, entry) in (first * GLANCE..).zip(entries) {
-                    if *entry != T::zero() && chart.places[row] < chart.rows.len() {
-                        let entry = chart.row_scale[row] * *entry * *column;
-                        self.frame.set_entry(chart.places[row], j, entry);
-                    }
+                for (row, entry) in (first * GLANCE..).zip(glance) {
+                    set(row, *entry);
                 }
+            }
+            for (row, entry) in (entries.len() - rest.len()..).zip(rest) {
+                set(row, *entry);
             }
         }
         for (i, duals) in chart.dual.chunks_exact(chart.n()).enumerate() {
