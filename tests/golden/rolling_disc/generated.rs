@@ -606,7 +606,7 @@ pub mod rolling_disc {
         /// | `row_by_position` | `∂(p₂ − A q̈)/∂q` | `R × N` |
         /// | `row_by_velocity` | `∂p₂/∂q̇` | `R × N` |
         ///
-        /// Costs 93 products, 49 sums, 2 sine–cosine pairs. As derived: 618 products, 211 sums, 2 sine–cosine pairs.
+        /// Costs 99 products, 44 sums, 2 sine–cosine pairs. As derived: 618 products, 211 sums, 2 sine–cosine pairs.
         fn linearised(
             &self,
             state: &State<T, 5>,
@@ -622,156 +622,105 @@ pub mod rolling_disc {
             let [lambda_0, lambda_1] = multiplier.data.0[0];
             let Parameters { r, m } = self.parameters;
             let (sin_psi, cos_psi) = psi.sin_cos();
-            let cos_psi_r = cos_psi * r;
-            let r_sin_psi = r * sin_psi;
-            out.force_by_position.data.0[2][4] = (-lambda_0)
-                .mul_add(r_sin_psi, lambda_1 * cos_psi_r);
-            let r_psi_dot = r * psi_dot;
-            out.row_by_velocity.data.0[4][0] = -sin_psi * r_psi_dot;
-            out.row_by_velocity.data.0[4][1] = cos_psi * r_psi_dot;
+            out.force_by_position.data.0[2][4] = r
+                * (-sin_psi).mul_add(lambda_0, cos_psi * lambda_1);
+            let sin_psi_psi_dot = sin_psi * psi_dot;
+            out.row_by_velocity.data.0[4][0] = -r * sin_psi_psi_dot;
+            let cos_psi_psi_dot = cos_psi * psi_dot;
+            out.row_by_velocity.data.0[4][1] = r * cos_psi_psi_dot;
             let (sin_theta, cos_theta) = theta.sin_cos();
+            let sum = theta_dot.mul_add(theta_dot, psi_dot * psi_dot);
+            let sin_theta_psi_ddot = sin_theta * psi_ddot;
+            let theta_dot_cos_theta = theta_dot * cos_theta;
+            let product = T::from_f64(2.0) * psi_dot;
             let r_m = r * m;
-            let product = sin_theta * r_m;
-            let product_2 = cos_psi * product;
-            let psi_dot_psi_dot = psi_dot * psi_dot;
-            let product_3 = product_2 * theta_dot;
-            let product_4 = sin_psi * product;
-            let product_5 = T::from_f64(2.0) * psi_dot;
-            let product_6 = r_m * cos_theta;
-            let product_7 = theta_dot * product_6;
-            let product_8 = sin_psi * product_7;
-            let product_9 = cos_psi * product_6;
-            let sum = (-theta_ddot)
+            let product_2 = sin_psi
                 .mul_add(
-                    product_9,
-                    product_5
-                        .mul_add(
-                            product_8,
-                            psi_ddot
-                                .mul_add(
-                                    product_4,
-                                    theta_dot.mul_add(product_3, product_2 * psi_dot_psi_dot),
-                                ),
-                        ),
-                );
-            out.force_by_position.data.0[2][0] = sum;
-            let product_10 = theta_dot * product_4;
-            let product_11 = sin_psi * product_6;
-            let product_12 = cos_psi * product_7;
-            let sum_2 = (-product_5)
+                    theta_dot_cos_theta.mul_add(product, sin_theta_psi_ddot),
+                    cos_psi * (-cos_theta).mul_add(theta_ddot, sin_theta * sum),
+                ) * r_m;
+            out.force_by_position.data.0[2][0] = product_2;
+            let sum_2 = (-cos_theta)
                 .mul_add(
-                    product_12,
-                    (-theta_ddot)
-                        .mul_add(
-                            product_11,
-                            (-product_2)
-                                .mul_add(
-                                    psi_ddot,
-                                    theta_dot.mul_add(product_10, psi_dot_psi_dot * product_4),
-                                ),
-                        ),
+                    (T::from_f64(2.0) * cos_psi_psi_dot)
+                        .mul_add(theta_dot, sin_psi * theta_ddot),
+                    sin_theta * (-cos_psi).mul_add(psi_ddot, sin_psi * sum),
                 );
-            out.force_by_position.data.0[2][1] = sum_2;
-            let product_13 = product_4 * x_ddot;
-            let product_14 = product_2 * y_ddot;
-            out.force_by_position.data.0[2][2] = product_13 - product_14;
-            let product_15 = product_9 * x_ddot;
-            let product_16 = product_11 * y_ddot;
-            out.force_by_position.data.0[2][3] = -product_15 - product_16;
-            let sum_3 = (-psi_ddot)
-                .mul_add(
-                    product_9,
-                    product_3
-                        .mul_add(
-                            product_5,
-                            theta_dot
-                                .mul_add(
-                                    product_8,
-                                    psi_dot_psi_dot.mul_add(product_11, product_4 * theta_ddot),
-                                ),
-                        ),
-                );
-            out.force_by_position.data.0[3][0] = sum_3;
-            let sum_4 = (-theta_dot)
-                .mul_add(
-                    product_12,
-                    (-psi_dot_psi_dot)
-                        .mul_add(
-                            product_9,
-                            (-product_2)
-                                .mul_add(
-                                    theta_ddot,
-                                    (-psi_ddot).mul_add(product_11, product_5 * product_10),
-                                ),
-                        ),
-                );
-            out.force_by_position.data.0[3][1] = sum_4;
-            let product_17 = product * theta_dot;
-            let product_18 = T::from_f64(0.5) * r;
-            let product_19 = product_6 * product_18;
-            out.force_by_position.data.0[3][4] = (-psi_ddot)
-                .mul_add(product_19, T::from_f64(0.5) * r_psi_dot * product_17);
-            out.force_by_velocity.data.0[2][0] = (-T::from_f64(2.0))
-                .mul_add(product_12, product_4 * product_5);
-            out.force_by_velocity.data.0[2][1] = (-T::from_f64(2.0))
-                .mul_add(product_8, -product_2 * product_5);
-            let product_20 = T::from_f64(2.5) * sin_theta;
-            let product_21 = r * product_20;
-            out.force_by_velocity.data.0[2][2] = -product_7 * product_21;
-            let sum_5 = -product_7 * product_18;
+            out.force_by_position.data.0[2][1] = r_m * sum_2;
+            let product_3 = sin_psi * r_m;
+            let product_4 = sin_theta * x_ddot * product_3;
+            let product_5 = cos_psi * r_m;
+            let product_6 = sin_theta * y_ddot * product_5;
+            out.force_by_position.data.0[2][2] = product_4 - product_6;
+            let product_7 = cos_theta * x_ddot * product_5;
+            let product_8 = cos_theta * product_3 * y_ddot;
+            out.force_by_position.data.0[2][3] = -product_7 - product_8;
+            let sum_3 = sum.mul_add(cos_theta, sin_theta * theta_ddot);
+            let sin_theta_theta_dot = sin_theta * theta_dot;
+            let cos_theta_psi_ddot = cos_theta * psi_ddot;
+            let sum_4 = product * sin_theta_theta_dot - cos_theta_psi_ddot;
+            out.force_by_position.data.0[3][0] = r_m
+                * cos_psi.mul_add(sum_4, sin_psi * sum_3);
+            out.force_by_position.data.0[3][1] = r_m
+                * (-cos_psi).mul_add(sum_3, sin_psi * sum_4);
+            let product_9 = r * r_m;
+            out.force_by_position.data.0[3][4] = T::from_f64(0.5) * product_9
+                * (psi_dot * sin_theta_theta_dot - cos_theta_psi_ddot);
+            let product_10 = T::from_f64(2.0) * r_m;
+            out.force_by_velocity.data.0[2][0] = (-cos_psi)
+                .mul_add(theta_dot_cos_theta, sin_psi_psi_dot * sin_theta) * product_10;
+            out.force_by_velocity.data.0[2][1] = -product_10
+                * sin_psi.mul_add(theta_dot_cos_theta, cos_psi_psi_dot * sin_theta);
+            let product_11 = cos_theta * product_9;
+            let product_12 = T::from_f64(2.5) * product_11;
+            out.force_by_velocity.data.0[2][2] = -sin_theta_theta_dot * product_12;
+            let product_13 = T::from_f64(0.5) * product_11;
+            let sum_5 = -theta_dot * product_13;
             out.force_by_velocity.data.0[2][4] = sum_5;
             out.force_by_velocity.data.0[4][2] = sum_5;
-            out.force_by_velocity.data.0[3][0] = (-product_5)
-                .mul_add(product_9, T::from_f64(2.0) * product_10);
-            out.force_by_velocity.data.0[3][1] = (-T::from_f64(2.0))
-                .mul_add(product_3, -product_5 * product_11);
-            let product_22 = r_psi_dot * product_6;
-            let product_23 = T::from_f64(0.5) * product_22;
-            out.force_by_velocity.data.0[4][3] = product_23;
-            out.force_by_velocity.data.0[3][4] = -product_23;
-            let product_24 = r_psi_dot * r_m;
-            let sum_6 = (-(psi_ddot * product_6))
+            out.force_by_velocity.data.0[3][0] = product_10
+                * (-cos_psi_psi_dot).mul_add(cos_theta, sin_psi * sin_theta_theta_dot);
+            out.force_by_velocity.data.0[3][1] = -product_10
+                * cos_psi.mul_add(sin_theta_theta_dot, sin_psi_psi_dot * cos_theta);
+            let product_14 = psi_dot * product_13;
+            out.force_by_velocity.data.0[4][3] = product_14;
+            out.force_by_velocity.data.0[3][4] = -product_14;
+            let product_15 = T::from_f64(0.5) * sin_theta * phi_dot;
+            let cos_theta_cos_theta = cos_theta * cos_theta;
+            let sum_6 = (-cos_theta)
                 .mul_add(
-                    product_21,
-                    (-product_19)
-                        .mul_add(
-                            phi_ddot,
-                            (-(T::from_f64(5.0) * r_psi_dot * cos_theta))
-                                .mul_add(
-                                    product_7,
-                                    (product_17 * product_18)
-                                        .mul_add(phi_dot, T::from_f64(2.5) * theta_dot * product_24)
-                                        - product_15 - product_16,
-                                ),
-                        ),
+                    T::from_f64(2.5)
+                        .mul_add(sin_theta_psi_ddot, T::from_f64(0.5) * phi_ddot),
+                    theta_dot
+                        * psi_dot
+                            .mul_add(
+                                (-T::from_f64(5.0))
+                                    .mul_add(cos_theta_cos_theta, T::from_f64(2.5)),
+                                product_15,
+                            ),
                 );
-            out.force_by_position.data.0[3][2] = sum_6;
-            let product_25 = r_psi_dot * phi_dot;
-            let sum_7 = (-(T::from_f64(1.25) * psi_dot))
-                .mul_add(
-                    product_24,
-                    (-(T::from_f64(0.5) * product))
-                        .mul_add(
-                            product_25,
-                            (T::from_f64(2.5) * psi_dot * cos_theta)
-                                .mul_add(
-                                    product_22,
-                                    T::constant(9.81, -4.973799150320702e-16)
-                                        .mul_add(product_6, product_13),
-                                ) - product_14,
-                        ),
-                );
-            out.force_by_position.data.0[3][3] = sum_7;
-            let product_26 = product_20 * product_22;
-            let product_27 = product_19 * phi_dot;
-            out.force_by_velocity.data.0[2][3] = product_26 + product_27;
-            out.force_by_velocity.data.0[3][2] = -product_26 - product_27;
-            out.row_by_position.data.0[2][0] = (-r_sin_psi)
-                .mul_add(phi_ddot, -cos_psi * product_25);
-            out.row_by_position.data.0[2][1] = (-sin_psi)
-                .mul_add(product_25, cos_psi_r * phi_ddot);
-            out.row_by_velocity.data.0[2][0] = -r_sin_psi * phi_dot;
-            out.row_by_velocity.data.0[2][1] = cos_psi_r * phi_dot;
+            out.force_by_position.data.0[3][2] = product_9 * sum_6 - product_7
+                - product_8;
+            let product_16 = r_m
+                * (r * psi_dot)
+                    .mul_add(
+                        psi_dot
+                            * (T::from_f64(2.5) * cos_theta_cos_theta
+                                - T::from_f64(1.25)) - product_15,
+                        T::constant(9.81, -4.973799150320702e-16) * cos_theta,
+                    );
+            out.force_by_position.data.0[3][3] = product_4 + product_16 - product_6;
+            let product_17 = psi_dot * sin_theta * product_12;
+            let product_18 = product_13 * phi_dot;
+            out.force_by_velocity.data.0[2][3] = product_17 + product_18;
+            out.force_by_velocity.data.0[3][2] = -product_17 - product_18;
+            out.row_by_position.data.0[2][0] = -r
+                * sin_psi.mul_add(phi_ddot, cos_psi_psi_dot * phi_dot);
+            out.row_by_position.data.0[2][1] = r
+                * (-sin_psi_psi_dot).mul_add(phi_dot, cos_psi * phi_ddot);
+            let r_phi_dot = r * phi_dot;
+            out.row_by_velocity.data.0[2][0] = -sin_psi * r_phi_dot;
+            out.row_by_velocity.data.0[2][1] = cos_psi * r_phi_dot;
             true
         }
     }
