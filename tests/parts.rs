@@ -10,7 +10,7 @@ use bricard_fixtures::straight::closed_rods::{self, ClosedRods};
 use bricard_fixtures::straight::joints::{self, Joints};
 use bricard_fixtures::straight::row::{self, Row};
 use bricard_fixtures::with_loops;
-use bricard_runtime::{Acceleration, Correction, Mechanism, Position, State, Terms};
+use bricard_runtime::{Acceleration, Correction, Interface, Mechanism, Position, State, Terms};
 use bricard_testkit::Random;
 
 const STATES: usize = 20;
@@ -95,6 +95,29 @@ fn loops_compute_what_straight_lines_do() {
     );
 }
 
+#[test]
+fn arrays_on_request_are_the_same_with_loops() {
+    let (straight, looped) = (
+        Row::<f64>::default(),
+        with_loops::row::Row::<f64>::default(),
+    );
+    let mut random = Random::seeded(640);
+    for _ in 0..STATES {
+        let mut state = State::<f64, 25>::default();
+        state.q.iter_mut().for_each(|q| *q = random.within(1.5));
+        state.v.iter_mut().for_each(|v| *v = random.within(2.0));
+        macro_rules! agree {
+            ($($array:ident)*) => {
+                $(assert_eq!(straight.$array(&state), looped.$array(&state));)*
+            };
+        }
+        agree!(mass_matrix potential_force applied_force coriolis_force);
+        agree!(constraint_residual constraint_jacobian constraint_bias);
+        assert!(straight.mass_matrix(&state).norm() > 0.0);
+        assert_eq!(straight.start(), looped.start());
+    }
+}
+
 /// The code of so many parallelograms in a row.
 fn parallelograms(loops: usize, settings: &CompileSettings) -> String {
     let source = bricard::n_four_bar::SOURCE;
@@ -108,6 +131,26 @@ fn what_comes_again_is_a_loop() {
     let mut settings = CompileSettings::default();
     let count = |code: &str| code.matches("for turn in").count();
     assert_eq!(count(&parallelograms(20, &settings)), 0);
+    // What no step calls need not be as fast.
+    let code = parallelograms(120, &settings);
+    let function = |name: &str| {
+        let (_, rest) = code.split_once(&format!("fn {name}(")).expect(name);
+        let (function, _) = rest.split_once(" fn ").expect(name);
+        (count(function), function.lines().count())
+    };
+    assert_eq!(function("position").0, 0);
+    for name in [
+        "mass_matrix",
+        "constraint_jacobian",
+        "constraint_bias",
+        "energy",
+    ] {
+        let (loops, lines) = function(name);
+        assert!(
+            loops > 0 && lines < 500,
+            "{name}: {loops} loops, {lines} lines"
+        );
+    }
     settings.options.unrolled = Some(2_000);
     let [fewer, more] = [20, 30].map(|loops| parallelograms(loops, &settings));
     assert!(count(&fewer) > 5);

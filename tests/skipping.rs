@@ -182,6 +182,26 @@ fn parts_that_nothing_ties_are_named() {
 }
 
 #[test]
+fn loops_that_neither_constraints_nor_masses_tie_have_sheets_of_their_own() {
+    // A spring between two cranks ties neither.
+    let sprung = "mechanism Two { param m: kg = 1; param l: m = 2; param k: N = 3;
+        coord a: m; coord b: m; coord c: m; coord d: m;
+        kinetic 1/2*m*(der(a)^2 + der(b)^2 + der(c)^2 + der(d)^2); potential k*(a - c)^2/l;
+        constraint a^2 + b^2 = l^2; constraint c^2 + d^2 = l^2;
+        start { a = l; b ~ 0; c = l; d ~ 0; } }";
+    for tie in ["kinetic 1/4*m*(der(a) + der(c))^2;", "constraint a = c;"] {
+        let tied = sprung.replace("constraint a^2", &format!("{tie} constraint a^2"));
+        let line = differs("sheets", "near a singular configuration", [&tied, sprung]);
+        assert!(line.contains("of {a, b} and {c, d}:"), "{line}");
+        assert!(code(&tied).contains("components: &[]"));
+    }
+    assert_eq!(code(sprung).matches("ConnectedComponent {").count(), 2);
+    // Nothing is said where there are none to be near.
+    let fixed = sprung.replace("param l", "const l");
+    assert!(!left_out("sheets", &fixed).contains("near a singular"));
+}
+
+#[test]
 fn outputs_cost_nothing_until_they_are_asked_for() {
     let watched = CART.replace("start {", "output tip: m = P.x*cos(a); start {");
     let line = differs("asked", "outputs (", [CART, &watched]);

@@ -21,6 +21,7 @@ pub fn skipped(mechanism: &Mechanism, equations: &Equations, programs: &Programs
         time(&mechanism.graph, equations),
         ignorable(mechanism, equations),
         apart(mechanism, equations),
+        other_sheets(mechanism, equations),
         folded(mechanism),
         no_constraints(equations),
         independent(&mechanism.graph, equations),
@@ -151,18 +152,32 @@ fn ignorable(mechanism: &Mechanism, equations: &Equations) -> Option<String> {
 /// Entries between parts that nothing ties to one another.
 fn apart(mechanism: &Mechanism, equations: &Equations) -> Option<String> {
     let parts = parts(&mechanism.graph, equations);
-    let named = |part: &Vec<usize>| {
-        let names: Vec<&str> = part
-            .iter()
-            .map(|i| mechanism.coordinates[*i].name.as_str())
-            .collect();
-        format!("{{{}}}", names.join(", "))
-    };
-    let named: Vec<String> = parts.iter().map(named).collect();
     (parts.len() > 1).then(|| {
         format!(
             "whatever would tie these parts to one another: {}; in descriptions of their own each would take steps of its own",
-            named.join(" and ")
+            named(mechanism, parts.iter())
+        )
+    })
+}
+
+/// Sets of coordinates, by their names.
+fn named<'a>(mechanism: &Mechanism, sets: impl Iterator<Item = &'a Vec<usize>>) -> String {
+    let named = sets.map(|set| {
+        let names = set.iter().map(|i| mechanism.coordinates[*i].name.as_str());
+        format!("{{{}}}", names.collect::<Vec<&str>>().join(", "))
+    });
+    named.collect::<Vec<String>>().join(" and ")
+}
+
+/// What singular configurations need of coordinates that have no part in them.
+fn other_sheets(mechanism: &Mechanism, equations: &Equations) -> Option<String> {
+    let components = &equations.components;
+    let constrained = components.iter().any(|part| !part.rows.is_empty());
+    let anywhere = constrained && !equations.are_independent(&mechanism.graph);
+    anywhere.then(|| {
+        format!(
+            "near a singular configuration, all that is not in the same set of {}: neither constraints nor M tie these to one another",
+            named(mechanism, components.iter().map(|part| &part.coordinates))
         )
     })
 }

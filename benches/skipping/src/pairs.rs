@@ -33,6 +33,17 @@ const ROW: &str = "const m: kg = 1; const l: m = 1; const g: m/s^2 = 9.81;
     kinetic 1/6*m*l^2*(der(a)^2 + der(b)^2) + 1/2*m*norm2(der(left)) + 1/24*m*l^2*der(c)^2;
     potential m*g*(left.y + right.y); start { a = 0.5; der(a) = -9; b ~ 0.5; c ~ 0; }";
 
+/// Two such parallelograms, of which one swings through that position.
+const TWO_ROWS: &str = "const m: kg = 1; const l: m = 1; const g: m/s^2 = 9.81;
+    coord a[2]: rad; coord b[2]: rad; coord c[2]: rad;
+    for i in 0..2 {
+        let left = l*[cos(a[i]), sin(a[i])]; let right = l*[1 + cos(b[i]), sin(b[i])];
+        kinetic 1/6*m*l^2*(der(a[i])^2 + der(b[i])^2) + 1/2*m*norm2(der(left)) + 1/24*m*l^2*der(c[i])^2;
+        potential m*g*(left.y + right.y);
+        constraint left + l*[cos(c[i]), sin(c[i])] = right;
+    }
+    start { a[0] = 0.5; der(a[0]) = -9; b[0] ~ 0.5; c[0] ~ 0; a[1] = -1.5; b[1] ~ -1.5; c[1] ~ 0; }";
+
 /// All pairs.
 pub const PAIRS: &[Pair] = &[
     Pair {
@@ -136,5 +147,12 @@ pub const PAIRS: &[Pair] = &[
             "const w: 1/s = 1; param shake = 0; constraint left + l*[cos(c), sin(c)] = right + l*[shake*sin(w*t), 0];",
             "constraint left + l*[cos(c), sin(c)] = right;",
         ],
+    },
+    Pair {
+        name: "sheets",
+        what: "a tie between the masses of two loops, of which one passes a singular position",
+        left_out: "all that is sought there for the other",
+        common: TWO_ROWS,
+        adds: ["kinetic 1/50*m*l^2*der(a[0])*der(a[1]);", ""],
     },
 ];

@@ -5,7 +5,7 @@
 
 use super::columns::{MASS, columns};
 use super::function::Decided;
-use super::subject::{Reads, Subject, Written, doc_lines, entry};
+use super::subject::{Called, Reads, Subject, Written, doc_lines, entry};
 use crate::optimise::{Array, Optimised};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
@@ -76,7 +76,7 @@ fn function(subject: &Subject, array: Array, computed: &Optimised) -> TokenStrea
     let place = |target: &_| Some(entry(quote!(out), target));
     let Written {
         body, state, cost, ..
-    } = subject.optimised(computed, &place, Decided::ByState);
+    } = subject.optimised(computed, &place, (Decided::ByState, Called::OnRequest));
     let (kind, sizes) = match described.shape {
         Shape::Vector(rows) => (quote!(SVector), quote!(#rows)),
         Shape::Matrix(rows, columns) => (quote!(SMatrix), quote!(#rows, #columns)),

@@ -5,7 +5,7 @@
 //!      and a line for the documentation.
 
 use super::quantity::{constraint_row, quantity};
-use super::subject::{Subject, Written};
+use super::subject::{Called, Subject, Written};
 use crate::optimise::Slot;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -39,7 +39,7 @@ pub(super) fn described(subject: &Subject) -> TokenStream {
         state,
         acceleration,
         cost,
-    } = subject.body(computed);
+    } = subject.body(computed, Called::OnRequest);
     let statements = &body.statements;
     let computed = (0..count).map(|i| {
         let parts = [0, 1, 2, 3].map(|part| Slot::of_vector("described", 4 * i + part));

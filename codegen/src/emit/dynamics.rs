@@ -3,7 +3,7 @@
 use super::filling::{Heading, Method};
 use super::index::Target;
 use super::linearised::linearised;
-use super::subject::{Subject, Written, cost_in_words, entry, entry_of_field};
+use super::subject::{Called, Subject, Written, cost_in_words, entry, entry_of_field};
 use super::switches::switches;
 use crate::optimise::{Optimised, Slot, Solved, Way, cost};
 use proc_macro2::{Ident, Span, TokenStream};
@@ -148,7 +148,7 @@ fn entry_of_solution(target: &Target) -> Option<TokenStream> {
 fn energy(subject: &Subject) -> TokenStream {
     let Written {
         body, state, cost, ..
-    } = subject.body(&subject.programs.energy);
+    } = subject.body(&subject.programs.energy, Called::OnRequest);
     let slots = [0, 1, 2, 3].map(|row| Slot::of_vector("energy", row));
     let [kinetic, potential, balance, power] = slots.map(|slot| body.output(slot));
     let (statements, n) = (&body.statements, subject.sizes().0);

@@ -5,7 +5,7 @@
 
 use super::function::{Decided, Place};
 use super::parts::{Parts, STRAIGHT_LINE};
-use super::subject::{Reads, Subject, argument, doc_lines};
+use super::subject::{Called, Reads, Subject, argument, doc_lines};
 use super::symbol::SymbolNames;
 use crate::optimise::Program;
 use proc_macro2::TokenStream;
@@ -38,7 +38,7 @@ impl Method {
         let names = &subject.names;
         let straight_line = subject.options.straight_line.unwrap_or(STRAIGHT_LINE);
         let decided = Decided::BySides;
-        let loops = subject.loops(program, decided);
+        let loops = subject.loops(program, decided, Called::InSteps);
         let in_parts = heading.divisible && loops.is_none() && program.len() > straight_line;
         let all = in_parts || heading.before.is_some();
         let state = argument("state", all || SymbolNames::reads_state(program));

@@ -3,11 +3,12 @@
 use super::described::described;
 use super::list::list;
 use super::outputs;
-use super::subject::{Subject, Written};
+use super::subject::{Called, Subject, Written};
 use crate::model::{Point, Shape};
 use crate::optimise::Slot;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
+use std::collections::BTreeMap;
 
 /// `impl Interface`.
 pub(super) fn interface(subject: &Subject) -> TokenStream {
@@ -97,26 +98,39 @@ fn set_input(subject: &Subject) -> TokenStream {
 /// The entries of the `start` block; what it does not mention is a guess of zero.
 fn start(subject: &Subject) -> TokenStream {
     let n = subject.sizes().0;
-    let Written { body, .. } = subject.body(&subject.programs.start);
+    let starts = &subject.mechanism.starts;
+    let Written { body, .. } = subject.body(&subject.programs.start, Called::OnRequest);
     let statements = &body.statements;
-    let initial = |coordinate: usize, velocity: bool| {
-        let given = subject.mechanism.starts.iter().enumerate();
-        let found = given
-            .rev()
-            .find(|(_, s)| s.coordinate == coordinate && s.velocity == velocity);
-        let (value, held) = match found {
-            Some((row, start)) => (body.output(Slot::of_vector("start", row)), start.held),
-            None => (quote!(T::zero()), false),
-        };
-        quote!(Initial { value: #value, held: #held })
+    // What is given again later counts.
+    let given: BTreeMap<(bool, usize), usize> = starts
+        .iter()
+        .enumerate()
+        .map(|(row, start)| ((start.velocity, start.coordinate), row))
+        .collect();
+    let given = given
+        .into_iter()
+        .filter_map(|((velocity, coordinate), row)| {
+            let start = &starts[row];
+            if !start.held && subject.mechanism.graph.is_zero(start.value) {
+                return None;
+            }
+            let (place, held) = (Literal::usize_unsuffixed(coordinate), start.held);
+            let array = if velocity { quote!(v) } else { quote!(q) };
+            let value = body.output(Slot::of_vector("start", row));
+            Some(quote!(start.#array[#place] = Initial { value: #value, held: #held };))
+        });
+    let given: TokenStream = given.collect();
+    let start = match given.is_empty() {
+        true => quote!(start),
+        false => quote!(mut start),
     };
-    let count = subject.mechanism.coordinates.len();
-    let positions = (0..count).map(|i| initial(i, false));
-    let velocities = (0..count).map(|i| initial(i, true));
     quote! {
         fn start(&self) -> Start<T, #n> {
             #statements
-            Start { q: [#(#positions),*], v: [#(#velocities),*] }
+            let guess = Initial { value: T::zero(), held: false };
+            let #start = Start { q: [guess; #n], v: [guess; #n] };
+            #given
+            start
         }
     }
 }
@@ -127,7 +141,7 @@ fn draw(subject: &Subject) -> TokenStream {
     if shapes.is_empty() {
         return quote!(fn draw(&self, _state: &State<T, #n>, _canvas: &mut dyn Canvas<T>) {});
     }
-    let Written { body, state, .. } = subject.body(&subject.programs.draw);
+    let Written { body, state, .. } = subject.body(&subject.programs.draw, Called::OnRequest);
     let statements = &body.statements;
     let mut numbers = (0..).map(|row| body.output(Slot::of_vector("draw", row)));
     let mut take = || numbers.next().unwrap_or_default();

@@ -1,7 +1,7 @@
 //! The linearised equations of motion: a method of the trait implementation.
 
 use super::function::Decided;
-use super::subject::{Reads, Subject, Written, argument, entry_of_field};
+use super::subject::{Called, Reads, Subject, Written, argument, entry_of_field};
 use crate::optimise::LeftOut;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -28,7 +28,11 @@ pub(super) fn linearised(subject: &Subject) -> TokenStream {
         state,
         acceleration,
         cost,
-    } = subject.optimised(computed, &entry_of_field, Decided::BySides);
+    } = subject.optimised(
+        computed,
+        &entry_of_field,
+        (Decided::BySides, Called::InSteps),
+    );
     let reads = Reads::of(&computed.program);
     let out = argument("out", reads.out);
     let multiplier = argument("multiplier", reads.multiplier);

@@ -23,6 +23,8 @@ use std::collections::BTreeSet;
 
 /// Loops pay where they leave at most three of four steps.
 const OF_FOUR: usize = 3;
+/// The fewest places that a value is written to in a loop.
+const WRITES_MIN: usize = 8;
 /// The most steps that may be left, for the compiler's sake.
 const LEFT_MAX: usize = 10_000;
 
@@ -164,8 +166,7 @@ impl Writer<'_> {
     fn straight(&mut self, step: Step) {
         step.reads().for_each(|number| self.know(number));
         self.known.extend(step.defines.clone());
-        let references = step.references.iter().map(|reference| (*reference, [0, 0]));
-        let writes = self.writes(&step, references);
+        let writes = self.writes_outside(&step);
         self.statements.append(step.statements);
         self.statements.push(writes);
         for number in step.defines {
@@ -199,6 +200,32 @@ impl Writer<'_> {
         if let Some((array, index)) = place {
             self.statements.push(quote!(#array[#index] = #name;));
         }
+    }
+
+    /// What a step outside of all loops writes: in loops what goes to many places at even
+    /// distances.
+    fn writes_outside(&self, step: &Step) -> TokenStream {
+        let mut rest = &step.writes[..];
+        let mut written = TokenStream::new();
+        while let Some((first, value)) = rest.first() {
+            let (count, stride) = even_slots(rest);
+            let in_loop = count >= WRITES_MIN;
+            let (count, stride) = if in_loop {
+                (count, stride)
+            } else {
+                (1, [0, 0])
+            };
+            rest = &rest[count..];
+            let Some(place) = (self.place)(&target(first, stride)) else {
+                continue;
+            };
+            let (turn, turns) = (turn(), Literal::usize_unsuffixed(count));
+            written.extend(match in_loop {
+                true => quote!(for #turn in 0..#turns { #place = #value; }),
+                false => quote!(#place = #value;),
+            });
+        }
+        written
     }
 
     /// What a step writes.
@@ -281,6 +308,23 @@ impl Writer<'_> {
                 let left = left.map(|(array, turn)| (array.clone(), index(turn)));
                 self.leave(number, left);
             }
+        }
+    }
+}
+
+/// How many of the first places are at even distances, and at which.
+fn even_slots(writes: &[(Slot, TokenStream)]) -> (usize, Stride) {
+    let stride = |from: &Slot, to: &Slot| {
+        let step = |from: usize, to: usize| to.cast_signed() - from.cast_signed();
+        (from.array == to.array).then(|| [step(from.row, to.row), step(from.column, to.column)])
+    };
+    let strides = writes.windows(2).map(|pair| stride(&pair[0].0, &pair[1].0));
+    let mut strides = strides.peekable();
+    match strides.peek().copied().flatten() {
+        None => (1, [0, 0]),
+        Some(first) => {
+            let even = strides.take_while(|stride| *stride == Some(first));
+            (1 + even.count(), first)
         }
     }
 }

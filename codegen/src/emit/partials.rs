@@ -4,7 +4,7 @@
 //! Out: `impl Differentiated`.
 
 use super::outputs::assigned;
-use super::subject::{Reads, Subject, Written, argument};
+use super::subject::{Called, Reads, Subject, Written, argument};
 use crate::optimise::Program;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
@@ -30,7 +30,7 @@ fn partials(subject: &Subject) -> TokenStream {
     };
     let reads = Reads::of(&computed.program);
     let out = argument("out", reads.out);
-    let written = subject.body(computed);
+    let written = subject.body(computed, Called::OnRequest);
     let assigned = ["force_by_input", "outputs", "events"].map(|array| {
         let places = places(&computed.program, array);
         let name = Ident::new(array, Span::call_site());

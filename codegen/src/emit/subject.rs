@@ -16,6 +16,18 @@ use rustc_hash::FxHashMap;
 /// asked for: those of a row of 40 parallelograms. Beyond, loops are faster on all processors, and
 /// from 3,000 on on those that are not allowed to fuse products with sums (`docs/instructions.md`).
 const UNROLLED: usize = 8_000;
+/// The same of a function that no step of a run calls: whether anyone does or not, compilers look
+/// at all of it.
+const UNROLLED_ON_REQUEST: usize = 1_000;
+
+/// When a function is called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Called {
+    /// In each step of a run.
+    InSteps,
+    /// When somebody asks for it.
+    OnRequest,
+}
 
 /// What to emit besides the necessary.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -130,9 +142,10 @@ impl Subject<'_> {
     }
 
     /// The body of a function whose outputs are assigned by whoever asks for it.
-    pub fn body(&self, computed: &Optimised) -> Written {
+    pub fn body(&self, computed: &Optimised, called: Called) -> Written {
         let (program, decided) = (&computed.program, Decided::ByState);
-        let body = match self.loops(program, decided).filter(|_| program.is_list()) {
+        let loops = self.loops(program, decided, called);
+        let body = match loops.filter(|_| program.is_list()) {
             Some(loops) => body_of_list(program, loops),
             None => self.straight(program, &|_| None, decided),
         };
@@ -140,9 +153,14 @@ impl Subject<'_> {
     }
 
     /// The body that runs a program; says what it costs, and what it would as derived.
-    pub fn optimised(&self, computed: &Optimised, place: Place, decided: Decided) -> Written {
+    pub fn optimised(
+        &self,
+        computed: &Optimised,
+        place: Place,
+        (decided, called): (Decided, Called),
+    ) -> Written {
         let program = &computed.program;
-        let body = match self.loops(program, decided) {
+        let body = match self.loops(program, decided, called) {
             Some(loops) => Body::new(loops.statements(place), FxHashMap::default()),
             None => self.straight(program, place, decided),
         };
@@ -166,9 +184,14 @@ impl Subject<'_> {
     }
 
     /// The loops of a program, if it is long and they make it much shorter.
-    pub fn loops(&self, program: &Program, decided: Decided) -> Option<Loops<'_>> {
+    pub fn loops(&self, program: &Program, decided: Decided, called: Called) -> Option<Loops<'_>> {
         let length = program.len() + program.outputs.len();
-        if length <= self.options.unrolled.unwrap_or(UNROLLED) {
+        let unrolled = self.options.unrolled.unwrap_or(UNROLLED);
+        let straight = match called {
+            Called::InSteps => unrolled,
+            Called::OnRequest => unrolled.min(UNROLLED_ON_REQUEST),
+        };
+        if length <= straight {
             return None;
         }
         let taken = self.names.taken.clone();

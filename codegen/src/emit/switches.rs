@@ -4,7 +4,7 @@
 //! Out: the table of the conditions, and the method that computes their switching
 //!      functions; nothing where there are none.
 
-use super::subject::{Subject, Written};
+use super::subject::{Called, Subject, Written};
 use crate::model::Discontinuity;
 use crate::optimise::Slot;
 use proc_macro2::{Literal, TokenStream};
@@ -41,7 +41,7 @@ pub(super) fn switches(subject: &Subject) -> TokenStream {
         state,
         acceleration,
         cost,
-    } = subject.body(computed);
+    } = subject.body(computed, Called::InSteps);
     let statements = &body.statements;
     let computed = (0..count).map(|i| {
         let part = |part| body.output(Slot::of_vector("switches", 2 * i + part));

@@ -366,29 +366,24 @@ pub mod cart_pole {
             true
         }
         fn start(&self) -> Start<T, 2> {
-            Start {
-                q: [
-                    Initial {
-                        value: T::zero(),
-                        held: true,
-                    },
-                    Initial {
-                        value: T::constant(0.05555555555555555, 3.0839528461809902e-18)
-                            * T::pi(),
-                        held: true,
-                    },
-                ],
-                v: [
-                    Initial {
-                        value: T::zero(),
-                        held: false,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: false,
-                    },
-                ],
-            }
+            let guess = Initial {
+                value: T::zero(),
+                held: false,
+            };
+            let mut start = Start {
+                q: [guess; 2],
+                v: [guess; 2],
+            };
+            start.q[0] = Initial {
+                value: T::zero(),
+                held: true,
+            };
+            start.q[1] = Initial {
+                value: T::constant(0.05555555555555555, 3.0839528461809902e-18)
+                    * T::pi(),
+                held: true,
+            };
+            start
         }
         /// Costs 1 product, 1 sine–cosine pair.
         fn outputs(&self, state: &State<T, 2>, values: &mut [T]) {

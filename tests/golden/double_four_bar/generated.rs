@@ -1774,52 +1774,27 @@ pub mod double_four_bar {
         fn start(&self) -> Start<T, 5> {
             let product = T::constant(0.4444444444444444, 2.4671622769447922e-17)
                 * T::pi();
-            Start {
-                q: [
-                    Initial {
-                        value: product,
-                        held: true,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: false,
-                    },
-                    Initial {
-                        value: product,
-                        held: false,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: false,
-                    },
-                    Initial {
-                        value: product,
-                        held: false,
-                    },
-                ],
-                v: [
-                    Initial {
-                        value: T::zero(),
-                        held: false,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: false,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: false,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: false,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: false,
-                    },
-                ],
-            }
+            let guess = Initial {
+                value: T::zero(),
+                held: false,
+            };
+            let mut start = Start {
+                q: [guess; 5],
+                v: [guess; 5],
+            };
+            start.q[0] = Initial {
+                value: product,
+                held: true,
+            };
+            start.q[2] = Initial {
+                value: product,
+                held: false,
+            };
+            start.q[4] = Initial {
+                value: product,
+                held: false,
+            };
+            start
         }
         /// Costs 4 products, 2 sums, 2 sine–cosine pairs.
         fn outputs(&self, state: &State<T, 5>, values: &mut [T]) {

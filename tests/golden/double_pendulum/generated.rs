@@ -448,30 +448,24 @@ pub mod double_pendulum {
             false
         }
         fn start(&self) -> Start<T, 2> {
-            Start {
-                q: [
-                    Initial {
-                        value: T::constant(0.6666666666666666, 3.700743415417188e-17)
-                            * T::pi(),
-                        held: true,
-                    },
-                    Initial {
-                        value: -T::constant(0.05555555555555555, 3.0839528461809902e-18)
-                            * T::pi(),
-                        held: true,
-                    },
-                ],
-                v: [
-                    Initial {
-                        value: T::zero(),
-                        held: false,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: false,
-                    },
-                ],
-            }
+            let guess = Initial {
+                value: T::zero(),
+                held: false,
+            };
+            let mut start = Start {
+                q: [guess; 2],
+                v: [guess; 2],
+            };
+            start.q[0] = Initial {
+                value: T::constant(0.6666666666666666, 3.700743415417188e-17) * T::pi(),
+                held: true,
+            };
+            start.q[1] = Initial {
+                value: -T::constant(0.05555555555555555, 3.0839528461809902e-18)
+                    * T::pi(),
+                held: true,
+            };
+            start
         }
         /// Costs 4 products, 3 sums, 2 sine–cosine pairs.
         fn outputs(&self, state: &State<T, 2>, values: &mut [T]) {

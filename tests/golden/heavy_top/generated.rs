@@ -1715,44 +1715,43 @@ pub mod heavy_top {
             let product = T::from_f64(0.5) * lean;
             let (sin_angle, cos_angle) = product.sin_cos();
             let product_2 = T::from_f64(0.5) * spin0;
-            Start {
-                q: [
-                    Initial {
-                        value: cos_angle,
-                        held: false,
-                    },
-                    Initial {
-                        value: sin_angle,
-                        held: true,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: true,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: true,
-                    },
-                ],
-                v: [
-                    Initial {
-                        value: T::zero(),
-                        held: false,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: true,
-                    },
-                    Initial {
-                        value: -sin_angle * product_2,
-                        held: true,
-                    },
-                    Initial {
-                        value: cos_angle * product_2,
-                        held: true,
-                    },
-                ],
-            }
+            let guess = Initial {
+                value: T::zero(),
+                held: false,
+            };
+            let mut start = Start {
+                q: [guess; 4],
+                v: [guess; 4],
+            };
+            start.q[0] = Initial {
+                value: cos_angle,
+                held: false,
+            };
+            start.q[1] = Initial {
+                value: sin_angle,
+                held: true,
+            };
+            start.q[2] = Initial {
+                value: T::zero(),
+                held: true,
+            };
+            start.q[3] = Initial {
+                value: T::zero(),
+                held: true,
+            };
+            start.v[1] = Initial {
+                value: T::zero(),
+                held: true,
+            };
+            start.v[2] = Initial {
+                value: -sin_angle * product_2,
+                held: true,
+            };
+            start.v[3] = Initial {
+                value: cos_angle * product_2,
+                held: true,
+            };
+            start
         }
         /// Costs 35 products, 20 sums. As derived: 49 products, 20 sums.
         fn outputs(&self, state: &State<T, 4>, values: &mut [T]) {

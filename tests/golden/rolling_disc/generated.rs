@@ -916,53 +916,48 @@ pub mod rolling_disc {
             false
         }
         fn start(&self) -> Start<T, 5> {
-            Start {
-                q: [
-                    Initial {
-                        value: T::zero(),
-                        held: true,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: true,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: true,
-                    },
-                    Initial {
-                        value: T::constant(0.05555555555555555, 3.0839528461809902e-18)
-                            * T::pi(),
-                        held: true,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: true,
-                    },
-                ],
-                v: [
-                    Initial {
-                        value: T::zero(),
-                        held: false,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: false,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: true,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: true,
-                    },
-                    Initial {
-                        value: T::from_f64(6.0),
-                        held: true,
-                    },
-                ],
-            }
+            let guess = Initial {
+                value: T::zero(),
+                held: false,
+            };
+            let mut start = Start {
+                q: [guess; 5],
+                v: [guess; 5],
+            };
+            start.q[0] = Initial {
+                value: T::zero(),
+                held: true,
+            };
+            start.q[1] = Initial {
+                value: T::zero(),
+                held: true,
+            };
+            start.q[2] = Initial {
+                value: T::zero(),
+                held: true,
+            };
+            start.q[3] = Initial {
+                value: T::constant(0.05555555555555555, 3.0839528461809902e-18)
+                    * T::pi(),
+                held: true,
+            };
+            start.q[4] = Initial {
+                value: T::zero(),
+                held: true,
+            };
+            start.v[2] = Initial {
+                value: T::zero(),
+                held: true,
+            };
+            start.v[3] = Initial {
+                value: T::zero(),
+                held: true,
+            };
+            start.v[4] = Initial {
+                value: T::from_f64(6.0),
+                held: true,
+            };
+            start
         }
         /// Costs 4 products, 2 sums, 2 sine–cosine pairs. As derived: 5 products, 2 sums, 2 sine–cosine pairs.
         fn outputs(&self, state: &State<T, 5>, values: &mut [T]) {

@@ -722,36 +722,27 @@ pub mod slider_crank {
         }
         fn start(&self) -> Start<T, 3> {
             let product = T::from_f64(0.25) * T::pi();
-            Start {
-                q: [
-                    Initial {
-                        value: product,
-                        held: true,
-                    },
-                    Initial {
-                        value: product,
-                        held: false,
-                    },
-                    Initial {
-                        value: T::constant(0.7, 4.4408920985006264e-17),
-                        held: false,
-                    },
-                ],
-                v: [
-                    Initial {
-                        value: T::zero(),
-                        held: false,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: false,
-                    },
-                    Initial {
-                        value: T::zero(),
-                        held: false,
-                    },
-                ],
-            }
+            let guess = Initial {
+                value: T::zero(),
+                held: false,
+            };
+            let mut start = Start {
+                q: [guess; 3],
+                v: [guess; 3],
+            };
+            start.q[0] = Initial {
+                value: product,
+                held: true,
+            };
+            start.q[1] = Initial {
+                value: product,
+                held: false,
+            };
+            start.q[2] = Initial {
+                value: T::constant(0.7, 4.4408920985006264e-17),
+                held: false,
+            };
+            start
         }
         /// Costs 5 products, 2 sums, 2 sine–cosine pairs. As derived: 6 products, 2 sums, 2 sine–cosine pairs.
         fn outputs(&self, state: &State<T, 3>, values: &mut [T]) {
