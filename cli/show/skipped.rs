@@ -176,7 +176,7 @@ fn other_sheets(mechanism: &Mechanism, equations: &Equations) -> Option<String> 
     let anywhere = constrained && !equations.are_independent(&mechanism.graph);
     anywhere.then(|| {
         format!(
-            "near a singular configuration, all that is not in the same set of {}: neither constraints nor M tie these to one another",
+            "near a singular configuration of one of {}, all of the others: neither constraints nor M tie them to one another",
             named(mechanism, components.iter().map(|part| &part.coordinates))
         )
     })
