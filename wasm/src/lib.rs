@@ -25,8 +25,12 @@ pub use picture::Picture;
 pub use session::{ROOM, Session, VERSION};
 pub use text::Text;
 
-/// The one session of a module.
-pub type Shared<M, const N: usize, const R: usize> = spin::LazyLock<spin::Mutex<Session<M, N, R>>>;
+/// The session of a module, for one caller at a time.
+pub type Shared<M, const N: usize, const R: usize> = spin::Mutex<Session<M, N, R>>;
+
+/// The one place of a module where its session is. It begins as zeros, which a module need not
+/// carry along.
+pub type Place<M, const N: usize, const R: usize> = spin::Once<Shared<M, N, R>>;
 
 /// The one place of a module where numbers are read.
 pub type Numbers = spin::Mutex<[f64; ROOM]>;
@@ -54,13 +58,17 @@ pub fn taken(numbers: &'static Numbers) -> &'static mut [f64; ROOM] {
 macro_rules! module {
     ($mechanism:ty, $n:literal, $r:literal) => {
         static NUMBERS: $crate::Numbers = $crate::no_numbers();
-        static SESSION: $crate::Shared<$mechanism, $n, $r> = $crate::Shared::new(|| {
-            let numbers = $crate::taken(&NUMBERS);
-            $crate::Session::new(<$mechanism>::default(), numbers).into()
-        });
+        static SESSION: $crate::Place<$mechanism, $n, $r> = $crate::Place::new();
+
+        fn session() -> &'static $crate::Shared<$mechanism, $n, $r> {
+            SESSION.call_once(|| {
+                let numbers = $crate::taken(&NUMBERS);
+                $crate::Session::new(<$mechanism>::default(), numbers).into()
+            })
+        }
 
         $crate::export! {
-            SESSION:
+            session:
             version() -> u32;
             numbers() -> *const f64;
             room() -> u32;
@@ -108,7 +116,7 @@ macro_rules! export {
         $(
             #[unsafe(no_mangle)]
             extern "C" fn $name($($argument: $kind),*) -> $result {
-                $session.lock().$name($($argument),*)
+                $session().lock().$name($($argument),*)
             }
         )*
     };
