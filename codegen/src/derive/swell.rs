@@ -15,6 +15,10 @@ use std::collections::BTreeMap;
 /// word: about what rustc takes ten seconds for.
 pub const SWELL: usize = 10_000;
 
+/// The same for each coordinate and each constraint equation: with fewer a mechanism is large,
+/// and what it is made of comes again as loops of the generated code.
+const SWELL_EACH: usize = 200;
+
 /// How many contributors are named.
 const NAMED: usize = 3;
 
@@ -39,10 +43,11 @@ pub(super) fn refusal(mechanism: &Mechanism) -> Diagnostics {
     found
 }
 
-/// A warning if the equations of motion have more than [`SWELL`] expressions.
+/// A warning if the equations of motion have more than [`SWELL`] expressions, and many for the
+/// size of the mechanism.
 pub fn swell(mechanism: &Mechanism, equations: &Equations) -> Option<Diagnostic> {
-    let size = size(mechanism, equations);
-    if size <= SWELL {
+    let (size, (n, r)) = (size(mechanism, equations), equations.sizes());
+    if size <= SWELL.max(SWELL_EACH * (n + r)) {
         return None;
     }
     let shares = shares(mechanism);

@@ -72,6 +72,15 @@ fn a_mechanism_of_usual_size_gets_no_such_warning() {
 }
 
 #[test]
+fn a_large_mechanism_of_short_equations_gets_no_such_warning() {
+    let source = include_str!("../../../mechanisms/n_four_bar.mech");
+    let source = source.replace("const N = 2;", "const N = 200;");
+    let (_, warnings) = examine(&source, &CompileSettings::default()).expect("a mechanism");
+    let warnings = warnings.render("test.mech", &source);
+    assert!(!warnings.contains("expressions"), "{warnings}");
+}
+
+#[test]
 fn a_coordinate_without_inertia_gets_no_solve_that_divides_by_zero() {
     let code =
         compiled("mechanism Test { coord q; coord w; kinetic der(q)^2; potential q*w; }").code;
