@@ -12,5 +12,5 @@ macro_rules! generated {
 }
 
 generated! {
-    "mass" "ignorable" "constraints" "rank" "clock" "zeros" "ties" "parameters" "conditions" "passage"
+    "mass" "ignorable" "constraints" "rank" "clock" "zeros" "ties" "parameters" "conditions" "passage" "sheets"
 }
