@@ -120,17 +120,16 @@ fn start(subject: &Subject) -> TokenStream {
             Some(quote!(start.#array[#place] = Initial { value: #value, held: #held };))
         });
     let given: TokenStream = given.collect();
+    let guesses = quote!(Start { q: [guess; #n], v: [guess; #n] });
     let start = match given.is_empty() {
-        true => quote!(start),
-        false => quote!(mut start),
+        true => guesses,
+        false => quote!(let mut start = #guesses; #given start),
     };
     quote! {
         fn start(&self) -> Start<T, #n> {
             #statements
             let guess = Initial { value: T::zero(), held: false };
-            let #start = Start { q: [guess; #n], v: [guess; #n] };
-            #given
-            start
+            #start
         }
     }
 }
