@@ -50,6 +50,11 @@ pub const REWRITTEN_MAX: usize = 30_000;
 /// with its length, save nothing, and would take most of the time.
 const MULTIPLIED: (usize, usize) = (14, 20_000);
 
+/// The weight from which on a program is multiplied out in the ring of sines and cosines only
+/// where that made another one of the mechanism shorter. Of 378 descriptions one has a program
+/// that would be shorter all the same, by two hundredths.
+const LONG: usize = 2_000;
+
 /// Pairs of factors are shared, which takes most of the time, where a rewritten program costs
 /// up to so much more than the best one before that. Of 369 that cost more one was cheaper in
 /// the end, by a hundredth.
@@ -78,10 +83,7 @@ pub fn optimise_among(
     laws: &[ExprId],
     wanted: &[(Slot, ExprId)],
 ) -> Optimised {
-    let mut arrays: Vec<&str> = wanted.iter().map(|(slot, _)| slot.array).collect();
-    arrays.dedup();
-    let mut chosen = wanted.to_vec();
-    let scheduled = schedule::schedule(graph, laws, &chosen);
+    let scheduled = schedule::schedule(graph, laws, wanted);
     let finished = |best: &Program| {
         let program = checked(order::arranged(best));
         Optimised {
@@ -94,7 +96,11 @@ pub fn optimise_among(
         return finished(&scheduled);
     }
     let collected = Collected::of(&scheduled);
-    let (mut best, mut weight) = (collected.shared(), collected.weight());
+    let best = collected.shared();
+    let without = cost(&best).weight();
+    if without > LONG && !memory.may_pay() {
+        return finished(&best);
+    }
     let operands: usize = scheduled.uses().iter().sum();
     let most = MULTIPLIED.0 * operands + MULTIPLIED.1;
     let mut ring = ring::Ring::new(graph, memory, most);
@@ -105,10 +111,26 @@ pub fn optimise_among(
     let Some(reduced) = reduced else {
         return finished(&best);
     };
+    let best = with_reduced(graph, laws, [wanted, &reduced], (best, collected.weight()));
+    memory.observe(without, cost(&best).weight());
+    finished(&best)
+}
+
+/// The best program with some arrays reduced: those with which it is cheaper. It is given
+/// without any, and what that one cost before pairs were shared.
+fn with_reduced(
+    graph: &Graph,
+    laws: &[ExprId],
+    [wanted, reduced]: [&[(Slot, ExprId)]; 2],
+    (mut best, mut weight): (Program, usize),
+) -> Program {
+    let mut arrays: Vec<&str> = wanted.iter().map(|(slot, _)| slot.array).collect();
+    arrays.dedup();
+    let mut chosen = wanted.to_vec();
     // Arrays share work, so each is judged by what the whole then costs.
     for array in arrays {
         let mut candidate = chosen.clone();
-        for ((slot, e), (_, reduced)) in candidate.iter_mut().zip(&reduced) {
+        for ((slot, e), (_, reduced)) in candidate.iter_mut().zip(reduced) {
             if slot.array == array {
                 *e = *reduced;
             }
@@ -126,7 +148,7 @@ pub fn optimise_among(
             (chosen, best, weight) = (candidate, program, collected.weight());
         }
     }
-    finished(&best)
+    best
 }
 
 /// The program for the accelerations at regular states, from the program for `mass`, `force`,

@@ -24,6 +24,9 @@ use std::rc::Rc;
 /// The largest number of terms of an intermediate polynomial.
 const TERMS_MAX: usize = 400;
 
+/// A program of less than this part of the cost is clearly shorter.
+const CLEARLY_SHORTER: f64 = 0.98;
+
 /// The largest power that is multiplied out.
 const POWER_MAX: u32 = 8;
 
@@ -47,6 +50,23 @@ pub struct Polynomials {
     /// What is too long or has no finite coefficients, and everything that has it in it.
     refused: FxHashSet<ExprId>,
     monomials: Monomials,
+    /// Whether polynomials of a program before were tried, and made it clearly shorter.
+    tried: bool,
+    paid: bool,
+}
+
+impl Polynomials {
+    /// Whether they are worth the work in a long program: not where they made none of those
+    /// before shorter, as in most spatial mechanisms.
+    pub(super) fn may_pay(&self) -> bool {
+        self.paid || !self.tried
+    }
+
+    /// Takes note of what a program costs without them and with them.
+    pub(super) fn observe(&mut self, without: usize, with: usize) {
+        self.tried = true;
+        self.paid |= (with as f64) < CLEARLY_SHORTER * without as f64;
+    }
 }
 
 /// Polynomials of expressions that share parts, each found once.
