@@ -58,13 +58,19 @@ impl<T: Real> Sheet<'_, T> {
     ) -> bool {
         workspace.scope(|workspace| {
             let q = workspace.numbers(start.q.len());
-            let Some(reference) = self.reference(start, workspace) else {
+            let at =
+                |k: usize, q: &mut [T]| start.towards(end, T::from_f64(k as f64 / LOOKS as f64), q);
+            let Some(nearest) = self.nearest(LOOKS + 1, &at, q) else {
                 return false;
             };
-            (1..=LOOKS).all(|k| {
-                let t = start.towards(end, T::from_f64(k as f64 / LOOKS as f64), q);
-                let there = At { t, q, v: end.v };
-                self.sign_changes(&reference, there, workspace) == Some(0)
+            let v = end.v;
+            let t = at(nearest, q);
+            let Some(reference) = self.reference(At { t, q, v }, workspace) else {
+                return false;
+            };
+            (0..=LOOKS).filter(|k| *k != nearest).all(|k| {
+                let t = at(k, q);
+                self.sign_changes(&reference, At { t, q, v }, workspace) == Some(0)
             })
         })
     }

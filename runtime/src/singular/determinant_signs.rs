@@ -38,8 +38,9 @@ impl<'a, T: Real> DeterminantSigns<'a, T> {
     }
 
     /// How many sheets were crossed on the way to a block and the sign of a determinant. Blocks
-    /// count them, and determinants tell whether their number is odd; a block also changes its
-    /// sign where one of the rows before it loses its pivot.
+    /// count them, and determinants tell whether their number is odd. A block also changes its
+    /// sign where one of the rows before it loses its pivot, which is no crossing by itself, and
+    /// may hide one: then it is at least one less.
     fn changes_to(
         &self,
         (block, negative): (&Block<'_, T>, bool),
@@ -49,26 +50,46 @@ impl<'a, T: Real> DeterminantSigns<'a, T> {
         let odd = negative != self.negative;
         match (changes % 2 == 1) == odd {
             true => changes,
-            false => usize::from(odd),
+            false => changes.checked_sub(1).unwrap_or(1),
         }
     }
 }
 
-/// The start of a step: the order of elimination for all of its states, and the signs.
+/// A state of a step: the order of elimination for all of its states, and the signs there.
 pub(crate) struct Reference<'a, T> {
     pub(super) like: Eliminated<'a, T>,
     pub(super) signs: DeterminantSigns<'a, T>,
 }
 
 impl<T: Real> Sheet<'_, T> {
-    /// What states of a step that begins here are compared with; `None` where the
-    /// constraints can't be eliminated.
+    /// Of so many positions the one nearest to a singular configuration. There all rows come
+    /// last that may turn against others nearby, while two that do so on the way from one that
+    /// is far might be missed. `None` where the constraints can't be eliminated at one of them.
+    pub(super) fn nearest(
+        &mut self,
+        count: usize,
+        at: &dyn Fn(usize, &mut [T]) -> T,
+        q: &mut [T],
+    ) -> Option<usize> {
+        let (mut nearest, mut least) = (0, T::one());
+        for k in 0..count {
+            let t = at(k, q);
+            self.eliminate_widely(t, q).ok()?;
+            if self.frame.smallest() < least {
+                (nearest, least) = (k, self.frame.smallest());
+            }
+        }
+        Some(nearest)
+    }
+
+    /// What other states of a step are compared with; `None` where the constraints can't be
+    /// eliminated.
     pub(super) fn reference<'b>(
         &mut self,
-        start: At<'_, T>,
+        state: At<'_, T>,
         workspace: &Workspace<'b, T>,
     ) -> Option<Reference<'b, T>> {
-        self.eliminate_widely(start.t, start.q).ok()?;
+        self.eliminate_widely(state.t, state.q).ok()?;
         Some(Reference {
             like: self.frame.eliminated(workspace),
             signs: DeterminantSigns::of(&mut self.frame, workspace),

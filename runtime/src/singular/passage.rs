@@ -19,6 +19,8 @@ const BLOCKS: usize = 6;
 const MOST_STEPS: usize = 60;
 /// Looks into a step, equally far apart, its start among them.
 const LOOKS: usize = 5;
+/// Constraint equations of a single loop in the plane.
+const SINGLE: usize = 2;
 /// The determinant is taken once more at this part of the step beside a look, to see how
 /// fast it changes.
 const MOMENT: f64 = 1e-4;
@@ -159,7 +161,24 @@ impl<T: Real> Sheet<'_, T> {
         found: &mut Found<T>,
         workspace: &Workspace<'_, T>,
     ) {
-        let Some(reference) = self.reference(start, workspace) else {
+        let part = length / T::from_f64((LOOKS - 1) as f64);
+        let time = |k: usize| match k + 1 == LOOKS {
+            true => start.t + length,
+            false => start.t + part * T::from_f64(k as f64),
+        };
+        let q = workspace.numbers(start.q.len());
+        let position = |k: usize, q: &mut [T]| {
+            let t = time(k);
+            at(t, q);
+            t
+        };
+        // A single loop does not become singular twice at once.
+        let nearest = match self.constraints() > SINGLE {
+            true => self.nearest(LOOKS, &position, q).unwrap_or(0),
+            false => 0,
+        };
+        let (t, v) = (position(nearest, q), start.v);
+        let Some(reference) = self.reference(At { t, q, v }, workspace) else {
             return;
         };
         let view = View {
@@ -169,12 +188,10 @@ impl<T: Real> Sheet<'_, T> {
             length,
             regular: self.constraints(),
         };
-        let mut first = Some(Look::with(start.t, reference.signs, &self.frame));
-        let part = length / T::from_f64((LOOKS - 1) as f64);
-        let looks: [_; LOOKS] = core::array::from_fn(|k| match k {
-            0 => first.take(),
-            _ if k + 1 == LOOKS => self.look(&view, start.t + length, workspace),
-            _ => self.look(&view, start.t + part * T::from_f64(k as f64), workspace),
+        let mut known = Some(Look::with(t, reference.signs, &self.frame));
+        let looks: [_; LOOKS] = core::array::from_fn(|k| match k == nearest {
+            true => known.take(),
+            false => self.look(&view, time(k), workspace),
         });
         // A polynomial of fourth degree is no picture of the determinant of more rows.
         let rates = match view.like.block().size() < LOOKS {
