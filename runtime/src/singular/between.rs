@@ -27,7 +27,7 @@ impl<T: Real> Sheet<'_, T> {
         workspace: &Workspace<'_, T>,
     ) -> (Option<usize>, T) {
         workspace.scope(|workspace| {
-            let reference = self.reference(start, workspace);
+            let reference = self.reference(start.t, start.q, workspace);
             let mut changes_at = |there: At<'_, T>| {
                 let reference = reference.as_ref()?;
                 self.sign_changes(reference, there, workspace)
@@ -65,7 +65,7 @@ impl<T: Real> Sheet<'_, T> {
             };
             let v = end.v;
             let t = at(nearest, q);
-            let Some(reference) = self.reference(At { t, q, v }, workspace) else {
+            let Some(reference) = self.reference(t, q, workspace) else {
                 return false;
             };
             (0..=LOOKS).filter(|k| *k != nearest).all(|k| {

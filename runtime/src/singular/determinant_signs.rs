@@ -86,10 +86,11 @@ impl<T: Real> Sheet<'_, T> {
     /// eliminated.
     pub(super) fn reference<'b>(
         &mut self,
-        state: At<'_, T>,
+        t: T,
+        q: &[T],
         workspace: &Workspace<'b, T>,
     ) -> Option<Reference<'b, T>> {
-        self.eliminate_widely(state.t, state.q).ok()?;
+        self.eliminate_widely(t, q).ok()?;
         Some(Reference {
             like: self.frame.eliminated(workspace),
             signs: DeterminantSigns::of(&mut self.frame, workspace),

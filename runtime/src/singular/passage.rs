@@ -142,6 +142,23 @@ impl<'a, T: Real> Look<'a, T> {
     }
 }
 
+/// What a first look into a step sees.
+struct Glance<T> {
+    t: T,
+    determinant: T,
+    /// The sine by which the weakest constraint is independent.
+    sine: T,
+    /// How many rows may turn against others.
+    rows: usize,
+}
+
+/// A step that is looked into: its positions, and when it is.
+struct Step<'a, T> {
+    at: &'a dyn Fn(T, &mut [T]),
+    start: T,
+    length: T,
+}
+
 /// What is needed to look into a step.
 struct View<'a, T> {
     like: Eliminated<'a, T>,
@@ -162,64 +179,105 @@ impl<T: Real> Sheet<'_, T> {
         workspace: &Workspace<'_, T>,
     ) {
         let part = length / T::from_f64((LOOKS - 1) as f64);
-        let time = |k: usize| match k + 1 == LOOKS {
-            true => start.t + length,
-            false => start.t + part * T::from_f64(k as f64),
-        };
         let q = workspace.numbers(start.q.len());
-        let position = |k: usize, q: &mut [T]| {
-            let t = time(k);
+        let seen: [_; LOOKS] = core::array::from_fn(|k| {
+            let t = match k + 1 == LOOKS {
+                true => start.t + length,
+                false => start.t + part * T::from_f64(k as f64),
+            };
             at(t, q);
-            t
+            self.glance(t, q)
+        });
+        let rates = rates(&seen, part);
+        let step = Step {
+            at,
+            start: start.t,
+            length,
         };
+        let mut before: Option<(&Glance<T>, Option<T>)> = None;
+        for (glance, rate) in seen.iter().zip(rates) {
+            let Some(here) = glance else {
+                continue;
+            };
+            if let Some((before, rate_before)) = before {
+                let ends = (before, here);
+                workspace.scope(|inner| {
+                    self.search_between(&step, ends, [rate_before, rate], found, inner)
+                });
+            }
+            before = Some((here, rate));
+        }
+    }
+
+    /// The determinant at a position.
+    fn glance(&mut self, t: T, q: &[T]) -> Option<Glance<T>> {
+        self.eliminate_widely(t, q).ok()?;
+        let negative = self.frame.is_negative();
+        let size = self.frame.volume();
+        Some(Glance {
+            t,
+            determinant: if negative { -size } else { size },
+            sine: self.frame.smallest(),
+            rows: self.frame.block().size(),
+        })
+    }
+
+    /// Searches between two positions of a step, where the determinant changes at these rates.
+    fn search_between(
+        &mut self,
+        step: &Step<'_, T>,
+        (from, to): (&Glance<T>, &Glance<T>),
+        rates: [Option<T>; 2],
+        found: &mut Found<T>,
+        workspace: &Workspace<'_, T>,
+    ) {
+        let falls = rates.map(|rate| rate.map(|rate| rate * from.determinant < T::zero()));
+        let may_dip = falls[0] != Some(false) && falls[1] != Some(true);
+        let passes = from.determinant.sign() != to.determinant.sign();
         // A single loop does not become singular twice at once.
-        let nearest = match self.constraints() > SINGLE {
-            true => self.nearest(LOOKS, &position, q).unwrap_or(0),
-            false => 0,
+        if self.constraints() <= SINGLE && !passes && !may_dip {
+            return;
+        }
+        // At the nearer one all rows come last that may turn against others in between, while
+        // two that do so on the way from one that is far might be missed.
+        let is_first_nearer = from.sine <= to.sine;
+        let (near, far) = match is_first_nearer {
+            true => (from, to),
+            false => (to, from),
         };
-        let (t, v) = (position(nearest, q), start.v);
-        let Some(reference) = self.reference(At { t, q, v }, workspace) else {
+        let q = workspace.numbers(self.chart.n());
+        (step.at)(near.t, q);
+        let Some(reference) = self.reference(near.t, q, workspace) else {
             return;
         };
         let view = View {
             like: reference.like,
-            at,
-            start: start.t,
-            length,
+            at: step.at,
+            start: step.start,
+            length: step.length,
             regular: self.constraints(),
         };
-        let mut known = Some(Look::with(t, reference.signs, &self.frame));
-        let looks: [_; LOOKS] = core::array::from_fn(|k| match k == nearest {
-            true => known.take(),
-            false => self.look(&view, time(k), workspace),
-        });
-        // A polynomial of fourth degree is no picture of the determinant of more rows.
-        let rates = match view.like.block().size() < LOOKS {
-            true => rates(&looks, part),
-            false => [None; LOOKS],
+        let near = Look::with(near.t, reference.signs, &self.frame);
+        let Some(far) = self.look(&view, far.t, workspace) else {
+            return;
         };
-        let mut before: Option<(&Look<'_, T>, T)> = None;
-        for (look, rate) in looks.iter().zip(rates) {
-            let Some(here) = look else {
-                continue;
-            };
-            let seen = (here.t, here.determinant);
-            let Some(rate) = rate.or_else(|| self.rate(&view, seen, workspace)) else {
-                continue;
-            };
-            if let Some((before, rate_before)) = before {
-                workspace.scope(|inner| {
-                    let rates = [rate_before, rate];
-                    match self.beyond(&view, (before, here), rates, inner) {
-                        Some(middle) => {
-                            self.between(&view, (before, &middle), false, found, inner);
-                            self.between(&view, (&middle, here), false, found, inner);
-                        }
-                        None => self.between(&view, (before, here), false, found, inner),
-                    }
-                });
+        let (from, to) = match is_first_nearer {
+            true => (&near, &far),
+            false => (&far, &near),
+        };
+        let mut rate = |known: Option<T>, look: &Look<'_, T>| {
+            known.or_else(|| self.rate(&view, (look.t, look.determinant), workspace))
+        };
+        let [first, last] = [rate(rates[0], from), rate(rates[1], to)];
+        let middle = first
+            .zip(last)
+            .and_then(|(first, last)| self.beyond(&view, (from, to), [first, last], workspace));
+        match middle {
+            Some(middle) => {
+                self.between(&view, (from, &middle), false, found, workspace);
+                self.between(&view, (&middle, to), false, found, workspace);
             }
-            before = Some((here, rate));
+            None => self.between(&view, (from, to), false, found, workspace),
         }
     }
 
@@ -444,12 +502,17 @@ fn beside<T: Real>(from: &Look<'_, T>, to: &Look<'_, T>, loops: usize, at_once: 
 }
 
 /// How fast the determinant changes (1/s) at looks that are `part` apart, by the polynomial
-/// through all of them; `None` where one is missing.
-fn rates<T: Real>(looks: &[Option<Look<'_, T>>; LOOKS], part: T) -> [Option<T>; LOOKS] {
-    let [Some(a), Some(b), Some(c), Some(d), Some(e)] = looks else {
+/// through all of them; `None` where one is missing, or several rows may turn.
+fn rates<T: Real>(seen: &[Option<Glance<T>>; LOOKS], part: T) -> [Option<T>; LOOKS] {
+    let [Some(a), Some(b), Some(c), Some(d), Some(e)] = seen else {
         return [None; LOOKS];
     };
-    let values = [a, b, c, d, e].map(|look| look.determinant);
+    let all = [a, b, c, d, e];
+    // A polynomial of fourth degree is no picture of the determinant of more rows.
+    if all.iter().any(|glance| glance.rows >= LOOKS) {
+        return [None; LOOKS];
+    }
+    let values = all.map(|glance| glance.determinant);
     // Numerical differentiation of order four by equidistant values.
     const WEIGHTS: [[f64; LOOKS]; LOOKS] = [
         [-25.0, 48.0, -36.0, 16.0, -3.0],

@@ -6,6 +6,7 @@ use bricard_runtime::{Options, State, Whole, assemble, simulate};
 use bricard_singular::descriptions::driven_lines::DrivenLines;
 use bricard_singular::descriptions::many_lines::ManyLines;
 use bricard_singular::descriptions::parallelogram_pendulum::ParallelogramPendulum;
+use bricard_singular::descriptions::tied_lines::TiedLines;
 use bricard_singular::descriptions::two_lines::TwoLines;
 use core::f64::consts::PI;
 use core::ops::ControlFlow;
@@ -168,6 +169,36 @@ fn many_passages_in_one_step_are_all_reported() {
         for (i, t) in times.passages.iter().enumerate() {
             let exact = 1.0 + i as f64 * lag;
             assert!((t - exact).abs() < 1e-12, "{t} instead of {exact}");
+        }
+    }
+}
+
+/// Loops that become singular at once are one passage, however many they are and however far
+/// from it steps begin; an even number of them leaves the sign of the determinant as it was.
+#[test]
+fn loops_that_pass_at_once_are_seen_wherever_steps_begin() {
+    for (lag, passages) in [(0.0, 1), (0.001, 12), (0.05, 12)] {
+        for distance in [0.0, 0.3, 0.7, 0.9] {
+            let mut mechanism = TiedLines::<f64>::default();
+            mechanism.parameters.lag = lag;
+            let mechanism: &dyn Whole<f64, 24, 12> = &mechanism;
+            let mut start = mechanism.start();
+            (0..12).for_each(|i| start.q[i].value += distance);
+            let start = assemble(mechanism, &start, 0.0).expect("it can be assembled");
+            let options = Options::dop853(2.0, 1e-9);
+            let mut times = Times::default();
+            let ran = simulate(mechanism, &start, &options, &mut [&mut times]);
+            let summary = ran.unwrap_or_else(|failure| panic!("{failure}"));
+            assert_eq!(
+                summary.passages,
+                Some(passages),
+                "{lag}, {distance}: {:?}",
+                times.passages
+            );
+            for (i, t) in times.passages.iter().enumerate() {
+                let exact = 1.0 - distance + i as f64 * lag;
+                assert!((t - exact).abs() < 1e-6, "{t} instead of {exact}");
+            }
         }
     }
 }
