@@ -6,9 +6,9 @@
 //! What happens in one part says nothing of the others: each is placed for itself, between
 //! nodes of its own where its constraints are nearly singular.
 
+use super::found::Found;
 use super::obstacle::Obstacle;
 use super::part::{Frozen, PartOf, Place};
-use super::passage::Found;
 use super::place::Placement;
 use super::point::PointSlices;
 use super::product::{ChartView, Product};
