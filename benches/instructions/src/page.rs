@@ -60,8 +60,8 @@ and computes two values at once where it can; a loop is compiled in a fraction o
 stays in the processor's first cache. `Builder::unrolled` says from how many operations on there
 are loops: 8,000 unless it is given, where they are hardly slower on any processor; what the command
 compiles for all processors has them from 3,000 on. Functions that no step of a run calls have
-them from 1,000 on, for compilers look at them all the same. An acceleration has about 170 operations for
-each loop of a row, 730 for each body in Euler parameters, 130 for each rod.
+them from 1,000 on, for compilers look at them all the same. An acceleration has about 170
+operations for each loop of a row, 730 for each body in Euler parameters, 130 for each rod.
 
 Measured by `cargo run --release -p instructions -- size --record`, once; times of one run are to
 be compared. Generation, lines, rustc and machine code are those for x86-64, of all functions of

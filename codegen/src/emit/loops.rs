@@ -13,7 +13,7 @@ use super::index::{Index, Target, turn};
 use super::name::Names;
 use super::statements::Statements;
 use super::step::{Angles, Reference, Step, Steps};
-use super::turns::{Block, Found, Loop, Stride};
+use super::turns::{Block, Found, Loop, Stride, distance};
 use crate::model::Symbol;
 use crate::optimise::{Program, Slot};
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -315,8 +315,8 @@ impl Writer<'_> {
 /// How many of the first places are at even distances, and at which.
 fn even_slots(writes: &[(Slot, TokenStream)]) -> (usize, Stride) {
     let stride = |from: &Slot, to: &Slot| {
-        let step = |from: usize, to: usize| to.cast_signed() - from.cast_signed();
-        (from.array == to.array).then(|| [step(from.row, to.row), step(from.column, to.column)])
+        let place = |slot: &Slot| [slot.row, slot.column];
+        (from.array == to.array).then(|| distance(place(from), place(to)))
     };
     let strides = writes.windows(2).map(|pair| stride(&pair[0].0, &pair[1].0));
     let mut strides = strides.peekable();

@@ -265,8 +265,13 @@ fn strides(first: &[Target], next: &[Target]) -> Option<Vec<Stride>> {
 }
 
 fn stride(target: &Target, moved: &Target) -> Option<Stride> {
-    let step = |i: usize| moved.1[i].wrapping_sub(target.1[i]).cast_signed();
-    (target.0 == moved.0).then(|| [step(0), step(1)])
+    (target.0 == moved.0).then(|| distance(target.1, moved.1))
+}
+
+/// How far it is from one place of an array to another.
+pub(super) fn distance(from: [usize; 2], to: [usize; 2]) -> Stride {
+    let step = |i: usize| to[i].wrapping_sub(from[i]).cast_signed();
+    [step(0), step(1)]
 }
 
 fn continues(last: &[Target], next: &[Target], strides: &[Stride]) -> bool {

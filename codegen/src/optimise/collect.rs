@@ -18,19 +18,18 @@ const CLEARLY_CHEAPER: f64 = 0.7;
 pub(super) struct Collected<'a> {
     program: &'a Program,
     collected: Option<Program>,
+    /// What it costs before pairs are shared.
+    pub(super) weight: usize,
 }
 
 impl<'a> Collected<'a> {
     pub(super) fn of(program: &'a Program) -> Self {
+        let collected = collect_factors(program);
         Self {
             program,
-            collected: collect_factors(program),
+            weight: cost(collected.as_ref().unwrap_or(program)).weight(),
+            collected,
         }
-    }
-
-    /// What it costs before pairs are shared.
-    pub(super) fn weight(&self) -> usize {
-        cost(self.collected.as_ref().unwrap_or(self.program)).weight()
     }
 
     /// The program with factors shared; never costlier.
@@ -40,7 +39,7 @@ impl<'a> Collected<'a> {
         };
         let plain = cost(self.program).weight() as f64;
         let collected_shared = share_pairs(collected);
-        if (self.weight() as f64) < CLEARLY_CHEAPER * plain {
+        if (self.weight as f64) < CLEARLY_CHEAPER * plain {
             return collected_shared;
         }
         let shared = share_pairs(self.program);

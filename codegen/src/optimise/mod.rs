@@ -111,7 +111,7 @@ pub fn optimise_among(
     let Some(reduced) = reduced else {
         return finished(&best);
     };
-    let best = with_reduced(graph, laws, [wanted, &reduced], (best, collected.weight()));
+    let best = with_reduced(graph, laws, [wanted, &reduced], (best, collected.weight));
     memory.observe(without, cost(&best).weight());
     finished(&best)
 }
@@ -140,12 +140,12 @@ fn with_reduced(
         }
         let scheduled = schedule::schedule(graph, laws, &candidate);
         let collected = Collected::of(&scheduled);
-        if collected.weight() as f64 > PROMISING * weight as f64 {
+        if collected.weight as f64 > PROMISING * weight as f64 {
             continue;
         }
         let program = collected.shared();
         if cost(&program).weight() < cost(&best).weight() {
-            (chosen, best, weight) = (candidate, program, collected.weight());
+            (chosen, best, weight) = (candidate, program, collected.weight);
         }
     }
     best

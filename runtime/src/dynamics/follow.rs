@@ -398,9 +398,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.session.sine = Some(self.session.trial.end.sqrt());
         self.session.near = self.session.trial.near;
         self.session.rate = self.session.trial.rate;
-        if self.session.used.is_some() {
-            self.session.used = None;
-        }
+        self.session.used = None;
         if self.session.chart.is_some() {
             self.put_chart_aside();
         } else if self.session.trial.by_emitted {

@@ -405,6 +405,12 @@ impl<'a, T: Real> Frame<'a, T> {
         size
     }
 
+    /// The determinant.
+    pub(crate) fn determinant(&mut self) -> T {
+        let size = self.volume();
+        if self.is_negative() { -size } else { size }
+    }
+
     /// The logarithm of the size of the determinant, however small that is; not finite where
     /// a pivot is zero.
     pub(crate) fn log_volume(&self) -> T {

@@ -76,11 +76,8 @@ struct Step<'a, T> {
 
 /// What is needed to look into a step.
 struct View<'a, T> {
+    step: &'a Step<'a, T>,
     like: Eliminated<'a, T>,
-    at: &'a dyn Fn(T, &mut [T]),
-    start: T,
-    length: T,
-    regular: usize,
 }
 
 impl<T: Real> Sheet<'_, T> {
@@ -115,10 +112,8 @@ impl<T: Real> Sheet<'_, T> {
                 continue;
             };
             if let Some((before, rate_before)) = before {
-                let ends = (before, here);
-                workspace.scope(|inner| {
-                    self.search_between(&step, ends, [rate_before, rate], found, inner)
-                });
+                let rates = [rate_before, rate];
+                self.search_between(&step, (before, here), rates, found, workspace);
             }
             before = Some((here, rate));
         }
@@ -127,11 +122,9 @@ impl<T: Real> Sheet<'_, T> {
     /// The determinant at a position.
     fn glance(&mut self, t: T, q: &[T]) -> Option<Glance<T>> {
         self.eliminate_widely(t, q).ok()?;
-        let negative = self.frame.is_negative();
-        let size = self.frame.volume();
         Some(Glance {
             t,
-            determinant: if negative { -size } else { size },
+            determinant: self.frame.determinant(),
             sine: self.frame.smallest(),
             rows: self.frame.block().size(),
         })
@@ -155,30 +148,40 @@ impl<T: Real> Sheet<'_, T> {
         }
         // At the nearer one all rows come last that may turn against others in between, while
         // two that do so on the way from one that is far might be missed.
-        let is_first_nearer = from.sine <= to.sine;
-        let (near, far) = match is_first_nearer {
-            true => (from, to),
-            false => (to, from),
-        };
+        let mut orders = [(from, to), (to, from)];
+        if to.sine < from.sine {
+            orders.swap(0, 1);
+        }
+        // What is eliminated at the one may have lost a pivot at the other.
+        for ends in orders {
+            let searched =
+                workspace.scope(|inner| self.search_in_order(step, ends, rates, found, inner));
+            if searched.is_some() {
+                return;
+            }
+        }
+    }
+
+    /// The same in the order of elimination of one position, which is compared with another;
+    /// `None` where that can't be eliminated so.
+    fn search_in_order(
+        &mut self,
+        step: &Step<'_, T>,
+        (own, other): (&Glance<T>, &Glance<T>),
+        rates: [Option<T>; 2],
+        found: &mut Found<T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Option<()> {
         let q = workspace.numbers(self.chart.n());
-        (step.at)(near.t, q);
-        let Some(reference) = self.reference(near.t, q, workspace) else {
-            return;
-        };
-        let view = View {
-            like: reference.like,
-            at: step.at,
-            start: step.start,
-            length: step.length,
-            regular: self.constraints(),
-        };
-        let near = Look::with(near.t, reference.signs, &self.frame);
-        let Some(far) = self.look(&view, far.t, workspace) else {
-            return;
-        };
-        let (from, to) = match is_first_nearer {
-            true => (&near, &far),
-            false => (&far, &near),
+        (step.at)(own.t, q);
+        let reference = self.reference(own.t, q, workspace)?;
+        let like = reference.like;
+        let own = Look::with(own.t, reference.signs, &self.frame);
+        let view = View { step, like };
+        let other = self.look(&view, other.t, workspace)?;
+        let (from, to) = match own.t < other.t {
+            true => (&own, &other),
+            false => (&other, &own),
         };
         let mut rate = |known: Option<T>, look: &Look<'_, T>| {
             known.or_else(|| self.rate(&view, (look.t, look.determinant), workspace))
@@ -194,6 +197,7 @@ impl<T: Real> Sheet<'_, T> {
             }
             None => self.between(&view, (from, to), false, found, workspace),
         }
+        Some(())
     }
 
     /// Eliminates the constraints at a time within a step.
@@ -205,7 +209,7 @@ impl<T: Real> Sheet<'_, T> {
     ) -> Option<()> {
         workspace.scope(|workspace| {
             let q = workspace.numbers(self.chart.n());
-            (view.at)(t, q);
+            (view.step.at)(t, q);
             self.eliminate((t, q), Some(&view.like)).ok()
         })
     }
@@ -228,12 +232,7 @@ impl<T: Real> Sheet<'_, T> {
         workspace: &Workspace<'_, T>,
     ) -> Option<T> {
         self.eliminate_at(view, t, workspace)?;
-        let size = self.frame.volume();
-        Some(if self.frame.is_negative() {
-            -size
-        } else {
-            size
-        })
+        Some(self.frame.determinant())
     }
 
     /// How fast the determinant changes where somebody looks (1/s).
@@ -243,8 +242,8 @@ impl<T: Real> Sheet<'_, T> {
         (t, determinant): (T, T),
         workspace: &Workspace<'_, T>,
     ) -> Option<T> {
-        let moment = view.length * T::from_f64(MOMENT);
-        let beside = match t > view.start + moment {
+        let moment = view.step.length * T::from_f64(MOMENT);
+        let beside = match t > view.step.start + moment {
             true => t - moment,
             false => t + moment,
         };
@@ -264,7 +263,7 @@ impl<T: Real> Sheet<'_, T> {
     ) {
         let changes = to.signs.changes_from(&from.signs, workspace);
         let (width, half) = (to.t - from.t, T::from_f64(0.5));
-        let at_once = view.length * T::from_f64(AT_ONCE);
+        let at_once = view.step.length * T::from_f64(AT_ONCE);
         let middle = match changes {
             0 => return,
             1 => None,
@@ -306,11 +305,12 @@ impl<T: Real> Sheet<'_, T> {
             Some(()) => self.frame.smallest(),
             None => T::zero(),
         };
+        let regular = self.constraints();
         found.push(Passage {
             t,
             sine,
-            rank: view.regular - changes.min(view.regular),
-            regular: view.regular,
+            rank: regular - changes.min(regular),
+            regular,
         });
     }
 
