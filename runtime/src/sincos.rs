@@ -8,7 +8,7 @@
 //! minimax coefficients that Sun's fdlibm publishes (`k_sin.c`, `k_cos.c`, 1993).
 
 use core::f64::consts::FRAC_2_PI;
-use core::hint::black_box;
+use core::hint::{black_box, select_unpredictable};
 
 /// The largest angle (rad) for which the reduction is exact enough: the multiples
 /// of π/2 then have at most 17 bits.
@@ -93,15 +93,34 @@ const NUMBERS: Table = Table {
 };
 static TABLE: Table = NUMBERS;
 
+/// Sines of multiples of π/2, of which each is the cosine of the one before.
+const QUARTERS: [f64; 5] = [0.0, 1.0, 0.0, -1.0, 0.0];
+
 /// Sine and cosine of `x`: inlined where the reduction is exact enough, the library's
 /// elsewhere.
 #[inline(always)]
 pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     if x.abs() <= LARGEST {
-        in_lane(x, &NUMBERS, 0).0
+        of_small(x)
     } else {
         library_sin_cos(x)
     }
+}
+
+/// Sine and cosine of an angle up to [`LARGEST`].
+///
+/// Those of the nearest multiple of π/2 are multiplied with those of what is left: exact, since
+/// one of two products is zero, in fewer instructions than a swap and two signs take, and without
+/// a branch.
+#[inline(always)]
+fn of_small(x: f64) -> (f64, f64) {
+    let near = in_first_quarter(x, &NUMBERS, 0);
+    let quarter = (near.quarter & 3) as usize;
+    let (sine, cosine) = (QUARTERS[quarter], QUARTERS[quarter + 1]);
+    (
+        fused(near.cosine, sine, near.sine * cosine),
+        fused(-near.sine, sine, near.cosine * cosine),
+    )
 }
 
 #[cold]
@@ -117,35 +136,58 @@ fn library_sin_cos(x: f64) -> (f64, f64) {
     }
 }
 
-/// Sine and cosine of the angle in a lane, and the multiple of π/2 that is nearest to it.
+/// An angle less the nearest multiple of π/2.
+struct Near {
+    sine: f64,
+    cosine: f64,
+    /// That multiple: a whole number, and an integer of which the low bits count.
+    multiple: f64,
+    quarter: u64,
+}
+
+/// Sine and cosine of the angle in a lane, less the nearest multiple of π/2.
 #[inline(always)]
-fn in_lane(x: f64, table: &Table, lane: usize) -> ((f64, f64), f64) {
+fn in_first_quarter(x: f64, table: &Table, lane: usize) -> Near {
     let shifted = fused(x, table.quarters[lane], table.round[lane]);
-    let quarter = shifted.to_bits();
-    let n = shifted - table.round[lane];
-    let (r, tail) = remainder(x, n, table, lane);
+    let multiple = shifted - table.round[lane];
+    let (r, tail) = remainder(x, multiple, table, lane);
     let z = r * r;
     let bend = polynomial(z, &table.sine, lane);
-    let half = z * table.half[lane];
-    let near = table.one[lane] - half;
-    // What the rounding of that added. The sums are written as differences, whose operands the
-    // compiler does not exchange when it puts lanes together.
-    let added = (near - table.one[lane]) + half;
     let bow = polynomial(z, &table.cosine, lane);
     let (sine, cosine) = if FUSED {
-        (fused(z * r, bend, r), near - fused(-(z * z), bow, added))
+        // Only the factor of z is rounded: by a quarter of a unit, since it is near a half.
+        let bow = fused(z, bow, -table.half[lane]);
+        (fused(z * r, bend, r), fused(z, bow, table.one[lane]))
     } else {
+        let half = z * table.half[lane];
+        let near = table.one[lane] - half;
+        // What the rounding of that added. The sums are written as differences, whose operands
+        // the compiler does not exchange when it puts lanes together.
+        let added = (near - table.one[lane]) + half;
         let bow = added + r * tail - z * z * bow;
         (r + (z * r * bend + tail), near - bow)
     };
+    let quarter = shifted.to_bits();
+    Near {
+        sine,
+        cosine,
+        multiple,
+        quarter,
+    }
+}
 
-    let (odd, third) = (quarter << 63, quarter << 62);
+/// Sine and cosine of the angle in a lane, and the multiple of π/2 that is nearest to it.
+#[inline(always)]
+fn in_lane(x: f64, table: &Table, lane: usize) -> ((f64, f64), f64) {
+    let near = in_first_quarter(x, table, lane);
+    let (odd, third) = (near.quarter << 63, near.quarter << 62);
     let swap = (odd as i64) < 0;
-    let (s, c) = if swap { (cosine, sine) } else { (sine, cosine) };
+    let s = select_unpredictable(swap, near.cosine, near.sine);
+    let c = select_unpredictable(swap, near.sine, near.cosine);
     let sign = third & table.sign[lane].to_bits();
     let sine = f64::from_bits(s.to_bits() ^ sign);
     let cosine = f64::from_bits(c.to_bits() ^ sign ^ odd);
-    ((sine, cosine), n)
+    ((sine, cosine), near.multiple)
 }
 
 /// `x − n·π/2`, and what its rounding loses; that is given as zero where products are fused
@@ -178,31 +220,28 @@ const LANES: usize = 4;
 /// Angles, or their sines or cosines, that are worked on side by side.
 type Block = [f64; LANES];
 
-/// Sines and cosines of several angles.
+/// Sines and cosines of several angles: in lanes, or one by one where a block would be filled
+/// in part, which takes more time.
 #[inline(always)]
 pub(crate) fn sin_cos_all<const K: usize>(angles: &[f64; K]) -> ([f64; K], [f64; K]) {
-    if K > LANES {
-        // All of it is written over. Ones are stored here, side by side; zeros are left to
-        // a function that clears memory, and its call costs more.
-        let mut both = [[1.0; K]; 2];
-        let [sines, cosines] = &mut both;
+    // All of it is written over. Ones are stored here, side by side; zeros are left to a
+    // function that clears memory, and its call costs more.
+    let mut both = [[1.0; K]; 2];
+    let [sines, cosines] = &mut both;
+    if K < LANES {
+        for i in 0..K {
+            (sines[i], cosines[i]) = sin_cos(angles[i]);
+        }
+    } else {
         in_blocks(angles, sines, cosines);
-        let [sines, cosines] = both;
-        return (sines, cosines);
     }
-    let mut block = [0.0; LANES];
-    block[..K].copy_from_slice(angles);
-    let (sines, cosines) = in_block(&block);
-    let mut both = ([0.0; K], [0.0; K]);
-    both.0.copy_from_slice(&sines[..K]);
-    both.1.copy_from_slice(&cosines[..K]);
-    both
+    let [sines, cosines] = both;
+    (sines, cosines)
 }
 
-/// Fills slices of equal length, at least [`LANES`], block after block; the last
-/// one may take in some of the one before it.
+/// Block after block; the last one may take in some of the one before it.
 #[inline(never)]
-fn in_blocks(angles: &[f64], sines: &mut [f64], cosines: &mut [f64]) {
+fn in_blocks<const K: usize>(angles: &[f64; K], sines: &mut [f64; K], cosines: &mut [f64; K]) {
     // No multiple is larger than the root of the sum of all squares.
     let mut squares = [0.0; LANES];
     let (blocks, rest) = angles.as_chunks::<LANES>();
@@ -225,27 +264,6 @@ fn in_blocks(angles: &[f64], sines: &mut [f64], cosines: &mut [f64]) {
     if !are_small(&squares) {
         one_by_one(angles, sines, cosines);
     }
-}
-
-/// One block, in a function of its own: inlined into a long one, the same lines are compiled
-/// to code that goes through the lanes one by one.
-#[inline(never)]
-fn in_block(block: &Block) -> (Block, Block) {
-    let (mut sines, mut cosines) = ([0.0; LANES], [0.0; LANES]);
-    let multiples = lanes(block, black_box(&TABLE), &mut sines, &mut cosines);
-    if are_small(&multiples.map(|n| n * n)) {
-        (sines, cosines)
-    } else {
-        block_one_by_one(block)
-    }
-}
-
-#[cold]
-#[inline(never)]
-fn block_one_by_one(block: &Block) -> (Block, Block) {
-    let (mut sines, mut cosines) = ([0.0; LANES], [0.0; LANES]);
-    one_by_one(block, &mut sines, &mut cosines);
-    (sines, cosines)
 }
 
 #[inline(always)]

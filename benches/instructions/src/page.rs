@@ -24,11 +24,10 @@ freedom is, such an acceleration is interpolated between regular states of the s
 of the constraint set on both sides, and costs as much as the factorisations of the
 constraints at these states.
 
-Two or three sines and cosines are computed one by one, which takes a tenth to a quarter
-more instructions than a block of four lanes filled in part, and a tenth to a fifth less
-time on the processors that compilers build for when they are not told (medians of 201
-runs in turns: slider–crank 1.11, four-bar 1.22 times as long with blocks; with five angles
-1.02, with six 0.96).
+Two or three sines and cosines are computed one by one. In lanes they would take a fifth fewer
+instructions, but the lanes are loaded from what was stored entry by entry just before, for
+which processors wait: a run of the slider–crank takes 1.05 times as long by RK4 and 1.35 times
+by DOP853 (medians of 21 runs in turns, x86-64-v3).
 
 This page is written by `cargo run --release -p instructions -- table`, in `benches/`,
 from `benches/recorded.json`; `short` counts again and compares, as CI does. The figures
