@@ -7,7 +7,8 @@ use crate::callback::{Callback, LawFunction};
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{
     Acceleration, Canvas, Condition, Correction, Described, Differentiated, Energy, Interface,
-    Linearised, Mechanism, Partials, Position, Start, StartFault, State, Structure, Switch, Terms,
+    Linearised, Mechanism, Partials, Position, Start, StartFault, State, Structure, Switches,
+    Terms,
 };
 use core::cell::Cell;
 
@@ -136,13 +137,13 @@ where
         &self,
         state: &State<f64, N>,
         acceleration: &SVector<f64, N>,
-        values: &mut [Switch<f64>],
+        out: &mut Switches<'_, f64>,
     ) -> &'static [Condition] {
-        if values.is_empty() {
-            return self.mechanism.switches(state, acceleration, values);
+        if out.values.is_empty() {
+            return self.mechanism.switches(state, acceleration, out);
         }
         self.at(state, |mechanism| {
-            mechanism.switches(state, acceleration, values)
+            mechanism.switches(state, acceleration, out)
         })
     }
 

@@ -46,7 +46,7 @@ pub use observer::{
     BadInterval, ConstraintAudit, EnergyAudit, Observer, Occurrence, Probe, Sampler,
 };
 pub use real::Real;
-pub use sides::{Condition, Discontinuity, Sides, Switch};
+pub use sides::{Condition, Discontinuity, Sides, Switch, Switches};
 pub use simulate::{
     Audit, Failure, Options, Origin, SimulateError, StepControl, Stepper, Summary, simulate,
 };

@@ -10,7 +10,7 @@
 //! [`Solver`](crate::Solver) sees to that.
 
 use crate::assembly::StartFault;
-use crate::{Condition, Real, Sides, State, Structure, Switch};
+use crate::{Condition, Real, Sides, State, Structure, Switches};
 use nalgebra::{SMatrix, SVector};
 
 /// The equations of motion of a mechanism with `N` coordinates and `R`
@@ -59,12 +59,12 @@ pub trait Mechanism<T: Real, const N: usize, const R: usize> {
     }
 
     /// What decides the conditions of the forces by its sign, and its rate at an
-    /// acceleration, as many as `values` has room for; the conditions.
+    /// acceleration, as many as `out` has room for; the conditions.
     fn switches(
         &self,
         _state: &State<T, N>,
         _acceleration: &SVector<T, N>,
-        _values: &mut [Switch<T>],
+        _out: &mut Switches<'_, T>,
     ) -> &'static [Condition] {
         &[]
     }
@@ -121,9 +121,9 @@ where
         &self,
         state: &State<T, N>,
         acceleration: &SVector<T, N>,
-        values: &mut [Switch<T>],
+        out: &mut Switches<'_, T>,
     ) -> &'static [Condition] {
-        (**self).switches(state, acceleration, values)
+        (**self).switches(state, acceleration, out)
     }
 
     fn energy(&self, state: &State<T, N>) -> Energy<T> {

@@ -1,7 +1,7 @@
 //! Conditions of forces, and what holds them.
 //!
-//! Out: [`Sides`], which generated code asks instead of the state; [`Switch`] and
-//!      [`Condition`], which say what decides otherwise.
+//! Out: [`Sides`], which generated code asks instead of the state; [`Switch`],
+//!      [`Switches`] and [`Condition`], which say what decides otherwise.
 //!
 //! Not here: when a condition changes ([`crate::dynamics`], `switching.rs`).
 
@@ -73,6 +73,24 @@ pub struct Switch<T> {
     pub rate: T,
 }
 
+/// Where switching functions are written, and with which conditions.
+///
+/// A switching function may have conditions of its own, such as `min(F, if x < 0 then a else b)`:
+/// they are decided as those of the forces are, so that it is smooth over a step, too.
+#[derive(Debug)]
+pub struct Switches<'a, T> {
+    /// The conditions that are held.
+    pub sides: Sides,
+    /// As many functions as there is room for.
+    pub values: &'a mut [Switch<T>],
+}
+
+impl<'a, T> Switches<'a, T> {
+    pub(crate) fn of(sides: Sides, values: &'a mut [Switch<T>]) -> Self {
+        Self { sides, values }
+    }
+}
+
 /// A condition of the forces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Condition {
@@ -82,6 +100,9 @@ pub struct Condition {
     pub line: u32,
     /// What the forces do where it changes.
     pub discontinuity: Discontinuity,
+    /// Whether the time alone decides it. It then changes as often as it does, whatever the
+    /// motion is.
+    pub of_time: bool,
 }
 
 /// What forces do where a condition of theirs changes.

@@ -3,7 +3,7 @@
 use crate::mechanisms::{FourBars, Passing, SliderCrank};
 use bricard_runtime::{
     Acceleration, Condition, Correction, Energy, Linearised, Mechanism, Method, Position, Settings,
-    SimulateError, State, StepControl, Stepper, Structure, Switch, Terms,
+    SimulateError, State, StepControl, Stepper, Structure, Switches, Terms,
 };
 use nalgebra::SVector;
 use std::cell::Cell;
@@ -54,9 +54,9 @@ impl<M: Mechanism<f64, N, R>, const N: usize, const R: usize> Mechanism<f64, N, 
         &self,
         state: &State<f64, N>,
         acceleration: &SVector<f64, N>,
-        values: &mut [Switch<f64>],
+        out: &mut Switches<'_, f64>,
     ) -> &'static [Condition] {
-        self.mechanism.switches(state, acceleration, values)
+        self.mechanism.switches(state, acceleration, out)
     }
     fn energy(&self, state: &State<f64, N>) -> Energy<f64> {
         self.mechanism.energy(state)

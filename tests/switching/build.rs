@@ -19,7 +19,17 @@ fn main() -> Result<(), Box<dyn Error>> {
         write(&folder.join(name), &text)?;
     }
     for name in [
-        "contact", "friction", "frozen", "knotted", "looped", "placed", "shifted", "tabled",
+        "contact",
+        "friction",
+        "frozen",
+        "knotted",
+        "looped",
+        "placed",
+        "pulsed",
+        "released",
+        "saturated",
+        "shifted",
+        "tabled",
         "timed",
     ] {
         Builder::new().compile(format!("{name}.mech"))?;

@@ -27,11 +27,11 @@ fn methods(until: f64) -> Vec<Options<f64>> {
     fixed.into_iter().chain(adaptive).collect()
 }
 
-fn state<const N: usize>(q: [f64; N], v: [f64; N]) -> State<f64, N> {
+pub(crate) fn state<const N: usize>(q: [f64; N], v: [f64; N]) -> State<f64, N> {
     State::new(0.0, SVector::from(q), SVector::from(v))
 }
 
-fn run<const N: usize, const R: usize>(
+pub(crate) fn run<const N: usize, const R: usize>(
     mechanism: &dyn Whole<f64, N, R>,
     start: &State<f64, N>,
     options: &Options<f64>,
@@ -41,7 +41,7 @@ fn run<const N: usize, const R: usize>(
 }
 
 #[track_caller]
-fn near(found: f64, exact: f64, most: f64, what: &Options<f64>) {
+pub(crate) fn near(found: f64, exact: f64, most: f64, what: &Options<f64>) {
     let error = (found - exact).abs();
     assert!(
         error <= most * exact.abs().max(1.0),

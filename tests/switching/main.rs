@@ -3,6 +3,7 @@
 // Its simulation of each pair of sizes is shared, where the compiler shares generic code.
 use bricard as _;
 
+mod changes;
 mod events;
 mod jumps;
 mod measured;

@@ -51,12 +51,15 @@ pub(super) fn hold(mechanism: &mut Mechanism) -> Result<(), Diagnostics> {
         let rate = rate(mechanism, found.function);
         let names = |symbol| mechanism.symbol_text(symbol);
         let text = mechanism.graph.text(found.met_in, &names);
+        let fixed_or_time = |symbol: &Symbol| matches!(symbol, Symbol::Parameter(_) | Symbol::Time);
+        let symbols = mechanism.graph.symbols(found.function);
         mechanism.switches.push(Switch {
             value: found.function,
             rate,
             text,
             span,
             discontinuity: found.discontinuity,
+            of_time: symbols.iter().all(fixed_or_time),
         });
     }
     Ok(())

@@ -1,6 +1,7 @@
 //! The equations of motion: the trait implementation.
 
 use super::filling::{Heading, Method};
+use super::function::Decided;
 use super::index::Target;
 use super::linearised::linearised;
 use super::subject::{Called, Subject, Written, cost_in_words, entry, entry_of_field};
@@ -148,7 +149,10 @@ fn entry_of_solution(target: &Target) -> Option<TokenStream> {
 fn energy(subject: &Subject) -> TokenStream {
     let Written {
         body, state, cost, ..
-    } = subject.body(&subject.programs.energy, Called::OnRequest);
+    } = subject.body(
+        &subject.programs.energy,
+        (Decided::ByState, Called::OnRequest),
+    );
     let slots = [0, 1, 2, 3].map(|row| Slot::of_vector("energy", row));
     let [kinetic, potential, balance, power] = slots.map(|slot| body.output(slot));
     let (statements, n) = (&body.statements, subject.sizes().0);

@@ -50,7 +50,7 @@ pub(super) fn imports(subject: &Subject) -> TokenStream {
         (!mechanism.events.is_empty(), &["Direction", "Event"]),
         (
             !mechanism.switches.is_empty(),
-            &["Condition", "Discontinuity", "Switch"],
+            &["Condition", "Discontinuity", "Switch", "Switches"],
         ),
         (!mechanism.tables.is_empty(), &["Table"]),
     ];

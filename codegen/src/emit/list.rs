@@ -1,5 +1,6 @@
 //! Methods that write lists of values.
 
+use super::function::Decided;
 use super::subject::{Called, Subject, Written};
 use crate::optimise::{List, Optimised, Slot};
 use proc_macro2::{Ident, Span, TokenStream};
@@ -24,7 +25,7 @@ pub(super) fn all_values(
     }
     let Written {
         body, state, cost, ..
-    } = subject.body(computed, Called::InSteps);
+    } = subject.body(computed, (Decided::ByState, Called::InSteps));
     let statements = &body.statements;
     let computed = (0..count).map(|row| body.output(Slot::of_vector(name, row)));
     quote! {

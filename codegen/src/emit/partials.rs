@@ -3,6 +3,7 @@
 //! In:  a mechanism, its programs.
 //! Out: `impl Differentiated`.
 
+use super::function::Decided;
 use super::outputs::assigned;
 use super::subject::{Called, Reads, Subject, Written, argument};
 use crate::optimise::Program;
@@ -30,7 +31,7 @@ fn partials(subject: &Subject) -> TokenStream {
     };
     let reads = Reads::of(&computed.program);
     let out = argument("out", reads.out);
-    let written = subject.body(computed, Called::OnRequest);
+    let written = subject.body(computed, (Decided::ByState, Called::OnRequest));
     let assigned = ["force_by_input", "outputs", "events"].map(|array| {
         let places = places(&computed.program, array);
         let name = Ident::new(array, Span::call_site());

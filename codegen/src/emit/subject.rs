@@ -142,8 +142,8 @@ impl Subject<'_> {
     }
 
     /// The body of a function whose outputs are assigned by whoever asks for it.
-    pub fn body(&self, computed: &Optimised, called: Called) -> Written {
-        let (program, decided) = (&computed.program, Decided::ByState);
+    pub fn body(&self, computed: &Optimised, (decided, called): (Decided, Called)) -> Written {
+        let program = &computed.program;
         let loops = self.loops(program, decided, called);
         let body = match loops.filter(|_| program.is_list()) {
             Some(loops) => body_of_list(program, loops),

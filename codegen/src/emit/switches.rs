@@ -4,6 +4,7 @@
 //! Out: the table of the conditions, and the method that computes their switching
 //!      functions; nothing where there are none.
 
+use super::function::Decided;
 use super::subject::{Called, Subject, Written};
 use crate::model::Discontinuity;
 use crate::optimise::Slot;
@@ -24,7 +25,10 @@ pub(super) fn table(subject: &Subject) -> TokenStream {
             Discontinuity::Knot => quote!(Discontinuity::Knot),
         };
         let line = Literal::u32_unsuffixed(switch.span.start.line);
-        quote!(Condition { text: #text, line: #line, discontinuity: #discontinuity })
+        let of_time = switch.of_time;
+        quote!(Condition {
+            text: #text, line: #line, discontinuity: #discontinuity, of_time: #of_time,
+        })
     });
     quote!(static CONDITIONS: &[Condition] = &[#(#entries),*];)
 }
@@ -41,7 +45,7 @@ pub(super) fn switches(subject: &Subject) -> TokenStream {
         state,
         acceleration,
         cost,
-    } = subject.body(computed, Called::InSteps);
+    } = subject.body(computed, (Decided::BySides, Called::InSteps));
     let statements = &body.statements;
     let computed = (0..count).map(|i| {
         let part = |part| body.output(Slot::of_vector("switches", 2 * i + part));
@@ -50,18 +54,19 @@ pub(super) fn switches(subject: &Subject) -> TokenStream {
     });
     let n = subject.sizes().0;
     quote! {
-        /// What decides the conditions of the forces by its sign, and its rate.
+        /// What decides the conditions of the forces by its sign, and its rate, with the
+        /// conditions in it held.
         ///
         #[doc = #cost]
         fn switches(
             &self,
             #state: &State<T, #n>,
             #acceleration: &SVector<T, #n>,
-            values: &mut [Switch<T>],
+            out: &mut Switches<'_, T>,
         ) -> &'static [Condition] {
             #statements
             let computed = [#(#computed),*];
-            for (place, value) in values.iter_mut().zip(computed) {
+            for (place, value) in out.values.iter_mut().zip(computed) {
                 *place = value;
             }
             CONDITIONS

@@ -120,6 +120,8 @@ pub struct Switch {
     pub span: Span,
     /// What the forces do where it is zero.
     pub discontinuity: Discontinuity,
+    /// Whether it is a function of the time alone.
+    pub of_time: bool,
 }
 
 /// What forces do where a switching function is zero.

@@ -35,6 +35,9 @@ pub(crate) struct Decided<T> {
     pub(super) sides: Sides,
     /// Those that the motion slides along, a bit for each.
     pub(super) sliding: u128,
+    /// Those that the motion has left after sliding along them. It does not slide along zero to
+    /// the last bit: where it leaves, the function may still be on the other side.
+    pub(super) released: u128,
     /// Filippov's weights of the forces above zero, for a motion that slides, at the last
     /// state.
     pub(super) weights: [T; Sides::ROOM],
@@ -73,6 +76,7 @@ impl<T: Real> Decided<T> {
             list: &[],
             sides: Sides::FREE,
             sliding: 0,
+            released: 0,
             weights: [T::zero(); Sides::ROOM],
             made: None,
             aim: None,
@@ -89,7 +93,7 @@ impl<T: Real> Decided<T> {
             // On the wrong side of zero for zero: the first step will show it.
             self.sides.hold(index, switch.value >= T::zero());
         }
-        (self.sliding, self.turns) = (0, 0);
+        (self.sliding, self.released, self.turns) = (0, 0, 0);
         (self.turned, self.attempt) = (t, T::zero());
         self.burst = (t, 0);
         self.aim = None;

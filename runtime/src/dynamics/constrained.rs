@@ -9,7 +9,8 @@ use crate::stack::with_room;
 use crate::system::escalating;
 use crate::tolerance::{passes, regular, window};
 use crate::{
-    AccelerationJacobian, Counters, DynamicsError, Mechanism, Real, State, Step, Switching, System,
+    AccelerationJacobian, Counters, DynamicsError, Mechanism, Real, Sides, State, Step, Switches,
+    Switching, System,
 };
 use nalgebra::{SMatrix, SVector};
 
@@ -55,7 +56,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.expect_regular();
         let conditions = match self.settings.across_switches {
             true => &[],
-            false => mechanism.switches(&State::default(), &SVector::zeros(), &mut []),
+            false => {
+                let (state, still) = (State::default(), SVector::zeros());
+                mechanism.switches(&state, &still, &mut Switches::of(Sides::FREE, &mut []))
+            }
         };
         self.conditions.forget(conditions);
         ConstrainedSystem {

@@ -12,7 +12,7 @@ use super::conditions::Decided;
 use super::sliding::{ROOM, sliding};
 use super::switching::{Motion, settling, switching};
 use crate::crossing::noise;
-use crate::{DynamicsError, Mechanism, Real, Sides, State, Step, Switch, Switching};
+use crate::{DynamicsError, Mechanism, Real, Sides, State, Step, Switch, Switches, Switching};
 use nalgebra::SVector;
 
 /// An attempt at a step, with who made it.
@@ -54,7 +54,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             let mut values = [Switch::default(); Sides::ROOM];
             let count = self.conditions.decided.list.len().min(Sides::ROOM);
             let values = &mut values[..count];
-            mechanism.switches(state, &SVector::zeros(), values);
+            let mut out = Switches::of(Sides::FREE, values);
+            mechanism.switches(state, &SVector::zeros(), &mut out);
             self.conditions.decided.begin(state.t, values);
             self.conditions.at = Some(*state);
         }
@@ -142,7 +143,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let weights = sliding()(&slid, N, room, &mut |sides, rates, out| {
             self.decide(sides);
             let acceleration = self.acceleration(mechanism, state)?;
-            mechanism.switches(state, &acceleration, rates);
+            mechanism.switches(state, &acceleration, &mut Switches::of(sides, rates));
             out.copy_from_slice(acceleration.as_slice());
             Ok(())
         })?;
@@ -178,9 +179,9 @@ impl<T: Real, const N: usize, const R: usize> Motion<T> for Attempt<'_, T, N, R>
         noise(self.core.session.tolerance)
     }
 
-    fn values(&self, t: T, values: &mut [Switch<T>]) {
+    fn values(&self, t: T, out: &mut Switches<'_, T>) {
         let (state, still) = (self.at(t), SVector::zeros());
-        self.mechanism.switches(&state, &still, values);
+        self.mechanism.switches(&state, &still, out);
     }
 
     fn rates(&mut self, t: T, values: &mut [Switch<T>]) -> Result<(), DynamicsError<T>> {
@@ -188,7 +189,9 @@ impl<T: Real, const N: usize, const R: usize> Motion<T> for Attempt<'_, T, N, R>
         self.core.decide(self.core.conditions.decided.sides);
         let acceleration = self.core.held_acceleration(self.mechanism, &state)?;
         if !values.is_empty() {
-            self.mechanism.switches(&state, &acceleration, values);
+            let sides = self.core.conditions.decided.sides;
+            let mut out = Switches::of(sides, values);
+            self.mechanism.switches(&state, &acceleration, &mut out);
         }
         Ok(())
     }

@@ -18,7 +18,7 @@
 use super::conditions::{Aim, Decided};
 use crate::crossing::{Left, NODES, SAME_TIME, Samples, first_crossing, nodes, zero};
 use crate::once::compiled_once;
-use crate::{Discontinuity, DynamicsError, Real, Sides, Switch, Switching, Watched};
+use crate::{Discontinuity, DynamicsError, Real, Sides, Switch, Switches, Switching, Watched};
 
 /// Attempts to end a step where one function passes zero, after the first.
 const REFINEMENTS: u32 = 3;
@@ -41,7 +41,7 @@ pub(crate) trait Motion<T> {
     /// What functions are off by in between, relative to their size there.
     fn noise(&self) -> T;
     /// Writes the values of switching functions at a time, as many as there is room for.
-    fn values(&self, t: T, values: &mut [Switch<T>]);
+    fn values(&self, t: T, out: &mut Switches<'_, T>);
     /// The same with their rates, with the conditions held as was decided. Without room, no
     /// more than the weights of the conditions that are slid along.
     fn rates(&mut self, t: T, values: &mut [Switch<T>]) -> Result<(), DynamicsError<T>>;
@@ -140,17 +140,26 @@ impl<T: Real> dyn Motion<T> + '_ {
 
     /// Changes a condition at an end: to its other side, or to sliding if the motion is
     /// pushed back from there; off that again where one side no longer pushes.
-    #[inline(never)]
     fn turn(&mut self, index: usize, t: T) -> Result<(), DynamicsError<T>> {
+        let before = self.decided().sides;
+        self.change(index, t)?;
+        self.carry(index, before, t);
+        Ok(())
+    }
+
+    #[inline(never)]
+    fn change(&mut self, index: usize, t: T) -> Result<(), DynamicsError<T>> {
         let decided = self.decided();
         decided.count_turn(index, t)?;
         let place = index as u32;
         if decided.slides(index) {
             let above = decided.weights[index] > T::from_f64(0.5);
             decided.sliding &= !(1 << index);
+            decided.released |= 1 << index;
             decided.sides.hold(place, above);
             return Ok(());
         }
+        decided.released &= !(1 << index);
         let side = decided.side(index);
         if decided.list[index].discontinuity != Discontinuity::Jump {
             // Forces that are continuous push to the same side from both.
@@ -169,6 +178,34 @@ impl<T: Real> dyn Motion<T> + '_ {
         Ok(())
     }
 
+    /// Changes the conditions whose functions jumped to their other side with a condition that
+    /// has changed. Functions have no conditions but those before them in the list.
+    fn carry(&mut self, changed: usize, before: Sides, t: T) {
+        let decided = self.decided();
+        let (count, mut sides) = (decided.list.len().min(Sides::ROOM), decided.sides);
+        if changed + 1 >= count {
+            return;
+        }
+        let [mut was, mut is] = [[Switch::default(); Sides::ROOM]; 2];
+        self.values(t, &mut Switches::of(before, &mut was));
+        loop {
+            self.values(t, &mut Switches::of(sides, &mut is));
+            let decided = self.decided();
+            let jumped = (changed + 1..count).find(|&i| {
+                let value = is[i].value;
+                value != was[i].value && value * decided.side(i) < T::zero()
+            });
+            let Some(index) = jumped else {
+                return;
+            };
+            decided
+                .sides
+                .hold(index as u32, is[index].value > T::zero());
+            decided.sliding &= !(1 << index);
+            sides = decided.sides;
+        }
+    }
+
     /// The first condition that changes within a step, and when.
     fn first_change(&mut self) -> Result<Option<(usize, T)>, DynamicsError<T>> {
         let list = self.decided().list;
@@ -183,7 +220,9 @@ impl<T: Real> dyn Motion<T> + '_ {
             let found = if self.decided().slides(index) {
                 self.end_of_sliding(index)?
             } else {
-                let side = self.decided().side(index);
+                let decided = self.decided();
+                let (side, sides) = (decided.side(index), decided.sides);
+                let released = decided.released >> index & 1 == 1;
                 let quantity = Watched::Condition(condition.text);
                 let defined = |t, value: T| match value.partial_cmp(&T::zero()) {
                     Some(_) => Ok(value),
@@ -191,7 +230,7 @@ impl<T: Real> dyn Motion<T> + '_ {
                 };
                 let mut value = |t| {
                     let mut values = [Switch::default(); Sides::ROOM];
-                    self.values(t, &mut values[..=index]);
+                    self.values(t, &mut Switches::of(sides, &mut values[..=index]));
                     defined(t, values[index].value)
                 };
                 let samples = Samples {
@@ -201,11 +240,20 @@ impl<T: Real> dyn Motion<T> + '_ {
                 defined(ends.1, samples.values[NODES - 1])?;
                 // Cubics that join smoothly differ by the third power of the distance from the
                 // knot: what comes no farther beyond does not matter.
-                let margin = match condition.discontinuity {
+                let noise = match condition.discontinuity {
                     Discontinuity::Knot => self.noise().sqrt(),
                     Discontinuity::Jump | Discontinuity::Kink => self.noise() * samples.size(),
                 };
-                earliest(&mut value, samples, side, margin)?
+                let beyond = (-side * samples.values[0]).max(T::zero());
+                let margin = if released { noise + beyond } else { noise };
+                match earliest(&mut value, samples, side, margin)? {
+                    // Where it leaves zero the interpolant is as good as the step, no better.
+                    Some(t) if released && t < times[1] => {
+                        let samples = Samples::of(&mut value, (times[1], ends.1))?;
+                        earliest(&mut value, samples, side, margin)?
+                    }
+                    found => found,
+                }
             };
             if let Some(t) = found {
                 first = match first {
@@ -243,11 +291,12 @@ impl<T: Real> dyn Motion<T> + '_ {
     }
 
     /// Samples some switching functions of a step, from one on.
-    fn sample(&self, times: &[T; NODES], first: usize, sampled: &mut [[T; NODES]; AT_ONCE]) {
+    fn sample(&mut self, times: &[T; NODES], first: usize, sampled: &mut [[T; NODES]; AT_ONCE]) {
+        let sides = self.decided().sides;
         let mut values = [Switch::default(); Sides::ROOM];
         let values = &mut values[..(first + AT_ONCE).min(Sides::ROOM)];
         for (k, t) in times.iter().enumerate() {
-            self.values(*t, values);
+            self.values(*t, &mut Switches::of(sides, values));
             for (samples, switch) in sampled.iter_mut().zip(&values[first..]) {
                 samples[k] = switch.value;
             }
@@ -266,6 +315,9 @@ impl<T: Real> dyn Motion<T> + '_ {
 impl<T: Real> Decided<T> {
     /// Refuses conditions that change again and again while time hardly goes on.
     fn count_turn(&mut self, index: usize, t: T) -> Result<(), DynamicsError<T>> {
+        if self.list[index].of_time {
+            return Ok(());
+        }
         let later = t - self.turned > self.attempt * T::from_f64(HARDLY_LATER);
         self.turned = t;
         self.turns = if later { 0 } else { self.turns + 1 };

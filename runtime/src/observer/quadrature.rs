@@ -8,8 +8,11 @@
 
 use crate::Real;
 
-/// Bisections of a step.
+/// Bisections of a step, one in the other.
 const DEEPEST: u32 = 20;
+/// Bisections of a step altogether: the power of a body at rest is round-off, which no part of
+/// the step is too short for.
+const MOST: u32 = 2000;
 
 /// A function of the time that may fail.
 pub(super) type Function<'a, T, E> = &'a mut dyn FnMut(T) -> Result<T, E>;
@@ -52,7 +55,7 @@ impl<T: Real> Integral<T> {
         accuracy: T,
         least: T,
     ) -> Result<T, E> {
-        self.bisected(function, (accuracy, least), DEEPEST)
+        self.bisected(function, (accuracy, least), DEEPEST, &mut { MOST })
     }
 
     #[inline(never)]
@@ -61,17 +64,20 @@ impl<T: Real> Integral<T> {
         function: Function<'_, T, E>,
         limits: (T, T),
         depth: u32,
+        most: &mut u32,
     ) -> Result<T, E> {
         let half = self.length * T::from_f64(0.5);
         let first = Self::over(function, self.start, half)?;
         let second = Self::over(function, self.start + half, half)?;
         let (sum, size) = (first.value + second.value, first.size.max(second.size));
         let (accuracy, least) = limits;
-        if size <= least || (sum - self.value).abs() <= accuracy * size || depth == 0 {
+        let differs = size > least && (sum - self.value).abs() > accuracy * size;
+        if !differs || depth == 0 || *most == 0 {
             return Ok(sum);
         }
-        let first = first.bisected(function, limits, depth - 1)?;
-        Ok(first + second.bisected(function, limits, depth - 1)?)
+        *most -= 1;
+        let first = first.bisected(function, limits, depth - 1, most)?;
+        Ok(first + second.bisected(function, limits, depth - 1, most)?)
     }
 }
 
@@ -91,4 +97,26 @@ fn gauss<T: Real>() -> [(T, T); 4] {
         (half + inner, more),
         (half + outer, less),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Integral, MOST};
+    use bricard_testkit::Random;
+    use core::convert::Infallible;
+
+    #[test]
+    fn a_function_that_is_round_off_is_not_followed_into_ever_shorter_parts() {
+        let mut random = Random::seeded(7);
+        let mut evaluations = 0_u32;
+        let mut noise = |_| {
+            evaluations += 1;
+            Ok::<_, Infallible>(random.within(1e-32))
+        };
+        let Ok(whole) = Integral::over(&mut noise, 0.0, 1.0);
+        let Ok(value) = whole.refined(&mut noise, 1e-9, 0.0);
+        assert!(value.abs() < 1e-32, "{value}");
+        // Four nodes on each half of what is bisected, of which one more is left as it is.
+        assert!(evaluations <= 4 + 8 * (2 * MOST + 1), "{evaluations}");
+    }
 }

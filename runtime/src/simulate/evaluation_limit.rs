@@ -10,7 +10,7 @@
 use crate::assembly::StartFault;
 use crate::{
     Acceleration, Condition, Correction, Energy, Linearised, Mechanism, Position, Real, Start,
-    State, Structure, Switch, Terms,
+    State, Structure, Switches, Terms,
 };
 use core::cell::Cell;
 use nalgebra::SVector;
@@ -107,12 +107,12 @@ where
         &self,
         state: &State<T, N>,
         acceleration: &SVector<T, N>,
-        values: &mut [Switch<T>],
+        out: &mut Switches<'_, T>,
     ) -> &'static [Condition] {
-        let conditions = self.mechanism.switches(state, acceleration, values);
-        // An empty slice asks for the conditions alone.
-        if !values.is_empty() {
-            self.count(values.iter_mut().map(|switch| &mut switch.value));
+        let conditions = self.mechanism.switches(state, acceleration, out);
+        // No room asks for the conditions alone.
+        if !out.values.is_empty() {
+            self.count(out.values.iter_mut().map(|switch| &mut switch.value));
         }
         conditions
     }

@@ -3,7 +3,7 @@
 use bricard_runtime::nalgebra::{SMatrix, SVector};
 use bricard_runtime::{
     Condition, ConstraintRow, Direction, Discontinuity, Energy, Event, Mechanism, Position,
-    Quantity, Sides, Start, StartEquations, StartFault, State, Structure, Switch, Terms, meet,
+    Quantity, Sides, Start, StartEquations, StartFault, State, Structure, Switches, Terms, meet,
 };
 
 /// A function of the position: its value, gradient and second derivatives.
@@ -108,6 +108,7 @@ static CONDITIONS: [Condition; 1] = [Condition {
     text: "if x < 1/2",
     line: 5,
     discontinuity: Discontinuity::Jump,
+    of_time: false,
 }];
 
 impl Mechanism<f64, 2, 1> for Point {
@@ -144,12 +145,12 @@ impl Mechanism<f64, 2, 1> for Point {
         &self,
         state: &State<f64, 2>,
         _acceleration: &SVector<f64, 2>,
-        values: &mut [Switch<f64>],
+        out: &mut Switches<'_, f64>,
     ) -> &'static [Condition] {
         let Some(side) = self.side else {
             return &[];
         };
-        if let [first, ..] = values {
+        if let [first, ..] = out.values {
             first.value = side(state);
             first.rate = state.v[0];
         }
