@@ -2,6 +2,7 @@
 //! constraints, or the start is refused.
 
 use bricard_fixtures::placed::Placed;
+use bricard_fixtures::three_cranks::ThreeCranks;
 use bricard_runtime::{AssemblyError, Interface, Mechanism, Position, State, assemble};
 
 /// A few hundred roundings of numbers of size one.
@@ -80,4 +81,17 @@ fn held_values_that_contradict_equations_are_named() {
     start.q[0].value = f64::NAN;
     let error = assemble(&mechanism, &start, 1.5).expect_err("no number");
     assert_eq!(error, AssemblyError::NotFinite { t: 1.5 });
+}
+
+#[test]
+fn equations_for_velocities_hold_where_rows_are_the_same() {
+    for speed in [4.0_f64, -0.7, 0.0, 30.0] {
+        let mut mechanism = ThreeCranks::default();
+        mechanism.parameters.speed = speed;
+        let state = assemble(&mechanism, &mechanism.start(), 0.0).expect("it can be met");
+        for crank in 0..3 {
+            let error = (state.v[crank] - speed / 2.0).abs();
+            assert!(error < ROUND_OFF * speed.abs().max(1.0), "{error} of {speed}");
+        }
+    }
 }

@@ -171,7 +171,8 @@ impl<T: Real> Branches<'_, '_, T> {
             self.whole.leave_unreachable(rest, regular());
             let size = norm(bias) + self.slopes(v, slopes, (bias, moved));
             let reached = norm(rest) <= size * T::from_f64(ON_BRANCH);
-            if norm(rest) > T::zero() {
+            // Of rows that are the same the rest is round-off, and so is how it changes.
+            if norm(rest) > size * T::EPSILON * T::from_f64(CONTRADICTION) {
                 // Also where the branch is reached: the last step squares the
                 // error.
                 self.make_effective(slopes, moved);
