@@ -91,7 +91,10 @@ fn equations_for_velocities_hold_where_rows_are_the_same() {
         let state = assemble(&mechanism, &mechanism.start(), 0.0).expect("it can be met");
         for crank in 0..3 {
             let error = (state.v[crank] - speed / 2.0).abs();
-            assert!(error < ROUND_OFF * speed.abs().max(1.0), "{error} of {speed}");
+            assert!(
+                error < ROUND_OFF * speed.abs().max(1.0),
+                "{error} of {speed}"
+            );
         }
     }
 }
