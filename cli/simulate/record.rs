@@ -7,7 +7,7 @@ use crate::arguments::Simulate;
 use crate::checkpoint::{Checkpoint, Rows};
 use crate::column::{Column, header};
 use crate::error::CommandError;
-use crate::output::probe;
+use crate::output::{probe, say};
 use crate::parquet;
 use crate::rows::{CsvWriter, RowWriter};
 use crate::run::RowSink;
@@ -39,6 +39,16 @@ pub struct Record {
     rows: Option<Vec<Vec<f64>>>,
     count: usize,
     last: f64,
+    names: Vec<String>,
+    undefined: Vec<Undefined>,
+}
+
+/// A column that had no value in some rows.
+struct Undefined {
+    column: usize,
+    /// When it had none for the first time (s).
+    first: f64,
+    rows: usize,
 }
 
 impl Record {
@@ -59,7 +69,7 @@ impl Record {
         let wanted = arguments.out.is_some() || !drawn;
         let header = header(structure, columns);
         let width = header.len();
-        let all: Vec<String> = varied.into_iter().chain(header).collect();
+        let all: Vec<String> = varied.into_iter().chain(header.clone()).collect();
         let open = || writer(arguments.out.as_deref(), &all);
         Ok(Self {
             table: wanted.then(open).transpose()?,
@@ -68,6 +78,42 @@ impl Record {
             rows: drawn.then(Vec::new),
             count: 0,
             last: 0.0,
+            names: header,
+            undefined: Vec::new(),
+        })
+    }
+
+    /// Notes the columns that have no value in a row.
+    fn note(&mut self, values: &[f64]) {
+        let t = values.first().copied().unwrap_or(0.0);
+        let shown = values.iter().take(self.width).enumerate();
+        for (column, _) in shown.filter(|(_, value)| !value.is_finite()) {
+            match self.undefined.iter_mut().find(|x| x.column == column) {
+                Some(undefined) => undefined.rows += 1,
+                None => self.undefined.push(Undefined {
+                    column,
+                    first: t,
+                    rows: 1,
+                }),
+            }
+        }
+    }
+
+    /// What to say of columns that had no value.
+    fn warnings(&self) -> impl Iterator<Item = String> {
+        self.undefined.iter().map(|undefined| {
+            let Undefined {
+                column,
+                first,
+                rows,
+            } = undefined;
+            let name = self.names.get(*column).map_or("", String::as_str);
+            format!(
+                "warning: `{name}` has no finite value in {rows} of the {} rows, for the first \
+                 time at t = {first} s: look for a root or a logarithm of a negative number in \
+                 it, or a quotient by zero",
+                self.count
+            )
         })
     }
 
@@ -102,6 +148,7 @@ impl Record {
         &mut self,
         draw: impl FnOnce(Vec<Vec<f64>>) -> Result<Vec<String>, CommandError>,
     ) -> Result<String, CommandError> {
+        self.warnings().for_each(|text| say(&text));
         let mut places = Vec::new();
         // A reader of the rows that has gone is no reason not to draw the picture.
         let finished = self.table.as_mut().map_or(Ok(()), |table| table.finish());
@@ -130,6 +177,7 @@ impl Record {
 
 impl RowSink for Record {
     fn row(&mut self, values: &[f64]) -> Result<(), CommandError> {
+        self.note(values);
         if let Some(table) = &mut self.table {
             let values = values.get(..self.width).unwrap_or(values);
             match self.value {
@@ -150,5 +198,34 @@ impl RowSink for Record {
             Some(table) => table.flush(),
             None => Ok(Rows::default()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_without_a_value_are_named_with_the_first_time() {
+        let mut record = Record {
+            table: None,
+            value: None,
+            width: 3,
+            rows: None,
+            count: 0,
+            last: 0.0,
+            names: ["t", "x", "p"].map(String::from).to_vec(),
+            undefined: Vec::new(),
+        };
+        for (t, p) in [(0.0, 1.0), (0.5, f64::NAN), (1.0, f64::INFINITY)] {
+            // What a picture wants besides is not among the rows.
+            assert!(record.row(&[t, 0.0, p, f64::NAN]).is_ok());
+        }
+        let warnings: Vec<String> = record.warnings().collect();
+        let [warning] = &warnings[..] else {
+            panic!("{warnings:?}");
+        };
+        let said = "`p` has no finite value in 2 of the 3 rows, for the first time at t = 0.5 s";
+        assert!(warning.contains(said), "{warning}");
     }
 }
