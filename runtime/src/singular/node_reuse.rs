@@ -73,8 +73,8 @@ impl<T: Real> Sheet<'_, T> {
         self.nodes.set_known();
     }
 
-    /// Interpolates between the nodes that are kept, if the state is well between them and
-    /// they resolve the sheet there as well as where they were found.
+    /// Interpolates between the nodes that are kept, if the state is well between them, and they
+    /// resolve the sheet there as well as where they were found.
     #[inline(never)]
     pub(super) fn reuse_nodes<'b>(
         &self,
@@ -113,6 +113,12 @@ impl<T: Real> Sheet<'_, T> {
             found.noise += sets[0][node].abs() * quality.noise[node];
         }
         found.sum_up(&sets);
+        // The curve may come by elsewhere, at another passage, as far along this tangent.
+        let off = self.chart.length(found.sum(0).offset);
+        let is_here = off <= ((ahead - behind) * half).abs();
+        if !is_here {
+            return None;
+        }
         found.spacing = quality.spacing;
         self.judge(state, quality.rate, &mut found);
         let as_before = found.score <= quality.score;

@@ -7,6 +7,7 @@ mod accuracy;
 mod corners;
 mod known;
 mod massless;
+mod mirrored;
 mod narrow;
 mod passages;
 mod references;

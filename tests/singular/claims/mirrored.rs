@@ -1,0 +1,60 @@
+//! What is known of one singular configuration is no knowledge of another that looks alike.
+
+use bricard_runtime::{
+    DynamicsError, Method, Observer, Options, Probe, Step, StepControl, Whole, assemble, simulate,
+};
+use bricard_singular::descriptions::mirrored::Mirrored;
+use core::ops::ControlFlow;
+
+/// Keeps by how much the bars of the parallelogram are not parallel at most (m).
+#[derive(Default)]
+struct Largest(f64);
+
+impl Observer<f64, 4> for Largest {
+    fn step(
+        &mut self,
+        step: &Step<f64, 4>,
+        _probe: &mut dyn Probe<f64, 4>,
+    ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
+        let q = step.end().q;
+        let off = (q[2] - 1.0 - q[0]).abs().max((q[3] - q[1]).abs());
+        // What is not a number stays.
+        self.0 = if off <= self.0 { self.0 } else { off };
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn looks_inside(&self) -> bool {
+        false
+    }
+}
+
+/// Fixed steps of all lengths, and all methods with step control.
+fn settings() -> impl Iterator<Item = Options<f64>> {
+    let fixed = [0.01, 0.005, 0.0025, 0.001].map(|step| Options::rk4(6.0, step));
+    let adaptive = Method::ALL[1..].iter().flat_map(|method| {
+        [1e-6, 1e-8, 1e-9, 1e-10].map(|tolerance| {
+            let control = StepControl::Adaptive {
+                relative: tolerance,
+                absolute: tolerance,
+            };
+            Options::new(6.0, *method, control)
+        })
+    });
+    fixed.into_iter().chain(adaptive)
+}
+
+#[test]
+fn nodes_of_a_passage_do_not_serve_its_mirror_image() {
+    let mechanism: &dyn Whole<f64, 4, 3> = &Mirrored::default();
+    let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+    for options in settings() {
+        let mut largest = Largest::default();
+        let (method, control) = (options.method, options.step_control);
+        let ran = simulate(mechanism, &start, &options, &mut [&mut largest]);
+        let summary = ran.unwrap_or_else(|failure| panic!("{method:?} {control:?}: {failure}"));
+        assert_eq!(summary.passages, Some(4), "{method:?} {control:?}");
+        assert!(largest.0 < 1e-7, "{method:?} {control:?}: {}", largest.0);
+        let lost = summary.energy_error.expect("audited");
+        assert!(lost < 1e-4, "{method:?} {control:?}: {lost} J");
+    }
+}
