@@ -76,11 +76,17 @@ pub(super) fn snake_case(name: &str) -> String {
             snake.extend(c.to_lowercase());
         }
     }
-    if syn::parse_str::<Ident>(&snake).is_ok() {
+    if is_identifier(&snake) {
         snake
     } else {
         format!("{snake}_")
     }
+}
+
+/// Whether Rust takes a word for a name, in any edition: `syn` knows the keywords up to that of
+/// 2021, and edition 2024 adds one.
+fn is_identifier(word: &str) -> bool {
+    word != "gen" && syn::parse_str::<Ident>(word).is_ok()
 }
 
 /// Types that stand beside a mechanism's in its module.
@@ -142,7 +148,7 @@ pub(super) fn camel_case(name: &str) -> String {
         camel.push_str(letters.as_str());
     }
     let free = !NEIGHBOURS.contains(&camel.as_str());
-    if free && syn::parse_str::<Ident>(&camel).is_ok() {
+    if free && is_identifier(&camel) {
         camel
     } else {
         format!("Mechanism{camel}")
@@ -158,6 +164,7 @@ mod tests {
         assert_eq!(snake_case("theta[0]"), "theta_0");
         assert_eq!(snake_case("L01"), "l01");
         assert_eq!(snake_case("type"), "type_");
+        assert_eq!(snake_case("gen"), "gen_");
         assert_eq!(snake_case("cos_type__sin_type_"), "cos_type_sin_type_");
         assert_eq!(camel_case("double_four_bar"), "DoubleFourBar");
         assert_eq!(camel_case("SliderCrank"), "SliderCrank");
