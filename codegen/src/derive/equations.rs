@@ -58,6 +58,31 @@ impl Equations {
         let entries = || self.mass.iter().flatten().flatten().copied().collect();
         self.inertia.clone().unwrap_or_else(entries)
     }
+
+    /// All expressions in them.
+    pub fn expressions(&self) -> Vec<ExprId> {
+        let matrices = [&self.jacobian, &self.turn].into_iter().chain(&self.mass);
+        let starts = [&self.start_positions, &self.start_velocities];
+        let slopes = starts.map(|rows| &rows.slopes);
+        let errors = starts.map(|rows| &rows.errors);
+        let vectors = [
+            &self.coriolis,
+            &self.gravity,
+            &self.applied,
+            &self.force,
+            &self.residual,
+            &self.speed,
+            &self.drift,
+            &self.bias,
+        ];
+        let vectors = vectors.into_iter().chain(errors).chain(&self.inertia);
+        let entries = matrices.chain(slopes).flatten().chain(vectors);
+        let energies = self.energies;
+        let mut all: Vec<ExprId> = entries.flatten().copied().collect();
+        all.extend([energies.kinetic, energies.potential]);
+        all.extend([energies.balance, energies.power]);
+        all
+    }
 }
 
 /// Coordinates that constraints or `M` tie together, and the rows that do.

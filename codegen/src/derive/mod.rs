@@ -16,6 +16,7 @@ mod eliminate;
 mod energy;
 mod equations;
 mod explicit;
+mod finite;
 mod force;
 mod gradient;
 mod hold;
@@ -63,9 +64,17 @@ const MUCH_SHORTER: (usize, usize) = (2, 3);
 /// # Errors
 ///
 /// More than [`EXPRESSIONS_MAX`](crate::model::EXPRESSIONS_MAX) expressions, with the lines
-/// that most of them come from; more conditions than a run has room for.
+/// that most of them come from; more conditions than a run has room for; numbers that are not
+/// finite.
 pub fn derive(mechanism: &mut Mechanism) -> Result<Equations, Diagnostics> {
     switch::hold(mechanism)?;
+    let equations = shortest(mechanism)?;
+    finite::check(mechanism, &equations)?;
+    Ok(equations)
+}
+
+/// The shortest of the ways in which the equations may be written.
+fn shortest(mechanism: &mut Mechanism) -> Result<Equations, Diagnostics> {
     let begun = mechanism.clone();
     // Symbol by symbol a long chain would have many more expressions.
     let first = (begun.coordinates.len() >= LONG_CHAIN).then(|| in_one_sweep(&begun));

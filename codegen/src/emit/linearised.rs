@@ -10,10 +10,15 @@ use quote::quote;
 const LEFT_OUT: &str = " The linearised equations of motion would be too long and are left out: \
                         implicit integrators take differences.";
 
+/// Said of a mechanism whose linearisation has numbers that no `f64` holds.
+const INFINITE: &str = " The linearised equations of motion have numbers that are not finite and \
+                        are left out: implicit integrators take differences.";
+
 /// What the documentation of the module says of a linearisation that there is not.
 pub(super) fn docs(subject: &Subject) -> Option<&'static str> {
     match subject.programs.linearised {
         Err(LeftOut::Expressions | LeftOut::Operations(_)) => Some(LEFT_OUT),
+        Err(LeftOut::Infinite) => Some(INFINITE),
         Ok(_) => None,
     }
 }

@@ -1,7 +1,7 @@
 //! What expressions are made of.
 
 use super::bits::Growing;
-use super::{ExprId, Function2, Graph, Node, Symbolic};
+use super::{ExprId, Function, Function2, Graph, Node, Number, Symbolic};
 use std::collections::BTreeSet;
 
 impl<S> Node<S> {
@@ -81,6 +81,35 @@ impl<S: Symbolic> Graph<S> {
             lengths[e.index()] = length;
         }
         roots.iter().map(|root| lengths[root.index()]).collect()
+    }
+
+    /// The numbers that expressions are made of, but for those of tables.
+    pub fn numbers(&self, roots: &[ExprId]) -> Vec<Number> {
+        let mut numbers = Vec::new();
+        for e in self.reachable(roots) {
+            match self.node(e) {
+                Node::Number(number) => numbers.push(*number),
+                Node::Sum(constant, terms) => {
+                    numbers.push(*constant);
+                    numbers.extend(terms.iter().map(|(_, weight)| *weight));
+                }
+                _ => {}
+            }
+        }
+        numbers
+    }
+
+    /// Whether the numbers that expressions are made of are finite, also those of tables.
+    pub fn has_finite_numbers(&self, roots: &[ExprId]) -> bool {
+        let is_finite = |e: &ExprId| match self.node(*e) {
+            Node::Function(Function::Table(lookup), _) => {
+                let pieces = &lookup.table.pieces;
+                pieces.iter().flatten().all(|number| number.is_finite())
+            }
+            _ => true,
+        };
+        self.numbers(roots).iter().all(|number| number.is_finite())
+            && self.reachable(roots).iter().all(is_finite)
     }
 
     /// Every symbol an expression is made of.

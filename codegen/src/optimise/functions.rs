@@ -22,6 +22,8 @@ pub enum LeftOut {
     Expressions,
     /// Their program has this many operations, more than a function should have.
     Operations(usize),
+    /// Some of their numbers are not finite.
+    Infinite,
 }
 
 /// An array that has a function of its own.

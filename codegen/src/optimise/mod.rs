@@ -139,6 +139,10 @@ fn with_reduced(
             continue;
         }
         let scheduled = schedule::schedule(graph, laws, &candidate);
+        // Products of numbers that are finite may not be.
+        if !scheduled.has_finite_numbers() {
+            continue;
+        }
         let collected = Collected::of(&scheduled);
         if collected.weight as f64 > PROMISING * weight as f64 {
             continue;
@@ -163,12 +167,12 @@ pub fn acceleration_solve(
     sizes: (usize, usize),
     weighed: &[usize],
 ) -> Option<Solved> {
-    solve::with_acceleration(terms, sizes, weighed).map(checked_solution)
+    solve::with_acceleration(terms, sizes, weighed).and_then(checked_solution)
 }
 
 /// The program for the least corrections of position and velocity, from the
 /// program for `mass`, `jacobian`, `residual`, `speed`, `turn`; `None` where it would divide
-/// by what is zero everywhere.
+/// by what is zero everywhere, or has numbers that are not finite.
 ///
 /// # Panics
 ///
@@ -178,23 +182,27 @@ pub fn correction_solve(
     sizes: (usize, usize),
     weighed: &[usize],
 ) -> Option<Solved> {
-    solve::with_correction(terms, sizes, weighed).map(checked_solution)
+    solve::with_correction(terms, sizes, weighed).and_then(checked_solution)
 }
 
 /// The program for the accelerations of so many coordinates, from the program for `mass` and
 /// `force` with so many shared velocities in front of them, and `links`, what these are made
-/// of; `None` where it would divide by what is zero everywhere.
+/// of; `None` where it would divide by what is zero everywhere, or has numbers that are not
+/// finite.
 ///
 /// # Panics
 ///
 /// As [`optimise`].
 pub fn shared_solve(terms: &Program, sizes: (usize, usize)) -> Option<Solved> {
-    solve::with_shared(terms, sizes).map(checked_solution)
+    solve::with_shared(terms, sizes).and_then(checked_solution)
 }
 
-fn checked_solution(solved: Solved) -> Solved {
+fn checked_solution(solved: Solved) -> Option<Solved> {
+    if !solved.program.has_finite_numbers() {
+        return None;
+    }
     let program = checked(solved.program);
-    Solved { program, ..solved }
+    Some(Solved { program, ..solved })
 }
 
 fn checked(program: Program) -> Program {

@@ -107,6 +107,11 @@ impl Optimiser<'_> {
         self.optimised(wanted).program
     }
 
+    fn has_finite_numbers(&self, wanted: &Wanted) -> bool {
+        let roots: Vec<ExprId> = wanted.iter().map(|(_, e)| *e).collect();
+        self.mechanism.graph.has_finite_numbers(&roots)
+    }
+
     fn list(&mut self, array: &'static str, entries: &[ExprId]) -> List {
         List {
             count: entries.len(),
@@ -231,12 +236,16 @@ impl Optimiser<'_> {
             row_by_position,
             row_by_velocity,
         } = linearise(self.mechanism, self.equations).ok_or(LeftOut::Expressions)?;
-        let linearised = self.optimised(&merged([
+        let wanted = merged([
             matrix("force_by_position", &force_by_position),
             matrix("force_by_velocity", &force_by_velocity),
             matrix("row_by_position", &row_by_position),
             matrix("row_by_velocity", &row_by_velocity),
-        ]));
+        ]);
+        if !self.has_finite_numbers(&wanted) {
+            return Err(LeftOut::Infinite);
+        }
+        let linearised = self.optimised(&wanted);
         match linearised.program.len() {
             length if length > LINEARISED_MAX => Err(LeftOut::Operations(length)),
             _ => Ok(linearised),
@@ -249,11 +258,15 @@ impl Optimiser<'_> {
             outputs,
             events,
         } = differentiate(self.mechanism, self.equations)?;
-        let partials = self.optimised(&merged([
+        let wanted = merged([
             vector("force_by_input", &force_by_input.concat()),
             vector("outputs", &outputs.concat()),
             vector("events", &events.concat()),
-        ]));
+        ]);
+        if !self.has_finite_numbers(&wanted) {
+            return None;
+        }
+        let partials = self.optimised(&wanted);
         (partials.program.len() <= LINEARISED_MAX).then_some(partials)
     }
 

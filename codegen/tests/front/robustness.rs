@@ -319,3 +319,40 @@ fn numbers_beyond_all_bounds_are_refused_and_none_becomes_zero() {
         super::accept(&super::with(&format!("output y = {formula};")));
     }
 }
+
+#[test]
+fn numbers_that_leave_all_bounds_while_equations_are_derived_are_refused_or_left_out() {
+    let compiled = |statement: &str| {
+        let source = format!("mechanism Test {{ coord x; kinetic der(x)^2; {statement} }}");
+        let compiled = compile_source(&source, "test", "test.mech", &CompileSettings::default());
+        compiled.map_err(|errors| errors.render("test.mech", &source))
+    };
+    let zigzag = (0..40).map(|i| format!("[{i}, {}1e308]", if i % 2 == 0 { "-" } else { "" }));
+    let zigzag: Vec<String> = zigzag.collect();
+    for statement in [
+        "potential 1e308*x^2;",
+        "kinetic 1e308*der(x)^2;",
+        "constraint 1e200*x = 0;",
+        "force table([[0, -1e308], [1, 1e308]], x) on x;",
+        "force table([[0, 0], [1e-308, 1e308]], x) on x;",
+        "force spline([[0, 0], [1e-200, 1e308], [1, 0]], x) on x;",
+        &format!("force table([{}], x) on x;", zigzag.join(", ")),
+        "force 1e308*x on x; force 1e308*x on x;",
+    ] {
+        let refused = compiled(statement).err();
+        let refused = refused.unwrap_or_else(|| panic!("{statement} was accepted"));
+        assert!(refused.contains("not finite"), "{refused}");
+        assert!(refused.contains("^^^"), "{refused}");
+    }
+    for statement in [
+        "potential 1e306*x^15;",
+        "force x*exp(1e308*x) on x;",
+        "potential 1e306*x*exp(1e306*x);",
+        "output a = der(der(exp(1e200*x)));",
+        "coord y; kinetic 1e200*(der(x) + 2*der(y))^2 + 1e200*der(y)^2;",
+    ] {
+        let code = compiled(statement).map(|compiled| compiled.code);
+        let code = code.unwrap_or_else(|refused| panic!("{refused}"));
+        assert!(!code.contains("inf"), "{code}");
+    }
+}

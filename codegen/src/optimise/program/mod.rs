@@ -177,6 +177,15 @@ impl Program {
         self.operations.is_empty()
     }
 
+    /// Whether all numbers in it are finite.
+    pub(in crate::optimise) fn has_finite_numbers(&self) -> bool {
+        let is_finite = |operation: &Operation| match operation {
+            Operation::Number(number) => number.is_finite(),
+            _ => true,
+        };
+        self.operations.iter().all(is_finite)
+    }
+
     /// Whether it reads a symbol of some kind.
     pub fn reads(&self, kind: impl Fn(&Symbol) -> bool) -> bool {
         let is_kind = |operation: &Operation| match operation {

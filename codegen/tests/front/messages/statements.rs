@@ -52,6 +52,8 @@ pub const STATEMENTS: &[&str] = &[
     "param a: m^x = 1;",
     // Shapes and functions.
     "potential 0^-1;",
+    "potential 1e308*q^2;",
+    "force 1e308*q on q; force 1e308*q on q;",
     "output a = dot([1, 2], [1, 2, 3]);",
     "output a = det(q);",
     "output a = inv(q);",
