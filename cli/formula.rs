@@ -218,17 +218,17 @@ fn with_unit(number: &str, unit: &str) -> Option<String> {
     })
 }
 
-/// A number and the letters behind it, if that is all.
+/// A number and what stands behind it, if that begins with a letter. The number is as long as
+/// it can be: the exponent of `1e-3*2` is no unit, and that of `1e2mm` no part of one.
 fn split(text: &str) -> Option<(&str, &str)> {
     let text = text.trim();
+    let is_part = |c: char| c.is_ascii_digit() || matches!(c, '.' | 'e' | 'E' | '+' | '-');
+    let longest = text.find(|c| !is_part(c)).unwrap_or(text.len());
+    let mut ends = (1..=longest).rev();
+    let end = ends.find(|&end| text[..end].parse::<f64>().is_ok())?;
+    let (number, rest) = (&text[..end], text[end..].trim_start());
     let is_letter = |c: char| c.is_ascii_alphabetic() || c == '°';
-    // The exponent of `1e-3` is no unit, and that of `1e2mm` no part of one.
-    let whole = text.trim_start_matches(|c| !is_letter(c));
-    let last = &text[text.trim_end_matches(is_letter).len()..];
-    let parted = |unit| Some((text.strip_suffix(unit)?.trim_end(), unit));
-    let mut all = [last, whole].into_iter().filter_map(parted);
-    let first = all.find(|(number, _)| number.parse::<f64>().is_ok());
-    first.filter(|(_, unit)| !unit.is_empty())
+    rest.starts_with(is_letter).then_some((number, rest))
 }
 
 /// The factor that turns a unit into the SI unit.
@@ -349,6 +349,7 @@ mod tests {
             ("2t", "written `2*t`"),
             ("0.5m", "write `0.5`"),
             ("2 s", "write `2`"),
+            ("1e2N*m", "write `1e2`"),
             ("-1.5e2mm", "write `-1.5e2*1e-3`"),
             ("3 rpm", "write `3*2*pi/60`"),
             ("1e-9x", "`x` means nothing here: write `1e-9`"),
@@ -357,6 +358,9 @@ mod tests {
             assert!(number(wrong).is_err_and(|e| e.contains(right)), "{wrong}");
         }
         assert_eq!(number("1e-3"), Ok(1e-3));
+        assert_eq!(number("1e-3*2"), Ok(2e-3));
+        assert_eq!(number("-2.5E+1/5"), Ok(-5.0));
+        assert!(setting("u=1e3*t").is_ok_and(|set| matches!(set, Setting::Law { .. })));
         assert!(number("2*pi").is_ok() && number("pi").is_ok());
     }
 
