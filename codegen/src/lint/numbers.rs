@@ -326,6 +326,20 @@ impl<'a> Numbers<'a> {
         self.errors(&rows, &end).1.then_some(end)
     }
 
+    /// The velocities of the start block at its position, if the constraints hold with them as
+    /// they are.
+    pub fn beginning(&self, place: &Place) -> Option<Vec<f64>> {
+        let mut v = vec![0.0; place.q.len()];
+        let starts = self.mechanism.starts.iter();
+        for start in starts.filter(|start| start.velocity) {
+            v[start.coordinate] = self.values(&[start.value], place)[0];
+        }
+        let (_, jacobian, drift) = self.velocity_level(place);
+        let rate = |row: &[f64]| row.iter().zip(&v).map(|(a, v)| a * v).sum::<f64>();
+        let mut speeds = jacobian.iter().zip(&drift).map(|(row, b)| rate(row) + b);
+        speeds.all(|speed| speed == 0.0).then_some(v)
+    }
+
     /// Random positions near the start at which the constraints hold; fewer than
     /// asked for where none is found.
     pub fn samples(&self) -> &[Place] {

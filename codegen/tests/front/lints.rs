@@ -128,6 +128,33 @@ fn a_start_that_cannot_be_assembled_is_told_with_what_each_equation_lacks() {
 }
 
 #[test]
+fn a_constraint_without_value_or_derivative_where_a_motion_begins_is_named() {
+    let rate = "this has no finite derivative at the start";
+    let value = "this is not finite at the start";
+    says("constraint norm([x, y]) = 1;", &[rate, "norm([x, y]) = 1"]);
+    says("constraint sqrt(x) = y;", &[rate]);
+    says("constraint atan2(y, x) = 1;", &[rate]);
+    says("constraint 1/x = y;", &[value]);
+    says("constraint ln(x) = y; start { x = -1; }", &[value]);
+    is_silent("constraint norm([x, y]) = 1; start { y ~ 0.1; }");
+    // The guess is moved before the constraint is looked at.
+    is_silent("constraint norm([x, y]) = 1; start { x + y ~ 0.5; }");
+}
+
+#[test]
+fn a_dissipation_without_derivative_at_the_velocities_of_the_start_is_named() {
+    let friction = "dissipation norm([der(x), der(y)]);";
+    let rate = "this has no finite derivative at the start";
+    says(friction, &[rate, "norm([der(x), der(y)])"]);
+    says(&format!("{friction} constraint x = y;"), &[rate]);
+    is_silent(&format!("{friction} start {{ der(y) = 1; }}"));
+    is_silent(&format!(
+        "{friction} constraint x = y; start {{ der(y) = 1; }}"
+    ));
+    is_silent("dissipation sqrt(der(x)^2 + 1e-8);");
+}
+
+#[test]
 fn no_mechanism_of_the_library_will_hinder_its_simulation() {
     for (path, source) in library() {
         let found = lints(&source);
