@@ -34,17 +34,38 @@ impl Cursor<'_> {
             Err(reported) => self.nameless(reported)?,
         };
         let mut model = Model::named(name, docs);
-        self.block(FILE, |item| model.add(item))?;
-        if self.peek().kind != TokenKind::End {
-            let message = "nothing can follow the mechanism";
-            let error = Diagnostic::error(self.span(), message);
-            let help = match self.at_symbol(";") {
-                true => REMOVE,
-                false => "a file holds one mechanism; write another file",
-            };
-            let _reported = self.fail(error.help(help));
+        if !self.at_symbol("{") && self.at_statement() {
+            let _reported = self.unexpected("`{`", FILE);
+        } else {
+            self.block(FILE, |item| model.add(item))?;
+            self.end_of_file();
+        }
+        // Mistakes in what stands outside are told all the same.
+        if self.at_statement() {
+            self.statements()
+                .into_iter()
+                .for_each(|item| model.add(item));
         }
         Ok(model)
+    }
+
+    /// Refuses what follows the mechanism.
+    fn end_of_file(&mut self) {
+        if self.peek().kind == TokenKind::End {
+            return;
+        }
+        let here = Diagnostic::error(self.span(), "nothing can follow the mechanism");
+        let error = if self.at_statement() {
+            let message = "this stands outside the braces";
+            let help = "move it, and what follows, in front of the `}` that closes the mechanism";
+            let outside = Diagnostic::error(self.span(), message).help(help);
+            outside.also(self.last_span(), "closes the mechanism")
+        } else if self.at_symbol(";") {
+            here.help(REMOVE)
+        } else {
+            here.help("a file holds one mechanism; write another file")
+        };
+        let _reported = self.fail(error);
     }
 
     /// Goes on at the brace behind what is no name, and gives the mechanism none: mistakes

@@ -15,6 +15,7 @@
 
 pub mod ast;
 mod beside;
+mod blocks;
 mod build;
 mod choice;
 mod cursor;

@@ -5,6 +5,7 @@
 //! Out: [`Scanned`]: everything that is wrong with its characters, and the text with
 //!      blanks in their place, so that one of them does not hide all other mistakes.
 
+use super::blocks::Blocks;
 use super::messages::{NAME_INSIDE, NO_QUOTES, NUMBERS, REMOVE};
 use super::stray::{instead, shown};
 use crate::diagnostic::{Diagnostic, Diagnostics, Position, Span};
@@ -49,6 +50,7 @@ struct Scanner<'a> {
     open: Vec<Bracket>,
     /// An opening brace that the brace found for it does not seem to be meant for.
     askew: Option<Span>,
+    blocks: Blocks,
     blanks: Vec<Range<usize>>,
     strays: Vec<usize>,
     readable: bool,
@@ -74,6 +76,7 @@ pub fn scan(text: &str) -> Scanned {
         before: None,
         open: Vec::new(),
         askew: None,
+        blocks: Blocks::default(),
         blanks: Vec::new(),
         strays: Vec::new(),
         readable: text.len() <= LARGEST,
@@ -143,6 +146,11 @@ impl Scanner<'_> {
             }
         }
         let mut open = std::mem::take(&mut self.open);
+        // Where both braces of a block are missing, the last one is that of the mechanism.
+        if let (Some(taken), ['{']) = (self.blocks.taken, &*signs(&open)) {
+            self.blanks.retain(|blank| *blank != taken.range());
+            open.clear();
+        }
         // The last brace is missing rather in front of one that stands elsewhere.
         if let (Some(askew), [one]) = (self.askew, open.as_mut_slice()) {
             one.span = askew;
@@ -243,6 +251,9 @@ impl Scanner<'_> {
         let indent = self.indent;
         self.next();
         let span = self.span_from(start);
+        if sign == '{' {
+            self.blocks.open();
+        }
         self.open.push(Bracket { sign, span, indent });
         if self.open.len() == NESTING + 1 && self.readable {
             self.readable = false;
@@ -256,6 +267,10 @@ impl Scanner<'_> {
         let first = self.before.is_none();
         self.next();
         let span = self.span_from(start);
+        let innermost = self.open.last().map(|open| open.span.range().start);
+        if bracket == '}' && self.blocks.takes(innermost, span) {
+            return self.take_out(span);
+        }
         let matching = self.matching(bracket, span);
         let Some(last) = self.open.last().filter(|last| {
             // A block that a parenthesis can't close is one that it doesn't belong to.
@@ -268,6 +283,9 @@ impl Scanner<'_> {
                 self.askew.get_or_insert(last.span);
             }
             self.open.pop();
+            if self.open.is_empty() && bracket == '}' {
+                self.blocks.close(span);
+            }
             return;
         }
         let open = last.sign;
@@ -310,6 +328,13 @@ impl Scanner<'_> {
     }
 
     fn closes_nothing(&mut self, bracket: char, span: Span) {
+        let early = (bracket == '}').then(|| self.blocks.too_early(self.text, span));
+        if let Some(early) = early.flatten() {
+            let message = "this `}` closes the mechanism, and statements follow";
+            let error = Diagnostic::error(early, message);
+            self.diagnostics.push(error.help(REMOVE));
+            return self.blank(early);
+        }
         let message = format!("this `{bracket}` closes nothing");
         let help = match bracket {
             ')' => "remove it, or write the `(` that it closes",
@@ -400,6 +425,10 @@ impl Scanner<'_> {
     }
 
     fn other(&mut self, character: char, start: Position) {
+        if !character.is_whitespace() {
+            let begins = self.before.is_none_or(|c| ";{}".contains(c));
+            self.blocks.hear(self.text, start.offset as usize, begins);
+        }
         self.next();
         let blank = match character {
             '\r' => self.peek() == Some('\n'),
@@ -425,6 +454,10 @@ impl Scanner<'_> {
             .push(Diagnostic::error(span, message).help(help));
         self.blank(span);
     }
+}
+
+fn signs(brackets: &[Bracket]) -> Vec<char> {
+    brackets.iter().map(|bracket| bracket.sign).collect()
 }
 
 /// Whether a number ends a text.

@@ -13,6 +13,11 @@ const HELP: &str = "an entry is written `q1 = 45*deg;` (held) or `q2 ~ 0.7;` (a 
 impl Cursor<'_> {
     /// Reads `{ entries }`.
     pub fn start_block(&mut self) -> Parsed<Vec<StartItem>> {
+        let is_entry = matches!(self.peek().kind, TokenKind::Word(_));
+        if is_entry && !self.at_next_statement() {
+            let _reported = self.unexpected("`{`", &example("start"));
+            return Ok(self.unopened());
+        }
         self.expect_symbol("{", &example("start"))?;
         let depth = self.block_depth();
         let mut items = Vec::new();
@@ -22,6 +27,19 @@ impl Cursor<'_> {
         }
         self.expect_symbol("}", "")?;
         Ok(items)
+    }
+
+    /// Reads the entries of a block without its braces, so that they are not taken for
+    /// statements.
+    fn unopened(&mut self) -> Vec<StartItem> {
+        let (depth, mut items) = (self.depth(), Vec::new());
+        let ends = |cursor: &Self| {
+            cursor.at_statement() || cursor.at_symbol("}") || cursor.peek().kind == TokenKind::End
+        };
+        while !ends(self) {
+            items.extend(self.statement(depth, Self::start_item, |_| false));
+        }
+        items
     }
 
     fn start_item(&mut self) -> Parsed<StartItem> {
