@@ -1,10 +1,16 @@
 //! The name that was probably meant.
 
 /// The candidate that is nearest to a word, if one is near enough: at most one
-/// edit in three letters, exchanged neighbours being one edit.
+/// edit in three letters, exchanged neighbours being one edit. One that differs in case alone
+/// is the nearest.
 ///
 /// Among equally near ones the first is taken.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let candidates: Vec<&str> = candidates.into_iter().collect();
+    let same = |candidate: &&&str| candidate.eq_ignore_ascii_case(word);
+    if let Some(same) = candidates.iter().find(same) {
+        return Some(same);
+    }
     let word: Vec<char> = word.chars().collect();
     let allowed = (word.len() / 3).max(1);
     let mut best: Option<(usize, &str)> = None;
@@ -14,9 +20,7 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
             continue;
         }
         let distance = edits(&word, &letters);
-        let hopeless = distance > allowed || distance >= word.len().max(letters.len());
-        let single = word.len() == 1 && letters.len() == 1;
-        if hopeless && !(single && same_letter(&word, &letters)) {
+        if distance > allowed || distance >= word.len().max(letters.len()) {
             continue;
         }
         if best.is_none_or(|(least, _)| distance < least) {
@@ -24,10 +28,6 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         }
     }
     best.map(|(_, candidate)| candidate)
-}
-
-fn same_letter(a: &[char], b: &[char]) -> bool {
-    a.iter().zip(b).all(|(x, y)| x.eq_ignore_ascii_case(y))
 }
 
 /// Insertions, deletions, replacements and exchanges of neighbours that turn one
@@ -60,6 +60,8 @@ mod tests {
         assert_eq!(nearest("tehta", names), Some("theta"));
         assert_eq!(nearest("stifness", names), Some("stiffness"));
         assert_eq!(nearest("G", names), Some("g"));
+        assert_eq!(nearest("Q1", ["L1", "q1"]), Some("q1"));
+        assert_eq!(nearest("SIN", ["min", "sin"]), Some("sin"));
         assert_eq!(nearest("x", names), None);
         assert_eq!(nearest("damping", names), None);
     }

@@ -27,6 +27,8 @@ use std::path::PathBuf;
 const WORK: usize = 10_000_000;
 /// The most indices of a range, and the most rounds of all loops together.
 const ROUNDS: usize = 1_000_000;
+/// Whole numbers from here on are not told apart.
+const LARGEST: f64 = 1e18;
 /// The most expressions that a mechanism may have, before and after its equations are derived:
 /// about what rustc takes ten minutes for.
 pub const EXPRESSIONS_MAX: usize = 150_000;
@@ -173,6 +175,11 @@ impl Evaluator {
             return Some(value);
         }
         let found = match self.analysis(scalar.id).value {
+            Some(value) if value.abs() >= LARGEST => {
+                let message = format!("{what} is too large: this is {value:e}");
+                let help = "arrays have up to 10000 elements, loops a million rounds";
+                return self.report(Diagnostic::error(e.span, message).help(help));
+            }
             Some(value) => format!("this is {value}"),
             None => "this is not".into(),
         };

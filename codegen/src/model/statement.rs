@@ -25,8 +25,17 @@ impl Lowering<'_> {
     fn statement(&mut self, item: &Item) -> Option<()> {
         match &item.kind {
             ItemKind::Declaration(d) if d.kind == Declared::Output => self.output(item, d),
-            ItemKind::Declaration(d) => self.outermost(&d.name),
-            ItemKind::Coordinate { name, .. } => self.outermost(name),
+            ItemKind::Declaration(d) => {
+                let word = match d.kind {
+                    Declared::Constant => "const",
+                    Declared::Parameter => "param",
+                    _ => "input",
+                };
+                self.outermost(&d.name, word, " = …")
+            }
+            ItemKind::Coordinate { state, name, .. } => {
+                self.outermost(name, if *state { "state" } else { "coord" }, "")
+            }
             ItemKind::Function(function) => self.in_no_part(&function.name, "a function"),
             ItemKind::Part(part) => self.in_no_part(&part.name, "a part"),
             ItemKind::Use(library) => self.in_no_part(library, "`use`"),
@@ -79,12 +88,14 @@ impl Lowering<'_> {
     }
 
     /// Refuses a declaration inside a loop.
-    fn outermost(&mut self, name: &Name) -> Option<()> {
+    fn outermost(&mut self, name: &Name, word: &str, value: &str) -> Option<()> {
         if self.indices.is_empty() {
             return Some(());
         }
         let message = format!("`{}` is declared inside a loop", name.text);
-        let help = "declare it in front of the loop; `coord` takes a size: `coord theta[K]: rad;`";
+        let array = format!("`{word} {}[K]{value};`", name.text);
+        let help =
+            format!("declare it in front of the loop, one for each index as an array: {array}");
         self.report(Diagnostic::error(name.span, message).help(help))
     }
 

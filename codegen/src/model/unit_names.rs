@@ -80,16 +80,22 @@ const SCALED: [(&str, &str, &str); 37] = [
     ("mV", "V", "1e-3"),
 ];
 
-/// Units that are written out or shortened otherwise.
-const WRITTEN_OUT: [(&str, &str); 17] = [
+/// Units that are written out or shortened otherwise, in the singular.
+const WRITTEN_OUT: [(&str, &str); 23] = [
     ("sec", "s"),
     ("second", "s"),
-    ("seconds", "s"),
+    ("minute", "min"),
+    ("hour", "h"),
     ("meter", "m"),
     ("metre", "m"),
-    ("meters", "m"),
-    ("metres", "m"),
+    ("millimeter", "mm"),
+    ("millimetre", "mm"),
+    ("centimeter", "cm"),
+    ("centimetre", "cm"),
+    ("kilometer", "km"),
+    ("kilometre", "km"),
     ("kilogram", "kg"),
+    ("gram", "g"),
     ("newton", "N"),
     ("joule", "J"),
     ("watt", "W"),
@@ -98,7 +104,7 @@ const WRITTEN_OUT: [(&str, &str); 17] = [
     ("volt", "V"),
     ("ampere", "A"),
     ("radian", "rad"),
-    ("radians", "rad"),
+    ("degree", "deg"),
 ];
 
 /// The longest name, in bytes, that is split into units.
@@ -252,11 +258,13 @@ fn instead(name: &str, exponent: i32) -> String {
             ),
         };
     }
-    if let Some((_, short)) = WRITTEN_OUT
-        .iter()
-        .find(|(long, _)| *long == name.to_lowercase())
-    {
-        return format!("write `{short}`");
+    let lower = name.to_lowercase();
+    let is_it = |long: &str| lower == long || lower.strip_suffix('s') == Some(long);
+    if let Some((_, short)) = WRITTEN_OUT.iter().find(|(long, _)| is_it(long)) {
+        return match units().any(|unit| unit == *short) {
+            true => format!("write `{short}`"),
+            false => instead(short, exponent),
+        };
     }
     if let Some(help) = run_together(name, exponent) {
         return help;

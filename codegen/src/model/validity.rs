@@ -70,7 +70,16 @@ impl Evaluator {
                     .iter()
                     .all(|(_, exponent)| exponent.abs() <= LARGEST_EXPONENT),
             ),
-            _ => (self.analysis(id).value.is_none_or(f64::is_finite), true),
+            _ => {
+                let value = self.analysis(id).value;
+                if value.is_some_and(f64::is_nan) {
+                    let error = Diagnostic::error(span, "this is not a real number");
+                    let help =
+                        "a number below zero has whole powers only, and no root or logarithm";
+                    return self.report(error.help(help));
+                }
+                (value.is_none_or(f64::is_finite), true)
+            }
         };
         if !finite {
             let message = "this is not a finite number";

@@ -195,6 +195,10 @@ impl Cursor<'_> {
         if let Some(help) = place_of(word) {
             return Some(help);
         }
+        // What has arguments is no unit.
+        if self.peek_at(1).kind == TokenKind::Symbol("(") {
+            return self.operator_missing();
+        }
         let number = number.span.text(self.source);
         let unit = match in_vector {
             true => format!("stands behind the whole vector, `[…] {word}`"),

@@ -37,7 +37,8 @@ impl Cursor<'_> {
             let help = format!("an equation has two sides: `constraint {equation} = 0;`");
             return Err(self.unexpected("`=`", &help));
         }
-        self.expect_symbol("=", &example("constraint"))?;
+        let help = self.operator_missing();
+        self.expect_symbol("=", &help.unwrap_or_else(|| example("constraint")))?;
         let right = self.expression()?;
         let equation = one_line(left.span.to(right.span).text(self.source));
         let text = match &name {

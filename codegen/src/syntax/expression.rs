@@ -312,9 +312,10 @@ impl Cursor<'_> {
             if !self.at_symbol(close) {
                 self.comparison_stands_after_if()?;
                 let help = self.number_in_front(close == "]");
-                let help = help.unwrap_or_else(|| {
-                    format!("formulas are separated by `,`, at the end stands `{close}`")
-                });
+                let separated =
+                    format!("formulas are separated by `,`, at the end stands `{close}`");
+                let product = || Some(format!("{}; {separated}", self.operator_missing()?));
+                let help = help.or_else(product).unwrap_or(separated);
                 self.expect_symbol(",", &help)?;
             }
         }

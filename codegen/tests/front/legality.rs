@@ -264,7 +264,7 @@ fn what_is_not_finite_is_refused() {
     );
     refuse_saying(&with("let a = ln(0)*q;"), "`ln` has no finite value at 0");
     refuse_saying(&with("let a = asin(2);"), "`asin` has no finite value at 2");
-    refuse_saying(&with("let a = (-8)^(1/3);"), "this is not a finite number");
+    refuse_saying(&with("let a = (-8)^(1/3);"), "this is not a real number");
     refuse_saying(&with("let a = 1e300*1e300;"), "this is not a finite number");
     refuse_saying(
         &with("let a = 1e300*q*1e300;"),
