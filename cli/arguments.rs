@@ -49,6 +49,7 @@ pub enum Command {
     /// Check a description without compiling it
     Check(Check),
     /// Simulate a description, and again each time its file is saved
+    #[command(mut_arg("name", |name| name.value_name("FILE.mech").help("The file of a description")))]
     Watch(Box<Simulate>),
     /// Say where compiled descriptions are kept, and how large they are
     Cache(Cache),
@@ -298,7 +299,7 @@ pub struct Simulate {
     /// Columns to add, with commas between them: energy, kinetic, potential,
     /// constraint_error, velocity_error, rank, reactions, accelerations, inputs, or outputs,
     /// inputs and multipliers by name
-    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = listed)]
     pub columns: Vec<String>,
     /// Where the rows go [default: standard output, or nowhere with --plot]
     #[arg(long, value_name = "FILE.csv|.parquet")]
@@ -320,6 +321,7 @@ pub struct Simulate {
         long,
         value_name = "LIST",
         value_delimiter = ',',
+        value_parser = listed,
         requires = "plot",
         conflicts_with = "phase"
     )]
@@ -340,7 +342,7 @@ pub struct Simulate {
     pub film: Option<PathBuf>,
     /// Draw --plot or the strip of --film for print, so wide: single (88 mm), double
     /// (180 mm), or a length such as 120mm, 12cm, 5in
-    #[arg(long, value_name = "WIDTH", value_parser = width)]
+    #[arg(long, value_name = "WIDTH", allow_hyphen_values = true, value_parser = width)]
     pub width: Option<f64>,
     /// Say nothing but errors
     #[arg(long)]
@@ -429,6 +431,14 @@ fn pair(text: &str) -> Result<[String; 2], String> {
     match pair.iter().any(String::is_empty) {
         true => Err("a name is missing beside the comma".to_string()),
         false => Ok(pair),
+    }
+}
+
+/// Reads a name in a list.
+fn listed(text: &str) -> Result<String, String> {
+    match text.trim() {
+        "" => Err("a name is missing: write for example `energy,rank`".to_string()),
+        _ => Ok(text.to_string()),
     }
 }
 

@@ -2,11 +2,14 @@
 //!
 //! Out: [`CommandError`]: a message and an exit status.
 
+use crate::file_error::{
+    cache, cut_short, exists, name_of_file, no_checkout, no_file, read_here, same_file, unread,
+    unwritten,
+};
 use crate::interrupt::INTERRUPTED;
 use crate::number::exact;
 use bricard_codegen::internals::diagnostic::nearest;
 use std::fmt::{self, Display, Formatter};
-use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -109,6 +112,8 @@ pub enum CommandError {
     },
     /// A file that could not be read.
     Read(PathBuf, io::Error),
+    /// A folder that doesn't hold the crates to depend on.
+    NoCheckout(PathBuf),
     /// A file or folder that could not be written.
     Write(PathBuf, io::Error),
     /// A file of rows that could not be written to its end.
@@ -238,6 +243,7 @@ impl CommandError {
             | Self::FileKind { .. }
             | Self::Checkpoint { .. }
             | Self::NoFile(_)
+            | Self::NoCheckout(_)
             | Self::Name { .. } => WRONG_COMMAND_LINE,
             Self::NobodyReads => 0,
             Self::Interrupted { .. } => INTERRUPTED,
@@ -285,13 +291,12 @@ impl Display for CommandError {
                 option,
                 method,
                 instead,
-            } => {
-                write!(f, "{method} has no use for {option}; {instead}")
-            }
+            } => write!(f, "{method} has no use for {option}; {instead}"),
             Self::FileKind { path, instead } => {
                 write!(f, "{} can't be written: {instead}", path.display())
             }
             Self::Read(path, error) => unread(f, path, error),
+            Self::NoCheckout(path) => no_checkout(f, path),
             Self::Write(path, error) => unwritten(f, path, error),
             Self::WriteRows { path, rows, error } => cut_short(f, path, *rows, error),
             Self::Draw(path, error) => write!(f, "could not draw {}: {error}", path.display()),
@@ -344,114 +349,6 @@ impl Display for TooMany {
         } = self;
         write!(f, "{what}, and `{varied}` asks for {count}; {instead}")
     }
-}
-
-fn unread(f: &mut Formatter<'_>, path: &Path, error: &io::Error) -> fmt::Result {
-    write!(f, "could not read {}: {error}", path.display())?;
-    if let Some(meant) = similar(path).filter(|_| error.kind() == io::ErrorKind::NotFound) {
-        write!(f, "; did you mean `{}`?", meant.display())?;
-    }
-    Ok(())
-}
-
-fn unwritten(f: &mut Formatter<'_>, path: &Path, error: &io::Error) -> fmt::Result {
-    write!(f, "could not write {}: ", path.display())?;
-    match path.parent() {
-        Some(folder) if error.kind() == io::ErrorKind::NotFound && !folder.exists() => write!(
-            f,
-            "there is no folder {}; make it, or name another file",
-            folder.display()
-        ),
-        _ => write!(f, "{error}"),
-    }
-}
-
-/// The file of the same kind in a folder whose name is most like that of one that is not
-/// there, or the description of that name.
-fn similar(path: &Path) -> Option<PathBuf> {
-    let description = path.with_extension("mech");
-    if path.extension().is_none() && description.is_file() {
-        return Some(description);
-    }
-    let folder = path.parent()?;
-    let here = if folder == Path::new("") {
-        Path::new(".")
-    } else {
-        folder
-    };
-    let names = fs::read_dir(here)
-        .ok()?
-        .flatten()
-        .map(|entry| entry.file_name());
-    let names: Vec<String> = names
-        .filter(|name| Path::new(name).extension() == path.extension())
-        .filter_map(|name| name.into_string().ok())
-        .collect();
-    let name = path.file_name()?.to_str()?;
-    let meant = nearest(name, names.iter().map(String::as_str))?;
-    Some(folder.join(meant))
-}
-
-fn no_file(f: &mut Formatter<'_>, name: &str) -> fmt::Result {
-    write!(
-        f,
-        "`{name}` is a name, and this takes the file of a description, such as `./{name}.mech`"
-    )
-}
-
-fn name_of_file(f: &mut Formatter<'_>, file: &Path) -> fmt::Result {
-    write!(
-        f,
-        "there is no mechanism `{}` in the library; for the description here write its file, `{}`",
-        file.with_extension("").display(),
-        file.display()
-    )
-}
-
-fn cache(f: &mut Formatter<'_>, path: &Path, error: &io::Error) -> fmt::Result {
-    let path = path.display();
-    write!(
-        f,
-        "could not keep what was compiled in {path}: {error}; make room there (`bricard cache \
-         --clear` does), or name another folder with XDG_CACHE_HOME"
-    )
-}
-
-fn exists(f: &mut Formatter<'_>, path: &Path) -> fmt::Result {
-    write!(
-        f,
-        "{} is there already, and nothing in it was changed; choose another name",
-        path.display()
-    )
-}
-
-fn cut_short(f: &mut Formatter<'_>, path: &Path, rows: usize, error: &io::Error) -> fmt::Result {
-    write!(
-        f,
-        "could not write {} to its end: {error}; it holds at most the first {rows} rows",
-        path.display()
-    )
-}
-
-fn same_file(
-    f: &mut Formatter<'_>,
-    [one, other]: &[&str; 2],
-    path: &Path,
-    instead: &str,
-) -> fmt::Result {
-    let path = path.display();
-    write!(
-        f,
-        "{one} and {other} can't both be written to {path}; {instead}"
-    )
-}
-
-fn read_here(f: &mut Formatter<'_>, option: &str, path: &Path) -> fmt::Result {
-    write!(
-        f,
-        "{option} would replace {}, which the mechanism is read from; give it another name",
-        path.display()
-    )
 }
 
 fn several(f: &mut Formatter<'_>, all: &[CommandError]) -> fmt::Result {

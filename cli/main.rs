@@ -20,6 +20,7 @@ mod description;
 mod error;
 mod export;
 mod figure;
+mod file_error;
 mod files;
 mod formula;
 mod gallery;

@@ -27,6 +27,16 @@ pub fn print(text: &str) -> Result<(), CommandError> {
     written.map_err(|error| CommandError::write(Path::new(STANDARD_OUTPUT), error))
 }
 
+/// A path as it is typed in a shell.
+pub fn typed(path: &Path) -> String {
+    let path = path.display().to_string();
+    let is_plain = |c: char| c.is_alphanumeric() || "/\\:._-+".contains(c);
+    match path.chars().all(is_plain) {
+        true => path,
+        false => format!("\"{path}\""),
+    }
+}
+
 /// Prints a line to standard error. A standard error that nobody reads is no
 /// reason to stop.
 pub fn say(line: &str) {
@@ -96,5 +106,17 @@ pub fn probe(path: &Path) -> Result<(), CommandError> {
         fs::remove_file(path).map_err(failed)
     } else {
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::typed;
+    use std::path::Path;
+
+    #[test]
+    fn a_path_with_blanks_is_typed_in_quotes() {
+        assert_eq!(typed(Path::new("out/ex_1-b")), "out/ex_1-b");
+        assert_eq!(typed(Path::new("ex_my mech")), "\"ex_my mech\"");
     }
 }

@@ -195,6 +195,8 @@ fn options_that_contradict_each_other_are_refused() {
         2,
         &["`watch` has no use for --live", "bricard simulate"],
     );
+    let help = bricard(&["watch", "--help"]);
+    assert!(help.out.contains("<FILE.mech>"), "{}", help.out);
     let unknown = [&name[..], &["--method", "rk5"]].concat();
     check_refused(&unknown, 2, &["rk4, dp5, dop853"]);
     check_refused(&["simulat"], 2, &["simulate"]);

@@ -9,7 +9,7 @@ use super::sources;
 use crate::compiled::{Library, generate, library, module_of};
 use crate::description::Description;
 use crate::error::CommandError;
-use crate::output::print;
+use crate::output::{print, typed};
 use bricard_codegen::Compiled;
 use std::path::{Path, PathBuf};
 
@@ -96,9 +96,9 @@ Libs.private: {native}
 }
 
 fn said(path: &Path, called: &str) -> String {
-    let path = path.display();
+    let (path, typed) = (path.display(), typed(path));
     format!(
-        "{path} holds the libraries `{called}`, headers and an example:\n\n    cd {path}\n    \
+        "{path} holds the libraries `{called}`, headers and an example:\n\n    cd {typed}\n    \
          cc -std=c99 example.c -Iinclude -Llib -l{called} -Wl,-rpath,\"$PWD/lib\" -o example\n    \
          ./example\n\n\
          pkg-config and CMake find them in lib/; `cargo build --release` makes them anew, also \

@@ -9,7 +9,7 @@ use crate::compiled::{generate, module_of};
 use crate::description::Description;
 use crate::error::CommandError;
 use crate::new::RESERVED;
-use crate::output::print;
+use crate::output::{print, typed};
 use bricard_codegen::internals::emit::type_name;
 use std::path::{Path, PathBuf};
 
@@ -48,7 +48,7 @@ pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandEr
     print(&format!(
         "{} holds the crate `{name}`:\n\n    cd {}\n    cargo run --release --example simulate\n",
         folder.path().display(),
-        folder.path().display()
+        typed(folder.path())
     ))
 }
 

@@ -115,11 +115,11 @@ fn checkout() -> Option<PathBuf> {
 
 /// The folder that holds the crates to depend on, in full.
 fn workspace(path: &Path) -> Result<PathBuf, CommandError> {
-    let read = |error| CommandError::Read(path.to_path_buf(), error);
-    for package in ["codegen", "runtime"] {
-        fs::metadata(path.join(package).join("Cargo.toml")).map_err(read)?;
-    }
-    path.canonicalize().map_err(read)
+    let has = |package: &&str| path.join(package).join("Cargo.toml").is_file();
+    let whole = path.canonicalize().ok();
+    whole
+        .filter(|_| ["codegen", "runtime"].iter().all(|package| has(package)))
+        .ok_or_else(|| CommandError::NoCheckout(path.to_path_buf()))
 }
 
 fn write(path: &Path, text: &str) -> Result<(), CommandError> {

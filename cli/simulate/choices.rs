@@ -9,13 +9,16 @@ use crate::page::is_page;
 use crate::parquet::MISSING;
 use crate::run::Plan;
 use bricard_codegen::internals::diagnostic::figure;
-use bricard_runtime::{Options, Settings, StepControl};
+use bricard_runtime::{Options, Settings, Stabilisation, StepControl};
 use std::path::{Path, PathBuf};
 
 /// Step of RK4, unless one is given (s).
 const STEP: f64 = 0.01;
 /// Relative and absolute tolerance of an adaptive method, unless one is given.
 pub const TOLERANCE: f64 = 1e-9;
+
+/// Relative tolerances below this are lost in round-off: what a step control takes.
+const LEAST_TOLERANCE: f64 = 10.0 * f64::EPSILON;
 
 /// Kinds of files that rows are written to; one without a kind is CSV.
 const ROWS: [&str; 4] = ["csv", "txt", "dat", "parquet"];
@@ -115,9 +118,11 @@ fn check_numbers(arguments: &Simulate) -> Result<(), CommandError> {
         positive("--step", arguments.step),
         positive("--rtol", arguments.rtol),
         below_one(arguments.rtol),
+        above_round_off(arguments.rtol),
         positive("--atol", arguments.atol),
         useless("--rtol", arguments.rtol),
         useless("--atol", arguments.atol),
+        keepable(arguments),
     ])?;
     Ok(())
 }
@@ -169,6 +174,29 @@ fn below_one(relative: Option<f64>) -> Result<(), CommandError> {
     let wanted = "less than 1: it is the part of a value that may be wrong";
     match relative {
         Some(value) if value >= 1.0 => out_of_range("--rtol", value, wanted),
+        _ => Ok(()),
+    }
+}
+
+fn above_round_off(relative: Option<f64>) -> Result<(), CommandError> {
+    match relative {
+        Some(value) if value > 0.0 && value < LEAST_TOLERANCE => {
+            let wanted = "at least 2.3e-15: less is lost in the round-off of numbers";
+            out_of_range("--rtol", value, wanted)
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Refuses to keep the energy by velocities alone, while positions leave the constraints.
+fn keepable(arguments: &Simulate) -> Result<(), CommandError> {
+    match (arguments.keep_energy, arguments.stabilisation) {
+        (true, Stabilisation::None) => Err(CommandError::UselessOption {
+            option: "--keep-energy",
+            method: "--stabilisation none",
+            instead: "where nothing keeps the constraints, the energy is not kept either; take \
+                      --stabilisation projection",
+        }),
         _ => Ok(()),
     }
 }

@@ -91,6 +91,32 @@ pub const CASES: &[Case] = &[
         "could not read brocken.mech: …; did you mean `broken.mech`?",
     ),
     (
+        "NoCheckout",
+        "new swing --path crane",
+        2,
+        "crane is no checkout of bricard: one has codegen/Cargo.toml and runtime/Cargo.toml in it; \
+         name another folder, or leave --path out",
+    ),
+    (
+        "UselessOption",
+        "simulate slider_crank --stabilisation none --keep-energy",
+        2,
+        "--stabilisation none has no use for --keep-energy; where nothing keeps the constraints, \
+         the energy is not kept either; take --stabilisation projection",
+    ),
+    (
+        "OutOfRange",
+        "simulate slider_crank --rtol 1e-300",
+        2,
+        "--rtol must be at least 2.3e-15: less is lost in the round-off of numbers, not 1e-300",
+    ),
+    (
+        "Write",
+        "simulate slider_crank --out crane",
+        1,
+        "could not write crane: …; name a file in it",
+    ),
+    (
         "Write",
         "simulate slider_crank --out missing/run.csv",
         1,

@@ -22,7 +22,7 @@ description could have, too, is told what stands under [Descriptions](#descripti
 ";
 
 /// The words behind `bricard simulate slider_crank`.
-const LINES: [&str; 34] = [
+const LINES: [&str; 37] = [
     "--until 2s",
     "--until 500ms",
     "--until 60deg",
@@ -53,6 +53,9 @@ const LINES: [&str; 34] = [
     "--plot run.svg --width singel",
     "--plot run.svg --width 1m",
     "--plot run.svg --width 5mm",
+    "--plot run.svg --width -5mm",
+    "--columns energy,,rank",
+    "--columns=",
     "--plot run.svg --phase q1",
     "--plot run.svg --phase q1,",
     "--method dop835",

@@ -8,7 +8,7 @@ use super::archive::{self, Files};
 use crate::compiled::{Library, generate, library, module_of};
 use crate::description::Description;
 use crate::error::CommandError;
-use crate::output::print;
+use crate::output::{print, typed};
 use base64::Engine;
 use base64::engine::general_purpose::URL_SAFE_NO_PAD;
 use sha2::{Digest, Sha256};
@@ -90,9 +90,10 @@ pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandEr
     let wheel = folder.join(format!("{name}-{VERSION}-{tag}.whl"));
     archive::write(&wheel, &files)?;
     print(&format!(
-        "{wheel} is a wheel for this kind of machine:\n\n    pip install {wheel}\n    python -m \
+        "{shown} is a wheel for this kind of machine:\n\n    pip install {wheel}\n    python -m \
          {name}\n",
-        wheel = wheel.display()
+        shown = wheel.display(),
+        wheel = typed(&wheel)
     ))
 }
 

@@ -10,7 +10,7 @@ use crate::compiled::browser::{TARGET, can_compile, krate as code};
 use crate::compiled::{command, generate, module_of, output};
 use crate::description::Description;
 use crate::error::CommandError;
-use crate::output::print;
+use crate::output::{print, typed};
 use bricard_codegen::Compiled;
 use std::path::{Path, PathBuf};
 
@@ -49,7 +49,7 @@ pub fn export(subject: &Description, out: Option<&Path>) -> Result<(), CommandEr
         "{} holds the package `{}`:\n\n    cd {}\n    node example.mjs\n    npm pack\n",
         folder.path().display(),
         package(&module),
-        folder.path().display()
+        typed(folder.path())
     ))
 }
 
@@ -101,7 +101,7 @@ fn build(folder: &Path, module: &str) -> Result<PathBuf, CommandError> {
             "the module is not made: {error}\nand say the same again, or, because all else is in \
              {}:\n\n    cd {} && npm run build",
             folder.display(),
-            folder.display()
+            typed(folder)
         ))
     })?;
     let mut cargo = command("cargo");
