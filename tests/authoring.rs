@@ -174,7 +174,7 @@ fn what_is_there_already_and_what_is_no_name_is_refused() {
         assert!(name.is_empty() || !folder.join(name).exists(), "{name}");
     }
     let (status, _, said) = bricard(&folder, &["new", "engine", "--path", "nowhere"]);
-    assert_eq!(status, Some(1));
-    assert!(said.contains("could not read nowhere"), "{said}");
+    assert_eq!(status, Some(2));
+    assert!(said.contains("nowhere is no checkout of bricard"), "{said}");
     assert!(!folder.join("engine").exists());
 }

@@ -118,7 +118,7 @@ fn workspace(path: &Path) -> Result<PathBuf, CommandError> {
     let has = |package: &&str| path.join(package).join("Cargo.toml").is_file();
     let whole = path.canonicalize().ok();
     whole
-        .filter(|_| ["codegen", "runtime"].iter().all(|package| has(package)))
+        .filter(|_| ["codegen", "runtime"].iter().all(has))
         .ok_or_else(|| CommandError::NoCheckout(path.to_path_buf()))
 }
 

@@ -37,9 +37,10 @@ fn description(text: &str) -> String {
 }
 
 /// What is refused in numbers: random expressions contain it now and then.
-const REFUSED: [&str; 4] = [
+const REFUSED: [&str; 5] = [
     "has no finite value",
     "not a finite number",
+    "not a real number",
     "a negative power of zero",
     "division by zero",
 ];
