@@ -264,6 +264,14 @@ impl Evaluator {
         built_in.chain(self.functions.names()).collect()
     }
 
+    /// Refuses a function that there is not.
+    pub fn refuse_unknown_function(&mut self, name: &Name) {
+        let own = self.parts.known(&name.text) || self.functions.contains(&name.text);
+        if !own && !self.function_names().contains(&name.text.as_str()) {
+            self.unknown_function(name);
+        }
+    }
+
     fn unknown_function(&mut self, name: &Name) -> Option<Value> {
         let text = name.text.as_str();
         if self.scope.unreadable.contains(text) {

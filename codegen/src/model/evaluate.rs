@@ -10,7 +10,7 @@ use super::analysis::{Analyses, Analysis};
 use super::declared::{Functions, Parts};
 use super::language;
 use super::messages::SIZE;
-use super::order::{Mention, collect};
+use super::order::{Mention, collect, parts};
 use super::scope::{BUILT_IN, Kind, Scope};
 use super::symbol::{Graph, Symbol};
 use super::unit::Unit;
@@ -288,6 +288,26 @@ impl Evaluator {
             _ => return None,
         };
         Some(Some(Value::Scalar(Scalar { id, unit })))
+    }
+
+    /// Refuses names in a formula that nothing evaluates; some are known there besides.
+    pub fn refuse_unknown(&mut self, formula: &Expr, known: &mut Vec<String>) {
+        let count = known.len();
+        match &formula.kind {
+            ExprKind::Name(name) => {
+                let built_in = BUILT_IN.iter().any(|(built_in, _)| built_in == name);
+                if !built_in && !known.contains(name) && self.scope.get(name).is_none() {
+                    self.undeclared(name, formula.span);
+                }
+            }
+            ExprKind::Call(name, _) => self.refuse_unknown_function(name),
+            ExprKind::Repeat(range, _) => known.push(range.index.text.clone()),
+            _ => {}
+        }
+        for part in parts(formula) {
+            self.refuse_unknown(part, known);
+        }
+        known.truncate(count);
     }
 
     fn undeclared(&mut self, name: &str, span: Span) -> Option<Value> {

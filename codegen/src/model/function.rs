@@ -110,13 +110,27 @@ impl Lowering<'_> {
         self.evaluator.functions.known.insert(name, known);
     }
 
-    /// Warns of functions that nothing calls.
-    pub fn unused_functions(&mut self) {
+    /// Functions that nothing calls.
+    fn idle_functions(&self) -> Vec<Rc<Function>> {
         let idle = self.evaluator.functions.known.values();
         let idle = idle.filter(|function| !function.used);
         let mut idle: Vec<Rc<Function>> = idle.filter_map(|f| f.item.clone()).collect();
         idle.sort_by_key(|function| function.name.span);
-        for function in idle {
+        idle
+    }
+
+    /// Refuses names that are not declared where no call would find them.
+    pub fn unread_functions(&mut self) {
+        for function in self.idle_functions() {
+            let arguments = function.arguments.iter();
+            let mut known = arguments.map(|a| a.name.text.clone()).collect();
+            self.evaluator.refuse_unknown(&function.value, &mut known);
+        }
+    }
+
+    /// Warns of functions that nothing calls.
+    pub fn unused_functions(&mut self) {
+        for function in self.idle_functions() {
             let name = &function.name;
             if !name.text.starts_with('_') {
                 let message = format!("the function `{}` is never used", name.text);

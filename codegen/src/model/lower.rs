@@ -92,6 +92,7 @@ impl Lowering<'_> {
             self.report::<()>(error.help("declare what moves, for example `coord q1: rad;`"));
         }
         self.states_without_rate();
+        self.unread_functions();
         if self.evaluator.diagnostics.error_count() > 0 {
             return;
         }

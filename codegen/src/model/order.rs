@@ -127,37 +127,32 @@ pub enum Mention<'a> {
 /// Finds what a formula mentions.
 pub fn collect<'a>(formula: &'a Expr, found: &mut dyn FnMut(Mention<'a>)) {
     match &formula.kind {
-        ExprKind::Number(_) | ExprKind::Text(_) => {}
         ExprKind::Name(name) => found(Mention::Name(name)),
+        ExprKind::Call(name, _) => found(Mention::Call(&name.text)),
+        _ => {}
+    }
+    for part in parts(formula) {
+        collect(part, found);
+    }
+}
+
+/// The formulas that a formula is made of.
+pub fn parts(formula: &Expr) -> Vec<&Expr> {
+    match &formula.kind {
+        ExprKind::Number(_) | ExprKind::Text(_) | ExprKind::Name(_) => Vec::new(),
         ExprKind::Negative(x)
         | ExprKind::Component(x, _)
         | ExprKind::Member(x, _)
-        | ExprKind::InUnit(x, _) => {
-            collect(x, found);
-        }
+        | ExprKind::InUnit(x, _) => vec![x],
         ExprKind::Sum(parts) | ExprKind::Product(parts) => {
-            parts.iter().for_each(|(_, part)| collect(part, found));
+            parts.iter().map(|(_, part)| part).collect()
         }
-        ExprKind::Power(a, b) | ExprKind::Index(a, b) => {
-            collect(a, found);
-            collect(b, found);
-        }
-        ExprKind::Call(name, parts) => {
-            found(Mention::Call(&name.text));
-            parts.iter().for_each(|part| collect(part, found));
-        }
-        ExprKind::Vector(parts) => {
-            parts.iter().for_each(|part| collect(part, found));
-        }
-        ExprKind::Repeat(range, term) => {
-            [&range.from, &range.to, &**term]
-                .into_iter()
-                .for_each(|part| collect(part, found));
-        }
+        ExprKind::Power(a, b) | ExprKind::Index(a, b) => vec![a, b],
+        ExprKind::Call(_, parts) | ExprKind::Vector(parts) => parts.iter().collect(),
+        ExprKind::Repeat(range, term) => vec![&range.from, &range.to, term],
         ExprKind::If(condition, then, otherwise) => {
             let sides = condition.sides().into_iter();
-            let parts = sides.chain([&**then, &**otherwise]);
-            parts.for_each(|part| collect(part, found));
+            sides.chain([&**then, &**otherwise]).collect()
         }
     }
 }
