@@ -9,16 +9,13 @@ use crate::page::is_page;
 use crate::parquet::MISSING;
 use crate::run::Plan;
 use bricard_codegen::internals::diagnostic::figure;
-use bricard_runtime::{Options, Settings, Stabilisation, StepControl};
+use bricard_runtime::{IntegrateError, Options, Settings, Stabilisation, StepControl, Tolerance};
 use std::path::{Path, PathBuf};
 
 /// Step of RK4, unless one is given (s).
 const STEP: f64 = 0.01;
 /// Relative and absolute tolerance of an adaptive method, unless one is given.
 pub const TOLERANCE: f64 = 1e-9;
-
-/// Relative tolerances below this are lost in round-off: what a step control takes.
-const LEAST_TOLERANCE: f64 = 10.0 * f64::EPSILON;
 
 /// Kinds of files that rows are written to; one without a kind is CSV.
 const ROWS: [&str; 4] = ["csv", "txt", "dat", "parquet"];
@@ -179,8 +176,12 @@ fn below_one(relative: Option<f64>) -> Result<(), CommandError> {
 }
 
 fn above_round_off(relative: Option<f64>) -> Result<(), CommandError> {
+    let is_less = |value: f64| {
+        let taken = Tolerance::<f64, 0>::uniform(value, 1.0);
+        matches!(taken, Err(IntegrateError::ToleranceTooSmall { .. }))
+    };
     match relative {
-        Some(value) if value > 0.0 && value < LEAST_TOLERANCE => {
+        Some(value) if value > 0.0 && is_less(value) => {
             let wanted = "at least 2.3e-15: less is lost in the round-off of numbers";
             out_of_range("--rtol", value, wanted)
         }

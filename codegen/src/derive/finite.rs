@@ -10,6 +10,7 @@
 //! Not here: values that become infinite at some states. A run finds those.
 
 use super::equations::Equations;
+use super::swell::statements_of_motion;
 use crate::diagnostic::{Diagnostic, Diagnostics, Span};
 use crate::expr::{Direction, ExprId, Number};
 use crate::model::{Graph, Mechanism, Symbol};
@@ -60,12 +61,7 @@ fn together(spans: &[Span]) -> Diagnostic {
 /// All statements with formulas, and these.
 fn statements(mechanism: &Mechanism) -> Vec<(Span, Vec<ExprId>)> {
     let m = mechanism;
-    let energies = m.kinetic.iter().chain(&m.potential).chain(&m.dissipation);
-    let energies = energies.map(|summand| (summand.span, vec![summand.value]));
-    let forces = m.forces.iter();
-    let forces = forces.map(|f| (f.span, [f.force.clone(), f.on.clone()].concat()));
-    let rows = m.constraints.iter().chain(&m.start_equations);
-    let rows = rows.chain(&m.start_guesses);
+    let rows = m.start_equations.iter().chain(&m.start_guesses);
     let rows = rows.map(|row| (row.span, vec![row.residual]));
     let inputs = m.inputs.iter();
     let inputs = inputs.map(|input| (input.quantity.span, vec![input.law]));
@@ -73,7 +69,7 @@ fn statements(mechanism: &Mechanism) -> Vec<(Span, Vec<ExprId>)> {
     let outputs = m.outputs.iter();
     let outputs = outputs.map(|output| (output.quantity.span, vec![output.value]));
     let events = m.events.iter().map(|event| (event.span, vec![event.value]));
-    let all = energies.chain(forces).chain(rows).chain(inputs);
+    let all = statements_of_motion(m).chain(rows).chain(inputs);
     all.chain(starts).chain(outputs).chain(events).collect()
 }
 

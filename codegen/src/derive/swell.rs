@@ -84,10 +84,10 @@ fn roots(equations: &Equations) -> Vec<ExprId> {
     vectors.into_iter().flatten().copied().collect()
 }
 
-/// The part that each statement has in the equations, the largest first. What is
-/// written once for a loop counts as one.
-fn shares(mechanism: &Mechanism) -> Vec<(Span, f64)> {
-    let graph = &mechanism.graph;
+/// The statements that the equations of motion are made of, with their formulas.
+pub(super) fn statements_of_motion(
+    mechanism: &Mechanism,
+) -> impl Iterator<Item = (Span, Vec<ExprId>)> {
     let energies = [
         &mechanism.kinetic,
         &mechanism.potential,
@@ -99,9 +99,15 @@ fn shares(mechanism: &Mechanism) -> Vec<(Span, f64)> {
     let forces = forces.map(|f| (f.span, [f.force.clone(), f.on.clone()].concat()));
     let rows = mechanism.constraints.iter();
     let rows = rows.map(|row| (row.span, vec![row.residual]));
+    energies.chain(forces).chain(rows)
+}
 
+/// The part that each statement has in the equations, the largest first. What is
+/// written once for a loop counts as one.
+fn shares(mechanism: &Mechanism) -> Vec<(Span, f64)> {
+    let graph = &mechanism.graph;
     let mut lines: BTreeMap<u32, (Span, f64)> = BTreeMap::new();
-    for (span, parts) in energies.chain(forces).chain(rows) {
+    for (span, parts) in statements_of_motion(mechanism) {
         let line = lines.entry(span.start.offset).or_insert((span, 0.0));
         line.1 += derived_size(graph, &parts);
     }

@@ -87,29 +87,33 @@ impl<S: Symbolic> Graph<S> {
     pub fn numbers(&self, roots: &[ExprId]) -> Vec<Number> {
         let mut numbers = Vec::new();
         for e in self.reachable(roots) {
-            match self.node(e) {
-                Node::Number(number) => numbers.push(*number),
-                Node::Sum(constant, terms) => {
-                    numbers.push(*constant);
-                    numbers.extend(terms.iter().map(|(_, weight)| *weight));
-                }
-                _ => {}
-            }
+            numbers.extend(self.own_numbers(e));
         }
         numbers
     }
 
     /// Whether the numbers that expressions are made of are finite, also those of tables.
     pub fn has_finite_numbers(&self, roots: &[ExprId]) -> bool {
-        let is_finite = |e: &ExprId| match self.node(*e) {
+        let is_finite = |e: ExprId| match self.node(e) {
             Node::Function(Function::Table(lookup), _) => {
                 let pieces = &lookup.table.pieces;
                 pieces.iter().flatten().all(|number| number.is_finite())
             }
-            _ => true,
+            _ => self.own_numbers(e).all(|number| number.is_finite()),
         };
-        self.numbers(roots).iter().all(|number| number.is_finite())
-            && self.reachable(roots).iter().all(is_finite)
+        self.reachable(roots).into_iter().all(is_finite)
+    }
+
+    /// The numbers in a node.
+    fn own_numbers(&self, e: ExprId) -> impl Iterator<Item = Number> {
+        let (number, terms) = match self.node(e) {
+            Node::Number(number) => (Some(*number), &[][..]),
+            Node::Sum(constant, terms) => (Some(*constant), &terms[..]),
+            _ => (None, &[][..]),
+        };
+        number
+            .into_iter()
+            .chain(terms.iter().map(|(_, weight)| *weight))
     }
 
     /// Every symbol an expression is made of.

@@ -6,6 +6,7 @@
 mod accuracy;
 mod corners;
 mod known;
+mod largest;
 mod massless;
 mod mirrored;
 mod narrow;

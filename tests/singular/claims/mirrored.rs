@@ -1,31 +1,13 @@
 //! What is known of one singular configuration is no knowledge of another that looks alike.
 
-use bricard_runtime::{
-    DynamicsError, Method, Observer, Options, Probe, Step, StepControl, Whole, assemble, simulate,
-};
+use crate::largest::Largest;
+use bricard_runtime::nalgebra::SVector;
+use bricard_runtime::{Method, Options, StepControl, Whole, assemble, simulate};
 use bricard_singular::descriptions::mirrored::Mirrored;
-use core::ops::ControlFlow;
 
-/// Keeps by how much the bars of the parallelogram are not parallel at most (m).
-#[derive(Default)]
-struct Largest(f64);
-
-impl Observer<f64, 4> for Largest {
-    fn step(
-        &mut self,
-        step: &Step<f64, 4>,
-        _probe: &mut dyn Probe<f64, 4>,
-    ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
-        let q = step.end().q;
-        let off = (q[2] - 1.0 - q[0]).abs().max((q[3] - q[1]).abs());
-        // What is not a number stays.
-        self.0 = if off <= self.0 { self.0 } else { off };
-        Ok(ControlFlow::Continue(()))
-    }
-
-    fn looks_inside(&self) -> bool {
-        false
-    }
+/// By how much the bars of the parallelogram are not parallel (m).
+fn skew(q: &SVector<f64, 4>) -> f64 {
+    (q[2] - 1.0 - q[0]).abs().max((q[3] - q[1]).abs())
 }
 
 /// Fixed steps of all lengths, and all methods with step control.
@@ -48,12 +30,16 @@ fn nodes_of_a_passage_do_not_serve_its_mirror_image() {
     let mechanism: &dyn Whole<f64, 4, 3> = &Mirrored::default();
     let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
     for options in settings() {
-        let mut largest = Largest::default();
+        let mut largest = Largest::of(skew);
         let (method, control) = (options.method, options.step_control);
         let ran = simulate(mechanism, &start, &options, &mut [&mut largest]);
         let summary = ran.unwrap_or_else(|failure| panic!("{method:?} {control:?}: {failure}"));
         assert_eq!(summary.passages, Some(4), "{method:?} {control:?}");
-        assert!(largest.0 < 1e-7, "{method:?} {control:?}: {}", largest.0);
+        assert!(
+            largest.value < 1e-7,
+            "{method:?} {control:?}: {}",
+            largest.value
+        );
         let lost = summary.energy_error.expect("audited");
         assert!(lost < 1e-4, "{method:?} {control:?}: {lost} J");
     }

@@ -1,6 +1,8 @@
 //! Very many passages with two degrees of freedom, and the time of one.
 
 use crate::is_long;
+use crate::largest::Largest;
+use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{DynamicsError, Observer, Occurrence, Passage, Probe, Step};
 use bricard_runtime::{Options, State, Whole, assemble, simulate};
 use bricard_singular::descriptions::driven_lines::DrivenLines;
@@ -11,26 +13,9 @@ use bricard_singular::descriptions::two_lines::TwoLines;
 use core::f64::consts::PI;
 use core::ops::ControlFlow;
 
-/// Keeps the largest difference of the two cranks and angle of the coupler.
-#[derive(Default)]
-struct Largest(f64);
-
-impl Observer<f64, 4> for Largest {
-    fn step(
-        &mut self,
-        step: &Step<f64, 4>,
-        _probe: &mut dyn Probe<f64, 4>,
-    ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
-        let q = step.end().q;
-        let off = (q[0] - q[2]).abs().max(q[1].abs());
-        // What is not a number stays.
-        self.0 = if off <= self.0 { self.0 } else { off };
-        Ok(ControlFlow::Continue(()))
-    }
-
-    fn looks_inside(&self) -> bool {
-        false
-    }
+/// The difference of the two cranks, or the angle of the coupler.
+fn skew(q: &SVector<f64, 4>) -> f64 {
+    (q[0] - q[2]).abs().max(q[1].abs())
 }
 
 /// The speed at which its cranks begin (rad/s).
@@ -51,7 +36,7 @@ fn a_hundred_thousand_passages_with_two_freedoms_stay_on_their_branch() {
     let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
     // The pendulum takes a part of the speed; the crank never turns back.
     let until = 1.2 * wanted * PI / SPEED;
-    let mut largest = Largest::default();
+    let mut largest = Largest::of(skew);
     let options = Options::dop853(until, 1e-9);
     let ran = simulate(mechanism, &start, &options, &mut [&mut largest]);
     let summary = ran.unwrap_or_else(|failure| panic!("{failure}"));
@@ -59,7 +44,11 @@ fn a_hundred_thousand_passages_with_two_freedoms_stay_on_their_branch() {
     let passed = (half_turns(&summary.end) - half_turns(&start)).abs();
     assert!(passed >= wanted, "only {passed} passages");
     assert_eq!(summary.passages, Some(passed as u64));
-    assert!(largest.0 < 1e-5, "the branch was left by {}", largest.0);
+    assert!(
+        largest.value < 1e-5,
+        "the branch was left by {}",
+        largest.value
+    );
 }
 
 /// What happens at an angle does not depend on the turns that were made before, but for their
@@ -69,14 +58,14 @@ fn passages_after_very_many_turns_are_those_after_none() {
     let run = |turns: f64| {
         let mechanism: &dyn Whole<f64, 4, 2> = &fast(turns);
         let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
-        let mut largest = Largest::default();
+        let mut largest = Largest::of(skew);
         let options = Options::dop853(1.0, 1e-9);
         let ran = simulate(mechanism, &start, &options, &mut [&mut largest]);
         let summary = ran.unwrap_or_else(|failure| panic!("after {turns} turns: {failure}"));
         assert!(
-            largest.0 < 1e-8,
+            largest.value < 1e-8,
             "after {turns} turns, off by {}",
-            largest.0
+            largest.value
         );
         summary
     };
