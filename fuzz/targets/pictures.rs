@@ -5,6 +5,8 @@
 
 #[path = "../../cli/error.rs"]
 mod error;
+#[path = "../../cli/file_error.rs"]
+mod file_error;
 #[path = "../../cli/interrupt.rs"]
 mod interrupt;
 #[path = "../../cli/number.rs"]
