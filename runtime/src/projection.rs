@@ -13,21 +13,23 @@ use crate::{DynamicsError, Mechanism, Real, Stabilisation, State};
 use nalgebra::SVector;
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
-    /// Projects the end of a trial step, if the settings say so.
+    /// Projects a state, if the settings say so; whether it was moved past another sheet, by
+    /// more than the end of a step may be off.
     pub(crate) fn project<M: Mechanism<T, N, R> + ?Sized>(
         &mut self,
         mechanism: &M,
         state: &mut State<T, N>,
-    ) -> Result<(), DynamicsError<T>> {
+    ) -> Result<bool, DynamicsError<T>> {
         if R == 0 || self.session.rests {
-            return finite(state);
+            return finite(state).map(|()| false);
         }
         if !self.is_prepared() {
             self.prepare(&mechanism, state)?;
         }
         let mut placed = *state;
+        let mut strays = false;
         if self.session.chart.is_some() && self.follows() && self.is_beside() {
-            self.project_onto_sheet(&mechanism, &mut placed)?;
+            strays = self.project_onto_sheet(&mechanism, &mut placed)?;
         } else if self.settings.stabilisation == Stabilisation::Projection {
             self.project_regular(mechanism, &mut placed)?;
         }
@@ -35,7 +37,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             self.counters.projections += 1;
             *state = placed;
         }
-        finite(state)
+        finite(state).map(|()| strays)
     }
 
     /// Projects a state where the constraints are regular.

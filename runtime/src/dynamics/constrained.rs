@@ -121,7 +121,7 @@ where
     fn put_onto_constraints(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
         self.solver.prepare(&self.mechanism, state)?;
         let mut placed = *state;
-        self.project_within(&mut placed)?;
+        self.put_back(&mut placed, false)?;
         self.solver.start(&self.mechanism, state, &placed)
     }
 
@@ -135,14 +135,23 @@ where
     pub fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
         with_room::<T, _, N, R>(|| {
             self.solver.begin_step(state);
-            self.project_within(state)
+            self.put_back(state, false)
         })
     }
 
-    /// Brings a state within a step back onto the constraints.
+    /// Brings a state within a step back onto the constraints. Between the ends of a step it
+    /// may be off by more than another sheet is.
     pub(crate) fn project_within(
         &mut self,
         state: &mut State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        self.put_back(state, true)
+    }
+
+    fn put_back(
+        &mut self,
+        state: &mut State<T, N>,
+        is_inside: bool,
     ) -> Result<(), DynamicsError<T>> {
         let solver = &mut *self.solver;
         if solver.session.chart.is_none() {
@@ -150,8 +159,11 @@ where
         }
         *state = escalating(self, |system| {
             let mut projected = *state;
-            system.solver.project(system.mechanism, &mut projected)?;
-            Ok::<_, DynamicsError<T>>(projected)
+            let strays = system.solver.project(system.mechanism, &mut projected)?;
+            match is_inside || !strays {
+                true => Ok(projected),
+                false => Err(system.solver.strayed(&system.mechanism, state.t)),
+            }
         })?;
         Ok(())
     }
@@ -275,7 +287,10 @@ where
     }
 
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
-        with_room::<T, _, N, R>(|| self.solver.project(self.mechanism, state))
+        with_room::<T, _, N, R>(|| match self.solver.project(self.mechanism, state)? {
+            true => Err(self.solver.strayed(&self.mechanism, state.t)),
+            false => Ok(()),
+        })
     }
 
     fn escalate(&mut self) -> Result<bool, DynamicsError<T>> {

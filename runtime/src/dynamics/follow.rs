@@ -140,6 +140,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if mechanism.structure().assumed_regular {
             return Err(self.not_regular(mechanism, &base)?);
         }
+        // Where rows are redundant, others may be far from dependence.
+        if self.choose_better_rows(mechanism, &base)? && self.settings.form == Form::Reduced {
+            return Ok(true);
+        }
         match self.start_at(mechanism, &base)? {
             Some(chart) => {
                 self.session.chart = Some(chart);
@@ -330,19 +334,16 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
     }
 
-    /// Puts the end of a trial step onto the sheet.
+    /// Puts a state of a trial step onto the sheet; whether it was moved past another one, by
+    /// more than the end of a step may be off.
     #[inline(never)]
     pub(crate) fn project_onto_sheet(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
         state: &mut State<T, N>,
-    ) -> Result<(), DynamicsError<T>> {
+    ) -> Result<bool, DynamicsError<T>> {
         let mut point = Point::zeros();
         let placement = self.place(mechanism, state, &mut point)?;
-        // States that lead to the end of a step may be off by more than the other sheet is.
-        if matches!(placement, Placement::Crossing { strays: true, .. }) {
-            return Err(self.refusal(mechanism, Obstacle::LeftSheet, state.t));
-        }
         if !placement.is_crossing() {
             // What is left out is orthogonal: round-off in the tangent space of a narrow gap
             // changes the energy by its square only.
@@ -359,7 +360,16 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             met: point.met,
             leaves: matches!(placement, Placement::Crossing { leaves: true, .. }),
         });
-        Ok(())
+        Ok(matches!(
+            placement,
+            Placement::Crossing { strays: true, .. }
+        ))
+    }
+
+    /// The error of a trial step whose end was moved past another sheet.
+    #[cold]
+    pub(crate) fn strayed(&self, mechanism: &dyn Mechanism<T, N, R>, t: T) -> DynamicsError<T> {
+        self.refusal(mechanism, Obstacle::LeftSheet, t)
     }
 
     /// The passages after a time of a step that was accepted last.
@@ -404,11 +414,23 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         } else if self.session.trial.by_emitted {
             self.learn_emitted_rows(mechanism, &step.end);
         }
-        if self.session.trial.chart.is_some() {
+        if self.session.trial.chart.is_some() && !self.leaves_dependence(mechanism, &step.end)? {
             self.keep_chart();
         }
         self.expect_regular();
         Ok(())
+    }
+
+    /// Whether it was the choice of rows alone that came near dependence in the step at whose
+    /// end others are chosen.
+    fn leaves_dependence(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        end: &State<T, N>,
+    ) -> Result<bool, DynamicsError<T>> {
+        let chooses = self.session.near && self.choose_better_rows(mechanism, end)?;
+        self.session.near &= !chooses;
+        Ok(chooses)
     }
 
     /// The chart of the step remains for those who look into it.

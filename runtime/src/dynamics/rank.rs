@@ -13,15 +13,17 @@ use super::singular_values::{SingularValueDecomposition, lift, lift_rows};
 use super::vanishing_gradient::has_one_sign;
 use super::{Core, Source, Which};
 use crate::equations::At;
-use crate::linalg::{Workspace, add_scaled, length, norm};
+use crate::linalg::{Workspace, add_scaled, multiply_upper_transposed, norm};
 use crate::once::compiled_once;
-use crate::tolerance::{difference, negligible, regular};
+use crate::tolerance::{difference, negligible, passes, regular, window};
 use crate::{DynamicsError, Mechanism, Real, Singularity, State};
 use nalgebra::SVector;
 
 /// Part of a displacement that the singular value of a row is, at least, whose gradient
 /// is lost only where the displacement begins.
 pub(crate) const RETURNING_GRADIENT: f64 = 1e-2;
+/// How many times the squared sine of the rows at hand that of others must be to take these.
+const CLEARLY_BETTER: f64 = 4.0;
 /// Newton's corrections that bring a neighbour onto the constraints. Where their gradient
 /// vanishes wherever they hold, each halves the distance, and the gradient with it.
 const CORRECTIONS: usize = 16;
@@ -41,6 +43,33 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         let (mut solver, workspace, _) = self.lend(mechanism);
         learning()(&mut solver, state.at(), &workspace)
+    }
+
+    /// Takes other rows at an accepted state, if these are safely independent there and
+    /// clearly more so than those at hand; whether it did.
+    #[inline(never)]
+    pub(crate) fn choose_better_rows(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &State<T, N>,
+    ) -> Result<bool, DynamicsError<T>> {
+        if self.rows.all_independent() || !self.is_prepared() {
+            return Ok(false);
+        }
+        mechanism.position(state, &mut self.position);
+        self.safe = None;
+        self.factorise_metric(mechanism, Source::Position, state.t)?;
+        let before = self.factorise_constraints(Source::Position, Which::All);
+        let known = self.rows.clone();
+        let (mut solver, workspace, _) = self.lend(mechanism);
+        choose_rows(&mut solver, &workspace);
+        let after = self.factorise_constraints(Source::Position, Which::All);
+        let is_better = passes(after, window()) && after > before * T::from_f64(CLEARLY_BETTER);
+        match is_better {
+            true => self.session.sine = Some(after.sqrt()),
+            false => self.rows = known,
+        }
+        Ok(is_better)
     }
 
     /// The acceleration by the null space of the rows that are not zero to round-off: the
@@ -247,7 +276,7 @@ fn vanishing_row<T: Real>(
 }
 
 /// Positions next to a state: along its velocity, if it moves, and wherever the constraints
-/// let it go.
+/// let it go. Off the constraints redundant rows would look independent.
 fn neighbours<'a, T: Real>(
     solver: &dyn Constrained<T>,
     state: At<'_, T>,
@@ -258,26 +287,24 @@ fn neighbours<'a, T: Real>(
     let distance = difference::<T>() * known.coordinate_scale.range;
     let positions = workspace.numbers((n + 1) * n);
     let mut count = 0;
-    let mut add = |size: T, direction: &[T]| {
-        let position = &mut positions[count * n..][..n];
-        position.copy_from_slice(state.q);
-        add_scaled(position, distance / size, direction);
-        count += 1;
+    let mut add = |axis: &mut [T], least: T| {
+        decomposition.remove_from(axis);
+        let size = norm(axis);
+        if size > least {
+            known.lower(axis);
+            let position = &mut positions[count * n..][..n];
+            position.copy_from_slice(state.q);
+            add_scaled(position, distance / size, axis);
+            count += 1;
+        }
     };
     let axis = workspace.numbers(n);
-    let speed = length(known.factor, state.v);
-    if speed > T::zero() {
-        add(speed, state.v);
-    }
+    multiply_upper_transposed(known.factor, state.v, axis);
+    add(axis, T::zero());
     for j in 0..n {
         axis.fill(T::zero());
         axis[j] = T::one();
-        decomposition.remove_from(axis);
-        let size = norm(axis);
-        if size > regular() {
-            known.lower(axis);
-            add(size, axis);
-        }
+        add(axis, regular());
     }
     positions[..count * n].chunks_exact_mut(n)
 }

@@ -29,6 +29,7 @@ mod passage;
 mod place;
 mod point;
 mod product;
+mod redundancy;
 mod session;
 mod sheet;
 mod sheet_selection;

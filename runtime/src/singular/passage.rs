@@ -306,10 +306,15 @@ impl<T: Real> Sheet<'_, T> {
             None => T::zero(),
         };
         let regular = self.constraints();
+        let rank = match self.rank_of_all_rows(workspace) {
+            Some(rank) if rank == regular => return,
+            Some(rank) => rank,
+            None => regular - changes.min(regular),
+        };
         found.push(Passage {
             t,
             sine,
-            rank: regular - changes.min(regular),
+            rank,
             regular,
         });
     }
