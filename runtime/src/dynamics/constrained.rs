@@ -121,7 +121,7 @@ where
     fn put_onto_constraints(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
         self.solver.prepare(&self.mechanism, state)?;
         let mut placed = *state;
-        self.put_back(&mut placed, false)?;
+        self.project_within(&mut placed)?;
         self.solver.start(&self.mechanism, state, &placed)
     }
 
@@ -135,37 +135,39 @@ where
     pub fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
         with_room::<T, _, N, R>(|| {
             self.solver.begin_step(state);
-            self.put_back(state, false)
+            self.project_within(state)
         })
     }
 
-    /// Brings a state within a step back onto the constraints. Between the ends of a step it
-    /// may be off by more than another sheet is.
+    /// Brings a state within a step back onto the constraints.
     pub(crate) fn project_within(
         &mut self,
         state: &mut State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        self.put_back(state, true)
+        let t = state.t;
+        match self.project_past(state)? {
+            true => Err(self.solver.strayed(&self.mechanism, t)),
+            false => Ok(()),
+        }
     }
 
-    fn put_back(
+    /// The same; whether it was moved past another sheet, by more than the end of a step may
+    /// be off.
+    pub(crate) fn project_past(
         &mut self,
         state: &mut State<T, N>,
-        is_inside: bool,
-    ) -> Result<(), DynamicsError<T>> {
+    ) -> Result<bool, DynamicsError<T>> {
         let solver = &mut *self.solver;
         if solver.session.chart.is_none() {
             solver.begin_step(state);
         }
-        *state = escalating(self, |system| {
+        let (projected, strays) = escalating(self, |system| {
             let mut projected = *state;
             let strays = system.solver.project(system.mechanism, &mut projected)?;
-            match is_inside || !strays {
-                true => Ok(projected),
-                false => Err(system.solver.strayed(&system.mechanism, state.t)),
-            }
+            Ok::<_, DynamicsError<T>>((projected, strays))
         })?;
-        Ok(())
+        *state = projected;
+        Ok(strays)
     }
 
     /// The rank of the constraints at a position, which should be on them.

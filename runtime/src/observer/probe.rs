@@ -64,6 +64,14 @@ pub trait Probe<T: Real, const N: usize> {
     /// A [`DynamicsError`] if that fails.
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>>;
 
+    /// The same for a state that may lie exactly in a singular configuration, where the error
+    /// of a step can bring it nearer to another branch of motion than to its own.
+    ///
+    /// # Errors
+    ///
+    /// As [`Probe::project`].
+    fn project_crossing(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>>;
+
     /// Writes the outputs and the inputs, as many as there is room for.
     ///
     /// # Errors
@@ -131,6 +139,10 @@ where
 
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
         self.project_within(state)
+    }
+
+    fn project_crossing(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
+        self.project_past(state).map(|_| ())
     }
 
     fn outputs(

@@ -343,7 +343,7 @@ fn state_at<T: Real, const N: usize>(
 ) -> Result<State<T, N>, DynamicsError<T>> {
     let mut state = step.at(t);
     if on == On::Constraints && t > step.start().t && t < step.end().t {
-        probe.project(&mut state)?;
+        probe.project_crossing(&mut state)?;
     }
     Ok(state)
 }
