@@ -1,0 +1,115 @@
+//! Constraints of which some follow from the others: where those that were chosen become
+//! dependent and all of them together do not, nothing is singular.
+
+use bricard_runtime::{Form, Method, Options, Settings, StepControl, Whole, assemble, simulate};
+use bricard_singular::descriptions::spatial_parallelogram::SpatialParallelogram;
+
+const N: usize = 21;
+const R: usize = 23;
+
+/// The angle of the crank after a time, by Runge and Kutta's method on the reduction: a pendulum
+/// in the plane of the mechanism.
+fn angle_after(until: f64, a0: f64, w: f64) -> f64 {
+    let (mass, length) = (1.2, 0.6);
+    let inertia = 2.0 * (0.04 + mass * length * length / 4.0) + 2.0 * mass * length * length;
+    let ((sa, ca), (sb, cb)) = (0.7_f64.sin_cos(), (-0.4_f64).sin_cos());
+    let gravity = [2.0, -7.0, -6.0];
+    let (x, y) = ([cb, sa * sb, -ca * sb], [0.0, ca, sa]);
+    let along = |axis: [f64; 3]| -> f64 { gravity.iter().zip(axis).map(|(g, a)| g * a).sum() };
+    let (gx, gy) = (along(x), along(y));
+    let rate = |[a, v]: [f64; 2]| {
+        let torque = 3.0 * mass * length * (gy * a.cos() - gx * a.sin());
+        [v, torque / inertia]
+    };
+    let steps = 30_000;
+    let h = until / f64::from(steps);
+    let add = |[a, v]: [f64; 2], [da, dv]: [f64; 2], h: f64| [a + h * da, v + h * dv];
+    let mut state = [a0, w];
+    for _ in 0..steps {
+        let k1 = rate(state);
+        let k2 = rate(add(state, k1, h / 2.0));
+        let k3 = rate(add(state, k2, h / 2.0));
+        let k4 = rate(add(state, k3, h));
+        for (rate, part) in [(k1, 1.0), (k2, 2.0), (k3, 2.0), (k4, 1.0)] {
+            state = add(state, rate, part * h / 6.0);
+        }
+    }
+    state[0]
+}
+
+fn options(until: f64, form: Form, tolerance: f64) -> Options<f64> {
+    let control = StepControl::Adaptive {
+        relative: tolerance,
+        absolute: tolerance,
+    };
+    let mut options = Options::new(until, Method::Dop853, control);
+    options.settings = Settings {
+        form,
+        ..Settings::default()
+    };
+    options
+}
+
+#[test]
+fn passages_are_those_of_all_rows() {
+    const UNTIL: f64 = 3.0;
+    for (form, tolerance, a0, w) in [
+        (Form::Reduced, 1e-6, 0.3, 6.0),
+        (Form::Reduced, 1.2e-7, 0.83, -7.1),
+        (Form::Reduced, 5e-6, 0.26, -8.4),
+        (
+            Form::Reduced,
+            1.139516145259756e-9,
+            1.3476614300115783,
+            -2.562406828940989,
+        ),
+        (
+            Form::Reduced,
+            5.419891704606612e-8,
+            1.437151862295032,
+            2.489838708855075,
+        ),
+        (Form::Full, 5.2e-8, 0.64, 2.8),
+        (
+            Form::Full,
+            1.0302085916093142e-9,
+            1.0342016910160887,
+            -3.6933673281845207,
+        ),
+        (Form::Full, 1e-5, -1.2, 7.0),
+    ] {
+        let name = format!("{form:?} {tolerance:e} {a0} {w}");
+        let mut mechanism = SpatialParallelogram::default();
+        (mechanism.parameters.a0, mechanism.parameters.w) = (a0, w);
+        let mechanism: &dyn Whole<f64, N, R> = &mechanism;
+        let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+        let ran = simulate(mechanism, &start, &options(UNTIL, form, tolerance), &mut []);
+        let summary = ran.unwrap_or_else(|failure| panic!("{name}: {failure}"));
+        assert!(summary.events > 0, "{name}");
+        assert_eq!(summary.passages, Some(summary.events), "{name}");
+        let mut crank = [0.0; 2];
+        mechanism.outputs(&summary.end, &mut crank);
+        let exact = angle_after(UNTIL, a0, w);
+        let off = (crank[1] * exact.cos() - crank[0] * exact.sin()).abs();
+        assert!(off < 2e3 * tolerance, "{name}: off by {off} rad");
+    }
+}
+
+/// Friction stops the crank, and a motion at rest begins there: its velocity is nothing but
+/// round-off, along which redundant rows would look independent.
+#[test]
+fn what_friction_stops_stays() {
+    let mut mechanism = SpatialParallelogram::default();
+    mechanism.parameters.f = 20.0;
+    for a0 in [-1.4, -1.2, -0.9, 0.4, 1.4] {
+        mechanism.parameters.a0 = a0;
+        for tolerance in [1e-5, 1e-8] {
+            let mechanism: &dyn Whole<f64, N, R> = &mechanism;
+            let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+            let options = options(3.0, Form::Reduced, tolerance);
+            let ran = simulate(mechanism, &start, &options, &mut []);
+            let summary = ran.unwrap_or_else(|failure| panic!("{a0} {tolerance:e}: {failure}"));
+            assert!(summary.end.v.amax() < 1e-9, "{a0} {tolerance:e}");
+        }
+    }
+}
