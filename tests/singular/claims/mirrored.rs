@@ -2,7 +2,7 @@
 
 use crate::largest::Largest;
 use bricard_runtime::nalgebra::SVector;
-use bricard_runtime::{Method, Options, StepControl, Whole, assemble, simulate};
+use bricard_runtime::{Form, Method, Options, StepControl, Whole, assemble, simulate};
 use bricard_singular::descriptions::mirrored::Mirrored;
 
 /// By how much the bars of the parallelogram are not parallel (m).
@@ -25,22 +25,31 @@ fn settings() -> impl Iterator<Item = Options<f64>> {
     fixed.into_iter().chain(adaptive)
 }
 
+/// The same in the null-space form and with all coordinates.
+fn forms() -> impl Iterator<Item = Options<f64>> {
+    settings().flat_map(|reduced| {
+        let mut full = reduced;
+        full.settings.form = Form::Full;
+        [reduced, full]
+    })
+}
+
 #[test]
 fn nodes_of_a_passage_do_not_serve_its_mirror_image() {
     let mechanism: &dyn Whole<f64, 4, 3> = &Mirrored::default();
     let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
-    for options in settings() {
+    for options in forms() {
         let mut largest = Largest::of(skew);
-        let (method, control) = (options.method, options.step_control);
-        let ran = simulate(mechanism, &start, &options, &mut [&mut largest]);
-        let summary = ran.unwrap_or_else(|failure| panic!("{method:?} {control:?}: {failure}"));
-        assert_eq!(summary.passages, Some(4), "{method:?} {control:?}");
-        assert!(
-            largest.value < 1e-7,
-            "{method:?} {control:?}: {}",
-            largest.value
+        let name = format!(
+            "{:?} {:?} {:?}",
+            options.settings.form, options.method, options.step_control
         );
+        let ran = simulate(mechanism, &start, &options, &mut [&mut largest]);
+        let summary = ran.unwrap_or_else(|failure| panic!("{name}: {failure}"));
+        assert_eq!(summary.passages, Some(4), "{name}");
+        assert_eq!(summary.events, 4, "{name}");
+        assert!(largest.value < 1e-7, "{name}: {}", largest.value);
         let lost = summary.energy_error.expect("audited");
-        assert!(lost < 1e-4, "{method:?} {control:?}: {lost} J");
+        assert!(lost < 1e-4, "{name}: {lost} J");
     }
 }
