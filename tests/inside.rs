@@ -3,7 +3,7 @@
 
 use crate::library::{Inspect, inspect};
 use bricard_runtime::{
-    DynamicsError, Form, Observer, Options, Probe, Step, Whole, assemble, simulate,
+    DynamicsError, Form, Observer, Options, OtherBranch, Probe, Step, Whole, assemble, simulate,
 };
 use std::ops::ControlFlow;
 
@@ -51,7 +51,7 @@ impl<const N: usize> Observer<f64, N> for Accelerations {
                 return Ok(ControlFlow::Continue(()));
             }
             let mut state = step.at(t);
-            probe.project(&mut state)?;
+            probe.project(&mut state, OtherBranch::Refused)?;
             let acceleration = probe.acceleration(&state, &mut [])?;
             self.rows.push(acceleration.as_slice().to_vec());
         }

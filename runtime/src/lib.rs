@@ -43,7 +43,7 @@ pub use nalgebra;
 #[cfg(feature = "std")]
 pub use observer::Recorder;
 pub use observer::{
-    BadInterval, ConstraintAudit, EnergyAudit, Observer, Occurrence, Probe, Sampler,
+    BadInterval, ConstraintAudit, EnergyAudit, Observer, Occurrence, OtherBranch, Probe, Sampler,
 };
 pub use real::Real;
 pub use sides::{Condition, Discontinuity, Sides, Switch, Switches};

@@ -8,8 +8,8 @@
 
 use crate::trial::Trial;
 use bricard_runtime::{
-    Audit, DynamicsError, Interface, Mechanism, Observer, Options, Position, Probe, State, Step,
-    StepControl, Visitor, Whole, assemble, simulate,
+    Audit, DynamicsError, Interface, Mechanism, Observer, Options, OtherBranch, Position, Probe,
+    State, Step, StepControl, Visitor, Whole, assemble, simulate,
 };
 use std::ops::ControlFlow;
 
@@ -126,7 +126,7 @@ impl<const N: usize, const R: usize> Observer<f64, N> for Watch<'_, N, R> {
     ) -> Result<ControlFlow<()>, DynamicsError<f64>> {
         for part in INSIDE {
             let mut inside = step.at(step.start().t + part * step.length());
-            probe.project(&mut inside)?;
+            probe.project(&mut inside, OtherBranch::Refused)?;
             self.look(&inside);
         }
         self.look(step.end());

@@ -17,7 +17,7 @@ mod sampler;
 pub use constraint::ConstraintAudit;
 pub use energy::EnergyAudit;
 pub(crate) use energy::balance;
-pub use probe::Probe;
+pub use probe::{OtherBranch, Probe};
 #[cfg(feature = "std")]
 pub use recorder::Recorder;
 pub use sampler::{BadInterval, Sampler};

@@ -11,6 +11,16 @@ use crate::{
 };
 use nalgebra::SVector;
 
+/// What to do with a state within a step that is nearer to another branch of motion than to
+/// its own, by more than the end of a step may be off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OtherBranch {
+    /// Refuse it: nothing tells whether its own branch is still the one that is followed.
+    Refused,
+    /// Bring it back onto its own: it may lie exactly where branches cross.
+    Crossed,
+}
+
 /// Answers questions about a mechanism at a state.
 pub trait Probe<T: Real, const N: usize> {
     /// What was known when the mechanism's code was generated.
@@ -57,20 +67,16 @@ pub trait Probe<T: Real, const N: usize> {
         multipliers: &mut [Option<T>],
     ) -> Result<SVector<T, N>, DynamicsError<T>>;
 
-    /// Brings a state back onto the constraints.
+    /// Brings a state within a step back onto the constraints.
     ///
     /// # Errors
     ///
     /// A [`DynamicsError`] if that fails.
-    fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>>;
-
-    /// The same for a state that may lie exactly in a singular configuration, where the error
-    /// of a step can bring it nearer to another branch of motion than to its own.
-    ///
-    /// # Errors
-    ///
-    /// As [`Probe::project`].
-    fn project_crossing(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>>;
+    fn project(
+        &mut self,
+        state: &mut State<T, N>,
+        other: OtherBranch,
+    ) -> Result<(), DynamicsError<T>>;
 
     /// Writes the outputs and the inputs, as many as there is room for.
     ///
@@ -137,12 +143,15 @@ where
         self.acceleration_within(state)
     }
 
-    fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
-        self.project_within(state)
-    }
-
-    fn project_crossing(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
-        self.project_past(state).map(|_| ())
+    fn project(
+        &mut self,
+        state: &mut State<T, N>,
+        other: OtherBranch,
+    ) -> Result<(), DynamicsError<T>> {
+        match other {
+            OtherBranch::Refused => self.project_within(state),
+            OtherBranch::Crossed => self.project_past(state).map(|_| ()),
+        }
     }
 
     fn outputs(

@@ -3,7 +3,7 @@
 //! In:  steps.
 //! Out: calls of a function, at exact multiples of the interval.
 
-use super::{Observer, Probe};
+use super::{Observer, OtherBranch, Probe};
 use crate::number::Number;
 use crate::{DynamicsError, Real, State, Step};
 use core::fmt::{Display, Formatter};
@@ -127,7 +127,7 @@ impl<T: Real> Grid<T> {
                 State { t, ..end }
             } else {
                 let mut inside = step.at(t);
-                probe.project(&mut inside)?;
+                probe.project(&mut inside, OtherBranch::Refused)?;
                 inside
             };
             self.next += 1;

@@ -17,7 +17,9 @@ use super::SimulateError;
 use crate::crossing::{Left, NODES, SAME_TIME, Samples, first_crossing, nodes, noise, zero};
 use crate::linalg::column;
 use crate::once::compiled_once;
-use crate::{Direction, DynamicsError, Event, Occurrence, Probe, Real, State, Step, Watched};
+use crate::{
+    Direction, DynamicsError, Event, Occurrence, OtherBranch, Probe, Real, State, Step, Watched,
+};
 
 /// Events a mechanism may have.
 const ROOM: usize = 64;
@@ -343,7 +345,7 @@ fn state_at<T: Real, const N: usize>(
 ) -> Result<State<T, N>, DynamicsError<T>> {
     let mut state = step.at(t);
     if on == On::Constraints && t > step.start().t && t < step.end().t {
-        probe.project_crossing(&mut state)?;
+        probe.project(&mut state, OtherBranch::Crossed)?;
     }
     Ok(state)
 }
