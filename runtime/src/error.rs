@@ -158,6 +158,17 @@ pub enum DynamicsError<T> {
         /// The condition.
         condition: &'static Condition,
     },
+    /// An angle has made so many turns that its round-off leaves less than half of the digits.
+    AngleTooLarge {
+        /// Time of the state (s).
+        t: T,
+        /// The angle, a coordinate.
+        coordinate: usize,
+        /// Its value (rad).
+        value: T,
+        /// The mechanism, for the names.
+        structure: &'static Structure,
+    },
     /// The position could not be brought back onto the constraints.
     ProjectionFailed {
         /// Time of the state (s).
@@ -183,6 +194,7 @@ impl<T: Real> DynamicsError<T> {
             | Self::MassSingular { t, .. }
             | Self::SharedReaction { t, .. }
             | Self::Sticks { t, .. }
+            | Self::AngleTooLarge { t, .. }
             | Self::ProjectionFailed { t, .. } => t,
         }
     }
@@ -238,6 +250,12 @@ impl<T: Real> Display for DynamicsError<T> {
             } => write_massless(f, t, (*coordinate, structure)),
             Self::SharedReaction { t, row, structure } => write_shared(f, t, (*row, structure)),
             Self::Sticks { t, condition } => write_sticking(f, t, condition),
+            Self::AngleTooLarge {
+                t,
+                coordinate,
+                value,
+                structure,
+            } => write_turns(f, t, value, (*coordinate, structure)),
             Self::ProjectionFailed {
                 t,
                 residual,
@@ -289,6 +307,23 @@ fn write_massless<T: Real>(
     f.write_str(
         " can move without kinetic energy and no constraint restricts it; give it inertia or a \
          constraint",
+    )
+}
+
+/// Which angle has made too many turns.
+fn write_turns<T: Real>(
+    f: &mut Formatter<'_>,
+    t: &T,
+    value: &T,
+    (coordinate, structure): (usize, &Structure),
+) -> Result {
+    write!(f, "at t = {t} s the angle ", t = Number(t))?;
+    structure.write_coordinate(f, coordinate)?;
+    write!(
+        f,
+        " is {value} rad, and round-off leaves less than half of the digits of a turn; begin \
+         without the whole turns, multiples of 2*pi",
+        value = Number(value)
     )
 }
 

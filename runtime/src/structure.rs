@@ -34,9 +34,14 @@ pub struct Quantity {
 }
 
 impl Quantity {
+    /// Whether its unit is that of an angle.
+    pub(crate) fn is_angle(&self) -> bool {
+        matches!(self.unit, "rad" | "deg")
+    }
+
     /// Whether its unit is that of an angle, or not given.
     pub(crate) fn may_be_angle(&self) -> bool {
-        matches!(self.unit, "rad" | "deg" | "")
+        self.is_angle() || self.unit.is_empty()
     }
 }
 

@@ -3,6 +3,7 @@
 //! In:  states.
 //! Out: accelerations, reactions, projections, rank, constraint errors.
 
+use super::turns::check_angles;
 use super::{Core, Source, Which};
 use crate::singular::Found;
 use crate::stack::with_room;
@@ -108,6 +109,7 @@ where
         state: &mut State<T, N>,
         tolerance: Option<T>,
     ) -> Result<(), DynamicsError<T>> {
+        check_angles(self.mechanism.structure(), state.t, state.q.as_slice())?;
         self.solver.expect_error(tolerance);
         self.solver.begin_step(state);
         if self.solver.places_starts() {

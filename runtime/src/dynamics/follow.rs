@@ -401,7 +401,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if !self.follows() || self.session.rests {
             return Ok(());
         }
-        self.observe_coordinate_scale(mechanism, &step.end);
+        self.observe_coordinate_scale(mechanism, &step.end)?;
         if self.session.chart.is_none() {
             self.metric.observe_pivots();
         }

@@ -183,7 +183,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.sample_sizes(mechanism, state);
         mechanism.position(state, &mut self.position);
         self.factorise_metric(mechanism, Source::Position, state.t)?;
-        self.observe_coordinate_scale(mechanism, state);
+        self.observe_coordinate_scale(mechanism, state)?;
         self.learn_rank(mechanism, state)?;
         self.prepared = true;
         Ok(())

@@ -6,9 +6,31 @@
 //! A coordinate goes round if the constraint rows are the same one turn before.
 
 use super::Core;
-use crate::{Mechanism, Real, State};
+use crate::tolerance::excusable;
+use crate::{DynamicsError, Mechanism, Real, State, Structure};
 use core::f64::consts::TAU;
 use nalgebra::SMatrix;
+
+/// Refuses a state with an angle whose round-off leaves less than half of the digits.
+pub(super) fn check_angles<T: Real>(
+    structure: &'static Structure,
+    t: T,
+    q: &[T],
+) -> Result<(), DynamicsError<T>> {
+    let most = excusable::<T>() / T::EPSILON;
+    let angles = q.iter().zip(structure.freedoms()).enumerate();
+    for (coordinate, (value, quantity)) in angles {
+        if value.abs() > most && quantity.is_angle() {
+            return Err(DynamicsError::AngleTooLarge {
+                t,
+                coordinate,
+                value: *value,
+                structure,
+            });
+        }
+    }
+    Ok(())
+}
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Takes note of the length of the coordinates in the metric, where one of them is
@@ -18,19 +40,25 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
-    ) {
+    ) -> Result<(), DynamicsError<T>> {
         let [q] = &state.q.data.0;
         let sizes = q.iter().zip(&self.sizes);
-        if sizes.fold(false, |any, (q, size)| any | (q.abs() > *size)) {
-            self.extend_coordinate_scale(mechanism, state);
+        match sizes.fold(false, |any, (q, size)| any | (q.abs() > *size)) {
+            true => self.extend_coordinate_scale(mechanism, state),
+            false => Ok(()),
         }
     }
 
     /// Measures that length.
     #[inline(never)]
-    fn extend_coordinate_scale(&mut self, mechanism: &dyn Mechanism<T, N, R>, state: &State<T, N>) {
-        let turns = self.turns(mechanism, state);
+    fn extend_coordinate_scale(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
         let [mut q] = state.q.data.0;
+        check_angles(mechanism.structure(), state.t, &q)?;
+        let turns = self.turns(mechanism, state);
         self.coordinate_scale.extend(
             mechanism.structure(),
             self.metric.factor.as_slice(),
@@ -38,6 +66,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             (&mut self.sizes, &mut self.weights),
             &turns,
         );
+        Ok(())
     }
 
     /// Which coordinates are beyond a turn, and leave the constraint rows as they are when

@@ -101,7 +101,7 @@ variants!(
 variants!(
     DynamicsError<f64>:
     NotFinite, WatchedNotFinite, SingularPosition, SingularConfiguration, NotRegular,
-    MassSingular, SharedReaction, Sticks, ProjectionFailed;
+    MassSingular, SharedReaction, Sticks, AngleTooLarge, ProjectionFailed;
     Self::WatchedNotFinite { quantity, .. } => quantity,
     Self::SingularConfiguration { kind, .. } => kind
 );

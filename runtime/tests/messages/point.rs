@@ -82,6 +82,15 @@ pub static REGULAR: Structure = Structure {
     ..POINT
 };
 
+pub static WITH_ANGLE: Structure = Structure {
+    coordinates: &[Quantity {
+        name: "phi",
+        unit: "rad",
+        docs: "",
+    }],
+    ..POINT
+};
+
 pub static WITH_EVENT: Structure = Structure {
     events: &[HIT],
     ..POINT

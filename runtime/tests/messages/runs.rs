@@ -1,8 +1,8 @@
 //! Errors of runs.
 
 use super::point::{
-    POINT, Point, REGULAR, WITH_EVENT, WITH_MANY_EVENTS, crossing, cusp, doubled, line, squared,
-    three_lines, torn,
+    POINT, Point, REGULAR, WITH_ANGLE, WITH_EVENT, WITH_MANY_EVENTS, crossing, cusp, doubled, line,
+    squared, three_lines, torn,
 };
 use super::{Case, Said};
 use crate::fixtures::{Framed, simulate, system_of};
@@ -226,6 +226,19 @@ pub const MOTIONS: &[Case] = &[
         },
         "at t = 0 s the coordinate `x` can move without kinetic energy and no constraint \
          restricts it; give it inertia or a constraint",
+    ),
+    (
+        "DynamicsError::AngleTooLarge",
+        "an angle `phi` that begins at 1e17 rad",
+        || {
+            let point = Point {
+                structure: &WITH_ANGLE,
+                ..Point::on(line)
+            };
+            from(point, [[1e17, 0.0], [0.0, 0.0]], rk4())
+        },
+        "at t = 0 s the angle `phi` is 1e17 rad, and round-off leaves less than \
+         half of the digits of a turn; begin without the whole turns, multiples of 2*pi",
     ),
     (
         "DynamicsError::SharedReaction",
