@@ -7,6 +7,7 @@
 //! same for all; the kernel `call` is that surrounding alone.
 
 use crate::kernels::ROUND;
+use bricard_codegen::Builder;
 use bricard_runtime::{
     Acceleration, Audit, Correction, Interface, Mechanism, Method, Options, Settings, Solver,
     State, StepControl, Stepper, Terms, assemble, simulate,
@@ -55,6 +56,9 @@ enum Work {
 /// A name that nothing has; a run that fails.
 pub fn run(name: &str, rounds: u64) -> Result<(), Failed> {
     let (subject, work) = name.split_once('/').ok_or("write SUBJECT/WORK")?;
+    if let ("generation", Some(loops)) = (work, subject.strip_prefix("row_")) {
+        return (0..rounds).try_for_each(|_| generate(loops.parse()?));
+    }
     let work = match work {
         "call" => Work::Call,
         "terms" => Work::Terms,
@@ -162,6 +166,19 @@ pub fn run(name: &str, rounds: u64) -> Result<(), Failed> {
         "hung_40" => ours(&generated::hung_40::hung_row::HungRow::default(), job),
         _ => Err(format!("there is no mechanism `{subject}`").into()),
     }
+}
+
+/// Generates the code of a row of so many loops.
+fn generate(loops: u32) -> Result<(), Failed> {
+    let out = std::env::temp_dir().join(format!("bricard_row_{loops}"));
+    std::fs::create_dir_all(&out)?;
+    let row = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../mechanisms/n_four_bar.mech"
+    );
+    let builder = Builder::new().constant("N", loops).out_dir(&out);
+    builder.compile(row)?;
+    Ok(std::fs::remove_dir_all(&out)?)
 }
 
 /// States all over the place: for what needs no closed loops.

@@ -70,6 +70,10 @@ pub const LONG: &[&str] = &[
     "row_80/regular",
     "row_80/step",
     "row_80/robust",
+    "row_10/generation",
+    "row_20/generation",
+    "row_40/generation",
+    "row_80/generation",
     "swings_20/turning",
     "swings_40/turning",
     "hung_20/robust",
@@ -106,7 +110,14 @@ pub const LONG: &[&str] = &[
 
 /// Calls of a kernel in a round.
 pub fn calls(name: &str) -> u64 {
-    let long = ["/run_", "/simulated_", "/audited_", "/robust", "/turning"];
+    let long = [
+        "/run_",
+        "/simulated_",
+        "/audited_",
+        "/robust",
+        "/turning",
+        "/generation",
+    ];
     match long.iter().any(|work| name.contains(work)) {
         true => 1,
         false => ROUND,

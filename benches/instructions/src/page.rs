@@ -22,7 +22,8 @@ parallelograms side by side, each with its own degree of freedom, of which one h
 into its line; and of a row with a pendulum on it. Whatever the number of degrees of
 freedom is, such an acceleration is interpolated between regular states of the same sheet
 of the constraint set on both sides, and costs as much as the factorisations of the
-constraints at these states.
+constraints at these states. `generation` is the compiler's own work, from the description to
+Rust.
 
 Two or three sines and cosines are computed one by one. In lanes they would take a fifth fewer
 instructions, but the lanes are loaded from what was stored entry by entry just before, for

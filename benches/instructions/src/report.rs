@@ -97,7 +97,23 @@ pub fn growth(counts: &Counts) -> String {
         };
         let _infallible = writeln!(text, "| {name} | {} | {exponent} |", cells.join(" | "));
     }
+    text.push_str(&growth_of_generation(counts));
     text
+}
+
+/// How the instructions of the generator grow with the number of loops.
+fn growth_of_generation(counts: &Counts) -> String {
+    let all = [10.0, 20.0, 40.0, 80.0_f64];
+    let at = |n: f64| counts.get(&format!("row_{n}/generation")).copied();
+    let [Some(few), _, _, Some(many)] = all.map(at) else {
+        return String::new();
+    };
+    let cells = all.map(|n| at(n).map_or("–".to_string(), |count| format!("{:.0}", count / 1e6)));
+    let exponent = (many / few).ln() / 8.0_f64.ln();
+    format!(
+        "| generation, millions | – | – | {} | {exponent:.2} |\n",
+        cells.join(" | ")
+    )
 }
 
 /// What audits cost.

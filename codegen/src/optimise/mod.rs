@@ -11,13 +11,15 @@
 //! 2. `schedule`: to a program, each shared expression once.
 //! 3. `collect`, `share`: common factors of terms, and pairs of factors that products
 //!    share.
-//! 4. `dead`: what nobody reads.
-//! 5. `order`: outputs of the same coordinates one after the other.
+//! 4. `distribute`: factors put into sums again where that is free.
+//! 5. `dead`: what nobody reads.
+//! 6. `order`: outputs of the same coordinates one after the other.
 //!
 //! `solve` appends the solve for the accelerations to a program.
 
 mod collect;
 mod dead;
+mod distribute;
 mod functions;
 mod order;
 mod pass;
@@ -85,7 +87,7 @@ pub fn optimise_among(
 ) -> Optimised {
     let scheduled = schedule::schedule(graph, laws, wanted);
     let finished = |best: &Program| {
-        let program = checked(order::arranged(best));
+        let program = checked(order::arranged(&distribute::distribute(best)));
         Optimised {
             cost: cost(&program),
             derived: cost(&scheduled),

@@ -1,7 +1,7 @@
 //! The passes one by one, so that each can be checked by itself.
 
 use super::program::{Program, Slot};
-use super::{collect, in_trig_ring, schedule, share};
+use super::{collect, distribute, in_trig_ring, schedule, share};
 use crate::expr::ExprId;
 use crate::model::Graph;
 
@@ -17,11 +17,19 @@ pub enum Pass {
     Collect,
     /// Pairs of factors shared between products.
     Share,
+    /// Factors put into sums.
+    Distribute,
 }
 
 impl Pass {
     /// All passes, in the order they run in.
-    pub const ALL: [Pass; 4] = [Pass::Ring, Pass::Schedule, Pass::Collect, Pass::Share];
+    pub const ALL: [Pass; 5] = [
+        Pass::Ring,
+        Pass::Schedule,
+        Pass::Collect,
+        Pass::Share,
+        Pass::Distribute,
+    ];
 
     /// Its name in `RULES.md`.
     pub fn name(self) -> &'static str {
@@ -30,6 +38,7 @@ impl Pass {
             Pass::Schedule => "schedule",
             Pass::Collect => "collect",
             Pass::Share => "share",
+            Pass::Distribute => "distribute",
         }
     }
 }
@@ -48,5 +57,6 @@ pub fn alone(pass: Pass, graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, Ex
         Pass::Ring | Pass::Schedule => program,
         Pass::Collect => collect::collect_factors(&program).unwrap_or(program),
         Pass::Share => share::share_pairs(&program),
+        Pass::Distribute => distribute::distribute(&program),
     }
 }

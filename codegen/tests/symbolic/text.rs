@@ -114,6 +114,53 @@ fn pairs_of_factors_are_shared_between_products() {
 }
 
 #[test]
+fn factors_are_put_into_sums_where_their_products_are_known() {
+    let make = |graph: &mut Graph| {
+        let [x, y, z] = letters(graph);
+        let [sin_y, sin_z] = [y, z].map(|angle| graph.function(Function::Sin, angle));
+        let [first, second] = [graph.mul(y, sin_y), graph.mul(z, sin_z)];
+        let sum = graph.add(first, second);
+        vec![graph.mul(x, y), graph.mul(x, z), graph.mul(x, sum)]
+    };
+    let expected = [
+        "%1 = x*y",
+        "%2 = x*z",
+        "%3 = sin(y)",
+        "%4 = %1*%3",
+        "%5 = sin(z)",
+        "%6 = %2*%5",
+        "%7 = %4 + %6",
+        "out[1] = %1",
+        "out[2] = %2",
+        "out[3] = %7",
+    ];
+    check(Pass::Distribute, make, &expected);
+    // A product that is read elsewhere is computed all the same.
+    let read = |graph: &mut Graph| {
+        let mut wanted = make(graph);
+        let [_, y, _] = letters(graph);
+        let sin_y = graph.function(Function::Sin, y);
+        wanted.push(graph.mul(y, sin_y));
+        wanted
+    };
+    let expected = [
+        "%1 = x*y",
+        "%2 = x*z",
+        "%3 = sin(y)",
+        "%4 = y*%3",
+        "%5 = sin(z)",
+        "%6 = z*%5",
+        "%7 = %4 + %6",
+        "%8 = x*%7",
+        "out[1] = %1",
+        "out[2] = %2",
+        "out[3] = %8",
+        "out[4] = %4",
+    ];
+    check(Pass::Distribute, read, &expected);
+}
+
+#[test]
 fn a_text_tells_numbers_choices_and_inputs() {
     let mut graph = Graph::new();
     let [x, y, _] = letters(&mut graph);

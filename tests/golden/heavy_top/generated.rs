@@ -675,7 +675,7 @@ pub mod heavy_top {
         /// The least corrections of position and velocity in the kinetic metric, where
         /// the constraints are regular.
         ///
-        /// Costs 119 products, 74 sums, 5 quotients.
+        /// Costs 118 products, 74 sums, 5 quotients.
         #[inline(always)]
         fn correction(
             &self,
@@ -767,21 +767,18 @@ pub mod heavy_top {
                 );
             out.pivots.mass_pivots.data.0[0][3] = sum_14;
             let quotient_4 = T::one() / sum_14;
-            let product_29 = T::from_f64(2.0) * e_0;
-            let sum_15 = (-product_24).mul_add(product_29, T::from_f64(2.0) * e_1);
+            let product_29 = T::from_f64(2.0) * e_3;
+            let product_30 = T::from_f64(2.0) * e_0;
+            let product_31 = T::from_f64(2.0) * e_1;
+            let sum_15 = (-product_24).mul_add(product_30, product_31);
+            let product_32 = T::from_f64(2.0) * e_2;
             let sum_16 = (-product_27)
-                .mul_add(
-                    sum_15,
-                    (-product_26).mul_add(product_29, T::from_f64(2.0) * e_2),
-                );
+                .mul_add(sum_15, (-product_26).mul_add(product_30, product_32));
             let sum_17 = (-product_28)
                 .mul_add(
                     sum_16,
                     (-product_25)
-                        .mul_add(
-                            sum_15,
-                            (-product_15).mul_add(product_29, T::from_f64(2.0) * e_3),
-                        ),
+                        .mul_add(sum_15, (-product_15).mul_add(product_30, product_29)),
                 );
             let sum_18 = sum_17
                 .mul_add(
@@ -792,30 +789,30 @@ pub mod heavy_top {
                             sum_15
                                 .mul_add(
                                     quotient_2 * sum_15,
-                                    product_29 * (quotient * product_29),
+                                    product_30 * (quotient * product_30),
                                 ),
                         ),
                 );
             out.pivots.row_pivots.data.0[0][0] = sum_18;
             out.pivots.row_squares.data.0[0][0] = sum_18;
             let quotient_5 = T::one() / sum_18;
-            let product_30 = sum * quotient_5;
-            let product_31 = quotient_4 * (sum_17 * product_30);
+            let product_33 = sum * quotient_5;
+            let product_34 = quotient_4 * (sum_17 * product_33);
             let sum_19 = (-quotient_3)
-                .mul_add(sum_16 * product_30, product_28 * product_31);
+                .mul_add(sum_16 * product_33, product_28 * product_34);
             out.position.data.0[0][2] = sum_19;
-            let sum_20 = product_25 * product_31
-                - product_27.mul_add(sum_19, quotient_2 * (sum_15 * product_30));
+            let sum_20 = product_25 * product_34
+                - product_27.mul_add(sum_19, quotient_2 * (sum_15 * product_33));
             out.position.data.0[0][1] = sum_20;
-            let sum_21 = product_15 * product_31
+            let sum_21 = product_15 * product_34
                 - product_26
                     .mul_add(
                         sum_19,
-                        product_24.mul_add(sum_20, quotient * (product_29 * product_30)),
+                        product_24.mul_add(sum_20, quotient * (product_30 * product_33)),
                     );
             out.position.data.0[0][0] = sum_21;
-            out.position.data.0[0][3] = -product_31;
-            let sum_22 = (-product_31)
+            out.position.data.0[0][3] = -product_34;
+            let sum_22 = (-product_34)
                 .mul_add(
                     T::from_f64(2.0) * e_3_dot,
                     sum_19
@@ -827,31 +824,34 @@ pub mod heavy_top {
                                     sum_21
                                         .mul_add(
                                             T::from_f64(2.0) * e_0_dot,
-                                            T::from_f64(2.0)
-                                                * e_3
-                                                    .mul_add(
-                                                        e_3_dot,
-                                                        e_2.mul_add(e_2_dot, e_0.mul_add(e_0_dot, e_1 * e_1_dot)),
-                                                    ),
+                                            product_29
+                                                .mul_add(
+                                                    e_3_dot,
+                                                    product_32
+                                                        .mul_add(
+                                                            e_2_dot,
+                                                            product_30.mul_add(e_0_dot, product_31 * e_1_dot),
+                                                        ),
+                                                ),
                                         ),
                                 ),
                         ),
                 );
-            let product_32 = quotient_5 * sum_22;
-            let product_33 = quotient_4 * (sum_17 * product_32);
+            let product_35 = quotient_5 * sum_22;
+            let product_36 = quotient_4 * (sum_17 * product_35);
             let sum_23 = (-quotient_3)
-                .mul_add(sum_16 * product_32, product_28 * product_33);
+                .mul_add(sum_16 * product_35, product_28 * product_36);
             out.velocity.data.0[0][2] = sum_23;
-            let sum_24 = product_25 * product_33
-                - product_27.mul_add(sum_23, quotient_2 * (sum_15 * product_32));
+            let sum_24 = product_25 * product_36
+                - product_27.mul_add(sum_23, quotient_2 * (sum_15 * product_35));
             out.velocity.data.0[0][1] = sum_24;
-            out.velocity.data.0[0][0] = product_15 * product_33
+            out.velocity.data.0[0][0] = product_15 * product_36
                 - product_26
                     .mul_add(
                         sum_23,
-                        product_24.mul_add(sum_24, quotient * (product_29 * product_32)),
+                        product_24.mul_add(sum_24, quotient * (product_30 * product_35)),
                     );
-            out.velocity.data.0[0][3] = -product_33;
+            out.velocity.data.0[0][3] = -product_36;
             true
         }
         /// Energies and the power supplied from outside.
@@ -972,7 +972,7 @@ pub mod heavy_top {
         /// | `row_by_position` | `∂(p₂ − A q̈)/∂q` | `R × N` |
         /// | `row_by_velocity` | `∂p₂/∂q̇` | `R × N` |
         ///
-        /// Costs 222 products, 267 sums. As derived: 847 products, 444 sums.
+        /// Costs 221 products, 267 sums. As derived: 847 products, 444 sums.
         fn linearised(
             &self,
             state: &State<T, 4>,
@@ -1041,295 +1041,295 @@ pub mod heavy_top {
             let product_31 = e_1_dot * product_21;
             let product_32 = e_0_dot * product_31;
             let product_33 = e_0_dot * product_11;
-            let product_34 = T::from_f64(8.0) * (j1 + product_6);
-            let product_35 = e_1_ddot * product_34;
-            let sum_3 = (-e_0)
+            let sum_3 = product_10 + product_21;
+            let product_34 = e_1_ddot * sum_3;
+            let sum_4 = (-e_0)
                 .mul_add(
-                    product_35,
+                    product_34,
                     (e_3_ddot * sum_2)
                         .mul_add(
                             product_27,
                             product_23 + product_24 + product_25 + product_26,
                         ) - product_30 - product_32 - product_33,
                 );
-            out.force_by_position.data.0[0][1] = sum_3;
-            let product_36 = e_1_dot * product_28;
-            let product_37 = e_3_dot * product_36;
-            let product_38 = e_0_ddot * product_4;
-            let sum_4 = j3 - product_6;
-            let product_39 = T::from_f64(4.0) * e_1;
-            let product_40 = e_3_dot * product_31;
-            let product_41 = e_0_dot * product_22;
-            let product_42 = product_2 * e_3_ddot;
-            let product_43 = e_0_dot * product_13;
-            let product_44 = product_11 * e_3_dot;
-            let product_45 = e_2_ddot * product_34;
-            let sum_5 = (-e_0)
+            out.force_by_position.data.0[0][1] = sum_4;
+            let product_35 = e_1_dot * product_28;
+            let product_36 = e_3_dot * product_35;
+            let product_37 = e_0_ddot * product_4;
+            let sum_5 = j3 - product_6;
+            let product_38 = T::from_f64(4.0) * e_1;
+            let product_39 = e_3_dot * product_31;
+            let product_40 = e_0_dot * product_22;
+            let product_41 = product_2 * e_3_ddot;
+            let product_42 = e_0_dot * product_13;
+            let product_43 = product_11 * e_3_dot;
+            let product_44 = e_2_ddot * sum_3;
+            let sum_6 = (-e_0)
                 .mul_add(
-                    product_45,
-                    (e_3_ddot * sum_4).mul_add(product_39, product_37 + product_38)
-                        - product_40 - product_41 - product_42 - product_43 - product_44,
+                    product_44,
+                    (e_3_ddot * sum_5).mul_add(product_38, product_36 + product_37)
+                        - product_39 - product_40 - product_41 - product_42 - product_43,
                 );
-            out.force_by_position.data.0[0][2] = sum_5;
-            let product_46 = e_2_ddot * j3 * product_39;
-            let product_47 = e_0_ddot * j3 * product_15;
+            out.force_by_position.data.0[0][2] = sum_6;
+            let product_45 = e_2_ddot * j3 * product_38;
+            let product_46 = e_0_ddot * j3 * product_15;
             let e_1_ddot_e_2 = e_1_ddot * e_2;
-            let product_48 = product_7 * e_1_ddot_e_2;
-            let product_49 = product * e_1_ddot_e_2;
-            let product_50 = e_3_dot * product_28;
-            let product_51 = e_0_dot * product_50;
+            let product_47 = product_7 * e_1_ddot_e_2;
+            let product_48 = product * e_1_ddot_e_2;
+            let product_49 = e_3_dot * product_28;
+            let product_50 = e_0_dot * product_49;
             let e_3_ddot_e_0 = e_3_ddot * e_0;
-            let product_52 = T::from_f64(4.0) * j3 * e_1_ddot_e_2;
+            let product_51 = T::from_f64(4.0) * j3 * e_1_ddot_e_2;
             let e_2_ddot_e_1 = e_2_ddot * e_1;
-            let product_53 = product_7 * e_2_ddot_e_1;
+            let product_52 = product_7 * e_2_ddot_e_1;
             let e_0_ddot_e_3 = e_0_ddot * e_3;
-            let product_54 = product_7 * e_0_ddot_e_3;
-            let product_55 = e_2_ddot * product_2;
-            let sum_6 = (-product_28)
+            let product_53 = product_7 * e_0_ddot_e_3;
+            let product_54 = e_2_ddot * product_2;
+            let sum_7 = (-product_28)
                 .mul_add(
                     e_3_ddot_e_0,
-                    product_46 + product_47 + product_48 + product_49 - product_51,
-                ) - product_52 - product_53 - product_54 - product_55;
-            out.force_by_position.data.0[0][3] = sum_6;
-            let product_56 = product * e_0;
-            let product_57 = e_1_ddot * product_56;
-            let product_58 = product * e_3;
-            let product_59 = e_2_ddot * product_58;
-            let product_60 = e_1 * product_34;
-            let sum_7 = (-e_0_ddot)
+                    product_45 + product_46 + product_47 + product_48 - product_50,
+                ) - product_51 - product_52 - product_53 - product_54;
+            out.force_by_position.data.0[0][3] = sum_7;
+            let product_55 = product * e_0;
+            let product_56 = e_1_ddot * product_55;
+            let product_57 = product * e_3;
+            let product_58 = e_2_ddot * product_57;
+            let product_59 = e_1 * sum_3;
+            let sum_8 = (-e_0_ddot)
                 .mul_add(
-                    product_60,
+                    product_59,
                     (e_2_ddot * product_15)
                         .mul_add(
                             sum_2,
-                            product_23 + product_26 + product_57 + product_59,
+                            product_23 + product_26 + product_56 + product_58,
                         ) - product_30 - product_32 - product_33,
                 );
-            out.force_by_position.data.0[1][0] = sum_7;
-            let product_61 = e_0_ddot * product_56;
-            let product_62 = e_3_ddot * product_58;
-            let product_63 = e_0_dot * product_10;
-            let product_64 = e_0_dot * product_63;
-            let product_65 = product_10 * e_3_dot;
-            let product_66 = e_3_dot * product_65;
-            let product_67 = e_2_ddot * product_27;
-            let sum_8 = (-product_6)
+            out.force_by_position.data.0[1][0] = sum_8;
+            let product_60 = e_0_ddot * product_55;
+            let product_61 = e_3_ddot * product_57;
+            let product_62 = e_0_dot * product_10;
+            let product_63 = e_0_dot * product_62;
+            let product_64 = product_10 * e_3_dot;
+            let product_65 = e_3_dot * product_64;
+            let product_66 = e_2_ddot * product_27;
+            let sum_9 = (-product_6)
                 .mul_add(
-                    (T::from_f64(8.0) * e_1_ddot).mul_add(e_1, product_67),
+                    (T::from_f64(8.0) * e_1_ddot).mul_add(e_1, product_66),
                     j3
                         .mul_add(
-                            T::from_f64(8.0).mul_add(e_2_dot_e_2_dot, product_67),
-                            product_18 + product_19 + product_20 + product_61
-                                + product_62 + product_64 + product_66,
+                            T::from_f64(8.0).mul_add(e_2_dot_e_2_dot, product_66),
+                            product_18 + product_19 + product_20 + product_60
+                                + product_61 + product_63 + product_65,
                         ) - product_8 - product_9 - product_17,
                 );
-            out.force_by_position.data.0[1][1] = sum_8;
-            let product_68 = T::from_f64(4.0) * e_0;
-            let product_69 = j3 * e_3_ddot * product_68;
-            let product_70 = e_0_ddot * product_58;
-            let product_71 = e_2_dot * product_36;
-            let product_72 = product_7 * e_3_ddot_e_0;
-            let product_73 = e_3_ddot * product_56;
-            let sum_9 = (-product_28)
+            out.force_by_position.data.0[1][1] = sum_9;
+            let product_67 = T::from_f64(4.0) * e_0;
+            let product_68 = j3 * e_3_ddot * product_67;
+            let product_69 = e_0_ddot * product_57;
+            let product_70 = e_2_dot * product_35;
+            let product_71 = product_7 * e_3_ddot_e_0;
+            let product_72 = e_3_ddot * product_55;
+            let sum_10 = (-product_28)
                 .mul_add(
                     e_2_ddot_e_1,
-                    product_52 + product_54 + product_69 + product_70 - product_47
-                        - product_48 - product_71,
-                ) - product_72 - product_73;
-            out.force_by_position.data.0[1][2] = sum_9;
-            let product_74 = e_0_dot * product_29;
-            let product_75 = e_1_ddot * product_58;
-            let product_76 = e_2_ddot * product_56;
-            let sum_10 = (-e_3_ddot)
+                    product_51 + product_53 + product_68 + product_69 - product_46
+                        - product_47 - product_70,
+                ) - product_71 - product_72;
+            out.force_by_position.data.0[1][2] = sum_10;
+            let product_73 = e_0_dot * product_29;
+            let product_74 = e_1_ddot * product_57;
+            let product_75 = e_2_ddot * product_55;
+            let sum_11 = (-e_3_ddot)
                 .mul_add(
-                    product_60,
-                    (e_2_ddot * sum_4).mul_add(product_68, product_74 + product_75)
-                        - product_40 - product_41 - product_43 - product_44 - product_76,
+                    product_59,
+                    (e_2_ddot * sum_5).mul_add(product_67, product_73 + product_74)
+                        - product_39 - product_40 - product_42 - product_43 - product_75,
                 );
-            out.force_by_position.data.0[1][3] = sum_10;
-            let product_77 = e_2 * product_34;
-            let sum_11 = (-e_0_ddot)
+            out.force_by_position.data.0[1][3] = sum_11;
+            let product_76 = e_2 * sum_3;
+            let sum_12 = (-e_0_ddot)
                 .mul_add(
-                    product_77,
-                    (e_1_ddot * product_15).mul_add(sum_4, product_37 + product_76)
-                        - product_40 - product_41 - product_43 - product_44 - product_75,
+                    product_76,
+                    (e_1_ddot * product_15).mul_add(sum_5, product_36 + product_75)
+                        - product_39 - product_40 - product_42 - product_43 - product_74,
                 );
-            out.force_by_position.data.0[2][0] = sum_11;
-            let sum_12 = (-product_28)
+            out.force_by_position.data.0[2][0] = sum_12;
+            let sum_13 = (-product_28)
                 .mul_add(
                     e_1_ddot_e_2,
-                    product_46 + product_47 + product_72 + product_73 - product_53
-                        - product_54 - product_69 - product_70 - product_71,
+                    product_45 + product_46 + product_71 + product_72 - product_52
+                        - product_53 - product_68 - product_69 - product_70,
                 );
-            out.force_by_position.data.0[2][1] = sum_12;
-            let product_78 = e_1_ddot * product_39;
-            let sum_13 = (-product_6)
+            out.force_by_position.data.0[2][1] = sum_13;
+            let product_77 = e_1_ddot * product_38;
+            let sum_14 = (-product_6)
                 .mul_add(
-                    (T::from_f64(8.0) * e_2_ddot).mul_add(e_2, product_78),
+                    (T::from_f64(8.0) * e_2_ddot).mul_add(e_2, product_77),
                     j3
                         .mul_add(
-                            T::from_f64(8.0).mul_add(e_1_dot_e_1_dot, product_78),
-                            product_18 + product_19 + product_20 + product_61
-                                + product_62 + product_64 + product_66,
+                            T::from_f64(8.0).mul_add(e_1_dot_e_1_dot, product_77),
+                            product_18 + product_19 + product_20 + product_60
+                                + product_61 + product_63 + product_65,
                         ) - product_8 - product_9 - product_17,
                 );
-            out.force_by_position.data.0[2][2] = sum_13;
-            let product_79 = e_0_dot * product_36;
-            let sum_14 = (-e_3_ddot)
+            out.force_by_position.data.0[2][2] = sum_14;
+            let product_78 = e_0_dot * product_35;
+            let sum_15 = (-e_3_ddot)
                 .mul_add(
-                    product_77,
+                    product_76,
                     (e_1_ddot * sum_2)
                         .mul_add(
-                            product_68,
-                            product_32 + product_33 + product_57 + product_59,
-                        ) - product_23 - product_26 - product_79,
+                            product_67,
+                            product_32 + product_33 + product_56 + product_58,
+                        ) - product_23 - product_26 - product_78,
                 );
-            out.force_by_position.data.0[2][3] = sum_14;
-            let sum_15 = (-product_28)
+            out.force_by_position.data.0[2][3] = sum_15;
+            let sum_16 = (-product_28)
                 .mul_add(
                     e_0_ddot_e_3,
-                    product_52 + product_53 + product_55 + product_69 - product_46
-                        - product_48 - product_49 - product_51 - product_72,
+                    product_51 + product_52 + product_54 + product_68 - product_45
+                        - product_47 - product_48 - product_50 - product_71,
                 );
-            out.force_by_position.data.0[3][0] = sum_15;
-            let sum_16 = (-e_3)
-                .mul_add(
-                    product_35,
-                    (e_0_ddot * product_27).mul_add(sum_4, product_42 + product_74)
-                        - product_38 - product_40 - product_41 - product_43 - product_44,
-                );
-            out.force_by_position.data.0[3][1] = sum_16;
+            out.force_by_position.data.0[3][0] = sum_16;
             let sum_17 = (-e_3)
                 .mul_add(
-                    product_45,
+                    product_34,
+                    (e_0_ddot * product_27).mul_add(sum_5, product_41 + product_73)
+                        - product_37 - product_39 - product_40 - product_42 - product_43,
+                );
+            out.force_by_position.data.0[3][1] = sum_17;
+            let sum_18 = (-e_3)
+                .mul_add(
+                    product_44,
                     (e_0_ddot * sum_2)
                         .mul_add(
-                            product_39,
+                            product_38,
                             product_24 + product_25 + product_32 + product_33,
-                        ) - product_23 - product_26 - product_79,
+                        ) - product_23 - product_26 - product_78,
                 );
-            out.force_by_position.data.0[3][2] = sum_17;
-            let product_80 = e_0_ddot * product_68;
-            let sum_18 = (-product_6)
+            out.force_by_position.data.0[3][2] = sum_18;
+            let product_79 = e_0_ddot * product_67;
+            let sum_19 = (-product_6)
                 .mul_add(
-                    (T::from_f64(8.0) * e_3_ddot).mul_add(e_3, product_80),
+                    (T::from_f64(8.0) * e_3_ddot).mul_add(e_3, product_79),
                     j3
                         .mul_add(
-                            T::from_f64(8.0).mul_add(e_0_dot_e_0_dot, product_80),
+                            T::from_f64(8.0).mul_add(e_0_dot_e_0_dot, product_79),
                             product_3 + product_5 + product_8 + product_9 + product_12
                                 + product_14,
                         ) - product_17 - product_18 - product_19 - product_20,
                 );
-            out.force_by_position.data.0[3][3] = sum_18;
-            let product_81 = e_0_dot * product_21;
-            let product_82 = e_0 * product_81;
-            let product_83 = e_1 * product_31;
-            let product_84 = e_2 * product_22;
-            let product_85 = e_1 * product_11;
-            let product_86 = e_2 * product_13;
-            out.force_by_velocity.data.0[0][0] = -e_3 * product_50 - product_82
-                - product_83 - product_84 - product_85 - product_86;
-            let product_87 = e_1 * product_81;
-            let product_88 = T::from_f64(16.0) * j1;
-            let product_89 = e_1 * product_88;
-            let product_90 = e_0 * product_31;
-            let product_91 = e_3 * product_22;
-            let product_92 = product_11 * e_0;
-            let product_93 = product_13 * e_3;
+            out.force_by_position.data.0[3][3] = sum_19;
+            let product_80 = e_0_dot * product_21;
+            let product_81 = e_0 * product_80;
+            let product_82 = e_1 * product_31;
+            let product_83 = e_2 * product_22;
+            let product_84 = e_1 * product_11;
+            let product_85 = e_2 * product_13;
+            out.force_by_velocity.data.0[0][0] = -e_3 * product_49 - product_81
+                - product_82 - product_83 - product_84 - product_85;
+            let product_86 = e_1 * product_80;
+            let product_87 = T::from_f64(16.0) * j1;
+            let product_88 = e_1 * product_87;
+            let product_89 = e_0 * product_31;
+            let product_90 = e_3 * product_22;
+            let product_91 = product_11 * e_0;
+            let product_92 = product_13 * e_3;
             out.force_by_velocity.data.0[0][1] = e_0_dot
-                .mul_add(product_89, e_3.mul_add(product_29, product_87)) - product_90
-                - product_91 - product_92 - product_93;
-            let product_94 = e_2 * product_81;
-            let product_95 = e_3 * product_31;
-            let product_96 = e_2 * product_88;
-            let product_97 = product_11 * e_3;
-            let product_98 = e_0 * product_22;
-            let product_99 = product_13 * e_0;
+                .mul_add(product_88, e_3.mul_add(product_29, product_86)) - product_89
+                - product_90 - product_91 - product_92;
+            let product_93 = e_2 * product_80;
+            let product_94 = e_3 * product_31;
+            let product_95 = e_2 * product_87;
+            let product_96 = product_11 * e_3;
+            let product_97 = e_0 * product_22;
+            let product_98 = product_13 * e_0;
             out.force_by_velocity.data.0[0][2] = (-e_3)
                 .mul_add(
-                    product_36,
-                    e_0_dot.mul_add(product_96, product_94 + product_95) + product_97,
-                ) - product_98 - product_99;
-            let product_100 = T::from_f64(16.0) * j3;
-            let product_101 = e_1 * product_29;
-            let product_102 = e_2 * product_31;
-            let product_103 = e_2 * product_11;
-            let product_104 = e_2 * product_36;
-            let product_105 = e_0 * product_50;
-            let product_106 = e_1 * product_22;
-            let product_107 = e_3 * product_81;
-            let product_108 = e_1 * product_13;
-            let sum_19 = (e_0_dot * e_3).mul_add(product_100, product_101) + product_102
-                + product_103 - product_104 - product_105 - product_106 - product_107
-                - product_108;
-            out.force_by_velocity.data.0[0][3] = sum_19;
-            let product_109 = e_1_dot * product_88;
-            let product_110 = e_1 * product_63;
-            let product_111 = e_3_dot * product_21;
-            let product_112 = e_2 * product_111;
-            let product_113 = e_2 * product_65;
+                    product_35,
+                    e_0_dot.mul_add(product_95, product_93 + product_94) + product_96,
+                ) - product_97 - product_98;
+            let product_99 = T::from_f64(16.0) * j3;
+            let product_100 = e_1 * product_29;
+            let product_101 = e_2 * product_31;
+            let product_102 = e_2 * product_11;
+            let product_103 = e_2 * product_35;
+            let product_104 = e_0 * product_49;
+            let product_105 = e_1 * product_22;
+            let product_106 = e_3 * product_80;
+            let product_107 = e_1 * product_13;
+            let sum_20 = (e_0_dot * e_3).mul_add(product_99, product_100) + product_101
+                + product_102 - product_103 - product_104 - product_105 - product_106
+                - product_107;
+            out.force_by_velocity.data.0[0][3] = sum_20;
+            let product_108 = e_1_dot * product_87;
+            let product_109 = e_1 * product_62;
+            let product_110 = e_3_dot * product_21;
+            let product_111 = e_2 * product_110;
+            let product_112 = e_2 * product_64;
             out.force_by_velocity.data.0[1][0] = e_0
-                .mul_add(product_109, e_2.mul_add(product_50, product_90)) - product_87
-                - product_110 - product_112 - product_113;
-            let product_114 = e_3 * product_111;
-            let product_115 = e_0 * product_63;
-            let product_116 = e_3 * product_65;
+                .mul_add(product_108, e_2.mul_add(product_49, product_89)) - product_86
+                - product_109 - product_111 - product_112;
+            let product_113 = e_3 * product_110;
+            let product_114 = e_0 * product_62;
+            let product_115 = e_3 * product_64;
             out.force_by_velocity.data.0[1][1] = (-e_2)
-                .mul_add(product_29, -product_82 - product_83) - product_114
-                - product_115 - product_116;
-            let product_117 = e_3 * product_63;
-            let product_118 = e_0_dot * product_28;
-            let product_119 = e_3 * product_118;
-            let product_120 = e_0 * product_111;
-            let product_121 = e_0 * product_65;
-            let sum_20 = (e_1_dot * e_2).mul_add(product_100, product_105 + product_107)
-                + product_117 - product_101 - product_102 - product_119 - product_120
-                - product_121;
-            out.force_by_velocity.data.0[1][2] = sum_20;
-            let product_122 = e_2 * product_63;
-            let product_123 = e_1 * product_111;
-            let product_124 = e_1 * product_65;
+                .mul_add(product_29, -product_81 - product_82) - product_113
+                - product_114 - product_115;
+            let product_116 = e_3 * product_62;
+            let product_117 = e_0_dot * product_28;
+            let product_118 = e_3 * product_117;
+            let product_119 = e_0 * product_110;
+            let product_120 = e_0 * product_64;
+            let sum_21 = (e_1_dot * e_2).mul_add(product_99, product_104 + product_106)
+                + product_116 - product_100 - product_101 - product_118 - product_119
+                - product_120;
+            out.force_by_velocity.data.0[1][2] = sum_21;
+            let product_121 = e_2 * product_62;
+            let product_122 = e_1 * product_110;
+            let product_123 = e_1 * product_64;
             out.force_by_velocity.data.0[1][3] = (-e_2)
                 .mul_add(
-                    product_118,
-                    e_3.mul_add(product_109, product_94 + product_95 + product_122),
-                ) - product_123 - product_124;
-            let product_125 = e_2_dot * product_88;
+                    product_117,
+                    e_3.mul_add(product_108, product_93 + product_94 + product_121),
+                ) - product_122 - product_123;
+            let product_124 = e_2_dot * product_87;
             out.force_by_velocity.data.0[2][0] = (-e_1)
                 .mul_add(
-                    product_50,
-                    e_0.mul_add(product_125, product_98 + product_123 + product_124)
-                        - product_94 - product_122,
+                    product_49,
+                    e_0.mul_add(product_124, product_97 + product_122 + product_123)
+                        - product_93 - product_121,
                 );
-            let sum_21 = (e_2_dot * e_1)
-                .mul_add(product_100, product_119 + product_120 + product_121)
-                - product_104 - product_105 - product_106 - product_107 - product_117;
-            out.force_by_velocity.data.0[2][1] = sum_21;
+            let sum_22 = (e_2_dot * e_1)
+                .mul_add(product_99, product_118 + product_119 + product_120)
+                - product_103 - product_104 - product_105 - product_106 - product_116;
+            out.force_by_velocity.data.0[2][1] = sum_22;
             out.force_by_velocity.data.0[2][2] = (-e_1)
                 .mul_add(
-                    product_36,
-                    -product_82 - product_84 - product_114 - product_115 - product_116,
+                    product_35,
+                    -product_81 - product_83 - product_113 - product_114 - product_115,
                 );
             out.force_by_velocity.data.0[2][3] = e_3
-                .mul_add(product_125, e_1.mul_add(product_118, product_91)) - product_87
-                - product_110 - product_112 - product_113;
-            let sum_22 = (e_3_dot * e_0)
-                .mul_add(product_100, product_104 + product_106 + product_108)
-                - product_101 - product_102 - product_103 - product_119 - product_120;
-            out.force_by_velocity.data.0[3][0] = sum_22;
+                .mul_add(product_124, e_1.mul_add(product_117, product_90)) - product_86
+                - product_109 - product_111 - product_112;
+            let sum_23 = (e_3_dot * e_0)
+                .mul_add(product_99, product_103 + product_105 + product_107)
+                - product_100 - product_101 - product_102 - product_118 - product_119;
+            out.force_by_velocity.data.0[3][0] = sum_23;
             out.force_by_velocity.data.0[3][1] = (-e_0)
                 .mul_add(
                     product_29,
-                    e_3_dot.mul_add(product_89, product_98 + product_99 + product_123)
-                        - product_95 - product_97,
+                    e_3_dot.mul_add(product_88, product_97 + product_98 + product_122)
+                        - product_94 - product_96,
                 );
             out.force_by_velocity.data.0[3][2] = e_3_dot
-                .mul_add(product_96, e_0.mul_add(product_36, product_112)) - product_90
-                - product_91 - product_92 - product_93;
+                .mul_add(product_95, e_0.mul_add(product_35, product_111)) - product_89
+                - product_90 - product_91 - product_92;
             out.force_by_velocity.data.0[3][3] = (-e_0)
                 .mul_add(
-                    product_118,
-                    -product_83 - product_84 - product_85 - product_86 - product_114,
+                    product_117,
+                    -product_82 - product_83 - product_84 - product_85 - product_113,
                 );
             out.row_by_position.data.0[3][0] = -T::from_f64(2.0) * e_3_ddot;
             out.row_by_velocity.data.0[3][0] = -T::from_f64(4.0) * e_3_dot;

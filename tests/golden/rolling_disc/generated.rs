@@ -606,7 +606,7 @@ pub mod rolling_disc {
         /// | `row_by_position` | `∂(p₂ − A q̈)/∂q` | `R × N` |
         /// | `row_by_velocity` | `∂p₂/∂q̇` | `R × N` |
         ///
-        /// Costs 99 products, 44 sums, 2 sine–cosine pairs. As derived: 618 products, 211 sums, 2 sine–cosine pairs.
+        /// Costs 94 products, 44 sums, 2 sine–cosine pairs. As derived: 618 products, 211 sums, 2 sine–cosine pairs.
         fn linearised(
             &self,
             state: &State<T, 5>,
@@ -630,64 +630,67 @@ pub mod rolling_disc {
             out.row_by_velocity.data.0[4][1] = r * cos_psi_psi_dot;
             let (sin_theta, cos_theta) = theta.sin_cos();
             let sum = theta_dot.mul_add(theta_dot, psi_dot * psi_dot);
+            let product = sin_theta * sum;
+            let cos_theta_theta_ddot = cos_theta * theta_ddot;
+            let r_m = r * m;
+            let product_2 = cos_psi * r_m;
             let sin_theta_psi_ddot = sin_theta * psi_ddot;
             let theta_dot_cos_theta = theta_dot * cos_theta;
-            let product = T::from_f64(2.0) * psi_dot;
-            let r_m = r * m;
-            let product_2 = sin_psi
-                .mul_add(
-                    theta_dot_cos_theta.mul_add(product, sin_theta_psi_ddot),
-                    cos_psi * (-cos_theta).mul_add(theta_ddot, sin_theta * sum),
-                ) * r_m;
-            out.force_by_position.data.0[2][0] = product_2;
-            let sum_2 = (-cos_theta)
-                .mul_add(
-                    (T::from_f64(2.0) * cos_psi_psi_dot)
-                        .mul_add(theta_dot, sin_psi * theta_ddot),
-                    sin_theta * (-cos_psi).mul_add(psi_ddot, sin_psi * sum),
-                );
-            out.force_by_position.data.0[2][1] = r_m * sum_2;
-            let product_3 = sin_psi * r_m;
-            let product_4 = sin_theta * x_ddot * product_3;
-            let product_5 = cos_psi * r_m;
-            let product_6 = sin_theta * y_ddot * product_5;
-            out.force_by_position.data.0[2][2] = product_4 - product_6;
-            let product_7 = cos_theta * x_ddot * product_5;
-            let product_8 = cos_theta * product_3 * y_ddot;
-            out.force_by_position.data.0[2][3] = -product_7 - product_8;
-            let sum_3 = sum.mul_add(cos_theta, sin_theta * theta_ddot);
+            let product_3 = T::from_f64(2.0) * psi_dot;
+            let product_4 = sin_psi * r_m;
+            out.force_by_position.data.0[2][0] = theta_dot_cos_theta
+                .mul_add(product_3, sin_theta_psi_ddot)
+                .mul_add(product_4, (product - cos_theta_theta_ddot) * product_2);
+            let product_5 = r_m
+                * (-(T::from_f64(2.0) * cos_psi_psi_dot))
+                    .mul_add(
+                        theta_dot_cos_theta,
+                        (-sin_psi)
+                            .mul_add(
+                                cos_theta_theta_ddot,
+                                (-cos_psi).mul_add(sin_theta_psi_ddot, sin_psi * product),
+                            ),
+                    );
+            out.force_by_position.data.0[2][1] = product_5;
+            let product_6 = sin_theta * product_4 * x_ddot;
+            let product_7 = sin_theta * product_2 * y_ddot;
+            out.force_by_position.data.0[2][2] = product_6 - product_7;
+            let product_8 = cos_theta * product_2 * x_ddot;
+            let product_9 = cos_theta * product_4 * y_ddot;
+            out.force_by_position.data.0[2][3] = -product_8 - product_9;
+            let sum_2 = sum.mul_add(cos_theta, sin_theta * theta_ddot);
             let sin_theta_theta_dot = sin_theta * theta_dot;
             let cos_theta_psi_ddot = cos_theta * psi_ddot;
-            let sum_4 = product * sin_theta_theta_dot - cos_theta_psi_ddot;
-            out.force_by_position.data.0[3][0] = r_m
-                * cos_psi.mul_add(sum_4, sin_psi * sum_3);
-            out.force_by_position.data.0[3][1] = r_m
-                * (-cos_psi).mul_add(sum_3, sin_psi * sum_4);
-            let product_9 = r * r_m;
-            out.force_by_position.data.0[3][4] = T::from_f64(0.5) * product_9
+            let sum_3 = product_3 * sin_theta_theta_dot - cos_theta_psi_ddot;
+            out.force_by_position.data.0[3][0] = product_2
+                .mul_add(sum_3, product_4 * sum_2);
+            out.force_by_position.data.0[3][1] = (-product_2)
+                .mul_add(sum_2, product_4 * sum_3);
+            let product_10 = r * r_m;
+            out.force_by_position.data.0[3][4] = T::from_f64(0.5) * product_10
                 * (psi_dot * sin_theta_theta_dot - cos_theta_psi_ddot);
-            let product_10 = T::from_f64(2.0) * r_m;
+            let product_11 = T::from_f64(2.0) * r_m;
             out.force_by_velocity.data.0[2][0] = (-cos_psi)
-                .mul_add(theta_dot_cos_theta, sin_psi_psi_dot * sin_theta) * product_10;
-            out.force_by_velocity.data.0[2][1] = -product_10
+                .mul_add(theta_dot_cos_theta, sin_psi_psi_dot * sin_theta) * product_11;
+            out.force_by_velocity.data.0[2][1] = -product_11
                 * sin_psi.mul_add(theta_dot_cos_theta, cos_psi_psi_dot * sin_theta);
-            let product_11 = cos_theta * product_9;
-            let product_12 = T::from_f64(2.5) * product_11;
-            out.force_by_velocity.data.0[2][2] = -sin_theta_theta_dot * product_12;
-            let product_13 = T::from_f64(0.5) * product_11;
-            let sum_5 = -theta_dot * product_13;
-            out.force_by_velocity.data.0[2][4] = sum_5;
-            out.force_by_velocity.data.0[4][2] = sum_5;
-            out.force_by_velocity.data.0[3][0] = product_10
+            let product_12 = cos_theta * product_10;
+            let product_13 = T::from_f64(2.5) * product_12;
+            out.force_by_velocity.data.0[2][2] = -sin_theta_theta_dot * product_13;
+            let product_14 = T::from_f64(0.5) * product_12;
+            let sum_4 = -theta_dot * product_14;
+            out.force_by_velocity.data.0[2][4] = sum_4;
+            out.force_by_velocity.data.0[4][2] = sum_4;
+            out.force_by_velocity.data.0[3][0] = product_11
                 * (-cos_psi_psi_dot).mul_add(cos_theta, sin_psi * sin_theta_theta_dot);
-            out.force_by_velocity.data.0[3][1] = -product_10
+            out.force_by_velocity.data.0[3][1] = -product_11
                 * cos_psi.mul_add(sin_theta_theta_dot, sin_psi_psi_dot * cos_theta);
-            let product_14 = psi_dot * product_13;
-            out.force_by_velocity.data.0[4][3] = product_14;
-            out.force_by_velocity.data.0[3][4] = -product_14;
-            let product_15 = T::from_f64(0.5) * sin_theta * phi_dot;
+            let product_15 = psi_dot * product_14;
+            out.force_by_velocity.data.0[4][3] = product_15;
+            out.force_by_velocity.data.0[3][4] = -product_15;
+            let product_16 = T::from_f64(0.5) * sin_theta * phi_dot;
             let cos_theta_cos_theta = cos_theta * cos_theta;
-            let sum_6 = (-cos_theta)
+            let sum_5 = (-cos_theta)
                 .mul_add(
                     T::from_f64(2.5)
                         .mul_add(sin_theta_psi_ddot, T::from_f64(0.5) * phi_ddot),
@@ -696,24 +699,24 @@ pub mod rolling_disc {
                             .mul_add(
                                 (-T::from_f64(5.0))
                                     .mul_add(cos_theta_cos_theta, T::from_f64(2.5)),
-                                product_15,
+                                product_16,
                             ),
                 );
-            out.force_by_position.data.0[3][2] = product_9 * sum_6 - product_7
-                - product_8;
-            let product_16 = r_m
+            out.force_by_position.data.0[3][2] = product_10 * sum_5 - product_8
+                - product_9;
+            let product_17 = r_m
                 * (r * psi_dot)
                     .mul_add(
                         psi_dot
                             * (T::from_f64(2.5) * cos_theta_cos_theta
-                                - T::from_f64(1.25)) - product_15,
+                                - T::from_f64(1.25)) - product_16,
                         T::constant(9.81, -4.973799150320702e-16) * cos_theta,
                     );
-            out.force_by_position.data.0[3][3] = product_4 + product_16 - product_6;
-            let product_17 = psi_dot * sin_theta * product_12;
-            let product_18 = product_13 * phi_dot;
-            out.force_by_velocity.data.0[2][3] = product_17 + product_18;
-            out.force_by_velocity.data.0[3][2] = -product_17 - product_18;
+            out.force_by_position.data.0[3][3] = product_6 + product_17 - product_7;
+            let product_18 = psi_dot * sin_theta * product_13;
+            let product_19 = product_14 * phi_dot;
+            out.force_by_velocity.data.0[2][3] = product_18 + product_19;
+            out.force_by_velocity.data.0[3][2] = -product_18 - product_19;
             out.row_by_position.data.0[2][0] = -r
                 * sin_psi.mul_add(phi_ddot, cos_psi_psi_dot * phi_dot);
             out.row_by_position.data.0[2][1] = r

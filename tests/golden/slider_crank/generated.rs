@@ -174,7 +174,7 @@ pub mod slider_crank {
         /// | `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
         /// | `bias` | `p₂ = −(Ȧ q̇ + ḃ)` | `R` | unit of the row per s² |
         ///
-        /// Costs 35 products, 15 sums, 2 sine–cosine pairs. As derived: 112 products, 35 sums, 2 sine–cosine pairs.
+        /// Costs 34 products, 15 sums, 2 sine–cosine pairs. As derived: 112 products, 35 sums, 2 sine–cosine pairs.
         fn terms(&self, state: &State<T, 3>, out: &mut Terms<T, 3, 2>) {
             let [q1, q2, _] = state.q.data.0[0];
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
@@ -186,11 +186,13 @@ pub mod slider_crank {
             out.mass.data.0[2][2] = m3;
             out.jacobian.data.0[2][0] = -T::one();
             let (sin_q1, cos_q1) = q1.sin_cos();
-            out.jacobian.data.0[0][0] = -l1 * sin_q1;
-            out.jacobian.data.0[0][1] = l1 * cos_q1;
+            let l1_sin_q1 = l1 * sin_q1;
+            out.jacobian.data.0[0][0] = -l1_sin_q1;
+            let l1_cos_q1 = l1 * cos_q1;
+            out.jacobian.data.0[0][1] = l1_cos_q1;
             let (sin_q2, cos_q2) = q2.sin_cos();
-            let product = T::from_f64(0.5) * l1 * m2_l2
-                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2);
+            let product = T::from_f64(0.5) * m2_l2
+                * (-l1_cos_q1).mul_add(cos_q2, l1_sin_q1 * sin_q2);
             out.mass.data.0[0][1] = product;
             out.mass.data.0[1][0] = product;
             let product_2 = q2_dot * (l2 * q2_dot);
@@ -220,7 +222,7 @@ pub mod slider_crank {
         /// The acceleration where the constraints are regular: `M = L D Lᵀ`, then the
         /// Schur complement `A M⁻¹ Aᵀ`.
         ///
-        /// Costs 68 products, 30 sums, 5 quotients, 2 sine–cosine pairs.
+        /// Costs 67 products, 30 sums, 5 quotients, 2 sine–cosine pairs.
         #[inline(always)]
         fn acceleration(
             &self,
@@ -238,8 +240,9 @@ pub mod slider_crank {
             let product = quotient * l1_sin_q1;
             let m2_l2 = m2 * l2;
             let (sin_q2, cos_q2) = q2.sin_cos();
-            let product_2 = T::from_f64(0.5) * l1 * m2_l2
-                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2);
+            let l1_cos_q1 = l1 * cos_q1;
+            let product_2 = T::from_f64(0.5) * m2_l2
+                * (-l1_cos_q1).mul_add(cos_q2, l1_sin_q1 * sin_q2);
             let product_3 = quotient * product_2;
             let sum = (-l2).mul_add(sin_q2, l1_sin_q1 * product_3);
             let sum_2 = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
@@ -276,8 +279,7 @@ pub mod slider_crank {
                 );
             let sum_6 = product_4.mul_add(sum_5, product * product_7)
                 - cos_q2.mul_add(product_5, cos_q1 * product_8);
-            let l1_cos_q1 = l1 * cos_q1;
-            let sum_7 = product_3.mul_add(l1_cos_q1, l2 * cos_q2);
+            let sum_7 = l1_cos_q1.mul_add(product_3, l2 * cos_q2);
             let sum_8 = product_4.mul_add(sum_7, product * l1_cos_q1);
             let product_9 = quotient_4 * sum_8;
             let product_10 = quotient * l1_cos_q1;
@@ -319,7 +321,7 @@ pub mod slider_crank {
         /// | `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
         /// | `drift` | `b = ∂g/∂t` | `R` | unit of the row per s |
         ///
-        /// Costs 15 products, 11 sums, 2 sine–cosine pairs. As derived: 35 products, 13 sums, 2 sine–cosine pairs.
+        /// Costs 14 products, 11 sums, 2 sine–cosine pairs. As derived: 35 products, 13 sums, 2 sine–cosine pairs.
         fn position(&self, state: &State<T, 3>, out: &mut Position<T, 3, 2>) {
             let [q1, q2, q3] = state.q.data.0[0];
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
@@ -335,8 +337,8 @@ pub mod slider_crank {
             let l1_cos_q1 = l1 * cos_q1;
             out.jacobian.data.0[0][1] = l1_cos_q1;
             let (sin_q2, cos_q2) = q2.sin_cos();
-            let product = T::from_f64(0.5) * l1 * m2_l2
-                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2);
+            let product = T::from_f64(0.5) * m2_l2
+                * (-l1_cos_q1).mul_add(cos_q2, l1_sin_q1 * sin_q2);
             out.mass.data.0[0][1] = product;
             out.mass.data.0[1][0] = product;
             let l2_sin_q2 = l2 * sin_q2;
@@ -349,7 +351,7 @@ pub mod slider_crank {
         /// The least corrections of position and velocity in the kinetic metric, where
         /// the constraints are regular.
         ///
-        /// Costs 63 products, 33 sums, 5 quotients, 2 sine–cosine pairs.
+        /// Costs 62 products, 33 sums, 5 quotients, 2 sine–cosine pairs.
         #[inline(always)]
         fn correction(
             &self,
@@ -374,8 +376,8 @@ pub mod slider_crank {
             let quotient_2 = T::one() / m3;
             let product = l1_sin_q1 * quotient;
             let l2_m2 = l2 * m2;
-            let product_2 = T::from_f64(0.5) * l1 * l2_m2
-                * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2);
+            let product_2 = T::from_f64(0.5) * l2_m2
+                * (-l1_cos_q1).mul_add(cos_q2, l1_sin_q1 * sin_q2);
             let product_3 = quotient * product_2;
             let sum_3 = l1_sin_q1 * product_3 - l2_sin_q2;
             let sum_4 = (T::from_f64(0.25) * l2).mul_add(l2_m2, j2);
