@@ -5,6 +5,7 @@ use crate::arguments::{MethodName, Simulate};
 use crate::error::CommandError;
 use crate::files::{apart, is_of, refuse};
 use crate::mistakes::{all, both};
+use crate::number::exact;
 use crate::page::is_page;
 use crate::parquet::MISSING;
 use crate::run::Plan;
@@ -132,7 +133,7 @@ fn bounded(
 ) -> Result<(), CommandError> {
     let until = arguments.until;
     if let Some(step) = arguments.step.filter(|step| *step > until && until > 0.0) {
-        let wanted = format!("at most the {until} s of the run");
+        let wanted = format!("at most the {} s of the run", exact(until));
         return out_of_range("--step", step, &wanted);
     }
     let (option, distance) = match (every, step_control) {
@@ -144,8 +145,9 @@ fn bounded(
     match distance < least {
         true => {
             let wanted = format!(
-                "at least {} s, for a run of {until} s with at most {MOST_ROWS:e} rows",
-                figure(least)
+                "at least {} s, for a run of {} s with at most {MOST_ROWS:e} rows",
+                figure(least),
+                exact(until)
             );
             out_of_range(option, distance, &wanted)
         }
