@@ -220,15 +220,7 @@ impl<T: Real> Display for DynamicsError<T> {
                 form,
                 rank,
                 structure,
-            } => {
-                write!(f, "at t = {t} s ", t = Number(t))?;
-                structure.write_rank(f, *rank)?;
-                write!(
-                    f,
-                    ", and the form `{form}` cannot pass a singular position; use the form \
-                     `reduced` or `full`"
-                )
-            }
+            } => write_unpassed(f, t, *form, (*rank, structure)),
             Self::SingularConfiguration {
                 t,
                 kind,
@@ -264,6 +256,21 @@ impl<T: Real> Display for DynamicsError<T> {
             } => write_off(f, t, residual, (*row, structure)),
         }
     }
+}
+
+/// Which form of the equations cannot go on.
+fn write_unpassed<T: Real>(
+    f: &mut Formatter<'_>,
+    t: &T,
+    form: Form,
+    (rank, structure): (usize, &Structure),
+) -> Result {
+    write!(f, "at t = {t} s ", t = Number(t))?;
+    structure.write_rank(f, rank)?;
+    write!(
+        f,
+        ", and the form `{form}` cannot pass a singular position; use the form `reduced` or `full`"
+    )
 }
 
 /// Which condition gets nowhere.
