@@ -17,6 +17,11 @@ const ANGLES: [&str; 4] = ["", "1", "rad", "deg"];
 /// How far away, in sizes of the coordinates, the rows are measured.
 const NEIGHBOURHOOD: [f64; 3] = [0.0, 0.3, -0.2];
 
+/// The square root of the least inertia of a coordinate, relative to the largest of its kind. A
+/// body that is not turned has Euler parameters that are massless to round-off;
+/// rows in which they are would be all about them, and round-off in what else they say.
+const LIGHTEST: f64 = 1e-3;
+
 /// Held values that could reduce an error by this part of what the most
 /// influential one could are named as conflicting.
 const INFLUENCE: f64 = 1e-3;
@@ -30,7 +35,7 @@ pub(super) const CONTRADICTION: f64 = 4096.0;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scales<'a, T> {
     /// `1/√M_ii`: what one unit of the scaled unknown is in units of the
-    /// coordinate; one where there is no inertia.
+    /// coordinate; as if it had a little where there is hardly any inertia.
     pub(super) columns: &'a [T],
     /// What one unit of the equation is in units of the scaled equation: the
     /// norm of its row is about one in the kinetic metric.
@@ -54,19 +59,16 @@ impl<'a, T: Real> Scales<'a, T> {
     ) -> Self {
         let n = q.len();
         let (sizes, columns) = (workspace.numbers(n), workspace.numbers(n));
-        measure_sizes(equations.structure().coordinates, q, sizes);
+        let coordinates = equations.structure().coordinates;
+        measure_sizes(coordinates, q, sizes);
         equations.locate(t, q);
         let at = equations.constraints();
         let n_rows = at.residual.len();
-        for (i, (column, inertia)) in columns
-            .iter_mut()
-            .zip(at.mass.iter().step_by(n + 1))
-            .enumerate()
-        {
-            *column = match held.is_some_and(|held| held[i]) {
-                true => T::zero(),
-                false => inverse(inertia.max(T::zero()).sqrt()),
-            };
+        measure_inertia(at.mass, coordinates, columns);
+        for (column, held) in columns.iter_mut().zip(held.unwrap_or_default()) {
+            if *held {
+                *column = T::zero();
+            }
         }
         let (norms, reach) = (workspace.numbers(n_rows), workspace.numbers(n_rows));
         let near = workspace.numbers(n);
@@ -152,6 +154,23 @@ impl<'a, T: Real> Scales<'a, T> {
     }
 }
 
+/// What coordinates are divided by to have an inertia of one; those that are nearly massless
+/// have a part of the largest of their kind, angles or others.
+fn measure_inertia<T: Real>(mass: &[T], coordinates: &[Quantity], columns: &mut [T]) {
+    let n = columns.len();
+    let inertia = |i: usize| mass[i * (n + 1)].max(T::zero());
+    let mut largest = [T::zero(); 2];
+    for i in 0..n {
+        let kind = usize::from(is_angle(coordinates, i));
+        largest[kind] = largest[kind].max(inertia(i));
+    }
+    let least = largest.map(|largest| largest * T::from_f64(LIGHTEST * LIGHTEST));
+    for (i, column) in columns.iter_mut().enumerate() {
+        let kind = usize::from(is_angle(coordinates, i));
+        *column = inverse(inertia(i).max(least[kind]).sqrt());
+    }
+}
+
 /// `1/x`; one where there is nothing to divide by.
 fn inverse<T: Real>(x: T) -> T {
     match x > T::zero() {
@@ -160,18 +179,19 @@ fn inverse<T: Real>(x: T) -> T {
     }
 }
 
+/// Whether a coordinate is an angle, or a number without a unit.
+fn is_angle(coordinates: &[Quantity], i: usize) -> bool {
+    let quantity = coordinates.get(i);
+    quantity.is_none_or(|quantity| ANGLES.contains(&quantity.unit))
+}
+
 /// How large each coordinate is, at least.
 fn measure_sizes<T: Real>(coordinates: &[Quantity], q: &[T], sizes: &mut [T]) {
-    let is_angle = |i: usize| {
-        coordinates
-            .get(i)
-            .is_none_or(|quantity| ANGLES.contains(&quantity.unit))
-    };
     let longest = (0..q.len())
-        .filter(|i| !is_angle(*i))
+        .filter(|i| !is_angle(coordinates, *i))
         .fold(T::zero(), |most: T, i| most.max(q[i].abs()));
     for (i, size) in sizes.iter_mut().enumerate() {
-        *size = match is_angle(i) || longest == T::zero() {
+        *size = match is_angle(coordinates, i) || longest == T::zero() {
             true => T::one(),
             false => longest,
         };
