@@ -237,7 +237,6 @@ where
             here.session.chart = chart.copied();
             here.session.near = there.session.near;
             here.rows.clone_from(&there.rows);
-            here.coordinate_scale = there.coordinate_scale;
             here.adopt(there);
         }
     }

@@ -97,9 +97,12 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.counters
     }
 
-    /// Takes over that another solver is prepared, and its metric.
+    /// Takes over that another solver is prepared, its metric, and what it measures
+    /// coordinates by.
     pub(crate) fn adopt(&mut self, other: &Self) {
         self.prepared = other.prepared;
+        self.coordinate_scale = other.coordinate_scale;
+        (self.sizes, self.weights) = (other.sizes, other.weights);
         self.metric.clone_from(&other.metric);
         self.safe = None;
         self.expect_regular();
