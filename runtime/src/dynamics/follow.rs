@@ -411,8 +411,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.session.used = None;
         if self.session.chart.is_some() {
             self.put_chart_aside();
-        } else if self.session.trial.by_emitted {
-            self.learn_emitted_rows(mechanism, &step.end);
+        } else {
+            if self.session.trial.looked.is_some() {
+                self.keep_looked();
+            }
+            if self.session.trial.by_emitted {
+                self.learn_emitted_rows(mechanism, &step.end);
+            }
         }
         if self.session.trial.chart.is_some() && !self.leaves_dependence(mechanism, &step.end)? {
             self.keep_chart();
@@ -437,6 +442,12 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     #[inline(never)]
     fn put_chart_aside(&mut self) {
         self.session.used = self.session.chart.take();
+    }
+
+    /// The chart by which the step was looked into remains for the same.
+    #[inline(never)]
+    fn keep_looked(&mut self) {
+        self.session.used = self.session.trial.looked.take();
     }
 
     /// The chart of the trial step is that of the next one, too. A function of its own: a

@@ -54,6 +54,8 @@ pub(crate) struct Core<T, const N: usize, const R: usize> {
     pub(crate) sizes: [T; N],
     /// The inverse squares of those sizes; zero where a coordinate has only been zero.
     pub(crate) weights: [T; N],
+    /// How far each may move in a step that is not long.
+    pub(crate) far: [T; N],
     prepared: bool,
 }
 
@@ -88,6 +90,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             coordinate_scale: CoordinateScale::default(),
             sizes: [-T::one(); N],
             weights: [T::zero(); N],
+            far: [T::zero(); N],
             prepared: false,
         }
     }

@@ -6,10 +6,14 @@
 //! A coordinate goes round if the constraint rows are the same one turn before.
 
 use super::Core;
+use crate::linalg::diagonal;
 use crate::tolerance::excusable;
 use crate::{DynamicsError, Mechanism, Real, State, Structure};
 use core::f64::consts::TAU;
 use nalgebra::SMatrix;
+
+/// Part of the range of all coordinates by which one of them moves in a long step.
+const FAR: f64 = 0.25;
 
 /// Refuses a state with an angle whose round-off leaves less than half of the digits.
 pub(super) fn check_angles<T: Real>(
@@ -66,6 +70,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             (&mut self.sizes, &mut self.weights),
             &turns,
         );
+        let far = self.coordinate_scale.range * T::from_f64(FAR);
+        let inertia = diagonal(self.metric.factor.as_slice(), N);
+        for (target, inertia) in self.far.iter_mut().zip(inertia) {
+            *target = far / inertia.sqrt();
+        }
         Ok(())
     }
 

@@ -104,6 +104,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if self.session.trial.chart.is_some() {
             self.session.trial.chart = None;
         }
+        if self.session.trial.looked.is_some() {
+            self.session.trial.looked = None;
+        }
         let after = self.session.trial.end.sqrt();
         let lowest = self.session.trial.lowest.sqrt().min(after);
         let before = self.session.sine.unwrap_or(after);
@@ -113,7 +116,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         // A step may be longer than the one before it, and the sine may change faster.
         let change = self.session.rate.max(self.session.trial.rate) * length;
         let leaps = before < window::<T>() + safe_steps::<T>() * change;
-        if !falls && !leaps && !comes_near {
+        if !falls && !leaps && !comes_near && !self.is_long(start, end) {
             return Ok(());
         }
         if after <= window() {
@@ -125,6 +128,16 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             true => self.verify_energy(mechanism, start, end),
             false => Ok(()),
         }
+    }
+
+    /// Whether a coordinate has moved so far in a step that the sine may have fallen and grown
+    /// again between the states that it was seen at.
+    fn is_long(&self, start: &State<T, N>, end: &State<T, N>) -> bool {
+        let ([from], [to]) = (&start.q.data.0, &end.q.data.0);
+        let moved = from.iter().zip(to).zip(&self.far);
+        moved.fold(false, |any, ((from, to), far)| {
+            any | ((*to - *from).abs() > *far)
+        })
     }
 
     /// A step that may have leapt over a singular configuration: do signs change on its way?
@@ -146,6 +159,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             return Err(self.want_chart(mechanism, end.t));
         }
         self.session.trial.chart = Some(chart).filter(|_| comes_near);
+        self.session.trial.looked = Some(chart);
         Ok(())
     }
 

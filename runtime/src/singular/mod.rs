@@ -17,6 +17,7 @@ mod chart;
 mod critical;
 mod cubic;
 mod determinant_signs;
+mod differences;
 mod direction;
 mod evaluate;
 mod found;

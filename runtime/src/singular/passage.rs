@@ -6,6 +6,7 @@
 
 use super::cubic::lowest_of_cubic;
 use super::determinant_signs::DeterminantSigns;
+use super::differences::{VALUES, differentiated};
 use super::found::{AT_ONCE, Found, Passage};
 use super::sheet::Sheet;
 use crate::Real;
@@ -17,7 +18,12 @@ const BLOCKS: usize = 6;
 /// Steps of the search for the time of a passage.
 const MOST_STEPS: usize = 60;
 /// Looks into a step, equally far apart, its start among them.
-const LOOKS: usize = 5;
+const LOOKS: usize = VALUES;
+/// Part of the range of the coordinates up to which a step is looked into as a whole: longer
+/// ones may pass several singular configurations between two looks.
+const REACH: f64 = 0.5;
+/// Parts of a longer step that are looked into.
+const MOST_PARTS: usize = 64;
 /// Constraint equations of a single loop in the plane.
 const SINGLE: usize = 2;
 /// The determinant is taken once more at this part of the step beside a look, to see how
@@ -67,6 +73,9 @@ struct Glance<T> {
     rows: usize,
 }
 
+/// What a look sees, if anything, and how fast the determinant changes there (1/s).
+type Seen<T> = (Option<Glance<T>>, Option<T>);
+
 /// A step that is looked into: its positions, and when it is.
 struct Step<'a, T> {
     at: &'a dyn Fn(T, &mut [T]),
@@ -90,32 +99,85 @@ impl<T: Real> Sheet<'_, T> {
         found: &mut Found<T>,
         workspace: &Workspace<'_, T>,
     ) {
-        let part = length / T::from_f64((LOOKS - 1) as f64);
-        let q = workspace.numbers(start.q.len());
-        let seen: [_; LOOKS] = core::array::from_fn(|k| {
-            let t = match k + 1 == LOOKS {
-                true => start.t + length,
-                false => start.t + part * T::from_f64(k as f64),
-            };
-            at(t, q);
-            self.glance(t, q)
-        });
-        let rates = rates(&seen, part);
         let step = Step {
             at,
             start: start.t,
             length,
         };
-        let mut before: Option<(&Glance<T>, Option<T>)> = None;
-        for (glance, rate) in seen.iter().zip(rates) {
+        let (first, path) = self.glances(&step, (start.t, length), workspace);
+        let range = self.chart.coordinate_scale.range * T::from_f64(REACH);
+        let most = T::from_f64(MOST_PARTS as f64);
+        let parts = (1..MOST_PARTS).find(|n| path <= range * T::from_f64(*n as f64));
+        let parts = parts.map_or(most, |n| T::from_f64(n as f64));
+        let mut before = None;
+        if parts == T::one() {
+            self.search_among(&step, first, &mut before, found, workspace);
+            return;
+        }
+        let part = length / parts;
+        let mut from = start.t;
+        for k in 1..=MOST_PARTS {
+            let k = T::from_f64(k as f64);
+            if k > parts {
+                break;
+            }
+            let to = start.t + part * k;
+            let (seen, _) = self.glances(&step, (from, to - from), workspace);
+            self.search_among(&step, seen, &mut before, found, workspace);
+            from = to;
+        }
+    }
+
+    /// Looks at determinants in a part of a step, that begins at a time and has a length, with
+    /// their rates; and how far the positions are apart, one after the other.
+    fn glances(
+        &mut self,
+        step: &Step<'_, T>,
+        (from, length): (T, T),
+        workspace: &Workspace<'_, T>,
+    ) -> ([Seen<T>; LOOKS], T) {
+        workspace.scope(|workspace| {
+            let part = length / T::from_f64((LOOKS - 1) as f64);
+            let [q, last] = [(); 2].map(|()| workspace.numbers(self.chart.n()));
+            let mut path = T::zero();
+            let seen: [_; LOOKS] = core::array::from_fn(|k| {
+                let t = match k + 1 == LOOKS {
+                    true => from + length,
+                    false => from + part * T::from_f64(k as f64),
+                };
+                (step.at)(t, q);
+                if k > 0 {
+                    path += self.chart.apart(q, last);
+                }
+                last.copy_from_slice(q);
+                self.glance(t, q)
+            });
+            let rates = rates(&seen, part);
+            let mut rates = rates.into_iter();
+            (seen.map(|glance| (glance, rates.next().flatten())), path)
+        })
+    }
+
+    /// Searches between looks, the first of them after the last one of before.
+    fn search_among(
+        &mut self,
+        step: &Step<'_, T>,
+        seen: [Seen<T>; LOOKS],
+        before: &mut Option<(Glance<T>, Option<T>)>,
+        found: &mut Found<T>,
+        workspace: &Workspace<'_, T>,
+    ) {
+        for (glance, rate) in seen {
             let Some(here) = glance else {
                 continue;
             };
-            if let Some((before, rate_before)) = before {
-                let rates = [rate_before, rate];
-                self.search_between(&step, (before, here), rates, found, workspace);
+            if let Some((before, rate_before)) = &*before
+                && before.t < here.t
+            {
+                let rates = [*rate_before, rate];
+                self.search_between(step, (before, &here), rates, found, workspace);
             }
-            before = Some((here, rate));
+            *before = Some((here, rate));
         }
     }
 
@@ -421,8 +483,8 @@ fn beside<T: Real>(from: &Look<'_, T>, to: &Look<'_, T>, loops: usize, at_once: 
     }
 }
 
-/// How fast the determinant changes (1/s) at looks that are `part` apart, by the polynomial
-/// through all of them; `None` where one is missing, or several rows may turn.
+/// How fast the determinant changes (1/s) at looks that are `part` apart; `None` where one is
+/// missing, or several rows may turn.
 fn rates<T: Real>(seen: &[Option<Glance<T>>; LOOKS], part: T) -> [Option<T>; LOOKS] {
     let [Some(a), Some(b), Some(c), Some(d), Some(e)] = seen else {
         return [None; LOOKS];
@@ -432,20 +494,5 @@ fn rates<T: Real>(seen: &[Option<Glance<T>>; LOOKS], part: T) -> [Option<T>; LOO
     if all.iter().any(|glance| glance.rows >= LOOKS) {
         return [None; LOOKS];
     }
-    let values = all.map(|glance| glance.determinant);
-    // Numerical differentiation of order four by equidistant values.
-    const WEIGHTS: [[f64; LOOKS]; LOOKS] = [
-        [-25.0, 48.0, -36.0, 16.0, -3.0],
-        [-3.0, -10.0, 18.0, -6.0, 1.0],
-        [1.0, -8.0, 0.0, 8.0, -1.0],
-        [-1.0, 6.0, -18.0, 10.0, 3.0],
-        [3.0, -16.0, 36.0, -48.0, 25.0],
-    ];
-    WEIGHTS.map(|weights| {
-        let terms = weights
-            .iter()
-            .zip(values)
-            .map(|(weight, value)| T::from_f64(*weight) * value);
-        Some(terms.fold(T::zero(), |sum, term| sum + term) / (part * T::from_f64(12.0)))
-    })
+    differentiated(all.map(|glance| glance.determinant), part).map(Some)
 }

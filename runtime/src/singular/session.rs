@@ -54,6 +54,8 @@ pub(crate) struct Trial<T, const N: usize, const R: usize> {
     pub(crate) wants_chart: bool,
     /// The chart at its end.
     pub(crate) chart: Option<Chart<T, N, R>>,
+    /// That by which a step without one was looked into.
+    pub(crate) looked: Option<Chart<T, N, R>>,
     /// The end's tangent space, drift, and how the sheets were met there.
     pub(crate) placed: Option<Placed<T, N>>,
     /// Emitted code projected its end.
@@ -81,6 +83,7 @@ impl<T: Real, const N: usize, const R: usize> Trial<T, N, R> {
             rate: T::zero(),
             wants_chart: false,
             chart: None,
+            looked: None,
             placed: None,
             by_emitted: false,
             crosses: false,
@@ -94,6 +97,7 @@ impl<T: Real, const N: usize, const R: usize> Trial<T, N, R> {
         self.rate = T::zero();
         self.wants_chart = false;
         self.chart = None;
+        self.looked = None;
         self.placed = None;
         self.by_emitted = false;
         self.crosses = false;

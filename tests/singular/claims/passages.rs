@@ -4,10 +4,11 @@ use crate::is_long;
 use crate::largest::Largest;
 use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{DynamicsError, Observer, Occurrence, Passage, Probe, Step};
-use bricard_runtime::{Options, State, Whole, assemble, simulate};
+use bricard_runtime::{Method, Options, State, StepControl, Whole, assemble, simulate};
 use bricard_singular::descriptions::driven_lines::DrivenLines;
 use bricard_singular::descriptions::many_lines::ManyLines;
 use bricard_singular::descriptions::parallelogram_pendulum::ParallelogramPendulum;
+use bricard_singular::descriptions::spinning::Spinning;
 use bricard_singular::descriptions::tied_lines::TiedLines;
 use bricard_singular::descriptions::two_lines::TwoLines;
 use core::f64::consts::PI;
@@ -206,4 +207,34 @@ fn no_passage_behind_the_end_is_reported() {
     let summary = ran.unwrap_or_else(|failure| panic!("{failure}"));
     assert!((summary.end.t - 0.5).abs() < 1e-12, "{}", summary.end.t);
     assert_eq!(summary.passages, Some(0), "{:?}", times.passages);
+}
+
+/// Where no force acts, steps are as long as several turns, and none of the states that they
+/// are made of need be near a singular configuration that they pass.
+#[test]
+fn passages_of_steps_that_take_several_turns_are_all_reported() {
+    let until = 2.5;
+    for method in &Method::ALL[1..] {
+        for (place, tolerance) in [1e-3, 3e-5, 2e-7, 6e-9, 1e-10, 1e-12].iter().enumerate() {
+            for w in [4.2, 6.7, 9.1, 12.3, 16.7, 19.8] {
+                let mut mechanism = Spinning::default();
+                mechanism.parameters.w = w;
+                mechanism.parameters.a0 = 0.4 + 0.3 * place as f64;
+                let turned = mechanism.parameters.a0 + w * until;
+                let wanted = (turned / PI).floor() as u64;
+                let mechanism: &dyn Whole<f64, 3, 2> = &mechanism;
+                let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be made");
+                let control = StepControl::Adaptive {
+                    relative: *tolerance,
+                    absolute: *tolerance,
+                };
+                let options = Options::new(until, *method, control);
+                let ran = simulate(mechanism, &start, &options, &mut []);
+                let name = format!("{method:?} {tolerance:e} {w}");
+                let summary = ran.unwrap_or_else(|failure| panic!("{name}: {failure}"));
+                assert_eq!(summary.passages, Some(wanted), "{name}");
+                assert_eq!(summary.events, wanted, "{name}");
+            }
+        }
+    }
 }
