@@ -33,7 +33,7 @@ pub enum Switching<T> {
     AtStart,
 }
 
-/// Does something with a system, and once more if it fails and the system can then look more
+/// Does something with a system, and again if it fails, as long as the system can look more
 /// closely.
 ///
 /// # Errors
@@ -49,12 +49,12 @@ where
     Y: System<T, N> + ?Sized,
     E: From<DynamicsError<T>>,
 {
-    match once(system) {
-        Err(error) => match system.escalate()? {
-            true => once(system),
-            false => Err(error),
-        },
-        done => done,
+    loop {
+        match once(system) {
+            Err(error) if !system.escalate()? => return Err(error),
+            Err(_) => {}
+            done => return done,
+        }
     }
 }
 
@@ -86,7 +86,7 @@ pub trait System<T: Real, const N: usize> {
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>>;
 
     /// Whether what just failed is worth another attempt from the start of the step, because
-    /// the system then looks more closely.
+    /// the system then looks more closely than before, of which there is an end.
     ///
     /// # Errors
     ///

@@ -106,7 +106,9 @@ impl<T: Real, const N: usize> Rk4<T, N> {
         system: &mut Y,
         first: &SVector<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        let last = system.acceleration(&self.step.end)?;
+        // Where the step ends beside a singular configuration, that may want a closer look, too.
+        let end = self.step.end;
+        let last = escalating(system, |system| system.acceleration(&end))?;
         self.step.evaluations += 1;
         let h = self.step.set_ends(first, &last);
         self.step.interpolant.complete_hermite(h, first, &last);

@@ -202,9 +202,8 @@ impl<T: Real, const N: usize> Steps<T, N> {
         let Some(adaptive) = &mut self.adaptive else {
             return in_parts(step.start.t, bound, |end| {
                 attempt(method, system, step, end)?;
-                if !complete(method, system, step, inside)? {
+                while !complete(method, system, step, inside)? {
                     attempt(method, system, step, end)?;
-                    complete(method, system, step, inside)?;
                 }
                 Ok::<_, IntegrateError<T>>(())
             });

@@ -113,3 +113,19 @@ fn what_friction_stops_stays() {
         }
     }
 }
+
+/// Where a step of fixed length ends beside a singular configuration, the acceleration at its
+/// end is that of other rows than those that it was verified by.
+#[test]
+fn fixed_steps_of_all_lengths_pass() {
+    let mut mechanism = SpatialParallelogram::default();
+    mechanism.parameters.w = 8.0;
+    let mechanism: &dyn Whole<f64, N, R> = &mechanism;
+    let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+    for step in [0.01, 0.005, 0.004, 0.003, 0.002, 0.001] {
+        let ran = simulate(mechanism, &start, &Options::rk4(1.5, step), &mut []);
+        let summary = ran.unwrap_or_else(|failure| panic!("{step}: {failure}"));
+        assert!(summary.events > 1, "{step}");
+        assert_eq!(summary.passages, Some(summary.events), "{step}");
+    }
+}
