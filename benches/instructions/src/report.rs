@@ -77,15 +77,16 @@ pub fn growth(counts: &Counts) -> String {
     let mut text = String::from(
         "\n| loops | 2 | 5 | 10 | 20 | 40 | 80 | exponent |\n|---|--:|--:|--:|--:|--:|--:|--:|\n",
     );
-    for (name, chain, work) in [
-        ("evaluation", "row", "terms"),
-        ("q̈", "row", "regular"),
-        ("step", "row", "step"),
-        ("robust", "row", "robust"),
-        ("robust, one loop of them weak", "swings", "turning"),
-        ("robust, two degrees of freedom", "hung", "robust"),
+    for (name, chain, work, unit) in [
+        ("evaluation", "row", "terms", 1.0),
+        ("q̈", "row", "regular", 1.0),
+        ("step", "row", "step", 1.0),
+        ("robust", "row", "robust", 1.0),
+        ("robust, one loop of them weak", "swings", "turning", 1.0),
+        ("robust, two degrees of freedom", "hung", "robust", 1.0),
+        ("generation, millions", "row", "generation", 1e6),
     ] {
-        let at = |n: u32| counts.get(&format!("{chain}_{n}/{work}")).copied();
+        let at = |n: u32| Some(counts.get(&format!("{chain}_{n}/{work}"))? / unit);
         let cells = [2, 5, 10, 20, 40, 80]
             .map(|n| at(n).map_or("–".to_string(), |count| format!("{count:.0}")));
         let last = [80, 40].into_iter().find_map(|n| Some((n, at(n)?)));
@@ -97,23 +98,7 @@ pub fn growth(counts: &Counts) -> String {
         };
         let _infallible = writeln!(text, "| {name} | {} | {exponent} |", cells.join(" | "));
     }
-    text.push_str(&growth_of_generation(counts));
     text
-}
-
-/// How the instructions of the generator grow with the number of loops.
-fn growth_of_generation(counts: &Counts) -> String {
-    let all = [10.0, 20.0, 40.0, 80.0_f64];
-    let at = |n: f64| counts.get(&format!("row_{n}/generation")).copied();
-    let [Some(few), _, _, Some(many)] = all.map(at) else {
-        return String::new();
-    };
-    let cells = all.map(|n| at(n).map_or("–".to_string(), |count| format!("{:.0}", count / 1e6)));
-    let exponent = (many / few).ln() / 8.0_f64.ln();
-    format!(
-        "| generation, millions | – | – | {} | {exponent:.2} |\n",
-        cells.join(" | ")
-    )
 }
 
 /// What audits cost.

@@ -40,7 +40,7 @@ pub(super) fn distribute(program: &Program) -> Program {
         }
     }
     if done.moved.is_empty() {
-        return program.clone();
+        return done.grown;
     }
     let instead = |value: Value| done.moved.get(&value).copied().unwrap_or(value);
     ordered(done.grown.list(), &done.grown.outputs, &instead)

@@ -43,7 +43,7 @@ use crate::model::Graph;
 use collect::Collected;
 
 /// The most operations of a program that is still rewritten. Sharing factors looks at
-/// all pairs again after each; a longer program is emitted as it was derived.
+/// all pairs again after each; of a longer program only factors are put into sums.
 pub const REWRITTEN_MAX: usize = 30_000;
 
 /// How many terms may be multiplied or added in the ring of sines and cosines: so many for

@@ -147,10 +147,8 @@ where
         state: &mut State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         let t = state.t;
-        match self.project_past(state)? {
-            true => Err(self.solver.strayed(&self.mechanism, t)),
-            false => Ok(()),
-        }
+        let strays = self.project_past(state)?;
+        self.solver.refuse_strayed(&self.mechanism, t, strays)
     }
 
     /// The same; whether it was moved past another sheet, by more than the end of a step may
@@ -290,9 +288,10 @@ where
     }
 
     fn project(&mut self, state: &mut State<T, N>) -> Result<(), DynamicsError<T>> {
-        with_room::<T, _, N, R>(|| match self.solver.project(self.mechanism, state)? {
-            true => Err(self.solver.strayed(&self.mechanism, state.t)),
-            false => Ok(()),
+        with_room::<T, _, N, R>(|| {
+            let strays = self.solver.project(self.mechanism, state)?;
+            let t = state.t;
+            self.solver.refuse_strayed(&self.mechanism, t, strays)
         })
     }
 

@@ -366,10 +366,17 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         ))
     }
 
-    /// The error of a trial step whose end was moved past another sheet.
-    #[cold]
-    pub(crate) fn strayed(&self, mechanism: &dyn Mechanism<T, N, R>, t: T) -> DynamicsError<T> {
-        self.refusal(mechanism, Obstacle::LeftSheet, t)
+    /// Refuses a state that was moved past another sheet.
+    pub(crate) fn refuse_strayed(
+        &self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        t: T,
+        strays: bool,
+    ) -> Result<(), DynamicsError<T>> {
+        match strays {
+            true => Err(self.refusal(mechanism, Obstacle::LeftSheet, t)),
+            false => Ok(()),
+        }
     }
 
     /// The passages after a time of a step that was accepted last.

@@ -13,8 +13,8 @@ use super::rows::Which;
 use super::solver::Source;
 use crate::equations::At;
 use crate::linalg::{
-    Breakdown, Workspace, add_scaled, count_above, dot, norm, orthogonalise, remove, scale,
-    solve_upper,
+    Breakdown, Workspace, add_scaled, count_above, dot, lift_row, norm, orthogonalise, remove,
+    scale,
 };
 use crate::once::compiled_once;
 use crate::tolerance::{difference, regular};
@@ -145,10 +145,7 @@ pub(super) fn lift_rows<T: Real>(
 
 /// `U⁻¹aᵀ` for one row `a` of a Jacobian.
 pub(super) fn lift<T: Real>(jacobian: &[T], known: Known<'_, T>, row: usize, lifted: &mut [T]) {
-    for (entry, levers) in lifted.iter_mut().zip(jacobian.chunks_exact(known.r())) {
-        *entry = levers[row];
-    }
-    solve_upper(known.factor, lifted);
+    lift_row(known.factor, jacobian, (row, known.r()), lifted);
 }
 
 /// The second derivatives, along some directions, of the combination of rows that loses its

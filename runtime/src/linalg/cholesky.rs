@@ -135,6 +135,19 @@ pub(crate) fn multiply_upper_transposed<T: Real>(upper: &[T], x: &[T], product: 
     }
 }
 
+/// `U⁻¹aᵀ` for one row `a` of a Jacobian of so many rows, which stands column by column.
+pub(crate) fn lift_row<T: Real>(
+    upper: &[T],
+    jacobian: &[T],
+    (row, rows): (usize, usize),
+    lifted: &mut [T],
+) {
+    for (entry, levers) in lifted.iter_mut().zip(jacobian.chunks_exact(rows)) {
+        *entry = levers[row];
+    }
+    solve_upper(upper, lifted);
+}
+
 /// The diagonal of `U Uᵀ`, of `n` rows.
 pub(crate) fn diagonal<T: Real>(upper: &[T], n: usize) -> impl Iterator<Item = T> {
     (0..n).map(move |i| {

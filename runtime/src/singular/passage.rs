@@ -106,22 +106,17 @@ impl<T: Real> Sheet<'_, T> {
         };
         let (first, path) = self.glances(&step, (start.t, length), workspace);
         let range = self.chart.coordinate_scale.range * T::from_f64(REACH);
-        let most = T::from_f64(MOST_PARTS as f64);
         let parts = (1..MOST_PARTS).find(|n| path <= range * T::from_f64(*n as f64));
-        let parts = parts.map_or(most, |n| T::from_f64(n as f64));
+        let parts = parts.unwrap_or(MOST_PARTS);
         let mut before = None;
-        if parts == T::one() {
+        if parts == 1 {
             self.search_among(&step, first, &mut before, found, workspace);
             return;
         }
-        let part = length / parts;
+        let part = length / T::from_f64(parts as f64);
         let mut from = start.t;
-        for k in 1..=MOST_PARTS {
-            let k = T::from_f64(k as f64);
-            if k > parts {
-                break;
-            }
-            let to = start.t + part * k;
+        for k in 1..=parts {
+            let to = start.t + part * T::from_f64(k as f64);
             let (seen, _) = self.glances(&step, (from, to - from), workspace);
             self.search_among(&step, seen, &mut before, found, workspace);
             from = to;

@@ -8,7 +8,7 @@
 
 use super::sheet::Sheet;
 use crate::Real;
-use crate::linalg::{Workspace, independent_columns, scale, solve_upper};
+use crate::linalg::{Workspace, independent_columns, lift_row, scale};
 use crate::tolerance::window;
 
 impl<T: Real> Sheet<'_, T> {
@@ -24,10 +24,7 @@ impl<T: Real> Sheet<'_, T> {
             let vectors = workspace.any(n * r);
             let jacobian = self.equations.constraints().jacobian;
             for (row, vector) in vectors.chunks_exact_mut(n).enumerate() {
-                for (entry, levers) in vector.iter_mut().zip(jacobian.chunks_exact(r)) {
-                    *entry = levers[row];
-                }
-                solve_upper(chart.metric, vector);
+                lift_row(chart.metric, jacobian, (row, r), vector);
                 scale(vector, chart.row_scale[row]);
             }
             let chosen = workspace.indices(chart.rows.len());

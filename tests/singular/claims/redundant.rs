@@ -1,7 +1,7 @@
 //! Constraints of which some follow from the others: where those that were chosen become
 //! dependent and all of them together do not, nothing is singular.
 
-use bricard_runtime::{Form, Method, Options, Settings, StepControl, Whole, assemble, simulate};
+use bricard_runtime::{Form, Options, Whole, assemble, simulate};
 use bricard_singular::descriptions::spatial_parallelogram::SpatialParallelogram;
 
 const N: usize = 21;
@@ -38,15 +38,8 @@ fn angle_after(until: f64, a0: f64, w: f64) -> f64 {
 }
 
 fn options(until: f64, form: Form, tolerance: f64) -> Options<f64> {
-    let control = StepControl::Adaptive {
-        relative: tolerance,
-        absolute: tolerance,
-    };
-    let mut options = Options::new(until, Method::Dop853, control);
-    options.settings = Settings {
-        form,
-        ..Settings::default()
-    };
+    let mut options = Options::dop853(until, tolerance);
+    options.settings.form = form;
     options
 }
 
