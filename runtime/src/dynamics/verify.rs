@@ -159,7 +159,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             return Err(self.want_chart(mechanism, end.t));
         }
         self.session.trial.chart = Some(chart).filter(|_| comes_near);
-        self.session.trial.looked = Some(chart);
+        self.session.trial.looked = Some(chart).filter(|_| self.is_long(start, end));
         Ok(())
     }
 

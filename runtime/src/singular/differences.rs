@@ -17,6 +17,14 @@ const WEIGHTS: [[f64; VALUES]; VALUES] = [
     [3.0, -16.0, 36.0, -48.0, 25.0],
 ];
 
+/// One of the equidistant places between two, which are the first and the last of them.
+pub(super) fn place<T: Real>((from, to): (T, T), k: usize) -> T {
+    match k + 1 == VALUES {
+        true => to,
+        false => from + (to - from) * T::from_f64(k as f64 / (VALUES - 1) as f64),
+    }
+}
+
 /// How fast a function changes where it has these values, so far apart.
 pub(super) fn differentiated<T: Real>(values: [T; VALUES], distance: T) -> [T; VALUES] {
     WEIGHTS.map(|weights| {
@@ -36,7 +44,7 @@ mod tests {
     fn polynomials_of_the_fourth_degree_are_exact() {
         let value = |x: f64| 3.0 - x + 2.0 * x.powi(3) - 0.5 * x.powi(4);
         let slope = |x: f64| -1.0 + 6.0 * x.powi(2) - 2.0 * x.powi(3);
-        let places = [-1.0, -0.5, 0.0, 0.5, 1.0];
+        let places = core::array::from_fn(|k| place((-1.0, 1.0), k));
         let found = differentiated(places.map(value), 0.5);
         for (place, found) in places.into_iter().zip(found) {
             assert!((found - slope(place)).abs() < 1e-13, "{place}: {found}");

@@ -6,7 +6,7 @@
 
 use super::cubic::lowest_of_cubic;
 use super::determinant_signs::DeterminantSigns;
-use super::differences::{VALUES, differentiated};
+use super::differences::{VALUES, differentiated, place};
 use super::found::{AT_ONCE, Found, Passage};
 use super::sheet::Sheet;
 use crate::Real;
@@ -19,10 +19,8 @@ const BLOCKS: usize = 6;
 const MOST_STEPS: usize = 60;
 /// Looks into a step, equally far apart, its start among them.
 const LOOKS: usize = VALUES;
-/// Part of the range of the coordinates up to which a step is looked into as a whole: longer
-/// ones may pass several singular configurations between two looks.
-const REACH: f64 = 0.5;
-/// Parts of a longer step that are looked into.
+/// Parts of a step that are looked into, each no longer than the range of the coordinates, so
+/// that not several singular configurations are passed between two looks.
 const MOST_PARTS: usize = 64;
 /// Constraint equations of a single loop in the plane.
 const SINGLE: usize = 2;
@@ -104,52 +102,55 @@ impl<T: Real> Sheet<'_, T> {
             start: start.t,
             length,
         };
-        let (first, path) = self.glances(&step, (start.t, length), workspace);
-        let range = self.chart.coordinate_scale.range * T::from_f64(REACH);
+        let (range, path) = (
+            self.chart.coordinate_scale.range,
+            self.path(&step, workspace),
+        );
         let parts = (1..MOST_PARTS).find(|n| path <= range * T::from_f64(*n as f64));
         let parts = parts.unwrap_or(MOST_PARTS);
         let mut before = None;
-        if parts == 1 {
-            self.search_among(&step, first, &mut before, found, workspace);
-            return;
-        }
-        let part = length / T::from_f64(parts as f64);
         let mut from = start.t;
         for k in 1..=parts {
-            let to = start.t + part * T::from_f64(k as f64);
-            let (seen, _) = self.glances(&step, (from, to - from), workspace);
+            let to = start.t + length * T::from_f64(k as f64 / parts as f64);
+            let seen = self.glances(&step, (from, to), workspace);
             self.search_among(&step, seen, &mut before, found, workspace);
             from = to;
         }
     }
 
-    /// Looks at determinants in a part of a step, that begins at a time and has a length, with
-    /// their rates; and how far the positions are apart, one after the other.
-    fn glances(
-        &mut self,
-        step: &Step<'_, T>,
-        (from, length): (T, T),
-        workspace: &Workspace<'_, T>,
-    ) -> ([Seen<T>; LOOKS], T) {
+    /// How long the way through a step is, from one look to the next.
+    fn path(&self, step: &Step<'_, T>, workspace: &Workspace<'_, T>) -> T {
         workspace.scope(|workspace| {
-            let part = length / T::from_f64((LOOKS - 1) as f64);
             let [q, last] = [(); 2].map(|()| workspace.numbers(self.chart.n()));
             let mut path = T::zero();
-            let seen: [_; LOOKS] = core::array::from_fn(|k| {
-                let t = match k + 1 == LOOKS {
-                    true => from + length,
-                    false => from + part * T::from_f64(k as f64),
-                };
-                (step.at)(t, q);
+            for k in 0..LOOKS {
+                (step.at)(place((step.start, step.start + step.length), k), q);
                 if k > 0 {
                     path += self.chart.apart(q, last);
                 }
                 last.copy_from_slice(q);
+            }
+            path
+        })
+    }
+
+    /// Looks at determinants between two times of a step, with their rates.
+    fn glances(
+        &mut self,
+        step: &Step<'_, T>,
+        between: (T, T),
+        workspace: &Workspace<'_, T>,
+    ) -> [Seen<T>; LOOKS] {
+        workspace.scope(|workspace| {
+            let q = workspace.numbers(self.chart.n());
+            let seen: [_; LOOKS] = core::array::from_fn(|k| {
+                let t = place(between, k);
+                (step.at)(t, q);
                 self.glance(t, q)
             });
-            let rates = rates(&seen, part);
-            let mut rates = rates.into_iter();
-            (seen.map(|glance| (glance, rates.next().flatten())), path)
+            let part = (between.1 - between.0) / T::from_f64((LOOKS - 1) as f64);
+            let mut rates = rates(&seen, part).into_iter();
+            seen.map(|glance| (glance, rates.next().flatten()))
         })
     }
 

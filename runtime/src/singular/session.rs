@@ -54,7 +54,7 @@ pub(crate) struct Trial<T, const N: usize, const R: usize> {
     pub(crate) wants_chart: bool,
     /// The chart at its end.
     pub(crate) chart: Option<Chart<T, N, R>>,
-    /// That by which a step without one was looked into.
+    /// That by which a long step without one was looked into.
     pub(crate) looked: Option<Chart<T, N, R>>,
     /// The end's tangent space, drift, and how the sheets were met there.
     pub(crate) placed: Option<Placed<T, N>>,
