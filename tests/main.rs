@@ -26,6 +26,7 @@ mod inside;
 mod layering;
 mod library;
 mod licences;
+mod light;
 mod linearised;
 mod messages;
 mod motion;

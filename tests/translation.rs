@@ -203,7 +203,7 @@ fn the_start_has_the_values_of_the_description() {
 
 /// Mechanisms in Euler parameters: their mass matrix is definite nowhere, so that their
 /// regular path needs weights, which are the solver's.
-const SEMI_DEFINITE: [&str; 3] = ["platform", "placed", "tied_bar"];
+const SEMI_DEFINITE: [&str; 4] = ["hinged_body", "platform", "placed", "tied_bar"];
 
 /// Runs a check where the regular path may be used; says how often it was.
 fn where_regular(claim: impl Fn(&Derived, &Answers, &str)) {

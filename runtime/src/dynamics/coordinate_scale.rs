@@ -31,7 +31,7 @@ impl<T: Real> CoordinateScale<T> {
         self.size / self.range
     }
 
-    /// Takes note of coordinates `q`, which are used up, and up to which sizes none is looked
+    /// Takes note of coordinates `q`, which are used up, and up to which `sizes` none is looked
     /// at again; `turns` tells which of them are angles that have gone round. Functions of an
     /// angle have the round-off of an angle of one, however small it is.
     pub(super) fn extend(
@@ -39,11 +39,11 @@ impl<T: Real> CoordinateScale<T> {
         structure: &Structure,
         factor: &[T],
         q: &mut [T],
-        (sizes, weights): (&mut [T], &mut [T]),
+        sizes: &mut [T],
         turns: &[bool],
     ) {
-        let moved = weights.iter().any(|weight| *weight > T::zero());
         let lengths = q.len().saturating_sub(structure.states);
+        let moved = sizes[..lengths].iter().any(|size| *size > T::zero());
         // Integrals of states are no lengths.
         q[lengths..].fill(T::zero());
         sizes[lengths..].fill(T::from_f64(f64::INFINITY));
@@ -53,11 +53,8 @@ impl<T: Real> CoordinateScale<T> {
                 *size = size.max(T::one());
             }
         }
-        for ((known, weight), size) in sizes.iter_mut().zip(weights).zip(&*q) {
+        for (known, size) in sizes.iter_mut().zip(&*q) {
             *known = known.max(*size * T::from_f64(SCALE_STEP));
-            if *known > T::zero() {
-                *weight = T::one() / (*known * *known);
-            }
         }
         let mut size = length(factor, q);
         if size == T::zero() {

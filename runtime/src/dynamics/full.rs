@@ -6,11 +6,11 @@
 //!
 //! Source: Phong & Hoang (2012), eqs. 3.9–3.11. They solve the normal equations;
 //! here the rows go into a triangular factor one by one, because `BᵀB` squares the
-//! condition number. Accelerations and forces are scaled by the diagonal of the
-//! mass matrix, so that the result does not depend on units.
+//! condition number. Accelerations and forces are scaled by the diagonal of the metric, so
+//! that the result does not depend on units, nor on where an Euler parameter has no inertia.
 
 use super::Core;
-use crate::linalg::{Triangle, Workspace, add_scaled};
+use crate::linalg::{Triangle, Workspace, add_scaled, set_units};
 use crate::once::compiled_once;
 use crate::singular::Point;
 use crate::{DynamicsError, Mechanism, Real, State};
@@ -23,6 +23,8 @@ const VECTORS: usize = 5;
 pub(crate) struct Squares<'a, T> {
     mass: &'a [T],
     force: &'a [T],
+    /// The triangular factor of the metric.
+    metric: &'a [T],
     /// `D̃`, and the coordinates in the chart that go with it.
     tangent: &'a [T],
     dual: &'a [T],
@@ -57,6 +59,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let squares = Squares {
             mass: self.terms.mass.as_slice(),
             force: self.terms.force.as_slice(),
+            metric: self.metric.factor.as_slice(),
             tangent: &tangent[..N * self.freedoms()],
             dual,
             particular: point.particular.as_slice(),
@@ -74,18 +77,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 }
 
-/// What one unit of each scaled acceleration is worth: `1/√mⱼⱼ`, or one for a
-/// coordinate without inertia.
-pub(super) fn set_units<T: Real>(mass: &[T], units: &mut [T]) {
-    let n = units.len();
-    for (unit, mass) in units.iter_mut().zip(mass.iter().step_by(n + 1)) {
-        *unit = match *mass > T::zero() {
-            true => T::one() / mass.sqrt(),
-            false => T::one(),
-        };
-    }
-}
-
 impl<T: Real> Squares<'_, T> {
     /// The acceleration of least squares.
     pub(crate) fn solve(&self, workspace: &Workspace<'_, T>, acceleration: &mut [T]) {
@@ -93,7 +84,7 @@ impl<T: Real> Squares<'_, T> {
         let mut triangle = Triangle::new(n, workspace);
         let (a, b) = (workspace.numbers(n), workspace.numbers(n));
         let unit = workspace.numbers(n);
-        set_units(self.mass, unit);
+        set_units(self.metric, unit);
         self.insert_motion(&mut triangle, unit, (a, b));
         self.insert_decided(&mut triangle, unit, (a, b));
         self.insert_ideality(&mut triangle, unit, (a, b));
@@ -103,7 +94,8 @@ impl<T: Real> Squares<'_, T> {
         }
     }
 
-    /// `M q̈ + r = p₁`.
+    /// `M q̈ + r = p₁`, each row times the unit of its coordinate, in which all accelerations
+    /// and forces are.
     fn insert_motion(
         &self,
         triangle: &mut Triangle<'_, T>,

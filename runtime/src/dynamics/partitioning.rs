@@ -9,8 +9,7 @@
 //! `A_d` is as well conditioned as the position allows.
 
 use super::Core;
-use super::full::set_units;
-use crate::linalg::{Elimination, Workspace, add_scaled, add_subspace_solution};
+use crate::linalg::{Elimination, Workspace, add_scaled, add_subspace_solution, set_units};
 use crate::once::compiled_once;
 use crate::{DynamicsError, Mechanism, Real, State};
 use nalgebra::SVector;
@@ -47,7 +46,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         );
         let mut acceleration = SVector::<T, N>::zeros();
         partitioned()(
-            (self.terms.mass.as_slice(), self.terms.force.as_slice()),
+            (
+                self.terms.mass.as_slice(),
+                self.terms.force.as_slice(),
+                self.metric.factor.as_slice(),
+            ),
             (jacobian.as_mut_slice(), &mut right),
             &workspace,
             acceleration.as_mut_slice(),
@@ -61,10 +64,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     }
 }
 
-/// The acceleration by mass matrix and force, constraint rows and their right-hand sides,
-/// which are used up; or an independent coordinate along which there is no mass.
+/// The acceleration by mass matrix, force and the factor of the metric, constraint rows and
+/// their right-hand sides, which are used up; or an independent coordinate along which there is
+/// no mass.
 pub(crate) fn partition<'a, T: Real>(
-    (mass, force): (&[T], &[T]),
+    (mass, force, metric): (&[T], &[T], &[T]),
     (jacobian, right): (&'a mut [T], &'a mut [T]),
     workspace: &Workspace<'a, T>,
     acceleration: &mut [T],
@@ -72,7 +76,7 @@ pub(crate) fn partition<'a, T: Real>(
     let (n, rows) = (force.len(), right.len());
     let columns = workspace.numbers(n * n);
     let units = workspace.numbers(n);
-    set_units(mass, units);
+    set_units(metric, units);
     let eliminated = Elimination::new(jacobian, right, units, workspace);
     // `q̈ₚ`: dependent coordinates from `p₂`, independent ones zero.
     for (j, offset) in eliminated.dependent.iter().zip(&*eliminated.offset) {
@@ -102,7 +106,7 @@ pub(crate) fn partition<'a, T: Real>(
 
 compiled_once! {
     fn partitioned<T>: for<'a> fn(
-        (&[T], &[T]),
+        (&[T], &[T], &[T]),
         (&'a mut [T], &'a mut [T]),
         &Workspace<'a, T>,
         &mut [T],

@@ -52,7 +52,7 @@ pub(crate) struct Core<T, const N: usize, const R: usize> {
     pub(crate) coordinate_scale: CoordinateScale<T>,
     /// The sizes of the coordinates up to which that is not measured again.
     pub(crate) sizes: [T; N],
-    /// The inverse squares of those sizes; zero where a coordinate has only been zero.
+    /// The diagonal of the metric where that was measured; zero for integrals of states.
     pub(crate) weights: [T; N],
     /// How far each may move in a step that is not long.
     pub(crate) far: [T; N],

@@ -156,6 +156,15 @@ pub(crate) fn diagonal<T: Real>(upper: &[T], n: usize) -> impl Iterator<Item = T
     })
 }
 
+/// What coordinates are multiplied by to have size one in the metric of a factor of any size:
+/// one over the roots of its diagonal.
+pub(crate) fn set_units<T: Real>(upper: &[T], units: &mut [T]) {
+    let n = units.len();
+    for (unit, square) in units.iter_mut().zip(diagonal(upper, n)) {
+        *unit = T::one() / square.sqrt();
+    }
+}
+
 /// `√(xᵀ U Uᵀ x)`, the length of `x` in the metric of a factor of any size.
 pub(crate) fn length<T: Real>(upper: &[T], x: &[T]) -> T {
     let mut sum = T::zero();

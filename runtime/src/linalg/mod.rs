@@ -38,7 +38,7 @@ mod workspace;
 pub(crate) use block::Block;
 pub(crate) use cholesky::{
     Cholesky, NotDefinite, diagonal, is_definite, length, lift_row, multiply_upper,
-    multiply_upper_transposed, solve_upper, solve_upper_transposed,
+    multiply_upper_transposed, set_units, solve_upper, solve_upper_transposed,
 };
 pub(crate) use column::{
     add_product, add_scaled, column, count_above, dot, is_finite, is_zero, norm, pair, scale,

@@ -63,13 +63,16 @@ impl<'a, T: Real> Triangle<'a, T> {
     }
 }
 
-/// Cosine and sine of the rotation that takes `entry` into `diagonal`.
+/// Cosine and sine of the rotation that takes `entry` into `diagonal`, also where their squares
+/// are too small for a number.
 fn eliminate<T: Real>(diagonal: T, entry: T) -> Option<(T, T)> {
     if entry == T::zero() {
         return None;
     }
-    let size = (diagonal * diagonal + entry * entry).sqrt();
-    Some((diagonal / size, entry / size))
+    let largest = diagonal.abs().max(entry.abs());
+    let (cos, sin) = (diagonal / largest, entry / largest);
+    let size = (cos * cos + sin * sin).sqrt();
+    Some((cos / size, sin / size))
 }
 
 fn rotate<T: Real>(row: &mut [T], other: &mut [T], turn: (T, T)) {

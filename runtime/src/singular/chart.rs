@@ -16,8 +16,8 @@ use super::part::{Part, parts};
 use super::product::{Factor, Offsets, Product, length};
 use crate::dynamics::{CoordinateScale, Metric, Rows, Which};
 use crate::linalg::{
-    Cholesky, Workspace, add_scaled, diagonal, dot, multiply_upper, multiply_upper_transposed,
-    norm, order_by_first_row, pair, solve_upper_transposed,
+    Cholesky, Workspace, add_scaled, dot, multiply_upper, multiply_upper_transposed, norm,
+    order_by_first_row, pair, set_units, solve_upper_transposed,
 };
 use crate::tolerance::excusable;
 use crate::{ConnectedComponent, Real, State};
@@ -107,10 +107,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             let block = &mut chart.metric.as_mut_slice()[squares];
             // Between the parts there is nothing, and nothing is filled in.
             part.take_block(metric.factor.as_slice(), block);
-            let scales = chart.column_scale[coordinates].iter_mut();
-            for (scale, square) in scales.zip(diagonal(block, part.n)) {
-                *scale = T::one() / square.sqrt();
-            }
+            set_units(block, &mut chart.column_scale[coordinates]);
             let columns = at.tangents..at.tangents + part.n * freedoms;
             let tangent = &mut chart.tangent.as_mut_slice()[columns.clone()];
             let dual = &mut chart.dual.as_mut_slice()[columns];

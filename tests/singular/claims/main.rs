@@ -7,7 +7,6 @@ mod accuracy;
 mod corners;
 mod known;
 mod largest;
-mod light;
 mod massless;
 mod mirrored;
 mod narrow;
