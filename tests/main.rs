@@ -4,6 +4,7 @@ mod allocation;
 mod architecture;
 mod authoring;
 mod balance;
+mod buffers;
 mod built;
 mod by_path;
 mod chains;

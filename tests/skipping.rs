@@ -209,3 +209,27 @@ fn outputs_cost_nothing_until_they_are_asked_for() {
     let terms = |source: &str| function(&code(source), "terms").to_string();
     assert_eq!(terms(CART), terms(&watched));
 }
+
+#[test]
+fn entries_that_are_numbers_are_written_once() {
+    let source = |kind: &str| {
+        format!(
+            "mechanism Bead {{ coord x: m; coord y: m; {kind} m: kg = 2; const g: m/s^2 = 9.81;
+            kinetic 1/2*m*(der(x)^2 + der(y)^2); potential m*g*y; {kind} a: 1/m = 3;
+            constraint m*y = m*a*x^2; start {{ x = 1; }} }}"
+        )
+    };
+    let [set, frozen] = ["param", "const"].map(source);
+    let line = differs("numbers", "the first time", [&set, &frozen]);
+    assert!(line.contains("4 entries"), "{line}");
+    let code = code(&frozen);
+    for buffer in ["terms", "position"] {
+        let first = function(&code, &format!("begin_{buffer}"));
+        assert!(first.contains("out.mass.data.0[0][0] = "), "{first}");
+        assert!(first.contains("out.jacobian.data.0[1][0] = "), "{first}");
+        let again = function(&code, &format!("{buffer}("));
+        assert!(!again.contains("out.mass"), "{again}");
+        assert!(!again.contains("out.jacobian.data.0[1]"), "{again}");
+        assert!(again.contains("out.jacobian.data.0[0][0] = "), "{again}");
+    }
+}

@@ -8,7 +8,7 @@ use super::parts::parts;
 use bricard_codegen::internals::derive::Equations;
 use bricard_codegen::internals::expr::{ExprId, Graph, Symbol};
 use bricard_codegen::internals::model::Mechanism;
-use bricard_codegen::internals::optimise::{Cost, Programs, cost};
+use bricard_codegen::internals::optimise::{Cost, Programs, cost, numbers_apart};
 use std::collections::BTreeSet;
 
 /// The section, empty where everything is needed.
@@ -18,6 +18,7 @@ pub fn skipped(mechanism: &Mechanism, equations: &Equations, programs: &Programs
         constant_mass(&mechanism.graph, equations),
         solve(&mechanism.graph, equations, programs),
         repeated(&mechanism.graph, equations),
+        numbers(programs),
         time(&mechanism.graph, equations),
         ignorable(mechanism, equations),
         apart(mechanism, equations),
@@ -93,6 +94,16 @@ fn solve(graph: &Graph, equations: &Equations, programs: &Programs) -> Option<St
             n * n + 2 * n * r,
             counted(spent)
         )
+    })
+}
+
+/// Entries that the first evaluation writes for all others.
+fn numbers(programs: &Programs) -> Option<String> {
+    let (numbers, _) = numbers_apart(&programs.terms.program);
+    let count = numbers.outputs.len();
+    (count > 0).then(|| {
+        let entries = plural(count, "entry", "entries");
+        format!("what does not change in M, G, p₁ and p₂ but the first time: {entries}")
     })
 }
 

@@ -4,13 +4,13 @@
 //! handles any mechanism needs besides (parameters, start, outputs, pictures),
 //! [`Structure`] what was known when the code was generated.
 //!
-//! The buffers ([`Terms`], [`Position`]) begin as zeros. Generated
-//! code writes the entries that can differ from zero and no others, so a buffer
-//! must be a fresh one or one that the same mechanism filled before; a
-//! [`Solver`](crate::Solver) sees to that.
+//! The buffers ([`Terms`], [`Position`], [`Linearised`]) know which mechanism filled them last.
+//! Generated code writes what does not change once, and what is zero never: a buffer of another
+//! mechanism is cleared first.
 
 use crate::assembly::StartFault;
 use crate::{Condition, Real, Sides, State, Structure, Switches};
+use core::ptr;
 use nalgebra::{SMatrix, SVector};
 
 /// The equations of motion of a mechanism with `N` coordinates and `R`
@@ -249,6 +249,8 @@ pub struct Terms<T, const N: usize, const R: usize> {
     pub bias: SVector<T, R>,
     /// What holds the conditions; read, not written.
     pub sides: Sides,
+    /// The structure of the mechanism that filled it last.
+    filled: Option<&'static Structure>,
 }
 
 /// The acceleration where the constraints are regular, and how far it can be trusted.
@@ -280,7 +282,8 @@ pub struct Correction<T, const N: usize, const R: usize> {
     pub weights: SVector<T, R>,
 }
 
-/// The pivots of the metric `M = L D Lᵀ` and of `S = A M⁻¹ Aᵀ = Λ E Λᵀ`.
+/// The pivots of the metric `M = L D Lᵀ` and of `S = A M⁻¹ Aᵀ = Λ E Λᵀ`. They begin as zeros,
+/// and those that are zero by structure are not written: they serve one mechanism.
 #[derive(Clone, Debug)]
 pub struct Pivots<T, const N: usize, const R: usize> {
     /// `d_i`, `N`; zero where it is `m_ii` itself.
@@ -306,6 +309,8 @@ pub struct Position<T, const N: usize, const R: usize> {
     pub jacobian: SMatrix<T, R, N>,
     /// `b`, `R`: the velocity level reads `A q̇ + b = 0`.
     pub drift: SVector<T, R>,
+    /// The structure of the mechanism that filled it last.
+    filled: Option<&'static Structure>,
 }
 
 /// The right-hand sides of the linearised equations of motion,
@@ -322,6 +327,8 @@ pub struct Linearised<T, const N: usize, const R: usize> {
     pub row_by_velocity: SMatrix<T, R, N>,
     /// What holds the conditions; read, not written.
     pub sides: Sides,
+    /// The structure of the mechanism that filled it last.
+    filled: Option<&'static Structure>,
 }
 
 /// Partial derivatives, row by row, with `U` inputs; places that begin as zeros. An input
@@ -340,7 +347,27 @@ macro_rules! zeroed {
     ($name:ident { $($field:ident),* } $($sides:ident)?) => {
         impl<T: Real, const N: usize, const R: usize> Default for $name<T, N, R> {
             fn default() -> Self {
-                Self { $($field: SMatrix::zeros(),)* $($sides: Sides::FREE)? }
+                Self {
+                    $($field: SMatrix::zeros(),)*
+                    $($sides: Sides::FREE,)?
+                    filled: None,
+                }
+            }
+        }
+
+        impl<T: Real, const N: usize, const R: usize> $name<T, N, R> {
+            /// Whether the mechanism of a structure filled it last.
+            #[inline(always)]
+            pub fn is_filled_by(&self, structure: &'static Structure) -> bool {
+                self.filled.is_some_and(|known| ptr::eq(known, structure))
+            }
+
+            /// Becomes zeros that the mechanism of a structure is about to fill.
+            #[cold]
+            #[inline(never)]
+            pub fn clear(&mut self, structure: &'static Structure) {
+                $(self.$field.fill(T::zero());)*
+                self.filled = Some(structure);
             }
         }
     };
@@ -363,12 +390,17 @@ zeroed!(Linearised {
     row_by_position,
     row_by_velocity
 } sides);
-zeroed!(Pivots {
-    mass_pivots,
-    mass_diagonal,
-    row_pivots,
-    row_squares
-});
+
+impl<T: Real, const N: usize, const R: usize> Default for Pivots<T, N, R> {
+    fn default() -> Self {
+        Self {
+            mass_pivots: SVector::zeros(),
+            mass_diagonal: SVector::zeros(),
+            row_pivots: SVector::zeros(),
+            row_squares: SVector::zeros(),
+        }
+    }
+}
 
 impl<T: Real, const N: usize, const R: usize> Default for Acceleration<T, N, R> {
     fn default() -> Self {

@@ -1,6 +1,6 @@
 //! The equations of motion: the trait implementation.
 
-use super::filling::{Heading, Method};
+use super::filling::{Heading, Method, begin, types};
 use super::function::Decided;
 use super::index::Target;
 use super::linearised::linearised;
@@ -53,7 +53,7 @@ pub(super) fn mechanism(subject: &Subject) -> TokenStream {
     let called = methods.iter().map(|method| &method.functions);
     let called: TokenStream = called.cloned().collect();
     let methods = methods.iter().map(|method| &method.method);
-    let begin = super::start::begin(subject);
+    let start = super::start::begin(subject);
     let energy = energy(subject);
     let linearised = linearised(subject);
     let switches = switches(subject);
@@ -65,7 +65,7 @@ pub(super) fn mechanism(subject: &Subject) -> TokenStream {
                 &STRUCTURE
             }
             #(#methods)*
-            #begin
+            #start
             #energy
             #linearised
             #switches
@@ -102,19 +102,40 @@ fn methods(subject: &Subject) -> Vec<Method> {
 }
 
 /// A method that fills the fields of a buffer with arrays of their names; the mass matrix
-/// by a function of its own, if there is one.
+/// by a function of its own, if there is one. What begins a buffer calls the method once more
+/// and ends it, so that nothing is kept during a call that is hardly ever made.
 fn filled(subject: &Subject, [name, buffer, docs]: [&str; 3], computed: &Optimised) -> Method {
+    let mut program = computed.program.clone();
+    let statements = begin(subject, &mut program, &entry_of_field);
+    let (method, first) = (ident(name), ident(&format!("begin_{name}")));
+    let [state_type, out_type] = types(subject, buffer);
     let by_columns = subject.programs.inertia.is_some();
+    let mass = by_columns.then(|| quote!(self.write_mass(state, &mut out.mass);));
     let heading = Heading {
         name,
         buffer,
         docs,
         cost: cost_in_words(computed),
-        before: by_columns.then(|| quote!(self.write_mass(state, &mut out.mass);)),
+        before: quote! {
+            if !out.is_filled_by(&STRUCTURE) {
+                return self.#first(state, out);
+            }
+            #mass
+        },
         solves: false,
         divisible: false,
     };
-    Method::of(subject, &heading, &computed.program, &entry_of_field)
+    let mut filled = Method::of(subject, &heading, &program, &entry_of_field);
+    filled.functions.extend(quote! {
+        /// Writes what does not change, and everything else after that.
+        #[cold]
+        #[inline(never)]
+        fn #first(&self, state: &#state_type, out: &mut #out_type) {
+            #statements
+            self.#method(state, out);
+        }
+    });
+    filled
 }
 
 /// A method that solves where the constraints are regular.
@@ -125,7 +146,7 @@ fn solution(subject: &Subject, [name, buffer, docs]: [&str; 3], solved: &Solved)
         docs,
         // What it costs includes what it solves.
         cost: format!(" Costs {}.", cost(&solved.program)),
-        before: None,
+        before: TokenStream::new(),
         solves: true,
         // From body to body, values are read soon after they are computed, and compilers take a
         // straight line as it is.

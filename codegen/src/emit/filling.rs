@@ -5,9 +5,9 @@
 
 use super::function::{Decided, Place};
 use super::parts::{Parts, STRAIGHT_LINE};
-use super::subject::{Called, Reads, Subject, argument, doc_lines};
+use super::subject::{Called, Subject, Written, argument, doc_lines};
 use super::symbol::SymbolNames;
-use crate::optimise::Program;
+use crate::optimise::{Optimised, Program, numbers_apart};
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -19,7 +19,7 @@ pub(super) struct Heading<'a> {
     pub docs: &'a str,
     pub cost: String,
     /// What it does with its arguments before.
-    pub before: Option<TokenStream>,
+    pub before: TokenStream,
     /// Whether it solves, and says that it could.
     pub solves: bool,
     /// Whether it is taken apart if it is long.
@@ -40,9 +40,8 @@ impl Method {
         let decided = Decided::BySides;
         let loops = subject.loops(program, decided, Called::InSteps);
         let in_parts = heading.divisible && loops.is_none() && program.len() > straight_line;
-        let all = in_parts || heading.before.is_some();
+        let all = in_parts || !heading.before.is_empty();
         let state = argument("state", all || SymbolNames::reads_state(program));
-        let out = argument("out", all || Reads::of(program).out);
         let types = types(subject, heading.buffer);
         let [state_type, out_type] = &types;
         let name = argument(heading.name, true);
@@ -69,7 +68,7 @@ impl Method {
             ///
             #[doc = #cost]
             #inline
-            fn #name(&self, #state: &#state_type, #out: &mut #out_type) #result {
+            fn #name(&self, #state: &#state_type, out: &mut #out_type) #result {
                 #before
                 #statements
                 #solved
@@ -79,8 +78,23 @@ impl Method {
     }
 }
 
+/// What is done with a buffer that another mechanism has filled, or none: it is cleared, and
+/// those outputs that are numbers are written, which the program is left without.
+pub(super) fn begin(subject: &Subject, program: &mut Program, place: Place) -> TokenStream {
+    let (numbers, rest) = numbers_apart(program);
+    *program = rest;
+    let written = Optimised {
+        program: numbers,
+        ..Optimised::default()
+    };
+    let how = (Decided::ByState, Called::OnRequest);
+    let Written { body, .. } = subject.optimised(&written, place, how);
+    let statements = body.statements;
+    quote!(out.clear(&STRUCTURE); #statements)
+}
+
 /// The types of the state and of the buffer.
-fn types(subject: &Subject, buffer: &str) -> [TokenStream; 2] {
+pub(super) fn types(subject: &Subject, buffer: &str) -> [TokenStream; 2] {
     let (n, r) = subject.sizes();
     let buffer = argument(buffer, true);
     [quote!(State<T, #n>), quote!(#buffer<T, #n, #r>)]

@@ -1,5 +1,6 @@
 //! The linearised equations of motion: a method of the trait implementation.
 
+use super::filling::begin;
 use super::function::Decided;
 use super::subject::{Called, Reads, Subject, Written, argument, entry_of_field};
 use crate::optimise::LeftOut;
@@ -28,18 +29,19 @@ pub(super) fn linearised(subject: &Subject) -> TokenStream {
     let Ok(computed) = &subject.programs.linearised else {
         return TokenStream::new();
     };
+    let mut computed = computed.clone();
+    let begin = begin(subject, &mut computed.program, &entry_of_field);
     let Written {
         body,
         state,
         acceleration,
         cost,
     } = subject.optimised(
-        computed,
+        &computed,
         &entry_of_field,
         (Decided::BySides, Called::InSteps),
     );
     let reads = Reads::of(&computed.program);
-    let out = argument("out", reads.out);
     let multiplier = argument("multiplier", reads.multiplier);
     let statements = body.statements;
     let (n, r) = subject.sizes();
@@ -59,8 +61,11 @@ pub(super) fn linearised(subject: &Subject) -> TokenStream {
             #state: &State<T, #n>,
             #acceleration: &SVector<T, #n>,
             #multiplier: &SVector<T, #r>,
-            #out: &mut Linearised<T, #n, #r>,
+            out: &mut Linearised<T, #n, #r>,
         ) -> bool {
+            if !out.is_filled_by(&STRUCTURE) {
+                #begin
+            }
             #statements
             true
         }

@@ -15,9 +15,11 @@
 //! 5. `dead`: what nobody reads.
 //! 6. `order`: outputs of the same coordinates one after the other.
 //!
-//! `solve` appends the solve for the accelerations to a program.
+//! `solve` appends the solve for the accelerations to a program; `constant` takes out what is
+//! written once.
 
 mod collect;
+mod constant;
 mod dead;
 mod distribute;
 mod functions;
@@ -31,6 +33,7 @@ mod share;
 mod solve;
 mod wanted;
 
+pub use constant::numbers_apart;
 pub use functions::{Array, LeftOut, List, Optimised, Programs, StartPrograms};
 pub use pass::{Pass, alone};
 pub use program::{Cost, Operation, Program, Slot, Value, cost, interpret, verify};

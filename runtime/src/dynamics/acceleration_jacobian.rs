@@ -35,10 +35,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let free = self.free_acceleration(&bias);
         let multiplier = self.schur.multiplier(&free, &bias);
         let acceleration = self.regular_acceleration(&bias);
-        let mut out = Linearised {
-            sides: self.terms.sides,
-            ..Linearised::default()
-        };
+        let mut out = Linearised::default();
+        out.sides = self.terms.sides;
         mechanism
             .linearised(state, &acceleration, &multiplier, &mut out)
             .then(|| AccelerationJacobian {

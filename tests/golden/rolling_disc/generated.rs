@@ -14,7 +14,7 @@ pub mod rolling_disc {
         Acceleration, Canvas, ConstraintRow, Correction, Energy, Initial, Interface,
         Linearised, Mechanism, Position, Quantity, Real, Start, State, Structure, Terms,
     };
-    const _: () = bricard_runtime::written_for(6);
+    const _: () = bricard_runtime::written_for(7);
     /// The description that this module was generated from.
     pub const SOURCE: &str = "/// A disc that rolls on a plane without slipping, like a coin.\n///\n/// Rolling is two velocity constraints at the point of contact. Fast enough, with\n/// the speed above sqrt(g*r/3), the disc does not fall.\nmechanism RollingDisc {\n    const g: m/s^2 = 9.81;\n\n    /// radius\n    param r: m = 0.3;\n    /// mass, spread evenly\n    param m: kg = 1;\n\n    /// the point of contact\n    coord x: m;\n    coord y: m;\n    /// heading, from the x axis\n    coord psi: rad;\n    /// lean, from upright\n    coord theta: rad;\n    /// angle of rolling\n    coord phi: rad;\n\n    // The frame turns and leans with the disc, but does not roll with it.\n    let F = rotz(psi)*rotx(theta);\n    let w = omega(F) + [0, der(phi), 0];\n    let hub = [x, y, 0] + F*[0, 0, r];\n    let rim = F*[r*sin(phi), 0, r*cos(phi)];\n\n    kinetic 1/2*m*norm2(der(hub));\n    kinetic 1/8*m*r^2*(w.x^2 + w.z^2) + 1/4*m*r^2*w.y^2;\n    potential m*g*hub.z;\n\n    constraint der(x) = r*der(phi)*cos(psi);\n    constraint der(y) = r*der(phi)*sin(psi);\n\n    start {\n        x = 0;\n        y = 0;\n        psi = 0;\n        theta = 10*deg;\n        phi = 0;\n        der(psi) = 0;\n        der(theta) = 0;\n        der(phi) = 6;\n    }\n\n    /// the centre\n    output centre: m = hub;\n\n    draw line([x, y, 0], hub, hub + rim);\n    draw circle(hub, 0.01);\n    draw trace([x, y, 0]);\n    draw trace(hub + rim);\n}\n";
     static STRUCTURE: Structure = Structure {
@@ -151,6 +151,9 @@ pub mod rolling_disc {
         ///
         /// Costs 43 products, 14 sums, 2 sine–cosine pairs. As derived: 240 products, 51 sums, 2 sine–cosine pairs.
         fn terms(&self, state: &State<T, 5>, out: &mut Terms<T, 5, 2>) {
+            if !out.is_filled_by(&STRUCTURE) {
+                return self.begin_terms(state, out);
+            }
             let [_, _, psi, theta, _] = state.q.data.0[0];
             let [_, _, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
@@ -161,8 +164,6 @@ pub mod rolling_disc {
             out.mass.data.0[3][3] = T::from_f64(1.25) * product;
             let product_2 = T::from_f64(0.5) * product;
             out.mass.data.0[4][4] = product_2;
-            out.jacobian.data.0[0][0] = T::one();
-            out.jacobian.data.0[1][1] = T::one();
             let (sin_psi, cos_psi) = psi.sin_cos();
             let r_cos_psi = r * cos_psi;
             out.jacobian.data.0[4][0] = -r_cos_psi;
@@ -402,6 +403,9 @@ pub mod rolling_disc {
         ///
         /// Costs 16 products, 4 sums, 2 sine–cosine pairs. As derived: 66 products, 9 sums, 2 sine–cosine pairs.
         fn position(&self, state: &State<T, 5>, out: &mut Position<T, 5, 2>) {
+            if !out.is_filled_by(&STRUCTURE) {
+                return self.begin_position(state, out);
+            }
             let [_, _, psi, theta, _] = state.q.data.0[0];
             let Parameters { r, m } = self.parameters;
             out.mass.data.0[0][0] = m;
@@ -412,8 +416,6 @@ pub mod rolling_disc {
             out.mass.data.0[3][3] = product_2;
             let product_3 = T::from_f64(0.5) * product;
             out.mass.data.0[4][4] = product_3;
-            out.jacobian.data.0[0][0] = T::one();
-            out.jacobian.data.0[1][1] = T::one();
             let (sin_psi, cos_psi) = psi.sin_cos();
             out.jacobian.data.0[4][0] = -r * cos_psi;
             out.jacobian.data.0[4][1] = -r * sin_psi;
@@ -614,6 +616,9 @@ pub mod rolling_disc {
             multiplier: &SVector<T, 2>,
             out: &mut Linearised<T, 5, 2>,
         ) -> bool {
+            if !out.is_filled_by(&STRUCTURE) {
+                out.clear(&STRUCTURE);
+            }
             let [_, _, psi, theta, _] = state.q.data.0[0];
             let [_, _, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let [x_ddot, y_ddot, psi_ddot, theta_ddot, phi_ddot] = acceleration
@@ -725,6 +730,26 @@ pub mod rolling_disc {
             out.row_by_velocity.data.0[2][0] = -sin_psi * r_phi_dot;
             out.row_by_velocity.data.0[2][1] = cos_psi * r_phi_dot;
             true
+        }
+    }
+    impl<T: Real> RollingDisc<T> {
+        /// Writes what does not change, and everything else after that.
+        #[cold]
+        #[inline(never)]
+        fn begin_terms(&self, state: &State<T, 5>, out: &mut Terms<T, 5, 2>) {
+            out.clear(&STRUCTURE);
+            out.jacobian.data.0[0][0] = T::one();
+            out.jacobian.data.0[1][1] = T::one();
+            self.terms(state, out);
+        }
+        /// Writes what does not change, and everything else after that.
+        #[cold]
+        #[inline(never)]
+        fn begin_position(&self, state: &State<T, 5>, out: &mut Position<T, 5, 2>) {
+            out.clear(&STRUCTURE);
+            out.jacobian.data.0[0][0] = T::one();
+            out.jacobian.data.0[1][1] = T::one();
+            self.position(state, out);
         }
     }
     impl<T: Real> RollingDisc<T> {

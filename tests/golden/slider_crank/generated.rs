@@ -14,7 +14,7 @@ pub mod slider_crank {
         Acceleration, Canvas, ConstraintRow, Correction, Energy, Initial, Interface,
         Linearised, Mechanism, Position, Quantity, Real, Start, State, Structure, Terms,
     };
-    const _: () = bricard_runtime::written_for(6);
+    const _: () = bricard_runtime::written_for(7);
     /// The description that this module was generated from.
     pub const SOURCE: &str = "/// Slider–crank with equal links, moving freely: Phong & Hoang (2012), Example 1.\n///\n/// The slider passes over the crank's bearing, where the constraints lose rank:\n/// at q1 = pi/2 + k*pi.\nmechanism SliderCrank {\n    const g: m/s^2 = 9.81;\n\n    /// length of the crank\n    param L1: m = 0.5;\n    /// length of the connecting rod\n    param L2: m = 0.5;\n    /// mass of the crank\n    param m1: kg = 1;\n    /// mass of the connecting rod\n    param m2: kg = 1;\n    /// mass of the slider\n    param m3: kg = 0.5;\n    /// inertia of the crank about its centre of mass\n    param J1: kg*m^2 = 0.1;\n    /// inertia of the connecting rod about its centre of mass\n    param J2: kg*m^2 = 0.1;\n    let e1 = L1/2;\n    let e2 = L2/2;\n\n    /// crank angle, from the x axis\n    coord q1: rad;\n    /// angle of the connecting rod, downwards from the x axis\n    coord q2: rad;\n    /// position of the slider\n    coord q3: m;\n\n    let A = [L1*cos(q1), L1*sin(q1)];\n    let c2 = A + e2*[cos(q2), -sin(q2)];\n\n    kinetic 1/2*(m1*e1^2 + J1)*der(q1)^2;\n    kinetic 1/2*m2*norm2(der(c2)) + 1/2*J2*der(q2)^2;\n    kinetic 1/2*m3*der(q3)^2;\n    potential m1*g*e1*sin(q1) + m2*g*c2.y;\n\n    constraint L1*cos(q1) + L2*cos(q2) = q3;\n    constraint L1*sin(q1) = L2*sin(q2);\n\n    start { q1 = 45*deg; q2 ~ 45*deg; q3 ~ 0.7; }\n\n    /// position of the connecting rod's centre of mass\n    output x2: m = c2.x;\n    output y2: m = c2.y;\n\n    draw line([0, 0], A, [q3, 0]);\n    draw polygon([q3 - 0.05, -0.03], [q3 + 0.05, -0.03], [q3 + 0.05, 0.03], [q3 - 0.05, 0.03]);\n}\n";
     static STRUCTURE: Structure = Structure {
@@ -176,6 +176,9 @@ pub mod slider_crank {
         ///
         /// Costs 34 products, 15 sums, 2 sine–cosine pairs. As derived: 112 products, 35 sums, 2 sine–cosine pairs.
         fn terms(&self, state: &State<T, 3>, out: &mut Terms<T, 3, 2>) {
+            if !out.is_filled_by(&STRUCTURE) {
+                return self.begin_terms(state, out);
+            }
             let [q1, q2, _] = state.q.data.0[0];
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
@@ -184,7 +187,6 @@ pub mod slider_crank {
             let m2_l2 = m2 * l2;
             out.mass.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             out.mass.data.0[2][2] = m3;
-            out.jacobian.data.0[2][0] = -T::one();
             let (sin_q1, cos_q1) = q1.sin_cos();
             let l1_sin_q1 = l1 * sin_q1;
             out.jacobian.data.0[0][0] = -l1_sin_q1;
@@ -323,6 +325,9 @@ pub mod slider_crank {
         ///
         /// Costs 14 products, 11 sums, 2 sine–cosine pairs. As derived: 35 products, 13 sums, 2 sine–cosine pairs.
         fn position(&self, state: &State<T, 3>, out: &mut Position<T, 3, 2>) {
+            if !out.is_filled_by(&STRUCTURE) {
+                return self.begin_position(state, out);
+            }
             let [q1, q2, q3] = state.q.data.0[0];
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
             out.mass.data.0[0][0] = (l1 * l1)
@@ -330,7 +335,6 @@ pub mod slider_crank {
             let m2_l2 = m2 * l2;
             out.mass.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             out.mass.data.0[2][2] = m3;
-            out.jacobian.data.0[2][0] = -T::one();
             let (sin_q1, cos_q1) = q1.sin_cos();
             let l1_sin_q1 = l1 * sin_q1;
             out.jacobian.data.0[0][0] = -l1_sin_q1;
@@ -496,6 +500,9 @@ pub mod slider_crank {
             multiplier: &SVector<T, 2>,
             out: &mut Linearised<T, 3, 2>,
         ) -> bool {
+            if !out.is_filled_by(&STRUCTURE) {
+                out.clear(&STRUCTURE);
+            }
             let [q1, q2, _] = state.q.data.0[0];
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let [q1_ddot, q2_ddot, _] = acceleration.data.0[0];
@@ -568,6 +575,24 @@ pub mod slider_crank {
             out.row_by_velocity.data.0[1][0] = cos_q2 * product_17;
             out.row_by_velocity.data.0[1][1] = -sin_q2 * product_17;
             true
+        }
+    }
+    impl<T: Real> SliderCrank<T> {
+        /// Writes what does not change, and everything else after that.
+        #[cold]
+        #[inline(never)]
+        fn begin_terms(&self, state: &State<T, 3>, out: &mut Terms<T, 3, 2>) {
+            out.clear(&STRUCTURE);
+            out.jacobian.data.0[2][0] = -T::one();
+            self.terms(state, out);
+        }
+        /// Writes what does not change, and everything else after that.
+        #[cold]
+        #[inline(never)]
+        fn begin_position(&self, state: &State<T, 3>, out: &mut Position<T, 3, 2>) {
+            out.clear(&STRUCTURE);
+            out.jacobian.data.0[2][0] = -T::one();
+            self.position(state, out);
         }
     }
     impl<T: Real> SliderCrank<T> {
