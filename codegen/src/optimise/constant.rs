@@ -3,7 +3,7 @@
 //! In:  a program.
 //! Out: a program of those outputs, and one of all others in the order in which they stood.
 
-use super::dead::without_dead_in_order;
+use super::dead::without_dead;
 use super::program::{Operation, Program, Value};
 
 /// Takes the outputs that are numbers out, into a program of their own: the numbers, and the
@@ -17,10 +17,7 @@ pub fn numbers_apart(program: &Program) -> (Program, Program) {
             None => rest.outputs.push((*slot, *value)),
         }
     }
-    match numbers.is_empty() {
-        true => (numbers, rest),
-        false => (numbers, without_dead_in_order(&rest)),
-    }
+    (numbers, without_dead(&rest))
 }
 
 /// Writes a value into another program, if it is a number or one with its sign changed.

@@ -7,33 +7,6 @@ pub(super) fn without_dead(program: &Program) -> Program {
     ordered(program.list(), &program.outputs, &|value| value)
 }
 
-/// The same, in the order in which they stand.
-pub(super) fn without_dead_in_order(program: &Program) -> Program {
-    let mut live = vec![false; program.len()];
-    for (_, value) in &program.outputs {
-        live[value.index()] = true;
-    }
-    for (i, operation) in program.list().iter().enumerate().rev() {
-        if live[i] {
-            operation.for_each_operand(&mut |x| live[x.index()] = true);
-        }
-    }
-    let mut kept = Program::default();
-    let mut places = vec![None; program.len()];
-    let place = |places: &[Option<Value>], x: Value| places[x.index()].unwrap_or(x);
-    for (value, operation) in program.operations() {
-        if live[value.index()] {
-            let renamed = renamed(operation, &|x| place(&places, x));
-            places[value.index()] = Some(kept.push(renamed));
-        }
-    }
-    let outputs = program.outputs.iter();
-    kept.outputs = outputs
-        .map(|(slot, x)| (*slot, place(&places, *x)))
-        .collect();
-    kept
-}
-
 /// Makes a program of operations that stand in any order: each comes directly after its
 /// operands, in the order in which the outputs need them. A value is read by way of `instead`,
 /// which may put another in its place.

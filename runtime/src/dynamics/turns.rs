@@ -6,7 +6,7 @@
 //! A coordinate goes round if the constraint rows are the same one turn before.
 
 use super::Core;
-use crate::linalg::{diagonal, set_units};
+use crate::linalg::diagonal;
 use crate::tolerance::excusable;
 use crate::{DynamicsError, Mechanism, Real, State, Structure};
 use core::f64::consts::TAU;
@@ -70,17 +70,16 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             &mut self.sizes,
             &turns,
         );
+        let far = self.coordinate_scale.range * T::from_f64(FAR);
+        let inertia = diagonal(self.metric.factor.as_slice(), N);
+        let known = self.weights.iter_mut().zip(&mut self.far);
+        for ((weight, length), inertia) in known.zip(inertia) {
+            *weight = inertia;
+            *length = far / inertia.sqrt();
+        }
         // Integrals of states have no inertia that counts.
         let lengths = N - mechanism.structure().states;
-        let inertia = diagonal(self.metric.factor.as_slice(), N);
-        for (weight, inertia) in self.weights[..lengths].iter_mut().zip(inertia) {
-            *weight = inertia;
-        }
-        let far = self.coordinate_scale.range * T::from_f64(FAR);
-        set_units(self.metric.factor.as_slice(), &mut self.far);
-        for length in &mut self.far {
-            *length *= far;
-        }
+        self.weights[lengths..].fill(T::zero());
         Ok(())
     }
 
