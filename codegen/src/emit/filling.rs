@@ -5,7 +5,7 @@
 
 use super::function::{Decided, Place};
 use super::parts::{Parts, STRAIGHT_LINE};
-use super::subject::{Called, Subject, Written, argument, doc_lines};
+use super::subject::{Called, Reads, Subject, Written, argument, doc_lines};
 use super::symbol::SymbolNames;
 use crate::optimise::{Optimised, Program, numbers_apart};
 use proc_macro2::TokenStream;
@@ -42,6 +42,7 @@ impl Method {
         let in_parts = heading.divisible && loops.is_none() && program.len() > straight_line;
         let all = in_parts || !heading.before.is_empty();
         let state = argument("state", all || SymbolNames::reads_state(program));
+        let out = argument("out", all || Reads::of(program).out);
         let types = types(subject, heading.buffer);
         let [state_type, out_type] = &types;
         let name = argument(heading.name, true);
@@ -68,7 +69,7 @@ impl Method {
             ///
             #[doc = #cost]
             #inline
-            fn #name(&self, #state: &#state_type, out: &mut #out_type) #result {
+            fn #name(&self, #state: &#state_type, #out: &mut #out_type) #result {
                 #before
                 #statements
                 #solved
