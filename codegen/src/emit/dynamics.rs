@@ -111,6 +111,7 @@ fn filled(subject: &Subject, [name, buffer, docs]: [&str; 3], computed: &Optimis
     let [state_type, out_type] = types(subject, buffer);
     let by_columns = subject.programs.inertia.is_some();
     let mass = by_columns.then(|| quote!(self.write_mass(state, &mut out.mass);));
+    let ends_here = (by_columns || !program.is_empty()).then(|| quote!(return));
     let heading = Heading {
         name,
         buffer,
@@ -118,7 +119,7 @@ fn filled(subject: &Subject, [name, buffer, docs]: [&str; 3], computed: &Optimis
         cost: cost_in_words(computed),
         before: quote! {
             if !out.is_filled_by(&STRUCTURE) {
-                return self.#first(state, out);
+                #ends_here self.#first(state, out);
             }
             #mass
         },
