@@ -280,7 +280,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             structure.components,
             &workspace,
         )?;
-        next.set_drift(&placed.drift, |factor| chart.factors()[factor].speed);
+        next.set_drift(&placed.drift, Some(chart));
         let factors = next.factors_mut().iter_mut().zip(chart.factors());
         for ((next, before), met) in factors.zip(&placed.met) {
             next.spacing = met.spacing;
@@ -332,9 +332,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         start: &State<T, N>,
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        mechanism.position(end, &mut self.position);
-        if !is_zero(self.position.drift.as_slice()) {
-            return Ok(());
+        // A law of time may stop at either end.
+        let still = mechanism.structure().scleronomic;
+        for state in [start, end].into_iter().skip(usize::from(still)) {
+            mechanism.position(state, &mut self.position);
+            if !is_zero(self.position.drift.as_slice()) {
+                return Ok(());
+            }
         }
         let (before, after) = (mechanism.energy(start), mechanism.energy(end));
         let half = (end.t - start.t) * T::from_f64(0.5);

@@ -23,6 +23,10 @@ use crate::tolerance::excusable;
 use crate::{ConnectedComponent, Real, State};
 use nalgebra::{SMatrix, SVector};
 
+/// Speed of a sheet, relative to the largest so far, below which its direction has too few
+/// digits.
+const STOPPED: f64 = 1e-3;
+
 /// A chart of the sheet on which the motion lives. What there is of each coordinate or row
 /// is in the order of the factors.
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +43,9 @@ pub(crate) struct Chart<T, const N: usize, const R: usize> {
     q: [T; N],
     /// The velocity of the sheet where the coordinates of the chart rest.
     drift: [T; N],
+    /// Its direction, of length one in each factor, or the last one that it had before it
+    /// nearly vanished.
+    heading: [T; N],
     /// How large the coordinates are.
     sizes: [T; N],
     /// What columns and rows are multiplied by to have size one.
@@ -82,6 +89,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             t: base.t,
             q: [zero; N],
             drift: [zero; N],
+            heading: [zero; N],
             sizes: [zero; N],
             column_scale: [zero; N],
             row_scale: [zero; R],
@@ -138,15 +146,26 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
         Some(freedoms)
     }
 
-    /// Takes note of how fast the sheet moves, and of how fast it was known to.
-    pub(crate) fn set_drift(&mut self, drift: &SVector<T, N>, known: impl Fn(usize) -> T) {
+    /// Takes note of how fast the sheet moves, and of how fast and where to it did before.
+    pub(crate) fn set_drift(&mut self, drift: &SVector<T, N>, before: Option<&Self>) {
         let mut at = 0;
         for (index, part) in parts(self.components, (N, R)).enumerate() {
             let coordinates = at..at + part.n;
             let own = &mut self.drift[coordinates.clone()];
             part.take(drift.as_slice(), own);
-            let speed = length(own, &self.column_scale[coordinates]);
-            self.factors[index].speed = known(index).max(speed);
+            let speed = length(own, &self.column_scale[coordinates.clone()]);
+            let known = before.map_or(T::zero(), |before| before.factors[index].speed);
+            self.factors[index].speed = known.max(speed);
+            let heading = &mut self.heading[coordinates.clone()];
+            match before.filter(|_| speed <= known * T::from_f64(STOPPED)) {
+                Some(before) => heading.copy_from_slice(&before.heading[coordinates]),
+                None if speed > T::zero() => {
+                    for (heading, drift) in heading.iter_mut().zip(own) {
+                        *heading = *drift / speed;
+                    }
+                }
+                None => {}
+            }
             at += part.n;
         }
     }
@@ -187,6 +206,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             t: self.t,
             q: &self.q,
             drift: &self.drift,
+            heading: &self.heading,
             sizes: &self.sizes,
             column_scale: &self.column_scale,
             row_scale: &self.row_scale,

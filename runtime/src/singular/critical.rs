@@ -10,7 +10,7 @@
 use super::direction::Direction;
 use super::nodes::{BEYOND, Interpolated};
 use super::obstacle::Obstacle;
-use super::sheet::Sheet;
+use super::sheet::{Sheet, Shift};
 use crate::Real;
 use crate::equations::At;
 use crate::linalg::{Eliminated, Workspace, add_scaled, norm, solve_upper};
@@ -62,15 +62,15 @@ impl<T: Real> Sheet<'_, T> {
         if !self.kind.holonomic {
             return Ok(true);
         }
-        // Several loops have no one place where all of them are singular, and a law of time may
-        // lead there and back.
-        if like.block().size() != 1 || direction.is_of_time {
+        // Several loops have no one place where all of them are singular, a law of time may
+        // lead there and back, and the critical configuration is sought with rows as they are.
+        if like.block().size() != 1 || direction.is_of_time || direction.is_shifted {
             return self.vanishes_at_centre(state, like, direction, best, workspace);
         }
         let cross = self.cross(state, like, direction, best, workspace)?;
         let search = self.search_critical((state, like), direction, best, &cross, workspace)?;
         let Search { aside, unsure, .. } = search;
-        let most = self.largest_residual();
+        let most = self.largest_residual(Shift::NONE);
         let bound = critical::<T>() * cross.round_off;
         let off =
             (best.error + resolved()) * self.chart.coordinate_scale.range * T::from_f64(ASIDE);
@@ -106,7 +106,8 @@ impl<T: Real> Sheet<'_, T> {
         self.eliminate((t, q), Some(like))?;
         let unsure = T::from_f64(4.0) * best.error * self.frame.smallest();
         let bound = critical::<T>() * round_off + unsure * self.chart.coordinate_scale.range;
-        match self.largest_residual() <= bound {
+        let most = self.largest_residual(direction.shifted(direction.centre));
+        match most <= bound {
             true => Ok(true),
             false => Err(Obstacle::Unresolved),
         }

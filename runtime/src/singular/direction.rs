@@ -1,18 +1,19 @@
 //! The direction in which the constraints leave a singular configuration fastest.
 //!
 //! In:  a state near a singular configuration, its elimination.
-//! Out: [`Direction`]: along the sheet, and in time where constraints move.
+//! Out: [`Direction`]: along the sheet, and where constraints move in time, or with the
+//!      constraints that move while time stands still.
 //!
 //! The block of near-dependent rows changes along the sheet, to first order, by one
 //! matrix for each coordinate of the chart. Of the directions the one is taken along
 //! which all of its singular values pass zero fast and at one place.
 
 use super::obstacle::Obstacle;
-use super::sheet::Sheet;
+use super::sheet::{Sheet, Shift};
 use super::stored_nodes::SIDE;
 use crate::Real;
 use crate::equations::At;
-use crate::linalg::{Block, Eliminated, Workspace, add_scaled, norm};
+use crate::linalg::{Block, Eliminated, Workspace, add_scaled, dot, norm};
 use crate::tolerance::{difference, hull, spacing, window};
 
 /// Directions that are tried where several loops are nearly singular at once.
@@ -32,6 +33,11 @@ pub(super) struct Direction<'a, T> {
     pub(super) q: &'a mut [T],
     /// The change of time along it (s).
     t: T,
+    /// How the constraint rows that move are shifted along it, in the order and scale of the
+    /// frame's rows.
+    shift: &'a mut [T],
+    /// Whether any is.
+    pub(super) is_shifted: bool,
     /// Whether nothing but time moves along it.
     pub(super) is_of_time: bool,
     /// Where the singular configuration is.
@@ -48,6 +54,8 @@ impl<'a, T: Real> Direction<'a, T> {
         Self {
             q: workspace.numbers(n),
             t: T::zero(),
+            shift: workspace.numbers(n),
+            is_shifted: false,
             is_of_time: false,
             centre: T::zero(),
             rate: T::zero(),
@@ -57,7 +65,9 @@ impl<'a, T: Real> Direction<'a, T> {
 
     fn set(&mut self, other: &Direction<'_, T>) {
         self.q.copy_from_slice(other.q);
+        self.shift.copy_from_slice(other.shift);
         (self.t, self.is_of_time) = (other.t, other.is_of_time);
+        self.is_shifted = other.is_shifted;
         (self.centre, self.rate) = (other.centre, other.rate);
         self.change.set(&other.change);
     }
@@ -87,16 +97,41 @@ impl<'a, T: Real> Direction<'a, T> {
         add_scaled(q, distance, self.q);
         state.t + self.t * distance
     }
+
+    /// What the constraint rows are to be a distance along it, instead of zero.
+    pub(super) fn shifted(&self, distance: T) -> Shift<'_, T> {
+        Shift(self.is_shifted.then_some((distance, &*self.shift)))
+    }
+}
+
+/// What moves the sheet along a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Mover {
+    /// Time.
+    Time,
+    /// The constraint rows that move, while time stands still: where a law of time stops it
+    /// leads no farther, and where it goes on with another polynomial it is not smooth, but
+    /// whatever it is, it may have been more or less.
+    Rows,
+}
+
+/// The same in numbers.
+#[derive(Clone, Copy, Debug)]
+enum Moving<'a, T> {
+    Nothing,
+    /// The time (s) in which the sheet moves by one unit of length when it is fastest.
+    Time(T),
+    /// How rows are shifted in one unit of length.
+    Rows(&'a [T]),
 }
 
 /// Where directions are looked for.
 struct Search<'a, 'b, T> {
     state: At<'a, T>,
     like: &'a Eliminated<'b, T>,
-    /// Coordinates of the chart, and time where the sheet moves.
+    /// Coordinates of the chart, and what moves the sheet, if anything does.
     dimension: usize,
-    /// The time (s) in which the sheet moves by one unit of length when it is fastest.
-    clock: Option<T>,
+    moving: Moving<'a, T>,
 }
 
 /// The best direction so far, and its score; none yet if that is not known.
@@ -106,21 +141,30 @@ struct Best<'a, T> {
 }
 
 impl<T: Real> Sheet<'_, T> {
-    /// The best direction through a state with this elimination.
+    /// The best direction through a state with this elimination, for a sheet that is moved by
+    /// this if it moves.
     #[inline(never)]
     pub(super) fn direction<'b>(
         &mut self,
         state: At<'_, T>,
         like: &Eliminated<'_, T>,
+        mover: Mover,
         workspace: &Workspace<'b, T>,
     ) -> Result<Direction<'b, T>, Obstacle> {
-        let clock = self.clock();
-        let dimension = self.chart.freedoms + usize::from(clock.is_some());
+        let rows = workspace.numbers(self.chart.n());
+        let moves = self.chart.speed > T::zero();
+        let moving = match mover {
+            Mover::Time if moves => Moving::Time(T::one() / self.chart.speed),
+            Mover::Rows if moves && self.shift(state, rows) => Moving::Rows(rows),
+            Mover::Rows => return Err(Obstacle::Unresolved),
+            Mover::Time => Moving::Nothing,
+        };
+        let dimension = self.chart.freedoms + usize::from(moves);
         let search = Search {
             state,
             like,
             dimension: dimension.min(self.chart.n()),
-            clock,
+            moving,
         };
         let mut best = Best {
             direction: Direction::new(self.chart.n(), like.block().size(), workspace),
@@ -160,7 +204,7 @@ impl<T: Real> Sheet<'_, T> {
         for entry in &mut *gradient {
             *entry /= size;
         }
-        self.set_line(gradient, search.clock, &mut direction);
+        self.set_line(gradient, search.moving, &mut direction);
         self.change(search, &direction, &mut change, workspace)?;
         self.consider(search.like.block(), direction, &change, best, workspace);
         Ok(())
@@ -190,7 +234,7 @@ impl<T: Real> Sheet<'_, T> {
             spread_evenly(trial, shares);
             workspace.scope(|workspace| {
                 let mut direction = Direction::new(self.chart.n(), size, workspace);
-                self.set_line(shares, search.clock, &mut direction);
+                self.set_line(shares, search.moving, &mut direction);
                 if dimension <= FEW {
                     change.set_combination(shares, &kept[..dimension]);
                 } else {
@@ -203,14 +247,29 @@ impl<T: Real> Sheet<'_, T> {
         Ok(())
     }
 
-    /// The time (s) in which the sheet moves by one unit of length when it is fastest;
-    /// none if it rests.
-    fn clock(&self) -> Option<T> {
-        let speed = self.chart.speed;
-        (speed > T::zero()).then(|| T::one() / speed)
+    /// How rows are shifted when the sheet moves on by one unit of length, as it moved last:
+    /// by what the law of time does to them in a while; `false` if that is nothing.
+    fn shift(&mut self, state: At<'_, T>, rows: &mut [T]) -> bool {
+        let chart = self.chart;
+        let duration = spacing::<T>() * chart.coordinate_scale.range / chart.speed;
+        for (sign, t) in [(T::one(), state.t), (-T::one(), state.t + duration)] {
+            self.equations.locate(t, state.q);
+            let residual = self.equations.constraints().residual;
+            for (target, &row) in rows.iter_mut().zip(chart.rows) {
+                *target += sign * chart.row_scale[row] * residual[row];
+            }
+        }
+        self.equations.locate(state.t, state.q);
+        let moved = self.rates(chart.heading, T::zero());
+        let share = dot(rows, moved) / dot(rows, rows);
+        for entry in &mut *rows {
+            *entry *= share;
+        }
+        // False for NaN, too: where nothing moved, or was seen to.
+        share.abs() > T::zero()
     }
 
-    /// A line along one coordinate of the chart, or along time.
+    /// A line along one coordinate of the chart, or along what moves the sheet.
     fn set_axis(
         &self,
         search: &Search<'_, '_, T>,
@@ -221,21 +280,32 @@ impl<T: Real> Sheet<'_, T> {
         workspace.scope(|workspace| {
             let shares = workspace.numbers(search.dimension);
             shares[axis] = T::one();
-            self.set_line(shares, search.clock, direction);
+            self.set_line(shares, search.moving, direction);
         });
     }
 
-    /// A line along some coordinates of the chart, of which time may be the last.
-    fn set_line(&self, shares: &[T], clock: Option<T>, direction: &mut Direction<'_, T>) {
+    /// A line along some coordinates of the chart, after which a share of what moves the
+    /// sheet may follow.
+    fn set_line(&self, shares: &[T], moving: Moving<'_, T>, direction: &mut Direction<'_, T>) {
         direction.q.fill(T::zero());
         for (share, column) in shares.iter().zip(self.chart.tangents()) {
             add_scaled(direction.q, *share, column);
         }
-        direction.t = match (clock, shares.get(self.chart.freedoms)) {
-            (Some(unit), Some(share)) => unit * *share,
-            _ => T::zero(),
-        };
-        add_scaled(direction.q, direction.t, self.chart.drift);
+        direction.t = T::zero();
+        let share = shares.get(self.chart.freedoms).copied();
+        match (moving, share.unwrap_or_default()) {
+            (Moving::Nothing, _) => {}
+            (Moving::Time(unit), share) => {
+                direction.t = unit * share;
+                add_scaled(direction.q, direction.t, self.chart.drift);
+            }
+            (Moving::Rows(rows), share) => {
+                add_scaled(direction.q, share, self.chart.heading);
+                direction.shift.fill(T::zero());
+                add_scaled(direction.shift, share, rows);
+                direction.is_shifted = true;
+            }
+        }
         let others = &shares[..self.chart.freedoms.min(shares.len())];
         direction.is_of_time = direction.t != T::zero() && norm(others) < T::from_f64(STILL);
         (direction.centre, direction.rate) = (T::zero(), T::zero());

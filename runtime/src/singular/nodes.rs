@@ -312,7 +312,7 @@ impl<T: Real> Sheet<'_, T> {
                 v: state.v,
             });
             found.predict(node, place, here, point.q);
-            self.project(t, point.q, Some(like))?;
+            self.project(t, point.q, Some(like), direction.shifted(distance))?;
             // False for NaN, too.
             let clear = self.frame.smallest() >= clearance::<T>() * found.spacing;
             if !clear {

@@ -7,7 +7,7 @@
 //! before. Wide ones have less round-off, narrow ones less error of interpolation, and
 //! more room where the sheet turns or other singular configurations are near.
 
-use super::direction::Direction;
+use super::direction::{Direction, Mover};
 use super::nodes::Interpolated;
 use super::obstacle::Obstacle;
 use super::sheet::{PointView, Sheet};
@@ -29,6 +29,19 @@ const STRAYS: f64 = 10.0;
 /// By how much worse an interpolation may be than the best of all spacings, so that no others
 /// are tried.
 const NEARLY: f64 = 4.0;
+
+/// Interpolations: the best one, and room for others.
+type Tried<'a, T> = [Interpolated<'a, T>; 3];
+const BEST: usize = 0;
+
+/// Whether a state is placed between nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Serves {
+    /// Between the best ones.
+    Well,
+    /// It is better placed without any.
+    Not(Placement),
+}
 
 /// How a state was put onto its sheet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -161,30 +174,68 @@ impl<T: Real> Sheet<'_, T> {
         like: &Eliminated<'_, T>,
         workspace: &Workspace<'b, T>,
     ) -> Result<Result<Interpolated<'b, T>, Placement>, Obstacle> {
-        let mut direction = self.direction(state, like, workspace)?;
-        let found = self.find_nodes_along(state, like, &direction, workspace);
-        if !direction.is_of_time || !matches!(found, Err(Obstacle::Unresolved)) {
-            return found;
+        let mut tried = core::array::from_fn(|_| Interpolated::new(&self.chart, workspace));
+        let mut found = self.try_nodes(state, like, Mover::Time, &mut tried, workspace);
+        let poor = match found {
+            Ok(Serves::Well) => tried[BEST].error > self.chart.accepted,
+            Ok(Serves::Not(_)) => false,
+            Err(_) => true,
+        };
+        if poor && self.chart.speed > T::zero() {
+            let error = found.is_ok().then_some(tried[BEST].error);
+            let other = self.try_nodes(state, like, Mover::Rows, &mut tried, workspace);
+            let is_better =
+                other == Ok(Serves::Well) && error.is_none_or(|error| tried[BEST].error < error);
+            if is_better {
+                found = other;
+            } else if found.is_ok() {
+                found = self.try_nodes(state, like, Mover::Time, &mut tried, workspace);
+            }
         }
-        // A law of time may stop before it comes to where it leads now, and there is nothing to
-        // be crossed along it: nodes around the state itself serve as well.
-        direction.centre = T::zero();
-        self.find_nodes_along(state, like, &direction, workspace)
+        let [best, ..] = tried;
+        match found? {
+            Serves::Well => Ok(Ok(best)),
+            Serves::Not(placement) => Ok(Err(placement)),
+        }
+    }
+
+    /// Tries nodes along the best direction of those in which this moves the sheet, if it moves.
+    fn try_nodes(
+        &mut self,
+        state: At<'_, T>,
+        like: &Eliminated<'_, T>,
+        mover: Mover,
+        tried: &mut Tried<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Result<Serves, Obstacle> {
+        workspace.scope(|workspace| {
+            let mut direction = self.direction(state, like, mover, workspace)?;
+            let found = self.try_direction(state, like, &direction, tried, workspace);
+            if !direction.is_of_time || !matches!(found, Err(Obstacle::Unresolved)) {
+                return found;
+            }
+            // A law of time may stop before it comes to where it leads now, and there is nothing
+            // to be crossed along it: nodes around the state itself serve as well.
+            direction.centre = T::zero();
+            self.try_direction(state, like, &direction, tried, workspace)
+        })
     }
 
     /// The same along a direction.
-    fn find_nodes_along<'b>(
+    fn try_direction(
         &mut self,
         state: At<'_, T>,
         like: &Eliminated<'_, T>,
         direction: &Direction<'_, T>,
-        workspace: &Workspace<'b, T>,
-    ) -> Result<Result<Interpolated<'b, T>, Placement>, Obstacle> {
-        let Some(best) = self.search(state, like, direction, workspace)? else {
+        tried: &mut Tried<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Result<Serves, Obstacle> {
+        if !self.search(state, like, direction, tried, workspace)? {
             return Err(Obstacle::Unresolved);
-        };
-        if !workspace.scope(|inner| self.is_crossing(state, like, direction, &best, inner))? {
-            return Ok(Err(Placement::Gap));
+        }
+        let [best, ..] = tried;
+        if !workspace.scope(|inner| self.is_crossing(state, like, direction, best, inner))? {
+            return Ok(Serves::Not(Placement::Gap));
         }
         // Rows are no more exact than the coordinates, whose round-off grows with their size.
         let CoordinateScale { size, range } = self.chart.coordinate_scale;
@@ -197,44 +248,43 @@ impl<T: Real> Sheet<'_, T> {
         // Where neither is as good as wanted, the better one.
         let sine = like.smallest();
         if best.error > self.chart.accepted && best.error * sine * sine > T::EPSILON {
-            return Ok(Err(Placement::Regular));
+            return Ok(Serves::Not(Placement::Regular));
         }
-        self.store_nodes(state, direction, &best);
-        Ok(Ok(best))
+        self.store_nodes(state, direction, best);
+        Ok(Serves::Well)
     }
 
-    /// Tries spacings; `None` if the state is outside the nodes of all that are narrow
+    /// Tries spacings; `false` if the state is outside the nodes of all that are narrow
     /// enough.
-    fn search<'b>(
+    fn search(
         &mut self,
         state: At<'_, T>,
         like: &Eliminated<'_, T>,
         direction: &Direction<'_, T>,
-        workspace: &Workspace<'b, T>,
-    ) -> Result<Option<Interpolated<'b, T>>, Obstacle> {
+        [best, found, last]: &mut Tried<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Result<bool, Obstacle> {
         let (known, mut width) = self.spacings(direction);
         let mut tried = None;
-        let mut last = Interpolated::new(&self.chart, workspace);
         if known > T::zero() {
             last.spacing = known;
-            let inside = self.between_nodes(state, like, direction, &mut last, workspace);
-            if inside == Ok(true) && self.serves(&last) {
-                return Ok(Some(last));
+            let inside = self.between_nodes(state, like, direction, last, workspace);
+            if inside == Ok(true) && self.serves(last) {
+                core::mem::swap(best, last);
+                return Ok(true);
             }
             tried = Some(inside);
         }
-        let mut found = Interpolated::new(&self.chart, workspace);
-        let mut best = Interpolated::new(&self.chart, workspace);
         let (mut least, mut why) = (None, None);
         for _ in 0..LEVELS {
             let inside = match tried.take_if(|_| width == known) {
                 Some(inside) => {
-                    core::mem::swap(&mut found, &mut last);
+                    core::mem::swap(found, last);
                     inside
                 }
                 None => {
                     found.spacing = width;
-                    self.between_nodes(state, like, direction, &mut found, workspace)
+                    self.between_nodes(state, like, direction, found, workspace)
                 }
             };
             match inside {
@@ -242,7 +292,7 @@ impl<T: Real> Sheet<'_, T> {
                 Ok(true) => {
                     let resolves = found.error <= resolved();
                     if least.is_none_or(|least| found.score < least) {
-                        core::mem::swap(&mut best, &mut found);
+                        core::mem::swap(best, found);
                         least = Some(best.score);
                     }
                     if resolves {
@@ -254,9 +304,9 @@ impl<T: Real> Sheet<'_, T> {
             width *= T::from_f64(0.5);
         }
         match (least, why) {
-            (Some(_), _) => Ok(Some(best)),
+            (Some(_), _) => Ok(true),
             (None, Some(why)) => Err(why),
-            (None, None) => Ok(None),
+            (None, None) => Ok(false),
         }
     }
 

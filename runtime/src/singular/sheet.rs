@@ -88,6 +88,32 @@ impl<'a, T: Real> PointView<'a, T> {
     }
 }
 
+/// What constraint rows are to be instead of zero, in the order and scale of the frame's rows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shift<'a, T>(pub(super) Option<(T, &'a [T])>);
+
+impl<T: Real> Shift<'_, T> {
+    /// Zero.
+    pub(super) const NONE: Self = Self(None);
+
+    /// By how much rows are short of it, in `room` if it is not zero.
+    fn opposite<'b>(
+        self,
+        residual: &'b [T],
+        chart: &ChartView<'b, T>,
+        room: &'b mut [T],
+    ) -> Right<'b, T> {
+        let Some((share, rows)) = self.0 else {
+            return chart.right(-T::one(), residual);
+        };
+        room.fill(T::zero());
+        for ((target, shift), &row) in room.iter_mut().zip(rows).zip(chart.rows) {
+            *target = share * *shift - chart.row_scale[row] * residual[row];
+        }
+        Right::Given(room)
+    }
+}
+
 /// Of which kind a sheet is.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Kind {
@@ -259,10 +285,10 @@ impl<'a, T: Real> Sheet<'a, T> {
 
     /// The largest of the constraints that is left when the rows before the near-dependent
     /// ones are eliminated.
-    pub(super) fn largest_residual(&mut self) -> T {
+    pub(super) fn largest_residual(&mut self, shift: Shift<'_, T>) -> T {
         let residual = self.equations.constraints().residual;
-        self.frame
-            .largest_reduced(self.chart.right(-T::one(), residual))
+        let right = shift.opposite(residual, &self.chart, self.right);
+        self.frame.largest_reduced(right)
     }
 
     /// By how much a displacement in some time changes the near-dependent constraint, when the
@@ -271,6 +297,12 @@ impl<'a, T: Real> Sheet<'a, T> {
         self.set_rates(displacement, time);
         let mut reduced = self.frame.reduced(Right::Given(self.right));
         reduced.next().unwrap_or_default()
+    }
+
+    /// The changes of constraint rows by a displacement in some time.
+    pub(super) fn rates(&mut self, displacement: &[T], time: T) -> &[T] {
+        self.set_rates(displacement, time);
+        self.right
     }
 
     /// Fills the right-hand sides of the constraint rows with their changes.
@@ -299,16 +331,17 @@ impl<'a, T: Real> Sheet<'a, T> {
         }
     }
 
-    /// Moves a position along the chart's complement onto the sheet, by Newton's
-    /// iteration; leaves its frame.
+    /// Moves a position along the chart's complement onto the sheet, or to where constraint
+    /// rows are shifted, by Newton's iteration; leaves its frame.
     pub(super) fn project(
         &mut self,
         t: T,
         q: &mut [T],
         like: Option<&Eliminated<'_, T>>,
+        shift: Shift<'_, T>,
     ) -> Result<(), Obstacle> {
         self.eliminate((t, q), like)?;
-        self.project_from_here(t, q, like)
+        self.project_from_here(t, q, like, shift)
     }
 
     /// The same, from a position whose frame is at hand.
@@ -317,6 +350,7 @@ impl<'a, T: Real> Sheet<'a, T> {
         t: T,
         q: &mut [T],
         like: Option<&Eliminated<'_, T>>,
+        shift: Shift<'_, T>,
     ) -> Result<(), Obstacle> {
         let mut before: Option<T> = None;
         for _ in 0..MAX_CORRECTIONS {
@@ -324,7 +358,7 @@ impl<'a, T: Real> Sheet<'a, T> {
                 return Ok(());
             }
             let residual = self.equations.constraints().residual;
-            let right = self.chart.right(-T::one(), residual);
+            let right = shift.opposite(residual, &self.chart, self.right);
             let scales = self.chart.column_scale;
             self.frame.solve(right, scales, self.solution);
             let size = self.chart.length(self.solution);
@@ -397,7 +431,7 @@ impl<'a, T: Real> Sheet<'a, T> {
         workspace: &Workspace<'_, T>,
     ) -> Result<(), Obstacle> {
         point.set(state);
-        self.project_from_here(state.t, point.q, None)?;
+        self.project_from_here(state.t, point.q, None, Shift::NONE)?;
         let along = workspace.numbers(self.chart.freedoms);
         self.chart.coordinates(state.v, along);
         self.measure(Some(along), point);

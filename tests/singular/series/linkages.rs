@@ -120,6 +120,28 @@ pub fn driven_stops(random: &mut Random, index: usize) -> Trial {
     }
 }
 
+/// The same until it stops.
+pub fn driven_to_stop(random: &mut Random, index: usize) -> Trial {
+    driven_stops(random, index).until(1.0)
+}
+
+/// A crank driven along a spline, a knot of which lies in a dead centre, or 1e-6 … 1e-1 rad
+/// before or behind it.
+pub fn splined(random: &mut Random, index: usize) -> Trial {
+    let beside = match index % 2 {
+        0 => 0.0,
+        _ => random.signed_decade(1e-6, 1e-1),
+    };
+    let w = random.signed_decade(0.5, 4.0);
+    let set = vec![
+        ("p0", FRAC_PI_2 - w + beside),
+        ("w", w),
+        ("b0", random.within(1.0)),
+        ("wb", random.within(2.0)),
+    ];
+    Trial::short("splined_crank", "splined_crank_reduced", set).until(2.0)
+}
+
 /// Two knife edges that turn past each other.
 pub fn knife_edges(random: &mut Random, index: usize) -> Trial {
     let mut set = Set::new();
