@@ -387,15 +387,22 @@ impl Scanner<'_> {
     /// Quoted text, which ends at the latest with its line.
     fn quoted(&mut self, start: Position) {
         self.next();
-        let rest = self.text.get(start.offset as usize + 1..).unwrap_or("");
+        let opening = self.span_from(start);
+        let rest = self.text.get(opening.range().end..).unwrap_or("");
         let line = rest.lines().next().unwrap_or("");
-        if line.contains('"') {
-            while self.next().is_some_and(|c| c != '"') {}
+        if !line.contains('"') {
+            let error = Diagnostic::error(opening, "this `\"` is never closed");
+            let help = match self.names_a_file(start) {
+                true => "write the matching `\"` in the same line".to_string(),
+                false => instead('"'),
+            };
+            self.diagnostics.push(error.help(help));
+            return self.blank(opening);
         }
+        while self.next().is_some_and(|c| c != '"') {}
         let span = self.span_from(start);
-        let closed = span.text(self.text).trim_matches('"').len() + 2 == span.range().len();
         let plain = !span.text(self.text).contains('\\');
-        if closed && plain && self.names_a_file(start) {
+        if plain && self.names_a_file(start) {
             return;
         }
         let error = Diagnostic::error(span, NO_QUOTES);

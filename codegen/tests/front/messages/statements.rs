@@ -87,6 +87,8 @@ pub const STATEMENTS: &[&str] = &[
     "let n[i in 0..3] = n[i + 1]; output a = n[0];",
     "output a = \"x\";",
     "force table(\"data.csv\", \"x\") on q;",
+    "force table(\"data.csv, t) on q;",
+    "output \"a = q;",
     "output a = sum(i in 0..q, 1);",
     "output a = sum(i in 0..[1, 2], 1);",
     "output a = [1, 2]*[[1, 0], [0, 1]];",
