@@ -43,6 +43,8 @@ pub struct Named {
     pub events: FxHashMap<String, Span>,
     /// Constraints.
     pub constraints: FxHashMap<String, Span>,
+    /// Points of the picture: the first with two components, and the first with three.
+    pub points: FxHashMap<usize, Span>,
     /// States whose rate is given, by their coordinates.
     pub rates: FxHashMap<u32, Span>,
     /// Start entries: coordinate, whether the velocity is meant; with the number of parts

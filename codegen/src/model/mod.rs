@@ -27,6 +27,7 @@ mod member;
 mod messages;
 mod order;
 mod part;
+mod picture;
 mod rotation;
 mod scope;
 mod shape;

@@ -1,13 +1,12 @@
-//! The `start` block and the picture.
+//! The `start` block.
 
 use super::lowering::Lowering;
-use super::messages::are;
 use super::symbol::{Node, Symbol};
 use super::value::{Scalar, Value};
-use super::{Constraint, Point, Shape, Start};
+use super::{Constraint, Start};
 use crate::diagnostic::{Diagnostic, Span, figure};
 use crate::expr::Number;
-use crate::syntax::ast::{Drawing, Expr, ExprKind, StartItem};
+use crate::syntax::ast::{Expr, ExprKind, StartItem};
 use crate::syntax::messages::{GIVEN, REMOVE_ONE};
 use crate::syntax::written;
 
@@ -241,93 +240,5 @@ impl Lowering<'_> {
             Node::Symbol(Symbol::Velocity(i)) => Some((*i, true)),
             _ => None,
         }
-    }
-
-    /// Reads a part of the picture. Its numbers are sizes in units of their own.
-    pub fn draw(&mut self, shape: Drawing, arguments: &[Expr], span: Span) -> Option<()> {
-        self.evaluator.gains = true;
-        let drawn = self.shape(shape, arguments, span);
-        self.evaluator.gains = false;
-        self.mechanism.shapes.push(drawn?);
-        Some(())
-    }
-
-    fn shape(&mut self, shape: Drawing, arguments: &[Expr], span: Span) -> Option<Shape> {
-        let (centre, radius) = match (shape, arguments) {
-            (Drawing::Circle, [centre, radius]) => (std::slice::from_ref(centre), Some(radius)),
-            (Drawing::Circle, _) => {
-                let error = Diagnostic::error(span, "a circle has a centre and a radius");
-                return self.report(error.help("write `draw circle([x, y], r);`"));
-            }
-            _ => (arguments, None),
-        };
-        let mut points = Vec::new();
-        for argument in centre {
-            points.extend(self.points(argument)?);
-        }
-        match (shape, points.as_slice(), radius) {
-            (Drawing::Line, [_, _, ..], _) => Some(Shape::Line(points)),
-            (Drawing::Polygon, [_, _, _, ..], _) => Some(Shape::Polygon(points)),
-            (Drawing::Trace, [point], _) => Some(Shape::Trace(*point)),
-            (Drawing::Circle, [centre], Some(radius)) => {
-                let length = self.evaluator.scalar(radius, "a radius")?;
-                self.drawable(&[length], radius.span)?;
-                Some(Shape::Circle(*centre, length.id))
-            }
-            _ => self.wrong_points(shape, points.len(), span),
-        }
-    }
-
-    fn wrong_points(&mut self, shape: Drawing, found: usize, span: Span) -> Option<Shape> {
-        let [wants, call] = match shape {
-            Drawing::Line => ["a line has two or more points", "line(p, q)"],
-            Drawing::Polygon => ["a polygon has three or more points", "polygon(p, q, s)"],
-            Drawing::Trace => ["a trace has one point", "trace(p)"],
-            Drawing::Circle => ["a circle has one centre", "circle(p, r)"],
-        };
-        let message = format!("{wants}, here {}", are(found));
-        self.report(Diagnostic::error(span, message).help(format!("write `draw {call};`")))
-    }
-
-    /// A point, or the points of an array.
-    fn points(&mut self, e: &Expr) -> Option<Vec<Point>> {
-        let value = self.evaluator.evaluate(e)?.operand();
-        let parts = match &value {
-            Value::Array(array) => array.items.clone(),
-            _ => vec![value],
-        };
-        let mut points = Vec::new();
-        for part in parts {
-            let Some(components) = part
-                .as_vector()
-                .filter(|parts| matches!(parts.len(), 2 | 3))
-            else {
-                let message = format!(
-                    "a point is written `[x, y]` or `[x, y, z]`, this is {}",
-                    part.shape()
-                );
-                return self.report(Diagnostic::error(e.span, message));
-            };
-            self.drawable(components, e.span)?;
-            let zero = self.evaluator.graph.integer(0);
-            let at = |k: usize| components.get(k).map_or(zero, |scalar| scalar.id);
-            points.push([at(0), at(1), at(2)]);
-        }
-        Some(points)
-    }
-
-    /// A picture shows positions.
-    fn drawable(&mut self, scalars: &[Scalar], span: Span) -> Option<()> {
-        for scalar in scalars {
-            let analysis = self.evaluator.analysis(scalar.id);
-            if analysis.velocity() || analysis.input || analysis.state || analysis.acceleration {
-                let error = Diagnostic::error(
-                    span,
-                    "a picture shows positions, this has a velocity, an input or a state in it",
-                );
-                return self.report(error.help("draw what coordinates, parameters and `t` give"));
-            }
-        }
-        Some(())
     }
 }

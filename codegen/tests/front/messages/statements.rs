@@ -407,6 +407,11 @@ pub const STATEMENTS: &[&str] = &[
     "constraint [q, w] = 1;",
     "draw line([q, 0]);",
     "draw line([0, 0], [der(q), 0]);",
+    "draw line([0, 0], [der(der(q)), 0]);",
+    "input u = 1; draw circle([0, u], der(w));",
+    "state z; der(z) = q; draw trace([z, der(z)]);",
+    "draw line([0, 0], [q, 0, w]);",
+    "draw line([0, 0, w], [q, 0, w]); draw trace([q, w]);",
     // Energies, forces, constraints, starts.
     "kinetic der(q)^3;",
     "potential der(q);",
