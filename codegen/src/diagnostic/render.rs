@@ -8,6 +8,7 @@
 
 use super::{Diagnostic, Diagnostics, LIBRARY, Label, Severity, without_mark};
 use annotate_snippets::{Annotation, AnnotationKind, Level, Renderer, Snippet};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// More findings than this are counted, not shown: the first ones usually cause
@@ -87,9 +88,26 @@ fn snippet<'a>(
         }
     });
     let line = 1 + source[..part.start].matches('\n').count();
-    Snippet::source(&source[part.clone()])
+    Snippet::source(with_line_feeds(source, part.clone()))
         .line_start(line)
         .annotations(here)
+}
+
+/// A piece of a text with a blank for each carriage return that ends a line with its line
+/// feed, so that all places stay and no sign is shown for it.
+fn with_line_feeds(source: &str, part: Range<usize>) -> Cow<'_, str> {
+    let text = &source[part.start..part.end];
+    let followed = source[part.end..].starts_with('\n');
+    match text.contains('\r') {
+        false => Cow::Borrowed(text),
+        true => {
+            let inside = text.replace("\r\n", " \n");
+            match inside.strip_suffix('\r').filter(|_| followed) {
+                Some(rest) => Cow::Owned(format!("{rest} ")),
+                None => Cow::Owned(inside),
+            }
+        }
+    }
 }
 
 /// The bytes that a label covers, as far as the text has them.

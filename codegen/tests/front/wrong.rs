@@ -28,13 +28,18 @@ fn descriptions() -> Vec<PathBuf> {
 /// What is said about a description: errors, or warnings.
 fn message(path: &Path) -> String {
     let source = fs::read_to_string(path).expect("a wrong description");
+    said(path, &source)
+}
+
+/// What is said about the text of a description.
+fn said(path: &Path, source: &str) -> String {
     let name = path
         .file_name()
         .map(|name| name.to_string_lossy().into_owned())
         .unwrap_or_default();
-    match examine(&source, &CompileSettings::default()) {
-        Ok((_, warnings)) => warnings.render(&name, &source),
-        Err(errors) => errors.render(&name, &source),
+    match examine(source, &CompileSettings::default()) {
+        Ok((_, warnings)) => warnings.render(&name, source),
+        Err(errors) => errors.render(&name, source),
     }
 }
 
@@ -61,6 +66,17 @@ fn every_wrong_description_gets_its_message() {
         differing.is_empty(),
         "{list}\nBRICARD_BLESS=1 rewrites the messages"
     );
+}
+
+#[test]
+fn lines_that_end_as_in_windows_get_the_same_messages() {
+    for path in descriptions() {
+        let source = fs::read_to_string(&path).expect("a wrong description");
+        if !source.contains('\r') {
+            let other = said(&path, &source.replace('\n', "\r\n"));
+            assert_eq!(other, said(&path, &source), "{}", path.display());
+        }
+    }
 }
 
 #[test]
