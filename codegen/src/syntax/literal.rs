@@ -4,6 +4,9 @@ use super::messages::LARGE_AND_SMALL;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::expr::Number;
 
+/// The smallest number besides zero.
+const SMALLEST: f64 = 1e-308;
+
 /// Reads a decimal literal exactly.
 pub fn read_number(text: &str, span: Span) -> Result<Number, Box<Diagnostic>> {
     let refuse =
@@ -34,8 +37,10 @@ pub fn read_number(text: &str, span: Span) -> Result<Number, Box<Diagnostic>> {
     }
     let number = Number::parse_literal(text);
     let digits = text.split(['e', 'E']).next().unwrap_or("");
-    let vanished = |n: &Number| n.is_zero() && digits.contains(|c: char| ('1'..='9').contains(&c));
-    match number.filter(|n| n.is_finite() && !vanished(n)) {
+    // Smaller ones have lost digits, or all of them.
+    let is_zero = !digits.contains(|c: char| ('1'..='9').contains(&c));
+    let fits = |n: &Number| is_zero || n.to_f64().abs() >= SMALLEST;
+    match number.filter(|n| n.is_finite() && fits(n)) {
         Some(number) => Ok(number),
         None => Err(refuse(
             format!("`{}` is too large or too small", shorten(text)),

@@ -305,6 +305,7 @@ fn numbers_beyond_all_bounds_are_refused_and_none_becomes_zero() {
         "7^7^7^7",
         "1e400",
         "1e-400",
+        "1e-320",
         "10^-400*q",
         "0.1^1000",
         "1e-200*1e-200*q",
@@ -315,7 +316,15 @@ fn numbers_beyond_all_bounds_are_refused_and_none_becomes_zero() {
     for formula in refused {
         super::refuse(&super::with(&format!("output y = {formula};")));
     }
-    for formula in ["q^1000", "(1/3)^500*3^500", "1e-300*q*1e300", "0*q", "0^3"] {
+    for formula in [
+        "q^1000",
+        "(1/3)^500*3^500",
+        "1e-300*q*1e300",
+        "1e-308*q",
+        "0e-400*q",
+        "0*q",
+        "0^3",
+    ] {
         super::accept(&super::with(&format!("output y = {formula};")));
     }
 }

@@ -404,6 +404,7 @@ pub const STATEMENTS: &[&str] = &[
     "output a = ln(0);",
     "output a = q^2000;",
     "param a = 10^-400;",
+    "param a = 1e-320;",
     "constraint [q, w] = 1;",
     "draw line([q, 0]);",
     "draw line([0, 0], [der(q), 0]);",
