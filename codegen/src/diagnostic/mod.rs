@@ -201,6 +201,12 @@ impl Diagnostics {
         self.append(other);
     }
 
+    /// Whether something that stops the generator is known of a place.
+    pub(crate) fn is_wrong(&self, place: Span) -> bool {
+        let errors = self.list.iter().filter(|d| d.severity == Severity::Error);
+        errors.map(|d| d.primary.span).any(|span| span == place)
+    }
+
     /// Whether nothing was found.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()

@@ -239,7 +239,9 @@ impl Evaluator {
 
     /// `sum(i in a..b, term)`
     pub fn repeated_sum(&mut self, range: &Range, term: &Expr, span: Span) -> Option<Value> {
-        let bounds = self.bounds(range)?;
+        let Some(bounds) = self.bounds(range) else {
+            return self.look_once(range, |this| this.evaluate(term));
+        };
         let mut values = Vec::new();
         for i in bounds {
             let value = self

@@ -28,6 +28,9 @@ impl<'a> Lowering<'a> {
         self.parts(items, library);
         self.functions(items.iter().chain(library));
         self.place(items, &Rc::default(), &mut placed);
+        if self.evaluator.unread {
+            self.place_unread(items, &mut placed);
+        }
         let fresh: Vec<&Placed> = placed.iter().filter(|placed| placed.fresh).collect();
         for Placed { item, frame, .. } in &fresh {
             if let ItemKind::Declaration(d) = &item.kind

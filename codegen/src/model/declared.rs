@@ -64,6 +64,13 @@ pub struct Frame {
     pub parts: Vec<String>,
 }
 
+impl Frame {
+    /// Whether it is that of a part that nothing uses, or of one inside.
+    pub fn is_unread(&self) -> bool {
+        self.parts.len() > self.uses.len()
+    }
+}
+
 /// A quantity that waits for its value.
 #[derive(Debug)]
 pub struct Waiting {

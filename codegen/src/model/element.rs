@@ -12,7 +12,14 @@ impl Evaluator {
     /// `let name[range] = value`: one element after the other, each of which may
     /// use those before it.
     pub fn array(&mut self, name: &Name, range: &Range, value: &Expr) -> Option<Value> {
-        let bounds = self.bounds(range)?;
+        let Some(bounds) = self.bounds(range) else {
+            // One that uses its own elements would seem to be defined by itself.
+            let own = self.functions.mentions([value]).contains(&name.text);
+            return match own {
+                true => None,
+                false => self.look_once(range, |this| this.evaluate(value)),
+            };
+        };
         if bounds.is_empty() {
             let span = range.from.span.to(range.to.span);
             let error =

@@ -61,6 +61,8 @@ pub struct Evaluator {
     pub files: Vec<PathBuf>,
     /// The tables that code holds as data.
     pub tables: Vec<&'static Table>,
+    /// Whether what nothing uses is looked at, whose arguments have no values.
+    pub unread: bool,
     work: usize,
     rounds: usize,
     /// Whether too much work was refused.

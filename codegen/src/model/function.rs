@@ -111,7 +111,7 @@ impl Lowering<'_> {
     }
 
     /// Functions that nothing calls.
-    fn idle_functions(&self) -> Vec<Rc<Function>> {
+    pub fn idle_functions(&self) -> Vec<Rc<Function>> {
         let idle = self.evaluator.functions.known.values();
         let idle = idle.filter(|function| !function.used);
         let mut idle: Vec<Rc<Function>> = idle.filter_map(|f| f.item.clone()).collect();

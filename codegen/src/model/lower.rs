@@ -35,28 +35,15 @@ pub fn lower(
     folder: Option<&Path>,
 ) -> Result<(Mechanism, Diagnostics), Diagnostics> {
     let library = library(model);
-    let mut lowering = Lowering {
-        evaluator: Evaluator::default(),
-        mechanism: Mechanism::named(&model.name.text, &model.docs),
-        constants,
-        frozen,
-        indices: Vec::new(),
-        parts: FxHashMap::default(),
-        used_parts: Vec::new(),
-        frame: Rc::default(),
-        waiting: Vec::new(),
-        n_inputs: 0,
-        named: Named::default(),
-    };
-    lowering.evaluator.folder = folder.map(Path::to_path_buf);
-    let unreadable = model.unreadable.iter().cloned();
-    lowering.evaluator.scope.unreadable = unreadable.collect();
+    let mut lowering = begun(model, constants, frozen, folder);
     let placed = lowering.declare(&model.items, &library);
     for Placed { item, frame, .. } in &placed {
         lowering.inside(frame, |this| this.statements(std::slice::from_ref(*item)));
     }
     if complete {
         lowering.changes_fit(model);
+        let again = begun(model, constants, frozen, folder);
+        lowering.unread(again, &model.items, &library);
         lowering.whole(model);
     }
     let Lowering {
@@ -71,6 +58,31 @@ pub fn lower(
     mechanism.tables = std::mem::take(&mut evaluator.tables);
     mechanism.graph = std::mem::replace(&mut evaluator.graph, Graph::new());
     Ok((mechanism, evaluator.diagnostics))
+}
+
+/// A mechanism of which nothing is known yet.
+fn begun<'a>(
+    model: &Model,
+    constants: &'a [(String, f64)],
+    frozen: &'a [String],
+    folder: Option<&Path>,
+) -> Lowering<'a> {
+    let mut evaluator = Evaluator::default();
+    evaluator.folder = folder.map(Path::to_path_buf);
+    evaluator.scope.unreadable = model.unreadable.iter().cloned().collect();
+    Lowering {
+        evaluator,
+        mechanism: Mechanism::named(&model.name.text, &model.docs),
+        constants,
+        frozen,
+        indices: Vec::new(),
+        parts: FxHashMap::default(),
+        used_parts: Vec::new(),
+        frame: Rc::default(),
+        waiting: Vec::new(),
+        n_inputs: 0,
+        named: Named::default(),
+    }
 }
 
 /// The statements of the library, if a description uses it.

@@ -38,6 +38,7 @@ mod symbol;
 mod table;
 mod unit;
 mod unit_names;
+mod unread;
 mod validity;
 mod value;
 

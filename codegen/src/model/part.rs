@@ -45,6 +45,9 @@ impl<'a> Lowering<'a> {
         };
         for part in parts(library).chain(parts(items)) {
             let name = &part.name;
+            for argument in &part.arguments {
+                self.unit(argument.unit.as_ref());
+            }
             if self.is_free(name).is_none() {
                 continue;
             }
@@ -143,7 +146,13 @@ impl<'a> Lowering<'a> {
         let Some(range) = &quantity.range else {
             return self.element(&path, (part, arguments, span), None, placed);
         };
-        for i in self.evaluator.bounds(range)? {
+        let Some(bounds) = self.evaluator.bounds(range) else {
+            if self.evaluator.unread {
+                self.evaluator.scope.make_unknown(&quantity.name.text);
+            }
+            return None;
+        };
+        for i in bounds {
             let path = format!("{path}[{i}]");
             let index = Some((&range.index, i));
             self.element(&path, (part, arguments, span), index, placed)?;

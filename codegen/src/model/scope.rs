@@ -163,6 +163,13 @@ impl Scope {
         }
     }
 
+    /// Says of a name that nothing is known of it but that it is declared.
+    pub fn make_unknown(&mut self, name: &str) {
+        if let Some(i) = self.place(name) {
+            (self.entries[i].kind, self.entries[i].value) = (Kind::Argument, None);
+        }
+    }
+
     /// Remembers the number without unit that a quantity is made with.
     pub fn set_bare(&mut self, name: &str, bare: Option<Bare>) {
         if let Some(i) = self.place(name) {

@@ -32,7 +32,9 @@ impl Evaluator {
                 self.elements(declaration, count, what)
             }
             Some(Size::Each(range)) => {
-                let bounds = self.each(range)?;
+                let Some(bounds) = self.each(range) else {
+                    return self.look_once(range, |this| this.evaluate(value));
+                };
                 let (first, mut items) = (bounds.start, Vec::new());
                 for i in bounds {
                     items.push(self.with_index(range, i, |this| this.evaluate(value))?);

@@ -102,7 +102,9 @@ impl Lowering<'_> {
     /// Does something for each index of a range, until something is wrong: the
     /// next round would only say the same.
     pub fn repeat(&mut self, range: &Range, mut body: impl FnMut(&mut Self)) -> Option<()> {
-        let bounds = self.evaluator.bounds(range)?;
+        let Some(bounds) = self.evaluator.bounds(range) else {
+            return self.repeat_once(range, body);
+        };
         if bounds.start > bounds.end {
             let span = range.from.span.to(range.to.span);
             let warning = Diagnostic::warning(span, "this range ends before it begins");
@@ -130,6 +132,21 @@ impl Lowering<'_> {
             }
         }
         Some(())
+    }
+
+    /// The same where nobody knows how often: as [`Evaluator::look_once`].
+    ///
+    /// [`Evaluator::look_once`]: super::evaluate::Evaluator::look_once
+    fn repeat_once(&mut self, range: &Range, mut body: impl FnMut(&mut Self)) -> Option<()> {
+        if self.evaluator.unread {
+            let mark = self.evaluator.scope.open();
+            self.declare_as(&range.index, Kind::Index);
+            self.indices.push((range.index.text.clone(), 0));
+            body(self);
+            self.indices.pop();
+            self.evaluator.scope.close(mark);
+        }
+        None
     }
 
     fn energy(&mut self, kind: Energy, e: &Expr) -> Option<()> {

@@ -26,6 +26,7 @@ mod starts;
 mod statements;
 mod surface;
 mod units;
+mod unread;
 mod wrong;
 
 use bricard_codegen::internals::analyse;
