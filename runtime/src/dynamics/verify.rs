@@ -280,7 +280,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             structure.components,
             &workspace,
         )?;
-        next.set_drift(&placed.drift, Some(chart));
+        next.set_drift(&placed.drift, &end.v, Some(chart));
         let factors = next.factors_mut().iter_mut().zip(chart.factors());
         for ((next, before), met) in factors.zip(&placed.met) {
             next.spacing = met.spacing;

@@ -19,7 +19,7 @@ use crate::linalg::{
     Cholesky, Workspace, add_scaled, dot, multiply_upper, multiply_upper_transposed, norm,
     order_by_first_row, pair, set_units, solve_upper_transposed,
 };
-use crate::tolerance::excusable;
+use crate::tolerance::{excusable, resolved};
 use crate::{ConnectedComponent, Real, State};
 use nalgebra::{SMatrix, SVector};
 
@@ -146,14 +146,28 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
         Some(freedoms)
     }
 
-    /// Takes note of how fast the sheet moves, and of how fast and where to it did before.
-    pub(crate) fn set_drift(&mut self, drift: &SVector<T, N>, before: Option<&Self>) {
+    /// Takes note of how fast the sheet moves, and of how fast and where to it did before. Rows
+    /// that are turned or scaled by a law of time move nothing, but for round-off beside the
+    /// velocity `v`.
+    pub(crate) fn set_drift(
+        &mut self,
+        drift: &SVector<T, N>,
+        v: &SVector<T, N>,
+        before: Option<&Self>,
+    ) {
         let mut at = 0;
         for (index, part) in parts(self.components, (N, R)).enumerate() {
             let coordinates = at..at + part.n;
             let own = &mut self.drift[coordinates.clone()];
+            let scales = &self.column_scale[coordinates.clone()];
+            part.take(v.as_slice(), own);
+            let round_off = length(own, scales) * resolved();
             part.take(drift.as_slice(), own);
-            let speed = length(own, &self.column_scale[coordinates.clone()]);
+            let mut speed = length(own, scales);
+            if speed <= round_off {
+                own.fill(T::zero());
+                speed = T::zero();
+            }
             let known = before.map_or(T::zero(), |before| before.factors[index].speed);
             self.factors[index].speed = known.max(speed);
             let heading = &mut self.heading[coordinates.clone()];

@@ -80,7 +80,7 @@ impl<T: Real, const N: usize, const R: usize> SolverView<'_, T, N, R> {
         if !is_zero(equations.position.drift.as_slice()) {
             let mut point = Point::zeros();
             if self.place(&chart, state, &mut point, workspace).is_ok() {
-                chart.set_drift(&point.drift, None);
+                chart.set_drift(&point.drift, &point.state.v, None);
             }
         }
         Some(chart)
