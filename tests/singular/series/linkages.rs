@@ -142,6 +142,17 @@ pub fn splined(random: &mut Random, index: usize) -> Trial {
     Trial::short("splined_crank", "splined_crank_reduced", set).until(2.0)
 }
 
+/// A parallelogram on a table that turns, with rows that are scaled or not.
+pub fn turntable(random: &mut Random, index: usize) -> Trial {
+    let set = vec![
+        ("om", random.within(4.0)),
+        ("a0", random.within(3.0)),
+        ("w0", random.within(5.0)),
+        ("s", [0.0, 1.5][index % 2]),
+    ];
+    Trial::short("turntable", "turntable_reduced", set).until(4.0)
+}
+
 /// Two knife edges that turn past each other.
 pub fn knife_edges(random: &mut Random, index: usize) -> Trial {
     let mut set = Set::new();
