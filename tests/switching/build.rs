@@ -29,6 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         "released",
         "saturated",
         "shifted",
+        "stopping",
         "tabled",
         "timed",
     ] {

@@ -5,6 +5,7 @@ use bricard_runtime::{
     DynamicsError, Method, Observer, Occurrence, Options, Probe, State, Step, StepControl, simulate,
 };
 use bricard_switching::contact::Contact;
+use bricard_switching::stopping::Stopping;
 use bricard_switching::timed::Timed;
 use core::ops::ControlFlow;
 
@@ -112,6 +113,32 @@ fn what_stays_within_round_off_of_zero_for_a_while_happens_once() {
             };
             // The cube root of round-off.
             assert!(rising && (t - until).abs() < 1e-4, "{t} instead of {until}");
+        }
+    }
+}
+
+/// The velocity of a block that friction holds is round-off, and its sign tells nothing: it
+/// stopped once, whether it is drawn back later or stays.
+#[test]
+fn a_block_that_friction_stops_stops_once_and_there() {
+    for (rise, stops) in [(4.0, (17f64.sqrt() - 3.0) / 4.0), (0.0, 1.0 / 3.0)] {
+        let mut mechanism = Stopping::default();
+        mechanism.parameters.rise = rise;
+        let start = State::new(0.0, SVector::zeros(), SVector::from([1.0]));
+        for method in [Method::Dop853, Method::Dp5, Method::Radau9, Method::Radau5] {
+            for tolerance in [1e-6, 1e-8, 1e-9, 1e-11, 1e-12, 1e-13] {
+                let options = Options {
+                    method,
+                    ..Options::dop853(2.0, tolerance)
+                };
+                let mut diary = Diary::default();
+                simulate::<_, _, 1, 0>(&mechanism, &start, &options, &mut [&mut diary])
+                    .unwrap_or_else(|failure| panic!("{failure}"));
+                let [(0, t, false)] = diary.0[..] else {
+                    panic!("{method:?} {tolerance:e}: {:?}", diary.0);
+                };
+                assert!((t - stops).abs() < 1e-9, "{method:?} {tolerance:e}: {t}");
+            }
         }
     }
 }

@@ -11,5 +11,6 @@ include!(concat!(env!("OUT_DIR"), "/pulsed.rs"));
 include!(concat!(env!("OUT_DIR"), "/released.rs"));
 include!(concat!(env!("OUT_DIR"), "/saturated.rs"));
 include!(concat!(env!("OUT_DIR"), "/shifted.rs"));
+include!(concat!(env!("OUT_DIR"), "/stopping.rs"));
 include!(concat!(env!("OUT_DIR"), "/tabled.rs"));
 include!(concat!(env!("OUT_DIR"), "/timed.rs"));

@@ -7,9 +7,10 @@
 //! those that come in pairs. The zero is then found by Brent's method to the round-off of
 //! time, with the function evaluated on states that are back on the constraints. An event
 //! whose function is zero at the start of a run has not happened; one that reaches zero
-//! has, even if it turns back. It happens again once its function has been clear of zero:
-//! one that only touches zero, or stays there for a while, changes its sign as often as
-//! round-off lets it.
+//! has, even if it turns back, and so has one that comes to zero but for round-off, as the
+//! velocity of a block that dry friction stops. It happens again once its function has been
+//! clear of zero: one that only touches zero, or stays there for a while, changes its sign as
+//! often as round-off lets it.
 //!
 //! All of that is over times and values, and compiled once for mechanisms of all sizes.
 
@@ -25,6 +26,9 @@ use crate::{
 const ROOM: usize = 64;
 /// A function is clear of zero beyond this part of its size in a step, even if it goes back.
 const CLEARLY: f64 = 1e-6;
+
+/// At the ends of a step a function is zero within this many units of the round-off of its size.
+const AT_ZERO: f64 = 32.0;
 
 /// Writes the event functions of a mechanism at a state.
 pub(super) type Functions<'a, T, const N: usize> = &'a dyn Fn(&State<T, N>, &mut [T]);
@@ -181,11 +185,10 @@ impl<T: Real> Events<T> {
         }
         let values_of = |index: usize| column(|node| sampled[node][index]);
         for index in 0..self.events.len() {
-            let values = values_of(index);
+            let values: [T; NODES] = values_of(index);
+            self.observe_size(index, Samples { times, values }.size());
+            let values = column(|node| self.at_end(along.ends, index, times[node], values[node]));
             let samples = Samples { times, values };
-            // After a long step a short one sees nothing but what is near zero.
-            let before = self.sizes[index] * T::from_f64(0.5);
-            self.sizes[index] = samples.size().max(before);
             let side = &mut self.sides[index];
             if values[0].abs() > T::from_f64(CLEARLY) * self.sizes[index] && *side == T::zero() {
                 *side = values[0].sign();
@@ -200,6 +203,26 @@ impl<T: Real> Events<T> {
             };
         }
         Ok(())
+    }
+
+    /// Takes note of how large a function is in a step.
+    fn observe_size(&mut self, index: usize, size: T) {
+        let known = &mut self.sizes[index];
+        // What is held at zero is as large as it was before.
+        if size > *known * T::EPSILON * T::from_f64(AT_ZERO) {
+            // After a long step a short one sees nothing but what is near zero.
+            *known = size.max(*known * T::from_f64(0.5));
+        }
+    }
+
+    /// A value of a function within a step, or zero at one of its ends where it is zero but for
+    /// round-off: what switches there may hold it.
+    fn at_end(&self, (start, end): (T, T), index: usize, t: T, value: T) -> T {
+        let zero = self.sizes[index] * T::EPSILON * T::from_f64(AT_ZERO);
+        match (t == start || t == end) && value.abs() <= zero {
+            true => T::zero(),
+            false => value,
+        }
     }
 
     /// The earliest of the next occurrences, after which that event is looked for again.
@@ -235,19 +258,23 @@ impl<T: Real> Events<T> {
         index: usize,
         mut samples: Samples<T>,
     ) -> Result<Option<Next<T>>, DynamicsError<T>> {
-        let events = self.events;
+        let (events, ends) = (self.events, along.ends);
         loop {
             let mut value = |t| along.value(events, t, On::Interpolant, index);
-            let side = &mut self.sides[index];
-            let found = first_crossing(&mut value, &samples, side, Left::AtZero)?;
+            let mut side = self.sides[index];
+            let mut judged = |t| Ok(self.at_end(ends, index, t, value(t)?));
+            let found = first_crossing(&mut judged, &samples, &mut side, Left::AtZero)?;
+            self.sides[index] = side;
             let Some((from, to)) = found else {
                 return Ok(None);
             };
-            let rising = *side < T::zero();
+            let rising = side < T::zero();
             let (before, after) = (value(from)?, value(to)?);
-            let t = match before.sign() == *side {
-                true => zero(&mut value, (from, before), (to, after))?,
-                false => from,
+            let t = match (before.sign() == side, after.sign() == side) {
+                (true, false) => zero(&mut value, (from, before), (to, after))?,
+                // It is zero there but for round-off.
+                (true, true) => to,
+                (false, _) => from,
             };
             let counts = match events[index].direction {
                 Direction::Rising => rising,
