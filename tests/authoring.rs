@@ -96,9 +96,39 @@ fn what_is_in_order_is_said_to_be_so_with_its_warnings() {
     assert_eq!(report["mechanism"], mechanism);
     assert_eq!(report["messages"][0]["severity"], "warning");
     assert_eq!(report["messages"][0]["message"], "`a` is never used");
-    let (status, out, said) = bricard(&folder("none"), &["check", "a.mech", "--json"]);
-    assert_eq!((status, out.as_str()), (Some(1), ""));
-    assert!(said.contains("could not read a.mech"), "{said}");
+}
+
+#[test]
+fn a_file_that_cannot_be_read_is_a_message_as_json() {
+    let nothing = folder("none");
+    let read = || {
+        let (status, out, said) = bricard(&nothing, &["check", "a.mech", "--json"]);
+        assert_eq!((status, said.as_str()), (Some(1), ""));
+        let report: Value = serde_json::from_str(&out).expect("JSON");
+        assert_eq!(report["mechanism"], Value::Null);
+        report["messages"][0].clone()
+    };
+    let missing = read();
+    let said = missing["message"].as_str().unwrap_or("");
+    assert!(said.contains("could not read a.mech"), "{missing:#}");
+    assert_eq!(
+        (&missing["line"], &missing["column"]),
+        (&json!(1), &json!(1))
+    );
+    let latin = b"\xef\xbb\xbfmechanism A {\n    // \xc3\xb6 gr\xfc\xdfe\n}\n";
+    fs::write(nothing.join("a.mech"), latin).expect("the folder is ours");
+    let encoded = json!({
+        "file": "a.mech",
+        "line": 2,
+        "column": 12,
+        "end": { "line": 2, "column": 13 },
+        "severity": "error",
+        "message": "this is not UTF-8",
+        "label": "",
+        "labels": [],
+        "help": "save the file as UTF-8",
+    });
+    assert_eq!(read(), encoded);
 }
 
 /// A new crate, in a folder of one test's own.

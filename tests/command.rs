@@ -743,13 +743,13 @@ fn an_output_that_is_a_vector_is_asked_for_by_its_name() {
 }
 
 #[test]
-fn a_file_that_is_not_utf_8_is_answered_with_the_line() {
+fn a_file_that_is_not_utf_8_is_answered_with_the_place() {
     let file = folder("bytes").join("latin.mech");
     let text = b"mechanism P {\n    coord q: rad;\n    // gr\xfc\xdfe\n    kinetic der(q)^2;\n}\n";
     fs::write(&file, text).expect("the folder is ours");
     let said = [
         "latin.mech",
-        "line 3 is not UTF-8",
+        "line 3 is not UTF-8 at column 10",
         "save the file as UTF-8",
     ];
     check_refused(&["check", &file.to_string_lossy()], 1, &said);

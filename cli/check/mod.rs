@@ -12,9 +12,10 @@ use crate::description::read;
 use crate::error::CommandError;
 use crate::mechanism::names;
 use crate::output::{print, say};
-use bricard_codegen::CompileSettings;
-use bricard_codegen::internals::examine;
+use bricard_codegen::internals::diagnostic::{Diagnostic, Position, Span};
 use bricard_codegen::internals::model::Mechanism;
+use bricard_codegen::internals::{NotUtf8, examine};
+use bricard_codegen::{CompileSettings, Diagnostics};
 
 /// Checks a description.
 pub fn check(arguments: &Check) -> Result<(), CommandError> {
@@ -22,7 +23,13 @@ pub fn check(arguments: &Check) -> Result<(), CommandError> {
     if names().any(|name| name == file) && !arguments.file.exists() {
         return Err(CommandError::NoFile(file));
     }
-    let source = read(&arguments.file)?;
+    let source = match read(&arguments.file) {
+        Err(error) if arguments.json => {
+            print(&json::report(&file, &Err(unread(&error))))?;
+            return Err(CommandError::Said);
+        }
+        source => source?,
+    };
     let examined = examine(&source, &CompileSettings::beside(&arguments.file));
     if arguments.json {
         print(&json::report(&file, &examined))?;
@@ -34,6 +41,33 @@ pub fn check(arguments: &Check) -> Result<(), CommandError> {
         say(warnings.render(&file, &source).trim_end());
     }
     print(&in_order(&file, &mechanism))
+}
+
+/// The same as a finding: at the place where another encoding shows, else at the beginning.
+fn unread(error: &CommandError) -> Diagnostics {
+    let finding = match error {
+        CommandError::Read(_, error) => error.get_ref().and_then(|e| e.downcast_ref()),
+        _ => None,
+    };
+    let finding = match finding {
+        Some(NotUtf8 { place }) => {
+            let end = Position {
+                column: place.column + 1,
+                offset: place.offset + 1,
+                ..*place
+            };
+            let span = Span {
+                start: *place,
+                end,
+                library: false,
+            };
+            Diagnostic::error(span, "this is not UTF-8").help(NotUtf8::HELP)
+        }
+        None => Diagnostic::error(Span::START, error.to_string()),
+    };
+    let mut findings = Diagnostics::new();
+    findings.push(finding);
+    findings
 }
 
 fn in_order(file: &str, mechanism: &Mechanism) -> String {

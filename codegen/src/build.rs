@@ -11,6 +11,7 @@
 
 use crate::compile::{CompileSettings, Compiled, compile_source};
 use crate::emit;
+use crate::read::read_description;
 use crate::syntax::{Model, ModelError};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -379,18 +380,3 @@ impl fmt::Debug for BuildError {
 }
 
 impl std::error::Error for BuildError {}
-
-/// The text of a description.
-///
-/// # Errors
-///
-/// What the system says, or the line at which the text is no UTF-8.
-pub fn read_description(description: &Path) -> io::Result<String> {
-    String::from_utf8(fs::read(description)?).map_err(|error| {
-        let valid = error.utf8_error().valid_up_to();
-        let before = error.as_bytes().get(..valid).unwrap_or(&[]);
-        let line = before.iter().filter(|byte| **byte == b'\n').count() + 1;
-        let message = format!("line {line} is not UTF-8; save the file as UTF-8");
-        io::Error::new(io::ErrorKind::InvalidData, message)
-    })
-}

@@ -26,6 +26,7 @@ mod keywords;
 mod lint;
 mod model;
 mod optimise;
+mod read;
 mod syntax;
 
 pub use build::{BuildError, Builder, compile, compile_dir};
@@ -42,8 +43,8 @@ pub use syntax::{Formula, Model, ModelError};
 /// messages of `diagnostic` and the warnings of `lint`.
 #[doc(hidden)]
 pub mod internals {
-    pub use crate::build::read_description;
     pub use crate::compile::{analyse, examine};
+    pub use crate::read::{NotUtf8, read_description};
     pub mod derive {
         pub use crate::derive::*;
     }

@@ -326,6 +326,7 @@ pub const CASES: &[Case] = &[
         "a crate can't be called `match`: it means something in Rust or to cargo",
     ),
     ("Said", "check --json broken.mech", 1, ""),
+    ("Said", "check --json missing.mech", 1, ""),
 ];
 
 /// What is said of Parquet files.

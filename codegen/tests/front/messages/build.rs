@@ -55,7 +55,7 @@ const CASES: [Case; 8] = [
             fs::write(&path, b"// Gelenk\n// Stra\xdfe\n").expect("the folder is ours");
             building(folder).try_compile(&path)
         },
-        "four_bar.mech: line 2 is not UTF-8; save the file as UTF-8",
+        "four_bar.mech: line 2 is not UTF-8 at column 8; save the file as UTF-8",
     ),
     (
         "`compile(\"4_bar.mech\")`",
