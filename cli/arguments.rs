@@ -344,7 +344,7 @@ pub struct Simulate {
     /// (180 mm), or a length such as 120mm, 12cm, 5in
     #[arg(long, value_name = "WIDTH", allow_hyphen_values = true, value_parser = width)]
     pub width: Option<f64>,
-    /// Say nothing but errors
+    /// Say nothing but errors: no summary, no warnings, nothing of what is compiled
     #[arg(long)]
     pub quiet: bool,
     /// Print the summary as one JSON object to standard output

@@ -84,6 +84,11 @@ fn greet() -> Result<(), CommandError> {
 }
 
 fn perform(command: &Command) -> Result<(), CommandError> {
+    if let Command::Simulate(arguments) | Command::Watch(arguments) = command
+        && arguments.quiet
+    {
+        output::be_quiet();
+    }
     match command {
         Command::List => list::list(),
         Command::Show(arguments) => show::show(arguments),

@@ -11,6 +11,11 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Whether nothing but errors is said. What compiles and what runs say what they do, and
+/// none of them knows what was asked for.
+static QUIET: AtomicBool = AtomicBool::new(false);
 
 /// What messages call standard output.
 pub const STANDARD_OUTPUT: &str = "standard output";
@@ -37,10 +42,17 @@ pub fn typed(path: &Path) -> String {
     }
 }
 
-/// Prints a line to standard error. A standard error that nobody reads is no
-/// reason to stop.
+/// Says nothing from here on but errors.
+pub fn be_quiet() {
+    QUIET.store(true, Ordering::Relaxed);
+}
+
+/// Prints a line to standard error, unless nothing but errors is wanted. A standard error
+/// that nobody reads is no reason to stop.
 pub fn say(line: &str) {
-    let _unread = writeln!(io::stderr().lock(), "{line}");
+    if !QUIET.load(Ordering::Relaxed) {
+        let _unread = writeln!(io::stderr().lock(), "{line}");
+    }
 }
 
 /// Prints an error to standard error, in colour on a terminal unless `NO_COLOR` is set.

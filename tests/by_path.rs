@@ -188,6 +188,28 @@ fn a_parameter_that_gets_another_number_in_the_file_needs_no_compiler() {
 }
 
 #[test]
+fn a_quiet_run_says_nothing_but_errors() {
+    let folder = folder("quiet");
+    let text = pendulum("Quiet", 0.5).replace("coord q", "param idle = 1;\n    coord q");
+    // Earlier runs of this test have left programs of other descriptions.
+    write(
+        &folder,
+        "quiet.mech",
+        &format!("{text}// {:?}\n", SystemTime::now()),
+    );
+    let simulate = ["simulate", "quiet.mech", "--until", "0.1"];
+    let quiet = [&simulate[..], &["--quiet"]].concat();
+    assert_eq!(done(&folder, &quiet).err, "");
+    let loud = done(&folder, &simulate);
+    for said in ["`idle` is never used", "steps"] {
+        assert!(loud.err.contains(said), "{}", loud.err);
+    }
+    let wrong = run(&folder, &[&quiet[..], &["--columns", "idle"]].concat());
+    assert_eq!(wrong.status, Some(2));
+    assert!(wrong.err.starts_with("error: "), "{}", wrong.err);
+}
+
+#[test]
 fn a_wrong_file_gets_the_messages_of_check() {
     let folder = folder("wrong");
     write(

@@ -28,7 +28,7 @@ use crate::page::Live;
 use crate::run::{Stopped, run};
 use cases::Case;
 use picture::Picture;
-use prepare::{Prepared, prepared, tell};
+use prepare::{Prepared, prepared};
 use record::Record;
 
 /// Simulates a mechanism, once or for each value of a list.
@@ -101,7 +101,7 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
     };
     let kept = record.close(|rows| picture.draw(&[Called::alone(rows)]))?;
     if let Some(report) = report.filter(|report| result.is_ok() || report.steps > 0) {
-        tell(arguments, summary::summary(report, structure).trim_end());
+        say(summary::summary(report, structure).trim_end());
     }
     if let Some(report) = report.filter(|_| arguments.json) {
         let error = result.as_ref().err().map(|stopped| &stopped.error);

@@ -13,13 +13,6 @@ use crate::mistakes::both;
 use crate::output::say;
 use bricard_driver::{AnyMechanism, Changes};
 
-/// Tells the user something who has not asked for silence.
-pub fn tell(arguments: &Simulate, text: &str) {
-    if !arguments.quiet {
-        say(text);
-    }
-}
-
 /// What a run begins with.
 pub struct Prepared {
     /// The mechanism, with the changes of the case.
@@ -42,8 +35,7 @@ pub fn prepared(arguments: &Simulate, case: &Case) -> Result<Prepared, CommandEr
     let columns = columns(&arguments.columns, structure, &arguments.name);
     let (changes, columns) = both(changes, columns)?;
     for name in changes::negative_inertia(&changes, structure) {
-        let text = format!("warning: `{name}` is an inertia, and negative");
-        tell(arguments, &text);
+        say(&format!("warning: `{name}` is an inertia, and negative"));
     }
     changes::apply(&changes, mechanism.as_mut());
     Ok(Prepared {

@@ -5,14 +5,14 @@
 
 use super::cases::Varied;
 use super::picture::{Picture, Shown, shown};
-use super::prepare::{prepared, tell};
+use super::prepare::prepared;
 use super::record::Record;
 use super::{choices, summary};
 use crate::arguments::Simulate;
 use crate::comparison::Called;
 use crate::error::CommandError;
 use crate::interrupt;
-use crate::output::print;
+use crate::output::{print, say};
 use crate::run::{Plan, Report, run};
 use bricard_driver::AnyMechanism;
 use bricard_runtime::Structure;
@@ -56,7 +56,7 @@ pub fn simulate(arguments: &Simulate, varied: &Varied) -> Result<(), CommandErro
             }
         };
         let name = varied.label(value);
-        tell(arguments, &said(&name, &report, error.is_some(), structure));
+        say(&said(&name, &report, error.is_some(), structure));
         runs.push(Called {
             name: name.clone(),
             rows: record.end(),
