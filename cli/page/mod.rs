@@ -18,7 +18,7 @@ pub use data::Run;
 pub use live::Live;
 pub use sliders::Sliders;
 
-use crate::column::Column;
+use crate::column::{Column, header};
 use crate::error::CommandError;
 use crate::output::replace;
 use bricard_driver::WORDS;
@@ -33,7 +33,7 @@ pub fn is_page(path: &Path) -> bool {
 }
 
 /// The columns that a page shows: those that are wanted, and what every run has that costs
-/// little to tell.
+/// little to tell, but for what is called like another curve.
 pub fn columns(wanted: &[Column], structure: &Structure) -> Vec<Column> {
     let mut all = wanted.to_vec();
     let of_all = |column: &Column| match column {
@@ -43,9 +43,12 @@ pub fn columns(wanted: &[Column], structure: &Structure) -> Vec<Column> {
     };
     let outputs = (0..structure.outputs.len()).map(Column::Output);
     let words = WORDS.iter().map(|(_, column)| *column).filter(of_all);
+    let mut names = header(structure, wanted);
     for column in outputs.chain(words) {
-        if !all.contains(&column) {
+        let name = column.name(structure);
+        if !names.contains(&name) {
             all.push(column);
+            names.push(name);
         }
     }
     all

@@ -83,7 +83,7 @@ class Result:
         self.summary: Summary = summary
         self._beginning, self._plan = beginning, plan
         self._rows = recorder.rows()
-        self._columns, self._units = _named(mechanism, columns)
+        self._columns, self._units, self._energies = _named(mechanism, columns)
         self._dense: Optional[Tuple[np.ndarray, np.ndarray]] = None
 
     # ---- columns -------------------------------------------------------------------------
@@ -111,8 +111,9 @@ class Result:
         return np.column_stack([self[name] for name in names])
 
     def __getitem__(self, name: str) -> np.ndarray:
-        if name == "energy" and "kinetic" in self._columns:
-            return self["kinetic"] + self["potential"]
+        if name == "energy" and "energy" not in self._columns and self._energies:
+            kinetic, potential = self._energies
+            return self._rows[:, kinetic] + self._rows[:, potential]
         try:
             return self._rows[:, self._columns[name]]
         except (KeyError, TypeError):
@@ -121,7 +122,7 @@ class Result:
 
     def keys(self) -> List[str]:
         """The names of the columns."""
-        return [*self._columns, "energy"]
+        return list(dict.fromkeys([*self._columns, "energy"]))
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.keys())
@@ -136,7 +137,7 @@ class Result:
     @property
     def units(self) -> Dict[str, str]:
         """The units of the columns, as far as the description gives them."""
-        return {**self._units, "energy": "J"}
+        return {**self._units, "energy": self._units.get("energy", "J")}
 
     @property
     def end(self) -> "State":
@@ -249,8 +250,10 @@ class Result:
         return f"<Result of {self.mechanism.name}: {len(self)} rows; {self.summary}>"
 
 
-def _named(mechanism: "Mechanism", bits: int) -> Tuple[Dict[str, int], Dict[str, str]]:
-    """The places and the units of the columns, by name."""
+def _named(
+    mechanism: "Mechanism", bits: int
+) -> Tuple[Dict[str, int], Dict[str, str], List[int]]:
+    """The places and the units of the columns, by name, and the places of the energies."""
     coordinates = mechanism.coordinates
     force = {"m": "N", "rad": "N*m"}
     listed = [("t", "s")]
@@ -261,12 +264,14 @@ def _named(mechanism: "Mechanism", bits: int) -> Tuple[Dict[str, int], Dict[str,
         listed += [(x.name, x.unit) for x in mechanism.outputs]
     if bits & _abi.WITH_REACTIONS:
         listed += [(f"r({x.name})", force.get(x.unit, "")) for x in coordinates]
+    energies: List[int] = []
     if bits & _abi.WITH_ENERGIES:
+        energies = [len(listed), len(listed) + 1]
         listed += [("kinetic", "J"), ("potential", "J")]
     if bits & _abi.WITH_ERRORS:
         listed += [("constraint_error", ""), ("velocity_error", "")]
     places: Dict[str, int] = {}
     for place, (name, _) in enumerate(listed):
-        # An output may have the name of a column; the first keeps it.
+        # A coordinate or an output may have the name of a column; the first keeps it.
         places.setdefault(name, place)
-    return places, {name: unit for name, unit in reversed(listed)}
+    return places, {name: unit for name, unit in reversed(listed)}, energies

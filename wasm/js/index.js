@@ -180,10 +180,12 @@ export class Mechanism {
     } while (unfinished() === 1);
     const count = pieces.reduce((sum, piece) => sum + piece.length, 0) / names.length;
     const found = Object.fromEntries(names.map((name) => [name, new Float64Array(count)]));
+    // A coordinate or an output may have the name of a column; the first keeps it.
+    const places = [...new Set(names)].map((name) => names.indexOf(name));
     let row = 0;
     for (const piece of pieces) {
       for (let at = 0; at < piece.length; at += names.length, row++) {
-        names.forEach((name, i) => (found[name][row] = piece[at + i]));
+        places.forEach((i) => (found[names[i]][row] = piece[at + i]));
       }
     }
     return { columns: found, ...this.#happened() };
