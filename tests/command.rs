@@ -721,10 +721,15 @@ fn values_that_would_do_silently_what_nobody_wants_are_refused() {
 
 #[test]
 fn rows_at_intervals_have_decimal_times_and_the_end_of_the_run() {
-    let run = ["simulate", "slider_crank", "--every", "0.3", "--until"];
-    let times = |until: &str| column(&bricard(&[&run[..], &[until]].concat()).out, "t");
-    assert_eq!(times("1"), [0.0, 0.3, 0.6, 0.9, 1.0]);
-    assert_eq!(times("0.9"), [0.0, 0.3, 0.6, 0.9]);
+    let times = |every: &str, until: &str| {
+        let run = ["simulate", "slider_crank", "--every", every];
+        column(&bricard(&[&run[..], &["--until", until]].concat()).out, "t")
+    };
+    assert_eq!(times("0.3", "1"), [0.0, 0.3, 0.6, 0.9, 1.0]);
+    assert_eq!(times("0.3", "0.9"), [0.0, 0.3, 0.6, 0.9]);
+    for longer in ["2", "1e300"] {
+        assert_eq!(times(longer, "1"), [0.0, 1.0]);
+    }
 }
 
 #[test]

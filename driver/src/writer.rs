@@ -47,7 +47,8 @@ pub(crate) fn segment<const N: usize, const R: usize>(
 type States<const N: usize> = Rc<RefCell<Vec<State<f64, N>>>>;
 type Collect<const N: usize> = Box<dyn FnMut(&State<f64, N>) -> ControlFlow<()>>;
 
-/// What is left of the last interval between rows is round-off up to this part of it.
+/// What is left of the last interval between rows is round-off up to this part of it, or of
+/// the run, if that is shorter.
 const SHORT: f64 = 1e-9;
 
 /// Turns states into rows, and takes note of what happened on the way.
@@ -153,7 +154,7 @@ impl<'a, const N: usize> Writer<'a, N> {
         };
         let mut sampled = self.sampled.borrow_mut();
         let last = sampled.last().map_or(self.last, |row| row.t);
-        if state.t - last > every * SHORT {
+        if state.t - last > every.min(until.abs()) * SHORT {
             sampled.push(*state);
         }
     }

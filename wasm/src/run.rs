@@ -20,7 +20,8 @@ pub const MOST_MARKS: usize = 1000;
 const CALM_SINE: f64 = 0.3;
 /// The part of the place that is left for steps near singular positions.
 const SPARE: usize = 8;
-/// What is left of the last interval between rows is round-off up to this part of it.
+/// What is left of the last interval between rows is round-off up to this part of it, or of
+/// the run, if that is shorter.
 const SHORT: f64 = 1e-9;
 
 /// What is known of a run from one piece to the next.
@@ -124,7 +125,8 @@ where
             }
         }
         let end = step.end();
-        match end.t >= self.until && end.t - self.last.t > self.every * SHORT {
+        let short = self.every.min(self.until.abs()) * SHORT;
+        match end.t >= self.until && end.t - self.last.t > short {
             true => self.add(end, probe),
             false => Ok(ControlFlow::Continue(())),
         }
