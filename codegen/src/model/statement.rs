@@ -141,7 +141,9 @@ impl Lowering<'_> {
         if self.evaluator.unread {
             let mark = self.evaluator.scope.open();
             self.declare_as(&range.index, Kind::Index);
-            self.indices.push((range.index.text.clone(), 0));
+            // What loops name differs by their indices, which are no numbers here.
+            let place = -1 - i64::from(range.index.span.start.offset);
+            self.indices.push((range.index.text.clone(), place));
             body(self);
             self.indices.pop();
             self.evaluator.scope.close(mark);

@@ -25,6 +25,8 @@ const RIGHT: &[&str] = &[
     "part P(f) { input u = f; force table([[0, f], [1, 2]], t)*u on q; }",
     "part P(x) { coord q; output y = q + x; } let P = 3; output z = P;",
     "part P(x) { let a = Q(x, 2); output y = a.b; } part Q(x, n) { coord r[n]; let b = x*r[n-1]; }",
+    "part P(n) { for i in 0..n { output y = q; constraint c: q = w; event e: q rising; } \
+     for i in n..2*n { output y = w; constraint c: q = w; event e: w rising; } }",
     "part _P() { kinetic 1/2*der(q)^2; }",
     "fn f(x, n) = sum(i in 0..n, x[i]*q) + g2(x).y; fn g2(x) = transpose(x)*[1, 2];",
     "fn f(v: m): m = if v > 0 then v else norm(v);",
