@@ -208,9 +208,10 @@ fn a_velocity_constraint_is_kept_without_touching_positions() {
 }
 
 #[test]
-fn baumgarte_pulls_an_opened_loop_back_together() {
-    let opened = |stabilisation| {
+fn baumgarte_pulls_an_opened_loop_back_together_in_every_form() {
+    let opened = |form, stabilisation| {
         let settings = Settings {
+            form,
             stabilisation,
             ..Settings::default()
         };
@@ -227,12 +228,14 @@ fn baumgarte_pulls_an_opened_loop_back_together() {
         system.constraint_error(&state).position
     };
     let (alpha, beta) = (50.0, 50.0);
-    let pulled = opened(Stabilisation::Baumgarte { alpha, beta });
-    let left = opened(Stabilisation::None);
-    let projected = opened(Stabilisation::Projection);
-    assert!(pulled < 1e-5, "{pulled}");
-    assert!(left > 5e-4, "{left}");
-    assert!(projected < 1e-14, "{projected}");
+    for form in Form::ALL {
+        let pulled = opened(form, Stabilisation::Baumgarte { alpha, beta });
+        let left = opened(form, Stabilisation::None);
+        let projected = opened(form, Stabilisation::Projection);
+        assert!(pulled < 1e-5, "{form:?}: {pulled}");
+        assert!(left > 5e-4, "{form:?}: {left}");
+        assert!(projected < 1e-14, "{form:?}: {projected}");
+    }
 }
 
 #[test]

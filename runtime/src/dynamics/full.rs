@@ -13,7 +13,7 @@ use super::Core;
 use crate::linalg::{Triangle, Workspace, add_scaled, set_units};
 use crate::once::compiled_once;
 use crate::singular::Point;
-use crate::{DynamicsError, Mechanism, Real, State};
+use crate::{DynamicsError, Mechanism, Real, Stabilisation, State};
 use nalgebra::SVector;
 
 /// Vectors of all coordinates that the least squares have room for.
@@ -45,7 +45,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         self.require_chart(mechanism, state)?;
         let mut point = Point::zeros();
-        if self.session.near || !self.measure_here(mechanism, state, &mut point) {
+        // Baumgarte's gains need to know how far off the sheet a state is.
+        let is_off = matches!(self.settings.stabilisation, Stabilisation::Baumgarte { .. });
+        if is_off || self.session.near || !self.measure_here(mechanism, state, &mut point) {
             self.place(mechanism, state, &mut point)?;
         }
         self.counters.robust_accelerations += 1;
