@@ -312,7 +312,12 @@ impl<T: Real> Sheet<'_, T> {
                 v: state.v,
             });
             found.predict(node, place, here, point.q);
-            self.project(t, point.q, Some(like), direction.shifted(distance))?;
+            let shift = direction.shifted(distance);
+            self.project(t, point.q, Some(like), shift)?;
+            if !self.kind.velocity.is_empty() {
+                self.straighten(moved, point.q, workspace);
+                self.project(t, point.q, Some(like), shift)?;
+            }
             // False for NaN, too.
             let clear = self.frame.smallest() >= clearance::<T>() * found.spacing;
             if !clear {

@@ -116,9 +116,12 @@ impl<T: Real> Shift<'_, T> {
 
 /// Of which kind a sheet is.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Kind {
+pub(super) struct Kind<'a, T> {
     /// Whether any row restricts positions.
     pub(super) holonomic: bool,
+    /// One for rows that restrict velocities only, zero for the others, in the order of the
+    /// frame's rows; empty if there are none such.
+    pub(super) velocity: &'a [T],
     /// Whether it is a curve that stays where it is.
     pub(super) is_curve: bool,
 }
@@ -130,7 +133,7 @@ pub(super) struct Sheet<'a, T> {
     pub(super) frame: Frame<'a, T>,
     /// The nodes of the last interpolation.
     pub(super) nodes: NodesView<'a, T>,
-    pub(super) kind: Kind,
+    pub(super) kind: Kind<'a, T>,
     /// A right-hand side in the order and scale of the frame's rows, and a solution.
     right: &'a mut [T],
     solution: &'a mut [T],
@@ -141,7 +144,7 @@ impl<'a, T: Real> Sheet<'a, T> {
         equations: &'a mut dyn Equations<T>,
         chart: ChartView<'a, T>,
         nodes: NodesView<'a, T>,
-        kind: Kind,
+        kind: Kind<'a, T>,
         workspace: &Workspace<'a, T>,
     ) -> Self {
         let n = chart.n();
@@ -329,6 +332,23 @@ impl<'a, T: Real> Sheet<'a, T> {
         for entry in displacement {
             *entry *= pivot;
         }
+    }
+
+    /// Takes back what led from a position to another one, whose frame is at hand, along what
+    /// only velocities are restricted by: no equation says where the position is there.
+    pub(super) fn straighten(&mut self, from: &[T], q: &mut [T], workspace: &Workspace<'_, T>) {
+        workspace.scope(|workspace| {
+            let moved = workspace.any(q.len());
+            moved.copy_from_slice(q);
+            add_scaled(moved, -T::one(), from);
+            self.set_rates(moved, T::zero());
+        });
+        for (right, velocity) in self.right.iter_mut().zip(self.kind.velocity) {
+            *right *= *velocity;
+        }
+        let (right, scales) = (Right::Given(self.right), self.chart.column_scale);
+        self.frame.solve(right, scales, self.solution);
+        add_scaled(q, -T::one(), self.solution);
     }
 
     /// Moves a position along the chart's complement onto the sheet, or to where constraint

@@ -8,7 +8,7 @@
 
 use super::found::Found;
 use super::obstacle::Obstacle;
-use super::part::{Frozen, PartOf, Place};
+use super::part::{Frozen, Part, PartOf, Place};
 use super::place::Placement;
 use super::point::PointSlices;
 use super::product::{ChartView, Product};
@@ -58,6 +58,27 @@ impl<T: Real> Sheets<'_, T> {
         })
     }
 
+    /// Which of the rows of a chart restrict velocities only: one for each that does, zero for
+    /// the others; empty if there are none.
+    fn velocity_rows<'b>(
+        &self,
+        part: Part,
+        chart: &ChartView<'_, T>,
+        workspace: &Workspace<'b, T>,
+    ) -> &'b [T] {
+        let is_velocity = |row: &usize| !self.holonomic[part.row(*row)];
+        if !chart.rows.iter().any(is_velocity) {
+            return &[];
+        }
+        let velocity = workspace.numbers(chart.n());
+        for (target, row) in velocity.iter_mut().zip(chart.rows) {
+            if is_velocity(row) {
+                *target = T::one();
+            }
+        }
+        velocity
+    }
+
     /// Does something on the sheet of a part.
     fn on_part(
         &mut self,
@@ -70,6 +91,7 @@ impl<T: Real> Sheets<'_, T> {
         let part = place.part;
         let is_curve = chart.freedoms == 1 && part.is_scleronomic(self.equations.structure());
         let holonomic = (0..part.r).any(|row| self.holonomic[part.row(row)]);
+        let velocity = self.velocity_rows(part, &chart, workspace);
         let nodes = self.nodes.of(place.index, place.coordinates.clone());
         let mut own;
         let equations: &mut dyn Equations<T> = match part.is_whole() {
@@ -81,6 +103,7 @@ impl<T: Real> Sheets<'_, T> {
         };
         let kind = Kind {
             holonomic,
+            velocity,
             is_curve,
         };
         // Slices for those who hold borrows of their own.

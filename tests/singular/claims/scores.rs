@@ -96,7 +96,7 @@ never_wrong! {
     slider_rest rest_on curves_named curves surfaces_named surfaces grazing near three_curves
     three_surfaces tacnode cusp cone instant four_bar gaps hyperbola hyperboloid
     almost_parallelogram unlike_hyperbola unlike_hyperboloid unlike_almost_parallelogram
-    gaps_wide slider driven driven_stops driven_to_stop turntable splined
+    gaps_wide slider driven driven_stops driven_to_stop turntable skated splined
     knife_edges products trees duplicated
 }
 

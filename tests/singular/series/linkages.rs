@@ -153,6 +153,18 @@ pub fn turntable(random: &mut Random, index: usize) -> Trial {
     Trial::short("turntable", "turntable_reduced", set).until(4.0)
 }
 
+/// A driven parallelogram on ice that leaves its way to a skate and a wheel.
+pub fn skated(random: &mut Random, _: usize) -> Trial {
+    let set = vec![
+        ("a0", random.within(0.5)),
+        ("a1", random.between(0.7, 1.3)),
+        ("th0", random.within(2.0)),
+        ("lean", random.between(0.4, 1.0)),
+        ("lag", random.within(0.2)),
+    ];
+    Trial::short("skated", "skated_reduced", set).until(2.0)
+}
+
 /// Two knife edges that turn past each other.
 pub fn knife_edges(random: &mut Random, index: usize) -> Trial {
     let mut set = Set::new();

@@ -100,6 +100,7 @@ pub const SERIES: &[Series] = &[
     series("driven_stops", 60, 600, USUAL, linkages::driven_stops),
     series("driven_to_stop", 60, 600, USUAL, linkages::driven_to_stop),
     series("turntable", 30, 300, USUAL, linkages::turntable),
+    series("skated", 30, 300, USUAL, linkages::skated),
     series("splined", 20, 600, USUAL, linkages::splined),
     series("knife_edges", 30, 300, USUAL, linkages::knife_edges),
     series("products", 100, 5000, USUAL, random_loops::products),
