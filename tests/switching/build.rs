@@ -24,6 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         "frozen",
         "knotted",
         "looped",
+        "parallelogram",
         "placed",
         "pulsed",
         "released",

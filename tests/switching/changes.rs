@@ -1,7 +1,8 @@
 //! Conditions that decide other conditions, change very often, or are left after a while.
 
 use crate::jumps::{near, run, state};
-use bricard_runtime::{Method, Options, StepControl};
+use bricard_runtime::{Interface, Method, Options, StepControl, assemble, simulate};
+use bricard_switching::parallelogram::Parallelogram;
 use bricard_switching::pulsed::Pulsed;
 use bricard_switching::released::Released;
 use bricard_switching::saturated::Saturated;
@@ -79,4 +80,24 @@ fn a_clock_may_change_a_force_as_often_as_it_does() {
     let end = run::<1, 0>(&Pulsed::default(), &state([0.0], [0.0]), &options).end;
     near(end.q[0], periods * half * half, 1e-9, &options);
     near(end.v[0], 0.0, 1e-9, &options);
+}
+
+/// A state in a singular configuration is put onto its sheet, by which either function may get
+/// back to its other side.
+#[test]
+fn two_conditions_change_at_the_same_instant_in_a_singular_configuration() {
+    let mechanism = Parallelogram::default();
+    let start = assemble::<f64, _, 3, 2>(&mechanism, &mechanism.start(), 0.0).expect("a start");
+    for tolerance in [1e-6, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12] {
+        for options in methods(3.0, tolerance) {
+            let run = simulate::<_, _, 3, 2>(&mechanism, &start, &options, &mut []);
+            let done = run.unwrap_or_else(|failure| panic!("{:?}: {failure}", options.method));
+            let error = done.energy_error.expect("it is audited");
+            assert!(
+                error < 50.0 * tolerance,
+                "{:?} {tolerance:e}: {error}",
+                options.method
+            );
+        }
+    }
 }

@@ -6,6 +6,7 @@ include!(concat!(env!("OUT_DIR"), "/frozen.rs"));
 include!(concat!(env!("OUT_DIR"), "/knotted.rs"));
 include!(concat!(env!("OUT_DIR"), "/looped.rs"));
 include!(concat!(env!("OUT_DIR"), "/measured.rs"));
+include!(concat!(env!("OUT_DIR"), "/parallelogram.rs"));
 include!(concat!(env!("OUT_DIR"), "/placed.rs"));
 include!(concat!(env!("OUT_DIR"), "/pulsed.rs"));
 include!(concat!(env!("OUT_DIR"), "/released.rs"));

@@ -245,7 +245,9 @@ impl<T: Real> dyn Motion<T> + '_ {
                     Discontinuity::Jump | Discontinuity::Kink => self.noise() * samples.size(),
                 };
                 let beyond = (-side * samples.values[0]).max(T::zero());
-                let margin = if released { noise + beyond } else { noise };
+                // One that has changed may still be on its other side by what a state that was put
+                // onto its sheet is off.
+                let margin = noise + beyond;
                 match earliest(&mut value, samples, side, margin)? {
                     // Where it leaves zero the interpolant is as good as the step, no better.
                     Some(t) if released && t < times[1] => {
