@@ -313,11 +313,7 @@ impl<T: Real> Sheet<'_, T> {
             });
             found.predict(node, place, here, point.q);
             let shift = direction.shifted(distance);
-            self.project(t, point.q, Some(like), shift)?;
-            if !self.kind.velocity.is_empty() {
-                self.straighten(moved, point.q, workspace);
-                self.project(t, point.q, Some(like), shift)?;
-            }
+            self.project_from(moved, (t, point.q), like, shift, workspace)?;
             // False for NaN, too.
             let clear = self.frame.smallest() >= clearance::<T>() * found.spacing;
             if !clear {

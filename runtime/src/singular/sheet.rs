@@ -334,9 +334,39 @@ impl<'a, T: Real> Sheet<'a, T> {
         }
     }
 
+    /// Moves a position along the chart's complement onto the sheet, or to where constraint
+    /// rows are shifted, by Newton's iteration; leaves its frame.
+    pub(super) fn project(
+        &mut self,
+        t: T,
+        q: &mut [T],
+        like: Option<&Eliminated<'_, T>>,
+        shift: Shift<'_, T>,
+    ) -> Result<(), Obstacle> {
+        self.eliminate((t, q), like)?;
+        self.project_from_here(t, q, like, shift)
+    }
+
+    /// The same from one position to the sheet beside it, by way of a guess.
+    pub(super) fn project_from(
+        &mut self,
+        from: &[T],
+        (t, q): (T, &mut [T]),
+        like: &Eliminated<'_, T>,
+        shift: Shift<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Result<(), Obstacle> {
+        self.project(t, q, Some(like), shift)?;
+        if self.kind.velocity.is_empty() {
+            return Ok(());
+        }
+        self.straighten(from, q, workspace);
+        self.project(t, q, Some(like), shift)
+    }
+
     /// Takes back what led from a position to another one, whose frame is at hand, along what
     /// only velocities are restricted by: no equation says where the position is there.
-    pub(super) fn straighten(&mut self, from: &[T], q: &mut [T], workspace: &Workspace<'_, T>) {
+    fn straighten(&mut self, from: &[T], q: &mut [T], workspace: &Workspace<'_, T>) {
         workspace.scope(|workspace| {
             let moved = workspace.any(q.len());
             moved.copy_from_slice(q);
@@ -351,20 +381,7 @@ impl<'a, T: Real> Sheet<'a, T> {
         add_scaled(q, -T::one(), self.solution);
     }
 
-    /// Moves a position along the chart's complement onto the sheet, or to where constraint
-    /// rows are shifted, by Newton's iteration; leaves its frame.
-    pub(super) fn project(
-        &mut self,
-        t: T,
-        q: &mut [T],
-        like: Option<&Eliminated<'_, T>>,
-        shift: Shift<'_, T>,
-    ) -> Result<(), Obstacle> {
-        self.eliminate((t, q), like)?;
-        self.project_from_here(t, q, like, shift)
-    }
-
-    /// The same, from a position whose frame is at hand.
+    /// Newton's iteration of a projection, from a position whose frame is at hand.
     fn project_from_here(
         &mut self,
         t: T,
