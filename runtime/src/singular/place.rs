@@ -200,6 +200,7 @@ impl<T: Real> Sheet<'_, T> {
     }
 
     /// Tries nodes along the best direction of those in which this moves the sheet, if it moves.
+    #[inline(never)]
     fn try_nodes(
         &mut self,
         state: At<'_, T>,
@@ -222,6 +223,7 @@ impl<T: Real> Sheet<'_, T> {
     }
 
     /// The same along a direction.
+    #[inline(never)]
     fn try_direction(
         &mut self,
         state: At<'_, T>,
