@@ -156,7 +156,8 @@ pub fn turntable(random: &mut Random, index: usize) -> Trial {
 /// A driven parallelogram on ice that leaves its way to a skate and a wheel.
 pub fn skated(random: &mut Random, _: usize) -> Trial {
     let set = vec![
-        ("a0", random.within(0.5)),
+        // A start beside the singular configuration does not say on which sheet it is.
+        ("a0", random.sign() * random.between(0.1, 0.5)),
         ("a1", random.between(0.7, 1.3)),
         ("th0", random.within(2.0)),
         ("lean", random.between(0.4, 1.0)),
