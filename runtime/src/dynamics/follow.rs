@@ -8,7 +8,7 @@
 
 use super::{Core, Source};
 use crate::linalg::is_finite;
-use crate::singular::{Found, Obstacle, Placed, Placement, Point};
+use crate::singular::{Found, Obstacle, Placed, Placement, Point, Searched};
 use crate::state::all_finite;
 use crate::tolerance::{regular, round_off, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State, Step};
@@ -387,14 +387,30 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         step: &Step<T, N>,
         after: T,
     ) -> Option<Found<T>> {
-        let chart = self.session.used.take()?;
+        let Some(chart) = self.session.used.take() else {
+            self.session.open = None;
+            return None;
+        };
         let at = |t, q: &mut [T]| q.copy_from_slice(step.inside_at(t).q.as_slice());
-        let (start, length) = (step.start.at(), step.end.t - step.start.t);
+        let start = step.start;
+        let open = self.session.open.filter(|(t, _)| *t < start.t);
+        let searched = Searched {
+            start: start.at(),
+            length: step.end.t - start.t,
+            after,
+            at: &at,
+            open: open.as_ref().map(|(t, q)| (*t, q.as_slice())),
+        };
         let mut found = None;
         self.on_sheet(mechanism, &chart, &mut |sheet, workspace| {
-            found = Some(sheet.find_passages(start, (length, after), &at, workspace));
+            found = Some(sheet.find_passages(&searched, workspace));
         });
         self.session.used = Some(chart);
+        let left_open = found.as_ref().and_then(|found: &Found<T>| found.open);
+        self.session.open = left_open.and_then(|t| match t < start.t {
+            true => open,
+            false => Some((t, step.inside_at(t).q)),
+        });
         found
     }
 

@@ -4,6 +4,7 @@
 //! Out: [`Found`]: those of the whole, in the order of time.
 
 use crate::Real;
+use crate::equations::At;
 
 /// Passages that are found in one search.
 const ROOM: usize = 8;
@@ -23,6 +24,33 @@ pub struct Passage<T> {
     pub regular: usize,
 }
 
+/// A step that is searched for passages.
+#[derive(Clone, Copy)]
+pub(crate) struct Searched<'a, T> {
+    pub(crate) start: At<'a, T>,
+    pub(crate) length: T,
+    /// The time after which passages are sought.
+    pub(crate) after: T,
+    /// The positions of the step.
+    pub(crate) at: &'a dyn Fn(T, &mut [T]),
+    /// Where the search of the steps before was left open.
+    pub(crate) open: Option<(T, &'a [T])>,
+}
+
+impl<T: Real> Searched<'_, T> {
+    /// The position at a time of the step, or on the way to it from where the search was left
+    /// open.
+    pub(super) fn position(&self, t: T, q: &mut [T]) {
+        let Some((from, open)) = self.open.filter(|_| t < self.start.t) else {
+            return (self.at)(t, q);
+        };
+        let part = (t - from) / (self.start.t - from);
+        for ((q, from), to) in q.iter_mut().zip(open).zip(self.start.q) {
+            *q = *from + (*to - *from) * part;
+        }
+    }
+}
+
 /// Passages of one step after some time: the first of them, in the order of time.
 #[derive(Clone, Debug)]
 pub(crate) struct Found<T> {
@@ -32,17 +60,21 @@ pub(crate) struct Found<T> {
     /// Passages that are no farther apart happen at once.
     at_once: T,
     has_more: bool,
+    /// The last time at which it could be told on which side of a singular configuration the
+    /// motion is, if that is not the end of the step.
+    pub(crate) open: Option<T>,
 }
 
 impl<T: Real> Found<T> {
-    /// None yet of those after a time, in a step of this length.
-    pub(super) fn new(after: T, length: T) -> Self {
+    /// None yet of those that are sought.
+    pub(super) fn new(step: &Searched<'_, T>) -> Self {
         Self {
             list: [None; ROOM],
             count: 0,
-            after,
-            at_once: length * T::from_f64(AT_ONCE),
+            after: step.after,
+            at_once: step.length * T::from_f64(AT_ONCE),
             has_more: false,
+            open: None,
         }
     }
 
@@ -89,5 +121,9 @@ impl<T: Real> Found<T> {
             }
         }
         self.has_more |= others.has_more;
+        self.open = match (self.open, others.open) {
+            (Some(one), Some(other)) => Some(one.min(other)),
+            (one, other) => one.or(other),
+        };
     }
 }

@@ -39,8 +39,8 @@ mod start;
 mod stored_nodes;
 
 pub(crate) use chart::Chart;
-pub(crate) use found::Found;
 pub use found::Passage;
+pub(crate) use found::{Found, Searched};
 pub(crate) use memory::Memory;
 pub(crate) use obstacle::Obstacle;
 pub(crate) use place::Placement;

@@ -7,11 +7,11 @@
 use super::cubic::lowest_of_cubic;
 use super::determinant_signs::DeterminantSigns;
 use super::differences::{VALUES, differentiated, place};
-use super::found::{AT_ONCE, Found, Passage};
+use super::found::{AT_ONCE, Found, Passage, Searched};
 use super::sheet::Sheet;
 use crate::Real;
-use crate::equations::At;
 use crate::linalg::{Eliminated, Frame, Workspace};
+use crate::tolerance::{negligible, regular};
 
 /// Blocks of near-dependent rows that a look takes, and what follows from it.
 const BLOCKS: usize = 6;
@@ -74,57 +74,62 @@ struct Glance<T> {
 /// What a look sees, if anything, and how fast the determinant changes there (1/s).
 type Seen<T> = (Option<Glance<T>>, Option<T>);
 
-/// A step that is looked into: its positions, and when it is.
-struct Step<'a, T> {
-    at: &'a dyn Fn(T, &mut [T]),
-    start: T,
-    length: T,
-}
-
 /// What is needed to look into a step.
 struct View<'a, T> {
-    step: &'a Step<'a, T>,
+    step: &'a Searched<'a, T>,
     like: Eliminated<'a, T>,
 }
 
 impl<T: Real> Sheet<'_, T> {
-    /// Finds the passages of a step of this length whose positions are `at`, by its chart.
+    /// Finds the passages of a step, by its chart.
+    ///
+    /// In a singular configuration itself the sign of the determinant is round-off. A step that
+    /// ends there is searched up to the last look that tells a sign, and the next one from it.
     pub(super) fn passages(
         &mut self,
-        start: At<'_, T>,
-        length: T,
-        at: &dyn Fn(T, &mut [T]),
+        step: &Searched<'_, T>,
         found: &mut Found<T>,
         workspace: &Workspace<'_, T>,
     ) {
-        let step = Step {
-            at,
-            start: start.t,
-            length,
-        };
+        let (start, end) = (step.start.t, step.start.t + step.length);
         let (range, path) = (
             self.chart.coordinate_scale.range,
-            self.path(&step, workspace),
+            self.path(step, workspace),
         );
         let parts = (1..MOST_PARTS).find(|n| path <= range * T::from_f64(*n as f64));
         let parts = parts.unwrap_or(MOST_PARTS);
-        let mut before = None;
-        let mut from = start.t;
+        let mut before = self.left_open(step).map(|glance| (glance, None));
+        let mut from = start;
         for k in 1..=parts {
-            let to = start.t + length * T::from_f64(k as f64 / parts as f64);
-            let seen = self.glances(&step, (from, to), workspace);
-            self.search_among(&step, seen, &mut before, found, workspace);
+            let to = start + step.length * T::from_f64(k as f64 / parts as f64);
+            let seen = self.glances(step, (from, to), workspace);
+            self.search_among(step, seen, &mut before, found, workspace);
             from = to;
+        }
+        let last = before.map(|(glance, _)| glance.t);
+        found.open = last.filter(|last| *last < end);
+    }
+
+    /// The last look at the steps before that told a sign, if this one starts where none can be
+    /// told.
+    fn left_open(&mut self, step: &Searched<'_, T>) -> Option<Glance<T>> {
+        let (t, q) = step.open?;
+        let start = self.eliminate_widely(step.start.t, step.start.q);
+        let tells = start.is_ok() && self.frame.smallest() > regular();
+        match tells {
+            true => None,
+            false => self.glance(t, q),
         }
     }
 
     /// How long the way through a step is, from one look to the next.
-    fn path(&self, step: &Step<'_, T>, workspace: &Workspace<'_, T>) -> T {
+    fn path(&self, step: &Searched<'_, T>, workspace: &Workspace<'_, T>) -> T {
         workspace.scope(|workspace| {
             let [q, last] = [(); 2].map(|()| workspace.numbers(self.chart.n()));
             let mut path = T::zero();
             for k in 0..LOOKS {
-                (step.at)(place((step.start, step.start + step.length), k), q);
+                let (from, to) = (step.start.t, step.start.t + step.length);
+                step.position(place((from, to), k), q);
                 if k > 0 {
                     path += self.chart.apart(q, last);
                 }
@@ -137,7 +142,7 @@ impl<T: Real> Sheet<'_, T> {
     /// Looks at determinants between two times of a step, with their rates.
     fn glances(
         &mut self,
-        step: &Step<'_, T>,
+        step: &Searched<'_, T>,
         between: (T, T),
         workspace: &Workspace<'_, T>,
     ) -> [Seen<T>; LOOKS] {
@@ -145,7 +150,7 @@ impl<T: Real> Sheet<'_, T> {
             let q = workspace.numbers(self.chart.n());
             let seen: [_; LOOKS] = core::array::from_fn(|k| {
                 let t = place(between, k);
-                (step.at)(t, q);
+                step.position(t, q);
                 self.glance(t, q)
             });
             let part = (between.1 - between.0) / T::from_f64((LOOKS - 1) as f64);
@@ -157,7 +162,7 @@ impl<T: Real> Sheet<'_, T> {
     /// Searches between looks, the first of them after the last one of before.
     fn search_among(
         &mut self,
-        step: &Step<'_, T>,
+        step: &Searched<'_, T>,
         seen: [Seen<T>; LOOKS],
         before: &mut Option<(Glance<T>, Option<T>)>,
         found: &mut Found<T>,
@@ -177,13 +182,14 @@ impl<T: Real> Sheet<'_, T> {
         }
     }
 
-    /// The determinant at a position.
+    /// The determinant at a position, where it has a sign.
     fn glance(&mut self, t: T, q: &[T]) -> Option<Glance<T>> {
         self.eliminate_widely(t, q).ok()?;
-        Some(Glance {
+        let sine = self.frame.smallest();
+        (sine > negligible()).then(|| Glance {
             t,
             determinant: self.frame.determinant(),
-            sine: self.frame.smallest(),
+            sine,
             rows: self.frame.block().size(),
         })
     }
@@ -191,7 +197,7 @@ impl<T: Real> Sheet<'_, T> {
     /// Searches between two positions of a step, where the determinant changes at these rates.
     fn search_between(
         &mut self,
-        step: &Step<'_, T>,
+        step: &Searched<'_, T>,
         (from, to): (&Glance<T>, &Glance<T>),
         rates: [Option<T>; 2],
         found: &mut Found<T>,
@@ -224,14 +230,14 @@ impl<T: Real> Sheet<'_, T> {
     /// `None` where that can't be eliminated so.
     fn search_in_order(
         &mut self,
-        step: &Step<'_, T>,
+        step: &Searched<'_, T>,
         (own, other): (&Glance<T>, &Glance<T>),
         rates: [Option<T>; 2],
         found: &mut Found<T>,
         workspace: &Workspace<'_, T>,
     ) -> Option<()> {
         let q = workspace.numbers(self.chart.n());
-        (step.at)(own.t, q);
+        step.position(own.t, q);
         let reference = self.reference(own.t, q, workspace)?;
         let like = reference.like;
         let own = Look::with(own.t, reference.signs, &self.frame);
@@ -267,7 +273,7 @@ impl<T: Real> Sheet<'_, T> {
     ) -> Option<()> {
         workspace.scope(|workspace| {
             let q = workspace.numbers(self.chart.n());
-            (view.step.at)(t, q);
+            view.step.position(t, q);
             self.eliminate((t, q), Some(&view.like)).ok()
         })
     }
@@ -301,7 +307,7 @@ impl<T: Real> Sheet<'_, T> {
         workspace: &Workspace<'_, T>,
     ) -> Option<T> {
         let moment = view.step.length * T::from_f64(MOMENT);
-        let beside = match t > view.step.start + moment {
+        let beside = match t > view.step.start.t + moment {
             true => t - moment,
             false => t + moment,
         };

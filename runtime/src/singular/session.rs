@@ -37,6 +37,8 @@ pub(crate) struct Session<T, const N: usize, const R: usize> {
     pub(crate) nodes: Nodes<T, N>,
     /// Accepted error of a step, relative; none for fixed steps.
     pub(crate) tolerance: Option<T>,
+    /// When and where the search for passages was left open.
+    pub(crate) open: Option<(T, SVector<T, N>)>,
 }
 
 /// What a trial step came to.
@@ -117,6 +119,7 @@ impl<T: Real, const N: usize, const R: usize> Session<T, N, R> {
             trial: Trial::new(),
             nodes: Nodes::new(),
             tolerance: None,
+            open: None,
         }
     }
 
@@ -133,6 +136,7 @@ impl<T: Real, const N: usize, const R: usize> Session<T, N, R> {
         self.rate = T::zero();
         self.trial.forget();
         self.nodes.forget();
+        self.open = None;
     }
 
     /// Takes note of the squared sine of the constraints at a state of the trial step.

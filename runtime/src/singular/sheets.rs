@@ -6,7 +6,7 @@
 //! What happens in one part says nothing of the others: each is placed for itself, between
 //! nodes of its own where its constraints are nearly singular.
 
-use super::found::Found;
+use super::found::{Found, Searched};
 use super::obstacle::Obstacle;
 use super::part::{Frozen, Part, PartOf, Place};
 use super::place::Placement;
@@ -204,27 +204,32 @@ impl<T: Real> Sheets<'_, T> {
         stays.is_ok()
     }
 
-    /// The passages after a time of a step of this length whose positions are `at`.
-    fn passages(
-        &mut self,
-        start: At<'_, T>,
-        (length, after): (T, T),
-        at: &dyn Fn(T, &mut [T]),
-        workspace: &Workspace<'_, T>,
-    ) -> Found<T> {
-        let mut found = Found::new(after, length);
+    /// The passages of a step.
+    fn passages(&mut self, step: &Searched<'_, T>, workspace: &Workspace<'_, T>) -> Found<T> {
+        let mut found = Found::new(step);
         let (several, regular) = (self.chart.has_several(), self.chart.rank());
-        let _ = self.on_each(start, workspace, &mut |place, sheet, workspace| {
-            let own_start = place.part.state(start, workspace);
-            let whole = Cell::new(workspace.any(start.q.len()));
+        let _ = self.on_each(step.start, workspace, &mut |place, sheet, workspace| {
+            let n = step.start.q.len();
+            let whole = Cell::new(workspace.any(n));
             let at = |t: T, q: &mut [T]| {
                 let all = whole.take();
-                at(t, all);
+                (step.at)(t, all);
                 place.part.take(all, q);
                 whole.set(all);
             };
-            let mut own = Found::new(after, length);
-            sheet.passages(own_start, length, &at, &mut own, workspace);
+            let open = step.open.map(|(t, q)| {
+                let own = workspace.any(sheet.chart().n());
+                place.part.take(q, own);
+                (t, &*own)
+            });
+            let own_step = Searched {
+                start: place.part.state(step.start, workspace),
+                at: &at,
+                open,
+                ..*step
+            };
+            let mut own = Found::new(step);
+            sheet.passages(&own_step, &mut own, workspace);
             match several {
                 true => found.add(&own, regular),
                 false => found = own,
@@ -277,15 +282,13 @@ impl<T: Real> Sheets<'_, T> {
         staying()(self, ends, workspace)
     }
 
-    /// The passages after a time of a step of this length whose positions are `at`.
+    /// The passages of a step.
     pub(crate) fn find_passages(
         &mut self,
-        start: At<'_, T>,
-        (length, after): (T, T),
-        at: &dyn Fn(T, &mut [T]),
+        step: &Searched<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> Found<T> {
-        finding()(self, start, (length, after), at, workspace)
+        finding()(self, step, workspace)
     }
 }
 
@@ -321,13 +324,6 @@ compiled_once! {
         |sheets, ends, workspace| sheets.stays(ends, workspace);
 }
 compiled_once! {
-    fn finding<T>: fn(
-        &mut Sheets<'_, T>,
-        At<'_, T>,
-        (T, T),
-        &dyn Fn(T, &mut [T]),
-        &Workspace<'_, T>,
-    ) -> Found<T> = |sheets, start, times, at, workspace| {
-        sheets.passages(start, times, at, workspace)
-    };
+    fn finding<T>: fn(&mut Sheets<'_, T>, &Searched<'_, T>, &Workspace<'_, T>) -> Found<T> =
+        |sheets, step, workspace| sheets.passages(step, workspace);
 }
