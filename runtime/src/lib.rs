@@ -10,6 +10,7 @@ mod error;
 mod integrator;
 mod linalg;
 mod model;
+mod natural_size;
 mod number;
 mod observer;
 mod once;

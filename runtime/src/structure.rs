@@ -6,7 +6,7 @@
 /// The version of what generated code and this crate agree on: traits, buffers and this
 /// description. It goes up with every change that older code would not compile with, or
 /// would compile with to something else.
-const FORMAT: u32 = 7;
+const FORMAT: u32 = 8;
 
 /// Compiles where generated code was written for this version of the crate.
 ///
@@ -31,18 +31,6 @@ pub struct Quantity {
     pub unit: &'static str,
     /// The doc comment, empty if there is none.
     pub docs: &'static str,
-}
-
-impl Quantity {
-    /// Whether its unit is that of an angle.
-    pub(crate) fn is_angle(&self) -> bool {
-        matches!(self.unit, "rad" | "deg")
-    }
-
-    /// Whether its unit is that of an angle, or not given.
-    pub(crate) fn may_be_angle(&self) -> bool {
-        self.is_angle() || self.unit.is_empty()
-    }
 }
 
 /// One constraint equation (one row of `A`).
@@ -121,6 +109,8 @@ pub struct Structure {
     pub file: &'static str,
     /// Generalized coordinates, in the order of `q`.
     pub coordinates: &'static [Quantity],
+    /// Which of them are angles although they have no unit: sines are taken of them.
+    pub unitless_angles: &'static [usize],
     /// How many of the coordinates, the last ones, are integrals of states of the first
     /// order: the velocity of such a coordinate is the state of its name, its acceleration
     /// the rate of the state. It takes part in no energy.
@@ -173,6 +163,7 @@ impl Structure {
         docs: "",
         file: "",
         coordinates: &[],
+        unitless_angles: &[],
         states: 0,
         described: &[],
         parameters: &[],

@@ -56,7 +56,7 @@ use subject::{Subject, doc_lines};
 use symbol::SymbolNames;
 
 /// The version of the interface that modules are written for: the runtime's `FORMAT`.
-const FORMAT: u32 = 7;
+const FORMAT: u32 = 8;
 
 /// The module of a mechanism, from the programs that it runs.
 pub fn module(

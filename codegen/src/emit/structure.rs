@@ -41,15 +41,16 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
     let independent = subject.equations.are_independent(&mechanism.graph);
     let drawn = !mechanism.shapes.is_empty();
     let assumed_regular = subject.options.assumed_regular;
-    let weighed = subject.equations.weighed.iter().copied();
-    let weighed = weighed.map(Literal::usize_unsuffixed);
+    let weighed = indices(&subject.equations.weighed);
     let components = subject.equations.components.iter().map(component);
+    let unitless_angles = indices(&subject.equations.unitless_angles(mechanism));
     quote! {
         static STRUCTURE: Structure = Structure {
             name: #name,
             docs: #docs,
             file: #file,
             coordinates: &[#(#coordinates),*],
+            unitless_angles: #unitless_angles,
             states: #states,
             described: &[#(#described),*],
             parameters: &[#(#parameters),*],
@@ -65,7 +66,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
             independent: #independent,
             drawn: #drawn,
             assumed_regular: #assumed_regular,
-            weighed: &[#(#weighed),*],
+            weighed: #weighed,
             components: &[#(#components),*],
         };
     }
@@ -77,13 +78,15 @@ fn quantities<'a>(
     quantities.into_iter().map(quantity)
 }
 
+/// A slice of indices.
+fn indices(indices: &[usize]) -> TokenStream {
+    let indices = indices.iter().copied().map(Literal::usize_unsuffixed);
+    quote!(&[#(#indices),*])
+}
+
 /// An entry of `Structure::components`.
 fn component(component: &ConnectedComponent) -> TokenStream {
-    let list = |indices: &[usize]| {
-        let indices = indices.iter().copied().map(Literal::usize_unsuffixed);
-        quote!(&[#(#indices),*])
-    };
-    let (coordinates, rows) = (list(&component.coordinates), list(&component.rows));
+    let (coordinates, rows) = (indices(&component.coordinates), indices(&component.rows));
     let scleronomic = component.scleronomic;
     quote! {
         ConnectedComponent { coordinates: #coordinates, rows: #rows, scleronomic: #scleronomic }

@@ -61,7 +61,7 @@ pub(super) use choices;
 
 records! {
     Structure {
-        name, docs, file, coordinates, states, described, parameters, inputs, outputs, accelerated, events,
+        name, docs, file, coordinates, unitless_angles, states, described, parameters, inputs, outputs, accelerated, events,
         constraints, multipliers, weighed, components, constant_mass, conservative, scleronomic,
         independent, drawn, assumed_regular
     }

@@ -9,11 +9,9 @@
 
 use crate::equations::Equations;
 use crate::linalg::Workspace;
-use crate::{ConstraintRow, Quantity, Real};
+use crate::natural_size::{Kind, NaturalSizes};
+use crate::{ConstraintRow, Real, Structure};
 
-/// Units of coordinates that are angles, whose natural size is one. The others
-/// are as large as the largest of them.
-const ANGLES: [&str; 4] = ["", "1", "rad", "deg"];
 /// How far away, in sizes of the coordinates, the rows are measured.
 const NEIGHBOURHOOD: [f64; 3] = [0.0, 0.3, -0.2];
 
@@ -40,7 +38,7 @@ pub(super) struct Scales<'a, T> {
     /// What one unit of the equation is in units of the scaled equation: the
     /// norm of its row is about one in the kinetic metric.
     pub(super) rows: &'a [T],
-    /// How large each coordinate is, at least: 1 rad, or the largest length.
+    /// How large each coordinate is, at least: 1 rad, or the largest of its kind.
     pub(super) sizes: &'a [T],
     /// How much each equation changes when the coordinates change by their sizes, or by what
     /// they are, if that is more: its round-off is relative to that.
@@ -59,12 +57,12 @@ impl<'a, T: Real> Scales<'a, T> {
     ) -> Self {
         let n = q.len();
         let (sizes, columns) = (workspace.numbers(n), workspace.numbers(n));
-        let coordinates = equations.structure().coordinates;
-        measure_sizes(coordinates, q, sizes);
+        let structure = equations.structure();
+        measure_sizes(structure, q, sizes);
         equations.locate(t, q);
         let at = equations.constraints();
         let n_rows = at.residual.len();
-        measure_inertia(at.mass, coordinates, columns);
+        measure_inertia(at.mass, structure, columns);
         for (column, held) in columns.iter_mut().zip(held.unwrap_or_default()) {
             if *held {
                 *column = T::zero();
@@ -155,19 +153,18 @@ impl<'a, T: Real> Scales<'a, T> {
 }
 
 /// What coordinates are divided by to have an inertia of one; those that are nearly massless
-/// have a part of the largest of their kind, angles or others.
-fn measure_inertia<T: Real>(mass: &[T], coordinates: &[Quantity], columns: &mut [T]) {
+/// have a part of the largest of their kind.
+fn measure_inertia<T: Real>(mass: &[T], structure: &Structure, columns: &mut [T]) {
     let n = columns.len();
     let inertia = |i: usize| mass[i * (n + 1)].max(T::zero());
-    let mut largest = [T::zero(); 2];
+    let kind = |i: usize| structure.kind(i).unwrap_or(Kind::Angle) as usize;
+    let mut largest = [T::zero(); Kind::COUNT];
     for i in 0..n {
-        let kind = usize::from(is_angle(coordinates, i));
-        largest[kind] = largest[kind].max(inertia(i));
+        largest[kind(i)] = largest[kind(i)].max(inertia(i));
     }
     let least = largest.map(|largest| largest * T::from_f64(LIGHTEST * LIGHTEST));
     for (i, column) in columns.iter_mut().enumerate() {
-        let kind = usize::from(is_angle(coordinates, i));
-        *column = inverse(inertia(i).max(least[kind]).sqrt());
+        *column = inverse(inertia(i).max(least[kind(i)]).sqrt());
     }
 }
 
@@ -179,22 +176,12 @@ fn inverse<T: Real>(x: T) -> T {
     }
 }
 
-/// Whether a coordinate is an angle, or a number without a unit.
-fn is_angle(coordinates: &[Quantity], i: usize) -> bool {
-    let quantity = coordinates.get(i);
-    quantity.is_none_or(|quantity| ANGLES.contains(&quantity.unit))
-}
-
 /// How large each coordinate is, at least.
-fn measure_sizes<T: Real>(coordinates: &[Quantity], q: &[T], sizes: &mut [T]) {
-    let longest = (0..q.len())
-        .filter(|i| !is_angle(coordinates, *i))
-        .fold(T::zero(), |most: T, i| most.max(q[i].abs()));
+fn measure_sizes<T: Real>(structure: &Structure, q: &[T], sizes: &mut [T]) {
+    let natural = NaturalSizes::measure(structure, q);
     for (i, size) in sizes.iter_mut().enumerate() {
-        *size = match is_angle(coordinates, i) || longest == T::zero() {
-            true => T::one(),
-            false => longest,
-        };
+        let known = structure.kind(i).and_then(|kind| natural.of(kind));
+        *size = known.unwrap_or(T::one());
     }
 }
 

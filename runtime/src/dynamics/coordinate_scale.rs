@@ -7,6 +7,7 @@
 //! what depends on it does not.
 
 use crate::linalg::length;
+use crate::natural_size::{Kind, NaturalSizes};
 use crate::{Real, Structure};
 use core::f64::consts::TAU;
 
@@ -47,11 +48,14 @@ impl<T: Real> CoordinateScale<T> {
         // Integrals of states are no lengths.
         q[lengths..].fill(T::zero());
         sizes[lengths..].fill(T::from_f64(f64::INFINITY));
-        for (size, coordinate) in q.iter_mut().zip(structure.freedoms()) {
+        let natural = NaturalSizes::measure(structure, &q[..lengths]);
+        for (coordinate, size) in q[..lengths].iter_mut().enumerate() {
             *size = size.abs();
-            if coordinate.may_be_angle() {
-                *size = size.max(T::one());
-            }
+            let least = match structure.kind(coordinate) {
+                Some(kind @ (Kind::Angle | Kind::Number)) => natural.of(kind),
+                Some(Kind::Length) | None => None,
+            };
+            *size = size.max(least.unwrap_or_default());
         }
         for (known, size) in sizes.iter_mut().zip(&*q) {
             *known = known.max(*size * T::from_f64(SCALE_STEP));

@@ -14,9 +14,10 @@ use super::erased::Constrained;
 use super::singular_values::lift;
 use crate::equations::At;
 use crate::linalg::{Workspace, dot, independent_columns, is_definite, norm, scale};
+use crate::natural_size::{Kind, NaturalSizes};
 use crate::once::compiled_once;
 use crate::tolerance::{hull, regular, spacing};
-use crate::{Mechanism, Position, Quantity, Real, State};
+use crate::{Mechanism, Position, Real, State};
 
 /// How many times the angles are turned.
 const SAMPLES: usize = 8;
@@ -205,12 +206,15 @@ fn sample_mass<T: Real>(
 /// Euler parameters one is nearly one and the others nearly zero at some positions, where it
 /// has next to no inertia, and so would the direction along which they do not move.
 fn observe_parameters<T: Real>(solver: &mut dyn Constrained<T>, state: At<'_, T>, moved: &mut [T]) {
+    let structure = solver.structure();
+    let Some(size) = NaturalSizes::measure(structure, state.q).of(Kind::Number) else {
+        return;
+    };
     for sample in 1..=SAMPLES {
         turn(solver, state.q, sample, moved);
-        let coordinates: &[Quantity] = solver.structure().coordinates;
-        for (j, (q, coordinate)) in moved.iter_mut().zip(coordinates).enumerate() {
-            if coordinate.unit == "1" {
-                *q += T::from_f64(2.0 * stride(sample, j) - 1.0);
+        for (j, q) in moved.iter_mut().enumerate() {
+            if structure.kind(j) == Some(Kind::Number) {
+                *q += size * T::from_f64(2.0 * stride(sample, j) - 1.0);
             }
         }
         solver.locate(state.t, moved);
@@ -267,9 +271,9 @@ fn rows_alone<T: Real>(mass: &[T], jacobian: &[T], alone: &mut [T]) {
 /// A position with every angle turned by a different amount.
 fn turn<T: Real>(solver: &dyn Constrained<T>, q: &[T], sample: usize, turned: &mut [T]) {
     turned.copy_from_slice(q);
-    let coordinates: &[Quantity] = solver.structure().coordinates;
-    for (j, (q, coordinate)) in turned.iter_mut().zip(coordinates).enumerate() {
-        if coordinate.may_be_angle() {
+    let structure = solver.structure();
+    for (j, q) in turned.iter_mut().enumerate() {
+        if structure.kind(j) == Some(Kind::Angle) {
             *q += T::from_f64(core::f64::consts::TAU * stride(sample, j));
         }
     }

@@ -7,6 +7,7 @@
 
 use super::Core;
 use crate::linalg::diagonal;
+use crate::natural_size::Kind;
 use crate::tolerance::excusable;
 use crate::{DynamicsError, Mechanism, Real, State, Structure};
 use core::f64::consts::TAU;
@@ -22,9 +23,8 @@ pub(super) fn check_angles<T: Real>(
     q: &[T],
 ) -> Result<(), DynamicsError<T>> {
     let most = excusable::<T>() / T::EPSILON;
-    let angles = q.iter().zip(structure.freedoms()).enumerate();
-    for (coordinate, (value, quantity)) in angles {
-        if value.abs() > most && quantity.is_angle() {
+    for (coordinate, value) in q.iter().enumerate() {
+        if value.abs() > most && structure.kind(coordinate) == Some(Kind::Angle) {
             return Err(DynamicsError::AngleTooLarge {
                 t,
                 coordinate,
