@@ -98,6 +98,8 @@ fn two_conditions_change_at_the_same_instant_in_a_singular_configuration() {
                 "{:?} {tolerance:e}: {error}",
                 options.method
             );
+            let counted = (done.passages, done.events);
+            assert_eq!(counted, (Some(5), 5), "{:?} {tolerance:e}", options.method);
         }
     }
 }

@@ -17,7 +17,7 @@ const REGULAR_SINE: f64 = 0.05;
 /// What forms may differ by, relative to the largest acceleration.
 const FORMS: f64 = 1e-8;
 
-/// A coordinate as random descriptions have them: without a unit. Like those of any
+/// An angle as random descriptions have them: without a unit. Like those of any
 /// mechanism they are turned to find out which rows and masses are small everywhere,
 /// and which only at one position.
 const COORDINATE: Quantity = Quantity {
@@ -28,16 +28,20 @@ const COORDINATE: Quantity = Quantity {
 
 /// What is known about mechanisms with one coordinate, with two, and so on.
 static NAMELESS: [Structure; BODIES_MAX] = [
-    nameless(&[COORDINATE]),
-    nameless(&[COORDINATE; 2]),
-    nameless(&[COORDINATE; 3]),
-    nameless(&[COORDINATE; 4]),
+    nameless(&[COORDINATE], &[0]),
+    nameless(&[COORDINATE; 2], &[0, 1]),
+    nameless(&[COORDINATE; 3], &[0, 1, 2]),
+    nameless(&[COORDINATE; 4], &[0, 1, 2, 3]),
 ];
 
-const fn nameless(coordinates: &'static [Quantity]) -> Structure {
+const fn nameless(
+    coordinates: &'static [Quantity],
+    unitless_angles: &'static [usize],
+) -> Structure {
     Structure {
         name: "Random",
         coordinates,
+        unitless_angles,
         conservative: true,
         ..Structure::PLAIN
     }

@@ -1,6 +1,7 @@
 //! The symbolic engine and the optimiser against arithmetic that shares nothing
 //! with them.
 
+mod angles;
 mod canonical;
 mod columns;
 mod components;

@@ -23,6 +23,7 @@ fn structure() -> Structure {
     Structure {
         name: "Slider",
         coordinates: &[X],
+        unitless_angles: &[0],
         constraints: &[ConstraintRow {
             text: "x = 0",
             line: 7,

@@ -11,7 +11,7 @@ use super::found::{AT_ONCE, Found, Passage, Searched};
 use super::sheet::Sheet;
 use crate::Real;
 use crate::linalg::{Eliminated, Frame, Workspace};
-use crate::tolerance::{negligible, regular};
+use crate::tolerance::{regular, resolved};
 
 /// Blocks of near-dependent rows that a look takes, and what follows from it.
 const BLOCKS: usize = 6;
@@ -186,7 +186,7 @@ impl<T: Real> Sheet<'_, T> {
     fn glance(&mut self, t: T, q: &[T]) -> Option<Glance<T>> {
         self.eliminate_widely(t, q).ok()?;
         let sine = self.frame.smallest();
-        (sine > negligible()).then(|| Glance {
+        (sine > resolved()).then(|| Glance {
             t,
             determinant: self.frame.determinant(),
             sine,

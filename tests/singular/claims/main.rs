@@ -15,6 +15,7 @@ mod redundant;
 mod references;
 mod scalar;
 mod scores;
+mod sizes;
 mod stops;
 mod tolerances;
 

@@ -6,6 +6,7 @@ use bricard_runtime::nalgebra::SVector;
 use bricard_runtime::{DynamicsError, Observer, Occurrence, Passage, Probe, Step};
 use bricard_runtime::{Method, Options, State, StepControl, Whole, assemble, simulate};
 use bricard_singular::descriptions::driven_lines::DrivenLines;
+use bricard_singular::descriptions::halting::Halting;
 use bricard_singular::descriptions::many_lines::ManyLines;
 use bricard_singular::descriptions::parallelogram_pendulum::ParallelogramPendulum;
 use bricard_singular::descriptions::spinning::Spinning;
@@ -128,6 +129,38 @@ fn a_passage_is_reported_when_it_is_wherever_steps_end() {
             assert!(error < 1e-9, "{time} instead of {exact}");
         }
     }
+}
+
+/// The sign of the determinant in a singular configuration is that of round-off.
+#[test]
+fn a_step_that_ends_in_a_singular_configuration_takes_and_invents_no_passage() {
+    let fixed = [0.125, 0.1].map(|step| StepControl::Fixed { step });
+    let adaptive = [1e-6, 1e-9, 1e-12].map(|tolerance| StepControl::Adaptive {
+        relative: tolerance,
+        absolute: tolerance,
+    });
+    for method in Method::ALL {
+        for control in fixed {
+            assert_eq!(halted(method, control, 1.0), Some(1));
+            assert_eq!(halted(method, control, 0.0), Some(0));
+        }
+        // A motion that turns in a singular configuration may cross it twice by its error.
+        for control in adaptive.iter().filter(|_| method != Method::Rk4) {
+            assert_eq!(halted(method, *control, 1.0), Some(1));
+        }
+    }
+}
+
+/// Passages of a crank that halts in its dead centre, and goes on or back.
+fn halted(method: Method, control: StepControl<f64>, goes: f64) -> Option<u64> {
+    let mut mechanism = Halting::<f64>::default();
+    mechanism.parameters.goes = goes;
+    let mechanism: &dyn Whole<f64, 4, 3> = &mechanism;
+    let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+    let options = Options::new(2.0, method, control);
+    let ran = simulate(mechanism, &start, &options, &mut []);
+    let summary = ran.unwrap_or_else(|failure| panic!("{method:?} {control:?} {goes}: {failure}"));
+    summary.passages
 }
 
 #[test]
