@@ -14,7 +14,7 @@ use std::thread;
 use std::time::Duration;
 
 /// What a run may take (s), besides a quarter of its own seconds.
-const PATIENCE: f64 = 10.0;
+const PATIENCE: f64 = 30.0;
 
 /// A trial and what it came to.
 #[derive(Clone, Debug)]
