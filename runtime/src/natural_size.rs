@@ -10,16 +10,17 @@ use crate::{Real, Structure};
 pub(crate) enum Kind {
     /// An angle, in radians.
     Angle,
-    /// What has no unit, and no sine is taken of: an Euler parameter, or any quantity of a
-    /// description without units.
-    Number,
-    /// What has a unit.
+    /// A ratio: an Euler parameter.
+    Ratio,
+    /// A length, or anything else that has a unit.
     Length,
+    /// What has no unit, and no sine is taken of.
+    Unknown,
 }
 
 impl Kind {
     /// How many there are.
-    pub(crate) const COUNT: usize = 3;
+    pub(crate) const COUNT: usize = 4;
 }
 
 impl Structure {
@@ -29,7 +30,8 @@ impl Structure {
         Some(match quantity.unit {
             "rad" | "deg" => Kind::Angle,
             "" | "1" if self.unitless_angles.contains(&coordinate) => Kind::Angle,
-            "" | "1" => Kind::Number,
+            "1" => Kind::Ratio,
+            "" => Kind::Unknown,
             _ => Kind::Length,
         })
     }

@@ -52,8 +52,8 @@ impl<T: Real> CoordinateScale<T> {
         for (coordinate, size) in q[..lengths].iter_mut().enumerate() {
             *size = size.abs();
             let least = match structure.kind(coordinate) {
-                Some(kind @ (Kind::Angle | Kind::Number)) => natural.of(kind),
-                Some(Kind::Length) | None => None,
+                Some(kind @ (Kind::Angle | Kind::Unknown)) => natural.of(kind),
+                Some(Kind::Ratio | Kind::Length) | None => None,
             };
             *size = size.max(least.unwrap_or_default());
         }

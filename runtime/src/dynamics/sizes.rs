@@ -5,9 +5,9 @@
 //!      where rows of `A` vanish; whether the mass matrix is definite anywhere, and
 //!      whether the masses that a row connects are of similar size.
 //!
-//! The rows are evaluated with all angles turned to other values. Angles are
-//! known by their unit. A coordinate whose unit is not given may be an angle; then
-//! its turning is evidence only for rows that vanish at the first state.
+//! The rows are evaluated with all angles turned to other values. A coordinate of which
+//! nothing tells what it measures is moved, too; then that is evidence only for rows that
+//! vanish at the first state.
 
 use super::Core;
 use super::erased::Constrained;
@@ -134,7 +134,8 @@ fn observe<T: Real>(
 ) {
     let r = here.whole.len();
     let structure = solver.structure();
-    let sure = structure.coordinates.iter().all(|c| !c.unit.is_empty());
+    let unknown = |j| structure.kind(j) == Some(Kind::Unknown);
+    let sure = !(0..structure.coordinates.len()).any(unknown);
     let mut learning = solver.learn();
     if !structure.constant_mass || !learning.metric.parts.is_mass_matrix() {
         let mut couplings = [T::zero(); SAMPLES];
@@ -183,7 +184,7 @@ fn sample_mass<T: Real>(
         }
     }
     if !named.is_empty() {
-        observe_parameters(solver, state, turned);
+        observe_ratios(solver, state, turned);
     }
     let mut learning = solver.learn();
     let inertia = learning.metric.inertia();
@@ -202,18 +203,17 @@ fn sample_mass<T: Real>(
     }
 }
 
-/// Takes note of the inertia of coordinates without a unit where they have other values. Of
-/// Euler parameters one is nearly one and the others nearly zero at some positions, where it
+/// Takes note of the inertia of ratios where they have other values. Of Euler parameters one is nearly one and the others nearly zero at some positions, where it
 /// has next to no inertia, and so would the direction along which they do not move.
-fn observe_parameters<T: Real>(solver: &mut dyn Constrained<T>, state: At<'_, T>, moved: &mut [T]) {
+fn observe_ratios<T: Real>(solver: &mut dyn Constrained<T>, state: At<'_, T>, moved: &mut [T]) {
     let structure = solver.structure();
-    let Some(size) = NaturalSizes::measure(structure, state.q).of(Kind::Number) else {
+    let Some(size) = NaturalSizes::measure(structure, state.q).of(Kind::Ratio) else {
         return;
     };
     for sample in 1..=SAMPLES {
         turn(solver, state.q, sample, moved);
         for (j, q) in moved.iter_mut().enumerate() {
-            if structure.kind(j) == Some(Kind::Number) {
+            if structure.kind(j) == Some(Kind::Ratio) {
                 *q += size * T::from_f64(2.0 * stride(sample, j) - 1.0);
             }
         }
@@ -268,14 +268,18 @@ fn rows_alone<T: Real>(mass: &[T], jacobian: &[T], alone: &mut [T]) {
     }
 }
 
-/// A position with every angle turned by a different amount.
+/// A position with every angle turned by a different amount, and coordinates of which nothing
+/// tells what they measure moved as many times their size.
 fn turn<T: Real>(solver: &dyn Constrained<T>, q: &[T], sample: usize, turned: &mut [T]) {
     turned.copy_from_slice(q);
     let structure = solver.structure();
-    for (j, q) in turned.iter_mut().enumerate() {
-        if structure.kind(j) == Some(Kind::Angle) {
-            *q += T::from_f64(core::f64::consts::TAU * stride(sample, j));
-        }
+    let natural = NaturalSizes::measure(structure, q);
+    for (j, moved) in turned.iter_mut().enumerate() {
+        let size = match structure.kind(j) {
+            Some(kind @ (Kind::Angle | Kind::Unknown)) => natural.of(kind).unwrap_or(T::one()),
+            Some(Kind::Ratio | Kind::Length) | None => continue,
+        };
+        *moved += size * T::from_f64(core::f64::consts::TAU * stride(sample, j));
     }
 }
 
