@@ -12,8 +12,9 @@
 //! 3. `collect`, `share`: common factors of terms, and pairs of factors that products
 //!    share.
 //! 4. `distribute`: factors put into sums again where that is free.
-//! 5. `dead`: what nobody reads.
-//! 6. `order`: outputs of the same coordinates one after the other.
+//! 5. `signs`: changes of sign put into numbers.
+//! 6. `dead`: what nobody reads.
+//! 7. `order`: outputs of the same coordinates one after the other.
 //!
 //! `solve` appends the solve for the accelerations to a program; `constant` takes out what is
 //! written once.
@@ -30,6 +31,7 @@ mod programs;
 mod ring;
 mod schedule;
 mod share;
+mod signs;
 mod solve;
 mod wanted;
 
@@ -90,7 +92,8 @@ pub fn optimise_among(
 ) -> Optimised {
     let scheduled = schedule::schedule(graph, laws, wanted);
     let finished = |best: &Program| {
-        let program = checked(order::arranged(&distribute::distribute(best)));
+        let rewritten = signs::into_numbers(&distribute::distribute(best));
+        let program = checked(order::arranged(&rewritten));
         Optimised {
             cost: cost(&program),
             derived: cost(&scheduled),

@@ -1,7 +1,7 @@
 //! The passes one by one, so that each can be checked by itself.
 
 use super::program::{Program, Slot};
-use super::{collect, distribute, in_trig_ring, schedule, share};
+use super::{collect, distribute, in_trig_ring, schedule, share, signs};
 use crate::expr::ExprId;
 use crate::model::Graph;
 
@@ -19,16 +19,19 @@ pub enum Pass {
     Share,
     /// Factors put into sums.
     Distribute,
+    /// Changes of sign put into numbers.
+    Signs,
 }
 
 impl Pass {
     /// All passes, in the order they run in.
-    pub const ALL: [Pass; 5] = [
+    pub const ALL: [Pass; 6] = [
         Pass::Ring,
         Pass::Schedule,
         Pass::Collect,
         Pass::Share,
         Pass::Distribute,
+        Pass::Signs,
     ];
 
     /// Its name in `RULES.md`.
@@ -39,6 +42,7 @@ impl Pass {
             Pass::Collect => "collect",
             Pass::Share => "share",
             Pass::Distribute => "distribute",
+            Pass::Signs => "signs",
         }
     }
 }
@@ -58,5 +62,6 @@ pub fn alone(pass: Pass, graph: &mut Graph, laws: &[ExprId], wanted: &[(Slot, Ex
         Pass::Collect => collect::collect_factors(&program).unwrap_or(program),
         Pass::Share => share::share_pairs(&program),
         Pass::Distribute => distribute::distribute(&program),
+        Pass::Signs => signs::into_numbers(&program),
     }
 }

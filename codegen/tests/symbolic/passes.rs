@@ -193,6 +193,7 @@ fn every_function_that_rewrites_is_named_by_a_rule() {
         ("collect.rs", ["collect_factors"].as_slice()),
         ("share.rs", ["share_pairs"].as_slice()),
         ("dead.rs", ["without_dead"].as_slice()),
+        ("signs.rs", ["into_numbers", "turn"].as_slice()),
         ("solve/algebra.rs", ["product", "sum", "inverse"].as_slice()),
         ("solve/saddle.rs", ["inverse_entries"].as_slice()),
     ];

@@ -2,9 +2,9 @@
 
 use super::recipe::{self, Recipe, SYMBOLS, evaluated, value_of};
 use super::{agree, config};
-use bricard_codegen::internals::expr::{ExprId, Graph, Symbol};
+use bricard_codegen::internals::expr::{ExprId, Function, Graph, Number, Symbol};
 use bricard_codegen::internals::optimise::{
-    Program, Slot, cost, interpret, optimise, plain, verify,
+    Operation, Program, Slot, cost, interpret, optimise, plain, verify,
 };
 use proptest::prelude::*;
 
@@ -156,6 +156,43 @@ fn a_shared_expression_is_computed_once() {
     let program = optimise(&mut graph, &[], &slots(&[square, cube]));
     assert_eq!(cost(&program).sums, 1);
     assert_eq!(cost(&program).products, 2);
+}
+
+/// How often a program changes a sign and does nothing else.
+fn sign_changes(program: &Program) -> usize {
+    let changes = |operation: &Operation| match operation {
+        Operation::Sum(terms) => terms.len() == 1,
+        _ => false,
+    };
+    let operations = program.operations();
+    operations
+        .filter(|(_, operation)| changes(operation))
+        .count()
+}
+
+#[test]
+fn a_number_takes_the_sign_of_its_product_where_that_is_free() {
+    let mut graph = Graph::new();
+    let [x, y, z] = [
+        Symbol::Coordinate(0),
+        Symbol::Coordinate(1),
+        Symbol::Velocity(0),
+    ]
+    .map(|s| graph.symbol(s));
+    let half = graph.number(Number::Exact(1, 2));
+    let product = graph.mul(half, x);
+    let negative = graph.neg(product);
+    let times = graph.mul(product, y);
+    let sum = graph.add(times, z);
+    let alone = optimise(&mut graph, &[], &slots(&[negative, sum]));
+    assert_eq!(sign_changes(&alone), 0, "{alone}");
+    // It is written with both signs.
+    let both = optimise(&mut graph, &[], &slots(&[negative, product, sum]));
+    assert_eq!(sign_changes(&both), 1, "{both}");
+    // A function of it would have to change it back.
+    let power = graph.function(Function::Exp, product);
+    let inside = optimise(&mut graph, &[], &slots(&[negative, power]));
+    assert_eq!(sign_changes(&inside), 1, "{inside}");
 }
 
 /// A row of bodies: the first half of the outputs asks for each body and the next one,

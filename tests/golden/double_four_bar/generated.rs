@@ -317,7 +317,7 @@ pub mod double_four_bar {
         /// | `jacobian` | `A = ∂g/∂q` | `R × N` | unit of the row per unit of the coordinate |
         /// | `bias` | `p₂ = −(Ȧ q̇ + ḃ)` | `R` | unit of the row per s² |
         ///
-        /// Costs 71 products, 34 sums, 5 sine–cosine pairs. As derived: 251 products, 74 sums, 5 sine–cosine pairs.
+        /// Costs 71 products, 33 sums, 5 sine–cosine pairs. As derived: 251 products, 74 sums, 5 sine–cosine pairs.
         fn terms(&self, state: &State<T, 5>, out: &mut Terms<T, 5, 4>) {
             if !out.is_filled_by(&STRUCTURE) {
                 return self.begin_terms(state, out);
@@ -430,7 +430,7 @@ pub mod double_four_bar {
             out.jacobian.data.0[3][2] = -sin_q4_l4;
             let cos_q4_l4 = cos_q4 * l4;
             out.jacobian.data.0[3][3] = cos_q4_l4;
-            out.force.data.0[0][4] = -T::constant(9.81, -4.973799150320702e-16) * e5_m5
+            out.force.data.0[0][4] = T::constant(-9.81, 4.973799150320702e-16) * e5_m5
                 * cos_q5;
             let l5_sin_q5 = l5 * sin_q5;
             out.jacobian.data.0[4][2] = l5_sin_q5;
@@ -635,14 +635,14 @@ pub mod double_four_bar {
             let cos_q4_l4 = cos_q4 * l4;
             let l5_cos_q5 = l5 * cos_q5;
             let q5_dot_q5_dot = q5_dot * q5_dot;
-            let product_25 = T::constant(9.81, -4.973799150320702e-16) * e5_m5 * cos_q5;
+            let product_25 = T::constant(-9.81, 4.973799150320702e-16) * e5_m5 * cos_q5;
             let sum_19 = (-sum_12)
                 .mul_add(
                     product_20,
                     product_17
                         .mul_add(
                             product_19,
-                            product_24
+                            (-product_24)
                                 .mul_add(
                                     product_25,
                                     (-l5_cos_q5)
@@ -694,7 +694,7 @@ pub mod double_four_bar {
                     (-product_17)
                         .mul_add(
                             product_27,
-                            (-product_25)
+                            product_25
                                 .mul_add(
                                     product_26,
                                     (-l5_sin_q5)
@@ -756,8 +756,11 @@ pub mod double_four_bar {
                             (-product_10).mul_add(sum_31, quotient_3 * product_17),
                         ),
                 );
-            out.acceleration.data.0[0][4] = product_26 * product_33
-                - product_24.mul_add(sum_27, quotient_7 * product_25);
+            out.acceleration.data.0[0][4] = product_26
+                .mul_add(
+                    product_33,
+                    (-product_24).mul_add(sum_27, quotient_7 * product_25),
+                );
             out.pivots.mass_pivots.data.0[0][3] = (-product_9)
                 .mul_add(product_9 * (T::one() / sum_7), sum_8);
             out.pivots.row_pivots.data.0[0][1] = -sum_11;
@@ -1290,7 +1293,7 @@ pub mod double_four_bar {
         /// | `row_by_position` | `∂(p₂ − A q̈)/∂q` | `R × N` |
         /// | `row_by_velocity` | `∂p₂/∂q̇` | `R × N` |
         ///
-        /// Costs 131 products, 64 sums, 5 sine–cosine pairs. As derived: 577 products, 185 sums, 5 sine–cosine pairs.
+        /// Costs 131 products, 62 sums, 5 sine–cosine pairs. As derived: 577 products, 185 sums, 5 sine–cosine pairs.
         fn linearised(
             &self,
             state: &State<T, 5>,
@@ -1352,8 +1355,8 @@ pub mod double_four_bar {
                 * (-cos_q5).mul_add(q5_ddot, q5_dot * sin_q5_q5_dot);
             out.row_by_position.data.0[4][3] = -l5
                 * sin_q5.mul_add(q5_ddot, cos_q5 * q5_dot * q5_dot);
-            out.row_by_velocity.data.0[4][2] = -T::from_f64(2.0) * l5_cos_q5 * q5_dot;
-            out.row_by_velocity.data.0[4][3] = -T::from_f64(2.0) * l5 * sin_q5_q5_dot;
+            out.row_by_velocity.data.0[4][2] = T::from_f64(-2.0) * l5_cos_q5 * q5_dot;
+            out.row_by_velocity.data.0[4][3] = T::from_f64(-2.0) * l5 * sin_q5_q5_dot;
             let q1_dot_q1_dot = q1_dot * q1_dot;
             out.row_by_position.data.0[0][0] = l1
                 * (-sin_q1).mul_add(q1_dot_q1_dot, cos_q1 * q1_ddot);

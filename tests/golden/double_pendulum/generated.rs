@@ -477,7 +477,7 @@ pub mod double_pendulum {
                 held: true,
             };
             start.q[1] = Initial {
-                value: -T::constant(0.05555555555555555, 3.0839528461809902e-18)
+                value: T::constant(-0.05555555555555555, -3.0839528461809902e-18)
                     * T::pi(),
                 held: true,
             };

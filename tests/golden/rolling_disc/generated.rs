@@ -795,13 +795,13 @@ pub mod rolling_disc {
         }
         /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
         ///
-        /// Costs 3 products, 1 sum, 1 sine–cosine pair.
+        /// Costs 3 products, 1 sine–cosine pair. As derived: 3 products, 1 sum, 1 sine–cosine pair.
         pub fn potential_force(&self, state: &State<T, 5>) -> SVector<T, 5> {
             let mut out = SVector::zeros();
             let [_, _, _, theta, _] = state.q.data.0[0];
             let Parameters { r, m } = self.parameters;
             let (sin_theta, _) = theta.sin_cos();
-            out.data.0[0][3] = -T::constant(9.81, -4.973799150320702e-16) * r * m
+            out.data.0[0][3] = T::constant(-9.81, 4.973799150320702e-16) * r * m
                 * sin_theta;
             out
         }

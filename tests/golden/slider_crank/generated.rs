@@ -619,7 +619,7 @@ pub mod slider_crank {
         }
         /// Potential forces `h = ∂Π/∂q`, `N`; N for a length, N·m for an angle.
         ///
-        /// Costs 7 products, 2 sums, 2 sine–cosine pairs. As derived: 9 products, 2 sums, 2 sine–cosine pairs.
+        /// Costs 7 products, 1 sum, 2 sine–cosine pairs. As derived: 9 products, 2 sums, 2 sine–cosine pairs.
         pub fn potential_force(&self, state: &State<T, 3>) -> SVector<T, 3> {
             let mut out = SVector::zeros();
             let [q1, q2, _] = state.q.data.0[0];
@@ -629,7 +629,7 @@ pub mod slider_crank {
                 * T::constant(9.81, -4.973799150320702e-16)
                     .mul_add(m2, T::constant(4.905, -2.486899575160351e-16) * m1);
             let (_, cos_q2) = q2.sin_cos();
-            out.data.0[0][1] = -T::constant(4.905, -2.486899575160351e-16) * m2 * l2
+            out.data.0[0][1] = T::constant(-4.905, 2.486899575160351e-16) * m2 * l2
                 * cos_q2;
             out
         }
