@@ -191,6 +191,14 @@ impl Structure {
         &self.coordinates[..count]
     }
 
+    /// Whether a row and all rows that it is tied to restrict positions only, to the same ones
+    /// at all times.
+    pub(crate) fn is_scleronomic_at(&self, row: usize) -> bool {
+        let own = |component: &&ConnectedComponent| component.rows.contains(&row);
+        let component = self.components.iter().find(own);
+        component.map_or(self.scleronomic, |component| component.scleronomic)
+    }
+
     /// Writes a coordinate as the description names it.
     pub(crate) fn write_coordinate(
         &self,

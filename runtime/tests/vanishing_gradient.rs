@@ -19,6 +19,7 @@ static LOOSE: Structure = Structure {
         holonomic: true,
     }],
     conservative: true,
+    scleronomic: true,
     ..PLAIN
 };
 

@@ -176,6 +176,11 @@ impl<'a, T: Real> Decomposition<'a, T> {
         self.order.len() - self.n_unsafe + self.n_singular(cut)
     }
 
+    /// Whether there may be a singular value between two bounds.
+    pub(super) fn has_between(&self, low: T, high: T) -> bool {
+        self.n_singular(low) > self.n_singular(high) || !self.safe.are_above(high)
+    }
+
     /// How many of the singular values that were computed are above `cut`.
     fn n_singular(&self, cut: T) -> usize {
         let above = |i: &usize| self.squares[*i].sqrt() > cut;

@@ -23,6 +23,8 @@ pub(crate) struct Draft<'a, T> {
     pub(super) residual: &'a mut [T],
     /// Which held values stand in the way then.
     pub(super) conflicting: &'a mut [bool],
+    /// Whether constraints that are independent nearly depend on one another.
+    pub(super) near_singular: &'a mut bool,
 }
 
 /// Why no consistent state could be found.

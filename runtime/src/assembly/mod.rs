@@ -34,6 +34,7 @@ pub use fault::StartFault;
 
 use room::Room;
 
+use crate::dynamics::{Held, refine_start};
 use crate::linalg::{Breakdown, Workspace, column};
 use crate::stack::with_room;
 use crate::{Initial, Mechanism, Position, Real, Start, State, Terms};
@@ -82,8 +83,12 @@ fn consistent<T: Real, const N: usize, const R: usize>(
         let mut met = *start;
         mechanism.begin(&mut met, t).map_err(AssemblyError::Start)?;
         let mut state = given(&met, t);
-        if R > 0 {
-            constrain(mechanism, &mut state, start)?;
+        if R > 0 && constrain(mechanism, &mut state, start)? {
+            let held = Held {
+                q: held(&start.q),
+                v: held(&start.v),
+            };
+            refine_start(mechanism, &mut state, &held);
         }
         check_inertia(mechanism, &state)?;
         Ok(state)
@@ -107,17 +112,18 @@ fn held<T: Real, const N: usize>(values: &[Initial<T>; N]) -> [bool; N] {
     column(|i| values[i].held)
 }
 
-/// Moves what is not held onto the constraints. Neither this nor what follows is inlined: both
+/// Moves what is not held onto the constraints; whether these are nearly dependent. Neither this nor what follows is inlined: both
 /// need large matrices on the stack, and not at the same time.
 #[inline(never)]
 fn constrain<T: Real, const N: usize, const R: usize>(
     mechanism: &dyn Mechanism<T, N, R>,
     state: &mut State<T, N>,
     start: &Start<T, N>,
-) -> Result<(), AssemblyError<T, N, R>> {
+) -> Result<bool, AssemblyError<T, N, R>> {
     let mut room = Room::new();
     room.assemble(position::positions(), mechanism, state, &held(&start.q))?;
-    room.assemble(velocity::velocities(), mechanism, state, &held(&start.v))
+    room.assemble(velocity::velocities(), mechanism, state, &held(&start.v))?;
+    Ok(room.near_singular)
 }
 
 /// Refuses a kinetic energy that is negative for some velocities, whether or not the

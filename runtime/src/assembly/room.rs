@@ -16,6 +16,8 @@ pub(super) struct Room<T, const N: usize, const R: usize> {
     position: Position<T, N, R>,
     terms: Terms<T, N, R>,
     memory: Memory<T, N, R>,
+    /// Whether constraints that are independent were found to nearly depend on one another.
+    pub(super) near_singular: bool,
 }
 
 impl<T: Real, const N: usize, const R: usize> Room<T, N, R> {
@@ -24,6 +26,7 @@ impl<T: Real, const N: usize, const R: usize> Room<T, N, R> {
             position: Position::default(),
             terms: Terms::default(),
             memory: Memory::new(),
+            near_singular: false,
         }
     }
 
@@ -51,6 +54,7 @@ impl<T: Real, const N: usize, const R: usize> Room<T, N, R> {
             held,
             residual: residual.as_mut_slice(),
             conflicting: &mut conflicting,
+            near_singular: &mut self.near_singular,
         };
         let Err(refusal) = routine(&mut equations, draft, &self.memory.workspace()) else {
             return Ok(());

@@ -15,7 +15,7 @@ use crate::Real;
 use crate::equations::{At, Equations};
 use crate::linalg::{Workspace, add_scaled, is_zero, norm};
 use crate::once::compiled_once;
-use crate::tolerance::regular;
+use crate::tolerance::{regular, window};
 
 /// Newton steps towards a branch.
 const MOST_STEPS: usize = 60;
@@ -50,6 +50,7 @@ pub(super) fn assemble<T: Real>(
     check(&mut draft, speed, equations, &measured)?;
     let mut whole = Decomposition::new(n, n_rows, workspace);
     whole.decompose(equations.constraints().jacobian, &measured)?;
+    *draft.near_singular = whole.has_between(regular(), window());
     if whole.rank(regular()) == n_rows {
         return Ok(());
     }

@@ -69,6 +69,11 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
         self.core.on(mechanism)
     }
 
+    /// What it works with.
+    pub(super) fn core(&mut self) -> &mut Core<T, N, R> {
+        &mut self.core
+    }
+
     /// Begins anew where the mechanism is another one: code writes no entry that is zero by
     /// structure, so what another mechanism has left there would be taken for its own.
     #[inline]

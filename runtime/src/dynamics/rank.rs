@@ -177,7 +177,9 @@ fn rank_nearby<T: Real>(
     let Some((row, rank)) = lost else {
         return Ok(rank_here);
     };
-    if has_one_sign(solver, state, &decomposition, rank_here, workspace) {
+    // What moves with the time is looked at where it stands still.
+    let stands_still = solver.structure().is_scleronomic_at(row);
+    if stands_still && has_one_sign(solver, state, &decomposition, rank_here, workspace) {
         return Err(DynamicsError::SingularConfiguration {
             t: state.t,
             kind: Singularity::Vanishing,

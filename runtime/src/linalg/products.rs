@@ -91,6 +91,16 @@ impl<'a, T: Real> RowProducts<'a, T> {
         self.unsafe_components[self.component[row]] == 0
     }
 
+    /// Whether the inverse singular values of the safe rows of each component are below that
+    /// of a bound, in the mean of their squares.
+    pub(crate) fn are_above(&self, least: T) -> bool {
+        (0..self.rows()).all(|component| {
+            let of_it = |row: &usize| self.component[*row] == component && self.is_safe(*row);
+            let count = T::from_f64((0..self.rows()).filter(of_it).count() as f64);
+            self.inverse[component] * self.largest[component] * least * least <= count
+        })
+    }
+
     /// An upper bound of the largest squared singular value of the safe rows.
     pub(crate) fn largest_square(&self) -> T {
         let count = self.rows();

@@ -184,6 +184,19 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
         }
     }
 
+    /// What is left of a velocity where the coordinates of the chart rest.
+    pub(crate) fn across(&self, v: &SVector<T, N>) -> SVector<T, N> {
+        let [mut tangents, mut duals] = [SMatrix::<T, N, N>::zeros(); 2];
+        let view = self.view();
+        view.spread(view.tangents(), tangents.as_mut_slice());
+        view.spread_duals(duals.as_mut_slice());
+        let mut across = *v;
+        for (tangent, dual) in tangents.column_iter().zip(duals.column_iter()) {
+            across -= tangent * dual.dot(v);
+        }
+        across
+    }
+
     /// A factor of its metric, in which coordinates of different parts are orthogonal.
     pub(crate) fn metric(&self) -> Cholesky<T, N> {
         let mut factor = SMatrix::<T, N, N>::zeros();

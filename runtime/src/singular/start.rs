@@ -78,6 +78,9 @@ impl<T: Real, const N: usize, const R: usize> SolverView<'_, T, N, R> {
         )?;
         equations.mechanism.position(state, equations.position);
         if !is_zero(equations.position.drift.as_slice()) {
+            // Where only the time leads away from a singular configuration, the velocity tells
+            // where to.
+            chart.set_drift(&chart.across(&state.v), &state.v, None);
             let mut point = Point::zeros();
             if self.place(&chart, state, &mut point, workspace).is_ok() {
                 chart.set_drift(&point.drift, &point.state.v, None);

@@ -72,6 +72,7 @@ const HIT: Event = Event {
 /// What is known of a point: lengths, and no more.
 pub static POINT: Structure = Structure {
     name: "Point",
+    scleronomic: true,
     coordinates: &[length("x"), length("y")],
     constraints: &[row("g = 0", 3)],
     ..Structure::PLAIN

@@ -16,6 +16,7 @@ mod references;
 mod scalar;
 mod scores;
 mod sizes;
+mod starts;
 mod stops;
 mod tolerances;
 

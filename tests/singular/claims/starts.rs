@@ -1,0 +1,78 @@
+//! Starts in singular configurations and beside them are as exact as elsewhere.
+
+use bricard_runtime::{Initial, Options, Whole, assemble, simulate};
+use bricard_singular::descriptions::driven_crank::DrivenCrank;
+use bricard_singular::descriptions::equal_slider_crank::EqualSliderCrank;
+use bricard_singular::descriptions::parallelogram_pendulum::ParallelogramPendulum;
+use core::f64::consts::{FRAC_PI_2, PI};
+
+/// How far from the singular configuration motions begin (rad).
+const DISTANCES: [f64; 9] = [3e-2, 1e-2, 1e-3, 1e-4, 1e-5, 3.3e-6, 1e-6, 4e-7, 3e-7];
+
+/// The position that the constraints admit to round-off has half of the digits there, and the
+/// velocity few.
+#[test]
+fn a_slider_crank_beside_its_dead_centre_begins_on_its_sheet() {
+    for distance in DISTANCES.into_iter().flat_map(|d| [d, -d]) {
+        let mut mechanism = EqualSliderCrank::<f64>::default();
+        mechanism.parameters.p0 = FRAC_PI_2 - distance;
+        let (p0, w0) = (mechanism.parameters.p0, mechanism.parameters.w0);
+        let mechanism: &dyn Whole<f64, 2, 1> = &mechanism;
+        let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+        assert_eq!((start.q[0], start.v[0]), (p0, w0), "{distance:e}");
+        let off = [start.q[1] + p0, (start.v[1] + w0) / w0];
+        assert!(
+            off.iter().all(|off| off.abs() < 1e-12),
+            "{distance:e}: off by {off:?}"
+        );
+    }
+}
+
+#[test]
+fn a_parallelogram_with_a_pendulum_beside_its_singular_configuration_begins_on_its_sheet() {
+    for distance in DISTANCES.into_iter().flat_map(|d| [d, -d]) {
+        let mut mechanism = ParallelogramPendulum::<f64>::default();
+        mechanism.parameters.a0 = PI + distance;
+        let mechanism: &dyn Whole<f64, 4, 2> = &mechanism;
+        let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+        let off = [
+            start.q[0] - start.q[2],
+            start.q[1],
+            start.v[0] - start.v[2],
+            start.v[1],
+        ];
+        assert!(
+            off.iter().all(|off| off.abs() < 1e-11),
+            "{distance:e}: off by {off:?}"
+        );
+    }
+}
+
+/// Where only the time leads away, the velocity tells where to.
+#[test]
+fn a_driven_crank_begins_in_its_dead_centre_with_either_velocity() {
+    for speed in [-3.0, 3.0] {
+        let mut mechanism = DrivenCrank::<f64>::default();
+        mechanism.parameters.p0 = FRAC_PI_2;
+        let mechanism: &dyn Whole<f64, 4, 3> = &mechanism;
+        let mut start = mechanism.start();
+        start.v[1] = Initial {
+            value: speed,
+            held: true,
+        };
+        let start = assemble(mechanism, &start, 0.0).expect("it can be assembled");
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            let options = Options::dop853(0.5, tolerance);
+            let ran = simulate(mechanism, &start, &options, &mut []);
+            let end = ran
+                .unwrap_or_else(|failure| panic!("{speed}: {failure}"))
+                .end;
+            let exact = [FRAC_PI_2 + 1.5, -FRAC_PI_2 + speed / 2.0];
+            let off = [end.q[0] - exact[0], end.q[1] - exact[1]];
+            assert!(
+                off.iter().all(|off| off.abs() < 1e-11),
+                "{speed}: off by {off:?}"
+            );
+        }
+    }
+}
