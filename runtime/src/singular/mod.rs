@@ -21,6 +21,7 @@ mod differences;
 mod direction;
 mod evaluate;
 mod found;
+mod glances;
 mod memory;
 mod node_reuse;
 mod nodes;

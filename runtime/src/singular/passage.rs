@@ -6,19 +6,16 @@
 
 use super::cubic::lowest_of_cubic;
 use super::determinant_signs::DeterminantSigns;
-use super::differences::{VALUES, differentiated, place};
 use super::found::{AT_ONCE, Found, Passage, Searched};
+use super::glances::{Glance, LOOKS, Seen};
 use super::sheet::Sheet;
 use crate::Real;
 use crate::linalg::{Eliminated, Frame, Workspace};
-use crate::tolerance::{regular, resolved};
 
 /// Blocks of near-dependent rows that a look takes, and what follows from it.
 const BLOCKS: usize = 6;
 /// Steps of the search for the time of a passage.
 const MOST_STEPS: usize = 60;
-/// Looks into a step, equally far apart, its start among them.
-const LOOKS: usize = VALUES;
 /// Parts of a step that are looked into, each no longer than the range of the coordinates, so
 /// that not several singular configurations are passed between two looks.
 const MOST_PARTS: usize = 64;
@@ -61,19 +58,6 @@ impl<'a, T: Real> Look<'a, T> {
     }
 }
 
-/// What a first look into a step sees.
-struct Glance<T> {
-    t: T,
-    determinant: T,
-    /// The sine by which the weakest constraint is independent.
-    sine: T,
-    /// How many rows may turn against others.
-    rows: usize,
-}
-
-/// What a look sees, if anything, and how fast the determinant changes there (1/s).
-type Seen<T> = (Option<Glance<T>>, Option<T>);
-
 /// What is needed to look into a step.
 struct View<'a, T> {
     step: &'a Searched<'a, T>,
@@ -110,55 +94,6 @@ impl<T: Real> Sheet<'_, T> {
         found.open = last.filter(|last| *last < end);
     }
 
-    /// The last look at the steps before that told a sign, if this one starts where none can be
-    /// told.
-    fn left_open(&mut self, step: &Searched<'_, T>) -> Option<Glance<T>> {
-        let (t, q) = step.open?;
-        let start = self.eliminate_widely(step.start.t, step.start.q);
-        let tells = start.is_ok() && self.frame.smallest() > regular();
-        match tells {
-            true => None,
-            false => self.glance(t, q),
-        }
-    }
-
-    /// How long the way through a step is, from one look to the next.
-    fn path(&self, step: &Searched<'_, T>, workspace: &Workspace<'_, T>) -> T {
-        workspace.scope(|workspace| {
-            let [q, last] = [(); 2].map(|()| workspace.numbers(self.chart.n()));
-            let mut path = T::zero();
-            for k in 0..LOOKS {
-                let (from, to) = (step.start.t, step.start.t + step.length);
-                step.position(place((from, to), k), q);
-                if k > 0 {
-                    path += self.chart.apart(q, last);
-                }
-                last.copy_from_slice(q);
-            }
-            path
-        })
-    }
-
-    /// Looks at determinants between two times of a step, with their rates.
-    fn glances(
-        &mut self,
-        step: &Searched<'_, T>,
-        between: (T, T),
-        workspace: &Workspace<'_, T>,
-    ) -> [Seen<T>; LOOKS] {
-        workspace.scope(|workspace| {
-            let q = workspace.numbers(self.chart.n());
-            let seen: [_; LOOKS] = core::array::from_fn(|k| {
-                let t = place(between, k);
-                step.position(t, q);
-                self.glance(t, q)
-            });
-            let part = (between.1 - between.0) / T::from_f64((LOOKS - 1) as f64);
-            let mut rates = rates(&seen, part).into_iter();
-            seen.map(|glance| (glance, rates.next().flatten()))
-        })
-    }
-
     /// Searches between looks, the first of them after the last one of before.
     fn search_among(
         &mut self,
@@ -180,18 +115,6 @@ impl<T: Real> Sheet<'_, T> {
             }
             *before = Some((here, rate));
         }
-    }
-
-    /// The determinant at a position, where it has a sign.
-    fn glance(&mut self, t: T, q: &[T]) -> Option<Glance<T>> {
-        self.eliminate_widely(t, q).ok()?;
-        let sine = self.frame.smallest();
-        (sine > resolved()).then(|| Glance {
-            t,
-            determinant: self.frame.determinant(),
-            sine,
-            rows: self.frame.block().size(),
-        })
     }
 
     /// Searches between two positions of a step, where the determinant changes at these rates.
@@ -483,18 +406,4 @@ fn beside<T: Real>(from: &Look<'_, T>, to: &Look<'_, T>, loops: usize, at_once: 
         true => to.t - to_nearer - little,
         false => from.t + width * T::from_f64(0.5),
     }
-}
-
-/// How fast the determinant changes (1/s) at looks that are `part` apart; `None` where one is
-/// missing, or several rows may turn.
-fn rates<T: Real>(seen: &[Option<Glance<T>>; LOOKS], part: T) -> [Option<T>; LOOKS] {
-    let [Some(a), Some(b), Some(c), Some(d), Some(e)] = seen else {
-        return [None; LOOKS];
-    };
-    let all = [a, b, c, d, e];
-    // A polynomial of fourth degree is no picture of the determinant of more rows.
-    if all.iter().any(|glance| glance.rows >= LOOKS) {
-        return [None; LOOKS];
-    }
-    differentiated(all.map(|glance| glance.determinant), part).map(Some)
 }

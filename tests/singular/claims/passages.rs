@@ -12,6 +12,7 @@ use bricard_singular::descriptions::parallelogram_pendulum::ParallelogramPendulu
 use bricard_singular::descriptions::spinning::Spinning;
 use bricard_singular::descriptions::tied_lines::TiedLines;
 use bricard_singular::descriptions::two_lines::TwoLines;
+use bricard_singular::{find, run_all};
 use core::f64::consts::PI;
 use core::ops::ControlFlow;
 
@@ -161,6 +162,18 @@ fn halted(method: Method, control: StepControl<f64>, goes: f64) -> Option<u64> {
     let ran = simulate(mechanism, &start, &options, &mut []);
     let summary = ran.unwrap_or_else(|failure| panic!("{method:?} {control:?} {goes}: {failure}"));
     summary.passages
+}
+
+/// A motion that turns beyond a singular configuration passes it twice, and its steps may end
+/// in the second passage.
+#[test]
+fn a_step_that_ends_in_a_singular_configuration_keeps_the_passage_before_it() {
+    let series = find("slow").expect("it is a series");
+    for place in [23, 51] {
+        for ran in run_all(series.trials(77, place..place + 1, &[])) {
+            assert_eq!(ran.verdict.passages, Some((2, 2)), "{}", ran.trial);
+        }
+    }
 }
 
 #[test]
