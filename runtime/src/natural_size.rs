@@ -29,7 +29,7 @@ impl Structure {
         let quantity = self.coordinates.get(coordinate)?;
         Some(match quantity.unit {
             "rad" | "deg" => Kind::Angle,
-            "" | "1" if self.unitless_angles.contains(&coordinate) => Kind::Angle,
+            _ if self.unitless_angles.contains(&coordinate) => Kind::Angle,
             "1" => Kind::Ratio,
             "" => Kind::Unknown,
             _ => Kind::Length,

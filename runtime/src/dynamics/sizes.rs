@@ -203,8 +203,9 @@ fn sample_mass<T: Real>(
     }
 }
 
-/// Takes note of the inertia of ratios where they have other values. Of Euler parameters one is nearly one and the others nearly zero at some positions, where it
-/// has next to no inertia, and so would the direction along which they do not move.
+/// Takes note of the inertia of ratios where they have other values. Of Euler parameters one
+/// is nearly one and the others nearly zero at some positions, where it has next to no inertia,
+/// and so would the direction along which they do not move.
 fn observe_ratios<T: Real>(solver: &mut dyn Constrained<T>, state: At<'_, T>, moved: &mut [T]) {
     let structure = solver.structure();
     let Some(size) = NaturalSizes::measure(structure, state.q).of(Kind::Ratio) else {

@@ -45,10 +45,10 @@ impl<T: Real> Sheet<'_, T> {
     pub(super) fn path(&self, step: &Searched<'_, T>, workspace: &Workspace<'_, T>) -> T {
         workspace.scope(|workspace| {
             let [q, last] = [(); 2].map(|()| workspace.numbers(self.chart.n()));
+            let ends = (step.start.t, step.start.t + step.length);
             let mut path = T::zero();
             for k in 0..LOOKS {
-                let (from, to) = (step.start.t, step.start.t + step.length);
-                step.position(place((from, to), k), q);
+                step.position(place(ends, k), q);
                 if k > 0 {
                     path += self.chart.apart(q, last);
                 }
