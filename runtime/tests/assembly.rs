@@ -243,6 +243,28 @@ fn a_velocity_that_no_branch_has_is_refused() {
 }
 
 #[test]
+fn branches_that_a_guess_lies_between_are_told_apart_by_the_velocity_that_is_named() {
+    let mut start = Start {
+        q: [hold(FRAC_PI_2), hold(FRAC_PI_2), hold(0.0)],
+        v: [hold(4.0), guess(0.0), guess(-2.0)],
+    };
+    let error = assemble(&SliderCrank::default(), &start, 0.0).unwrap_err();
+    let AssemblyError::ManyBranches {
+        coordinate,
+        velocity,
+        ..
+    } = error
+    else {
+        panic!("{error}");
+    };
+    assert_eq!(coordinate, 1);
+    assert!((velocity.abs() - 4.0).abs() < 1e-12, "{velocity}");
+    start.v[coordinate] = guess(velocity / 2.0);
+    let state = assemble(&SliderCrank::default(), &start, 0.0).unwrap();
+    assert!((state.v[1] - velocity).abs() < 1e-12, "{}", state.v);
+}
+
+#[test]
 fn rest_in_a_singular_position_stays_rest() {
     let q = [hold(FRAC_PI_2), hold(FRAC_PI_2), guess(0.0)];
     let state = assembled(&SliderCrank::default(), q, [guess(0.0); 3]);

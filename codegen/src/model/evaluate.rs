@@ -337,6 +337,8 @@ impl Evaluator {
             format!("`{name}` is a function: write `{name}(…)`")
         } else if let Some(place) = place_of(name) {
             place
+        } else if let Some(unit) = unit_names::in_expression(name) {
+            unit
         } else if let Some(near) = near {
             did_you_mean(&near)
         } else if let Some(statement) = begins_a_statement(name) {

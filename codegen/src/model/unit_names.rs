@@ -120,6 +120,22 @@ pub fn scaled_units() -> impl Iterator<Item = (&'static str, &'static str)> {
     SCALED.iter().map(|(name, _, factor)| (*name, *factor))
 }
 
+/// What to write instead of a unit in an expression, if the name is that of one and hardly
+/// meant for anything else.
+pub fn in_expression(name: &str) -> Option<String> {
+    let scaled = || SCALED.iter().find(|(known, ..)| *known == name);
+    let (unit, value) = match NAMED.iter().find(|(known, _)| *known == name) {
+        _ if name.len() == 1 => return None,
+        Some(("rad" | "sr", _)) => return Some("angles are in radians: leave the unit out".into()),
+        Some((known, _)) => (*known, "1"),
+        None => scaled().map(|(_, unit, factor)| (*unit, *factor))?,
+    };
+    Some(format!(
+        "units stand behind `:` in declarations: declare `const c0: {unit} = {value};` and \
+         write `c0`"
+    ))
+}
+
 /// The dimension of a unit as written.
 pub fn resolve(unit: &UnitExpr) -> Result<Dimension, Box<Diagnostic>> {
     let mut total = NONE;

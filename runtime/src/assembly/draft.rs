@@ -38,6 +38,9 @@ pub(crate) enum Refusal {
     Velocities,
     /// No branch through the singular position has the held velocities.
     NoBranch,
+    /// Several branches have them, and the guesses are equally near to these; this velocity, for
+    /// one, tells them apart, with a value in the draft.
+    ManyBranches(usize),
     /// This equation has no gradient where it holds.
     Vanishing(usize),
 }

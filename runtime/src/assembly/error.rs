@@ -46,6 +46,16 @@ pub enum AssemblyError<T, const N: usize, const R: usize> {
         /// Which velocities are held.
         held: [bool; N],
     },
+    /// The assembled position is singular, several branches through it have the held
+    /// velocities, and the guesses are equally near to them.
+    ManyBranches {
+        /// The mechanism, for the names.
+        structure: &'static Structure,
+        /// A coordinate whose velocity tells them apart.
+        coordinate: usize,
+        /// Its velocity on one of them (its unit per second).
+        velocity: T,
+    },
     /// A constraint has no gradient where it holds, and one sign around.
     Vanishing {
         /// The mechanism, for the names.
@@ -87,6 +97,11 @@ impl<T: Real, const N: usize, const R: usize> Display for AssemblyError<T, N, R>
                 )?;
                 advice(f, structure.coordinates, held, true)
             }
+            Self::ManyBranches {
+                structure,
+                coordinate,
+                velocity,
+            } => many_branches(f, structure, (*coordinate, *velocity)),
             Self::Vanishing { structure, row } => vanishing(f, structure, *row),
             Self::Start(fault) => fault.fmt(f),
             Self::NegativeInertia {
@@ -121,6 +136,24 @@ fn contradiction<T: Real>(
     write!(f, "no {what} the constraints:")?;
     rows(f, structure, residual, per)?;
     advice(f, structure.coordinates, conflicting, velocities)
+}
+
+fn many_branches<T: Real>(
+    f: &mut Formatter<'_>,
+    structure: &Structure,
+    (coordinate, velocity): (usize, T),
+) -> Result {
+    let name = structure.coordinates.get(coordinate);
+    let name = name.map_or("?", |coordinate| coordinate.name);
+    // A guess needs few digits.
+    let velocity = velocity.to_f64() as f32;
+    write!(
+        f,
+        "the start is a singular position, and several branches of the motion through it have \
+         the held velocities; choose one by a guess (`~`) of a velocity, for example \
+         `der({name}) ~ {velocity}`",
+        velocity = Number(&velocity)
+    )
 }
 
 fn negative_inertia<T: Real>(

@@ -104,6 +104,7 @@ impl<T: Real, const N: usize, const R: usize> Memory<T, N, R> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::AssemblyError;
     use super::super::position::positions;
     use super::super::room::Room;
     use super::super::velocity::velocities;
@@ -152,10 +153,17 @@ mod tests {
         }
         let off = (state.v[0].abs() - state.v[N - 1].abs()).abs();
         assert!(off < 1e-9, "{N} {R}: {}", state.v);
+        if N > 1 {
+            let mut held = [false; N];
+            (held[0], state.v[N - 1]) = (true, 0.0);
+            let refused = room.assemble(velocities(), &Crossing, &mut state, &held);
+            let many = matches!(refused, Err(AssemblyError::ManyBranches { .. }));
+            assert!(many, "{N} {R}: {refused:?}");
+        }
     }
 
     #[test]
-    fn there_is_room_for_any_number_of_coordinates_and_rows_at_singular_positions() {
+    fn there_is_room_for_any_number_of_coordinates_and_rows_in_singular_configurations() {
         assembles::<1, 1>();
         assembles::<1, 9>();
         assembles::<1, 30>();

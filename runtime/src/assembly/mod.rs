@@ -83,12 +83,8 @@ fn consistent<T: Real, const N: usize, const R: usize>(
         let mut met = *start;
         mechanism.begin(&mut met, t).map_err(AssemblyError::Start)?;
         let mut state = given(&met, t);
-        if R > 0 && constrain(mechanism, &mut state, start)? {
-            let held = Held {
-                q: held(&start.q),
-                v: held(&start.v),
-            };
-            refine_start(mechanism, &mut state, &held);
+        if R > 0 {
+            constrain(mechanism, &mut state, start)?;
         }
         check_inertia(mechanism, &state)?;
         Ok(state)
@@ -112,18 +108,57 @@ fn held<T: Real, const N: usize>(values: &[Initial<T>; N]) -> [bool; N] {
     column(|i| values[i].held)
 }
 
-/// Moves what is not held onto the constraints; whether these are nearly dependent. Neither this nor what follows is inlined: both
-/// need large matrices on the stack, and not at the same time.
+/// Moves what is not held onto the constraints; beside a singular configuration, onto the
+/// sheet that has what is held. Neither this nor what follows is inlined: both need large
+/// matrices on the stack, and not at the same time.
 #[inline(never)]
 fn constrain<T: Real, const N: usize, const R: usize>(
     mechanism: &dyn Mechanism<T, N, R>,
     state: &mut State<T, N>,
     start: &Start<T, N>,
-) -> Result<bool, AssemblyError<T, N, R>> {
+) -> Result<(), AssemblyError<T, N, R>> {
+    let held = Held {
+        q: held(&start.q),
+        v: held(&start.v),
+    };
+    let given = state.v;
+    let (assembled, near_singular) = assemble_in_room(mechanism, state, &held);
+    if !near_singular {
+        return assembled;
+    }
+    let refined = match assembled {
+        Ok(()) => refine_start(mechanism, state, &held, true),
+        // What contradicts the constraints at a position that is off its sheet by round-off
+        // may not do so on it.
+        Err(
+            AssemblyError::Velocities { .. }
+            | AssemblyError::NoBranch { .. }
+            | AssemblyError::ManyBranches { .. },
+        ) => {
+            state.v = given;
+            refine_start(mechanism, state, &held, false)
+        }
+        Err(_) => false,
+    };
+    match refined {
+        true => Ok(()),
+        false => assembled,
+    }
+}
+
+/// Moves what is not held onto the constraints, and tells whether these nearly depend on one
+/// another there.
+#[inline(never)]
+fn assemble_in_room<T: Real, const N: usize, const R: usize>(
+    mechanism: &dyn Mechanism<T, N, R>,
+    state: &mut State<T, N>,
+    held: &Held<N>,
+) -> (Result<(), AssemblyError<T, N, R>>, bool) {
     let mut room = Room::new();
-    room.assemble(position::positions(), mechanism, state, &held(&start.q))?;
-    room.assemble(velocity::velocities(), mechanism, state, &held(&start.v))?;
-    Ok(room.near_singular)
+    let assembled = room
+        .assemble(position::positions(), mechanism, state, &held.q)
+        .and_then(|()| room.assemble(velocity::velocities(), mechanism, state, &held.v));
+    (assembled, room.near_singular)
 }
 
 /// Refuses a kinetic energy that is negative for some velocities, whether or not the

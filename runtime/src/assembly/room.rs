@@ -76,6 +76,11 @@ impl<T: Real, const N: usize, const R: usize> Room<T, N, R> {
                 structure,
                 held: *held,
             },
+            Refusal::ManyBranches(coordinate) => AssemblyError::ManyBranches {
+                structure,
+                coordinate,
+                velocity: state.v[coordinate],
+            },
             Refusal::Vanishing(row) => AssemblyError::Vanishing { structure, row },
         })
     }

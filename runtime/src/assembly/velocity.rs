@@ -10,17 +10,19 @@
 
 use super::decomposition::Decomposition;
 use super::draft::{Assemble, Draft, Refusal};
-use super::scales::{CONTRADICTION, Scales};
+use super::scales::{CONTRADICTION, Scales, disturb};
 use crate::Real;
 use crate::equations::{At, Equations};
 use crate::linalg::{Workspace, add_scaled, is_zero, norm};
 use crate::once::compiled_once;
-use crate::tolerance::{regular, window};
+use crate::tolerance::{negligible, regular, window};
+use core::cmp::Ordering::Equal;
 
 /// Newton steps towards a branch.
 const MOST_STEPS: usize = 60;
 /// The rest of `p₂` that the rows can't produce is accepted below this part of
-/// the quadratic terms that it is the sum of.
+/// the quadratic terms that it is the sum of; how velocities change it counts above this part
+/// of how they change `p₂`.
 const ON_BRANCH: f64 = 1e-9;
 /// A direction towards a branch counts if it changes that rest by this part of
 /// what the most effective one does.
@@ -47,10 +49,10 @@ pub(super) fn assemble<T: Real>(
     // The corrections have the absolute accuracy of the velocities that they begin with, which
     // may be far larger than those at the end.
     let speed = guessed.max(speed(draft.v, &measured));
-    check(&mut draft, speed, equations, &measured)?;
     let mut whole = Decomposition::new(n, n_rows, workspace);
     whole.decompose(equations.constraints().jacobian, &measured)?;
-    *draft.near_singular = whole.has_between(regular(), window());
+    *draft.near_singular = whole.has_between(negligible(), window());
+    check(&mut draft, speed, equations, &measured)?;
     if whole.rank(regular()) == n_rows {
         return Ok(());
     }
@@ -62,9 +64,11 @@ pub(super) fn assemble<T: Real>(
         free: &mut free,
         whole: &whole,
     };
-    match branches.choose(draft.v, workspace)? {
+    let guess = workspace.numbers(n);
+    guess.copy_from_slice(draft.v);
+    match workspace.scope(|inner| branches.choose(draft.v, inner))? {
         true => correct(draft.v, equations, &scales, &mut free, workspace),
-        false => return Err(Refusal::NoBranch),
+        false => return Err(branches.refuse(draft.v, (guess, speed), workspace)?),
     }
     Ok(())
 }
@@ -176,9 +180,10 @@ impl<T: Real> Branches<'_, '_, T> {
             if norm(rest) > size * T::EPSILON * T::from_f64(CONTRADICTION) {
                 // Also where the branch is reached: the last step squares the
                 // error.
+                let noise = norm(slopes) * T::from_f64(ON_BRANCH);
                 self.make_effective(slopes, moved);
                 towards.decompose_scaled(&|k, j| slopes[j * n_rows + k])?;
-                let cut = towards.largest() * T::from_f64(EFFECTIVE);
+                let cut = noise.max(towards.largest() * T::from_f64(EFFECTIVE));
                 rest.iter_mut().for_each(|rest| *rest = -*rest);
                 towards.solve(rest, cut, step);
                 self.keep_free(step);
@@ -190,6 +195,29 @@ impl<T: Real> Branches<'_, '_, T> {
             }
         }
         Ok(false)
+    }
+
+    /// Why no branch was reached from a guess of this speed: there is none, or the guess lies in
+    /// the middle between several. Then the velocities are those of one of them.
+    fn refuse(
+        &mut self,
+        v: &mut [T],
+        (guess, speed): (&[T], T),
+        workspace: &Workspace<'_, T>,
+    ) -> Result<Refusal, Refusal> {
+        let columns = self.scales.columns;
+        for aside in [speed, -speed] {
+            // What is held has columns of zeros.
+            disturb(guess, |j| aside * columns[j], v);
+            correct(v, self.equations, &self.scales, self.free, workspace);
+            if workspace.scope(|workspace| self.choose(v, workspace))? {
+                let change = |j: &usize| ((v[*j] - guess[*j]) / columns[*j]).abs();
+                let free = (0..v.len()).filter(|j| columns[*j] > T::zero());
+                let most = free.max_by(|a, b| change(a).partial_cmp(&change(b)).unwrap_or(Equal));
+                return Ok(most.map_or(Refusal::NoBranch, Refusal::ManyBranches));
+            }
+        }
+        Ok(Refusal::NoBranch)
     }
 
     /// `p₂` at a velocity, scaled.

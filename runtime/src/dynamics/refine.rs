@@ -29,32 +29,37 @@ pub(crate) struct Held<const N: usize> {
 }
 
 /// Puts a state beside a singular configuration onto its sheet, if it is near one and the
-/// sheet has the values that are held; else it stays what it is.
+/// sheet has the values that are held; else it stays what it is. Returns whether it was put
+/// there. The sheet is told by the position, and by the velocity if that is on one.
 #[inline(never)]
 pub(crate) fn refine_start<T: Real, const N: usize, const R: usize>(
     mechanism: &dyn Mechanism<T, N, R>,
     state: &mut State<T, N>,
     held: &Held<N>,
-) {
+    velocity_tells: bool,
+) -> bool {
     let mut solver = Solver::<T, N, R>::new(Settings::default());
     solver.bind(mechanism.structure());
     solver.expect_error(Some(T::EPSILON));
-    if let Some(refined) = solver.core().refined(mechanism, state, held) {
-        *state = refined;
+    let mut told = *state;
+    if !velocity_tells {
+        told.v = SVector::zeros();
     }
+    let refined = solver.core().refined(mechanism, (&told, state), held);
+    refined.inspect(|refined| *state = *refined).is_some()
 }
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
-    /// The state of the sheet with the values that are held; `None` where no sheets cross
-    /// nearby, or it has none.
+    /// The state of the sheet that one state tells, with the values of another that are held;
+    /// `None` where no sheets cross nearby, or it has none.
     fn refined(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
-        state: &State<T, N>,
+        (told, state): (&State<T, N>, &State<T, N>),
         held: &Held<N>,
     ) -> Option<State<T, N>> {
-        self.session.begin(state);
-        self.session.chart = Some(self.start_at(mechanism, state).ok()??);
+        self.session.begin(told);
+        self.session.chart = Some(self.start_at(mechanism, told).ok()??);
         let mut point = Point::zeros();
         let mut guess = *state;
         for _ in 0..ROUNDS {

@@ -120,7 +120,7 @@ variants!(
 );
 variants!(
     AssemblyError<f64, 2, 1>:
-    NotFinite, Positions, Velocities, NoBranch, Vanishing, Start, NegativeInertia;
+    NotFinite, Positions, Velocities, NoBranch, ManyBranches, Vanishing, Start, NegativeInertia;
 );
 
 impl Variants for BadInterval<f64> {

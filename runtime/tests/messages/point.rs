@@ -227,6 +227,17 @@ pub fn crossing(state: &State<f64, 2>) -> Jet {
     Jet(x * y, [y, x].into(), [[0.0, 1.0], [1.0, 0.0]], 0.0)
 }
 
+/// Two lines that cross at (1, 1), at 45° to the axes.
+pub fn diagonals(state: &State<f64, 2>) -> Jet {
+    let (x, y) = (state.q[0] - 1.0, state.q[1] - 1.0);
+    Jet(
+        y * y - x * x,
+        [-2.0 * x, 2.0 * y].into(),
+        [[-2.0, 0.0], [0.0, 2.0]],
+        0.0,
+    )
+}
+
 /// Three lines that meet at (1, 1).
 pub fn three_lines(state: &State<f64, 2>) -> Jet {
     let (x, y) = (state.q[0] - 1.0, state.q[1] - 1.0);

@@ -1,6 +1,6 @@
 //! Errors of starts.
 
-use super::point::{Jet, Point, circle, crossing, line, squared};
+use super::point::{Jet, Point, circle, crossing, diagonals, line, squared};
 use super::{Case, Said};
 use bricard_runtime::{Initial, Mechanism, Start, State, assemble};
 
@@ -81,6 +81,20 @@ pub const STARTS: &[Case] = &[
         "the start is a singular position, and no branch of the motion through it has the held \
          velocities; these held values contradict each other or the parameters: der(x), der(y); \
          turn one of them into a guess (`~`)",
+    ),
+    (
+        "AssemblyError::ManyBranches",
+        "`y^2 = x^2` with `der(x) = 4;` held where the lines cross",
+        || {
+            refused(
+                Point::on(diagonals),
+                [hold(1.0); 2],
+                [hold(4.0), guess(0.0)],
+            )
+        },
+        "the start is a singular position, and several branches of the motion through it have \
+         the held velocities; choose one by a guess (`~`) of a velocity, for example `der(y) ~ \
+         4`",
     ),
     (
         "AssemblyError::Vanishing",

@@ -7,7 +7,9 @@ use bricard_singular::descriptions::parallelogram_pendulum::ParallelogramPendulu
 use core::f64::consts::{FRAC_PI_2, PI};
 
 /// How far from the singular configuration motions begin (rad).
-const DISTANCES: [f64; 9] = [3e-2, 1e-2, 1e-3, 1e-4, 1e-5, 3.3e-6, 1e-6, 4e-7, 3e-7];
+const DISTANCES: [f64; 13] = [
+    3e-2, 1e-2, 1e-3, 1e-4, 1e-5, 3.3e-6, 1e-6, 4e-7, 3e-7, 2.3e-7, 2e-7, 1e-7, 5e-8,
+];
 
 /// The position that the constraints admit to round-off has half of the digits there, and the
 /// velocity few.
