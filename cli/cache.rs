@@ -64,7 +64,7 @@ fn contents(root: &Path) -> Vec<Vec<String>> {
     for version in sorted(root) {
         let folder = root.join(&version);
         let count = entries(&folder.join("sizes")).len();
-        let shared = ["libraries", "border", "sizes"].map(|shared| folder.join(shared));
+        let shared = ["libraries", "boundary", "sizes"].map(|shared| folder.join(shared));
         let size: u64 = shared.iter().map(|folder| bytes(folder)).sum();
         let what = format!("shared by all, and by mechanisms of {count} pairs of sizes");
         rows.push(vec![version.clone(), what, in_megabytes(size)]);

@@ -115,17 +115,42 @@ fn is_exponent(signs: &[char], place: usize) -> bool {
     }
 }
 
-/// Holds the lines that a page shows, in their order, against what was printed.
+/// Stands on a page for lines that are left out.
+const LEFT_OUT: &str = "…";
+
+/// Holds the lines that a page shows against what was printed, all of it but what is left out.
 fn shows(page: &str, shown: &str, printed: &str) {
-    let mut rest = printed.lines().map(without_numbers);
-    for line in shown.lines().filter(|line| !line.trim().is_empty()) {
-        let wanted = without_numbers(line);
-        let found = rest.any(|line| line == wanted);
+    let lines = |text: &str| -> Vec<String> {
+        let lines = text.lines().filter(|line| !line.trim().is_empty());
+        lines.map(without_numbers).collect()
+    };
+    let mut printed_lines = lines(printed);
+    // Whether a description is compiled anew depends on what ran before.
+    printed_lines.retain(|line| !line.starts_with("compiling "));
+    let (mut place, mut leaves_out) = (0, false);
+    for line in lines(shown) {
+        if line == LEFT_OUT {
+            leaves_out = true;
+            continue;
+        }
+        let mut rest = printed_lines[place..].iter();
+        let found = match leaves_out {
+            true => rest.position(|printed| *printed == line),
+            false => rest.next().filter(|printed| **printed == line).map(|_| 0),
+        };
+        let Some(ahead) = found else {
+            panic!("{page}.md shows\n{line}\nwhich is not so, or not there, in\n{printed}");
+        };
         assert!(
-            found,
-            "{page}.md shows\n{line}\nwhich is not so in\n{printed}"
+            !leaves_out || ahead > 0,
+            "{page}.md leaves out nothing above\n{line}"
         );
+        (place, leaves_out) = (place + ahead + 1, false);
     }
+    assert!(
+        leaves_out || place == printed_lines.len() || shown.is_empty(),
+        "{page}.md shows less than\n{printed}"
+    );
 }
 
 /// Holds the flags of a command that takes long against its help.

@@ -101,7 +101,7 @@ fn constraints_that_stand_still_have_no_derivatives_by_time() {
         .replace("const g", "const w: s = 1; const g");
     differs(
         "clock",
-        "derivatives of the constraints by time",
+        "derivatives of the constraints with respect to time",
         [&driven, HUNG],
     );
     let drift = |source: &str| function(&code(source), "position").contains("out.drift");

@@ -24,7 +24,7 @@
  *    is turned away with BRICARD_ERROR_BUSY. Only bricard_stop may come any time.
  *  - Callbacks are called in the thread of the call. They must return: no longjmp,
  *    no exception.
- *  - No panic crosses this border: it would be BRICARD_ERROR_PANIC.
+ *  - No panic crosses this boundary: it would be BRICARD_ERROR_PANIC.
  */
 #ifndef BRICARD_H
 #define BRICARD_H

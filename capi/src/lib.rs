@@ -5,18 +5,18 @@
 //!      under the one name that it exports.
 //!
 //! ```text
-//! C program ── bricard.h ──> Interface ── border ──> Engine ──> the runtime
+//! C program ── bricard.h ──> Interface ── boundary ──> Engine ──> the runtime
 //! ```
 //!
 //! [`Engine`] is safe Rust: a mechanism, where it is, and how it is integrated. What is
-//! `unsafe` stands in `pointer`, `border`, `states` and `run`, where pointers are read and
+//! `unsafe` stands in `pointer`, `boundary`, `states` and `run`, where pointers are read and
 //! written, in `handle`, which lends the engine out, and in `callback`, where functions of
 //! the program are called.
 //!
 //! Not here: the name that a library exports, which is in the generated code of its mechanism.
 
 mod abi;
-mod border;
+mod boundary;
 mod callback;
 mod draw;
 mod engine;

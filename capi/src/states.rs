@@ -1,6 +1,6 @@
 //! The functions of C about states: where a mechanism is, and what is evaluated there.
 //!
-//! In:  pointers and numbers, on the promises that `border` names.
+//! In:  pointers and numbers, on the promises that `boundary` names.
 //! Out: a [`Status`].
 
 use crate::Embedded;

@@ -142,9 +142,9 @@ impl Version {
         self.folder.join("libraries")
     }
 
-    /// Where the border to C is.
-    pub fn border(&self) -> PathBuf {
-        self.folder.join("border")
+    /// Where the boundary to C is.
+    pub fn boundary(&self) -> PathBuf {
+        self.folder.join("boundary")
     }
 
     /// Where the module of a description for browsers is.

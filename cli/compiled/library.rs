@@ -7,7 +7,7 @@ use super::cache::{Cache, Digits, Scratch, Version, name};
 use super::compiler::{Toolchain, output};
 use super::identity;
 use super::settings::settings;
-use super::shared::{border, rustc};
+use super::shared::{boundary, rustc};
 
 use crate::error::CommandError;
 use crate::output::say;
@@ -127,13 +127,13 @@ fn build(
     if Version::holds(&entry, identity) {
         return Ok(entry);
     }
-    let border = border(version, toolchain)?;
+    let boundary = boundary(version, toolchain)?;
     say(&format!("compiling {}", file.display()));
     let scratch = Scratch::new(version)?;
     scratch.write(Path::new("lib.rs"), code)?;
     let built = scratch.folder("exported")?;
     let mut rustc = rustc(
-        &[&version.libraries(), &border],
+        &[&version.libraries(), &boundary],
         &["bricard_runtime", "bricard_capi"].map(String::from),
     );
     rustc

@@ -2,7 +2,7 @@
 //!
 //! In:  the sources that the command carries.
 //! Out: libraries in the cache: the runtime and the driver with all that they depend on,
-//!      the driver for each pair of sizes, and the border to C.
+//!      the driver for each pair of sizes, and the boundary to C.
 
 use super::cache::{Digits, Scratch, Version};
 use super::compiler::{Toolchain, command, output};
@@ -232,20 +232,20 @@ pub fn sized(
     Ok(sized)
 }
 
-/// Builds the border to C, which libraries for other languages need and no program, unless
+/// Builds the boundary to C, which libraries for other languages need and no program, unless
 /// it is there.
 ///
 /// # Errors
 ///
 /// [`CommandError::Cache`], [`CommandError::Compile`].
-pub fn border(version: &Version, toolchain: &Toolchain) -> Result<PathBuf, CommandError> {
+pub fn boundary(version: &Version, toolchain: &Toolchain) -> Result<PathBuf, CommandError> {
     let libraries = libraries(version, toolchain)?;
-    let border = version.border();
-    if border.is_dir() {
-        return Ok(border);
+    let boundary = version.boundary();
+    if boundary.is_dir() {
+        return Ok(boundary);
     }
     let scratch = Scratch::new(version)?;
-    let built = scratch.folder("border")?;
+    let built = scratch.folder("boundary")?;
     let sources = SOURCES.1.iter();
     for (name, text) in sources.filter(|(name, _)| name.starts_with("capi/")) {
         scratch.write(Path::new(name), text)?;
@@ -255,10 +255,10 @@ pub fn border(version: &Version, toolchain: &Toolchain) -> Result<PathBuf, Comma
         .args(["--crate-type", "lib", "--crate-name", "bricard_capi"])
         .args(["capi/src/lib.rs", "--out-dir"])
         .arg(&built);
-    let failed = "the border to C could not be compiled";
+    let failed = "the boundary to C could not be compiled";
     output(rustc, scratch.path(), failed)?;
-    scratch.keep(&built, &border)?;
-    Ok(border)
+    scratch.keep(&built, &boundary)?;
+    Ok(boundary)
 }
 
 /// The compiler, with folders of libraries and the crates that are used of them.

@@ -128,13 +128,17 @@ fn repeated(graph: &Graph, equations: &Equations) -> Option<String> {
     })
 }
 
-/// Derivatives by time where nothing moves by itself.
+/// Derivatives with respect to time where nothing depends on it explicitly.
 fn time(graph: &Graph, equations: &Equations) -> Option<String> {
     let r = equations.drift.len();
     let still = zeros(graph, equations.drift.iter());
     (still > 0).then(|| match still == r {
-        true => "partial derivatives of the constraints by time: none of them moves by itself".into(),
-        false => format!("partial derivatives by time of {still} of {r} constraint equations, which do not move by themselves"),
+        true => "partial derivatives of the constraints with respect to time: none of them depends on it"
+            .into(),
+        false => format!(
+            "partial derivatives with respect to time of {still} of {r} constraint equations, \
+             which do not depend on it"
+        ),
     })
 }
 

@@ -83,6 +83,7 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
         Ok(report) => Some(report),
         Err(stopped) => stopped.report.as_deref(),
     };
+    let settings = &plan.options.settings;
     let picture = Picture {
         arguments,
         mechanism: mechanism.as_ref(),
@@ -90,7 +91,7 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
         shown: &shown,
         report,
         summary: report
-            .map(|report| summary::quantities(report, structure))
+            .map(|report| summary::quantities(report, structure, settings))
             .unwrap_or_default(),
         error: result
             .as_ref()
@@ -101,7 +102,7 @@ pub fn simulate_for(arguments: &Simulate, live: Option<&Live>) -> Result<(), Com
     };
     let kept = record.close(|rows| picture.draw(&[Called::alone(rows)]))?;
     if let Some(report) = report.filter(|report| result.is_ok() || report.steps > 0) {
-        say(summary::summary(report, structure).trim_end());
+        say(summary::summary(report, structure, settings).trim_end());
     }
     if let Some(report) = report.filter(|_| arguments.json) {
         let error = result.as_ref().err().map(|stopped| &stopped.error);

@@ -15,7 +15,7 @@ use crate::interrupt;
 use crate::output::{print, say};
 use crate::run::{Plan, Report, run};
 use bricard_driver::AnyMechanism;
-use bricard_runtime::Structure;
+use bricard_runtime::{Settings, Structure};
 use serde_json::{Value, json};
 
 /// What came of one of the runs.
@@ -56,7 +56,13 @@ pub fn simulate(arguments: &Simulate, varied: &Varied) -> Result<(), CommandErro
             }
         };
         let name = varied.label(value);
-        say(&said(&name, &report, error.is_some(), structure));
+        let settings = &plan.options.settings;
+        say(&said(
+            &name,
+            (&report, error.is_some()),
+            structure,
+            settings,
+        ));
         runs.push(Called {
             name: name.clone(),
             rows: record.end(),
@@ -82,10 +88,15 @@ pub fn simulate(arguments: &Simulate, varied: &Varied) -> Result<(), CommandErro
 }
 
 /// What is said at the end of a run.
-fn said(name: &str, report: &Report, has_failed: bool, structure: &Structure) -> String {
+fn said(
+    name: &str,
+    (report, has_failed): (&Report, bool),
+    structure: &Structure,
+    settings: &Settings<f64>,
+) -> String {
     match has_failed && report.steps == 0 {
         true => format!("{name}\nthe run could not begin\n"),
-        false => format!("{name}\n{}", summary::summary(report, structure)),
+        false => format!("{name}\n{}", summary::summary(report, structure, settings)),
     }
 }
 
@@ -108,7 +119,12 @@ fn draw(
         return Ok(Vec::new());
     };
     let structure = first.mechanism.structure();
-    let line = |one: &&Done| [one.name.clone(), summary::line(&one.report, structure)];
+    let line = |one: &&Done| {
+        [
+            one.name.clone(),
+            summary::line(&one.report, structure, &plan.options.settings),
+        ]
+    };
     let errors: Vec<String> = done.iter().filter_map(|one| one.complaint()).collect();
     let picture = Picture {
         arguments,

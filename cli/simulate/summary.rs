@@ -3,21 +3,25 @@
 use crate::error::CommandError;
 use crate::run::Report;
 use crate::table::{Align, aligned};
-use bricard_runtime::{Counters, Structure};
+use bricard_runtime::{Counters, Form, Settings, Structure};
 use serde_json::{Value, json};
 
 /// Passages and events whose times are listed.
 const LISTED: usize = 20;
 
 /// What was done and how well, one quantity in a line.
-pub fn summary(report: &Report, structure: &Structure) -> String {
-    let rows = quantities(report, structure);
+pub fn summary(report: &Report, structure: &Structure, settings: &Settings<f64>) -> String {
+    let rows = quantities(report, structure, settings);
     let rows: Vec<Vec<String>> = rows.into_iter().map(Vec::from).collect();
     aligned(&rows, &[Align::Left, Align::Left])
 }
 
 /// What was done and how well: quantities and their values.
-pub fn quantities(report: &Report, structure: &Structure) -> Vec<[String; 2]> {
+pub fn quantities(
+    report: &Report,
+    structure: &Structure,
+    settings: &Settings<f64>,
+) -> Vec<[String; 2]> {
     let mut rows = vec![
         ["steps".to_string(), report.steps.to_string()],
         ["rejected steps".to_string(), report.rejected.to_string()],
@@ -27,11 +31,10 @@ pub fn quantities(report: &Report, structure: &Structure) -> Vec<[String; 2]> {
         ],
         energy(report, structure),
     ];
+    let accelerations = accelerations(&report.counters, structure, settings);
+    let accelerations = ["accelerations".to_string(), accelerations];
     if structure.constraints.is_empty() {
-        rows.push([
-            "accelerations".into(),
-            report.counters.cheap_accelerations.to_string(),
-        ]);
+        rows.push(accelerations);
     } else {
         rows.push([
             "largest constraint error".into(),
@@ -39,8 +42,9 @@ pub fn quantities(report: &Report, structure: &Structure) -> Vec<[String; 2]> {
         ]);
         rows.push([
             "passages through singular positions".into(),
-            passages(report),
+            passages(report, settings),
         ]);
+        rows.push(accelerations);
         rows.extend(work(&report.counters));
         rows.extend(undetermined(&report.counters));
     }
@@ -54,16 +58,16 @@ pub fn quantities(report: &Report, structure: &Structure) -> Vec<[String; 2]> {
 }
 
 /// The same in one line.
-pub fn line(report: &Report, structure: &Structure) -> String {
+pub fn line(report: &Report, structure: &Structure, settings: &Settings<f64>) -> String {
     let [what, error] = energy(report, structure);
     let mut line = format!("{} steps, {what} {error}", report.steps);
     if !structure.constraints.is_empty() {
         let constraints = report.constraint_error;
-        let passages = report.passages.len();
-        line += &format!(
-            ", largest constraint error {constraints:.1e}, passages through singular positions: \
-             {passages}"
-        );
+        line += &format!(", largest constraint error {constraints:.1e}");
+        if !settings.published {
+            let passages = report.passages.len();
+            line += &format!(", passages through singular positions: {passages}");
+        }
     }
     line
 }
@@ -105,7 +109,10 @@ fn energy(report: &Report, structure: &Structure) -> [String; 2] {
     [what.to_string(), format!("{:.1e} J", report.energy_error)]
 }
 
-fn passages(report: &Report) -> String {
+fn passages(report: &Report, settings: &Settings<f64>) -> String {
+    if settings.published {
+        return "not looked for with `--published`".to_string();
+    }
     times(
         &report
             .passages
@@ -154,23 +161,27 @@ fn undetermined(counters: &Counters) -> Option<[String; 2]> {
     })
 }
 
-fn work(counters: &Counters) -> Vec<[String; 2]> {
+/// How many accelerations there were, and by which path where the form has several.
+fn accelerations(counters: &Counters, structure: &Structure, settings: &Settings<f64>) -> String {
     let Counters {
         cheap_accelerations: cheap,
         beside_accelerations: beside,
         robust_accelerations: robust,
         ..
     } = *counters;
-    let total = (cheap + beside + robust).max(1);
-    let share = 100.0 * cheap as f64 / total as f64;
+    let total = cheap + beside + robust;
+    if structure.constraints.is_empty() || settings.form != Form::Reduced || settings.published {
+        return total.to_string();
+    }
+    let share = 100.0 * cheap as f64 / total.max(1) as f64;
+    format!(
+        "{cheap} by the cheap path ({share:.1} %), {beside} beside singular positions, {robust} \
+         across them"
+    )
+}
+
+fn work(counters: &Counters) -> Vec<[String; 2]> {
     vec![
-        [
-            "accelerations".to_string(),
-            format!(
-                "{cheap} by the cheap path ({share:.1} %), {beside} beside singular positions, \
-                 {robust} across them"
-            ),
-        ],
         [
             "rank decisions".to_string(),
             counters.rank_decisions.to_string(),

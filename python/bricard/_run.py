@@ -89,7 +89,7 @@ class _Recorder:
             from .mechanism import State
 
             return int(bool(self.plan.on_event(name, State(t, q, v))))
-        except BaseException as error:  # It must not cross the border; `run` raises it.
+        except BaseException as error:  # It must not cross the boundary; `run` raises it.
             self.plan.raised.append(error)
             return 1
 

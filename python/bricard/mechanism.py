@@ -378,7 +378,7 @@ def _law(name: str, law: Callable[..., float], sizes: Tuple[int, int], raised: l
             else:
                 out[0] = law(t, np.array(q[:n]), np.array(v[:m]))
             return 0
-        except BaseException as error:  # It must not cross the border; `run` raises it.
+        except BaseException as error:  # It must not cross the boundary; `run` raises it.
             raised.append(error)
             return 1
 

@@ -1,4 +1,4 @@
-//! What the border costs, in instructions: times of one program say little where others run.
+//! What the boundary costs, in instructions: times of one program say little where others run.
 
 use bricard_capi::{Handle, Status};
 use bricard_embedding::engine::Engine;
@@ -10,7 +10,7 @@ use std::ptr;
 const STEPS: usize = 400;
 /// The seconds of a step.
 const STEP: f64 = 1e-3;
-/// What the border may cost: the handle is checked, and the state copied. A second
+/// What the boundary may cost: the handle is checked, and the state copied. A second
 /// evaluation a step would be a twelfth.
 const BOUND: f64 = 1.03;
 
@@ -30,7 +30,7 @@ fn moved_in_rust() -> State<f64, 3> {
 
 /// The same through the C interface.
 #[inline(never)]
-fn moved_through_the_border() {
+fn moved_through_the_boundary() {
     // SAFETY: the table is there for this version, and the handle is what `create` gave.
     unsafe {
         let table = engine_interface(bricard_capi::ABI)
@@ -53,13 +53,13 @@ fn steps_in_rust() {
 }
 
 #[test]
-fn steps_through_the_border() {
-    moved_through_the_border();
+fn steps_through_the_boundary() {
+    moved_through_the_boundary();
 }
 
 /// Instructions are counted where valgrind is installed.
 #[test]
-fn a_step_through_the_border_costs_what_a_step_costs() {
+fn a_step_through_the_boundary_costs_what_a_step_costs() {
     if !is_there() {
         return;
     }
@@ -68,12 +68,12 @@ fn a_step_through_the_border_costs_what_a_step_costs() {
         counted.unwrap_or_else(|error| panic!("{error}"))
     };
     let rust = count("moved_in_rust", "speed::steps_in_rust");
-    let border = count(
-        "moved_through_the_border",
-        "speed::steps_through_the_border",
+    let boundary = count(
+        "moved_through_the_boundary",
+        "speed::steps_through_the_boundary",
     );
     let each = STEPS as f64;
-    println!("a step: {} instructions, {}", rust / each, border / each);
-    assert!(border > 0.9 * rust, "{border} {rust}");
-    assert!(border < rust * BOUND, "{border} {rust}");
+    println!("a step: {} instructions, {}", rust / each, boundary / each);
+    assert!(boundary > 0.9 * rust, "{boundary} {rust}");
+    assert!(boundary < rust * BOUND, "{boundary} {rust}");
 }

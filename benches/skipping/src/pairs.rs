@@ -86,7 +86,7 @@ pub const PAIRS: &[Pair] = &[
     Pair {
         name: "clock",
         what: "time in the constraints",
-        left_out: "derivatives of the constraints by time",
+        left_out: "derivatives of the constraints with respect to time",
         common: HUNG,
         adds: [
             "const w: 1/s = 1; kinetic 1/2*m*(der(x)^2 + der(y)^2); constraint x^2 + y^2 = (l*(1 + 0.1*sin(w*t)))^2;",

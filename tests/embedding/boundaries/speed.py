@@ -1,4 +1,4 @@
-"""The run of `borders` in Python: the median of what it takes, in microseconds."""
+"""The run of `boundaries` in Python: the median of what it takes, in microseconds."""
 
 import statistics
 import time

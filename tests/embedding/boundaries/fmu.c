@@ -1,4 +1,4 @@
-/* The steps of `borders` by an FMU of FMI 3.0, given its library and its token: the median of
+/* The steps of `boundaries` by an FMU of FMI 3.0, given its library and its token: the median of
    what one takes, in microseconds. */
 #define _POSIX_C_SOURCE 199309L
 #include "median.h"

@@ -1,4 +1,4 @@
-// The motions of `borders` in Node, given the package: medians of what they take, in
+// The motions of `boundaries` in Node, given the package: medians of what they take, in
 // microseconds.
 import { performance } from "node:perf_hooks";
 import { pathToFileURL } from "node:url";

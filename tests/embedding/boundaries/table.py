@@ -1,4 +1,4 @@
-"""A table of what borders cost, from lines `border motion microseconds`."""
+"""A table of what boundaries cost, from lines `boundary motion microseconds`."""
 
 import statistics
 import sys
@@ -6,8 +6,8 @@ from collections import defaultdict
 
 times = defaultdict(list)
 for line in open(sys.argv[1], encoding="utf-8"):
-    border, motion, taken = line.split()
-    times[border, motion].append(float(taken))
+    boundary, motion, taken = line.split()
+    times[boundary, motion].append(float(taken))
 
 #: What is compared, with what, and what it may cost: a factor, and milliseconds more.
 ROWS = [
@@ -19,13 +19,13 @@ ROWS = [
     ("WebAssembly in Node: 8 s", ("node", "span"), ("rust", "span"), "Rust", 2.0, 0),
 ]
 
-print("| border | takes (µs) | the same in | takes (µs) | ratio | at most |")
+print("| boundary | takes (µs) | the same in | takes (µs) | ratio | at most |")
 print("|---|---|---|---|---|---|")
 missed = 0
-for name, border, base, language, factor, more in ROWS:
+for name, boundary, base, language, factor, more in ROWS:
     # Ratios within a round, of which the middle one counts.
-    ratio = statistics.median(a / b for a, b in zip(times[border], times[base]))
-    taken, given = statistics.median(times[border]), statistics.median(times[base])
+    ratio = statistics.median(a / b for a, b in zip(times[boundary], times[base]))
+    taken, given = statistics.median(times[boundary]), statistics.median(times[base])
     most = factor + 1e3 * more / given
     missed += ratio > most
     bound = f"{factor:g}" + (f" + {more} ms" if more else "")

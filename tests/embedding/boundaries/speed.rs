@@ -1,4 +1,4 @@
-//! The motions of `borders` in Rust: medians of what they take, in microseconds.
+//! The motions of `boundaries` in Rust: medians of what they take, in microseconds.
 
 use slider_crank::bricard_runtime::{
     Interface, Options, Recorder, State, Stepper, assemble, simulate,

@@ -1,4 +1,4 @@
-/* The motions of `borders` in C: medians of what they take, in microseconds. */
+/* The motions of `boundaries` in C: medians of what they take, in microseconds. */
 #define _POSIX_C_SOURCE 199309L
 #include "median.h"
 #include "slider_crank.h"
