@@ -20,7 +20,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism: &M,
         state: &mut State<T, N>,
     ) -> Result<bool, DynamicsError<T>> {
-        if R == 0 || self.session.rests {
+        if R == 0 || self.session.at_rest {
             return finite(state).map(|()| false);
         }
         if !self.is_prepared() {

@@ -38,7 +38,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if !self.is_prepared() {
             self.prepare(mechanism, state)?;
         }
-        if self.session.rests {
+        if self.session.at_rest {
             return self.acceleration_at_rest(mechanism, state);
         }
         if let Some(acceleration) = self.emitted_acceleration(mechanism, state) {

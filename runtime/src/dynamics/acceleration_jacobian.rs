@@ -23,7 +23,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if matches!(self.settings.stabilisation, Stabilisation::Baumgarte { .. }) {
             return None;
         }
-        if self.session.chart.is_some() || self.session.rests {
+        if self.session.chart.is_some() || self.session.at_rest {
             return None;
         }
         mechanism.terms(state, &mut self.terms);

@@ -110,7 +110,7 @@ where
         tolerance: Option<T>,
     ) -> Result<(), DynamicsError<T>> {
         check_angles(self.mechanism.structure(), state.t, state.q.as_slice())?;
-        self.solver.expect_error(tolerance);
+        self.solver.session.tolerance = tolerance;
         self.solver.begin_step(state);
         if self.solver.places_starts() {
             self.put_onto_constraints(state)?;
@@ -192,9 +192,8 @@ where
         }
         solver.prepare(&self.mechanism, state)?;
         self.mechanism.position(state, &mut solver.position);
-        solver.safe = None;
         solver.factorise_metric(&self.mechanism, Source::Position, state.t)?;
-        let full = solver.rows.regular(Which::All);
+        let full = solver.rows.regular();
         let squared = solver.factorise_constraints(Source::Position, Which::All);
         if passes(squared, window()) {
             return Ok(Rank {
@@ -229,7 +228,11 @@ where
     pub(crate) fn follow(&mut self, other: &Self) {
         let (here, there) = (&mut *self.solver, &*other.solver);
         here.conditions.decided.adopt(&there.conditions.decided);
-        let chart = there.session.used.as_ref().or(there.session.chart.as_ref());
+        let chart = there
+            .session
+            .step_chart
+            .as_ref()
+            .or(there.session.chart.as_ref());
         if here.session.chart.is_some() || chart.is_some() {
             here.session.base = there.session.base;
             here.session.chart = chart.copied();

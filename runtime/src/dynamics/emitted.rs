@@ -41,7 +41,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             && self.rows.all_independent()
             && self.metric.is_emitted()
             && self.session.chart.is_none()
-            && !self.session.rests
+            && !self.session.at_rest
     }
 
     /// Decides whether emitted code may be called before anything else is asked.

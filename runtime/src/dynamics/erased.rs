@@ -10,7 +10,7 @@
 use super::Core;
 use super::coordinate_scale::CoordinateScale;
 use super::metric::{Metric, MetricView};
-use super::rows::{Rows, RowsView, Which};
+use super::rows::{Rows, RowsView};
 use super::solver::{Source, factorise};
 use crate::equations::{At, Bound, Constraints, Equations};
 use crate::linalg::{Workspace, solve_upper_transposed};
@@ -63,18 +63,6 @@ impl<T: Real> Known<'_, T> {
     /// How many rows there are.
     pub(crate) fn r(&self) -> usize {
         self.scale.len()
-    }
-
-    /// Whether a row is among those that are meant.
-    pub(crate) fn takes_part(&self, row: usize, which: Which) -> bool {
-        which == Which::All || self.holonomic[row]
-    }
-
-    /// How many rows are meant.
-    pub(crate) fn count(&self, which: Which) -> usize {
-        (0..self.r())
-            .filter(|&row| self.takes_part(row, which))
-            .count()
     }
 
     /// `w := U⁻ᵀw`, back to the mechanism's own coordinates.

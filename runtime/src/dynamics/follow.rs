@@ -8,7 +8,9 @@
 
 use super::{Core, Source};
 use crate::linalg::is_finite;
-use crate::singular::{Found, Obstacle, Placed, Placement, Point, Searched};
+use crate::singular::{
+    Found, Obstacle, Placed, Placement, Point, Searched, finding, solving_along,
+};
 use crate::state::all_finite;
 use crate::tolerance::{regular, round_off, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State, Step};
@@ -30,11 +32,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.session.trial.lowest = T::one();
         self.session.trial.wants_chart = false;
         self.session.trial.crosses = false;
-    }
-
-    /// Takes note of the accepted error of a step.
-    pub(crate) fn expect_error(&mut self, tolerance: Option<T>) {
-        self.session.tolerance = tolerance;
     }
 
     /// Whether a start is put onto the constraints.
@@ -134,7 +131,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         else {
             return Ok(false);
         };
-        if self.session.rests {
+        if self.session.at_rest {
             return Ok(false);
         }
         if mechanism.structure().assumed_regular {
@@ -151,7 +148,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             }
             None if base.v == SVector::<T, N>::zeros() => {
                 self.counters.undetermined += 1;
-                self.session.rests = true;
+                self.session.at_rest = true;
             }
             None => {
                 return Err(self.refusal(mechanism, Obstacle::Undetermined, base.t));
@@ -248,17 +245,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         result.map_err(|obstacle| self.refusal(mechanism, obstacle, state.t))
     }
 
-    /// The geometry at a state as it is; `false` next to a singular configuration.
-    pub(super) fn measure_here(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        state: &State<T, N>,
-        point: &mut Point<T, N>,
-    ) -> bool {
-        let measured = self.geometry_here(mechanism, state, point);
-        measured.is_some_and(|measured| measured.is_ok()) && point.sine() > window()
-    }
-
     /// The acceleration at a state on the sheet, whose terms are in the buffer:
     /// `D̃ᵀM D̃ z = D̃ᵀ(p₁ − M aₚ)`, `q̈ = aₚ + D̃ z`. Source: Phong & Hoang (2012), section 3.
     fn accelerate(
@@ -292,7 +278,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mut force: SVector<T, N>,
     ) -> Result<SVector<T, N>, DynamicsError<T>> {
         let solved = self.session.chart.as_ref().is_some_and(|chart| {
-            chart.view().solve_along(
+            solving_along()(
+                &chart.view(),
                 self.terms.mass.as_slice(),
                 point.tangent.as_slice(),
                 force.as_mut_slice(),
@@ -387,13 +374,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         step: &Step<T, N>,
         after: T,
     ) -> Option<Found<T>> {
-        let Some(chart) = self.session.used.take() else {
-            self.session.open = None;
+        let Some(chart) = self.session.step_chart.take() else {
+            self.session.open_search = None;
             return None;
         };
         let at = |t, q: &mut [T]| q.copy_from_slice(step.inside_at(t).q.as_slice());
         let start = step.start;
-        let open = self.session.open.filter(|(t, _)| *t < start.t);
+        let open = self.session.open_search.filter(|(t, _)| *t < start.t);
         let searched = Searched {
             start: start.at(),
             length: step.end.t - start.t,
@@ -403,11 +390,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         };
         let mut found = None;
         self.on_sheet(mechanism, &chart, &mut |sheet, workspace| {
-            found = Some(sheet.find_passages(&searched, workspace));
+            found = Some(finding()(sheet, &searched, workspace));
         });
-        self.session.used = Some(chart);
+        self.session.step_chart = Some(chart);
         let left_open = found.as_ref().and_then(|found: &Found<T>| found.open);
-        self.session.open = left_open.and_then(|t| match t < start.t {
+        self.session.open_search = left_open.and_then(|t| match t < start.t {
             true => open,
             false => Some((t, step.inside_at(t).q)),
         });
@@ -421,7 +408,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         step: &Step<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         self.session.base = Some(step.end);
-        if !self.follows() || self.session.rests {
+        if !self.follows() || self.session.at_rest {
             return Ok(());
         }
         self.observe_coordinate_scale(mechanism, &step.end)?;
@@ -431,11 +418,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.session.sine = Some(self.session.trial.end.sqrt());
         self.session.near = self.session.trial.near;
         self.session.rate = self.session.trial.rate;
-        self.session.used = None;
+        self.session.step_chart = None;
         if self.session.chart.is_some() {
             self.put_chart_aside();
         } else {
-            if self.session.trial.looked.is_some() {
+            if self.session.trial.inspection_chart.is_some() {
                 self.keep_looked();
             }
             if self.session.trial.by_emitted {
@@ -464,13 +451,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// The chart of the step remains for those who look into it.
     #[inline(never)]
     fn put_chart_aside(&mut self) {
-        self.session.used = self.session.chart.take();
+        self.session.step_chart = self.session.chart.take();
     }
 
     /// The chart by which the step was looked into remains for the same.
     #[inline(never)]
     fn keep_looked(&mut self) {
-        self.session.used = self.session.trial.looked.take();
+        self.session.step_chart = self.session.trial.inspection_chart.take();
     }
 
     /// The chart of the trial step is that of the next one, too. A function of its own: a

@@ -56,7 +56,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let [tangent, dual] = columns.each_mut().map(|it| it.as_flattened_mut());
         if let Some(chart) = &self.session.chart {
             chart.view().spread(point.tangent.as_slice(), tangent);
-            chart.view().spread_duals(dual);
+            let view = chart.view();
+            view.spread(view.dual, dual);
         }
         let squares = Squares {
             mass: self.terms.mass.as_slice(),

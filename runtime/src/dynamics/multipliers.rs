@@ -36,7 +36,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        self.safe = None;
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
         self.counters.constraint_factorisations += 1;
         let mut every_row = [0; R];

@@ -56,7 +56,7 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// What was done so far.
     pub fn counters(&self) -> Counters {
-        self.core.counters()
+        self.core.counters
     }
 
     /// The system that an integrator sees, for as long as the mechanism does not
@@ -99,6 +99,6 @@ impl<T: Real, const N: usize, const R: usize> Solver<T, N, R> {
 
     /// Steps follow this error, relative; none if their length is fixed.
     pub(crate) fn expect_error(&mut self, tolerance: Option<T>) {
-        self.core.expect_error(tolerance);
+        self.core.session.tolerance = tolerance;
     }
 }

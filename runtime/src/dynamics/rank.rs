@@ -13,7 +13,7 @@ use super::singular_values::{SingularValueDecomposition, lift, lift_rows};
 use super::vanishing_gradient::has_one_sign;
 use super::{Core, Source, Which};
 use crate::equations::At;
-use crate::linalg::{Workspace, add_scaled, multiply_upper_transposed, norm};
+use crate::linalg::{Workspace, add_scaled, multiply_upper_transposed, norm, remove};
 use crate::once::compiled_once;
 use crate::tolerance::{difference, negligible, passes, regular, window};
 use crate::{DynamicsError, Mechanism, Real, Singularity, State};
@@ -57,7 +57,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             return Ok(false);
         }
         mechanism.position(state, &mut self.position);
-        self.safe = None;
         self.factorise_metric(mechanism, Source::Position, state.t)?;
         let before = self.factorise_constraints(Source::Position, Which::All);
         let known = self.rows.clone();
@@ -83,11 +82,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.prepare(mechanism, state)?;
         mechanism.terms(state, &mut self.terms);
         let bias = self.stabilised_bias(mechanism, state);
-        self.safe = None;
         self.factorise_metric(mechanism, Source::Terms, state.t)?;
         let right = self.scaled(&bias);
         let mut w = self.free_acceleration(&bias);
-        let limit = self.rows.regular(Which::All);
+        let limit = self.rows.regular();
         self.decompose(Source::Terms, state.t, &mut |decomposition| {
             decomposition.decide(limit, negligible(), &right, &mut w);
         })?;
@@ -104,20 +102,13 @@ pub(super) fn learn_rank<T: Real>(
     state: At<'_, T>,
     workspace: &Workspace<'_, T>,
 ) -> Result<(), DynamicsError<T>> {
-    if are_independent(solver, Which::All, regular(), workspace) {
+    if are_independent(solver, regular(), workspace) {
         solver.learn().rows.observe_all();
         return Ok(());
     }
     let regular_at = workspace.numbers(state.q.len());
-    let mut rank = 0;
-    for which in [Which::Holonomic, Which::All] {
-        // Mostly all rows restrict positions.
-        if which == Which::Holonomic || solver.known().holonomic.contains(&false) {
-            rank = workspace
-                .scope(|workspace| rank_nearby(solver, state, which, regular_at, workspace))?;
-        }
-        solver.learn().rows.observe_rank(rank, which);
-    }
+    let rank = workspace.scope(|workspace| rank_nearby(solver, state, regular_at, workspace))?;
+    solver.learn().rows.observe_rank(rank);
     solver.visit(state.t, regular_at)?;
     choose_rows(solver, workspace);
     solver.visit(state.t, state.q)
@@ -131,7 +122,7 @@ pub(crate) fn choose_rows<T: Real>(solver: &mut dyn Constrained<T>, workspace: &
     workspace.scope(|workspace| {
         let jacobian = solver.constraints().jacobian;
         let rows = workspace.numbers(jacobian.len());
-        lift_rows(jacobian, solver.known(), Which::All, rows);
+        lift_rows(jacobian, solver.known(), rows);
         let n = rows.len() / solver.known().r();
         let mut learning = solver.learn();
         learning.counters.row_choices += 1;
@@ -143,28 +134,27 @@ pub(crate) fn choose_rows<T: Real>(solver: &mut dyn Constrained<T>, workspace: &
 fn rank_nearby<T: Real>(
     solver: &mut dyn Constrained<T>,
     state: At<'_, T>,
-    which: Which,
     regular_at: &mut [T],
     workspace: &Workspace<'_, T>,
 ) -> Result<usize, DynamicsError<T>> {
     solver.visit(state.t, state.q)?;
-    let decomposition = SingularValueDecomposition::here(solver, which, state.t, workspace)?;
+    let decomposition = SingularValueDecomposition::here(solver, state.t, workspace)?;
     let rank_here = decomposition.above(regular());
     regular_at.copy_from_slice(state.q);
-    if rank_here == solver.known().count(which) {
+    if rank_here == solver.known().r() {
         return Ok(rank_here);
     }
-    let vanishing = vanishing_row(solver, which, workspace);
+    let vanishing = vanishing_row(solver, workspace);
     let mut lost = None;
     let least = difference::<T>() * T::from_f64(RETURNING_GRADIENT);
     for q in neighbours(solver, state, &decomposition, workspace) {
         solver.visit(state.t, q)?;
-        let rank = rank_above(solver, which, state.t, least, workspace)?;
+        let rank = rank_above(solver, state.t, least, workspace)?;
         if rank <= rank_here {
             continue;
         }
         let there = (state.t, &*q);
-        if vanishing.is_none() || stays(solver, there, which, (rank, least), workspace)? {
+        if vanishing.is_none() || stays(solver, there, (rank, least), workspace)? {
             regular_at.copy_from_slice(q);
             return Ok(rank);
         }
@@ -190,24 +180,21 @@ fn rank_nearby<T: Real>(
     Ok(rank)
 }
 
-/// Whether it is sure that the singular values of all rows that are meant are above a bound
-/// where the constraints were evaluated last.
+/// Whether it is sure that the singular values of all rows are above a bound where the
+/// constraints were evaluated last.
 fn are_independent<T: Real>(
     solver: &dyn Constrained<T>,
-    which: Which,
     least: T,
     workspace: &Workspace<'_, T>,
 ) -> bool {
-    let (known, jacobian) = (solver.known(), solver.constraints().jacobian);
-    let count = known.count(which);
-    if count > jacobian.len() / known.r() {
+    let (r, jacobian) = (solver.known().r(), solver.constraints().jacobian);
+    if r > jacobian.len() / r {
         return false;
     }
     workspace.scope(|workspace| {
-        let rows = workspace.indices(count);
-        let meant = (0..known.r()).filter(|row| known.takes_part(*row, which));
-        for (row, meant) in rows.iter_mut().zip(meant) {
-            *row = meant;
+        let rows = workspace.indices(r);
+        for (k, row) in rows.iter_mut().enumerate() {
+            *row = k;
         }
         Independent::here(solver, rows, least, workspace).is_some()
     })
@@ -216,24 +203,21 @@ fn are_independent<T: Real>(
 /// How many singular values are above a bound where the constraints were evaluated last.
 fn rank_above<T: Real>(
     solver: &mut dyn Constrained<T>,
-    which: Which,
     t: T,
     least: T,
     workspace: &Workspace<'_, T>,
 ) -> Result<usize, DynamicsError<T>> {
-    if are_independent(solver, which, least, workspace) {
-        return Ok(solver.known().count(which));
+    if are_independent(solver, least, workspace) {
+        return Ok(solver.known().r());
     }
-    workspace.scope(|workspace| {
-        Ok(SingularValueDecomposition::here(solver, which, t, workspace)?.above(least))
-    })
+    workspace
+        .scope(|workspace| Ok(SingularValueDecomposition::here(solver, t, workspace)?.above(least)))
 }
 
 /// Whether a rank next to a state is still there where the constraints hold.
 fn stays<T: Real>(
     solver: &mut dyn Constrained<T>,
     (t, q): (T, &[T]),
-    which: Which,
     (wanted, least): (usize, T),
     workspace: &Workspace<'_, T>,
 ) -> Result<bool, DynamicsError<T>> {
@@ -245,7 +229,7 @@ fn stays<T: Real>(
             solver.visit(t, moved)?;
             w.fill(T::zero());
             let stays = workspace.scope(|workspace| {
-                let decomposition = SingularValueDecomposition::here(solver, which, t, workspace)?;
+                let decomposition = SingularValueDecomposition::here(solver, t, workspace)?;
                 let rank = decomposition.above(least);
                 solver.known().scaled(solver.constraints().residual, right);
                 decomposition.decide(rank, least, right, w);
@@ -264,7 +248,6 @@ fn stays<T: Real>(
 /// A row whose gradient vanishes where the constraints were evaluated last, if there is one.
 fn vanishing_row<T: Real>(
     solver: &dyn Constrained<T>,
-    which: Which,
     workspace: &Workspace<'_, T>,
 ) -> Option<usize> {
     let (known, jacobian) = (solver.known(), solver.constraints().jacobian);
@@ -272,7 +255,7 @@ fn vanishing_row<T: Real>(
         let lifted = workspace.numbers(jacobian.len() / known.r());
         (0..known.r()).find(|&row| {
             lift(jacobian, known, row, lifted);
-            known.takes_part(row, which) && known.scale[row] * norm(lifted) <= regular()
+            known.scale[row] * norm(lifted) <= regular()
         })
     })
 }
@@ -290,7 +273,7 @@ fn neighbours<'a, T: Real>(
     let positions = workspace.numbers((n + 1) * n);
     let mut count = 0;
     let mut add = |axis: &mut [T], least: T| {
-        decomposition.remove_from(axis);
+        remove(axis, decomposition.decided(decomposition.above(regular())));
         let size = norm(axis);
         if size > least {
             known.lower(axis);

@@ -8,7 +8,7 @@ use super::{ConstrainedSystem, Core, Source};
 use crate::linalg::{add_scaled, column, dot};
 use crate::stack::with_room;
 use crate::system::escalating;
-use crate::{DynamicsError, Mechanism, Real, Sides, State, Terms};
+use crate::{DynamicsError, Mechanism, Real, Sides, State};
 use nalgebra::SVector;
 
 impl<M, T: Real, const N: usize, const R: usize> ConstrainedSystem<'_, M, T, N, R>
@@ -32,7 +32,7 @@ where
         with_room::<T, _, N, R>(|| self.mechanism.terms(state, &mut self.solver.terms));
         let terms = &self.solver.terms;
         let mut reaction = terms.force;
-        subtract_image(reaction.as_mut_slice(), terms, &acceleration);
+        terms.take_inertia(&mut reaction, &acceleration);
         Ok((acceleration, reaction))
     }
 
@@ -122,7 +122,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         acceleration: &SVector<T, N>,
     ) -> SVector<T, N> {
         let mut reaction = self.held_force(mechanism, state);
-        subtract_image(reaction.as_mut_slice(), &self.terms, acceleration);
+        self.terms.take_inertia(&mut reaction, acceleration);
         reaction
     }
 
@@ -167,7 +167,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         t: T,
         reaction: &SVector<T, N>,
     ) -> Result<[Option<T>; R], DynamicsError<T>> {
-        self.safe = None;
         self.factorise_metric(mechanism, Source::Terms, t)?;
         let mut lifted = reaction.data.0[0];
         self.metric.factor.forward(&mut lifted);
@@ -178,16 +177,5 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         Ok(column(|row| {
             (!shared[row]).then_some(multipliers[row] * self.rows.scale(row))
         }))
-    }
-}
-
-/// Subtracts `M q̈`.
-fn subtract_image<T: Real, const N: usize, const R: usize>(
-    reaction: &mut [T],
-    terms: &Terms<T, N, R>,
-    acceleration: &SVector<T, N>,
-) {
-    for (column, acceleration) in terms.mass.data.0.iter().zip(acceleration.as_slice()) {
-        add_scaled(reaction, -*acceleration, column);
     }
 }

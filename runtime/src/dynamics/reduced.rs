@@ -55,7 +55,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
     ) -> Result<T, DynamicsError<T>> {
-        self.safe = None;
         self.factorise_trial(mechanism, Source::Terms, state.t)?;
         let squared = self.factorise_constraints(Source::Terms, Which::All);
         self.session.observe(state, squared);

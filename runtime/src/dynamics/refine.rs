@@ -9,7 +9,7 @@
 //! states on both sides.
 
 use super::{Core, Solver};
-use crate::singular::Point;
+use crate::singular::{Point, solving_along};
 use crate::tolerance::{regular, round_off};
 use crate::{Mechanism, Real, Settings, State};
 use nalgebra::SVector;
@@ -97,7 +97,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             weights[(j, j)] += inertia;
             change[j] += inertia * missed[j];
         }
-        let solved = self.session.chart.as_ref()?.view().solve_along(
+        let chart = self.session.chart.as_ref()?.view();
+        let solved = solving_along()(
+            &chart,
             weights.as_slice(),
             point.tangent.as_slice(),
             change.as_mut_slice(),

@@ -37,7 +37,6 @@ pub(crate) struct Rows<T, const R: usize> {
     holonomic_count: usize,
     /// Rank of `A` at regular positions, as far as it is known.
     regular: usize,
-    holonomic_regular: usize,
 }
 
 impl<T: Real, const R: usize> Rows<T, R> {
@@ -57,7 +56,6 @@ impl<T: Real, const R: usize> Rows<T, R> {
             active_count: 0,
             holonomic_count: 0,
             regular: 0,
-            holonomic_regular: 0,
         };
         for (holonomic, constraint) in rows.holonomic.iter_mut().zip(constraints) {
             *holonomic = constraint.holonomic;
@@ -110,11 +108,8 @@ impl<T: Real, const R: usize> Rows<T, R> {
     }
 
     /// Rank at regular positions.
-    pub(crate) fn regular(&self, which: Which) -> usize {
-        match which {
-            Which::All => self.regular,
-            Which::Holonomic => self.holonomic_regular,
-        }
+    pub(crate) fn regular(&self) -> usize {
+        self.regular
     }
 
     /// Whether all rows are independent at regular positions.
@@ -166,7 +161,6 @@ impl<T: Real, const R: usize> Rows<T, R> {
             active_count: &mut self.active_count,
             holonomic_count: &mut self.holonomic_count,
             regular: &mut self.regular,
-            holonomic_regular: &mut self.holonomic_regular,
         }
     }
 
@@ -189,7 +183,6 @@ pub(crate) struct RowsView<'a, T> {
     active_count: &'a mut usize,
     holonomic_count: &'a mut usize,
     regular: &'a mut usize,
-    holonomic_regular: &'a mut usize,
 }
 
 impl<T: Real> RowsView<'_, T> {
@@ -230,17 +223,12 @@ impl<T: Real> RowsView<'_, T> {
 
     /// Takes note that all rows are.
     pub(crate) fn observe_all(&mut self) {
-        let holonomic = self.holonomic.iter().filter(|holonomic| **holonomic);
-        self.observe_rank(holonomic.count(), Which::Holonomic);
-        self.observe_rank(self.holonomic.len(), Which::All);
+        self.observe_rank(self.holonomic.len());
     }
 
     /// Takes note that this many rows are independent.
-    pub(crate) fn observe_rank(&mut self, rank: usize, which: Which) {
-        match which {
-            Which::All => *self.regular = rank,
-            Which::Holonomic => *self.holonomic_regular = rank,
-        }
+    pub(crate) fn observe_rank(&mut self, rank: usize) {
+        *self.regular = rank;
         if self.all_independent() {
             // Holonomic rows come first.
             *self.active_count = 0;
@@ -275,9 +263,7 @@ impl<T: Real> RowsView<'_, T> {
 
     fn count_holonomic(&mut self) {
         let active = &self.active[..*self.active_count];
-        let count = active.iter().filter(|&&row| self.holonomic[row]).count();
-        *self.holonomic_count = count;
-        *self.holonomic_regular = count.max(*self.holonomic_regular);
+        *self.holonomic_count = active.iter().filter(|&&row| self.holonomic[row]).count();
     }
 
     /// Gives rows the weights of the heaviest masses, if the masses differ so much that

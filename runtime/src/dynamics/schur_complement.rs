@@ -8,7 +8,7 @@
 
 use super::{Metric, Rows};
 use crate::Real;
-use crate::linalg::{Gram, add_scaled};
+use crate::linalg::{Gram, add_scaled, dot};
 use nalgebra::{SMatrix, SVector};
 
 /// Independent rows in the metric, `U⁻¹Aᵀ`, and the factor of their Gram matrix.
@@ -72,8 +72,12 @@ impl<T: Real, const N: usize, const R: usize> SchurComplement<T, N, R> {
     /// How far to go along each row for `A U⁻ᵀ w = right`.
     #[inline]
     fn steps(&self, w: &[T; N], right: &SVector<T, R>) -> [T; R] {
+        let mut steps = [T::zero(); R];
         let vectors = self.vectors.data.0[..self.count].iter().zip(&self.list);
-        let with_right = vectors.map(|(vector, &row)| (vector, right[row]));
-        self.gram.steps(with_right, w)
+        for (step, (vector, &row)) in steps.iter_mut().zip(vectors) {
+            *step = right[row] - dot(vector, w);
+        }
+        self.gram.solve(&mut steps);
+        steps
     }
 }

@@ -9,12 +9,10 @@
 
 use super::Core;
 use super::erased::{Constrained, Known};
-use super::rows::Which;
 use super::solver::Source;
 use crate::equations::At;
 use crate::linalg::{
-    Breakdown, Workspace, add_scaled, count_above, dot, lift_row, norm, orthogonalise, remove,
-    scale,
+    Breakdown, Workspace, add_scaled, count_above, dot, lift_row, norm, orthogonalise, scale,
 };
 use crate::once::compiled_once;
 use crate::tolerance::{difference, regular};
@@ -38,7 +36,6 @@ impl<'a, T: Real> SingularValueDecomposition<'a, T> {
     pub(crate) fn new(
         jacobian: &[T],
         known: Known<'_, T>,
-        which: Which,
         workspace: &Workspace<'a, T>,
     ) -> Result<Self, Breakdown> {
         let r = known.r();
@@ -46,7 +43,7 @@ impl<'a, T: Real> SingularValueDecomposition<'a, T> {
         let directions = workspace.numbers(n * r);
         let left = workspace.numbers(r * r);
         let values = workspace.numbers(r);
-        lift_rows(jacobian, known, which, directions);
+        lift_rows(jacobian, known, directions);
         for entry in left.iter_mut().step_by(r + 1) {
             *entry = T::one();
         }
@@ -68,13 +65,12 @@ impl<'a, T: Real> SingularValueDecomposition<'a, T> {
     /// Combines the rows of the Jacobian where the constraints were evaluated last.
     pub(crate) fn here(
         solver: &mut dyn Constrained<T>,
-        which: Which,
         t: T,
         workspace: &Workspace<'a, T>,
     ) -> Result<Self, DynamicsError<T>> {
         solver.learn().counters.rank_decisions += 1;
         let (jacobian, known) = (solver.constraints().jacobian, solver.known());
-        let decomposition = Self::new(jacobian, known, which, workspace);
+        let decomposition = Self::new(jacobian, known, workspace);
         decomposition.map_err(|Breakdown| DynamicsError::NotFinite { t })
     }
 
@@ -107,11 +103,6 @@ impl<'a, T: Real> SingularValueDecomposition<'a, T> {
         }
     }
 
-    /// The part of a vector that the combinations leave free.
-    pub(crate) fn remove_from(&self, w: &mut [T]) {
-        remove(w, self.decided(self.above(regular())));
-    }
-
     /// How the rows share a lifted force, and for which of them nothing tells.
     pub(crate) fn share(&self, lifted: &[T], shares: &mut [T], unknown: &mut [bool]) {
         let directions = self.directions.chunks_exact(self.n);
@@ -128,18 +119,11 @@ impl<'a, T: Real> SingularValueDecomposition<'a, T> {
 }
 
 /// The rows of a Jacobian in the metric, scaled to size one.
-pub(super) fn lift_rows<T: Real>(
-    jacobian: &[T],
-    known: Known<'_, T>,
-    which: Which,
-    rows: &mut [T],
-) {
+pub(super) fn lift_rows<T: Real>(jacobian: &[T], known: Known<'_, T>, rows: &mut [T]) {
     let r = known.r();
     for (row, vector) in rows.chunks_exact_mut(jacobian.len() / r).enumerate() {
-        if known.takes_part(row, which) {
-            lift(jacobian, known, row, vector);
-            scale(vector, known.scale[row]);
-        }
+        lift(jacobian, known, row, vector);
+        scale(vector, known.scale[row]);
     }
 }
 
@@ -238,7 +222,5 @@ compiled_once! {
         Known<'_, T>,
         &Workspace<'b, T>,
     ) -> Result<SingularValueDecomposition<'b, T>, Breakdown> =
-        |jacobian, known, workspace| {
-            SingularValueDecomposition::new(jacobian, known, Which::All, workspace)
-        };
+        |jacobian, known, workspace| SingularValueDecomposition::new(jacobian, known, workspace);
 }

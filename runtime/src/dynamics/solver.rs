@@ -95,11 +95,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
     }
 
-    /// What was done so far.
-    pub(crate) fn counters(&self) -> Counters {
-        self.counters
-    }
-
     /// Takes over that another solver is prepared, its metric, and what it measures
     /// coordinates by.
     pub(crate) fn adopt(&mut self, other: &Self) {
@@ -113,7 +108,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// How many directions the constraints leave free at regular states.
     pub(crate) fn freedoms(&self) -> usize {
-        N - self.rows.regular(Which::All)
+        N - self.rows.regular()
     }
 
     /// Factorises the metric at the state whose terms are in a buffer.
@@ -123,7 +118,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         source: Source,
         t: T,
     ) -> Result<(), DynamicsError<T>> {
-        self.expected = false;
+        (self.expected, self.safe) = (false, None);
         let (mass, jacobian) = match source {
             Source::Terms => (&self.terms.mass, &self.terms.jacobian),
             Source::Position => (&self.position.mass, &self.position.jacobian),

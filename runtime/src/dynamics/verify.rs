@@ -6,15 +6,15 @@
 
 use super::{Core, Source, Which};
 use crate::linalg::is_zero;
-use crate::singular::{Chart, Obstacle, Placed, Point, smallest_sine};
+use crate::singular::{Chart, Obstacle, Placed, Point, counting, smallest_sine, staying};
 use crate::tolerance::{accepted, passes, safe_steps, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State, Structure};
 
 /// A sine that falls below this part of what it is at both ends of a step may have been
 /// zero between.
 const FALL: f64 = 0.9;
-/// Energy that a step may lose, in units of its tolerance: more, and corners of narrow gaps
-/// are cut; less, and their round-off ends runs.
+/// Energy that a step may lose, in units of its tolerance. By experiment: with more, steps cut
+/// the corners of narrow gaps; with less, round-off in gaps ends runs.
 const ENERGY: f64 = 10.0;
 /// Energy that a step of fixed length may lose, relative to the kinetic energy.
 const ENERGY_OF_FIXED: f64 = 1e-4;
@@ -29,7 +29,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         start: &State<T, N>,
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        if !self.follows() || self.session.rests || self.is_regular_by_form() {
+        if !self.follows() || self.session.at_rest || self.is_regular_by_form() {
             return Ok(());
         }
         if self.session.sine.is_none() {
@@ -88,13 +88,15 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         state: &State<T, N>,
     ) -> Result<T, DynamicsError<T>> {
         mechanism.position(state, &mut self.position);
-        self.safe = None;
         self.factorise_metric(mechanism, Source::Position, state.t)?;
         let squared = self.factorise_constraints(Source::Position, Which::All);
         Ok(squared.sqrt())
     }
 
-    /// A step without a chart: was it far from singular configurations all the way?
+    /// A step without a chart: was it far from singular configurations all the way? Four things
+    /// make that doubtful: the sine was smaller within the step than at both ends; the step is
+    /// longer than the rate of the sine allows; the next step needs a chart; a coordinate moved
+    /// far.
     fn verify_far(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
@@ -104,19 +106,19 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if self.session.trial.chart.is_some() {
             self.session.trial.chart = None;
         }
-        if self.session.trial.looked.is_some() {
-            self.session.trial.looked = None;
+        if self.session.trial.inspection_chart.is_some() {
+            self.session.trial.inspection_chart = None;
         }
         let after = self.session.trial.end.sqrt();
         let lowest = self.session.trial.lowest.sqrt().min(after);
         let before = self.session.sine.unwrap_or(after);
-        let falls = lowest < before.min(after) * T::from_f64(FALL);
+        let dips = lowest < before.min(after) * T::from_f64(FALL);
         let length = end.t - start.t;
         let comes_near = self.needs_chart((before, after, lowest), length);
         // A step may be longer than the one before it, and the sine may change faster.
         let change = self.session.rate.max(self.session.trial.rate) * length;
-        let leaps = before < window::<T>() + safe_steps::<T>() * change;
-        if !falls && !leaps && !comes_near && !self.is_long(start, end) {
+        let outruns_rate = before < window::<T>() + safe_steps::<T>() * change;
+        if !dips && !outruns_rate && !comes_near && !self.is_long(start, end) {
             return Ok(());
         }
         if after <= window() {
@@ -124,7 +126,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         self.look_between(mechanism, (start, end), comes_near)?;
         // Where nothing keeps a motion on the constraints, its energy drifts as it does.
-        match leaps && self.settings.stabilisation == Stabilisation::Projection {
+        match outruns_rate && self.settings.stabilisation == Stabilisation::Projection {
             true => self.verify_energy(mechanism, start, end),
             false => Ok(()),
         }
@@ -153,13 +155,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         };
         let mut stays = false;
         self.on_sheet(mechanism, &chart, &mut |sheet, workspace| {
-            stays = sheet.stays_between((start.at(), end.at()), workspace);
+            stays = staying()(sheet, (start.at(), end.at()), workspace);
         });
         if !stays {
             return Err(self.want_chart(mechanism, end.t));
         }
         self.session.trial.chart = Some(chart).filter(|_| comes_near);
-        self.session.trial.looked = Some(chart).filter(|_| self.is_long(start, end));
+        self.session.trial.inspection_chart = Some(chart).filter(|_| self.is_long(start, end));
         Ok(())
     }
 
@@ -187,13 +189,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let (mut changes, mut part) = (None, T::one());
         self.on_sheet(mechanism, chart, &mut |sheet, workspace| {
             let ends = (start.at(), end.at());
-            (changes, part) = sheet.count_crossed(ends, seeks, workspace);
+            (changes, part) = counting()(sheet, ends, seeks, workspace);
         });
         if changes != Some(0) && structure.assumed_regular {
             return Err(self.not_regular(mechanism, end)?);
         }
         if changes != Some(0) && !form.passes() {
-            let rank = self.rows.regular(Which::All) - changes.unwrap_or(1);
+            let rank = self.rows.regular() - changes.unwrap_or(1);
             return Err(DynamicsError::SingularPosition {
                 t: end.t,
                 form,
@@ -300,7 +302,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         state: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         let mut point = Point::zeros();
-        match self.place_on(mechanism, chart, state, &mut point) {
+        let (mut solver, workspace, _) = self.lend(mechanism);
+        match solver.place(chart, state, &mut point, &workspace) {
             Ok(placement) if placement.is_crossing() => Ok(()),
             _ => Err(self.refusal(mechanism, Obstacle::LeftSheet, state.t)),
         }

@@ -92,19 +92,4 @@ impl<T: Real, const R: usize> Gram<T, R> {
             x[j] = value;
         }
     }
-    /// How far to go along each vector so that its product with `w` becomes what stands
-    /// beside it.
-    #[inline]
-    pub(crate) fn steps<'a, const N: usize>(
-        &self,
-        vectors: impl Iterator<Item = (&'a [T; N], T)>,
-        w: &[T; N],
-    ) -> [T; R] {
-        let mut steps = [T::zero(); R];
-        for (step, (vector, right)) in steps.iter_mut().zip(vectors) {
-            *step = right - dot(vector, w);
-        }
-        self.solve(&mut steps);
-        steps
-    }
 }

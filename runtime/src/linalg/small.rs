@@ -1,11 +1,10 @@
-//! Small sizes, which the compiler is told.
+//! Small sizes as constants of the compiler.
 //!
 //! In:  a size that is data.
-//! Out: something that is done with a constant in its place where it is small: loops are
-//!      written out, and no index that is in sight is checked.
+//! Out: a call of a function that is generic over the size where it is small: its loops are
+//!      unrolled, and no index is checked.
 
-/// Does something with a constant if a size is small, of which there is a copy for each, and
-/// something else if not.
+/// `with_size!(n, |N| f::<N>(), g())` calls `f` with the constant `N = n` if `1 ≤ n ≤ 8`, else `g`.
 macro_rules! with_size {
     ($size:expr, |$N:ident| $work:expr, $otherwise:expr) => {
         match $size {

@@ -92,7 +92,9 @@ impl<'a, T: Real> Workspace<'a, T> {
     }
 }
 
-/// All that was free of some memory: a workspace for those who hold borrows of their own.
+/// All that was free of some memory. What it lends has a lifetime that can be named, that of a
+/// [`Workspace::scope`] can't: a struct that holds parts of a workspace beside other borrows needs
+/// one.
 pub(crate) struct Free<'a, T> {
     numbers: [&'a mut [T]; PIECES],
     indices: &'a mut [usize],

@@ -10,14 +10,7 @@ use crate::{IntegrateError, Integrator, Method, Real, Rk4, State, Step, System, 
 
 /// The chosen method, whichever it is.
 #[derive(Clone, Debug)]
-pub(super) struct Driver<T, const N: usize> {
-    method: AnyMethod<T, N>,
-    /// Accepted error of a step, relative, if the steps follow one.
-    tolerance: Option<T>,
-}
-
-#[derive(Clone, Debug)]
-enum AnyMethod<T, const N: usize> {
+pub(super) enum Driver<T, const N: usize> {
     Rk4(Rk4<T, N>),
     Explicit(Controlled<Explicit<T, N>, T, N>),
     Radau(Controlled<Radau<T, N>, T, N>),
@@ -50,40 +43,32 @@ impl<T: Real, const N: usize> Driver<T, N> {
     /// The method with the accuracy that [`tolerance`] tells.
     #[inline(always)]
     pub(super) fn new(method: Method, tolerance: Option<Tolerance<T, N>>, inside: Inside) -> Self {
-        let mut driver = Self {
-            method: match method {
-                Method::Rk4 => AnyMethod::Rk4(Rk4::new()),
-                Method::Dp5 => AnyMethod::Explicit(dp5(tolerance)),
-                Method::Dop853 => AnyMethod::Explicit(dop853(tolerance)),
-                Method::Radau5 => AnyMethod::Radau(radau5(tolerance)),
-                Method::Radau9 => AnyMethod::Radau(radau9(tolerance)),
-            },
-            tolerance: tolerance.as_ref().map(Tolerance::relative),
+        let mut driver = match method {
+            Method::Rk4 => Self::Rk4(Rk4::new()),
+            Method::Dp5 => Self::Explicit(dp5(tolerance)),
+            Method::Dop853 => Self::Explicit(dop853(tolerance)),
+            Method::Radau5 => Self::Radau(radau5(tolerance)),
+            Method::Radau9 => Self::Radau(radau9(tolerance)),
         };
         driver.keep(inside);
         driver
     }
 
-    /// Accepted error of a step, relative, if the steps follow one.
-    pub(super) fn tolerance(&self) -> Option<T> {
-        self.tolerance
-    }
-
     /// Chooses what is kept of the inside of steps.
     fn keep(&mut self, inside: Inside) {
-        match &mut self.method {
-            AnyMethod::Rk4(method) => method.keep(inside),
-            AnyMethod::Explicit(method) => method.keep(inside),
-            AnyMethod::Radau(method) => method.keep(inside),
+        match self {
+            Self::Rk4(method) => method.keep(inside),
+            Self::Explicit(method) => method.keep(inside),
+            Self::Radau(method) => method.keep(inside),
         }
     }
 
     /// Forgets the last step, because the system has changed since.
     pub(super) fn forget(&mut self) {
-        match &mut self.method {
-            AnyMethod::Rk4(method) => method.forget(),
-            AnyMethod::Explicit(method) => method.forget(),
-            AnyMethod::Radau(method) => method.forget(),
+        match self {
+            Self::Rk4(method) => method.forget(),
+            Self::Explicit(method) => method.forget(),
+            Self::Radau(method) => method.forget(),
         }
     }
 }
@@ -95,10 +80,10 @@ impl<T: Real, const N: usize> Integrator<T, N> for Driver<T, N> {
         state: &State<T, N>,
         bound: T,
     ) -> Result<&Step<T, N>, IntegrateError<T>> {
-        match &mut self.method {
-            AnyMethod::Rk4(method) => method.step(system, state, bound),
-            AnyMethod::Explicit(method) => method.step(system, state, bound),
-            AnyMethod::Radau(method) => method.step(system, state, bound),
+        match self {
+            Self::Rk4(method) => method.step(system, state, bound),
+            Self::Explicit(method) => method.step(system, state, bound),
+            Self::Radau(method) => method.step(system, state, bound),
         }
     }
 }

@@ -71,7 +71,7 @@ where
             done: &mut done,
         };
         let result = run.all();
-        done.counters = solver.counters();
+        done.counters = solver.counters;
         let summary = observers.report(done);
         match result {
             Ok(()) => Ok(summary),

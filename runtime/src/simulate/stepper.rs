@@ -104,7 +104,7 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
         let grid = Grid::new(state.t, until, self.step_control)?;
         self.driver.forget();
         self.solver.bind(mechanism.structure());
-        self.solver.expect_error(self.driver.tolerance());
+        self.solver.expect_error(self.step_control.tolerance());
         let mut system = self.solver.on(mechanism);
         let driver: &mut Driver<T, N> = &mut self.driver;
         with_room::<T, _, N, R>(|| {
@@ -167,7 +167,7 @@ impl<T: Real, const N: usize, const R: usize> Stepper<T, N, R> {
         }
         self.driver.forget();
         self.solver.bind(mechanism.structure());
-        self.solver.expect_error(self.driver.tolerance());
+        self.solver.expect_error(self.step_control.tolerance());
         let mut system = self.solver.on(mechanism);
         *state = *self.driver.step(&mut system, state, grid.time(1))?.end();
         Ok(())

@@ -189,7 +189,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
         let [mut tangents, mut duals] = [SMatrix::<T, N, N>::zeros(); 2];
         let view = self.view();
         view.spread(view.tangents(), tangents.as_mut_slice());
-        view.spread_duals(duals.as_mut_slice());
+        view.spread(view.dual, duals.as_mut_slice());
         let mut across = *v;
         for (tangent, dual) in tangents.column_iter().zip(duals.column_iter()) {
             across -= tangent * dual.dot(v);

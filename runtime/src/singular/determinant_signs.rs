@@ -28,26 +28,17 @@ impl<'a, T: Real> DeterminantSigns<'a, T> {
         if self.negative { -size } else { size }
     }
 
-    /// How many sheets were crossed on the way from others.
+    /// How many sheets were crossed on the way from others. Blocks count them, and determinants
+    /// tell whether their number is odd. A block also changes its sign where one of the rows
+    /// before it loses its pivot, which is no crossing by itself, and may hide one: then it is at
+    /// least one less.
     pub(super) fn changes_from(
         &self,
         other: &DeterminantSigns<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> usize {
-        other.changes_to((&self.block, self.negative), workspace)
-    }
-
-    /// How many sheets were crossed on the way to a block and the sign of a determinant. Blocks
-    /// count them, and determinants tell whether their number is odd. A block also changes its
-    /// sign where one of the rows before it loses its pivot, which is no crossing by itself, and
-    /// may hide one: then it is at least one less.
-    fn changes_to(
-        &self,
-        (block, negative): (&Block<'_, T>, bool),
-        workspace: &Workspace<'_, T>,
-    ) -> usize {
-        let changes = block.sign_changes_from(&self.block, workspace);
-        let odd = negative != self.negative;
+        let changes = self.block.sign_changes_from(&other.block, workspace);
+        let odd = self.negative != other.negative;
         match (changes % 2 == 1) == odd {
             true => changes,
             false => changes.checked_sub(1).unwrap_or(1),
@@ -62,9 +53,10 @@ pub(crate) struct Reference<'a, T> {
 }
 
 impl<T: Real> Sheet<'_, T> {
-    /// Of so many positions the one nearest to a singular configuration. There all rows come
-    /// last that may turn against others nearby, while two that do so on the way from one that
-    /// is far might be missed. `None` where the constraints can't be eliminated at one of them.
+    /// Of so many positions the one nearest to a singular configuration, whose order of
+    /// elimination serves all of them: its small pivots come last, in one block, so that every
+    /// change of sign on the way is one of the block. An order from a regular position may leave
+    /// two such rows out of it. `None` where the constraints can't be eliminated at one of them.
     pub(super) fn nearest(
         &mut self,
         count: usize,
@@ -105,8 +97,9 @@ impl<T: Real> Sheet<'_, T> {
         workspace: &Workspace<'_, T>,
     ) -> Option<usize> {
         self.eliminate((to.t, to.q), Some(&from.like)).ok()?;
-        let negative = self.frame.is_negative();
-        let there = (self.frame.block(), negative);
-        Some(from.signs.changes_to(there, workspace))
+        Some(workspace.scope(|workspace| {
+            let there = DeterminantSigns::of(&mut self.frame, workspace);
+            there.changes_from(&from.signs, workspace)
+        }))
     }
 }

@@ -104,18 +104,18 @@ impl<'a, T: Real> Direction<'a, T> {
     }
 }
 
-/// What moves the sheet along a line.
+/// What moves rheonomic constraints along a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Mover {
+pub(super) enum LineParameter {
     /// Time.
     Time,
-    /// The constraint rows that move, while time stands still: where a law of time stops it
-    /// leads no farther, and where it goes on with another polynomial it is not smooth, but
-    /// whatever it is, it may have been more or less.
-    Rows,
+    /// A shift of their right-hand sides at one time: where a law of time stops, it leads no
+    /// farther, and at a knot of a spline it is not smooth; the shifted constraints are smooth in
+    /// the shift even so.
+    Shift,
 }
 
-/// The same in numbers.
+/// How rheonomic constraints move along a line.
 #[derive(Clone, Copy, Debug)]
 enum Moving<'a, T> {
     Nothing,
@@ -141,23 +141,23 @@ struct Best<'a, T> {
 }
 
 impl<T: Real> Sheet<'_, T> {
-    /// The best direction through a state with this elimination, for a sheet that is moved by
-    /// this if it moves.
+    /// The best direction through a state with this elimination; if the sheet moves, by this
+    /// parameter.
     #[inline(never)]
     pub(super) fn direction<'b>(
         &mut self,
         state: At<'_, T>,
         like: &Eliminated<'_, T>,
-        mover: Mover,
+        parameter: LineParameter,
         workspace: &Workspace<'b, T>,
     ) -> Result<Direction<'b, T>, Obstacle> {
         let rows = workspace.numbers(self.chart.n());
         let moves = self.chart.speed > T::zero();
-        let moving = match mover {
-            Mover::Time if moves => Moving::Time(T::one() / self.chart.speed),
-            Mover::Rows if moves && self.shift(state, rows) => Moving::Rows(rows),
-            Mover::Rows => return Err(Obstacle::Unresolved),
-            Mover::Time => Moving::Nothing,
+        let moving = match parameter {
+            LineParameter::Time if moves => Moving::Time(T::one() / self.chart.speed),
+            LineParameter::Shift if moves && self.shift(state, rows) => Moving::Rows(rows),
+            LineParameter::Shift => return Err(Obstacle::Unresolved),
+            LineParameter::Time => Moving::Nothing,
         };
         let dimension = self.chart.freedoms + usize::from(moves);
         let search = Search {

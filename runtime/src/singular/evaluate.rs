@@ -7,9 +7,10 @@ use super::chart::Chart;
 use super::obstacle::Obstacle;
 use super::place::Placement;
 use super::point::Point;
-use super::sheets::Sheets;
+use super::sheets::{Sheets, measuring, placing};
 use crate::dynamics::{Core, SolverView};
 use crate::linalg::Workspace;
+use crate::tolerance::window;
 use crate::{Mechanism, Real, State};
 
 /// Something that is done on the sheet.
@@ -31,7 +32,7 @@ impl<T: Real, const N: usize, const R: usize> SolverView<'_, T, N, R> {
 
     /// Puts a state onto the sheet of a chart.
     #[inline(never)]
-    pub(super) fn place(
+    pub(crate) fn place(
         &mut self,
         chart: &Chart<T, N, R>,
         state: &State<T, N>,
@@ -40,7 +41,7 @@ impl<T: Real, const N: usize, const R: usize> SolverView<'_, T, N, R> {
     ) -> Result<Placement, Obstacle> {
         let mut placed = Err(Obstacle::Undetermined);
         self.on_sheet(chart, workspace, &mut |sheets, workspace| {
-            placed = sheets.put(state.at(), &mut point.slices(), workspace);
+            placed = placing()(sheets, state.at(), &mut point.slices(), workspace);
         });
         placed
     }
@@ -58,18 +59,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         solver.on_sheet(chart, &workspace, work);
     }
 
-    /// Puts a state onto the sheet of a chart.
-    pub(crate) fn place_on(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        chart: &Chart<T, N, R>,
-        state: &State<T, N>,
-        point: &mut Point<T, N>,
-    ) -> Result<Placement, Obstacle> {
-        let (mut solver, workspace, _) = self.lend(mechanism);
-        solver.place(chart, state, point, &workspace)
-    }
-
     /// Puts a state onto the sheet of the chart at hand; none if there is no such chart.
     #[inline(never)]
     pub(crate) fn place_here(
@@ -82,20 +71,22 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         Some(solver.place(chart?, state, point, &workspace))
     }
 
-    /// The geometry of the sheet of the chart at hand at a state as it is; none if there is no
-    /// such chart.
-    pub(crate) fn geometry_here(
+    /// The geometry of the sheet of the chart at hand at a state as it is; `false` if there is
+    /// no such chart, or the state lies next to a singular configuration.
+    pub(crate) fn measure_here(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,
         point: &mut Point<T, N>,
-    ) -> Option<Result<(), Obstacle>> {
+    ) -> bool {
         let (mut solver, workspace, chart) = self.lend(mechanism);
-        let chart = chart?;
+        let Some(chart) = chart else {
+            return false;
+        };
         let mut measured = Ok(());
         solver.on_sheet(chart, &workspace, &mut |sheets, workspace| {
-            measured = sheets.look_at(state.at(), &mut point.slices(), workspace);
+            measured = measuring()(sheets, state.at(), &mut point.slices(), workspace);
         });
-        Some(measured)
+        measured.is_ok() && point.sine() > window()
     }
 }

@@ -146,9 +146,9 @@ impl Part {
     }
 }
 
-/// Takes vectors that span the tangent space of each part, one part after the other, out of
-/// some that span that of all: of what these are in the coordinates of the part, as many as it
-/// leaves free, the largest first, what is left of the others without those before.
+/// Restricts a basis of the whole tangent space to the coordinates of each part, one part after
+/// the other, and picks as many vectors as the part has degrees of freedom, by Gram–Schmidt with
+/// the largest first.
 pub(super) fn split_tangent<T: Real>(
     components: &'static [ConnectedComponent],
     sizes: (usize, usize),

@@ -3,37 +3,44 @@
 //! In:  accepted steps, the chart at their start.
 //! Out: [`Passage`]s: where the constraints become singular and the motion goes on to the
 //!      other side.
+//!
+//! The determinant of the constraints with the duals of the tangent space changes its sign
+//! there. It is sampled along the step. Between two samples of opposite signs the time is found
+//! by a root finder; between two of equal signs the cubic polynomial through them and their
+//! rates tells whether there may be two passages, which bisection looks for. Where several loops
+//! become singular, the signs of the block of near-dependent rows count them, and the interval
+//! is divided until there is one for each, or they are so close that they count as one.
 
 use super::cubic::lowest_of_cubic;
 use super::determinant_signs::DeterminantSigns;
 use super::found::{AT_ONCE, Found, Passage, Searched};
-use super::glances::{Glance, LOOKS, Seen};
+use super::samples::{SAMPLES, Sample, Sampled};
 use super::sheet::Sheet;
 use crate::Real;
+use crate::crossing::zero;
 use crate::linalg::{Eliminated, Frame, Workspace};
+use core::convert::Infallible;
 
-/// Blocks of near-dependent rows that a look takes, and what follows from it.
+/// Blocks of near-dependent rows that an elimination takes, and what follows from it.
 const BLOCKS: usize = 6;
-/// Steps of the search for the time of a passage.
-const MOST_STEPS: usize = 60;
-/// Parts of a step that are looked into, each no longer than the range of the coordinates, so
-/// that not several singular configurations are passed between two looks.
+/// Parts of a step that are sampled, each no longer than the range of the coordinates, so that
+/// not several singular configurations are passed between two samples.
 const MOST_PARTS: usize = 64;
 /// Constraint equations of a single loop in the plane.
 const SINGLE: usize = 2;
-/// The determinant is taken once more at this part of the step beside a look, to see how
-/// fast it changes.
+/// The determinant is taken once more at this part of the step beside a time, to see how fast
+/// it changes.
 const MOMENT: f64 = 1e-4;
-/// A dip is looked into if the polynomial falls below this part of its ends.
-const WORTH_A_LOOK: f64 = 0.25;
+/// A dip may hold two passages if the polynomial falls below this part of its ends.
+const DIP: f64 = 0.25;
 /// Halvings of the interval in which the determinant turns back.
 const DEEPENINGS: usize = 26;
 /// Halvings after which it is given up where the determinant, at twice the rate at which it
 /// falls, would still not reach zero.
 const DEEP: usize = 4;
 
-/// A look into a step.
-struct Look<'a, T> {
+/// The constraints at a time of a step, eliminated in one order for all times.
+struct Elimination<'a, T> {
     t: T,
     signs: DeterminantSigns<'a, T>,
     /// The determinant of the whole system vanishes where the constraints are singular and
@@ -43,7 +50,7 @@ struct Look<'a, T> {
     logarithm: T,
 }
 
-impl<'a, T: Real> Look<'a, T> {
+impl<'a, T: Real> Elimination<'a, T> {
     fn of(t: T, frame: &mut Frame<'_, T>, workspace: &Workspace<'a, T>) -> Self {
         Self::with(t, DeterminantSigns::of(frame, workspace), frame)
     }
@@ -58,8 +65,8 @@ impl<'a, T: Real> Look<'a, T> {
     }
 }
 
-/// What is needed to look into a step.
-struct View<'a, T> {
+/// A step, and the order of elimination.
+struct Search<'a, T> {
     step: &'a Searched<'a, T>,
     like: Eliminated<'a, T>,
 }
@@ -68,7 +75,7 @@ impl<T: Real> Sheet<'_, T> {
     /// Finds the passages of a step, by its chart.
     ///
     /// In a singular configuration itself the sign of the determinant is round-off. A step that
-    /// ends there is searched up to the last look that tells a sign, and the next one from it.
+    /// ends there is searched up to the last sample that has a sign, and the next one from it.
     pub(super) fn passages(
         &mut self,
         step: &Searched<'_, T>,
@@ -82,29 +89,29 @@ impl<T: Real> Sheet<'_, T> {
         );
         let parts = (1..MOST_PARTS).find(|n| path <= range * T::from_f64(*n as f64));
         let parts = parts.unwrap_or(MOST_PARTS);
-        let mut before = self.left_open(step).map(|glance| (glance, None));
+        let mut before = self.open_sample(step).map(|sample| (sample, None));
         let mut from = start;
         for k in 1..=parts {
             let to = start + step.length * T::from_f64(k as f64 / parts as f64);
-            let seen = self.glances(step, (from, to), workspace);
-            self.search_among(step, seen, &mut before, found, workspace);
+            let sampled = self.samples(step, (from, to), workspace);
+            self.search_among(step, sampled, &mut before, found, workspace);
             from = to;
         }
-        let last = before.map(|(glance, _)| glance.t);
+        let last = before.map(|(sample, _)| sample.t);
         found.open = last.filter(|last| *last < end);
     }
 
-    /// Searches between looks, the first of them after the last one of before.
+    /// Searches between samples, the first of them after the last one of before.
     fn search_among(
         &mut self,
         step: &Searched<'_, T>,
-        seen: [Seen<T>; LOOKS],
-        before: &mut Option<(Glance<T>, Option<T>)>,
+        sampled: [Sampled<T>; SAMPLES],
+        before: &mut Option<(Sample<T>, Option<T>)>,
         found: &mut Found<T>,
         workspace: &Workspace<'_, T>,
     ) {
-        for (glance, rate) in seen {
-            let Some(here) = glance else {
+        for (sample, rate) in sampled {
+            let Some(here) = sample else {
                 continue;
             };
             if let Some((before, rate_before)) = &*before
@@ -121,7 +128,7 @@ impl<T: Real> Sheet<'_, T> {
     fn search_between(
         &mut self,
         step: &Searched<'_, T>,
-        (from, to): (&Glance<T>, &Glance<T>),
+        (from, to): (&Sample<T>, &Sample<T>),
         rates: [Option<T>; 2],
         found: &mut Found<T>,
         workspace: &Workspace<'_, T>,
@@ -154,7 +161,7 @@ impl<T: Real> Sheet<'_, T> {
     fn search_in_order(
         &mut self,
         step: &Searched<'_, T>,
-        (own, other): (&Glance<T>, &Glance<T>),
+        (own, other): (&Sample<T>, &Sample<T>),
         rates: [Option<T>; 2],
         found: &mut Found<T>,
         workspace: &Workspace<'_, T>,
@@ -163,26 +170,27 @@ impl<T: Real> Sheet<'_, T> {
         step.position(own.t, q);
         let reference = self.reference(own.t, q, workspace)?;
         let like = reference.like;
-        let own = Look::with(own.t, reference.signs, &self.frame);
-        let view = View { step, like };
-        let other = self.look(&view, other.t, workspace)?;
+        let own = Elimination::with(own.t, reference.signs, &self.frame);
+        let search = Search { step, like };
+        let other = self.eliminated_at(&search, other.t, workspace)?;
         let (from, to) = match own.t < other.t {
             true => (&own, &other),
             false => (&other, &own),
         };
-        let mut rate = |known: Option<T>, look: &Look<'_, T>| {
-            known.or_else(|| self.rate(&view, (look.t, look.determinant), workspace))
+        let mut rate = |known: Option<T>, elimination: &Elimination<'_, T>| {
+            known
+                .or_else(|| self.rate(&search, (elimination.t, elimination.determinant), workspace))
         };
         let [first, last] = [rate(rates[0], from), rate(rates[1], to)];
-        let middle = first
-            .zip(last)
-            .and_then(|(first, last)| self.beyond(&view, (from, to), [first, last], workspace));
+        let middle = first.zip(last).and_then(|(first, last)| {
+            self.find_double(&search, (from, to), [first, last], workspace)
+        });
         match middle {
             Some(middle) => {
-                self.between(&view, (from, &middle), false, found, workspace);
-                self.between(&view, (&middle, to), false, found, workspace);
+                self.find_between(&search, (from, &middle), false, found, workspace);
+                self.find_between(&search, (&middle, to), false, found, workspace);
             }
-            None => self.between(&view, (from, to), false, found, workspace),
+            None => self.find_between(&search, (from, to), false, found, workspace),
         }
         Some(())
     }
@@ -190,105 +198,105 @@ impl<T: Real> Sheet<'_, T> {
     /// Eliminates the constraints at a time within a step.
     fn eliminate_at(
         &mut self,
-        view: &View<'_, T>,
+        search: &Search<'_, T>,
         t: T,
         workspace: &Workspace<'_, T>,
     ) -> Option<()> {
         workspace.scope(|workspace| {
             let q = workspace.numbers(self.chart.n());
-            view.step.position(t, q);
-            self.eliminate((t, q), Some(&view.like)).ok()
+            search.step.position(t, q);
+            self.eliminate((t, q), Some(&search.like)).ok()
         })
     }
 
-    fn look<'b>(
+    fn eliminated_at<'b>(
         &mut self,
-        view: &View<'_, T>,
+        search: &Search<'_, T>,
         t: T,
         workspace: &Workspace<'b, T>,
-    ) -> Option<Look<'b, T>> {
-        self.eliminate_at(view, t, workspace)?;
-        Some(Look::of(t, &mut self.frame, workspace))
+    ) -> Option<Elimination<'b, T>> {
+        self.eliminate_at(search, t, workspace)?;
+        Some(Elimination::of(t, &mut self.frame, workspace))
     }
 
     /// The determinant at a time within a step.
     fn determinant_at(
         &mut self,
-        view: &View<'_, T>,
+        search: &Search<'_, T>,
         t: T,
         workspace: &Workspace<'_, T>,
     ) -> Option<T> {
-        self.eliminate_at(view, t, workspace)?;
+        self.eliminate_at(search, t, workspace)?;
         Some(self.frame.determinant())
     }
 
-    /// How fast the determinant changes where somebody looks (1/s).
+    /// How fast the determinant changes at a time of the step (1/s).
     fn rate(
         &mut self,
-        view: &View<'_, T>,
+        search: &Search<'_, T>,
         (t, determinant): (T, T),
         workspace: &Workspace<'_, T>,
     ) -> Option<T> {
-        let moment = view.step.length * T::from_f64(MOMENT);
-        let beside = match t > view.step.start.t + moment {
+        let moment = search.step.length * T::from_f64(MOMENT);
+        let beside = match t > search.step.start.t + moment {
             true => t - moment,
             false => t + moment,
         };
-        let change = determinant - self.determinant_at(view, beside, workspace)?;
+        let change = determinant - self.determinant_at(search, beside, workspace)?;
         Some(change / (t - beside))
     }
 
-    /// Passages between two looks: one for each loop that becomes singular, unless several
-    /// do so at once. What lies between is looked at in the middle if `halve` says so.
-    fn between(
+    /// Passages between two times: one for each loop that becomes singular, unless several do so
+    /// at once. The interval is divided in the middle if `halve` says so.
+    fn find_between(
         &mut self,
-        view: &View<'_, T>,
-        (from, to): (&Look<'_, T>, &Look<'_, T>),
+        search: &Search<'_, T>,
+        (from, to): (&Elimination<'_, T>, &Elimination<'_, T>),
         halve: bool,
         found: &mut Found<T>,
         workspace: &Workspace<'_, T>,
     ) {
         let changes = to.signs.changes_from(&from.signs, workspace);
         let (width, half) = (to.t - from.t, T::from_f64(0.5));
-        let at_once = view.step.length * T::from_f64(AT_ONCE);
+        let at_once = search.step.length * T::from_f64(AT_ONCE);
         let middle = match changes {
             0 => return,
             1 => None,
             _ if width <= at_once => None,
             _ if halve => Some((from.t + to.t) * half),
-            _ => Some(beside(from, to, changes, at_once)),
+            _ => Some(estimate_multiple(from, to, changes, at_once)),
         };
-        // A look and those within it need room for a few blocks.
-        let size = view.like.block().size();
+        // An elimination and those within it need room for a few blocks.
+        let size = search.like.block().size();
         let room = BLOCKS * size * size + self.chart.n();
         let middle = middle.filter(|_| workspace.has_room(room));
         workspace.scope(|workspace| {
-            let middle = middle.and_then(|t| self.look(view, t, workspace));
+            let middle = middle.and_then(|t| self.eliminated_at(search, t, workspace));
             let Some(middle) = middle else {
-                self.pass(view, (from, to), changes, found, workspace);
+                self.record(search, (from, to), changes, found, workspace);
                 return;
             };
             for (from, to) in [(from, &middle), (&middle, to)] {
                 let slow = to.t - from.t > width * half;
-                self.between(view, (from, to), slow, found, workspace);
+                self.find_between(search, (from, to), slow, found, workspace);
             }
         });
     }
 
     /// A passage of so many loops at once.
-    fn pass(
+    fn record(
         &mut self,
-        view: &View<'_, T>,
-        (from, to): (&Look<'_, T>, &Look<'_, T>),
+        search: &Search<'_, T>,
+        (from, to): (&Elimination<'_, T>, &Elimination<'_, T>),
         changes: usize,
         found: &mut Found<T>,
         workspace: &Workspace<'_, T>,
     ) {
         let t = match from.signs.negative == to.signs.negative {
             true => (from.t + to.t) * T::from_f64(0.5),
-            false => self.locate(view, from, to, workspace),
+            false => self.locate(search, from, to, workspace),
         };
-        let sine = match self.eliminate_at(view, t, workspace) {
+        let sine = match self.eliminate_at(search, t, workspace) {
             Some(()) => self.frame.smallest(),
             None => T::zero(),
         };
@@ -306,16 +314,16 @@ impl<T: Real> Sheet<'_, T> {
         });
     }
 
-    /// A look between two others, of equal signs, that is beyond a singular configuration,
+    /// An elimination between two others, of equal signs, that is beyond a singular configuration,
     /// if there is one: by the cubic polynomial through the determinants and their rates,
     /// and then by bisection.
-    fn beyond<'b>(
+    fn find_double<'b>(
         &mut self,
-        view: &View<'_, T>,
-        (from, to): (&Look<'_, T>, &Look<'_, T>),
+        search: &Search<'_, T>,
+        (from, to): (&Elimination<'_, T>, &Elimination<'_, T>),
         rates: [T; 2],
         workspace: &Workspace<'b, T>,
-    ) -> Option<Look<'b, T>> {
+    ) -> Option<Elimination<'b, T>> {
         if from.signs.negative != to.signs.negative {
             return None;
         }
@@ -325,22 +333,22 @@ impl<T: Real> Sheet<'_, T> {
             T::one()
         };
         let span = to.t - from.t;
-        let ends = [from, to].map(|look| sign * look.determinant);
+        let ends = [from, to].map(|end| sign * end.determinant);
         let rates = rates.map(|rate| sign * rate * span);
         let (mut x, lowest) = lowest_of_cubic(ends, rates)?;
-        let worth_a_look = lowest <= ends[0].min(ends[1]) * T::from_f64(WORTH_A_LOOK);
-        if !worth_a_look || to.signs.changes_from(&from.signs, workspace) > 0 {
+        let is_deep = lowest <= ends[0].min(ends[1]) * T::from_f64(DIP);
+        if !is_deep || to.signs.changes_from(&from.signs, workspace) > 0 {
             return None;
         }
         let (mut a, mut b) = (T::zero(), T::one());
         for deepening in 0..DEEPENINGS {
             let t = from.t + span * x;
-            self.eliminate_at(view, t, workspace)?;
-            let look = Look::of(t, &mut self.frame, workspace);
-            if look.signs.negative != from.signs.negative {
-                return Some(look);
+            self.eliminate_at(search, t, workspace)?;
+            let middle = Elimination::of(t, &mut self.frame, workspace);
+            if middle.signs.negative != from.signs.negative {
+                return Some(middle);
             }
-            let rate = sign * self.rate(view, (t, look.determinant), workspace)?;
+            let rate = sign * self.rate(search, (t, middle.determinant), workspace)?;
             // Towards where it falls.
             if rate > T::zero() {
                 b = x;
@@ -348,7 +356,7 @@ impl<T: Real> Sheet<'_, T> {
                 a = x;
             }
             let fall = rate.abs() * span * (b - a);
-            if deepening >= DEEP && fall * T::from_f64(2.0) < sign * look.determinant {
+            if deepening >= DEEP && fall * T::from_f64(2.0) < sign * middle.determinant {
                 return None;
             }
             x = (a + b) * T::from_f64(0.5);
@@ -356,47 +364,34 @@ impl<T: Real> Sheet<'_, T> {
         None
     }
 
-    /// The time at which the determinant changes its sign, by the method of false position
-    /// in its Illinois form.
+    /// The time at which the determinant changes its sign.
     fn locate(
         &mut self,
-        view: &View<'_, T>,
-        from: &Look<'_, T>,
-        to: &Look<'_, T>,
+        search: &Search<'_, T>,
+        from: &Elimination<'_, T>,
+        to: &Elimination<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> T {
-        let (mut a, mut fa) = (from.t, from.determinant);
-        let (mut b, mut fb) = (to.t, to.determinant);
-        let half = T::from_f64(0.5);
-        for _ in 0..MOST_STEPS {
-            let width = (b - a).abs();
-            if width <= T::EPSILON * a.abs().max(b.abs()) || fa == fb || fb == T::zero() {
-                break;
-            }
-            let t = b - fb * (b - a) / (fb - fa);
-            let Some(f) = self.determinant_at(view, t, workspace) else {
-                // Signs can't be told in the singular configuration itself.
-                return t;
-            };
-            if (f < T::zero()) != (fb < T::zero()) {
-                (a, fa) = (b, fb);
-            } else {
-                fa *= half;
-            }
-            let moved = (t - b).abs();
-            (b, fb) = (t, f);
-            if moved <= T::EPSILON * t.abs() {
-                break;
-            }
-        }
-        b
+        // In the singular configuration itself, where it can't be told, it is zero.
+        let mut determinant = |t| {
+            let determinant = self.determinant_at(search, t, workspace);
+            Ok::<_, Infallible>(determinant.unwrap_or_default())
+        };
+        let ends = [from, to].map(|end| (end.t, end.determinant));
+        let Ok(t) = zero(&mut determinant, ends[0], ends[1]);
+        t
     }
 }
 
 /// A time close to where so many loops become singular, if they do so at once: there the
 /// determinant vanishes like that power of the time. It is put a little away from the
-/// nearer end, so that the shorter part holds what is looked for.
-fn beside<T: Real>(from: &Look<'_, T>, to: &Look<'_, T>, loops: usize, at_once: T) -> T {
+/// nearer end, so that the shorter part holds what is sought.
+fn estimate_multiple<T: Real>(
+    from: &Elimination<'_, T>,
+    to: &Elimination<'_, T>,
+    loops: usize,
+    at_once: T,
+) -> T {
     let ratio = (to.logarithm - from.logarithm) / T::from_f64(loops as f64);
     let (width, little) = (to.t - from.t, at_once * T::from_f64(0.25));
     let to_nearer = width / (T::one() + ratio.abs().exp());

@@ -7,7 +7,7 @@
 //! before. Wide ones have less round-off, narrow ones less error of interpolation, and
 //! more room where the sheet turns or other singular configurations are near.
 
-use super::direction::{Direction, Mover};
+use super::direction::{Direction, LineParameter};
 use super::nodes::Interpolated;
 use super::obstacle::Obstacle;
 use super::sheet::{PointView, Sheet};
@@ -50,10 +50,11 @@ pub(crate) enum Placement {
     Regular,
     /// Between nodes, across a configuration where sheets cross.
     Crossing {
-        /// Whether it was moved past the other sheet, by more than a step may be off.
+        /// The sign changed, and the state was moved by more than a step may be off: it lay
+        /// beyond the other sheet.
         strays: bool,
-        /// The same, by more than this placement may be off: the state is on the other sheet
-        /// if it is on the constraints.
+        /// The sign changed, and the state was moved by more than this placement may be off: if
+        /// it lay on the constraints, it lay on the other sheet.
         leaves: bool,
     },
     /// Where the constraints are regular, next to a configuration where they are nearly
@@ -175,7 +176,7 @@ impl<T: Real> Sheet<'_, T> {
         workspace: &Workspace<'b, T>,
     ) -> Result<Result<Interpolated<'b, T>, Placement>, Obstacle> {
         let mut tried = core::array::from_fn(|_| Interpolated::new(&self.chart, workspace));
-        let mut found = self.try_nodes(state, like, Mover::Time, &mut tried, workspace);
+        let mut found = self.try_nodes(state, like, LineParameter::Time, &mut tried, workspace);
         let poor = match found {
             Ok(Serves::Well) => tried[BEST].error > self.chart.accepted,
             Ok(Serves::Not(_)) => false,
@@ -183,13 +184,13 @@ impl<T: Real> Sheet<'_, T> {
         };
         if poor && self.chart.speed > T::zero() {
             let error = found.is_ok().then_some(tried[BEST].error);
-            let other = self.try_nodes(state, like, Mover::Rows, &mut tried, workspace);
+            let other = self.try_nodes(state, like, LineParameter::Shift, &mut tried, workspace);
             let is_better =
                 other == Ok(Serves::Well) && error.is_none_or(|error| tried[BEST].error < error);
             if is_better {
                 found = other;
             } else if found.is_ok() {
-                found = self.try_nodes(state, like, Mover::Time, &mut tried, workspace);
+                found = self.try_nodes(state, like, LineParameter::Time, &mut tried, workspace);
             }
         }
         let [best, ..] = tried;
@@ -199,18 +200,18 @@ impl<T: Real> Sheet<'_, T> {
         }
     }
 
-    /// Tries nodes along the best direction of those in which this moves the sheet, if it moves.
+    /// Tries nodes along the best direction; if the sheet moves, by this parameter.
     #[inline(never)]
     fn try_nodes(
         &mut self,
         state: At<'_, T>,
         like: &Eliminated<'_, T>,
-        mover: Mover,
+        parameter: LineParameter,
         tried: &mut Tried<'_, T>,
         workspace: &Workspace<'_, T>,
     ) -> Result<Serves, Obstacle> {
         workspace.scope(|workspace| {
-            let mut direction = self.direction(state, like, mover, workspace)?;
+            let mut direction = self.direction(state, like, parameter, workspace)?;
             let found = self.try_direction(state, like, &direction, tried, workspace);
             if !direction.is_of_time || !matches!(found, Err(Obstacle::Unresolved)) {
                 return found;

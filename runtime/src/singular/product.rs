@@ -61,7 +61,7 @@ impl<T: Real> Factor<T> {
 pub(crate) struct Product<'a, T> {
     pub(super) components: &'static [ConnectedComponent],
     pub(super) tangent: &'a [T],
-    pub(super) dual: &'a [T],
+    pub(crate) dual: &'a [T],
     pub(super) metric: &'a [T],
     pub(super) t: T,
     pub(super) q: &'a [T],
@@ -129,24 +129,9 @@ impl<'a, T: Real> Product<'a, T> {
         }
     }
 
-    /// The same of the duals of the tangent vectors.
-    pub(crate) fn spread_duals(&self, columns: &mut [T]) {
-        self.spread(self.dual, columns);
-    }
-
     /// Replaces a force by `D z` with `DᵀMD z = Dᵀf`, for these tangent vectors of each
     /// factor; `false` where `DᵀMD` is not definite.
-    pub(crate) fn solve_along(
-        &self,
-        mass: &[T],
-        tangent: &[T],
-        force: &mut [T],
-        workspace: &Workspace<'_, T>,
-    ) -> bool {
-        solving_along()(self, mass, tangent, force, workspace)
-    }
-
-    fn solve(
+    fn solve_along(
         &self,
         mass: &[T],
         tangent: &[T],
@@ -289,7 +274,8 @@ pub(super) fn length<T: Real>(x: &[T], scales: &[T]) -> T {
 }
 
 compiled_once! {
-    fn solving_along<T>:
+    /// [`Product::solve_along`].
+    pub(crate) fn solving_along<T>:
         fn(&Product<'_, T>, &[T], &[T], &mut [T], &Workspace<'_, T>) -> bool =
-        |chart, mass, tangent, force, workspace| chart.solve(mass, tangent, force, workspace);
+        |chart, mass, tangent, force, workspace| chart.solve_along(mass, tangent, force, workspace);
 }

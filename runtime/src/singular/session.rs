@@ -20,11 +20,11 @@ pub(crate) struct Session<T, const N: usize, const R: usize> {
     pub(crate) base: Option<State<T, N>>,
     /// The chart of the sheet there; none where the constraints are safely regular.
     pub(crate) chart: Option<Chart<T, N, R>>,
-    /// The chart of the last accepted step.
-    pub(crate) used: Option<Chart<T, N, R>>,
+    /// The chart of the last accepted step, by which its passages are found.
+    pub(crate) step_chart: Option<Chart<T, N, R>>,
     /// The mechanism rests in a singular configuration, where nothing tells which sheet
     /// is meant, and stays.
-    pub(crate) rests: bool,
+    pub(crate) at_rest: bool,
     /// The next step may come near a singular configuration.
     pub(crate) near: bool,
     /// The sine of the constraints at the last accepted state.
@@ -38,7 +38,7 @@ pub(crate) struct Session<T, const N: usize, const R: usize> {
     /// Accepted error of a step, relative; none for fixed steps.
     pub(crate) tolerance: Option<T>,
     /// When and where the search for passages was left open.
-    pub(crate) open: Option<(T, SVector<T, N>)>,
+    pub(crate) open_search: Option<(T, SVector<T, N>)>,
 }
 
 /// What a trial step came to.
@@ -56,8 +56,8 @@ pub(crate) struct Trial<T, const N: usize, const R: usize> {
     pub(crate) wants_chart: bool,
     /// The chart at its end.
     pub(crate) chart: Option<Chart<T, N, R>>,
-    /// That by which a long step without one was looked into.
-    pub(crate) looked: Option<Chart<T, N, R>>,
+    /// The chart by which a long step without one of its own was inspected for crossings.
+    pub(crate) inspection_chart: Option<Chart<T, N, R>>,
     /// The end's tangent space, drift, and how the sheets were met there.
     pub(crate) placed: Option<Placed<T, N>>,
     /// Emitted code projected its end.
@@ -85,7 +85,7 @@ impl<T: Real, const N: usize, const R: usize> Trial<T, N, R> {
             rate: T::zero(),
             wants_chart: false,
             chart: None,
-            looked: None,
+            inspection_chart: None,
             placed: None,
             by_emitted: false,
             crosses: false,
@@ -99,7 +99,7 @@ impl<T: Real, const N: usize, const R: usize> Trial<T, N, R> {
         self.rate = T::zero();
         self.wants_chart = false;
         self.chart = None;
-        self.looked = None;
+        self.inspection_chart = None;
         self.placed = None;
         self.by_emitted = false;
         self.crosses = false;
@@ -111,15 +111,15 @@ impl<T: Real, const N: usize, const R: usize> Session<T, N, R> {
         Self {
             base: None,
             chart: None,
-            used: None,
-            rests: false,
+            step_chart: None,
+            at_rest: false,
             near: false,
             sine: None,
             rate: T::zero(),
             trial: Trial::new(),
             nodes: Nodes::new(),
             tolerance: None,
-            open: None,
+            open_search: None,
         }
     }
 
@@ -129,14 +129,14 @@ impl<T: Real, const N: usize, const R: usize> Session<T, N, R> {
     pub(crate) fn begin(&mut self, state: &State<T, N>) {
         self.base = Some(*state);
         self.chart = None;
-        self.used = None;
-        self.rests = false;
+        self.step_chart = None;
+        self.at_rest = false;
         self.near = false;
         self.sine = None;
         self.rate = T::zero();
         self.trial.forget();
         self.nodes.forget();
-        self.open = None;
+        self.open_search = None;
     }
 
     /// Takes note of the squared sine of the constraints at a state of the trial step.

@@ -5,7 +5,7 @@
 
 use crate::dynamics::{
     Constrained, CoordinateScale, Independent, RETURNING_GRADIENT, SingularValueDecomposition,
-    Which, choose_rows, second_derivatives,
+    choose_rows, second_derivatives,
 };
 use crate::equations::At;
 use crate::linalg::{
@@ -58,7 +58,7 @@ pub(super) fn singular_tangent<T: Real>(
             return Ok(true);
         }
     }
-    let decomposition = SingularValueDecomposition::here(solver, Which::All, state.t, workspace)?;
+    let decomposition = SingularValueDecomposition::here(solver, state.t, workspace)?;
     let values = &decomposition.values[..count];
     if count_above(values, regular()) == count {
         let remove = |axis: &mut [T]| remove(axis, decomposition.decided(count));
@@ -124,8 +124,7 @@ fn tangent_along<T: Real>(
         add_scaled(moved, span, state.v);
         solver.visit(state.t + span, moved)?;
         workspace.scope(|workspace| {
-            let decomposition =
-                SingularValueDecomposition::here(solver, Which::All, state.t, workspace)?;
+            let decomposition = SingularValueDecomposition::here(solver, state.t, workspace)?;
             let values = decomposition.values[..count].iter();
             let least = values.fold(T::one(), |a, b| a.min(*b));
             if least > best {

@@ -240,60 +240,9 @@ impl<T: Real> Sheets<'_, T> {
     }
 }
 
-impl<T: Real> Sheets<'_, T> {
-    /// Puts a state onto the sheet, and evaluates all terms there unless sheets cross nearby.
-    pub(crate) fn put(
-        &mut self,
-        state: At<'_, T>,
-        point: &mut PointSlices<'_, T>,
-        workspace: &Workspace<'_, T>,
-    ) -> Result<Placement, Obstacle> {
-        placing()(self, state, point, workspace)
-    }
-
-    /// The geometry at a state as it is.
-    pub(crate) fn look_at(
-        &mut self,
-        state: At<'_, T>,
-        point: &mut PointSlices<'_, T>,
-        workspace: &Workspace<'_, T>,
-    ) -> Result<(), Obstacle> {
-        measuring()(self, state, point, workspace)
-    }
-
-    /// Counts the sheets crossed on the way from one state to another, `None` where that
-    /// can't be told. If it is sought, also the fraction of the way up to which no crossing
-    /// is seen.
-    pub(crate) fn count_crossed(
-        &mut self,
-        ends: (At<'_, T>, At<'_, T>),
-        seeks: bool,
-        workspace: &Workspace<'_, T>,
-    ) -> (Option<usize>, T) {
-        counting()(self, ends, seeks, workspace)
-    }
-
-    /// Whether no sheet is seen to be crossed between two states.
-    pub(crate) fn stays_between(
-        &mut self,
-        ends: (At<'_, T>, At<'_, T>),
-        workspace: &Workspace<'_, T>,
-    ) -> bool {
-        staying()(self, ends, workspace)
-    }
-
-    /// The passages of a step.
-    pub(crate) fn find_passages(
-        &mut self,
-        step: &Searched<'_, T>,
-        workspace: &Workspace<'_, T>,
-    ) -> Found<T> {
-        finding()(self, step, workspace)
-    }
-}
-
 compiled_once! {
-    fn placing<T>: fn(
+    /// [`Sheets::place`].
+    pub(crate) fn placing<T>: fn(
         &mut Sheets<'_, T>,
         At<'_, T>,
         &mut PointSlices<'_, T>,
@@ -302,7 +251,8 @@ compiled_once! {
         |sheets, state, point, workspace| sheets.place(state, point, workspace);
 }
 compiled_once! {
-    fn measuring<T>: fn(
+    /// [`Sheets::measure`].
+    pub(crate) fn measuring<T>: fn(
         &mut Sheets<'_, T>,
         At<'_, T>,
         &mut PointSlices<'_, T>,
@@ -311,7 +261,8 @@ compiled_once! {
         |sheets, state, point, workspace| sheets.measure(state, point, workspace);
 }
 compiled_once! {
-    fn counting<T>: fn(
+    /// [`Sheets::crossed`].
+    pub(crate) fn counting<T>: fn(
         &mut Sheets<'_, T>,
         (At<'_, T>, At<'_, T>),
         bool,
@@ -320,10 +271,12 @@ compiled_once! {
         |sheets, ends, seeks, workspace| sheets.crossed(ends, seeks, workspace);
 }
 compiled_once! {
-    fn staying<T>: fn(&mut Sheets<'_, T>, (At<'_, T>, At<'_, T>), &Workspace<'_, T>) -> bool =
+    /// [`Sheets::stays`].
+    pub(crate) fn staying<T>: fn(&mut Sheets<'_, T>, (At<'_, T>, At<'_, T>), &Workspace<'_, T>) -> bool =
         |sheets, ends, workspace| sheets.stays(ends, workspace);
 }
 compiled_once! {
-    fn finding<T>: fn(&mut Sheets<'_, T>, &Searched<'_, T>, &Workspace<'_, T>) -> Found<T> =
+    /// [`Sheets::passages`].
+    pub(crate) fn finding<T>: fn(&mut Sheets<'_, T>, &Searched<'_, T>, &Workspace<'_, T>) -> Found<T> =
         |sheets, step, workspace| sheets.passages(step, workspace);
 }

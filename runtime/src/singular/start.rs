@@ -31,7 +31,6 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     ) -> Result<Option<Chart<T, N, R>>, DynamicsError<T>> {
         self.prepare(mechanism, state)?;
         mechanism.position(state, &mut self.position);
-        self.safe = None;
         self.factorise_metric(mechanism, Source::Position, state.t)?;
         let freedoms = self.freedoms();
         let mut tangent = SMatrix::<T, N, N>::zeros();

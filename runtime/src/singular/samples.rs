@@ -1,7 +1,7 @@
-//! First looks into a step that is searched for passages.
+//! Samples of the determinant along a step that is searched for passages.
 //!
 //! In:  a step, the chart at its start.
-//! Out: [`Glance`]s at determinants, where they have a sign, with their rates.
+//! Out: [`Sample`]s where the determinant has a sign, with its rates.
 
 use super::differences::{VALUES, differentiated, place};
 use super::found::Searched;
@@ -10,13 +10,13 @@ use crate::Real;
 use crate::linalg::Workspace;
 use crate::tolerance::{regular, resolved};
 
-/// How far from a look in a singular configuration it is looked instead, as parts of a step.
+/// How far from a singular configuration a sample is taken instead, as parts of a step.
 const BESIDE: [f64; 3] = [1e-6, 1e-4, 1e-2];
-/// Looks into a step, equally far apart, its start among them.
-pub(super) const LOOKS: usize = VALUES;
+/// Samples of a step, equally far apart, its start among them.
+pub(super) const SAMPLES: usize = VALUES;
 
-/// What a first look into a step sees.
-pub(super) struct Glance<T> {
+/// The determinant at a time of a step.
+pub(super) struct Sample<T> {
     pub(super) t: T,
     pub(super) determinant: T,
     /// The sine by which the weakest constraint is independent.
@@ -25,29 +25,29 @@ pub(super) struct Glance<T> {
     rows: usize,
 }
 
-/// What a look sees, if anything, and how fast the determinant changes there (1/s).
-pub(super) type Seen<T> = (Option<Glance<T>>, Option<T>);
+/// A sample, if the determinant has a sign, and how fast it changes there (1/s).
+pub(super) type Sampled<T> = (Option<Sample<T>>, Option<T>);
 
 impl<T: Real> Sheet<'_, T> {
-    /// The last look at the steps before that told a sign, if this one starts where none can be
+    /// The last sample of the steps before that has a sign, if this one starts where none can be
     /// told.
-    pub(super) fn left_open(&mut self, step: &Searched<'_, T>) -> Option<Glance<T>> {
+    pub(super) fn open_sample(&mut self, step: &Searched<'_, T>) -> Option<Sample<T>> {
         let (t, q) = step.open?;
         let start = self.eliminate_widely(step.start.t, step.start.q);
         let tells = start.is_ok() && self.frame.smallest() > regular();
         match tells {
             true => None,
-            false => self.glance(t, q),
+            false => self.sample(t, q),
         }
     }
 
-    /// How long the way through a step is, from one look to the next.
+    /// How long the path of a step is, from one sample to the next.
     pub(super) fn path(&self, step: &Searched<'_, T>, workspace: &Workspace<'_, T>) -> T {
         workspace.scope(|workspace| {
             let [q, last] = [(); 2].map(|()| workspace.numbers(self.chart.n()));
             let ends = (step.start.t, step.start.t + step.length);
             let mut path = T::zero();
-            for k in 0..LOOKS {
+            for k in 0..SAMPLES {
                 step.position(place(ends, k), q);
                 if k > 0 {
                     path += self.chart.apart(q, last);
@@ -58,46 +58,46 @@ impl<T: Real> Sheet<'_, T> {
         })
     }
 
-    /// Looks at determinants between two times of a step, with their rates.
-    pub(super) fn glances(
+    /// Samples between two times of a step, with their rates.
+    pub(super) fn samples(
         &mut self,
         step: &Searched<'_, T>,
         between: (T, T),
         workspace: &Workspace<'_, T>,
-    ) -> [Seen<T>; LOOKS] {
+    ) -> [Sampled<T>; SAMPLES] {
         let length = between.1 - between.0;
-        let seen = core::array::from_fn(|k| {
+        let sampled = core::array::from_fn(|k| {
             let t = place(between, k);
-            self.glance_at(step, t, workspace).or_else(|| {
+            self.sample_at(step, t, workspace).or_else(|| {
                 // In a singular configuration no sign can be told, but close to it.
-                let inward = if k + 1 == LOOKS { -length } else { length };
+                let inward = if k + 1 == SAMPLES { -length } else { length };
                 let mut beside = BESIDE.iter().map(|part| t + inward * T::from_f64(*part));
-                beside.find_map(|t| self.glance_at(step, t, workspace))
+                beside.find_map(|t| self.sample_at(step, t, workspace))
             })
         });
-        let mut rates = rates(&seen, between).into_iter();
-        seen.map(|glance| (glance, rates.next().flatten()))
+        let mut rates = rates(&sampled, between).into_iter();
+        sampled.map(|sample| (sample, rates.next().flatten()))
     }
 
     /// The determinant at a time of a step, where it has a sign.
-    fn glance_at(
+    fn sample_at(
         &mut self,
         step: &Searched<'_, T>,
         t: T,
         workspace: &Workspace<'_, T>,
-    ) -> Option<Glance<T>> {
+    ) -> Option<Sample<T>> {
         workspace.scope(|workspace| {
             let q = workspace.numbers(self.chart.n());
             step.position(t, q);
-            self.glance(t, q)
+            self.sample(t, q)
         })
     }
 
     /// The determinant at a position, where it has a sign.
-    fn glance(&mut self, t: T, q: &[T]) -> Option<Glance<T>> {
+    fn sample(&mut self, t: T, q: &[T]) -> Option<Sample<T>> {
         self.eliminate_widely(t, q).ok()?;
         let sine = self.frame.smallest();
-        (sine > resolved()).then(|| Glance {
+        (sine > resolved()).then(|| Sample {
             t,
             determinant: self.frame.determinant(),
             sine,
@@ -106,19 +106,19 @@ impl<T: Real> Sheet<'_, T> {
     }
 }
 
-/// How fast the determinant changes (1/s) at looks between two times; `None` where one is
+/// How fast the determinant changes (1/s) at samples between two times; `None` where one is
 /// missing or elsewhere, or several rows may turn.
-fn rates<T: Real>(seen: &[Option<Glance<T>>; LOOKS], between: (T, T)) -> [Option<T>; LOOKS] {
-    let [Some(a), Some(b), Some(c), Some(d), Some(e)] = seen else {
-        return [None; LOOKS];
+fn rates<T: Real>(sampled: &[Option<Sample<T>>; SAMPLES], between: (T, T)) -> [Option<T>; SAMPLES] {
+    let [Some(a), Some(b), Some(c), Some(d), Some(e)] = sampled else {
+        return [None; SAMPLES];
     };
     let all = [a, b, c, d, e];
     let mut in_place = all.iter().enumerate();
-    let in_place = in_place.all(|(k, glance)| glance.t == place(between, k));
+    let in_place = in_place.all(|(k, sample)| sample.t == place(between, k));
     // A polynomial of fourth degree is no picture of the determinant of more rows.
-    if !in_place || all.iter().any(|glance| glance.rows >= LOOKS) {
-        return [None; LOOKS];
+    if !in_place || all.iter().any(|sample| sample.rows >= SAMPLES) {
+        return [None; SAMPLES];
     }
-    let part = (between.1 - between.0) / T::from_f64((LOOKS - 1) as f64);
-    differentiated(all.map(|glance| glance.determinant), part).map(Some)
+    let part = (between.1 - between.0) / T::from_f64((SAMPLES - 1) as f64);
+    differentiated(all.map(|sample| sample.determinant), part).map(Some)
 }
