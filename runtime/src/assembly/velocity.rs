@@ -42,7 +42,10 @@ pub(super) fn assemble<T: Real>(
     let (n, n_rows) = (draft.q.len(), draft.residual.len());
     let mut free = Decomposition::new(n, n_rows, workspace);
     free.decompose(equations.constraints().jacobian, &scales)?;
-    correct(draft.v, equations, &scales, &mut free, workspace);
+    // Beside a singular configuration rows tell on which sheet the position is as long as they
+    // have a digit.
+    let told = T::EPSILON.sqrt();
+    correct(draft.v, equations, &scales, (&mut free, told), workspace);
     if !draft.v.iter().all(|v| v.is_finite()) {
         return Err(Refusal::NotFinite);
     }
@@ -67,19 +70,25 @@ pub(super) fn assemble<T: Real>(
     let guess = workspace.numbers(n);
     guess.copy_from_slice(draft.v);
     match workspace.scope(|inner| branches.choose(draft.v, inner))? {
-        true => correct(draft.v, equations, &scales, &mut free, workspace),
+        true => correct(
+            draft.v,
+            equations,
+            &scales,
+            (&mut free, regular()),
+            workspace,
+        ),
         false => return Err(branches.refuse(draft.v, (guess, speed), workspace)?),
     }
     Ok(())
 }
 
-/// Moves the free velocities to `A q̇ + b = 0`, as little as they can. Twice: the
-/// second correction takes the round-off of the first.
+/// Moves the free velocities to `A q̇ + b = 0`, as little as they can, by the singular values
+/// above a bound. Twice: the second correction takes the round-off of the first.
 fn correct<T: Real>(
     v: &mut [T],
     equations: &dyn Equations<T>,
     scales: &Scales<'_, T>,
-    free: &mut Decomposition<'_, T>,
+    (free, least): (&mut Decomposition<'_, T>, T),
     workspace: &Workspace<'_, T>,
 ) {
     workspace.scope(|workspace| {
@@ -90,7 +99,7 @@ fn correct<T: Real>(
             for (error, scale) in error.iter_mut().zip(scales.rows) {
                 *error = -(*error * *scale);
             }
-            free.solve(error, regular(), step);
+            free.solve(error, least, step);
             move_by(v, step, scales);
         }
     });
@@ -209,7 +218,13 @@ impl<T: Real> Branches<'_, '_, T> {
         for aside in [speed, -speed] {
             // What is held has columns of zeros.
             disturb(guess, |j| aside * columns[j], v);
-            correct(v, self.equations, &self.scales, self.free, workspace);
+            correct(
+                v,
+                self.equations,
+                &self.scales,
+                (self.free, regular()),
+                workspace,
+            );
             if workspace.scope(|workspace| self.choose(v, workspace))? {
                 let change = |j: &usize| ((v[*j] - guess[*j]) / columns[*j]).abs();
                 let free = (0..v.len()).filter(|j| columns[*j] > T::zero());

@@ -5,9 +5,9 @@
 //!      where rows of `A` vanish; whether the mass matrix is definite anywhere, and
 //!      whether the masses that a row connects are of similar size.
 //!
-//! The rows are evaluated with all angles turned to other values. A coordinate of which
-//! nothing tells what it measures is moved, too; then that is evidence only for rows that
-//! vanish at the first state.
+//! The rows are evaluated with all angles turned to other values. Lengths, and coordinates of
+//! which nothing tells what they measure, are moved, too; what rows are there is evidence only
+//! for those that nearly vanish at the first state, and wherever else they are looked at do not.
 
 use super::Core;
 use super::erased::Constrained;
@@ -29,6 +29,19 @@ const STRIDES: [f64; 2] = [0.618_033_988_749_894_9, 0.414_213_562_373_095];
 /// count: the mass matrix may be nearly singular at some positions, where rows are as
 /// large as one likes. One that is constant is not.
 const UNUSUAL: f64 = 4.0;
+
+/// A row nearly vanishes at the first state if it is smaller there, by this factor, than wherever
+/// lengths are moved.
+const VANISHING: f64 = 1e-3;
+
+/// Kinds of coordinates.
+type Kinds = &'static [Kind];
+/// Those whose moves leave all sizes as they are by nature.
+const ANGLES: Kinds = &[Kind::Angle];
+/// Those that may be angles.
+const MAYBE_ANGLES: Kinds = &[Kind::Angle, Kind::Unknown];
+/// All but ratios, which belong together.
+const ANY: Kinds = &[Kind::Angle, Kind::Unknown, Kind::Length];
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Takes note of the mean sizes of the rows over some turned positions.
@@ -66,6 +79,41 @@ impl<'a, T: Real> Sizes<'a, T> {
         }
     }
 
+    /// Those of all rows at positions to which coordinates of some kinds are moved.
+    fn sample(
+        &mut self,
+        solver: &mut dyn Constrained<T>,
+        state: At<'_, T>,
+        kinds: Kinds,
+        workspace: &Workspace<'_, T>,
+    ) {
+        let r = solver.known().r();
+        self.whole.fill(T::zero());
+        self.alone.fill(T::zero());
+        workspace.scope(|workspace| {
+            let moved = workspace.numbers(state.q.len());
+            for sample in 0..SAMPLES {
+                turn(solver, state.q, (kinds, sample + 1), moved);
+                self.measure(solver, (state.t, moved), sample * r, workspace);
+            }
+        });
+    }
+
+    /// The means of a row over all samples.
+    fn mean(&self, row: usize, r: usize) -> (T, T) {
+        let mean = |sizes: &[T]| {
+            let of_row = sizes.iter().skip(row).step_by(r);
+            of_row.fold(T::zero(), |sum, size| sum + *size) / T::from_f64(SAMPLES as f64)
+        };
+        (mean(self.whole), mean(self.alone))
+    }
+
+    /// Takes note of the means of a row.
+    fn observe(&self, solver: &mut dyn Constrained<T>, row: usize) {
+        let (whole, alone) = self.mean(row, solver.known().r());
+        solver.learn().rows.observe(row, whole, alone);
+    }
+
     /// The sizes of all rows at a position, from a place on; zero where they are not finite or
     /// have no metric.
     fn measure(
@@ -95,7 +143,7 @@ impl<'a, T: Real> Sizes<'a, T> {
     }
 }
 
-/// Takes note of the mean sizes of the rows over some turned positions.
+/// Takes note of the sizes of the rows at a state, and of their mean sizes elsewhere.
 pub(super) fn sample_sizes<T: Real>(
     solver: &mut dyn Constrained<T>,
     state: At<'_, T>,
@@ -103,58 +151,86 @@ pub(super) fn sample_sizes<T: Real>(
     workspace: &Workspace<'_, T>,
 ) {
     let r = solver.known().r();
-    let turned = workspace.numbers(state.q.len());
-    workspace.scope(|workspace| sample_mass(solver, state, turned, workspace));
+    let moved = workspace.numbers(state.q.len());
+    workspace.scope(|workspace| sample_mass(solver, state, moved, workspace));
     let mut here = Sizes::new(r, workspace);
     here.measure(solver, (state.t, state.q), 0, workspace);
-    let mut samples = Sizes::new(r * SAMPLES, workspace);
+    let mut rows = solver.learn().rows;
     // If no row vanishes anywhere, this state is as good as others.
-    if !by_form {
-        for sample in 0..SAMPLES {
-            turn(solver, state.q, sample + 1, turned);
-            samples.measure(solver, (state.t, turned), sample * r, workspace);
+    if by_form {
+        return (0..r).for_each(|row| rows.observe(row, here.whole[row], here.alone[row]));
+    }
+    let structure = solver.structure();
+    let has = |kind| (0..structure.coordinates.len()).any(|j| structure.kind(j) == Some(kind));
+    let (unknown, lengths) = (has(Kind::Unknown), has(Kind::Length));
+    let mut samples = Sizes::new(r * SAMPLES, workspace);
+    samples.sample(solver, state, MAYBE_ANGLES, workspace);
+    for row in 0..r {
+        expect_coupling(solver, row, &samples);
+        let mut rows = solver.learn().rows;
+        rows.observe(row, here.whole[row], here.alone[row]);
+        let (whole, alone) = samples.mean(row, r);
+        if !unknown || here.whole[row] <= regular::<T>() * regular::<T>() * whole {
+            rows.observe(row, whole, alone);
         }
     }
-    for row in 0..r {
-        if by_form {
-            let mut rows = solver.learn().rows;
-            rows.observe(row, here.whole[row], here.alone[row]);
-        } else {
-            observe(solver, row, &here, &samples);
+    if unknown {
+        samples.sample(solver, state, ANGLES, workspace);
+        (0..r).for_each(|row| samples.observe(solver, row));
+    }
+    if unknown || lengths {
+        let least = workspace.numbers(r);
+        least_sizes(solver, state, least, workspace);
+        let bound = T::from_f64(VANISHING * VANISHING);
+        let vanishes = |row: &usize| here.alone[*row] < least[*row] * bound;
+        if (0..r).any(|row| vanishes(&row)) {
+            samples.sample(solver, state, ANY, workspace);
+            (0..r)
+                .filter(vanishes)
+                .for_each(|row| samples.observe(solver, row));
         }
     }
 }
 
-/// Takes note of the size of a row at a state and of its mean over samples.
-fn observe<T: Real>(
+/// The least squared sizes of the rows wherever lengths are moved, in the metric of each
+/// coordinate alone.
+fn least_sizes<T: Real>(
     solver: &mut dyn Constrained<T>,
-    row: usize,
-    here: &Sizes<'_, T>,
-    samples: &Sizes<'_, T>,
+    state: At<'_, T>,
+    least: &mut [T],
+    workspace: &Workspace<'_, T>,
 ) {
-    let r = here.whole.len();
-    let structure = solver.structure();
-    let unknown = |j| structure.kind(j) == Some(Kind::Unknown);
-    let sure = !(0..structure.coordinates.len()).any(unknown);
-    let mut learning = solver.learn();
-    if !structure.constant_mass || !learning.metric.parts.is_mass_matrix() {
-        let mut couplings = [T::zero(); SAMPLES];
-        for (sample, coupling) in couplings.iter_mut().enumerate() {
-            *coupling = samples.coupling(sample * r + row);
+    least.fill(T::from_f64(f64::INFINITY));
+    workspace.scope(|workspace| {
+        let moved = workspace.numbers(state.q.len());
+        let alone = workspace.numbers(least.len());
+        for sample in 1..=SAMPLES {
+            turn(solver, state.q, (ANY, sample), moved);
+            solver.locate(state.t, moved);
+            let at = solver.constraints();
+            alone.fill(T::zero());
+            rows_alone(at.mass, at.jacobian, alone);
+            for (least, alone) in least.iter_mut().zip(&*alone) {
+                *least = least.min(*alone);
+            }
         }
-        let coupling = median(couplings) * T::from_f64(UNUSUAL);
-        learning.rows.expect_coupling(row, coupling);
+    });
+}
+
+/// Takes note of how much the masses that a row connects are coupled in samples.
+fn expect_coupling<T: Real>(solver: &mut dyn Constrained<T>, row: usize, samples: &Sizes<'_, T>) {
+    let r = solver.known().r();
+    let constant_mass = solver.structure().constant_mass;
+    let mut learning = solver.learn();
+    if constant_mass && learning.metric.parts.is_mass_matrix() {
+        return;
     }
-    let mean = |sizes: &[T]| {
-        let of_row = sizes.iter().skip(row).step_by(r);
-        of_row.fold(T::zero(), |sum, size| sum + *size) / T::from_f64(SAMPLES as f64)
-    };
-    let (whole, alone) = (mean(samples.whole), mean(samples.alone));
-    let vanishes = here.whole[row] <= regular::<T>() * regular::<T>() * whole;
-    learning.rows.observe(row, here.whole[row], here.alone[row]);
-    if sure || vanishes {
-        learning.rows.observe(row, whole, alone);
+    let mut couplings = [T::zero(); SAMPLES];
+    for (sample, coupling) in couplings.iter_mut().enumerate() {
+        *coupling = samples.coupling(sample * r + row);
     }
+    let coupling = median(couplings) * T::from_f64(UNUSUAL);
+    learning.rows.expect_coupling(row, coupling);
 }
 
 /// Finds out whether the mass matrix is a metric at any turned position, and one in
@@ -170,7 +246,7 @@ fn sample_mass<T: Real>(
     let mut definite = !named.is_empty();
     let levers = workspace.numbers(solver.constraints().jacobian.len());
     for sample in 1..=SAMPLES {
-        turn(solver, state.q, sample, turned);
+        turn(solver, state.q, (MAYBE_ANGLES, sample), turned);
         solver.locate(state.t, turned);
         let mut learning = solver.learn();
         let mass = learning.at.mass;
@@ -190,7 +266,7 @@ fn sample_mass<T: Real>(
     let inertia = learning.metric.inertia();
     let mut uneven = learning.rows.weigh_unevenly(levers, inertia, workspace);
     let mut apart = |sample| {
-        turn(solver, state.q, sample, turned);
+        turn(solver, state.q, (MAYBE_ANGLES, sample), turned);
         solver.locate(state.t, turned);
         rows_are_apart(solver, workspace)
     };
@@ -212,7 +288,7 @@ fn observe_ratios<T: Real>(solver: &mut dyn Constrained<T>, state: At<'_, T>, mo
         return;
     };
     for sample in 1..=SAMPLES {
-        turn(solver, state.q, sample, moved);
+        turn(solver, state.q, (MAYBE_ANGLES, sample), moved);
         for (j, q) in moved.iter_mut().enumerate() {
             if structure.kind(j) == Some(Kind::Ratio) {
                 *q += size * T::from_f64(2.0 * stride(sample, j) - 1.0);
@@ -269,18 +345,29 @@ fn rows_alone<T: Real>(mass: &[T], jacobian: &[T], alone: &mut [T]) {
     }
 }
 
-/// A position with every angle turned by a different amount, and coordinates of which nothing
-/// tells what they measure moved as many times their size.
-fn turn<T: Real>(solver: &dyn Constrained<T>, q: &[T], sample: usize, turned: &mut [T]) {
+/// A position with every coordinate of some kinds moved by a different amount: what may be an
+/// angle is turned, lengths are moved by up to the size of their kind.
+fn turn<T: Real>(
+    solver: &dyn Constrained<T>,
+    q: &[T],
+    (kinds, sample): (Kinds, usize),
+    turned: &mut [T],
+) {
     turned.copy_from_slice(q);
     let structure = solver.structure();
     let natural = NaturalSizes::measure(structure, q);
     for (j, moved) in turned.iter_mut().enumerate() {
-        let size = match structure.kind(j) {
-            Some(kind @ (Kind::Angle | Kind::Unknown)) => natural.of(kind).unwrap_or(T::one()),
-            Some(Kind::Ratio | Kind::Length) | None => continue,
+        let part = stride(sample, j);
+        let turn = core::f64::consts::TAU * part;
+        let (unknown, part) = match structure.kind(j).filter(|kind| kinds.contains(kind)) {
+            Some(Kind::Angle) => (T::one(), turn),
+            Some(Kind::Unknown) if !kinds.contains(&Kind::Length) => (T::one(), turn),
+            // Where nothing tells how long lengths are, they stay.
+            Some(_) => (T::zero(), 2.0 * part - 1.0),
+            None => continue,
         };
-        *moved += size * T::from_f64(core::f64::consts::TAU * stride(sample, j));
+        let size = structure.kind(j).and_then(|kind| natural.of(kind));
+        *moved += size.unwrap_or(unknown) * T::from_f64(part);
     }
 }
 

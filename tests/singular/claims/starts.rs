@@ -4,6 +4,8 @@ use bricard_runtime::{Initial, Options, Whole, assemble, simulate};
 use bricard_singular::descriptions::driven_crank::DrivenCrank;
 use bricard_singular::descriptions::equal_slider_crank::EqualSliderCrank;
 use bricard_singular::descriptions::parallelogram_pendulum::ParallelogramPendulum;
+use bricard_singular::descriptions::two_loops_apart::TwoLoopsApart;
+use bricard_singular::descriptions::two_loops_one_crank::TwoLoopsOneCrank;
 use core::f64::consts::{FRAC_PI_2, PI};
 
 /// How far from the singular configuration motions begin (rad).
@@ -47,6 +49,60 @@ fn a_parallelogram_with_a_pendulum_beside_its_singular_configuration_begins_on_i
             off.iter().all(|off| off.abs() < 1e-11),
             "{distance:e}: off by {off:?}"
         );
+    }
+}
+
+/// Distances with all digits, at which guesses are no accidents of rounding.
+fn uneven_distances() -> impl Iterator<Item = f64> {
+    let uneven = [1.0, 1.140_492_387_502_268_9, 0.820_717_525_347_348];
+    let scaled = uneven.map(|factor| DISTANCES.map(|distance| factor * distance));
+    scaled.into_iter().flatten().flat_map(|d| [d, -d])
+}
+
+#[test]
+fn two_loops_on_one_crank_beside_their_singular_configuration_begin_on_their_sheet() {
+    for distance in uneven_distances() {
+        let mut mechanism = TwoLoopsOneCrank::<f64>::default();
+        mechanism.parameters.q0 = distance;
+        let w = mechanism.parameters.w0;
+        let mechanism: &dyn Whole<f64, 5, 4> = &mechanism;
+        let start = assemble(mechanism, &mechanism.start(), 0.0)
+            .unwrap_or_else(|error| panic!("{distance:e}: {error}"));
+        let [q, a, f, b, x] = start.q.data.0[0];
+        let [v, da, df, db, dx] = start.v.data.0[0];
+        assert_eq!((q, v), (distance, w));
+        let off = [a, f - q, b + q - PI, x - 1.4 * q.sin()];
+        let off_rate = [da, df - v, db + v, dx - 1.4 * v * q.cos()];
+        assert!(
+            off.iter().chain(&off_rate).all(|off| off.abs() < 1e-11),
+            "{distance:e}: off by {off:?} and {off_rate:?}"
+        );
+    }
+}
+
+#[test]
+fn of_loops_that_know_nothing_of_one_another_each_begins_on_its_sheet() {
+    for distance in uneven_distances() {
+        for (q0, s0) in [
+            (distance, 1.0),
+            (1.0, distance),
+            (distance, -0.7 * distance),
+        ] {
+            let mut mechanism = TwoLoopsApart::<f64>::default();
+            (mechanism.parameters.q0, mechanism.parameters.s0) = (q0, s0);
+            let (w, ws) = (mechanism.parameters.w0, mechanism.parameters.ws0);
+            let mechanism: &dyn Whole<f64, 8, 5> = &mechanism;
+            let start = assemble(mechanism, &mechanism.start(), 0.0)
+                .unwrap_or_else(|error| panic!("{q0:e}, {s0:e}: {error}"));
+            let [q, a, f, s, b, ..] = start.q.data.0[0];
+            let [v, da, df, vs, db, ..] = start.v.data.0[0];
+            assert_eq!((q, v, s, vs), (q0, w, s0, ws));
+            let off = [a, f - q, b + s - PI, da, df - v, db + vs];
+            assert!(
+                off.iter().all(|off| off.abs() < 1e-11),
+                "{q0:e}, {s0:e}: off by {off:?}"
+            );
+        }
     }
 }
 
