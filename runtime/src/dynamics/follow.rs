@@ -385,6 +385,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             start: start.at(),
             length: step.end.t - start.t,
             after,
+            tolerance: self.session.tolerance,
             at: &at,
             open: open.as_ref().map(|(t, q)| (*t, q.as_slice())),
         };

@@ -8,8 +8,9 @@ use crate::equations::At;
 
 /// Passages that are found in one search.
 const ROOM: usize = 8;
-/// Loops that become singular within this part of a step do so at once.
-pub(super) const AT_ONCE: f64 = 1e-6;
+/// Loops that become singular within this part of a step do so at once: the part of it that the
+/// inside of a step is off by, and at least this one.
+const AT_ONCE: f64 = 1e-6;
 
 /// A passage through a singular configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +32,8 @@ pub(crate) struct Searched<'a, T> {
     pub(crate) length: T,
     /// The time after which passages are sought.
     pub(crate) after: T,
+    /// Accepted error of the step, relative, if there is one.
+    pub(crate) tolerance: Option<T>,
     /// The positions of the step.
     pub(crate) at: &'a dyn Fn(T, &mut [T]),
     /// Where the search of the steps before was left open.
@@ -38,6 +41,15 @@ pub(crate) struct Searched<'a, T> {
 }
 
 impl<T: Real> Searched<'_, T> {
+    /// Passages that are no farther apart than this (s) happen at once.
+    pub(super) fn at_once(&self) -> T {
+        let least = T::from_f64(AT_ONCE);
+        self.length
+            * self
+                .tolerance
+                .map_or(least, |tolerance| least.max(tolerance))
+    }
+
     /// The position at a time of the step, or on the way to it from where the search was left
     /// open.
     pub(super) fn position(&self, t: T, q: &mut [T]) {
@@ -72,7 +84,7 @@ impl<T: Real> Found<T> {
             list: [None; ROOM],
             count: 0,
             after: step.after,
-            at_once: step.length * T::from_f64(AT_ONCE),
+            at_once: step.at_once(),
             has_more: false,
             open: None,
         }

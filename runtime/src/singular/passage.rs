@@ -13,7 +13,7 @@
 
 use super::cubic::lowest_of_cubic;
 use super::determinant_signs::DeterminantSigns;
-use super::found::{AT_ONCE, Found, Passage, Searched};
+use super::found::{Found, Passage, Searched};
 use super::samples::{SAMPLES, Sample, Sampled};
 use super::sheet::Sheet;
 use crate::Real;
@@ -258,7 +258,7 @@ impl<T: Real> Sheet<'_, T> {
     ) {
         let changes = to.signs.changes_from(&from.signs, workspace);
         let (width, half) = (to.t - from.t, T::from_f64(0.5));
-        let at_once = search.step.length * T::from_f64(AT_ONCE);
+        let at_once = search.step.at_once();
         let middle = match changes {
             0 => return,
             1 => None,

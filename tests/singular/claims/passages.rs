@@ -9,6 +9,7 @@ use bricard_singular::descriptions::driven_lines::DrivenLines;
 use bricard_singular::descriptions::halting::Halting;
 use bricard_singular::descriptions::many_lines::ManyLines;
 use bricard_singular::descriptions::parallelogram_pendulum::ParallelogramPendulum;
+use bricard_singular::descriptions::sarrus::Sarrus;
 use bricard_singular::descriptions::spinning::Spinning;
 use bricard_singular::descriptions::tied_lines::TiedLines;
 use bricard_singular::descriptions::two_lines::TwoLines;
@@ -52,6 +53,24 @@ fn a_hundred_thousand_passages_with_two_freedoms_stay_on_their_branch() {
         "the branch was left by {}",
         largest.value
     );
+}
+
+/// Both chains of Sarrus' linkage are stretched at once. The inside of a step is off by its
+/// error, and so is the time at which either is.
+#[test]
+fn chains_that_are_stretched_at_once_are_passed_once_at_any_tolerance() {
+    for tolerance in [1e-3, 1e-4, 1e-9] {
+        let mechanism: &dyn Whole<f64, 6, 5> = &Sarrus::<f64>::default();
+        let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+        let options = Options::dop853(20.0, tolerance);
+        let ran = simulate(mechanism, &start, &options, &mut []);
+        let summary = ran.unwrap_or_else(|failure| panic!("{failure}"));
+        // The first hinge never turns back.
+        let passed = (summary.end.q[0] / PI).floor();
+        assert!(passed > 100.0, "only {passed} passages");
+        let counted = summary.passages;
+        assert_eq!(counted, Some(passed as u64), "{tolerance:e}");
+    }
 }
 
 /// What happens at an angle does not depend on the turns that were made before, but for their
