@@ -31,6 +31,8 @@ const MOST_ITERATIONS: usize = 10;
 const GOOD_RATE: f64 = 0.02;
 /// The rates of convergence that are believed before they were seen.
 const BEST_RATE: f64 = 1e-3;
+/// By how much the rate is expected to be worse after a step that did not show it.
+const OLDER: f64 = 1.25;
 /// The rate that is assumed where nothing better is known.
 const UNKNOWN_RATE: f64 = 0.5;
 /// Rate of convergence at which a step is given up.
@@ -50,8 +52,11 @@ pub(super) struct Course<T> {
     factored: T,
     /// The length of the last accepted step; zero if there is none.
     before: T,
-    /// The worst rate of convergence in the last trial.
+    /// The worst rate of convergence in the last trial that showed one, and more the longer ago
+    /// that was.
     rate: T,
+    /// Whether the last trial showed it: one iteration shows none.
+    shown: bool,
 }
 
 /// The iteration at work.
@@ -94,6 +99,7 @@ impl<T: Real> Course<T> {
             factored: T::zero(),
             before: T::zero(),
             rate: T::from_f64(UNKNOWN_RATE),
+            shown: false,
         }
     }
 
@@ -103,10 +109,19 @@ impl<T: Real> Course<T> {
         self.before = T::zero();
     }
 
+    /// Takes note of the rate between two iterations of a trial.
+    fn observe(&mut self, rate: T) {
+        self.rate = match self.shown {
+            true => self.rate.max(rate),
+            false => rate,
+        };
+        self.shown = true;
+    }
+
     /// Takes note of an accepted step.
     pub(super) fn accept(&mut self, h: T) {
         self.before = h;
-        self.differentiated &= self.rate <= T::from_f64(GOOD_RATE);
+        self.differentiated &= !self.shown || self.rate <= T::from_f64(GOOD_RATE);
     }
 }
 
@@ -207,13 +222,12 @@ impl<T: Real> Newton<'_, T> {
         let h = rule.h;
         self.prepare(flow, start, h, workspace)?;
         let failure = IntegrateError::NewtonDiverged { t: start.t, h };
-        // The rate of the last step until this one has shown its own.
-        let expected = self
-            .course
-            .rate
-            .max(T::from_f64(BEST_RATE))
-            .min(T::from_f64(UNKNOWN_RATE));
-        self.course.rate = T::zero();
+        // The rate of the last steps until this one has shown its own. Derivatives grow older in
+        // steps of one iteration, which show none.
+        let unknown = T::from_f64(UNKNOWN_RATE);
+        let expected = self.course.rate.max(T::from_f64(BEST_RATE)).min(unknown);
+        self.course.rate = (expected * T::from_f64(OLDER)).min(unknown);
+        self.course.shown = false;
         self.guess(rule);
         rule.set_states(start, self.a, (room.q, room.v));
         let mut before: Option<T> = None;
@@ -221,7 +235,7 @@ impl<T: Real> Newton<'_, T> {
             let size = self.iterate(flow, start, rule, room)?;
             let rate = before.map_or(expected, |before| size / before);
             if before.is_some() {
-                self.course.rate = self.course.rate.max(rate);
+                self.course.observe(rate);
             }
             let hopeless = rate >= T::from_f64(WORST_RATE);
             if !size.is_finite() || hopeless && size > self.course.tolerable {
