@@ -133,7 +133,8 @@ fn time(graph: &Graph, equations: &Equations) -> Option<String> {
     let r = equations.drift.len();
     let still = zeros(graph, equations.drift.iter());
     (still > 0).then(|| match still == r {
-        true => "partial derivatives of the constraints with respect to time: none of them depends on it"
+        true => "partial derivatives of the constraints with respect to time: none of them \
+                 depends on it"
             .into(),
         false => format!(
             "partial derivatives with respect to time of {still} of {r} constraint equations, \

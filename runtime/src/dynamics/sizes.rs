@@ -18,6 +18,7 @@ use crate::natural_size::{Kind, NaturalSizes};
 use crate::once::compiled_once;
 use crate::tolerance::{hull, regular, spacing};
 use crate::{Mechanism, Position, Real, State};
+use core::f64::consts::TAU;
 
 /// How many times the angles are turned.
 const SAMPLES: usize = 8;
@@ -40,7 +41,9 @@ type Kinds = &'static [Kind];
 const ANGLES: Kinds = &[Kind::Angle];
 /// Those that may be angles.
 const MAYBE_ANGLES: Kinds = &[Kind::Angle, Kind::Unknown];
-/// All but ratios, which belong together.
+/// The same, and those of which a few belong together.
+const MAYBE_ANGLES_AND_RATIOS: Kinds = &[Kind::Angle, Kind::Unknown, Kind::Ratio];
+/// All but ratios.
 const ANY: Kinds = &[Kind::Angle, Kind::Unknown, Kind::Length];
 
 impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
@@ -283,17 +286,12 @@ fn sample_mass<T: Real>(
 /// is nearly one and the others nearly zero at some positions, where it has next to no inertia,
 /// and so would the direction along which they do not move.
 fn observe_ratios<T: Real>(solver: &mut dyn Constrained<T>, state: At<'_, T>, moved: &mut [T]) {
-    let structure = solver.structure();
-    let Some(size) = NaturalSizes::measure(structure, state.q).of(Kind::Ratio) else {
+    let natural = NaturalSizes::measure(solver.structure(), state.q);
+    if natural.of(Kind::Ratio).is_none() {
         return;
-    };
+    }
     for sample in 1..=SAMPLES {
-        turn(solver, state.q, (MAYBE_ANGLES, sample), moved);
-        for (j, q) in moved.iter_mut().enumerate() {
-            if structure.kind(j) == Some(Kind::Ratio) {
-                *q += size * T::from_f64(2.0 * stride(sample, j) - 1.0);
-            }
-        }
+        turn(solver, state.q, (MAYBE_ANGLES_AND_RATIOS, sample), moved);
         solver.locate(state.t, moved);
         let mut learning = solver.learn();
         let mass = learning.at.mass;
@@ -346,7 +344,7 @@ fn rows_alone<T: Real>(mass: &[T], jacobian: &[T], alone: &mut [T]) {
 }
 
 /// A position with every coordinate of some kinds moved by a different amount: what may be an
-/// angle is turned, lengths are moved by up to the size of their kind.
+/// angle is turned, lengths and ratios are moved by up to the size of their kind.
 fn turn<T: Real>(
     solver: &dyn Constrained<T>,
     q: &[T],
@@ -357,17 +355,18 @@ fn turn<T: Real>(
     let structure = solver.structure();
     let natural = NaturalSizes::measure(structure, q);
     for (j, moved) in turned.iter_mut().enumerate() {
-        let part = stride(sample, j);
-        let turn = core::f64::consts::TAU * part;
-        let (unknown, part) = match structure.kind(j).filter(|kind| kinds.contains(kind)) {
-            Some(Kind::Angle) => (T::one(), turn),
-            Some(Kind::Unknown) if !kinds.contains(&Kind::Length) => (T::one(), turn),
-            // Where nothing tells how long lengths are, they stay.
-            Some(_) => (T::zero(), 2.0 * part - 1.0),
-            None => continue,
+        let Some(kind) = structure.kind(j).filter(|kind| kinds.contains(kind)) else {
+            continue;
         };
-        let size = structure.kind(j).and_then(|kind| natural.of(kind));
-        *moved += size.unwrap_or(unknown) * T::from_f64(part);
+        let part = stride(sample, j);
+        let maybe_angle = !kinds.contains(&Kind::Length);
+        let (by, unless_known) = match kind {
+            Kind::Angle => (TAU * part, T::one()),
+            Kind::Unknown if maybe_angle => (TAU * part, T::one()),
+            // Where nothing tells how long lengths are, they stay.
+            _ => (2.0 * part - 1.0, T::zero()),
+        };
+        *moved += natural.of(kind).unwrap_or(unless_known) * T::from_f64(by);
     }
 }
 

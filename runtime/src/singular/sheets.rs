@@ -272,11 +272,13 @@ compiled_once! {
 }
 compiled_once! {
     /// [`Sheets::stays`].
-    pub(crate) fn staying<T>: fn(&mut Sheets<'_, T>, (At<'_, T>, At<'_, T>), &Workspace<'_, T>) -> bool =
+    pub(crate) fn staying<T>:
+        fn(&mut Sheets<'_, T>, (At<'_, T>, At<'_, T>), &Workspace<'_, T>) -> bool =
         |sheets, ends, workspace| sheets.stays(ends, workspace);
 }
 compiled_once! {
     /// [`Sheets::passages`].
-    pub(crate) fn finding<T>: fn(&mut Sheets<'_, T>, &Searched<'_, T>, &Workspace<'_, T>) -> Found<T> =
+    pub(crate) fn finding<T>:
+        fn(&mut Sheets<'_, T>, &Searched<'_, T>, &Workspace<'_, T>) -> Found<T> =
         |sheets, step, workspace| sheets.passages(step, workspace);
 }
