@@ -17,6 +17,6 @@ pub struct Description {
 
 /// The text of a description.
 pub fn read(path: &Path) -> Result<String, CommandError> {
-    bricard_codegen::internals::read_description(path)
+    bricard_codegen::internals::read_text(path)
         .map_err(|error| CommandError::Read(path.to_path_buf(), error))
 }

@@ -106,7 +106,7 @@ fn replace(path: &Path, text: &str) -> io::Result<()> {
 /// [`CommandError::Read`], and [`CommandError::Checkpoint`] if the file is no checkpoint, or one
 /// of another run.
 pub fn read(path: &Path, run: &str, structure: &Structure) -> Result<Checkpoint, CommandError> {
-    let text = fs::read_to_string(path).map_err(|e| CommandError::Read(path.to_path_buf(), e))?;
+    let text = description::read(path)?;
     Checkpoint::read(&text, run, structure).map_err(|reason| CommandError::Checkpoint {
         path: path.to_path_buf(),
         reason: reason.to_string(),

@@ -11,7 +11,7 @@
 
 use crate::compile::{CompileSettings, Compiled, compile_source};
 use crate::emit;
-use crate::read::read_description;
+use crate::read::read_text;
 use crate::syntax::{Model, ModelError};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -253,7 +253,7 @@ impl Builder {
     fn one(&self, description: &Path, stem: &str) -> Result<(Compiled, String), BuildError> {
         let shown = description.display().to_string();
         let file_error = |error| BuildError::File(description.to_path_buf(), error);
-        let source = read_description(description).map_err(file_error)?;
+        let source = read_text(description).map_err(file_error)?;
         let folder = description.parent().map(Path::to_path_buf);
         let settings = CompileSettings {
             folder,

@@ -44,7 +44,7 @@ pub use syntax::{Formula, Model, ModelError};
 #[doc(hidden)]
 pub mod internals {
     pub use crate::compile::{analyse, examine};
-    pub use crate::read::{NotUtf8, read_description};
+    pub use crate::read::{NotUtf8, read_text};
     pub mod derive {
         pub use crate::derive::*;
     }

@@ -1,4 +1,4 @@
-//! The text of a description.
+//! The text of a file that a user wrote.
 //!
 //! In:  a file.
 //! Out: its text, or what the system says; of a file in another encoding the place where that
@@ -6,8 +6,8 @@
 
 use crate::diagnostic::{Position, without_mark};
 use std::fmt;
-use std::fs;
-use std::io;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 
 /// A text in another encoding.
@@ -45,13 +45,22 @@ impl fmt::Display for NotUtf8 {
 
 impl std::error::Error for NotUtf8 {}
 
-/// The text of a description.
+/// Bytes that a file has at most: a hundred times as many as any table needs. Devices never end.
+const MOST: u64 = 1 << 28;
+
+/// The text of a description, or of a file beside one.
 ///
 /// # Errors
 ///
-/// What the system says, or [`NotUtf8`].
-pub fn read_description(description: &Path) -> io::Result<String> {
-    String::from_utf8(fs::read(description)?).map_err(|error| {
+/// What the system says, or [`NotUtf8`]; that a file is too large for either.
+pub fn read_text(file: &Path) -> io::Result<String> {
+    let mut bytes = Vec::new();
+    let read = File::open(file)?.take(MOST + 1).read_to_end(&mut bytes)?;
+    if read as u64 > MOST {
+        let message = format!("it is larger than {} MiB", MOST >> 20);
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
+    }
+    String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         let before = error.as_bytes().get(..valid).unwrap_or(&[]);
         let fault = NotUtf8::behind(&String::from_utf8_lossy(before));

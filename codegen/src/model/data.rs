@@ -5,9 +5,9 @@
 //! Out: pairs of two columns, or what is wrong, with line and column.
 
 use super::messages::not_rising;
-use crate::diagnostic::nearest;
+use crate::diagnostic::{Position, nearest};
+use crate::read::{NotUtf8, read_text};
 use crate::syntax::messages::{NUMBERS, did_you_mean};
-use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
@@ -28,10 +28,15 @@ fn fault<T>(message: String, help: &str) -> Result<T, Fault> {
 /// The text of a file.
 pub fn read(path: &Path) -> Result<String, Fault> {
     const PLACE: &str = "files are looked for in the folder of the description";
-    fs::read_to_string(path).map_err(|error| {
-        let (said, help) = match error.kind() {
-            ErrorKind::NotFound => ("there is no such file".to_string(), PLACE),
-            ErrorKind::InvalidData => ("it is not UTF-8".to_string(), "save the file as UTF-8"),
+    read_text(path).map_err(|error| {
+        let utf8 = error.get_ref().and_then(|fault| fault.downcast_ref());
+        let (said, help) = match (utf8, error.kind()) {
+            (Some(NotUtf8 { place }), _) => {
+                let Position { line, column, .. } = place;
+                let said = format!("line {line} is not UTF-8 at column {column}");
+                (said, NotUtf8::HELP)
+            }
+            (None, ErrorKind::NotFound) => ("there is no such file".to_string(), PLACE),
             _ => (error.to_string(), PLACE),
         };
         Fault {
