@@ -15,6 +15,7 @@ mod text;
 
 pub use text::{Checkpoint, Rows};
 
+use crate::description;
 use crate::error::CommandError;
 use bricard_runtime::Structure;
 use std::fs::{self, File};
