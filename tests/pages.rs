@@ -125,8 +125,10 @@ fn shows(page: &str, shown: &str, printed: &str) {
         lines.map(without_numbers).collect()
     };
     let mut printed_lines = lines(printed);
-    // Whether a description is compiled anew depends on what ran before.
-    printed_lines.retain(|line| !line.starts_with("compiling "));
+    // Whether a description is compiled anew depends on what ran before, and how long that takes
+    // on the machine.
+    let is_compiled = |line: &String| line.starts_with("compiling ") || line.starts_with("still ");
+    printed_lines.retain(|line| !is_compiled(line));
     let (mut place, mut leaves_out) = (0, false);
     for line in lines(shown) {
         if line == LEFT_OUT {

@@ -151,6 +151,9 @@ pub struct Structure {
     /// The rows of `A` that take part in the metric, `M + AᵀWA`, because `M` alone is
     /// singular at all positions.
     pub weighed: &'static [usize],
+    /// That metric is singular at some positions, at which constraints may become dependent
+    /// without a row that becomes weak in it.
+    pub metric_degenerates: bool,
     /// The connected components of the constraints and `M`, if there are several: each
     /// coordinate is in one of them.
     pub components: &'static [ConnectedComponent],
@@ -180,6 +183,7 @@ impl Structure {
         drawn: false,
         assumed_regular: false,
         weighed: &[],
+        metric_degenerates: false,
         components: &[],
     };
 }

@@ -33,6 +33,8 @@ mod reduced;
 mod shared;
 mod swell;
 mod switch;
+mod trial;
+mod vanishing;
 mod weighed;
 
 pub use christoffel::coriolis_matrix;
@@ -50,6 +52,7 @@ use gradient::Sweep;
 use inertia::LONG_CHAIN;
 use motion::{Motion, motion};
 use swell::within_bounds;
+use weighed::weighed;
 
 /// The number of expressions beyond which equations are derived in one sweep, too.
 const LONG: usize = 100;
@@ -140,8 +143,7 @@ fn equations(mechanism: &mut Mechanism, by: Sweep) -> Option<Equations> {
     let (forces, momenta) = (&applied[..freedoms], &momenta[..freedoms]);
     let energies = energy::energies(graph, kinetic, potential, forces, momenta);
     within_bounds(graph)?;
-    let weighed = mass.as_ref();
-    let weighed = weighed.map(|mass| weighed::weighed(graph, mass, &closure.jacobian));
+    let weighed = weighed(graph, mass.as_ref(), &closure.jacobian);
     let components = mass
         .as_ref()
         .map(|mass| components::components(graph, &mechanism.constraints, &closure, mass));
@@ -156,7 +158,8 @@ fn equations(mechanism: &mut Mechanism, by: Sweep) -> Option<Equations> {
         speed: closure.speed,
         turn: closure.turn,
         jacobian: closure.jacobian,
-        weighed: weighed.unwrap_or_default(),
+        weighed: weighed.rows,
+        metric_degenerates: weighed.degenerates,
         components: components.unwrap_or_default(),
         drift: closure.drift,
         bias: closure.bias,

@@ -1,7 +1,8 @@
 //! Constraint rows that take part in the metric.
 //!
 //! In:  `M` and `A`.
-//! Out: the fewest rows `a` with which `M + Σ w aᵀa` is definite: none where `M` is.
+//! Out: [`Weighed`]: the fewest rows `a` with which `M + Σ w aᵀa` is definite, none where `M` is;
+//!      whether there are positions at which that isn't, either.
 //!
 //! The mass matrix of a body in Euler parameters is singular, and so is that of a
 //! coordinate without inertia. Whether a mass matrix is singular at all positions is tested at
@@ -10,58 +11,87 @@
 //! runtime lets all rows take part. Rows that couple coordinates which `M` couples already are
 //! preferred, so that elimination stays as sparse.
 //!
-//! A mass matrix that is definite almost everywhere may be singular where the inertia of a
-//! coordinate vanishes: that of a rod without mass about a pin, on which a slider runs across the
-//! pin. There all rows that restrict the motion take part.
+//! A mass matrix that is definite almost everywhere may be singular at some positions. All rows
+//! take part that restrict the motions without inertia there; where none does, constraints may
+//! become dependent there, too, without a row that becomes weak in the metric.
 
 use super::equations::Matrix;
-use crate::expr::ExprId;
-use crate::model::{Graph, Symbol};
+use super::trial::{Numbers, Position, ROUND_OFF, Sparse, dot};
+use super::vanishing::singular_positions;
+use crate::model::Graph;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Random positions at which the same rows must do, where all entries are finite.
 const POSITIONS: u32 = 4;
-/// What is left of a diagonal entry of `M`, relative to it, that is round-off.
-const ROUND_OFF: f64 = 1e-10;
-/// Coordinates on which an inertia may depend, so that it is looked at where it vanishes.
-const FEW: usize = 8;
 
-/// A sparse vector by coordinate.
-type Sparse = BTreeMap<usize, f64>;
+/// What is known of the metric.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Weighed {
+    /// The rows of `A` that take part in it, in ascending order.
+    pub(super) rows: Vec<usize>,
+    /// It is singular at some positions.
+    pub(super) degenerates: bool,
+}
 
-/// The rows of `A` that take part in the metric, in ascending order.
-pub(super) fn weighed(graph: &Graph, mass: &Matrix, jacobian: &Matrix) -> Vec<usize> {
-    if jacobian.is_empty() {
-        return Vec::new();
-    }
+/// What takes part in the metric; nothing where `M` is not derived.
+pub(super) fn weighed(graph: &Graph, mass: Option<&Matrix>, jacobian: &Matrix) -> Weighed {
+    let Some(mass) = mass.filter(|_| !jacobian.is_empty()) else {
+        return Weighed::default();
+    };
     let positions = (1..=POSITIONS).map(Position::at_random);
     let mut numbers = positions.filter_map(|position| position.numbers(graph, mass, jacobian));
-    let Some((first_mass, first_jacobian)) = numbers.next() else {
-        return Vec::new();
+    let Some(first) = numbers.next() else {
+        return Weighed::default();
     };
-    if without_inertia(&first_mass).is_empty() {
-        return where_inertia_vanishes(graph, mass, jacobian);
+    if first.without_inertia().is_empty() {
+        return where_singular(graph, mass, jacobian, &first);
     }
-    let others: Vec<_> = numbers.collect();
-    let first = holds_at(&first_mass, &first_jacobian);
-    let last = others.iter().all(|(mass, jacobian)| {
-        let other = holds_at(mass, jacobian);
-        let pairs = first.iter().zip(&other);
-        first.len() == other.len() && pairs.clone().all(|(one, other)| one.lasts(other))
+    let others: Vec<Numbers> = numbers.collect();
+    Weighed {
+        rows: everywhere(&first, &others),
+        degenerates: false,
+    }
+}
+
+/// The rows that restrict motions without inertia at all positions.
+fn everywhere(first: &Numbers, others: &[Numbers]) -> Vec<usize> {
+    let holds = holds_at(first);
+    let last = others.iter().all(|numbers| {
+        let other = holds_at(numbers);
+        let pairs = holds.iter().zip(&other);
+        holds.len() == other.len() && pairs.clone().all(|(one, other)| one.lasts(other))
     });
     if last {
-        return first.into_iter().map(|hold| hold.row).collect();
+        return holds.into_iter().map(|hold| hold.row).collect();
     }
     // Where they do not hold all motions at one position, nothing does at all of them.
-    if first.is_empty() {
+    if holds.is_empty() {
         return Vec::new();
     }
-    let together = Together::at(&first_mass, &first_jacobian);
+    let together = Together::at(first);
     let mut others = others.iter();
-    let last = others.all(|(mass, jacobian)| Together::at(mass, jacobian).is_like(&together));
-    match last {
+    match others.all(|numbers| Together::at(numbers).is_like(&together)) {
         true => together.rows,
         false => Vec::new(),
+    }
+}
+
+/// The rows that restrict motions without inertia at some positions.
+fn where_singular(graph: &Graph, mass: &Matrix, jacobian: &Matrix, usual: &Numbers) -> Weighed {
+    let (mut rows, mut degenerates) = (BTreeSet::new(), false);
+    for position in singular_positions(graph, mass) {
+        let Some(mut numbers) = position.numbers(graph, mass, jacobian) else {
+            continue;
+        };
+        numbers.observe(usual);
+        match holds_at(&numbers).is_empty() {
+            true => degenerates = true,
+            false => rows.extend(restricting(&numbers.jacobian, &numbers.without_inertia())),
+        }
+    }
+    Weighed {
+        rows: rows.into_iter().collect(),
+        degenerates,
     }
 }
 
@@ -77,8 +107,8 @@ struct Together {
 }
 
 impl Together {
-    fn at(mass: &[Sparse], jacobian: &[Sparse]) -> Self {
-        let mut motions = without_inertia(mass);
+    fn at(numbers: &Numbers) -> Self {
+        let (jacobian, mut motions) = (&numbers.jacobian, numbers.without_inertia());
         let rows = restricting(jacobian, &motions);
         for motion in &mut motions {
             let size = dot(motion, motion).sqrt();
@@ -138,8 +168,9 @@ impl Hold {
 
 /// The rows at one position, in ascending order; none where they do not hold every motion
 /// without inertia.
-fn holds_at(mass: &[Sparse], jacobian: &[Sparse]) -> Vec<Hold> {
-    let mut motions = without_inertia(mass);
+fn holds_at(numbers: &Numbers) -> Vec<Hold> {
+    let (mass, jacobian) = (&numbers.mass, &numbers.jacobian);
+    let mut motions = numbers.without_inertia();
     let mut order: Vec<usize> = (0..jacobian.len()).collect();
     order.sort_by_key(|row| (joined(mass, &jacobian[*row]), jacobian[*row].len()));
     let mut holds = Vec::new();
@@ -151,92 +182,6 @@ fn holds_at(mass: &[Sparse], jacobian: &[Sparse]) -> Vec<Hold> {
         }
     }
     Vec::new()
-}
-
-/// A position at which expressions are evaluated.
-#[derive(Clone, Copy)]
-struct Position {
-    /// Which of the random ones.
-    random: u32,
-    /// A coordinate that differs from it, and its value.
-    moved: Option<(u32, f64)>,
-}
-
-impl Position {
-    fn at_random(random: u32) -> Self {
-        Self {
-            random,
-            moved: None,
-        }
-    }
-
-    fn value(self, symbol: Symbol) -> f64 {
-        // Fractional parts of multiples of irrational numbers, between 0.3 and 1.3.
-        let number = |i: u32, stride: f64| 0.3 + (stride * f64::from(i)).fract();
-        let spread = |i: u32, stride: f64| number(i + 7 * self.random, stride);
-        match (symbol, self.moved) {
-            (Symbol::Coordinate(i), Some((moved, value))) if i == moved => value,
-            (Symbol::Coordinate(i), _) => spread(i, 0.618_033_988_749_894_9),
-            // The same ones everywhere, as in a run.
-            (Symbol::Parameter(i) | Symbol::Input(i), _) => number(i + 7, 0.414_213_562_373_095),
-            (Symbol::Velocity(i), _) => spread(i, 0.732_050_807_568_877),
-            _ => 1.0,
-        }
-    }
-
-    /// The entries of `M` and `A` that differ from zero, row by row, if all are finite.
-    fn numbers(
-        self,
-        graph: &Graph,
-        mass: &Matrix,
-        jacobian: &Matrix,
-    ) -> Option<(Vec<Sparse>, Vec<Sparse>)> {
-        let entries = |matrix: &Matrix| -> Option<Vec<Sparse>> {
-            let sparse = |row: &Vec<_>| {
-                let values = graph.evaluate_all(row, &|symbol| self.value(symbol));
-                let row: Sparse = values
-                    .into_iter()
-                    .enumerate()
-                    .filter(|(_, x)| *x != 0.0)
-                    .collect();
-                row.values().all(|x| x.is_finite()).then_some(row)
-            };
-            matrix.iter().map(sparse).collect()
-        };
-        Some((entries(mass)?, entries(jacobian)?))
-    }
-}
-
-/// The rows that restrict motions whose inertia vanishes at some positions only.
-fn where_inertia_vanishes(graph: &Graph, mass: &Matrix, jacobian: &Matrix) -> Vec<usize> {
-    let mut rows = BTreeSet::new();
-    for (k, row) in mass.iter().enumerate() {
-        for position in zeros_of(graph, row[k]) {
-            let numbers = position.numbers(graph, mass, jacobian);
-            if let Some((mut mass, jacobian)) = numbers {
-                remove(&mut mass, k);
-                rows.extend(holding(&mass, &jacobian));
-            }
-        }
-    }
-    rows.into_iter().collect()
-}
-
-/// Takes a coordinate without inertia out of `M`.
-fn remove(mass: &mut [Sparse], coordinate: usize) {
-    mass[coordinate].clear();
-    for row in mass {
-        row.remove(&coordinate);
-    }
-}
-
-/// The rows that restrict motions without inertia at one position; none where they do not hold
-/// all of them.
-fn holding(mass: &[Sparse], jacobian: &[Sparse]) -> Vec<usize> {
-    if holds_at(mass, jacobian).is_empty() {
-        return Vec::new();
-    }
-    restricting(jacobian, &without_inertia(mass))
 }
 
 /// The rows that restrict some of these motions.
@@ -251,71 +196,6 @@ fn restricting(jacobian: &[Sparse], motions: &[Sparse]) -> Vec<usize> {
             .any(|motion| restricts(&jacobian[*row], motion))
     };
     (0..jacobian.len()).filter(any).collect()
-}
-
-/// Positions at which an inertia vanishes, where it is a square of one coordinate, from where
-/// that is zero or another length.
-fn zeros_of(graph: &Graph, inertia: ExprId) -> Vec<Position> {
-    let coordinates = graph.symbols(inertia).into_iter();
-    let coordinates: Vec<u32> = coordinates
-        .filter_map(|symbol| match symbol {
-            Symbol::Coordinate(i) => Some(i),
-            _ => None,
-        })
-        .collect();
-    if coordinates.len() > FEW {
-        return Vec::new();
-    }
-    let zero = |coordinate: u32| {
-        let at = |value: f64| Position {
-            random: 1,
-            moved: Some((coordinate, value)),
-        };
-        let inertia_at = |value: f64| graph.evaluate(inertia, &|symbol| at(value).value(symbol));
-        let [before, here, after] = [-1.0, 0.0, 1.0].map(inertia_at);
-        let (slope, curvature) = ((after - before) / 2.0, after + before - 2.0 * here);
-        let lowest = -slope / curvature;
-        // False for NaN, too.
-        let vanishes = inertia_at(lowest) <= ROUND_OFF * after.max(before);
-        vanishes.then(|| at(lowest))
-    };
-    coordinates.into_iter().filter_map(zero).collect()
-}
-
-/// A basis of the motions without kinetic energy: from `M = U D Uᵀ`, last row first.
-fn without_inertia(mass: &[Sparse]) -> Vec<Sparse> {
-    let mut rest = mass.to_vec();
-    let mut columns: Vec<Option<Sparse>> = vec![None; mass.len()];
-    for k in (0..mass.len()).rev() {
-        let row = std::mem::take(&mut rest[k]);
-        let above: Sparse = row.range(..k).map(|(i, x)| (*i, *x)).collect();
-        for i in above.keys() {
-            rest[*i].remove(&k);
-        }
-        let pivot = row.get(&k).copied().unwrap_or(0.0);
-        // The runtime refuses a negative mass.
-        if pivot <= ROUND_OFF * mass[k].get(&k).copied().unwrap_or(0.0) {
-            continue;
-        }
-        for (i, x) in &above {
-            for (j, y) in &above {
-                *rest[*i].entry(*j).or_insert(0.0) -= x * y / pivot;
-            }
-        }
-        columns[k] = Some(above.into_iter().map(|(i, x)| (i, x / pivot)).collect());
-    }
-    let none = (0..mass.len()).filter(|k| columns[*k].is_none());
-    none.map(|k| {
-        let mut motion = Sparse::from([(k, 1.0)]);
-        for (i, column) in columns.iter().enumerate().skip(k + 1) {
-            let moved = column.as_ref().map_or(0.0, |column| dot(column, &motion));
-            if moved != 0.0 {
-                motion.insert(i, -moved);
-            }
-        }
-        motion
-    })
-    .collect()
 }
 
 /// How many pairs of coordinates a row would join that `M` does not.
@@ -348,10 +228,4 @@ fn take_hold(motions: &mut Vec<Sparse>, row: usize, entries: &Sparse) -> Option<
         }
     }
     Some(Hold { row, grip, cosine })
-}
-
-fn dot(x: &Sparse, y: &Sparse) -> f64 {
-    let (short, long) = if x.len() < y.len() { (x, y) } else { (y, x) };
-    let product = |(i, x): (&usize, &f64)| long.get(i).map_or(0.0, |y| x * y);
-    short.iter().map(product).sum()
 }

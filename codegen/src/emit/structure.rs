@@ -6,7 +6,7 @@ use super::quantity::{constraint_row, quantity};
 use super::subject::{Subject, doc_lines};
 use super::{described, name};
 use crate::derive::ConnectedComponent;
-use crate::model::{Constraint, Direction, Input, Quantity};
+use crate::model::{Constraint, Direction, Event, Input, Quantity};
 use crate::optimise::{Program, Slot};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -26,15 +26,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
     let accelerated = mechanism.outputs.iter().any(|o| o.accelerated);
     let states = Literal::usize_unsuffixed(mechanism.states);
     let multipliers = multipliers(&mechanism.constraints);
-    let events = mechanism.events.iter().map(|event| {
-        let name = &event.name;
-        let direction = match event.direction {
-            Direction::Rising => quote!(Rising),
-            Direction::Falling => quote!(Falling),
-            Direction::Crossing => quote!(Crossing),
-        };
-        quote!(Event { name: #name, direction: Direction::#direction })
-    });
+    let events = mechanism.events.iter().map(event);
     let constant_mass = subject.equations.has_constant_mass(&mechanism.graph);
     let conservative = subject.equations.are_conservative(mechanism);
     let scleronomic = subject.equations.are_scleronomic(mechanism);
@@ -42,6 +34,8 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
     let drawn = !mechanism.shapes.is_empty();
     let assumed_regular = subject.options.assumed_regular;
     let weighed = indices(&subject.equations.weighed);
+    // Where rows are independent by their form, nothing looks whether they are.
+    let metric_degenerates = subject.equations.metric_degenerates && !independent;
     let components = subject.equations.components.iter().map(component);
     let unitless_angles = indices(&subject.equations.unitless_angles(mechanism));
     quote! {
@@ -67,6 +61,7 @@ pub(super) fn structure(subject: &Subject) -> TokenStream {
             drawn: #drawn,
             assumed_regular: #assumed_regular,
             weighed: #weighed,
+            metric_degenerates: #metric_degenerates,
             components: &[#(#components),*],
         };
     }
@@ -82,6 +77,17 @@ fn quantities<'a>(
 fn indices(indices: &[usize]) -> TokenStream {
     let indices = indices.iter().copied().map(Literal::usize_unsuffixed);
     quote!(&[#(#indices),*])
+}
+
+/// An entry of `Structure::events`.
+fn event(event: &Event) -> TokenStream {
+    let name = &event.name;
+    let direction = match event.direction {
+        Direction::Rising => quote!(Rising),
+        Direction::Falling => quote!(Falling),
+        Direction::Crossing => quote!(Crossing),
+    };
+    quote!(Event { name: #name, direction: Direction::#direction })
 }
 
 /// An entry of `Structure::components`.

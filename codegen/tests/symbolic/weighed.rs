@@ -171,6 +171,34 @@ fn the_rows_that_hold_a_coordinate_whose_inertia_vanishes_somewhere_take_part() 
 }
 
 #[test]
+fn where_several_coordinates_move_without_kinetic_energy_that_is_known() {
+    let degenerates = |source: &str| derived(source).1.metric_degenerates;
+    // Crank and coupler in line, with a mass at their end.
+    let fold = "mechanism Fold { coord a; coord c; coord b;
+        let B = [cos(a) + 2*cos(c), sin(a) + 2*sin(c)];
+        kinetic 1/2*norm2(der(B)) + 1/2*der(b)^2;
+        constraint B = [2 + cos(b), sin(b)]; }";
+    assert!(degenerates(fold));
+    assert_eq!(weighed(fold), [0; 0]);
+    assert!(!degenerates(
+        &fold.replace("1/2*der(b)^2", "1/2*der(b)^2 + 1/99*der(c)^2")
+    ));
+    // A gear turns the coupler with the crank.
+    let geared = fold.replace("constraint", "constraint c = 0.3 - a; constraint");
+    assert!(!degenerates(&geared));
+    assert_eq!(weighed(&geared), [0]);
+    // A slider beside a rod without mass, at the foot of the perpendicular of the pin; far away.
+    let slider = "mechanism Slider { coord s; coord c; coord b;
+        let P = [(s - 40)*cos(c) - sin(c), (s - 40)*sin(c) + cos(c)];
+        kinetic 1/2*norm2(der(P)) + 1/2*der(b)^2; constraint b = c; }";
+    assert!(!degenerates(slider));
+    assert_eq!(weighed(slider), [0]);
+    assert!(degenerates(&slider.replace("b = c", "b = 1")));
+    assert!(!degenerates(ROD));
+    assert!(!degenerates(BODIES));
+}
+
+#[test]
 fn what_no_row_holds_brings_no_row_in() {
     let free = MASSLESS.replace("= x;", "= 1;").replace(
         "sin(phi);\n    constraint cos",

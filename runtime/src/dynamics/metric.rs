@@ -16,7 +16,7 @@
 
 use super::Rows;
 use crate::linalg::{Cholesky, NotDefinite, diagonal};
-use crate::{Counters, Real};
+use crate::{Counters, Real, Structure};
 use nalgebra::{SMatrix, SVector};
 
 /// Which constraint rows take part in the metric.
@@ -36,6 +36,8 @@ pub(crate) struct Parts {
     takes: Takes,
     /// The rows that the mechanism names.
     named: &'static [usize],
+    /// The mechanism says that what they make is singular at some positions.
+    degenerates: bool,
     /// Whether the factor belongs to the mass matrix of this binding.
     current: bool,
 }
@@ -91,7 +93,7 @@ fn observe<T: Real>(inertia: &mut [T], mass: &[T]) {
 
 /// [`Metric::hides_dependence`].
 fn hides_dependence<T: Real>(parts: &Parts, inertia: &[T]) -> bool {
-    parts.takes != Takes::None && inertia.contains(&T::zero())
+    parts.degenerates || parts.takes != Takes::None && inertia.contains(&T::zero())
 }
 
 /// The pivots of a factor, relative to the diagonal of the matrix.
@@ -123,13 +125,15 @@ pub(crate) struct MetricView<'a, T> {
 
 impl<T: Real> MetricView<'_, T> {
     /// Begins anew, with the named rows in it.
-    pub(crate) fn begin(&mut self, named: &'static [usize]) {
+    pub(crate) fn begin(&mut self, structure: &'static Structure) {
+        let named = structure.weighed;
         *self.parts = Parts {
             takes: match named {
                 [] => Takes::None,
                 _ => Takes::Named,
             },
             named,
+            degenerates: structure.metric_degenerates,
             current: false,
         };
         self.inertia.fill(T::zero());
@@ -165,6 +169,7 @@ impl<T: Real, const N: usize> Default for Metric<T, N> {
             parts: Parts {
                 takes: Takes::None,
                 named: &[],
+                degenerates: false,
                 current: false,
             },
             inertia: [T::zero(); N],
@@ -213,7 +218,8 @@ impl<T: Real, const N: usize> Metric<T, N> {
                     self.parts.current = true;
                     return Ok(());
                 }
-                Err(error) if R == 0 => return Err(error),
+                // Nor are rows of any help where they hold nothing.
+                Err(error) if R == 0 || self.parts.degenerates => return Err(error),
                 Err(_) => self.parts.augment(),
             }
         }

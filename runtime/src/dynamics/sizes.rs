@@ -244,8 +244,9 @@ fn sample_mass<T: Real>(
     turned: &mut [T],
     workspace: &Workspace<'_, T>,
 ) {
-    let named = solver.structure().weighed;
-    solver.learn().metric.begin(named);
+    let structure = solver.structure();
+    let named = structure.weighed;
+    solver.learn().metric.begin(structure);
     let mut definite = !named.is_empty();
     let levers = workspace.numbers(solver.constraints().jacobian.len());
     for sample in 1..=SAMPLES {

@@ -85,6 +85,7 @@ pub mod cart_pole {
         drawn: true,
         assumed_regular: false,
         weighed: &[],
+        metric_degenerates: false,
         components: &[],
     };
     /// Run-time parameters, in SI units.

@@ -209,6 +209,7 @@ pub mod double_four_bar {
         drawn: true,
         assumed_regular: false,
         weighed: &[],
+        metric_degenerates: false,
         components: &[],
     };
     /// Run-time parameters, in SI units.

@@ -89,6 +89,7 @@ pub mod double_pendulum {
         drawn: true,
         assumed_regular: false,
         weighed: &[],
+        metric_degenerates: false,
         components: &[],
     };
     /// Run-time parameters, in SI units.

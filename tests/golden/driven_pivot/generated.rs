@@ -98,6 +98,7 @@ pub mod driven_pivot {
         drawn: true,
         assumed_regular: false,
         weighed: &[],
+        metric_degenerates: false,
         components: &[],
     };
     /// Run-time parameters, in SI units.

@@ -122,6 +122,7 @@ pub mod heavy_top {
         drawn: true,
         assumed_regular: false,
         weighed: &[],
+        metric_degenerates: false,
         components: &[],
     };
     /// Run-time parameters, in SI units.

@@ -30,3 +30,18 @@ fn rods_without_inertia_pass_where_they_could_fold() {
         }
     }
 }
+
+/// So it is where a mass matrix is singular along a motion of several coordinates.
+#[test]
+fn crank_and_coupler_with_a_mass_at_their_end_pass_where_they_could_fold() {
+    for tolerance in [1e-4, 1e-6, 1e-9, 1e-12] {
+        for speed in [-7.0, 1.0, 3.0, 6.0, 15.0] {
+            let set = vec![("wa", speed)];
+            let trial = Trial::short("end_mass", "end_mass_reduced", set).until(2.0);
+            let trial = Trial { tolerance, ..trial };
+            let verdict = judge(&trial);
+            assert_eq!(verdict.score, Score::Right, "{trial}\n    {}", verdict.why);
+            assert!(!verdict.miscounted(), "{trial}: {:?}", verdict.passages);
+        }
+    }
+}

@@ -39,6 +39,19 @@ pub fn four_bar(random: &mut Random, _: usize) -> Trial {
     Trial::short("four_bar", "parallelogram_reduced", set).until(3.0)
 }
 
+/// A parallelogram whose mass matrix is singular where its constraints are.
+pub fn end_mass(random: &mut Random, _: usize) -> Trial {
+    let set = vec![
+        ("a0", random.within(3.0)),
+        ("wa", random.within(12.0)),
+        ("p0", random.within(2.0)),
+        ("m", random.decade(0.1, 10.0)),
+        ("mp", random.decade(0.01, 10.0)),
+        ("J", random.decade(0.01, 1.0)),
+    ];
+    Trial::short("end_mass", "end_mass_reduced", set).until(3.0)
+}
+
 /// The slider–crank with equal links, turning.
 pub fn slider(random: &mut Random, _: usize) -> Trial {
     let set = vec![("p0", random.within(1.4)), ("w0", random.within(8.0))];
