@@ -43,13 +43,12 @@ pub fn four_bar(random: &mut Random, _: usize) -> Trial {
 pub fn end_mass(random: &mut Random, _: usize) -> Trial {
     let set = vec![
         ("a0", random.within(3.0)),
-        ("wa", random.within(12.0)),
-        ("p0", random.within(2.0)),
-        ("m", random.decade(0.1, 10.0)),
-        ("mp", random.decade(0.01, 10.0)),
+        ("wa", random.within(8.0)),
+        ("p0", random.within(1.0)),
+        ("mp", random.decade(0.01, 1.0)),
         ("J", random.decade(0.01, 1.0)),
     ];
-    Trial::short("end_mass", "end_mass_reduced", set).until(3.0)
+    Trial::short("end_mass", "end_mass_reduced", set).until(1.5)
 }
 
 /// The slider–crank with equal links, turning.
