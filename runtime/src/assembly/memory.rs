@@ -15,7 +15,7 @@ const WIDE: usize = 4;
 /// Square matrices of all rows.
 const SQUARE: usize = 6;
 /// Vectors of all coordinates, of which positions take most.
-const COORDINATES: usize = 11;
+const COORDINATES: usize = 12;
 /// Vectors of all rows.
 const ROWS: usize = 25;
 /// Lists of indices of all rows.

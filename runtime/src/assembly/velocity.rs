@@ -183,7 +183,7 @@ impl<T: Real> Branches<'_, '_, T> {
             self.bias(v, bias);
             rest.copy_from_slice(bias);
             self.whole.leave_unreachable(rest, regular());
-            let size = norm(bias) + self.slopes(v, slopes, (bias, moved));
+            let size = norm(bias) + self.usual_bias(v) + self.slopes(v, slopes, (bias, moved));
             let reached = norm(rest) <= size * T::from_f64(ON_BRANCH);
             // Of rows that are the same the rest is round-off, and so is how it changes.
             if norm(rest) > size * T::EPSILON * T::from_f64(CONTRADICTION) {
@@ -243,6 +243,17 @@ impl<T: Real> Branches<'_, '_, T> {
         for (k, target) in bias.iter_mut().enumerate() {
             *target = terms[k] * self.measured.rows[k];
         }
+    }
+
+    /// How large `p₂` is where rows turn by about a right angle when a coordinate moves by its
+    /// size: what of it is far less is round-off where rows do not turn at all.
+    fn usual_bias(&self, v: &[T]) -> T {
+        let scales = self.measured.columns.iter().zip(self.measured.sizes);
+        v.iter()
+            .zip(scales)
+            .fold(T::zero(), |sum, (v, (column, size))| {
+                sum + *v * *v / (*column * *size)
+            })
     }
 
     /// How `p₂` changes with each scaled velocity, held or not; returns the sum of the sizes

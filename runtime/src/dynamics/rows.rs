@@ -9,9 +9,31 @@
 //! nothing, and comparing it with other rows would compare metres with radians.
 //! It is compared with the largest size it had so far.
 
-use crate::linalg::{Workspace, independent_columns};
-use crate::tolerance::{disproportionate, negligible};
+use crate::linalg::{Workspace, independent_columns, lift_row, scale};
+use crate::tolerance::{disproportionate, negligible, regular};
 use crate::{ConstraintRow, Real};
+
+/// Chooses the rows that are the most independent for a Jacobian, in the metric and of size one,
+/// holonomic ones first; whether there are as many.
+fn choose_most_independent<T: Real>(
+    factor: &[T],
+    jacobian: &[T],
+    (sizes, holonomic): (&[T], &[bool]),
+    chosen: &mut [usize],
+    workspace: &Workspace<'_, T>,
+) -> bool {
+    let r = sizes.len();
+    workspace.scope(|workspace| {
+        let vectors = workspace.any(jacobian.len());
+        let n = vectors.len() / r;
+        for (row, vector) in vectors.chunks_exact_mut(n).enumerate() {
+            lift_row(factor, jacobian, (row, r), vector);
+            scale(vector, sizes[row]);
+        }
+        let first = |row: usize| holonomic[row];
+        independent_columns(vectors, n, &first, regular(), chosen) == chosen.len()
+    })
+}
 
 /// Sizes, weights and choice of rows.
 #[derive(Clone, Debug)]
@@ -127,6 +149,23 @@ impl<T: Real, const R: usize> Rows<T, R> {
             Which::Holonomic => self.holonomic_count,
         };
         (self.active_count == self.regular && self.regular > 0).then_some((self.active, count))
+    }
+
+    /// The same, but of redundant rows those that are the most independent for a Jacobian, where
+    /// that can be told; by the factor of the metric.
+    pub(crate) fn most_independent(
+        &self,
+        factor: &[T],
+        jacobian: &[T],
+        workspace: &Workspace<'_, T>,
+    ) -> Option<([usize; R], usize)> {
+        let (known, count) = self.active(Which::All)?;
+        let mut chosen = known;
+        let others = !self.all_independent() && {
+            let rows = (&self.scale[..], &self.holonomic[..]);
+            choose_most_independent(factor, jacobian, rows, &mut chosen[..count], workspace)
+        };
+        Some((if others { chosen } else { known }, count))
     }
 
     /// The weights of the rows in an augmented metric.

@@ -6,7 +6,9 @@
 
 use super::{Core, Source, Which};
 use crate::linalg::is_zero;
-use crate::singular::{Chart, Obstacle, Placed, Point, counting, smallest_sine, staying};
+use crate::singular::{
+    Chart, Obstacle, Placed, Point, choosing_poorly, counting, smallest_sine, staying,
+};
 use crate::tolerance::{accepted, passes, safe_steps, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State, Structure};
 
@@ -187,6 +189,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         self.session.trial.chart = None;
+        self.verify_choice(mechanism, chart, end)?;
         let (form, structure) = (self.settings.form, mechanism.structure());
         let seeks = form.passes() && !structure.assumed_regular && !self.session.trial.crosses;
         let (mut changes, mut part) = (None, T::one());
@@ -228,6 +231,27 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         self.session.trial.chart = next;
         Ok(())
+    }
+
+    /// Of rows that are redundant those must be about the most independent at the end of a step
+    /// that were at its beginning: their determinant tells where sheets cross.
+    fn verify_choice(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        chart: &Chart<T, N, R>,
+        end: &State<T, N>,
+    ) -> Result<(), DynamicsError<T>> {
+        if self.rows.all_independent() {
+            return Ok(());
+        }
+        let mut poorly = false;
+        self.on_sheet(mechanism, chart, &mut |sheet, workspace| {
+            poorly = choosing_poorly()(sheet, end.at(), workspace);
+        });
+        match poorly {
+            true => Err(self.refusal(mechanism, Obstacle::Unresolved, end.t)),
+            false => Ok(()),
+        }
     }
 
     /// Factorises the metric at the end of a step with a chart; where it is the metric that

@@ -70,7 +70,8 @@ impl<T: Real> Sheet<'_, T> {
             };
             (0..=LOOKS).filter(|k| *k != nearest).all(|k| {
                 let t = at(k, q);
-                self.sign_changes(&reference, At { t, q, v }, workspace) == Some(0)
+                let changes = self.sign_changes(&reference, At { t, q, v }, workspace);
+                changes == Some(0) && !self.chose_poorly(workspace)
             })
         })
     }

@@ -14,7 +14,7 @@
 
 use super::part::{Part, parts};
 use super::product::{Factor, Offsets, Product, length};
-use crate::dynamics::{CoordinateScale, Metric, Rows, Which};
+use crate::dynamics::{CoordinateScale, Metric, Rows};
 use crate::linalg::{
     Cholesky, Workspace, add_scaled, dot, multiply_upper, multiply_upper_transposed, norm,
     order_by_first_row, pair, set_units, solve_upper_transposed,
@@ -66,8 +66,8 @@ pub(crate) struct Chart<T, const N: usize, const R: usize> {
 
 impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
     /// A chart at a state from vectors that span the tangent space there, those of each factor
-    /// one after the other; `None` if they are dependent. The Jacobian may be that of any
-    /// state.
+    /// one after the other; `None` if they are dependent. Of constraint rows that are redundant,
+    /// it takes those that are the most independent where the Jacobian is from.
     #[inline(never)]
     pub(crate) fn new(
         base: &State<T, N>,
@@ -78,7 +78,9 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
         components: &'static [ConnectedComponent],
         workspace: &Workspace<'_, T>,
     ) -> Option<Self> {
-        let (list, count) = rows.active(Which::All)?;
+        let (factor, jacobian) = (metric.factor.as_slice(), jacobian.as_slice());
+        let (list, count) = rows.most_independent(factor, jacobian, workspace)?;
+        let list = &list[..count];
         let zero = T::zero();
         let excused = (accepted * coordinate_scale.turns()).min(excusable());
         let mut chart = Self {
@@ -102,7 +104,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
         };
         let mut at = Offsets::default();
         for (index, part) in parts(components, (N, R)).enumerate() {
-            let freedoms = chart.choose_rows(part, at, &list[..count])?;
+            let freedoms = chart.choose_rows(part, at, list)?;
             chart.factors[index].freedoms = freedoms;
             let coordinates = at.coordinates..at.coordinates + part.n;
             part.take(base.q.as_slice(), &mut chart.q[coordinates.clone()]);
@@ -110,11 +112,11 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             part.take_rows(rows.scales().0, &mut chart.row_scale[at.rows..][..part.r]);
             let chosen = &chart.rows[at.chosen..][..part.n - freedoms];
             let column_places = &mut chart.column_places[coordinates.clone()];
-            order_columns(part, jacobian.as_slice(), chosen, column_places, workspace);
+            order_columns(part, jacobian, chosen, column_places, workspace);
             let squares = at.squares..at.squares + part.n * part.n;
             let block = &mut chart.metric.as_mut_slice()[squares];
             // Between the parts there is nothing, and nothing is filled in.
-            part.take_block(metric.factor.as_slice(), block);
+            part.take_block(factor, block);
             set_units(block, &mut chart.column_scale[coordinates]);
             let columns = at.tangents..at.tangents + part.n * freedoms;
             let tangent = &mut chart.tangent.as_mut_slice()[columns.clone()];

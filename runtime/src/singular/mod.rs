@@ -48,5 +48,5 @@ pub(crate) use place::Placement;
 pub(crate) use point::{Point, smallest_sine};
 pub(crate) use product::solving_along;
 pub(crate) use session::{Placed, Session};
-pub(crate) use sheets::{counting, finding, staying};
+pub(crate) use sheets::{choosing_poorly, counting, finding, staying};
 pub(crate) use stored_nodes::Nodes;

@@ -1,34 +1,79 @@
 //! Constraints of which some follow from the others.
 //!
 //! In:  the constraint rows where they were evaluated last.
-//! Out: how many of them are independent, whichever these are.
+//! Out: how many of them are independent, whichever these are; whether those that were chosen
+//!      are about as independent as others.
 //!
 //! The rows that were chosen at an accepted state may become dependent where all of them
 //! together do not: that is no singular configuration.
 
 use super::sheet::Sheet;
 use crate::Real;
-use crate::linalg::{Workspace, independent_columns, lift_row, scale};
-use crate::tolerance::window;
+use crate::linalg::{Workspace, dot, independent_columns, lift_row, scale};
+use crate::tolerance::{regular, window};
+
+/// How many times the volume that the chosen rows span that of others may be within a step, at
+/// whose beginning none was larger.
+const MUCH_LARGER: f64 = 4.0;
 
 impl<T: Real> Sheet<'_, T> {
     /// The rank of all rows, as many of which count as there are independent ones at regular
     /// states; `None` where the chosen ones are all there are.
     pub(super) fn rank_of_all_rows(&self, workspace: &Workspace<'_, T>) -> Option<usize> {
-        let chart = &self.chart;
-        let (n, r) = (chart.n(), chart.row_scale.len());
-        if chart.rows.len() == r || !workspace.has_room(n * r) {
+        if !self.are_some_left(workspace) {
             return None;
         }
-        Some(workspace.scope(|workspace| {
-            let vectors = workspace.any(n * r);
-            let jacobian = self.equations.constraints().jacobian;
-            for (row, vector) in vectors.chunks_exact_mut(n).enumerate() {
-                lift_row(chart.metric, jacobian, (row, r), vector);
-                scale(vector, chart.row_scale[row]);
-            }
-            let chosen = workspace.indices(chart.rows.len());
-            independent_columns(vectors, n, &|_| false, window(), chosen)
-        }))
+        let all = 0..self.rows();
+        Some(workspace.scope(|workspace| self.span(all, window(), workspace).0))
+    }
+
+    /// Whether other rows are far more independent than the chosen ones: these may become
+    /// dependent by themselves nearby, and their determinant change its sign.
+    pub(super) fn chose_poorly(&self, workspace: &Workspace<'_, T>) -> bool {
+        if !self.are_some_left(workspace) {
+            return false;
+        }
+        let chosen = self.chart.rows.iter().copied();
+        let of_chosen = workspace.scope(|workspace| self.span(chosen, T::zero(), workspace).1);
+        let (rank, of_others) =
+            workspace.scope(|workspace| self.span(0..self.rows(), regular(), workspace));
+        // In a singular configuration itself nothing can be told.
+        rank == self.constraints() && of_others > of_chosen * T::from_f64(MUCH_LARGER)
+    }
+
+    fn rows(&self) -> usize {
+        self.chart.row_scale.len()
+    }
+
+    /// Whether there are rows that were not chosen, and room to look at them.
+    fn are_some_left(&self, workspace: &Workspace<'_, T>) -> bool {
+        let (n, r) = (self.chart.n(), self.rows());
+        self.constraints() < r && workspace.has_room(n * r)
+    }
+
+    /// How many of some rows are independent, of as many as were chosen, and the volume that they
+    /// span.
+    fn span(
+        &self,
+        rows: impl ExactSizeIterator<Item = usize>,
+        least: T,
+        workspace: &Workspace<'_, T>,
+    ) -> (usize, T) {
+        let (chart, n) = (&self.chart, self.chart.n());
+        let jacobian = self.equations.constraints().jacobian;
+        let vectors = workspace.any(n * rows.len());
+        for (row, vector) in rows.zip(vectors.chunks_exact_mut(n)) {
+            lift_row(chart.metric, jacobian, (row, self.rows()), vector);
+            scale(vector, chart.row_scale[row]);
+        }
+        let chosen = workspace.indices(self.constraints());
+        let count = independent_columns(vectors, n, &|_| false, least, chosen);
+        // What is left of each is what it is off those before.
+        let left = |place: &usize| {
+            let vector = &vectors[place * n..][..n];
+            dot(vector, vector).sqrt()
+        };
+        let volume = chosen[..count].iter().map(left);
+        (count, volume.fold(T::one(), |volume, left| volume * left))
     }
 }

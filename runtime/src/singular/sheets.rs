@@ -204,6 +204,19 @@ impl<T: Real> Sheets<'_, T> {
         stays.is_ok()
     }
 
+    /// Whether other rows are far more independent at a state than the chosen ones.
+    fn chose_poorly(&mut self, state: At<'_, T>, workspace: &Workspace<'_, T>) -> bool {
+        let mut poorly = false;
+        // Nothing is refused here.
+        let _ = self.on_each(state, workspace, &mut |place, sheet, workspace| {
+            let own = place.part.state(state, workspace);
+            sheet.equations.locate(own.t, own.q);
+            poorly |= sheet.chose_poorly(workspace);
+            Ok(())
+        });
+        poorly
+    }
+
     /// The passages of a step.
     fn passages(&mut self, step: &Searched<'_, T>, workspace: &Workspace<'_, T>) -> Found<T> {
         let mut found = Found::new(step);
@@ -275,6 +288,12 @@ compiled_once! {
     pub(crate) fn staying<T>:
         fn(&mut Sheets<'_, T>, (At<'_, T>, At<'_, T>), &Workspace<'_, T>) -> bool =
         |sheets, ends, workspace| sheets.stays(ends, workspace);
+}
+compiled_once! {
+    /// [`Sheets::chose_poorly`].
+    pub(crate) fn choosing_poorly<T>:
+        fn(&mut Sheets<'_, T>, At<'_, T>, &Workspace<'_, T>) -> bool =
+        |sheets, state, workspace| sheets.chose_poorly(state, workspace);
 }
 compiled_once! {
     /// [`Sheets::passages`].

@@ -66,6 +66,7 @@ impl<T: Real, const N: usize, const R: usize> SolverView<'_, T, N, R> {
                 workspace,
             );
         }
+        equations.mechanism.position(state, equations.position);
         let mut chart = Chart::new(
             state,
             own,
@@ -75,7 +76,6 @@ impl<T: Real, const N: usize, const R: usize> SolverView<'_, T, N, R> {
             components,
             workspace,
         )?;
-        equations.mechanism.position(state, equations.position);
         if !is_zero(equations.position.drift.as_slice()) {
             // Where only the time leads away from a singular configuration, the velocity tells
             // where to.
