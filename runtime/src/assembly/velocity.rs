@@ -14,6 +14,7 @@ use super::scales::{CONTRADICTION, Scales, disturb};
 use crate::Real;
 use crate::equations::{At, Equations};
 use crate::linalg::{Workspace, add_scaled, is_zero, norm};
+use crate::natural_size::Kind;
 use crate::once::compiled_once;
 use crate::tolerance::{negligible, regular, window};
 use core::cmp::Ordering::Equal;
@@ -245,15 +246,13 @@ impl<T: Real> Branches<'_, '_, T> {
         }
     }
 
-    /// How large `p₂` is where rows turn by about a right angle when a coordinate moves by its
-    /// size: what of it is far less is round-off where rows do not turn at all.
+    /// How large `p₂` is where rows turn as angles do: what of it is far less is round-off where
+    /// they do not turn at all.
     fn usual_bias(&self, v: &[T]) -> T {
-        let scales = self.measured.columns.iter().zip(self.measured.sizes);
-        v.iter()
-            .zip(scales)
-            .fold(T::zero(), |sum, (v, (column, size))| {
-                sum + *v * *v / (*column * *size)
-            })
+        let structure = self.equations.structure();
+        let angles = v.iter().zip(self.measured.columns).enumerate();
+        let angles = angles.filter(|(j, _)| structure.kind(*j) == Some(Kind::Angle));
+        angles.fold(T::zero(), |sum, (_, (v, scale))| sum + *v * *v / *scale)
     }
 
     /// How `p₂` changes with each scaled velocity, held or not; returns the sum of the sizes

@@ -13,7 +13,7 @@ use crate::{DynamicsError, Mechanism, Real, State, Structure};
 use core::f64::consts::TAU;
 use nalgebra::SMatrix;
 
-/// Part of the range of all coordinates by which one of them moves in a long step.
+/// Part of the range of all coordinates, or of a turn, by which one of them moves in a long step.
 const FAR: f64 = 0.25;
 
 /// Refuses a state with an angle whose round-off leaves less than half of the digits.
@@ -73,9 +73,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let far = self.coordinate_scale.range * T::from_f64(FAR);
         let inertia = diagonal(self.metric.factor.as_slice(), N);
         let known = self.weights.iter_mut().zip(&mut self.far);
-        for ((weight, length), inertia) in known.zip(inertia) {
+        for (coordinate, ((weight, length), inertia)) in known.zip(inertia).enumerate() {
             *weight = inertia;
             *length = far / inertia.sqrt();
+            // However little inertia an angle has, all is different after a turn.
+            if mechanism.structure().kind(coordinate) == Some(Kind::Angle) {
+                *length = length.min(T::from_f64(TAU * FAR));
+            }
         }
         // Integrals of states have no inertia that counts.
         let lengths = N - mechanism.structure().states;

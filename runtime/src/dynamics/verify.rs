@@ -15,6 +15,10 @@ use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State, Structur
 /// A sine that falls below this part of what it is at both ends of a step may have been
 /// zero between.
 const FALL: f64 = 0.9;
+/// Parts of a step without a chart at whose ends it is looked at, at least and at most: a
+/// coordinate moves in each about as far as in a step that is not long.
+const LOOKS: usize = 4;
+const MOST_LOOKS: usize = 64;
 /// Energy that a step may lose, in units of its tolerance. By experiment: with more, steps cut
 /// the corners of narrow gaps; with less, round-off in gaps ends runs.
 const ENERGY: f64 = 10.0;
@@ -137,13 +141,15 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     /// Whether a coordinate has moved so far in a step that the sine may have fallen and grown
     /// again between the states that it was seen at: anywhere, where it is seen at the ends alone.
     fn is_long(&self, start: &State<T, N>, end: &State<T, N>) -> bool {
-        if self.metric.hides_dependence() {
-            return true;
-        }
+        self.metric.hides_dependence() || self.stretch(start, end) > T::one()
+    }
+
+    /// How many times as far as in a step that is not long a coordinate moves, at most.
+    fn stretch(&self, start: &State<T, N>, end: &State<T, N>) -> T {
         let ([from], [to]) = (&start.q.data.0, &end.q.data.0);
         let moved = from.iter().zip(to).zip(&self.far);
-        moved.fold(false, |any, ((from, to), far)| {
-            any | ((*to - *from).abs() > *far)
+        moved.fold(T::zero(), |most, ((from, to), far)| {
+            most.max((*to - *from).abs() / *far)
         })
     }
 
@@ -155,12 +161,15 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         (start, end): (&State<T, N>, &State<T, N>),
         comes_near: bool,
     ) -> Result<(), DynamicsError<T>> {
-        let Some(chart) = self.start_at(mechanism, end)? else {
+        let Some(chart) = self.chart_at_trial(mechanism, end)? else {
             return Err(self.want_chart(mechanism, end.t));
         };
+        let stretch = self.stretch(start, end);
+        let looks = (LOOKS..MOST_LOOKS).find(|looks| stretch <= T::from_f64(*looks as f64));
+        let looks = looks.unwrap_or(MOST_LOOKS);
         let mut stays = false;
         self.on_sheet(mechanism, &chart, &mut |sheet, workspace| {
-            stays = staying()(sheet, (start.at(), end.at()), workspace);
+            stays = staying()(sheet, (start.at(), end.at()), looks, workspace);
         });
         if !stays {
             return Err(self.want_chart(mechanism, end.t));
@@ -168,6 +177,21 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.session.trial.chart = Some(chart).filter(|_| comes_near);
         self.session.trial.inspection_chart = Some(chart).filter(|_| self.is_long(start, end));
         Ok(())
+    }
+
+    /// A chart at a state of a trial step, which teaches nothing of the rows.
+    fn chart_at_trial(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &State<T, N>,
+    ) -> Result<Option<Chart<T, N, R>>, DynamicsError<T>> {
+        if self.rows.all_independent() {
+            return self.start_at(mechanism, state);
+        }
+        let known = self.rows.clone();
+        let chart = self.start_at(mechanism, state);
+        self.rows = known;
+        chart
     }
 
     /// Whether the next step needs a chart: it may come near a singular configuration, or
@@ -189,7 +213,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         self.session.trial.chart = None;
-        self.verify_choice(mechanism, chart, end)?;
+        self.verify_choice(mechanism, chart, start, end)?;
         let (form, structure) = (self.settings.form, mechanism.structure());
         let seeks = form.passes() && !structure.assumed_regular && !self.session.trial.crosses;
         let (mut changes, mut part) = (None, T::one());
@@ -233,12 +257,13 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         Ok(())
     }
 
-    /// Of rows that are redundant those must be about the most independent at the end of a step
+    /// Of rows that are redundant those must be about the most independent all the way of a step
     /// that were at its beginning: their determinant tells where sheets cross.
     fn verify_choice(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
         chart: &Chart<T, N, R>,
+        start: &State<T, N>,
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
         if self.rows.all_independent() {
@@ -246,7 +271,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
         let mut poorly = false;
         self.on_sheet(mechanism, chart, &mut |sheet, workspace| {
-            poorly = choosing_poorly()(sheet, end.at(), workspace);
+            poorly = choosing_poorly()(sheet, (start.at(), end.at()), workspace);
         });
         match poorly {
             true => Err(self.refusal(mechanism, Obstacle::Unresolved, end.t)),

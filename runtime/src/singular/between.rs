@@ -10,8 +10,7 @@ use crate::Real;
 use crate::equations::At;
 use crate::linalg::Workspace;
 
-/// States within a step without a chart that are looked at if it came nearer to a singular
-/// configuration: it may have crossed two sheets.
+/// Parts of a step at whose ends redundant rows are looked at.
 const LOOKS: usize = 4;
 /// Halvings of a step in the search for a singular configuration.
 const BISECTIONS: usize = 20;
@@ -50,17 +49,19 @@ impl<T: Real> Sheet<'_, T> {
         })
     }
 
-    /// Whether no sheet is seen to be crossed on the way from one state to another.
+    /// Whether no sheet is seen to be crossed on the way from one state to another, at the ends of
+    /// so many parts of it.
     pub(super) fn stays(
         &mut self,
         (start, end): (At<'_, T>, At<'_, T>),
+        looks: usize,
         workspace: &Workspace<'_, T>,
     ) -> bool {
         workspace.scope(|workspace| {
             let q = workspace.numbers(start.q.len());
             let at =
-                |k: usize, q: &mut [T]| start.towards(end, T::from_f64(k as f64 / LOOKS as f64), q);
-            let Some(nearest) = self.nearest(LOOKS + 1, &at, q) else {
+                |k: usize, q: &mut [T]| start.towards(end, T::from_f64(k as f64 / looks as f64), q);
+            let Some(nearest) = self.nearest(looks + 1, &at, q) else {
                 return false;
             };
             let v = end.v;
@@ -68,10 +69,27 @@ impl<T: Real> Sheet<'_, T> {
             let Some(reference) = self.reference(t, q, workspace) else {
                 return false;
             };
-            (0..=LOOKS).filter(|k| *k != nearest).all(|k| {
+            (0..=looks).filter(|k| *k != nearest).all(|k| {
                 let t = at(k, q);
                 let changes = self.sign_changes(&reference, At { t, q, v }, workspace);
                 changes == Some(0) && !self.chose_poorly(workspace)
+            })
+        })
+    }
+
+    /// Whether other rows are far more independent than the chosen ones on the way from one state
+    /// to another.
+    pub(super) fn chose_poorly_between(
+        &mut self,
+        (start, end): (At<'_, T>, At<'_, T>),
+        workspace: &Workspace<'_, T>,
+    ) -> bool {
+        workspace.scope(|workspace| {
+            let q = workspace.numbers(start.q.len());
+            (1..=LOOKS).any(|k| {
+                let t = start.towards(end, T::from_f64(k as f64 / LOOKS as f64), q);
+                self.equations.locate(t, q);
+                self.chose_poorly(workspace)
             })
         })
     }

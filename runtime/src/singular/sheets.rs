@@ -192,11 +192,12 @@ impl<T: Real> Sheets<'_, T> {
     fn stays(
         &mut self,
         (start, end): (At<'_, T>, At<'_, T>),
+        looks: usize,
         workspace: &Workspace<'_, T>,
     ) -> bool {
         let stays = self.on_each(start, workspace, &mut |place, sheet, workspace| {
             let ends = [start, end].map(|state| place.part.state(state, workspace));
-            match sheet.stays((ends[0], ends[1]), workspace) {
+            match sheet.stays((ends[0], ends[1]), looks, workspace) {
                 true => Ok(()),
                 false => Err(Obstacle::LeftSheet),
             }
@@ -204,14 +205,18 @@ impl<T: Real> Sheets<'_, T> {
         stays.is_ok()
     }
 
-    /// Whether other rows are far more independent at a state than the chosen ones.
-    fn chose_poorly(&mut self, state: At<'_, T>, workspace: &Workspace<'_, T>) -> bool {
+    /// Whether other rows are far more independent than the chosen ones on the way from one state
+    /// to another.
+    fn chose_poorly(
+        &mut self,
+        (start, end): (At<'_, T>, At<'_, T>),
+        workspace: &Workspace<'_, T>,
+    ) -> bool {
         let mut poorly = false;
         // Nothing is refused here.
-        let _ = self.on_each(state, workspace, &mut |place, sheet, workspace| {
-            let own = place.part.state(state, workspace);
-            sheet.equations.locate(own.t, own.q);
-            poorly |= sheet.chose_poorly(workspace);
+        let _ = self.on_each(start, workspace, &mut |place, sheet, workspace| {
+            let ends = [start, end].map(|state| place.part.state(state, workspace));
+            poorly |= sheet.chose_poorly_between((ends[0], ends[1]), workspace);
             Ok(())
         });
         poorly
@@ -286,14 +291,14 @@ compiled_once! {
 compiled_once! {
     /// [`Sheets::stays`].
     pub(crate) fn staying<T>:
-        fn(&mut Sheets<'_, T>, (At<'_, T>, At<'_, T>), &Workspace<'_, T>) -> bool =
-        |sheets, ends, workspace| sheets.stays(ends, workspace);
+        fn(&mut Sheets<'_, T>, (At<'_, T>, At<'_, T>), usize, &Workspace<'_, T>) -> bool =
+        |sheets, ends, looks, workspace| sheets.stays(ends, looks, workspace);
 }
 compiled_once! {
     /// [`Sheets::chose_poorly`].
     pub(crate) fn choosing_poorly<T>:
-        fn(&mut Sheets<'_, T>, At<'_, T>, &Workspace<'_, T>) -> bool =
-        |sheets, state, workspace| sheets.chose_poorly(state, workspace);
+        fn(&mut Sheets<'_, T>, (At<'_, T>, At<'_, T>), &Workspace<'_, T>) -> bool =
+        |sheets, ends, workspace| sheets.chose_poorly(ends, workspace);
 }
 compiled_once! {
     /// [`Sheets::passages`].
