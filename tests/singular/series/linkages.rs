@@ -51,6 +51,24 @@ pub fn end_mass(random: &mut Random, _: usize) -> Trial {
     Trial::short("end_mass", "end_mass_reduced", set).until(1.5)
 }
 
+/// Bennett's linkage, whose rows are redundant, along either of two sheets.
+pub fn bennett(random: &mut Random, index: usize) -> Trial {
+    let (a, w) = (random.within(6.0), random.within(8.0));
+    let (reduced, set) = match index % 2 {
+        0 => {
+            let set = vec![("a2", a), ("w2", w), ("a4", -a), ("w4", -w)];
+            ("bennett_coupler_reduced", set)
+        }
+        _ => {
+            let still = [("a2", PI), ("w2", 0.0), ("a4", PI), ("w4", 0.0)];
+            let mut set = vec![("a1", a), ("w1", w)];
+            set.extend(still);
+            ("bennett_crank_reduced", set)
+        }
+    };
+    Trial::short("bennett", reduced, set).until(3.0)
+}
+
 /// The slider–crank with equal links, turning.
 pub fn slider(random: &mut Random, _: usize) -> Trial {
     let set = vec![("p0", random.within(1.4)), ("w0", random.within(8.0))];
