@@ -89,7 +89,9 @@ impl<T: Real> Sheet<'_, T> {
         );
         let parts = (1..MOST_PARTS).find(|n| path <= range * T::from_f64(*n as f64));
         let parts = parts.unwrap_or(MOST_PARTS);
-        let mut before = self.open_sample(step).map(|sample| (sample, None));
+        let mut before = self
+            .open_sample(step, workspace)
+            .map(|sample| (sample, None));
         let mut from = start;
         for k in 1..=parts {
             let to = start + step.length * T::from_f64(k as f64 / parts as f64);
@@ -346,7 +348,7 @@ impl<T: Real> Sheet<'_, T> {
             self.eliminate_at(search, t, workspace)?;
             let middle = Elimination::of(t, &mut self.frame, workspace);
             if middle.signs.negative != from.signs.negative {
-                return Some(middle);
+                return self.is_told(search, &middle, workspace).then_some(middle);
             }
             let rate = sign * self.rate(search, (t, middle.determinant), workspace)?;
             // Towards where it falls.
@@ -362,6 +364,21 @@ impl<T: Real> Sheet<'_, T> {
             x = (a + b) * T::from_f64(0.5);
         }
         None
+    }
+
+    /// Whether the sign of a determinant within a step, whose frame is at hand, is that of the
+    /// motion.
+    fn is_told(
+        &mut self,
+        search: &Search<'_, T>,
+        there: &Elimination<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> bool {
+        workspace.scope(|workspace| {
+            let q = workspace.numbers(self.chart.n());
+            search.step.position(there.t, q);
+            self.tells(self.frame.smallest(), there.determinant, (there.t, q))
+        })
     }
 
     /// The time at which the determinant changes its sign.

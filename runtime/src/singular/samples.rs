@@ -8,10 +8,12 @@ use super::found::Searched;
 use super::sheet::Sheet;
 use crate::Real;
 use crate::linalg::Workspace;
-use crate::tolerance::{regular, resolved};
+use crate::tolerance::{regular, resolved, window};
 
 /// How far from a singular configuration a sample is taken instead, as parts of a step.
 const BESIDE: [f64; 3] = [1e-6, 1e-4, 1e-2];
+/// How many times as far as it is off the constraints the inside of a step may be off the motion.
+const UNKNOWN: f64 = 8.0;
 /// Samples of a step, equally far apart, its start among them.
 pub(super) const SAMPLES: usize = VALUES;
 
@@ -31,13 +33,21 @@ pub(super) type Sampled<T> = (Option<Sample<T>>, Option<T>);
 impl<T: Real> Sheet<'_, T> {
     /// The last sample of the steps before that has a sign, if this one starts where none can be
     /// told.
-    pub(super) fn open_sample(&mut self, step: &Searched<'_, T>) -> Option<Sample<T>> {
+    pub(super) fn open_sample(
+        &mut self,
+        step: &Searched<'_, T>,
+        workspace: &Workspace<'_, T>,
+    ) -> Option<Sample<T>> {
         let (t, q) = step.open?;
         let start = self.eliminate_widely(step.start.t, step.start.q);
         let tells = start.is_ok() && self.frame.smallest() > regular();
         match tells {
             true => None,
-            false => self.sample(t, q),
+            false => workspace.scope(|workspace| {
+                let open = workspace.numbers(q.len());
+                open.copy_from_slice(q);
+                self.sample(t, open)
+            }),
         }
     }
 
@@ -93,16 +103,31 @@ impl<T: Real> Sheet<'_, T> {
         })
     }
 
-    /// The determinant at a position, where it has a sign.
-    fn sample(&mut self, t: T, q: &[T]) -> Option<Sample<T>> {
+    /// The determinant at a position, where it has a sign; the position is used up.
+    fn sample(&mut self, t: T, q: &mut [T]) -> Option<Sample<T>> {
         self.eliminate_widely(t, q).ok()?;
-        let sine = self.frame.smallest();
-        (sine > resolved()).then(|| Sample {
+        let sample = Sample {
             t,
             determinant: self.frame.determinant(),
-            sine,
+            sine: self.frame.smallest(),
             rows: self.frame.block().size(),
-        })
+        };
+        let is_told = sample.sine > window() || self.tells(sample.sine, sample.determinant, (t, q));
+        is_told.then_some(sample)
+    }
+
+    /// Whether the sign of a determinant next to a singular configuration, at a position whose
+    /// frame is at hand, is more than what follows from how far the inside of a step is off the
+    /// constraints; the position is used up.
+    pub(super) fn tells(&mut self, sine: T, determinant: T, (t, q): (T, &mut [T])) -> bool {
+        self.correct(q);
+        match self.eliminate_widely(t, q) {
+            Ok(()) => {
+                let change = (self.frame.determinant() - determinant).abs();
+                sine > resolved() && determinant.abs() > change * T::from_f64(UNKNOWN)
+            }
+            Err(_) => false,
+        }
     }
 }
 

@@ -274,16 +274,21 @@ impl<'a, T: Real> Sheet<'a, T> {
         like: &Eliminated<'_, T>,
     ) -> Result<(), Obstacle> {
         self.eliminate((point.t, point.q), Some(like))?;
-        let (chart, at) = (&self.chart, self.equations.constraints());
-        let right = chart.right(-T::one(), at.residual);
-        self.frame
-            .solve_independent(right, chart.column_scale, self.solution);
-        add_scaled(point.q, T::one(), self.solution);
+        self.correct(point.q);
         self.set_rates(point.v, T::one());
         let (right, scales) = (Right::Given(self.right), self.chart.column_scale);
         self.frame.solve_independent(right, scales, self.solution);
         add_scaled(point.v, -T::one(), self.solution);
         Ok(())
+    }
+
+    /// Corrects a position whose frame is at hand in the rows that are safely independent.
+    pub(super) fn correct(&mut self, q: &mut [T]) {
+        let chart = &self.chart;
+        let right = chart.right(-T::one(), self.equations.constraints().residual);
+        let scales = chart.column_scale;
+        self.frame.solve_independent(right, scales, self.solution);
+        add_scaled(q, T::one(), self.solution);
     }
 
     /// The largest of the constraints that is left when the rows before the near-dependent
