@@ -6,7 +6,7 @@
 /// The version of what generated code and this crate agree on: traits, buffers and this
 /// description. It goes up with every change that older code would not compile with, or
 /// would compile with to something else.
-const FORMAT: u32 = 8;
+const FORMAT: u32 = 9;
 
 /// Compiles where generated code was written for this version of the crate.
 ///

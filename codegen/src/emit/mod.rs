@@ -56,7 +56,7 @@ use subject::{Subject, doc_lines};
 use symbol::SymbolNames;
 
 /// The version of the interface that modules are written for: the runtime's `FORMAT`.
-const FORMAT: u32 = 8;
+const FORMAT: u32 = 9;
 
 /// The module of a mechanism, from the programs that it runs.
 pub fn module(
@@ -95,6 +95,8 @@ pub fn module(
         .then(|| c::export(mechanism, provenance.module));
     quote! {
         #(#[doc = #docs])*
+        // A number that a description gives is meant as it is, though it be nearly π or √2.
+        #[allow(clippy::approx_constant)]
         pub mod #module {
             #imports
 
