@@ -58,7 +58,8 @@ use symbol::SymbolNames;
 /// The version of the interface that modules are written for: the runtime's `FORMAT`.
 const FORMAT: u32 = 9;
 
-/// The module of a mechanism, from the programs that it runs.
+/// The module of a mechanism, from the programs that it runs. The numbers of a description are
+/// meant as they are, though one be nearly π or √2.
 pub fn module(
     mechanism: &Mechanism,
     equations: &Equations,
@@ -95,11 +96,9 @@ pub fn module(
         .then(|| c::export(mechanism, provenance.module));
     quote! {
         #(#[doc = #docs])*
-        // A number that a description gives is meant as it is, though it be nearly π or √2.
         #[allow(clippy::approx_constant)]
         pub mod #module {
             #imports
-
             const _: () = bricard_runtime::written_for(#format);
 
             /// The description that this module was generated from.
