@@ -8,18 +8,22 @@
 //! a slider runs across the pin. Where motions without kinetic energy take several coordinates:
 //! two rods without mass with a particle at their end, where they are in line. As the positions
 //! are those at which one function of the coordinates, the determinant, is zero, they are found
-//! along lines of one coordinate each.
+//! along lines of one coordinate each. Of many coordinates that are coupled, each two are looked
+//! at by themselves.
 
 use super::equations::Matrix;
 use super::partition::Partition;
 use super::trial::{Position, ROUND_OFF, Sparse, decompose, inertia};
 use crate::expr::ExprId;
-use crate::model::{Graph, Symbol};
+use crate::model::{Graph, Node, Symbol};
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-/// Coordinates that a block may have and depend on, so that it is searched.
+/// Coordinates that a block may have, so that it is searched as a whole.
 const FEW: usize = 8;
+/// Expressions of a block times coordinates that they depend on, so that it is searched: more
+/// would take noticeable time.
+const MOST_WORK: usize = 50_000;
 /// Positions of a coordinate at which a block is seen first.
 const SAMPLES: usize = 16;
 /// The smallest pivot that is seen next to one that vanishes, relative to an inertia.
@@ -31,7 +35,7 @@ const NARROWINGS: usize = 40;
 pub(super) fn singular_positions(graph: &Graph, mass: &Matrix) -> Vec<Position> {
     let blocks = blocks(graph, mass).into_iter();
     blocks
-        .filter(|block| block.size <= FEW && block.coordinates.len() <= FEW)
+        .filter(|block| block.work <= MOST_WORK)
         .flat_map(|block| {
             let search = |coordinate: &u32| Line::along(graph, &block, *coordinate).singular();
             block
@@ -50,6 +54,8 @@ struct Block {
     entries: Vec<ExprId>,
     /// What they depend on.
     coordinates: Vec<u32>,
+    /// How many expressions they are made of, times these coordinates.
+    work: usize,
 }
 
 fn blocks(graph: &Graph, mass: &Matrix) -> Vec<Block> {
@@ -58,22 +64,33 @@ fn blocks(graph: &Graph, mass: &Matrix) -> Vec<Block> {
         let coupled = (0..row.len()).filter(|j| !graph.is_zero(row[*j]));
         partition.join(coupled.chain([i]));
     }
-    let block = |rows: Vec<usize>| {
-        let pairs = rows.iter().flat_map(|i| rows.iter().map(|j| (*i, *j)));
-        let entries: Vec<ExprId> = pairs.map(|(i, j)| mass[i][j]).collect();
-        let coordinate = |e: ExprId| match graph.node(e) {
-            crate::model::Node::Symbol(Symbol::Coordinate(i)) => Some(*i),
-            _ => None,
-        };
-        let reachable = graph.reachable(&entries).into_iter();
-        let coordinates: BTreeSet<u32> = reachable.filter_map(coordinate).collect();
-        Block {
-            size: rows.len(),
-            entries,
-            coordinates: coordinates.into_iter().collect(),
+    let searched = partition.sets().into_iter().flat_map(|rows| {
+        if rows.len() <= FEW {
+            return vec![rows];
         }
+        let coupled = |i: &usize, j: &usize| i < j && !graph.is_zero(mass[*i][*j]);
+        let pairs = rows.iter().flat_map(|i| rows.iter().map(move |j| (i, j)));
+        let pairs = pairs.filter(|(i, j)| coupled(i, j));
+        pairs.map(|(i, j)| vec![*i, *j]).collect()
+    });
+    searched.map(|rows| block(graph, mass, &rows)).collect()
+}
+
+fn block(graph: &Graph, mass: &Matrix, rows: &[usize]) -> Block {
+    let pairs = rows.iter().flat_map(|i| rows.iter().map(|j| (*i, *j)));
+    let entries: Vec<ExprId> = pairs.map(|(i, j)| mass[i][j]).collect();
+    let coordinate = |e: &ExprId| match graph.node(*e) {
+        Node::Symbol(Symbol::Coordinate(i)) => Some(*i),
+        _ => None,
     };
-    partition.sets().into_iter().map(block).collect()
+    let reachable = graph.reachable(&entries);
+    let coordinates: BTreeSet<u32> = reachable.iter().filter_map(coordinate).collect();
+    Block {
+        size: rows.len(),
+        work: reachable.len() * coordinates.len(),
+        entries,
+        coordinates: coordinates.into_iter().collect(),
+    }
 }
 
 /// A line of one coordinate, along which the pivots of a block are looked at.

@@ -183,6 +183,17 @@ fn where_several_coordinates_move_without_kinetic_energy_that_is_known() {
     assert!(!degenerates(
         &fold.replace("1/2*der(b)^2", "1/2*der(b)^2 + 1/99*der(c)^2")
     ));
+    // A row of cranks and couplers, which hang together.
+    let row = "mechanism Row { const N = 8; coord a[N]; coord c[N]; coord b[N];
+        let B[i in 0..N] = [2*i + cos(a[i]) + 2*cos(c[i]), sin(a[i]) + 2*sin(c[i])];
+        for i in 0..N { kinetic 1/2*der(b[i])^2; constraint B[i] = [2 + cos(b[i]), sin(b[i])]; }
+        for i in 0..N { kinetic 1/2*norm2(der(B[i])); }
+        for i in 0..N-1 { kinetic 1/9*norm2(der(B[i]) + der(B[i+1])); } }";
+    assert!(degenerates(row));
+    assert!(!degenerates(&row.replace(
+        "1/2*der(b[i])^2",
+        "1/2*der(b[i])^2 + 1/99*der(c[i])^2"
+    )));
     // A gear turns the coupler with the crank.
     let geared = fold.replace("constraint", "constraint c = 0.3 - a; constraint");
     assert!(!degenerates(&geared));
