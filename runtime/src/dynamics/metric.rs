@@ -96,11 +96,16 @@ fn hides_dependence<T: Real>(parts: &Parts, inertia: &[T]) -> bool {
     parts.degenerates || parts.takes != Takes::None && inertia.contains(&T::zero())
 }
 
-/// The pivots of a factor, relative to the diagonal of the matrix.
-fn pivot_ratios<T: Real>(factor: &[T], n: usize) -> impl Iterator<Item = T> + '_ {
+/// The pivots of a factor, relative to the diagonal of the matrix; those of coordinates without
+/// inertia as they are, for what rows give such a coordinate may all vanish at once.
+fn pivot_ratios<T: Real>(factor: &[T], inertia: &[T]) -> impl Iterator<Item = T> {
+    let n = inertia.len();
     let pivots = factor.iter().step_by(n + 1);
-    let pairs = pivots.zip(diagonal(factor, n));
-    pairs.map(|(root, diagonal)| *root * *root / diagonal)
+    let pairs = pivots.zip(diagonal(factor, n)).zip(inertia);
+    pairs.map(|((root, diagonal), inertia)| match *inertia > T::zero() {
+        true => *root * *root / diagonal,
+        false => *root * *root,
+    })
 }
 
 /// The factorised metric.
@@ -111,7 +116,7 @@ pub(crate) struct Metric<T, const N: usize> {
     /// The largest inertia that each coordinate had: that of an Euler parameter
     /// vanishes at some positions, which says nothing about its scale.
     inertia: [T; N],
-    /// The largest ratio of each pivot to its diagonal entry so far.
+    /// The largest of the [`pivot_ratios`] so far.
     ratios: [T; N],
 }
 
@@ -150,7 +155,7 @@ impl<T: Real> MetricView<'_, T> {
         if !hides_dependence(self.parts, self.inertia) {
             return;
         }
-        let ratios = pivot_ratios(self.factor, self.ratios.len());
+        let ratios = pivot_ratios(self.factor, self.inertia);
         for (largest, ratio) in self.ratios.iter_mut().zip(ratios) {
             *largest = largest.max(ratio);
         }
@@ -245,10 +250,35 @@ impl<T: Real, const N: usize> Metric<T, N> {
         hides_dependence(&self.parts, &self.inertia)
     }
 
+    /// The factor of the metric of a chart, if that is another one: where the metric degenerates as
+    /// constraints become dependent, each coordinate has the largest inertia that it had in
+    /// addition. What is measured in it changes as little across a singular configuration as the
+    /// sheet does.
+    pub(crate) fn of_chart<const R: usize>(
+        &self,
+        mass: &SMatrix<T, N, N>,
+        jacobian: &SMatrix<T, R, N>,
+        rows: &Rows<T, R>,
+    ) -> Result<Option<Cholesky<T, N>>, NotDefinite> {
+        if !self.hides_dependence() {
+            return Ok(None);
+        }
+        let mut sum = self.sum(mass, jacobian, rows);
+        for (k, (inertia, pivot)) in self.inertia.iter().zip(&self.ratios).enumerate() {
+            sum[(k, k)] += match *inertia > T::zero() {
+                true => *inertia,
+                false => *pivot,
+            };
+        }
+        let mut factor = Cholesky::default();
+        factor.factorise(&sum)?;
+        Ok(Some(factor))
+    }
+
     /// The smallest of its pivots, relative to the diagonal and to the largest such ratio so
     /// far: of the order of the squared sine of constraints that become dependent.
     pub(crate) fn smallest_pivot(&self) -> T {
-        let pairs = pivot_ratios(self.factor.as_slice(), N).zip(&self.ratios);
+        let pairs = pivot_ratios(self.factor.as_slice(), &self.inertia).zip(&self.ratios);
         pairs.fold(T::one(), |least, (ratio, largest)| {
             least.min(ratio / *largest)
         })

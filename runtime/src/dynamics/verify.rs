@@ -9,7 +9,7 @@ use crate::linalg::is_zero;
 use crate::singular::{
     Chart, Obstacle, Placed, Point, choosing_poorly, counting, smallest_sine, staying,
 };
-use crate::tolerance::{accepted, passes, safe_steps, window};
+use crate::tolerance::{accepted, safe_steps, window};
 use crate::{DynamicsError, Form, Mechanism, Real, Stabilisation, State, Structure};
 
 /// A sine that falls below this part of what it is at both ends of a step may have been
@@ -247,7 +247,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if !self.needs_chart((before, sine, lowest), end.t - start.t) && !is_beside_gap {
             return Ok(());
         }
-        self.factorise_end(mechanism, chart, end)?;
+        self.factorise_end(mechanism, end)?;
         self.verify_residual(mechanism, end)?;
         let next = self.chart_after(structure, chart, end, placed);
         if next.is_none() {
@@ -279,18 +279,18 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
     }
 
-    /// Factorises the metric at the end of a step with a chart; where it is the metric that
-    /// degenerates, that of the chart is kept.
+    /// Evaluates the constraints at the end of a step with a chart, and factorises the metric,
+    /// unless charts have another one.
     fn factorise_end(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
-        chart: &Chart<T, N, R>,
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        if !passes(self.pivot_at(mechanism, end)?, window()) {
-            self.metric.factor = chart.metric();
+        mechanism.position(end, &mut self.position);
+        match self.metric.hides_dependence() {
+            true => Ok(()),
+            false => self.factorise_metric(mechanism, Source::Position, end.t),
         }
-        Ok(())
     }
 
     /// Factorises the metric at a state; its smallest pivot, where that is what shows that
@@ -319,13 +319,15 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         end: &State<T, N>,
         placed: Placed<T, N>,
     ) -> Option<Chart<T, N, R>> {
-        let (metric, rows) = (&self.metric, &self.rows);
+        let (rows, jacobian) = (&self.rows, &self.position.jacobian);
+        let other = self.metric.of_chart(&self.position.mass, jacobian, rows);
+        let other = other.ok()?;
         let workspace = self.memory.workspace();
         let mut next = Chart::new(
             end,
             placed.tangent,
-            metric,
-            (rows, &self.position.jacobian),
+            other.as_ref().unwrap_or(&self.metric.factor),
+            (rows, jacobian),
             (
                 self.coordinate_scale,
                 &self.sizes,

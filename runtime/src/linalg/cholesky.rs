@@ -226,11 +226,6 @@ impl<T: Real, const N: usize> Cholesky<T, N> {
         }
     }
 
-    /// One whose factor is known.
-    pub(crate) fn of_factor(upper: SMatrix<T, N, N>) -> Self {
-        Self { upper }
-    }
-
     /// The factor as it is stored, column by column, of which the upper triangle counts.
     pub(crate) fn as_slice(&self) -> &[T] {
         self.upper.as_slice()

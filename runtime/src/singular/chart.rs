@@ -14,7 +14,7 @@
 
 use super::part::{Part, parts};
 use super::product::{Factor, Offsets, Product, length};
-use crate::dynamics::{CoordinateScale, Metric, Rows};
+use crate::dynamics::{CoordinateScale, Rows};
 use crate::linalg::{
     Cholesky, Workspace, add_scaled, dot, multiply_upper, multiply_upper_transposed, norm,
     order_by_first_row, pair, set_units, solve_upper_transposed,
@@ -72,13 +72,13 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
     pub(crate) fn new(
         base: &State<T, N>,
         tangent: SMatrix<T, N, N>,
-        metric: &Metric<T, N>,
+        metric: &Cholesky<T, N>,
         (rows, jacobian): (&Rows<T, R>, &SMatrix<T, R, N>),
         (coordinate_scale, sizes, accepted): (CoordinateScale<T>, &[T; N], T),
         components: &'static [ConnectedComponent],
         workspace: &Workspace<'_, T>,
     ) -> Option<Self> {
-        let (factor, jacobian) = (metric.factor.as_slice(), jacobian.as_slice());
+        let (factor, jacobian) = (metric.as_slice(), jacobian.as_slice());
         let (list, count) = rows.most_independent(factor, jacobian, workspace)?;
         let list = &list[..count];
         let zero = T::zero();
@@ -197,22 +197,6 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
             across -= tangent * dual.dot(v);
         }
         across
-    }
-
-    /// A factor of its metric, in which coordinates of different parts are orthogonal.
-    pub(crate) fn metric(&self) -> Cholesky<T, N> {
-        let mut factor = SMatrix::<T, N, N>::zeros();
-        let mut at = 0;
-        for part in parts(self.components, (N, R)) {
-            let block = &self.metric.as_slice()[at..at + part.n * part.n];
-            for (j, column) in block.chunks_exact(part.n).enumerate() {
-                for (i, entry) in column[..=j].iter().enumerate() {
-                    factor[(part.coordinate(i), part.coordinate(j))] = *entry;
-                }
-            }
-            at += part.n * part.n;
-        }
-        Cholesky::of_factor(factor)
     }
 
     /// What is known of its factors.

@@ -8,9 +8,11 @@ use crate::equations::At;
 
 /// Passages that are found in one search.
 const ROOM: usize = 8;
-/// Loops that become singular within this part of a step do so at once: the part of it that the
-/// inside of a step is off by, and at least this one.
+/// Loops that become singular within this part of a step do so at once, at least.
 const AT_ONCE: f64 = 1e-6;
+/// The part of a step within which they do so, in tolerances: the inside of a step is off by
+/// about one of the range of the coordinates, of which a step is a part.
+const TOLERANCES: f64 = 10.0;
 
 /// A passage through a singular configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,11 +45,8 @@ pub(crate) struct Searched<'a, T> {
 impl<T: Real> Searched<'_, T> {
     /// Passages that are no farther apart than this (s) happen at once.
     pub(super) fn at_once(&self) -> T {
-        let least = T::from_f64(AT_ONCE);
-        self.length
-            * self
-                .tolerance
-                .map_or(least, |tolerance| least.max(tolerance))
+        let known = self.tolerance.unwrap_or_default() * T::from_f64(TOLERANCES);
+        self.length * known.max(T::from_f64(AT_ONCE))
     }
 
     /// The position at a time of the step, or on the way to it from where the search was left

@@ -67,11 +67,13 @@ impl<T: Real, const N: usize, const R: usize> SolverView<'_, T, N, R> {
             );
         }
         equations.mechanism.position(state, equations.position);
+        let (mass, jacobian) = (&equations.position.mass, &equations.position.jacobian);
+        let other = self.metric.of_chart(mass, jacobian, self.rows).ok()?;
         let mut chart = Chart::new(
             state,
             own,
-            self.metric,
-            (self.rows, &equations.position.jacobian),
+            other.as_ref().unwrap_or(&self.metric.factor),
+            (self.rows, jacobian),
             (self.coordinate_scale, self.sizes, accepted(self.tolerance)),
             components,
             workspace,
