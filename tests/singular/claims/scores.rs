@@ -94,7 +94,7 @@ macro_rules! never_wrong {
 never_wrong! {
     pendulum_minute pendulum_named cart_minute cart_short mast mast_minute rhombus turning slow rest_beside
     slider_rest rest_on curves_named curves surfaces_named surfaces grazing near three_curves
-    three_surfaces tacnode cusp cone instant four_bar end_mass bennett gaps hyperbola hyperboloid
+    three_surfaces tacnode cusp cone instant four_bar end_mass massless bennett gaps hyperbola hyperboloid
     almost_parallelogram unlike_hyperbola unlike_hyperboloid unlike_almost_parallelogram
     gaps_wide slider driven driven_stops driven_to_stop turntable skated splined
     knife_edges products trees duplicated

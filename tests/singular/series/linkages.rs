@@ -51,6 +51,16 @@ pub fn end_mass(random: &mut Random, _: usize) -> Trial {
     Trial::short("end_mass", "end_mass_reduced", set).until(1.5)
 }
 
+/// A slider without mass, whose constraint loses its gradient in the singular position.
+pub fn massless(random: &mut Random, _: usize) -> Trial {
+    let set = vec![
+        ("a0", random.within(3.0)),
+        ("wa", random.within(6.0)),
+        ("p0", random.within(1.0)),
+    ];
+    Trial::short("massless_slider", "massless_slider_reduced", set).until(1.5)
+}
+
 /// Bennett's linkage, whose rows are redundant, along either of two sheets.
 pub fn bennett(random: &mut Random, index: usize) -> Trial {
     let (a, w) = (random.within(6.0), random.within(8.0));

@@ -64,6 +64,7 @@ pub const SERIES: &[Series] = &[
     series("instant", 12, 120, USUAL, particles::instant),
     series("four_bar", 30, 300, USUAL, linkages::four_bar),
     series("end_mass", 60, 1000, USUAL, linkages::end_mass),
+    series("massless", 60, 1000, USUAL, linkages::massless),
     series("bennett", 60, 1000, USUAL, linkages::bennett),
     series("gaps", 72, 72, &[], linkages::gaps),
     series("hyperbola", 100, 3000, &[], avoided::hyperbola),
