@@ -8,8 +8,8 @@
 //! a slider runs across the pin. Where motions without kinetic energy take several coordinates:
 //! two rods without mass with a particle at their end, where they are in line. As the positions
 //! are those at which one function of the coordinates, the determinant, is zero, they are found
-//! along lines of one coordinate each. Of many coordinates that are coupled, each two are looked
-//! at by themselves.
+//! along lines of one coordinate each. Of many coordinates that are coupled, each with few others,
+//! each two are looked at by themselves.
 
 use super::equations::Matrix;
 use super::partition::Partition;
@@ -21,6 +21,9 @@ use std::f64::consts::PI;
 
 /// Coordinates that a block may have, so that it is searched as a whole.
 const FEW: usize = 8;
+/// Others that each of many coordinates may be coupled with, so that these are searched: in a long
+/// chain each is coupled with all.
+const NEIGHBOURS: usize = 4;
 /// Expressions of a block times coordinates that they depend on, so that it is searched: more
 /// would take noticeable time.
 const MOST_WORK: usize = 50_000;
@@ -71,7 +74,11 @@ fn blocks(graph: &Graph, mass: &Matrix) -> Vec<Block> {
         let coupled = |i: &usize, j: &usize| i < j && !graph.is_zero(mass[*i][*j]);
         let pairs = rows.iter().flat_map(|i| rows.iter().map(move |j| (i, j)));
         let pairs = pairs.filter(|(i, j)| coupled(i, j));
-        pairs.map(|(i, j)| vec![*i, *j]).collect()
+        let pairs: Vec<Vec<usize>> = pairs.map(|(i, j)| vec![*i, *j]).collect();
+        match pairs.len() <= rows.len() * NEIGHBOURS {
+            true => pairs,
+            false => Vec::new(),
+        }
     });
     searched.map(|rows| block(graph, mass, &rows)).collect()
 }
