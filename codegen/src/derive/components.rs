@@ -30,10 +30,7 @@ pub(super) fn components(
     for coordinates in &tied {
         partition.join(coordinates.iter().copied());
     }
-    for (i, row) in mass.iter().enumerate() {
-        let coupled = (0..row.len()).filter(|j| !graph.is_zero(row[*j]));
-        partition.join(coupled.chain([i]));
-    }
+    partition.join_coupled(graph, mass);
     let sets = partition.sets();
     if sets.len() == 1 || constraints.is_empty() {
         return Vec::new();

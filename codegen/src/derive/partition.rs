@@ -3,6 +3,9 @@
 //! In:  which coordinates belong together.
 //! Out: [`Partition`]: the sets that this makes of all of them.
 
+use super::equations::Matrix;
+use crate::model::Graph;
+
 /// Disjoint sets of coordinates, each named by its first.
 #[derive(Clone, Debug)]
 pub struct Partition {
@@ -25,6 +28,14 @@ impl Partition {
         };
         for name in self.names.iter_mut().filter(|name| named.contains(name)) {
             *name = least;
+        }
+    }
+
+    /// Puts together the sets of coordinates that a mass matrix couples.
+    pub(super) fn join_coupled(&mut self, graph: &Graph, mass: &Matrix) {
+        for (i, row) in mass.iter().enumerate() {
+            let coupled = (0..row.len()).filter(|j| !graph.is_zero(row[*j]));
+            self.join(coupled.chain([i]));
         }
     }
 

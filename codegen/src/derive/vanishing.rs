@@ -63,10 +63,7 @@ struct Block {
 
 fn blocks(graph: &Graph, mass: &Matrix) -> Vec<Block> {
     let mut partition = Partition::of(mass.len());
-    for (i, row) in mass.iter().enumerate() {
-        let coupled = (0..row.len()).filter(|j| !graph.is_zero(row[*j]));
-        partition.join(coupled.chain([i]));
-    }
+    partition.join_coupled(graph, mass);
     let searched = partition.sets().into_iter().flat_map(|rows| {
         if rows.len() <= FEW {
             return vec![rows];

@@ -9,7 +9,7 @@
 //! nothing, and comparing it with other rows would compare metres with radians.
 //! It is compared with the largest size it had so far.
 
-use crate::linalg::{Workspace, independent_columns, lift_row, scale};
+use crate::linalg::{Workspace, independent_columns, lift_rows};
 use crate::tolerance::{disproportionate, negligible, regular};
 use crate::{ConstraintRow, Real};
 
@@ -26,10 +26,7 @@ fn choose_most_independent<T: Real>(
     workspace.scope(|workspace| {
         let vectors = workspace.any(jacobian.len());
         let n = vectors.len() / r;
-        for (row, vector) in vectors.chunks_exact_mut(n).enumerate() {
-            lift_row(factor, jacobian, (row, r), vector);
-            scale(vector, sizes[row]);
-        }
+        lift_rows(factor, jacobian, sizes, 0..r, vectors);
         let first = |row: usize| holonomic[row];
         independent_columns(vectors, n, &first, regular(), chosen) == chosen.len()
     })

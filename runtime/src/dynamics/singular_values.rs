@@ -12,7 +12,7 @@ use super::erased::{Constrained, Known};
 use super::solver::Source;
 use crate::equations::At;
 use crate::linalg::{
-    Breakdown, Workspace, add_scaled, count_above, dot, lift_row, norm, orthogonalise, scale,
+    self, Breakdown, Workspace, add_scaled, count_above, dot, lift_row, norm, orthogonalise, scale,
 };
 use crate::once::compiled_once;
 use crate::tolerance::{difference, regular};
@@ -120,11 +120,7 @@ impl<'a, T: Real> SingularValueDecomposition<'a, T> {
 
 /// The rows of a Jacobian in the metric, scaled to size one.
 pub(super) fn lift_rows<T: Real>(jacobian: &[T], known: Known<'_, T>, rows: &mut [T]) {
-    let r = known.r();
-    for (row, vector) in rows.chunks_exact_mut(jacobian.len() / r).enumerate() {
-        lift(jacobian, known, row, vector);
-        scale(vector, known.scale[row]);
-    }
+    linalg::lift_rows(known.factor, jacobian, known.scale, 0..known.r(), rows);
 }
 
 /// `U⁻¹aᵀ` for one row `a` of a Jacobian.

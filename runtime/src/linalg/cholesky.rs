@@ -12,7 +12,7 @@
 //!
 //! Not here: what to do with a matrix that is only semi-definite.
 
-use super::{Workspace, add_scaled, dot};
+use super::{Workspace, add_scaled, dot, scale};
 use crate::Real;
 use crate::tolerance::definite;
 use nalgebra::SMatrix;
@@ -146,6 +146,21 @@ pub(crate) fn lift_row<T: Real>(
         *entry = levers[row];
     }
     solve_upper(upper, lifted);
+}
+
+/// The same for some rows, one after the other, each multiplied by its scale.
+pub(crate) fn lift_rows<T: Real>(
+    upper: &[T],
+    jacobian: &[T],
+    scales: &[T],
+    chosen: impl Iterator<Item = usize>,
+    lifted: &mut [T],
+) {
+    let n = jacobian.len() / scales.len();
+    for (row, vector) in chosen.zip(lifted.chunks_exact_mut(n)) {
+        lift_row(upper, jacobian, (row, scales.len()), vector);
+        scale(vector, scales[row]);
+    }
 }
 
 /// The diagonal of `U Uᵀ`, of `n` rows.

@@ -37,7 +37,7 @@ mod workspace;
 
 pub(crate) use block::Block;
 pub(crate) use cholesky::{
-    Cholesky, NotDefinite, diagonal, is_definite, length, lift_row, multiply_upper,
+    Cholesky, NotDefinite, diagonal, is_definite, length, lift_row, lift_rows, multiply_upper,
     multiply_upper_transposed, set_units, solve_upper, solve_upper_transposed,
 };
 pub(crate) use column::{

@@ -9,7 +9,7 @@
 
 use super::sheet::Sheet;
 use crate::Real;
-use crate::linalg::{Workspace, dot, independent_columns, lift_row, scale};
+use crate::linalg::{Workspace, dot, independent_columns, lift_rows};
 use crate::tolerance::{regular, window};
 
 /// How many times the volume that the chosen rows span that of others may be within a step, at
@@ -62,10 +62,7 @@ impl<T: Real> Sheet<'_, T> {
         let (chart, n) = (&self.chart, self.chart.n());
         let jacobian = self.equations.constraints().jacobian;
         let vectors = workspace.any(n * rows.len());
-        for (row, vector) in rows.zip(vectors.chunks_exact_mut(n)) {
-            lift_row(chart.metric, jacobian, (row, self.rows()), vector);
-            scale(vector, chart.row_scale[row]);
-        }
+        lift_rows(chart.metric, jacobian, chart.row_scale, rows, vectors);
         let chosen = workspace.indices(self.constraints());
         let count = independent_columns(vectors, n, &|_| false, least, chosen);
         // What is left of each is what it is off those before.

@@ -2,6 +2,13 @@
 
 use bricard_singular::{Score, Trial, judge};
 
+/// Demands right rows, and the right number of passages.
+fn is_right(trial: Trial) {
+    let verdict = judge(&trial);
+    assert_eq!(verdict.score, Score::Right, "{trial}\n    {}", verdict.why);
+    assert!(!verdict.miscounted(), "{trial}: {:?}", verdict.passages);
+}
+
 /// A slider on a coupler without inertia runs across the coupler's joint, while the linkage
 /// passes its singular positions.
 #[test]
@@ -9,10 +16,7 @@ fn a_slider_runs_across_the_joint_of_a_coupler_without_inertia() {
     for (tolerance, speed) in [(1e-6, -4.0), (1e-9, -4.0), (1e-12, -4.0), (1e-9, 3.0)] {
         let set = vec![("vu", speed)];
         let trial = Trial::short("massless_coupler", "massless_coupler_reduced", set).until(1.5);
-        let trial = Trial { tolerance, ..trial };
-        let verdict = judge(&trial);
-        assert_eq!(verdict.score, Score::Right, "{trial}\n    {}", verdict.why);
-        assert!(!verdict.miscounted(), "{trial}: {:?}", verdict.passages);
+        is_right(Trial { tolerance, ..trial });
     }
 }
 
@@ -23,10 +27,7 @@ fn rods_without_inertia_pass_where_they_could_fold() {
         for speed in [-7.0, 1.0, 2.0, 4.0, 9.0, 15.0] {
             let (mechanism, reduced) = ("massless_parallelogram", "massless_parallelogram_reduced");
             let trial = Trial::short(mechanism, reduced, vec![("wa", speed)]).until(2.0);
-            let trial = Trial { tolerance, ..trial };
-            let verdict = judge(&trial);
-            assert_eq!(verdict.score, Score::Right, "{trial}\n    {}", verdict.why);
-            assert!(!verdict.miscounted(), "{trial}: {:?}", verdict.passages);
+            is_right(Trial { tolerance, ..trial });
         }
     }
 }
@@ -38,10 +39,7 @@ fn crank_and_coupler_with_a_mass_at_their_end_pass_where_they_could_fold() {
         for speed in [-7.0, 1.0, 3.0, 6.0, 15.0] {
             let set = vec![("wa", speed)];
             let trial = Trial::short("end_mass", "end_mass_reduced", set).until(2.0);
-            let trial = Trial { tolerance, ..trial };
-            let verdict = judge(&trial);
-            assert_eq!(verdict.score, Score::Right, "{trial}\n    {}", verdict.why);
-            assert!(!verdict.miscounted(), "{trial}: {:?}", verdict.passages);
+            is_right(Trial { tolerance, ..trial });
         }
     }
 }
