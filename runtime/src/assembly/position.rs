@@ -15,12 +15,14 @@ use crate::Real;
 use crate::equations::Equations;
 use crate::linalg::Workspace;
 use crate::once::compiled_once;
-use crate::tolerance::negligible;
+use crate::tolerance::{negligible, regular};
 use core::mem::swap;
 use core::ops::Range;
 
 /// Trial steps of one descent.
 const MOST_TRIALS: usize = 300;
+/// Constraint errors, in units of round-off, that are nothing but round-off.
+const ROUND_OFF: f64 = 4.0;
 /// Damping at which steps are too short to change anything.
 const MOST_DAMPING: f64 = 1e14;
 /// How fast damping comes and goes.
@@ -144,9 +146,15 @@ impl<'e, 'a, T: Real> Descent<'e, 'a, T> {
         for (k, target) in self.target.iter_mut().enumerate() {
             *target = -(self.residual[k] * self.scales.rows[k]);
         }
+        // Divided by a small singular value, round-off is a long way: a guess that is right to
+        // round-off beside a singular configuration stays on its sheet.
+        let least = match is_within(ROUND_OFF, self.residual, &self.scales) {
+            true => regular(),
+            false => negligible(),
+        };
         while self.damping <= T::from_f64(MOST_DAMPING) && trials.next().is_some() {
             self.matrix.damp(self.damping);
-            let fall = self.matrix.solve(self.target, negligible(), self.step);
+            let fall = self.matrix.solve(self.target, least, self.step);
             for (step, scale) in self.step.iter_mut().zip(self.scales.columns) {
                 *step *= *scale;
             }
@@ -216,8 +224,14 @@ fn check_gradients<T: Real>(
 
 /// Whether every constraint error is down to round-off.
 fn is_satisfied<T: Real>(residual: &[T], scales: &Scales<'_, T>) -> bool {
+    is_within(CONTRADICTION, residual, scales)
+}
+
+/// Whether every constraint error is at most this multiple of round-off.
+fn is_within<T: Real>(multiple: f64, residual: &[T], scales: &Scales<'_, T>) -> bool {
+    let most = T::EPSILON * T::from_f64(multiple);
     let mut errors = residual.iter().zip(scales.reach);
-    errors.all(|(error, reach)| contradiction(*error, *reach) == T::zero())
+    errors.all(|(error, reach)| error.abs() <= most * *reach)
 }
 
 /// A constraint error that is more than round-off; else zero.

@@ -25,6 +25,11 @@ const MOST_STEPS: usize = 60;
 /// the quadratic terms that it is the sum of; how velocities change it counts above this part
 /// of how they change `p₂`.
 const ON_BRANCH: f64 = 1e-9;
+/// The part of the quadratic terms that this rest is where the rows of a position tell along
+/// which branch the motion is, and round-off does not.
+const ALONG_BRANCH: f64 = 1e-4;
+/// Singular values, in units of round-off, that are nothing but round-off.
+const ROUND_OFF: f64 = 64.0;
 /// A direction towards a branch counts if it changes that rest by this part of
 /// what the most effective one does.
 const EFFECTIVE: f64 = 1e-6;
@@ -43,67 +48,37 @@ pub(super) fn assemble<T: Real>(
     let (n, n_rows) = (draft.q.len(), draft.residual.len());
     let mut free = Decomposition::new(n, n_rows, workspace);
     free.decompose(equations.constraints().jacobian, &scales)?;
-    // Beside a singular configuration rows tell on which sheet the position is as long as they
-    // have a digit.
-    let told = T::EPSILON.sqrt();
-    correct(draft.v, equations, &scales, (&mut free, told), workspace);
+    let mut whole = Decomposition::new(n, n_rows, workspace);
+    whole.decompose(equations.constraints().jacobian, &measured)?;
+    *draft.near_singular = whole.has_between(negligible(), window());
+    let q = workspace.numbers(n);
+    q.copy_from_slice(draft.q);
+    let mut branches = Branches {
+        equations,
+        position: (draft.t, q),
+        measured,
+        scales,
+        free: &mut free,
+        whole: &whole,
+    };
+    workspace.scope(|inner| branches.follow(draft.v, inner));
     if !draft.v.iter().all(|v| v.is_finite()) {
         return Err(Refusal::NotFinite);
     }
     // The corrections have the absolute accuracy of the velocities that they begin with, which
     // may be far larger than those at the end.
     let speed = guessed.max(speed(draft.v, &measured));
-    let mut whole = Decomposition::new(n, n_rows, workspace);
-    whole.decompose(equations.constraints().jacobian, &measured)?;
-    *draft.near_singular = whole.has_between(negligible(), window());
-    check(&mut draft, speed, equations, &measured)?;
+    check(&mut draft, speed, branches.equations, &measured)?;
     if whole.rank(regular()) == n_rows {
         return Ok(());
     }
-    let mut branches = Branches {
-        equations,
-        position: (draft.t, draft.q),
-        measured,
-        scales,
-        free: &mut free,
-        whole: &whole,
-    };
     let guess = workspace.numbers(n);
     guess.copy_from_slice(draft.v);
     match workspace.scope(|inner| branches.choose(draft.v, inner))? {
-        true => correct(
-            draft.v,
-            equations,
-            &scales,
-            (&mut free, regular()),
-            workspace,
-        ),
+        true => branches.correct(draft.v, regular(), workspace),
         false => return Err(branches.refuse(draft.v, (guess, speed), workspace)?),
     }
     Ok(())
-}
-
-/// Moves the free velocities to `A q̇ + b = 0`, as little as they can, by the singular values
-/// above a bound. Twice: the second correction takes the round-off of the first.
-fn correct<T: Real>(
-    v: &mut [T],
-    equations: &dyn Equations<T>,
-    scales: &Scales<'_, T>,
-    (free, least): (&mut Decomposition<'_, T>, T),
-    workspace: &Workspace<'_, T>,
-) {
-    workspace.scope(|workspace| {
-        let error = workspace.numbers(scales.rows.len());
-        let step = workspace.numbers(v.len());
-        for _ in 0..2 {
-            opening(equations, v, error);
-            for (error, scale) in error.iter_mut().zip(scales.rows) {
-                *error = -(*error * *scale);
-            }
-            free.solve(error, least, step);
-            move_by(v, step, scales);
-        }
-    });
 }
 
 /// Adds a scaled step to velocities.
@@ -172,6 +147,52 @@ struct Branches<'b, 'a, T> {
 }
 
 impl<T: Real> Branches<'_, '_, T> {
+    /// Moves the free velocities to `A q̇ + b = 0`. Beside a singular configuration the rows tell
+    /// on which branch the position is, as long as they have a digit, or lead along a branch.
+    fn follow(&mut self, v: &mut [T], workspace: &Workspace<'_, T>) {
+        let told = T::EPSILON.sqrt();
+        let round_off = T::EPSILON * T::from_f64(ROUND_OFF);
+        if self.free.has_between(round_off, told) {
+            let along = workspace.numbers(v.len());
+            along.copy_from_slice(v);
+            self.correct(along, round_off, workspace);
+            if self.is_along_branch(along, workspace) {
+                return v.copy_from_slice(along);
+            }
+        }
+        self.correct(v, told, workspace);
+    }
+
+    /// Whether velocities are those of a branch, but for what round-off of the position does to
+    /// rows that it has moved off a singular configuration.
+    fn is_along_branch(&mut self, v: &[T], workspace: &Workspace<'_, T>) -> bool {
+        let (n, n_rows) = (v.len(), self.scales.rows.len());
+        let slopes = workspace.numbers(n_rows * n);
+        let (rest, room) = (workspace.numbers(n_rows), workspace.numbers(n_rows));
+        let size = self.slopes(v, slopes, (room, workspace.numbers(n)));
+        self.bias(v, rest);
+        let size = size + norm(rest);
+        self.whole.leave_unreachable(rest, regular());
+        norm(rest) <= size * T::from_f64(ALONG_BRANCH)
+    }
+
+    /// Moves the free velocities to `A q̇ + b = 0`, as little as they can, by the singular values
+    /// above a bound. Twice: the second correction takes the round-off of the first.
+    fn correct(&mut self, v: &mut [T], least: T, workspace: &Workspace<'_, T>) {
+        workspace.scope(|workspace| {
+            let error = workspace.numbers(self.scales.rows.len());
+            let step = workspace.numbers(v.len());
+            for _ in 0..2 {
+                opening(self.equations, v, error);
+                for (error, scale) in error.iter_mut().zip(self.scales.rows) {
+                    *error = -(*error * *scale);
+                }
+                self.free.solve(error, least, step);
+                move_by(v, step, &self.scales);
+            }
+        });
+    }
+
     /// Newton's method towards the nearest branch, along the directions that
     /// the constraints leave free; whether one was reached.
     fn choose(&mut self, v: &mut [T], workspace: &Workspace<'_, T>) -> Result<bool, Refusal> {
@@ -219,13 +240,7 @@ impl<T: Real> Branches<'_, '_, T> {
         for aside in [speed, -speed] {
             // What is held has columns of zeros.
             disturb(guess, |j| aside * columns[j], v);
-            correct(
-                v,
-                self.equations,
-                &self.scales,
-                (self.free, regular()),
-                workspace,
-            );
+            self.correct(v, regular(), workspace);
             if workspace.scope(|workspace| self.choose(v, workspace))? {
                 let change = |j: &usize| ((v[*j] - guess[*j]) / columns[*j]).abs();
                 let free = (0..v.len()).filter(|j| columns[*j] > T::zero());
