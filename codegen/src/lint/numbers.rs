@@ -19,6 +19,8 @@ const POSITIONS: u64 = 3;
 /// An equation holds if its error is smaller than this, relative to what its terms
 /// change by when every coordinate changes by its size, or by one.
 const HOLDS: f64 = 1e-8;
+/// What a coordinate at the start is next to nothing below, relative to others.
+const NEXT_TO_NOTHING: f64 = 1e-3;
 
 /// A mechanism and those of its equations that the lints are about.
 #[derive(Clone, Debug)]
@@ -289,14 +291,33 @@ impl<'a> Numbers<'a> {
     pub fn errors(&self, rows: &[usize], place: &Place) -> (Vec<f64>, bool) {
         let all: Vec<usize> = (0..place.q.len()).collect();
         let (values, slopes) = self.values_and_jacobian(rows, &all, place);
-        let holds = values.iter().zip(&slopes).all(|(value, row)| {
-            let terms = row
-                .iter()
-                .zip(&place.q)
-                .map(|(a, q)| a.abs() * q.abs().max(1.0));
-            value.abs() <= HOLDS * terms.sum::<f64>().max(HOLDS)
-        });
+        let slopes_at = |at: &Place| self.values_and_jacobian(rows, &all, at).1;
+        let sizes = self.sizes(&slopes, &place.q, &slopes_at);
+        let mut errors = values.iter().zip(sizes);
+        let holds = errors.all(|(value, size)| value.abs() <= HOLDS * size.max(HOLDS));
         (values, holds)
+    }
+
+    /// How large the terms of equations are that are linearised so at a place, there or nearby:
+    /// where the derivatives of an equation nearly vanish, it is as accurate as elsewhere.
+    pub fn sizes(
+        &self,
+        slopes: &[Vec<f64>],
+        unknowns: &[f64],
+        slopes_at: &dyn Fn(&Place) -> Vec<Vec<f64>>,
+    ) -> Vec<f64> {
+        let size = |row: &Vec<f64>| -> f64 {
+            let terms = row.iter().zip(unknowns);
+            terms.map(|(a, x)| a.abs() * x.abs().max(1.0)).sum()
+        };
+        let mut sizes: Vec<f64> = slopes.iter().map(size).collect();
+        for seed in 1..=2 {
+            let nearby = slopes_at(&self.random(seed));
+            for (most, row) in sizes.iter_mut().zip(&nearby) {
+                *most = Some(size(row)).filter(|x| x.is_finite()).unwrap_or(0.0).max(*most);
+            }
+        }
+        sizes
     }
 
     /// The position of the start block, not assembled, with what is held in it.
@@ -366,12 +387,27 @@ impl<'a> Numbers<'a> {
     pub fn random(&self, seed: u64) -> Place {
         let (mut place, _) = self.start();
         let mut random = Random(seed);
-        for q in &mut place.q {
-            let size = if *q == 0.0 { 1.0 } else { q.abs() };
+        let sizes: Vec<f64> = (0..place.q.len()).map(|i| self.size(&place.q, i)).collect();
+        for (q, size) in place.q.iter_mut().zip(sizes) {
             *q += 0.4 * size * random.next();
         }
         place.t = 0.5 + 0.5 * random.next();
         place
+    }
+
+    /// How large a coordinate is: what it is at a position, or, where that is next to nothing,
+    /// one radian, or the largest with its unit.
+    fn size(&self, q: &[f64], i: usize) -> f64 {
+        let coordinates = &self.mechanism.coordinates;
+        let unit = &coordinates[i].unit;
+        let alike = coordinates.iter().zip(q).filter(|(c, _)| c.unit == *unit);
+        let angle = if unit == "rad" { 1.0 } else { 0.0 };
+        let largest = alike.fold(angle, |most: f64, (_, q)| most.max(q.abs()));
+        match q[i].abs() {
+            _ if largest == 0.0 => 1.0,
+            own if own < NEXT_TO_NOTHING * largest => largest,
+            own => own,
+        }
     }
 }
 

@@ -7,8 +7,8 @@ use crate::diagnostic::{Diagnostic, Diagnostics, Span, figure};
 use std::collections::BTreeMap;
 
 /// An equation for velocities holds if its error is smaller than this, relative to
-/// its terms.
-const HOLDS: f64 = 1e-8;
+/// its terms: a run accepts as much beside a singular configuration.
+const HOLDS: f64 = 5e-7;
 
 /// An error smaller than this, relative to the largest one, is what the search left.
 const ROUND_OFF: f64 = 1e-6;
@@ -117,11 +117,9 @@ fn unassembled_velocities(numbers: &Numbers, place: &Place, found: &mut Diagnost
     };
     let v = at(&x);
     let errors = speed(&v);
-    let holds = jacobian.iter().zip(&errors).all(|(row, error)| {
-        let terms = row.iter().zip(&v).map(|(a, v)| a.abs() * v.abs().max(1.0));
-        error.abs() <= HOLDS * terms.sum::<f64>()
-    });
-    if !holds {
+    let sizes = numbers.sizes(&jacobian, &v, &|at| numbers.velocity_level(at).1);
+    let mut sized = errors.iter().zip(sizes);
+    if sized.any(|(error, size)| error.abs() > HOLDS * size) {
         let given = held.contains(&true) || of_start(numbers, &rows);
         let (message, help) = match given {
             true => (
