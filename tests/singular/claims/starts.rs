@@ -1,9 +1,10 @@
 //! Starts in singular configurations and beside them are as exact as elsewhere.
 
-use bricard_runtime::{Initial, Options, Whole, assemble, simulate};
+use bricard_runtime::{Initial, Interface, Options, Whole, assemble, simulate};
 use bricard_singular::descriptions::driven_crank::DrivenCrank;
 use bricard_singular::descriptions::equal_slider_crank::EqualSliderCrank;
 use bricard_singular::descriptions::parallelogram_pendulum::ParallelogramPendulum;
+use bricard_singular::descriptions::sarrus::Sarrus;
 use bricard_singular::descriptions::two_loops_apart::TwoLoopsApart;
 use bricard_singular::descriptions::two_loops_one_crank::TwoLoopsOneCrank;
 use core::f64::consts::{FRAC_PI_2, PI};
@@ -47,6 +48,87 @@ fn a_parallelogram_with_a_pendulum_beside_its_singular_configuration_begins_on_i
         ];
         assert!(
             off.iter().all(|off| off.abs() < 1e-11),
+            "{distance:e}: off by {off:?}"
+        );
+    }
+}
+
+/// Length of the cranks of the parallelogram, in those of the coupler.
+const RATIO: f64 = 0.4 / 0.7;
+
+/// A parallelogram beside its stretched position, at exact guesses of the crossed branch.
+fn crossed(distance: f64, speed: f64) -> (ParallelogramPendulum<f64>, [Initial<f64>; 4]) {
+    let mut mechanism = ParallelogramPendulum::<f64>::default();
+    (mechanism.parameters.a0, mechanism.parameters.w0) = (distance, speed);
+    // The first equation says that r x² + L z² = r y², the second that r x + L z = r y.
+    let other = -distance * (1.0 + RATIO) / (1.0 - RATIO);
+    let coupler = RATIO * (other - distance);
+    let mut values = mechanism.start().q;
+    (values[1].value, values[2].value) = (coupler, other);
+    (mechanism, values)
+}
+
+/// A velocity that nobody gives is no guess: the position tells the branch, as long as it is off
+/// the other one.
+#[test]
+fn a_parallelogram_begins_on_the_crossed_branch_if_its_position_is_on_that() {
+    let nearer = [1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
+    for distance in DISTANCES[2..].iter().copied().chain(nearer) {
+        for (distance, speed) in [(distance, 7.0), (-distance, 7.0), (distance, -3.0)] {
+            let (mechanism, positions) = crossed(distance, speed);
+            let mechanism: &dyn Whole<f64, 4, 2> = &mechanism;
+            let mut start = mechanism.start();
+            start.q = positions;
+            let start = assemble(mechanism, &start, 0.0).expect("it can be assembled");
+            let rates = [
+                1.0,
+                -2.0 * RATIO / (1.0 - RATIO),
+                -(1.0 + RATIO) / (1.0 - RATIO),
+            ];
+            for (v, rate) in start.v.iter().zip(rates) {
+                let off = v / speed - rate;
+                let most = 100.0 * distance * distance + 1e-10;
+                assert!(off.abs() < most, "{distance:e}: off by {off:e}");
+            }
+            let options = Options::dop853(0.01, 1e-10);
+            let ran = simulate(mechanism, &start, &options, &mut []);
+            let end = ran
+                .unwrap_or_else(|failure| panic!("{distance:e}: {failure}"))
+                .end;
+            assert!(
+                end.q[1] * end.q[0] < 0.0 && end.q[1].abs() > 0.01,
+                "{distance:e}: {}",
+                end.q
+            );
+        }
+    }
+}
+
+/// Both chains of Sarrus' linkage could fold there, each by itself.
+#[test]
+fn two_chains_beside_the_position_where_both_could_fold_begin_unfolded() {
+    for distance in uneven_distances().chain([1e-8, 1e-9, 1e-10]) {
+        if distance.abs() > 1e-3 {
+            continue;
+        }
+        let mut mechanism = Sarrus::<f64>::default();
+        mechanism.parameters.a0 = distance;
+        let other = (0.4 * distance.sin() / 0.55).asin();
+        let mechanism: &dyn Whole<f64, 6, 5> = &mechanism;
+        let mut start = mechanism.start();
+        for (q, value) in start.q[3..]
+            .iter_mut()
+            .zip([other, PI - 2.0 * other, other - PI])
+        {
+            q.value = value;
+        }
+        let start = assemble(mechanism, &start, 0.0)
+            .unwrap_or_else(|error| panic!("{distance:e}: {error}"));
+        let [w, da, _, db, ..] = start.v.data.0[0];
+        let off = [da / w + 2.0, db / w - 0.4 / 0.55];
+        let most = distance * distance + 1e-8;
+        assert!(
+            off.iter().all(|off| off.abs() < most),
             "{distance:e}: off by {off:?}"
         );
     }
