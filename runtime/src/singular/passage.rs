@@ -304,7 +304,7 @@ impl<T: Real> Sheet<'_, T> {
         };
         let regular = self.constraints();
         let rank = match self.rank_of_all_rows(workspace) {
-            Some(rank) if rank == regular => return,
+            Some(rank) if rank == regular || !self.all_depend(search.step, t, workspace) => return,
             Some(rank) => rank,
             None => regular - changes.min(regular),
         };

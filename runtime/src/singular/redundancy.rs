@@ -7,6 +7,7 @@
 //! The rows that were chosen at an accepted state may become dependent where all of them
 //! together do not: that is no singular configuration.
 
+use super::found::Searched;
 use super::sheet::Sheet;
 use crate::Real;
 use crate::linalg::{Workspace, dot, independent_columns, lift_rows};
@@ -15,6 +16,13 @@ use crate::tolerance::{regular, window};
 /// How many times the volume that the chosen rows span that of others may be within a step, at
 /// whose beginning none was larger.
 const MUCH_LARGER: f64 = 4.0;
+
+/// How many times as far as passages that happen at once all rows are looked at for whether they
+/// become dependent, and the part of a step that this is at most.
+const KNOWN: f64 = 32.0;
+const MOST_AWAY: f64 = 0.125;
+/// The part of their volume there that is left where they do.
+const LEFT: f64 = 0.2;
 
 impl<T: Real> Sheet<'_, T> {
     /// The rank of all rows, as many of which count as there are independent ones at regular
@@ -39,6 +47,31 @@ impl<T: Real> Sheet<'_, T> {
             workspace.scope(|workspace| self.span(0..self.rows(), regular(), workspace));
         // In a singular configuration itself nothing can be told.
         rank == self.constraints() && of_others > of_chosen * T::from_f64(MUCH_LARGER)
+    }
+
+    /// Whether all rows become dependent where the chosen ones do within a step: about as near
+    /// as their positions are known, the volume that they span falls to zero. Beside a singular
+    /// configuration it falls to what is left there.
+    pub(super) fn all_depend(
+        &mut self,
+        step: &Searched<'_, T>,
+        t: T,
+        workspace: &Workspace<'_, T>,
+    ) -> bool {
+        let away = step.at_once() * T::from_f64(KNOWN);
+        let away = away.min(step.length * T::from_f64(MOST_AWAY));
+        let [before, here, after] = [t - away, t, t + away].map(|t| {
+            workspace.scope(|workspace| {
+                let q = workspace.numbers(self.chart.n());
+                step.position(t, q);
+                self.eliminate_widely(t, q).ok()?;
+                self.correct(q);
+                self.equations.locate(t, q);
+                Some(self.span(0..self.rows(), T::zero(), workspace).1)
+            })
+        });
+        let beside = before.into_iter().chain(after).fold(T::zero(), T::max);
+        here.is_none_or(|here| here < beside * T::from_f64(LEFT))
     }
 
     fn rows(&self) -> usize {

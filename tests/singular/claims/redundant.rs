@@ -3,6 +3,7 @@
 
 use bricard_runtime::{Form, Options, Whole, assemble, simulate};
 use bricard_singular::descriptions::spatial_parallelogram::SpatialParallelogram;
+use bricard_singular::descriptions::three_cranks::ThreeCranks;
 
 const N: usize = 21;
 const R: usize = 23;
@@ -120,5 +121,32 @@ fn fixed_steps_of_all_lengths_pass() {
         let summary = ran.unwrap_or_else(|failure| panic!("{step}: {failure}"));
         assert!(summary.events > 1, "{step}");
         assert_eq!(summary.passages, Some(summary.events), "{step}");
+    }
+}
+
+/// One loop alone becomes singular, all together do not, however little is left.
+#[test]
+fn a_pivot_beside_the_line_of_the_others_leaves_no_passage() {
+    for beside in [0.0, 0.1, 0.03, 0.01, 1e-3] {
+        for (form, tolerance, a0, w0, jc) in [
+            (Form::Reduced, 5.64e-7, 0.305, -5.549, 0.02),
+            (Form::Reduced, 2.7e-11, 0.809, 6.625, 0.02),
+            (Form::Reduced, 2.67e-6, -1.192, -8.442, 0.02),
+            (Form::Full, 1.47e-7, 2.793, -1.149, 0.0),
+            (Form::Full, 3e-9, -0.555, -4.817, 0.0),
+        ] {
+            let name = format!("{beside} {form:?} {tolerance:e}");
+            let mut mechanism = ThreeCranks::default();
+            let parameters = &mut mechanism.parameters;
+            (parameters.beside, parameters.jc) = (beside, jc);
+            (parameters.a0, parameters.w0) = (a0, w0);
+            let mechanism: &dyn Whole<f64, 5, 4> = &mechanism;
+            let start = assemble(mechanism, &mechanism.start(), 0.0).expect("it can be assembled");
+            let ran = simulate(mechanism, &start, &options(3.0, form, tolerance), &mut []);
+            let summary = ran.unwrap_or_else(|failure| panic!("{name}: {failure}"));
+            assert!(summary.events > 0, "{name}");
+            let passages = if beside == 0.0 { summary.events } else { 0 };
+            assert_eq!(summary.passages, Some(passages), "{name}");
+        }
     }
 }
