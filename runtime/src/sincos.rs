@@ -229,14 +229,26 @@ pub(crate) fn sin_cos_all<const K: usize>(angles: &[f64; K]) -> ([f64; K], [f64;
     let mut both = [[1.0; K]; 2];
     let [sines, cosines] = &mut both;
     if K < LANES {
-        for i in 0..K {
-            (sines[i], cosines[i]) = sin_cos(angles[i]);
-        }
+        few(angles, sines, cosines);
     } else {
         in_blocks(angles, sines, cosines);
     }
     let [sines, cosines] = both;
     (sines, cosines)
+}
+
+/// One after the other, with one branch for all of them.
+#[inline(always)]
+fn few<const K: usize>(angles: &[f64; K], sines: &mut [f64; K], cosines: &mut [f64; K]) {
+    // None is larger than the root of the sum of all squares.
+    let squares = angles.iter().fold(0.0, |sum, x| fused(*x, *x, sum));
+    if squares <= LARGEST * LARGEST {
+        for i in 0..K {
+            (sines[i], cosines[i]) = of_small(angles[i]);
+        }
+    } else {
+        one_by_one(angles, sines, cosines);
+    }
 }
 
 /// Block after block; the last one may take in some of the one before it.

@@ -25,10 +25,10 @@ of the constraint set on both sides, and costs as much as the factorisations of 
 constraints at these states. `generation` is the compiler's own work, from the description to
 Rust.
 
-Two or three sines and cosines are computed one by one. In lanes they would take a fifth fewer
-instructions, but the lanes are loaded from what was stored entry by entry just before, for
-which processors wait: a run of the slider–crank takes 1.05 times as long by RK4 and 1.35 times
-by DOP853 (medians of 21 runs in turns, x86-64-v3).
+Two or three sines and cosines are computed one by one, after one look at the sizes of all
+angles. In lanes they would take fewer instructions, but the lanes are loaded from what was
+stored entry by entry just before, for which processors wait: a run of the slider–crank takes
+1.05 times as long by RK4 and 1.35 times by DOP853 (medians of 21 runs in turns, x86-64-v3).
 
 This page is written by `cargo run --release -p instructions -- table`, in `benches/`,
 from `benches/recorded.json`; `short` counts again and compares, as CI does. The figures

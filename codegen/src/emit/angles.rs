@@ -1,8 +1,9 @@
 //! Sines and cosines in emitted functions.
 //!
 //! In:  a program that is being written.
-//! Out: one call for all angles that are known from the start, if they are many, since a
-//!      batch runs in the lanes of the processor; a call of its own for each of the others.
+//! Out: one call for all angles that are known from the start: it checks their sizes at once,
+//!      and many of them run in the lanes of the processor; a call of its own for each of the
+//!      others.
 
 use super::function::{Binding, Writer, pattern};
 use crate::expr::Function;
@@ -14,10 +15,8 @@ use rustc_hash::FxHashSet;
 use std::collections::BTreeSet;
 use std::mem::discriminant;
 
-/// The fewest angles that are worth a call for all: as many as a block has lanes. A block that
-/// is filled in part takes fewer instructions than single calls, but more time
-/// (`docs/instructions.md`).
-const ANGLES_MIN: usize = 4;
+/// The fewest angles that are worth a call for all.
+const ANGLES_MIN: usize = 2;
 
 /// Angles whose sines and cosines are computed by one call.
 pub(super) struct Together {
@@ -49,7 +48,7 @@ impl Writer<'_> {
         bound
     }
 
-    /// All angles that are known from the start, if they are many. `alone` says that no other
+    /// All angles that are known from the start, if there are several. `alone` says that no other
     /// statements are in the scope of the call for them.
     pub(super) fn angles_together(&mut self, alone: bool) -> Option<Together> {
         let angles = self.early_angles();

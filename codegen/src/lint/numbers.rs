@@ -314,7 +314,10 @@ impl<'a> Numbers<'a> {
         for seed in 1..=2 {
             let nearby = slopes_at(&self.random(seed));
             for (most, row) in sizes.iter_mut().zip(&nearby) {
-                *most = Some(size(row)).filter(|x| x.is_finite()).unwrap_or(0.0).max(*most);
+                *most = Some(size(row))
+                    .filter(|x| x.is_finite())
+                    .unwrap_or(0.0)
+                    .max(*most);
             }
         }
         sizes

@@ -1830,9 +1830,8 @@ pub mod double_four_bar {
         /// Costs 4 products, 2 sums, 2 sine–cosine pairs.
         fn outputs(&self, state: &State<T, 5>, values: &mut [T]) {
             let [q1, q2, _, _, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let Parameters { l1, e2, .. } = self.parameters;
-            let (sin_q1, cos_q1) = q1.sin_cos();
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let computed = [
                 e2.mul_add(cos_q2, l1 * cos_q1),
                 e2.mul_add(sin_q2, l1 * sin_q1),
@@ -1844,13 +1843,13 @@ pub mod double_four_bar {
         fn events(&self, _state: &State<T, 5>, _values: &mut [T]) {}
         fn draw(&self, state: &State<T, 5>, canvas: &mut dyn Canvas<T>) {
             let [q1, _, q3, _, q5] = state.q.data.0[0];
+            let ([sin_q1, sin_q3, sin_q5], [cos_q1, cos_q3, cos_q5]) = T::sin_cos_all(
+                &[q1, q3, q5],
+            );
             let Parameters { l1, l3, l5, l01, l02, .. } = self.parameters;
             let sum = l01 + l02;
-            let (sin_q1, cos_q1) = q1.sin_cos();
-            let (sin_q3, cos_q3) = q3.sin_cos();
             let sum_2 = l3.mul_add(cos_q3, l01);
             let l3_sin_q3 = l3 * sin_q3;
-            let (sin_q5, cos_q5) = q5.sin_cos();
             canvas
                 .line(
                     &[

@@ -152,15 +152,15 @@ pub mod double_pendulum {
             if !out.is_filled_by(&STRUCTURE) {
                 return self.begin_terms(state, out);
             }
-            let [q1, q2] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
             let [q1_dot, q2_dot] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, j1, j2 } = self.parameters;
             out.mass.data.0[0][0] = (l1 * l1)
                 .mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
             let m2_l2 = m2 * l2;
             out.mass.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
-            let (sin_q1, cos_q1) = q1.sin_cos();
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let product = T::from_f64(0.5) * l1;
             let product_2 = m2_l2 * cos_q1.mul_add(cos_q2, sin_q1 * sin_q2) * product;
             out.mass.data.0[0][1] = product_2;
@@ -196,11 +196,11 @@ pub mod double_pendulum {
             state: &State<T, 2>,
             out: &mut Acceleration<T, 2, 0>,
         ) -> bool {
-            let [q1, q2] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
             let [q1_dot, q2_dot] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, j1, j2 } = self.parameters;
-            let (sin_q2, cos_q2) = q2.sin_cos();
-            let (sin_q1, cos_q1) = q1.sin_cos();
             let sin_q2_cos_q1 = sin_q2 * cos_q1;
             let sin_q1_cos_q2 = sin_q1 * cos_q2;
             let sum = (-(T::constant(4.905, -2.486899575160351e-16) * sin_q1))
@@ -246,14 +246,14 @@ pub mod double_pendulum {
         ///
         /// Costs 30 products, 18 sums, 2 sine–cosine pairs. As derived: 72 products, 19 sums, 2 sine–cosine pairs.
         fn energy(&self, state: &State<T, 2>) -> Energy<T> {
-            let [q1, q2] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
             let [q1_dot, q2_dot] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, j1, j2 } = self.parameters;
             let product = T::from_f64(0.5) * q1_dot;
             let product_2 = j1 * q1_dot * product;
             let product_3 = T::from_f64(0.5) * j2 * q2_dot * q2_dot;
-            let (sin_q1, cos_q1) = q1.sin_cos();
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let q2_dot_l2 = q2_dot * l2;
             let l1_m2 = l1 * m2;
             let product_4 = product * l1_m2;
@@ -299,12 +299,12 @@ pub mod double_pendulum {
             if !out.is_filled_by(&STRUCTURE) {
                 out.clear(&STRUCTURE);
             }
-            let [q1, q2] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
             let [q1_dot, q2_dot] = state.v.data.0[0];
             let [q1_ddot, q2_ddot] = acceleration.data.0[0];
             let Parameters { l1, l2, m1, m2, .. } = self.parameters;
-            let (sin_q2, cos_q2) = q2.sin_cos();
-            let (sin_q1, cos_q1) = q1.sin_cos();
             let l2_m2 = l2 * m2;
             let product = l1 * l2_m2;
             let product_2 = T::from_f64(0.5) * product;
@@ -365,13 +365,13 @@ pub mod double_pendulum {
         /// Costs 11 products, 4 sums, 2 sine–cosine pairs. As derived: 38 products, 7 sums, 2 sine–cosine pairs.
         pub fn mass_matrix(&self, state: &State<T, 2>) -> SMatrix<T, 2, 2> {
             let mut out = SMatrix::zeros();
-            let [q1, q2] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
             let Parameters { l1, l2, m1, m2, j1, j2 } = self.parameters;
             out.data.0[0][0] = (l1 * l1).mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
             let m2_l2 = m2 * l2;
             out.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
-            let (sin_q1, cos_q1) = q1.sin_cos();
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let product = T::from_f64(0.5) * l1 * m2_l2
                 * cos_q1.mul_add(cos_q2, sin_q1 * sin_q2);
             out.data.0[0][1] = product;
@@ -383,13 +383,11 @@ pub mod double_pendulum {
         /// Costs 7 products, 1 sum, 2 sine–cosine pairs. As derived: 9 products, 1 sum, 2 sine–cosine pairs.
         pub fn potential_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
             let mut out = SVector::zeros();
-            let [q1, q2] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [_, _]) = T::sin_cos_all(&state.q.data.0[0]);
             let Parameters { l1, l2, m1, m2, .. } = self.parameters;
-            let (sin_q1, _) = q1.sin_cos();
             out.data.0[0][0] = l1 * sin_q1
                 * T::constant(9.81, -4.973799150320702e-16)
                     .mul_add(m2, T::constant(4.905, -2.486899575160351e-16) * m1);
-            let (sin_q2, _) = q2.sin_cos();
             out.data.0[0][1] = T::constant(4.905, -2.486899575160351e-16) * m2 * l2
                 * sin_q2;
             out
@@ -406,11 +404,11 @@ pub mod double_pendulum {
         /// Costs 11 products, 2 sums, 2 sine–cosine pairs. As derived: 62 products, 16 sums, 2 sine–cosine pairs.
         pub fn coriolis_force(&self, state: &State<T, 2>) -> SVector<T, 2> {
             let mut out = SVector::zeros();
-            let [q1, q2] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
             let [q1_dot, q2_dot] = state.v.data.0[0];
             let Parameters { l1, l2, m2, .. } = self.parameters;
-            let (sin_q1, cos_q1) = q1.sin_cos();
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let sin_q1_cos_q2 = sin_q1 * cos_q2;
             let cos_q1_sin_q2 = cos_q1 * sin_q2;
             let product = (l1 * l2) * (T::from_f64(0.5) * m2);
@@ -426,11 +424,11 @@ pub mod double_pendulum {
         /// Costs 8 products, 2 sums, 2 sine–cosine pairs. As derived: 12 products, 2 sums, 2 sine–cosine pairs.
         pub fn coriolis_matrix(&self, state: &State<T, 2>) -> SMatrix<T, 2, 2> {
             let mut out = SMatrix::zeros();
-            let [q1, q2] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
             let [q1_dot, q2_dot] = state.v.data.0[0];
             let Parameters { l1, l2, m2, .. } = self.parameters;
-            let (sin_q1, cos_q1) = q1.sin_cos();
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let product = T::from_f64(0.5)
                 * (m2 * (l1 * l2 * (-cos_q1).mul_add(sin_q2, sin_q1 * cos_q2)));
             out.data.0[0][1] = -q1_dot * product;
@@ -487,10 +485,10 @@ pub mod double_pendulum {
         }
         /// Costs 4 products, 3 sums, 2 sine–cosine pairs.
         fn outputs(&self, state: &State<T, 2>, values: &mut [T]) {
-            let [q1, q2] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
             let Parameters { l1, l2, .. } = self.parameters;
-            let (sin_q1, cos_q1) = q1.sin_cos();
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let computed = [
                 l2.mul_add(sin_q2, l1 * sin_q1),
                 (-l2).mul_add(cos_q2, -l1 * cos_q1),
@@ -501,12 +499,12 @@ pub mod double_pendulum {
         }
         fn events(&self, _state: &State<T, 2>, _values: &mut [T]) {}
         fn draw(&self, state: &State<T, 2>, canvas: &mut dyn Canvas<T>) {
-            let [q1, q2] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(
+                &state.q.data.0[0],
+            );
             let Parameters { l1, l2, .. } = self.parameters;
-            let (sin_q1, cos_q1) = q1.sin_cos();
             let l1_sin_q1 = l1 * sin_q1;
             let l1_cos_q1 = l1 * cos_q1;
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let sum = l2.mul_add(sin_q2, l1_sin_q1);
             let sum_2 = (-l2).mul_add(cos_q2, -l1_cos_q1);
             canvas

@@ -166,14 +166,13 @@ pub mod driven_pivot {
             }
             let t = state.t;
             let [_, phi] = state.q.data.0[0];
-            let [_, phi_dot] = state.v.data.0[0];
             let Parameters { a, w, m, e, j, d } = self.parameters;
+            let ([sin_phi, _], [cos_phi, cos_angle]) = T::sin_cos_all(&[phi, w * t]);
+            let [_, phi_dot] = state.v.data.0[0];
             out.mass.data.0[0][0] = m;
             let m_e = m * e;
             out.mass.data.0[1][1] = e.mul_add(m_e, j);
-            let (_, cos_angle) = (w * t).sin_cos();
             out.bias.data.0[0][0] = -a * w * w * cos_angle;
-            let (sin_phi, cos_phi) = phi.sin_cos();
             let product = m_e * sin_phi;
             let sum = -product;
             out.mass.data.0[0][1] = sum;
@@ -195,11 +194,11 @@ pub mod driven_pivot {
         ) -> bool {
             let t = state.t;
             let [_, phi] = state.q.data.0[0];
-            let [_, phi_dot] = state.v.data.0[0];
             let Parameters { a, w, m, e, j, d } = self.parameters;
+            let ([sin_phi, _], [cos_phi, cos_angle]) = T::sin_cos_all(&[phi, w * t]);
+            let [_, phi_dot] = state.v.data.0[0];
             let quotient = T::one() / m;
             let m_e = m * e;
-            let (sin_phi, cos_phi) = phi.sin_cos();
             let sum = (-T::constant(9.81, -4.973799150320702e-16))
                 .mul_add(m, m_e * phi_dot * phi_dot * cos_phi);
             let product = m_e * sin_phi;
@@ -212,7 +211,6 @@ pub mod driven_pivot {
             let product_3 = product_2 * quotient_2;
             let sum_4 = product_2.mul_add(product_3, quotient);
             out.pivots.row_pivots.data.0[0][0] = sum_4;
-            let (_, cos_angle) = (w * t).sin_cos();
             let sum_5 = sum
                 .mul_add(
                     product_2,
@@ -244,14 +242,13 @@ pub mod driven_pivot {
             let t = state.t;
             let [y, phi] = state.q.data.0[0];
             let Parameters { a, w, m, e, j, .. } = self.parameters;
+            let w_t = w * t;
+            let ([sin_phi, sin_angle], [_, cos_angle]) = T::sin_cos_all(&[phi, w_t]);
             out.mass.data.0[0][0] = m;
             let m_e = m * e;
             out.mass.data.0[1][1] = e.mul_add(m_e, j);
-            let w_t = w * t;
-            let (sin_angle, cos_angle) = w_t.sin_cos();
             out.drift.data.0[0][0] = a * w * sin_angle;
             out.residual.data.0[0][0] = (-a).mul_add(cos_angle, y);
-            let (sin_phi, _) = phi.sin_cos();
             let sum = -m_e * sin_phi;
             out.mass.data.0[0][1] = sum;
             out.mass.data.0[1][0] = sum;
@@ -268,15 +265,14 @@ pub mod driven_pivot {
         ) -> bool {
             let t = state.t;
             let [y, phi] = state.q.data.0[0];
-            let [y_dot, _] = state.v.data.0[0];
             let Parameters { a, w, m, e, j, .. } = self.parameters;
             let w_t = w * t;
-            let (sin_angle, cos_angle) = w_t.sin_cos();
+            let ([sin_phi, sin_angle], [_, cos_angle]) = T::sin_cos_all(&[phi, w_t]);
+            let [y_dot, _] = state.v.data.0[0];
             let sum = (-a).mul_add(cos_angle, y);
             out.residual.data.0[0][0] = sum;
             let quotient = T::one() / m;
             let m_e = m * e;
-            let (sin_phi, _) = phi.sin_cos();
             let product = m_e * sin_phi;
             let product_2 = quotient * product;
             let sum_2 = e.mul_add(m_e, j);

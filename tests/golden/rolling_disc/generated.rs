@@ -158,6 +158,9 @@ pub mod rolling_disc {
                 return self.begin_terms(state, out);
             }
             let [_, _, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let [_, _, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
             out.mass.data.0[0][0] = m;
@@ -167,12 +170,10 @@ pub mod rolling_disc {
             out.mass.data.0[3][3] = T::from_f64(1.25) * product;
             let product_2 = T::from_f64(0.5) * product;
             out.mass.data.0[4][4] = product_2;
-            let (sin_psi, cos_psi) = psi.sin_cos();
             let r_cos_psi = r * cos_psi;
             out.jacobian.data.0[4][0] = -r_cos_psi;
             let r_sin_psi = r * sin_psi;
             out.jacobian.data.0[4][1] = -r_sin_psi;
-            let (sin_theta, cos_theta) = theta.sin_cos();
             let cos_psi_sin_theta = cos_psi * sin_theta;
             let product_3 = m_r * cos_psi_sin_theta;
             out.mass.data.0[0][2] = product_3;
@@ -228,12 +229,13 @@ pub mod rolling_disc {
             out: &mut Acceleration<T, 5, 2>,
         ) -> bool {
             let [_, _, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let [_, _, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
             let quotient = T::one() / m;
             let m_r = m * r;
-            let (sin_psi, cos_psi) = psi.sin_cos();
-            let (sin_theta, cos_theta) = theta.sin_cos();
             let sin_psi_sin_theta = sin_psi * sin_theta;
             let sum = theta_dot.mul_add(theta_dot, psi_dot * psi_dot);
             let psi_dot_cos_theta = psi_dot * cos_theta;
@@ -410,6 +412,9 @@ pub mod rolling_disc {
                 return self.begin_position(state, out);
             }
             let [_, _, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let Parameters { r, m } = self.parameters;
             out.mass.data.0[0][0] = m;
             out.mass.data.0[1][1] = m;
@@ -419,10 +424,8 @@ pub mod rolling_disc {
             out.mass.data.0[3][3] = product_2;
             let product_3 = T::from_f64(0.5) * product;
             out.mass.data.0[4][4] = product_3;
-            let (sin_psi, cos_psi) = psi.sin_cos();
             out.jacobian.data.0[4][0] = -r * cos_psi;
             out.jacobian.data.0[4][1] = -r * sin_psi;
-            let (sin_theta, cos_theta) = theta.sin_cos();
             let product_4 = m_r * cos_psi;
             let product_5 = sin_theta * product_4;
             out.mass.data.0[0][2] = product_5;
@@ -454,11 +457,12 @@ pub mod rolling_disc {
             out: &mut Correction<T, 5, 2>,
         ) -> bool {
             let [_, _, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let [x_dot, y_dot, _, _, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
-            let (sin_theta, cos_theta) = theta.sin_cos();
             let m_r = m * r;
-            let (sin_psi, cos_psi) = psi.sin_cos();
             let product = m_r * cos_psi;
             let product_2 = sin_theta * product;
             let quotient = T::one() / m;
@@ -563,13 +567,14 @@ pub mod rolling_disc {
         /// Costs 34 products, 21 sums, 2 sine–cosine pairs. As derived: 89 products, 22 sums, 2 sine–cosine pairs.
         fn energy(&self, state: &State<T, 5>) -> Energy<T> {
             let [_, _, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let [x_dot, y_dot, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
             let r_m = r * m;
-            let (sin_theta, cos_theta) = theta.sin_cos();
             let product = r_m * cos_theta;
             let product_2 = T::constant(9.81, -4.973799150320702e-16) * product;
-            let (sin_psi, cos_psi) = psi.sin_cos();
             let psi_dot_sin_theta = psi_dot * sin_theta;
             let product_3 = r_m * psi_dot_sin_theta;
             let product_4 = x_dot * cos_psi * product_3;
@@ -623,20 +628,21 @@ pub mod rolling_disc {
                 out.clear(&STRUCTURE);
             }
             let [_, _, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let [_, _, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let [x_ddot, y_ddot, psi_ddot, theta_ddot, phi_ddot] = acceleration
                 .data
                 .0[0];
             let [lambda_0, lambda_1] = multiplier.data.0[0];
             let Parameters { r, m } = self.parameters;
-            let (sin_psi, cos_psi) = psi.sin_cos();
             out.force_by_position.data.0[2][4] = r
                 * (-sin_psi).mul_add(lambda_0, cos_psi * lambda_1);
             let sin_psi_psi_dot = sin_psi * psi_dot;
             out.row_by_velocity.data.0[4][0] = -r * sin_psi_psi_dot;
             let cos_psi_psi_dot = cos_psi * psi_dot;
             out.row_by_velocity.data.0[4][1] = r * cos_psi_psi_dot;
-            let (sin_theta, cos_theta) = theta.sin_cos();
             let sum = theta_dot.mul_add(theta_dot, psi_dot * psi_dot);
             let product = sin_theta * sum;
             let cos_theta_theta_ddot = cos_theta * theta_ddot;
@@ -763,6 +769,9 @@ pub mod rolling_disc {
         pub fn mass_matrix(&self, state: &State<T, 5>) -> SMatrix<T, 5, 5> {
             let mut out = SMatrix::zeros();
             let [_, _, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let Parameters { r, m } = self.parameters;
             out.data.0[0][0] = m;
             out.data.0[1][1] = m;
@@ -772,8 +781,6 @@ pub mod rolling_disc {
             out.data.0[3][3] = product_2;
             let product_3 = T::from_f64(0.5) * product;
             out.data.0[4][4] = product_3;
-            let (sin_theta, cos_theta) = theta.sin_cos();
-            let (sin_psi, cos_psi) = psi.sin_cos();
             let product_4 = m_r * cos_psi;
             let product_5 = sin_theta * product_4;
             out.data.0[0][2] = product_5;
@@ -820,10 +827,11 @@ pub mod rolling_disc {
         pub fn coriolis_force(&self, state: &State<T, 5>) -> SVector<T, 5> {
             let mut out = SVector::zeros();
             let [_, _, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let [_, _, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
-            let (sin_psi, cos_psi) = psi.sin_cos();
-            let (sin_theta, cos_theta) = theta.sin_cos();
             let theta_dot_cos_theta = theta_dot * cos_theta;
             let product = T::from_f64(2.0) * theta_dot_cos_theta;
             let psi_dot_sin_theta = psi_dot * sin_theta;
@@ -857,12 +865,13 @@ pub mod rolling_disc {
         pub fn coriolis_matrix(&self, state: &State<T, 5>) -> SMatrix<T, 5, 5> {
             let mut out = SMatrix::zeros();
             let [_, _, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let [_, _, psi_dot, theta_dot, phi_dot] = state.v.data.0[0];
             let Parameters { r, m } = self.parameters;
-            let (sin_theta, cos_theta) = theta.sin_cos();
             let r_m = r * m;
             let product = cos_theta * r_m;
-            let (sin_psi, cos_psi) = psi.sin_cos();
             let theta_dot_cos_psi = theta_dot * cos_psi;
             let product_2 = r_m * sin_theta;
             let psi_dot_sin_psi = psi_dot * sin_psi;
@@ -993,9 +1002,10 @@ pub mod rolling_disc {
         /// Costs 4 products, 2 sums, 2 sine–cosine pairs. As derived: 5 products, 2 sums, 2 sine–cosine pairs.
         fn outputs(&self, state: &State<T, 5>, values: &mut [T]) {
             let [x, y, psi, theta, _] = state.q.data.0[0];
+            let ([sin_psi, sin_theta], [cos_psi, cos_theta]) = T::sin_cos_all(
+                &[psi, theta],
+            );
             let Parameters { r, .. } = self.parameters;
-            let (sin_psi, cos_psi) = psi.sin_cos();
-            let (sin_theta, cos_theta) = theta.sin_cos();
             let r_sin_theta = r * sin_theta;
             let computed = [
                 sin_psi.mul_add(r_sin_theta, x),
@@ -1009,14 +1019,14 @@ pub mod rolling_disc {
         fn events(&self, _state: &State<T, 5>, _values: &mut [T]) {}
         fn draw(&self, state: &State<T, 5>, canvas: &mut dyn Canvas<T>) {
             let [x, y, psi, theta, phi] = state.q.data.0[0];
+            let ([sin_psi, sin_theta, sin_phi], [cos_psi, cos_theta, cos_phi]) = T::sin_cos_all(
+                &[psi, theta, phi],
+            );
             let Parameters { r, .. } = self.parameters;
-            let (sin_psi, cos_psi) = psi.sin_cos();
-            let (sin_theta, cos_theta) = theta.sin_cos();
             let r_sin_theta = r * sin_theta;
             let product = sin_psi * r_sin_theta;
             let sum = x + product;
             let r_cos_theta = r * cos_theta;
-            let (sin_phi, cos_phi) = phi.sin_cos();
             let r_sin_phi = r * sin_phi;
             let sum_2 = sum + product.mul_add(cos_phi, cos_psi * r_sin_phi);
             let sum_3 = r_cos_theta.mul_add(cos_phi, r_cos_theta);

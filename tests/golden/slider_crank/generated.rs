@@ -183,6 +183,7 @@ pub mod slider_crank {
                 return self.begin_terms(state, out);
             }
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
             out.mass.data.0[0][0] = (l1 * l1)
@@ -190,12 +191,10 @@ pub mod slider_crank {
             let m2_l2 = m2 * l2;
             out.mass.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             out.mass.data.0[2][2] = m3;
-            let (sin_q1, cos_q1) = q1.sin_cos();
             let l1_sin_q1 = l1 * sin_q1;
             out.jacobian.data.0[0][0] = -l1_sin_q1;
             let l1_cos_q1 = l1 * cos_q1;
             out.jacobian.data.0[0][1] = l1_cos_q1;
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let product = T::from_f64(0.5) * m2_l2
                 * (-l1_cos_q1).mul_add(cos_q2, l1_sin_q1 * sin_q2);
             out.mass.data.0[0][1] = product;
@@ -235,16 +234,15 @@ pub mod slider_crank {
             out: &mut Acceleration<T, 3, 2>,
         ) -> bool {
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
             let quotient = T::one()
                 / (l1 * l1).mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
-            let (sin_q1, cos_q1) = q1.sin_cos();
             let l1_sin_q1 = l1 * sin_q1;
             let quotient_2 = T::one() / m3;
             let product = quotient * l1_sin_q1;
             let m2_l2 = m2 * l2;
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let l1_cos_q1 = l1 * cos_q1;
             let product_2 = T::from_f64(0.5) * m2_l2
                 * (-l1_cos_q1).mul_add(cos_q2, l1_sin_q1 * sin_q2);
@@ -332,18 +330,17 @@ pub mod slider_crank {
                 return self.begin_position(state, out);
             }
             let [q1, q2, q3] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
             out.mass.data.0[0][0] = (l1 * l1)
                 .mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
             let m2_l2 = m2 * l2;
             out.mass.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             out.mass.data.0[2][2] = m3;
-            let (sin_q1, cos_q1) = q1.sin_cos();
             let l1_sin_q1 = l1 * sin_q1;
             out.jacobian.data.0[0][0] = -l1_sin_q1;
             let l1_cos_q1 = l1 * cos_q1;
             out.jacobian.data.0[0][1] = l1_cos_q1;
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let product = T::from_f64(0.5) * m2_l2
                 * (-l1_cos_q1).mul_add(cos_q2, l1_sin_q1 * sin_q2);
             out.mass.data.0[0][1] = product;
@@ -366,11 +363,10 @@ pub mod slider_crank {
             out: &mut Correction<T, 3, 2>,
         ) -> bool {
             let [q1, q2, q3] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, q3_dot] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
-            let (sin_q1, cos_q1) = q1.sin_cos();
             let l1_sin_q1 = l1 * sin_q1;
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let l2_sin_q2 = l2 * sin_q2;
             let sum = l1_sin_q1 - l2_sin_q2;
             out.residual.data.0[0][1] = sum;
@@ -452,14 +448,13 @@ pub mod slider_crank {
         /// Costs 33 products, 19 sums, 2 sine–cosine pairs. As derived: 54 products, 17 sums, 2 sine–cosine pairs.
         fn energy(&self, state: &State<T, 3>) -> Energy<T> {
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, q3_dot] = state.v.data.0[0];
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
-            let (sin_q1, cos_q1) = q1.sin_cos();
             let l1_m1 = l1 * m1;
             let product = T::constant(4.905, -2.486899575160351e-16) * sin_q1 * l1_m1;
             let l1_m2 = l1 * m2;
             let product_2 = T::constant(9.81, -4.973799150320702e-16) * sin_q1 * l1_m2;
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let m2_l2 = m2 * l2;
             let product_3 = T::constant(4.905, -2.486899575160351e-16) * sin_q2 * m2_l2;
             let product_4 = T::from_f64(0.5) * j2 * q2_dot * q2_dot;
@@ -507,11 +502,11 @@ pub mod slider_crank {
                 out.clear(&STRUCTURE);
             }
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let [q1_ddot, q2_ddot, _] = acceleration.data.0[0];
             let [lambda_0, lambda_1] = multiplier.data.0[0];
             let Parameters { l1, l2, m1, m2, .. } = self.parameters;
-            let (sin_q1, cos_q1) = q1.sin_cos();
             let q1_dot_q1_dot = q1_dot * q1_dot;
             out.row_by_position.data.0[0][0] = l1
                 * (-sin_q1).mul_add(q1_dot_q1_dot, cos_q1 * q1_ddot);
@@ -521,7 +516,6 @@ pub mod slider_crank {
             out.row_by_velocity.data.0[0][0] = cos_q1 * product;
             out.row_by_velocity.data.0[0][1] = sin_q1 * product;
             let q2_dot_q2_dot = q2_dot * q2_dot;
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let product_2 = l2 * (l1 * m2);
             let product_3 = T::from_f64(0.5) * product_2;
             let product_4 = sin_q1 * product_3;
@@ -606,13 +600,12 @@ pub mod slider_crank {
         pub fn mass_matrix(&self, state: &State<T, 3>) -> SMatrix<T, 3, 3> {
             let mut out = SMatrix::zeros();
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let Parameters { l1, l2, m1, m2, m3, j1, j2 } = self.parameters;
             out.data.0[0][0] = (l1 * l1).mul_add(T::from_f64(0.25).mul_add(m1, m2), j1);
             let m2_l2 = m2 * l2;
             out.data.0[1][1] = (T::from_f64(0.25) * l2).mul_add(m2_l2, j2);
             out.data.0[2][2] = m3;
-            let (sin_q1, cos_q1) = q1.sin_cos();
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let product = T::from_f64(0.5) * l1 * m2_l2
                 * (-cos_q1).mul_add(cos_q2, sin_q1 * sin_q2);
             out.data.0[0][1] = product;
@@ -625,12 +618,11 @@ pub mod slider_crank {
         pub fn potential_force(&self, state: &State<T, 3>) -> SVector<T, 3> {
             let mut out = SVector::zeros();
             let [q1, q2, _] = state.q.data.0[0];
+            let ([_, _], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let Parameters { l1, l2, m1, m2, .. } = self.parameters;
-            let (_, cos_q1) = q1.sin_cos();
             out.data.0[0][0] = l1 * cos_q1
                 * T::constant(9.81, -4.973799150320702e-16)
                     .mul_add(m2, T::constant(4.905, -2.486899575160351e-16) * m1);
-            let (_, cos_q2) = q2.sin_cos();
             out.data.0[0][1] = T::constant(-4.905, 2.486899575160351e-16) * m2 * l2
                 * cos_q2;
             out
@@ -648,10 +640,9 @@ pub mod slider_crank {
         pub fn coriolis_force(&self, state: &State<T, 3>) -> SVector<T, 3> {
             let mut out = SVector::zeros();
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, m2, .. } = self.parameters;
-            let (sin_q1, cos_q1) = q1.sin_cos();
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let product = (T::from_f64(0.5) * m2)
                 * (sin_q1.mul_add(cos_q2, cos_q1 * sin_q2) * (l1 * l2));
             out.data.0[0][0] = q2_dot * q2_dot * product;
@@ -665,10 +656,9 @@ pub mod slider_crank {
         pub fn coriolis_matrix(&self, state: &State<T, 3>) -> SMatrix<T, 3, 3> {
             let mut out = SMatrix::zeros();
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, m2, .. } = self.parameters;
-            let (sin_q1, cos_q1) = q1.sin_cos();
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let product = T::from_f64(0.5)
                 * (m2 * (l1 * l2 * sin_q1.mul_add(cos_q2, cos_q1 * sin_q2)));
             out.data.0[0][1] = q1_dot * product;
@@ -681,9 +671,8 @@ pub mod slider_crank {
         pub fn constraint_residual(&self, state: &State<T, 3>) -> SVector<T, 2> {
             let mut out = SVector::zeros();
             let [q1, q2, q3] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let Parameters { l1, l2, .. } = self.parameters;
-            let (sin_q1, cos_q1) = q1.sin_cos();
-            let (sin_q2, cos_q2) = q2.sin_cos();
             out.data.0[0][1] = (-l2).mul_add(sin_q2, l1 * sin_q1);
             out.data.0[0][0] = l2.mul_add(cos_q2, l1 * cos_q1) - q3;
             out
@@ -694,12 +683,11 @@ pub mod slider_crank {
         pub fn constraint_jacobian(&self, state: &State<T, 3>) -> SMatrix<T, 2, 3> {
             let mut out = SMatrix::zeros();
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let Parameters { l1, l2, .. } = self.parameters;
             out.data.0[2][0] = -T::one();
-            let (sin_q1, cos_q1) = q1.sin_cos();
             out.data.0[0][0] = -l1 * sin_q1;
             out.data.0[0][1] = l1 * cos_q1;
-            let (sin_q2, cos_q2) = q2.sin_cos();
             out.data.0[1][0] = -l2 * sin_q2;
             out.data.0[1][1] = -l2 * cos_q2;
             out
@@ -710,11 +698,10 @@ pub mod slider_crank {
         pub fn constraint_bias(&self, state: &State<T, 3>) -> SVector<T, 2> {
             let mut out = SVector::zeros();
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let [q1_dot, q2_dot, _] = state.v.data.0[0];
             let Parameters { l1, l2, .. } = self.parameters;
-            let (sin_q1, cos_q1) = q1.sin_cos();
             let product = q1_dot * (q1_dot * l1);
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let product_2 = q2_dot * (q2_dot * l2);
             out.data.0[0][0] = cos_q2.mul_add(product_2, cos_q1 * product);
             out.data.0[0][1] = (-product_2).mul_add(sin_q2, product * sin_q1);
@@ -777,9 +764,8 @@ pub mod slider_crank {
         /// Costs 5 products, 2 sums, 2 sine–cosine pairs. As derived: 6 products, 2 sums, 2 sine–cosine pairs.
         fn outputs(&self, state: &State<T, 3>, values: &mut [T]) {
             let [q1, q2, _] = state.q.data.0[0];
+            let ([sin_q1, sin_q2], [cos_q1, cos_q2]) = T::sin_cos_all(&[q1, q2]);
             let Parameters { l1, l2, .. } = self.parameters;
-            let (sin_q1, cos_q1) = q1.sin_cos();
-            let (sin_q2, cos_q2) = q2.sin_cos();
             let product = T::from_f64(0.5) * l2;
             let computed = [
                 cos_q2.mul_add(product, l1 * cos_q1),
