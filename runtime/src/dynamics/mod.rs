@@ -32,6 +32,7 @@ mod refine;
 mod rows;
 mod schur_complement;
 mod settings;
+mod shares;
 mod singular_values;
 mod sizes;
 mod sliding;

@@ -4,8 +4,8 @@
 //! Out: the generalized reaction forces `r = p₁ − M q̈`, the multipliers `λ` of
 //!      `r = Aᵀλ`, as far as they are determined.
 
-use super::{ConstrainedSystem, Core, Source};
-use crate::linalg::{add_scaled, column, dot};
+use super::{ConstrainedSystem, Core};
+use crate::linalg::{add_scaled, dot};
 use crate::stack::with_room;
 use crate::system::escalating;
 use crate::{DynamicsError, Mechanism, Real, Sides, State};
@@ -46,7 +46,7 @@ where
     pub fn multipliers(&mut self, state: &State<T, N>) -> Result<[Option<T>; R], DynamicsError<T>> {
         with_room::<T, _, N, R>(|| {
             let (_, reaction) = self.reaction(state)?;
-            self.solver.shares_of(&self.mechanism, state.t, &reaction)
+            self.solver.shares_of(&self.mechanism, state, &reaction)
         })
     }
 
@@ -108,7 +108,7 @@ where
         state: &State<T, N>,
     ) -> Result<[Option<T>; R], DynamicsError<T>> {
         let reaction = self.reaction_within(state)?;
-        self.solver.shares_of(&self.mechanism, state.t, &reaction)
+        self.solver.shares_of(&self.mechanism, state, &reaction)
     }
 }
 
@@ -157,25 +157,5 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         add(below, T::one());
         terms.sides = sides;
         force
-    }
-
-    /// The `λ` of `Aᵀλ = r` at the state whose terms are in the buffer.
-    #[inline(never)]
-    fn shares_of(
-        &mut self,
-        mechanism: &dyn Mechanism<T, N, R>,
-        t: T,
-        reaction: &SVector<T, N>,
-    ) -> Result<[Option<T>; R], DynamicsError<T>> {
-        self.factorise_metric(mechanism, Source::Terms, t)?;
-        let mut lifted = reaction.data.0[0];
-        self.metric.factor.forward(&mut lifted);
-        let (mut multipliers, mut shared) = ([T::zero(); R], [false; R]);
-        self.decompose(Source::Terms, t, &mut |decomposition| {
-            decomposition.share(&lifted, &mut multipliers, &mut shared);
-        })?;
-        Ok(column(|row| {
-            (!shared[row]).then_some(multipliers[row] * self.rows.scale(row))
-        }))
     }
 }

@@ -15,7 +15,7 @@ use crate::linalg::{
     self, Breakdown, Workspace, add_scaled, count_above, dot, lift_row, norm, orthogonalise, scale,
 };
 use crate::once::compiled_once;
-use crate::tolerance::{difference, regular};
+use crate::tolerance::difference;
 use crate::{DynamicsError, Real};
 
 /// Rows in the metric, combined until they are orthogonal.
@@ -103,16 +103,23 @@ impl<'a, T: Real> SingularValueDecomposition<'a, T> {
         }
     }
 
-    /// How the rows share a lifted force, and for which of them nothing tells.
-    pub(crate) fn share(&self, lifted: &[T], shares: &mut [T], unknown: &mut [bool]) {
+    /// How the rows share a lifted force by the singular values above a bound, and for which of
+    /// them nothing tells: those with more than some part in one of the other combinations.
+    pub(crate) fn share(
+        &self,
+        lifted: &[T],
+        (least, part): (T, T),
+        shares: &mut [T],
+        unknown: &mut [bool],
+    ) {
         let directions = self.directions.chunks_exact(self.n);
         for (k, (value, direction)) in self.values.iter().zip(directions).enumerate() {
-            if *value > regular() {
+            if *value > least {
                 add_scaled(shares, dot(direction, lifted) / *value, self.left(k));
                 continue;
             }
-            for (unknown, part) in unknown.iter_mut().zip(self.left(k)) {
-                *unknown |= part.abs() > regular();
+            for (unknown, own) in unknown.iter_mut().zip(self.left(k)) {
+                *unknown |= own.abs() > part;
             }
         }
     }

@@ -25,7 +25,7 @@ use nalgebra::{SMatrix, SVector};
 
 /// Speed of a sheet, relative to the largest so far, below which its direction has too few
 /// digits.
-const STOPPED: f64 = 1e-3;
+pub(super) const STOPPED: f64 = 1e-3;
 
 /// A chart of the sheet on which the motion lives. What there is of each coordinate or row
 /// is in the order of the factors.

@@ -3,6 +3,7 @@
 //! In:  a [`Chart`](super::Chart).
 //! Out: [`Product`], and of each of its factors a [`ChartView`].
 
+use super::chart::STOPPED;
 use super::part::{Part, Place, parts};
 use crate::dynamics::CoordinateScale;
 use crate::linalg::{Workspace, dot, solve_in_subspace};
@@ -90,7 +91,7 @@ impl<'a, T: Real> Product<'a, T> {
     }
 
     /// How many constraint rows are independent at regular states.
-    pub(super) fn rank(&self) -> usize {
+    pub(crate) fn rank(&self) -> usize {
         let freedoms: usize = self.factors.iter().map(|factor| factor.freedoms).sum();
         self.q.len() - freedoms
     }
@@ -127,6 +128,21 @@ impl<'a, T: Real> Product<'a, T> {
                 place.part.put(own, column);
             }
         }
+    }
+
+    /// The direction in which the sheet of each factor moves, or moved before it nearly stopped.
+    pub(crate) fn put_heading(&self, all: &mut [T]) {
+        for (place, _) in self.factors() {
+            place.part.put(&self.heading[place.coordinates], all);
+        }
+    }
+
+    /// How fast the sheet moves with a drift, unless all factors have nearly stopped.
+    pub(crate) fn moving(&self, drift: &[T]) -> Option<T> {
+        let speed = self.length(drift);
+        let known = self.factors.iter().map(|factor| factor.speed);
+        let known = known.fold(T::zero(), T::max);
+        Some(speed).filter(|speed| *speed > known * T::from_f64(STOPPED))
     }
 
     /// Replaces a force by `D z` with `DᵀMD z = Dᵀf`, for these tangent vectors of each

@@ -11,6 +11,7 @@ mod massless;
 mod mirrored;
 mod narrow;
 mod passages;
+mod reactions;
 mod redundant;
 mod references;
 mod scalar;
