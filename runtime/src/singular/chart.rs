@@ -13,7 +13,7 @@
 //! chart is made of those of its factors, each in its own block of `M`.
 
 use super::part::{Part, parts};
-use super::product::{Factor, Offsets, Product, length};
+use super::product::{Factor, Offsets, Product, STOPPED, length};
 use crate::dynamics::{CoordinateScale, Rows};
 use crate::linalg::{
     Cholesky, Workspace, add_scaled, dot, multiply_upper, multiply_upper_transposed, norm,
@@ -22,10 +22,6 @@ use crate::linalg::{
 use crate::tolerance::{excusable, resolved};
 use crate::{ConnectedComponent, Real, State};
 use nalgebra::{SMatrix, SVector};
-
-/// Speed of a sheet, relative to the largest so far, below which its direction has too few
-/// digits.
-pub(super) const STOPPED: f64 = 1e-3;
 
 /// A chart of the sheet on which the motion lives. What there is of each coordinate or row
 /// is in the order of the factors.

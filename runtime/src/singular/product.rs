@@ -3,12 +3,15 @@
 //! In:  a [`Chart`](super::Chart).
 //! Out: [`Product`], and of each of its factors a [`ChartView`].
 
-use super::chart::STOPPED;
 use super::part::{Part, Place, parts};
 use crate::dynamics::CoordinateScale;
 use crate::linalg::{Workspace, dot, solve_in_subspace};
 use crate::once::compiled_once;
 use crate::{ConnectedComponent, Real};
+
+/// Speed of a sheet, relative to the largest so far, below which its direction has too few
+/// digits.
+pub(super) const STOPPED: f64 = 1e-3;
 
 /// What a chart knows of one factor of the product.
 #[derive(Clone, Copy, Debug)]
