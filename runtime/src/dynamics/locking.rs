@@ -132,7 +132,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
 
     /// The acceleration of a motion that slides.
     #[inline(never)]
-    fn sliding_acceleration(
+    pub(super) fn sliding_acceleration(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
         state: &State<T, N>,

@@ -93,13 +93,7 @@ where
         }
         // The weights of the forces are those of this state.
         self.acceleration_within(state)?;
-        let sides = self.solver.terms.sides;
-        let held = self.solver.held_force(&self.mechanism, state);
-        self.solver.terms.sides = Sides::FREE;
-        self.mechanism.terms(state, &mut self.solver.terms);
-        self.solver.terms.sides = sides;
-        let more = held - self.solver.terms.force;
-        Ok(dot(more.as_slice(), state.v.as_slice()))
+        Ok(self.solver.held_power(&self.mechanism, state))
     }
 
     /// The multipliers within a step, likewise.
@@ -124,6 +118,23 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         let mut reaction = self.held_force(mechanism, state);
         self.terms.take_inertia(&mut reaction, acceleration);
         reaction
+    }
+
+    /// By how much the power of the forces of a motion that slides differs, with the weights of
+    /// its forces, from what its state says.
+    #[inline(never)]
+    pub(super) fn held_power(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        state: &State<T, N>,
+    ) -> T {
+        let sides = self.terms.sides;
+        let held = self.held_force(mechanism, state);
+        self.terms.sides = Sides::FREE;
+        mechanism.terms(state, &mut self.terms);
+        self.terms.sides = sides;
+        let more = held - self.terms.force;
+        dot(more.as_slice(), state.v.as_slice())
     }
 
     /// `p₁`, of a motion that slides with the weights of its forces.

@@ -75,15 +75,17 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         start: &State<T, N>,
         end: &State<T, N>,
     ) -> Result<(), DynamicsError<T>> {
-        let chart = self.session.chart.take().filter(|_| self.is_beside());
-        match chart {
-            None => self.verify_far(mechanism, start, end),
-            Some(chart) => {
-                let result = self.verify_near(mechanism, &chart, start, end);
-                self.session.chart = Some(chart);
-                result
-            }
+        if !self.is_beside() {
+            self.session.chart = None;
+            return self.verify_far(mechanism, start, end);
         }
+        let sliding = self.sliding_powers(mechanism, [start, end])?;
+        let Some(chart) = self.session.chart.take() else {
+            return Ok(());
+        };
+        let result = self.verify_near(mechanism, &chart, (start, end), sliding);
+        self.session.chart = Some(chart);
+        result
     }
 
     /// The sine of the constraints where nothing is known of it yet.
@@ -133,7 +135,10 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         self.look_between(mechanism, (start, end), comes_near)?;
         // Where nothing keeps a motion on the constraints, its energy drifts as it does.
         match outruns_rate && self.settings.stabilisation == Stabilisation::Projection {
-            true => self.verify_energy(mechanism, start, end),
+            true => {
+                let sliding = self.sliding_powers(mechanism, [start, end])?;
+                self.verify_energy(mechanism, (start, end), sliding)
+            }
             false => Ok(()),
         }
     }
@@ -209,8 +214,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
         chart: &Chart<T, N, R>,
-        start: &State<T, N>,
-        end: &State<T, N>,
+        (start, end): (&State<T, N>, &State<T, N>),
+        sliding: [T; 2],
     ) -> Result<(), DynamicsError<T>> {
         self.session.trial.chart = None;
         self.verify_choice(mechanism, chart, start, end)?;
@@ -236,7 +241,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if seeks && changes != Some(0) {
             self.verify_crossing(mechanism, chart, &start.towards(end, part))?;
         }
-        self.verify_energy(mechanism, start, end)?;
+        self.verify_energy(mechanism, (start, end), sliding)?;
         let Some(placed) = self.session.trial.placed.take() else {
             return Ok(());
         };
@@ -379,6 +384,25 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
     }
 
+    /// By how much the power of forces that a motion slides along differs, at both ends of a step,
+    /// from what the states say.
+    #[inline(never)]
+    fn sliding_powers(
+        &mut self,
+        mechanism: &dyn Mechanism<T, N, R>,
+        ends: [&State<T, N>; 2],
+    ) -> Result<[T; 2], DynamicsError<T>> {
+        let mut more = [T::zero(); 2];
+        if self.conditions.decided.sliding != 0 {
+            for (more, state) in more.iter_mut().zip(ends) {
+                // The weights of the forces are those of this state.
+                self.sliding_acceleration(mechanism, state)?;
+                *more = self.held_power(mechanism, state);
+            }
+        }
+        Ok(more)
+    }
+
     /// The energy must not have changed by more than the power that was supplied and the
     /// accepted error explain. Constraints that move do work of their own, and are not
     /// judged.
@@ -386,8 +410,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
     fn verify_energy(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
-        start: &State<T, N>,
-        end: &State<T, N>,
+        (start, end): (&State<T, N>, &State<T, N>),
+        sliding: [T; 2],
     ) -> Result<(), DynamicsError<T>> {
         // A law of time may stop at either end.
         let still = mechanism.structure().scleronomic;
@@ -397,7 +421,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
                 return Ok(());
             }
         }
-        let (before, after) = (mechanism.energy(start), mechanism.energy(end));
+        let (mut before, mut after) = (mechanism.energy(start), mechanism.energy(end));
+        (before.power, after.power) = (before.power + sliding[0], after.power + sliding[1]);
         let half = (end.t - start.t) * T::from_f64(0.5);
         // By the trapezoidal rule, whose error is less than what the power changes by.
         let supplied = half * (before.power + after.power);
