@@ -18,6 +18,26 @@ pub(super) struct Aim<T> {
     pub(super) tries: u32,
 }
 
+/// Changes of conditions within the length of one attempt at a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Burst<T> {
+    /// When the first was (s).
+    pub(super) since: T,
+    pub(super) count: usize,
+    /// The longest attempt that was made meanwhile (s).
+    pub(super) length: T,
+}
+
+impl<T: Real> Burst<T> {
+    pub(super) fn since(t: T) -> Self {
+        Self {
+            since: t,
+            count: 0,
+            length: T::zero(),
+        }
+    }
+}
+
 /// The conditions of a motion.
 #[derive(Clone, Debug)]
 pub(crate) struct Conditions<T, const N: usize> {
@@ -48,8 +68,8 @@ pub(crate) struct Decided<T> {
     pub(super) turned: T,
     /// Changes in a row that hardly got any further.
     pub(super) turns: usize,
-    /// When the changes that are counted together began (s), and how many there were.
-    pub(super) burst: (T, usize),
+    /// The changes that are counted together.
+    pub(super) burst: Burst<T>,
     /// The longest attempt at the step at hand (s).
     pub(super) attempt: T,
 }
@@ -82,7 +102,7 @@ impl<T: Real> Decided<T> {
             aim: None,
             turned: T::zero(),
             turns: 0,
-            burst: (T::zero(), 0),
+            burst: Burst::since(T::zero()),
             attempt: T::zero(),
         }
     }
@@ -95,7 +115,7 @@ impl<T: Real> Decided<T> {
         }
         (self.sliding, self.released, self.turns) = (0, 0, 0);
         (self.turned, self.attempt) = (t, T::zero());
-        self.burst = (t, 0);
+        self.burst = Burst::since(t);
         self.aim = None;
     }
 

@@ -15,7 +15,7 @@
 //! Source: Park & Barton, ACM Transactions on Modeling and Computer Simulation 6 (1996)
 //! 137–165 (discontinuity locking).
 
-use super::conditions::{Aim, Decided};
+use super::conditions::{Aim, Burst, Decided};
 use crate::crossing::{Left, NODES, SAME_TIME, Samples, first_crossing, nodes, zero};
 use crate::once::compiled_once;
 use crate::{Discontinuity, DynamicsError, Real, Sides, Switch, Switches, Switching, Watched};
@@ -323,13 +323,13 @@ impl<T: Real> Decided<T> {
         let later = t - self.turned > self.attempt * T::from_f64(HARDLY_LATER);
         self.turned = t;
         self.turns = if later { 0 } else { self.turns + 1 };
-        let (since, count) = self.burst;
-        self.burst = match t - since > self.attempt {
-            true => (t, 0),
-            false => (since, count + 1),
-        };
+        self.burst.length = self.burst.length.max(self.attempt);
+        if t - self.burst.since > self.burst.length {
+            self.burst = Burst::since(t);
+        }
+        self.burst.count += 1;
         let most = MOST_TURNS + 2 * self.list.len();
-        if self.turns > most || self.burst.1 > MOST_AT_ONCE {
+        if self.turns > most || self.burst.count > MOST_AT_ONCE {
             let condition = &self.list[index];
             return Err(DynamicsError::Sticks { t, condition });
         }

@@ -18,6 +18,10 @@ pub(crate) const SMALLEST_STEP: f64 = 4.0;
 /// Power of round-off that a step beside a singular configuration is given up at, in units of
 /// the longest one (4e-11 for `f64`).
 const CREEPING: f64 = 2.0 / 3.0;
+/// Power of round-off that steps are short at, likewise, and how many of them in a row are no way
+/// past what stands there.
+const SHORT: f64 = 0.5;
+const MOST_SHORT: usize = 1000;
 /// The next step aims at this fraction of the step that would just pass.
 const SAFETY: f64 = 0.9;
 /// Errors below this are not remembered: they would promise too much.
@@ -218,6 +222,8 @@ pub(crate) struct Control<T> {
     rejected: bool,
     /// The longest step that was accepted.
     longest: T,
+    /// How many of the last accepted steps were short in a row.
+    short: usize,
 }
 
 impl<T: Real> Control<T> {
@@ -234,13 +240,14 @@ impl<T: Real> Control<T> {
             last_error: T::from_f64(REMEMBERED_ERROR),
             rejected: false,
             longest: T::zero(),
+            short: 0,
         }
     }
 
     /// Whether a step that a singular configuration still stands in the way of is so short
-    /// that shorter ones would only creep up to it.
+    /// that shorter ones would only creep up to it, or comes after too many that were short.
     pub(crate) fn creeps(&self, h: T) -> bool {
-        h < self.longest * T::EPSILON.powf(T::from_f64(CREEPING))
+        h < self.longest * T::EPSILON.powf(T::from_f64(CREEPING)) || self.short > MOST_SHORT
     }
 
     /// Where the next trial step ends: at the bound if it is near, half-way
@@ -297,6 +304,8 @@ impl<T: Real> Control<T> {
         self.last_error = error.max(T::from_f64(REMEMBERED_ERROR));
         self.rejected = false;
         self.longest = self.longest.max(h);
+        let is_short = h < self.longest * T::EPSILON.powf(T::from_f64(SHORT));
+        self.short = if is_short { self.short + 1 } else { 0 };
         true
     }
 }
