@@ -7,6 +7,9 @@
 use super::sliding::Slid;
 use crate::{Condition, DynamicsError, Real, Sides, State, Switch};
 
+/// The round-off of a switching function, in units of that of its size.
+const ROUND_OFF: f64 = 64.0;
+
 /// What an attempt at a step was shortened for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Aim<T> {
@@ -63,6 +66,8 @@ pub(crate) struct Decided<T> {
     pub(super) weights: [T; Sides::ROOM],
     /// Sides, and those slid along, with which the last step was made.
     pub(super) made: Option<(Sides, u128)>,
+    /// The largest sizes of the switching functions so far, and of their rates.
+    pub(super) sizes: [Switch<T>; Sides::ROOM],
     pub(super) aim: Option<Aim<T>>,
     /// When a condition changed last (s).
     pub(super) turned: T,
@@ -99,6 +104,7 @@ impl<T: Real> Decided<T> {
             released: 0,
             weights: [T::zero(); Sides::ROOM],
             made: None,
+            sizes: [Switch::default(); Sides::ROOM],
             aim: None,
             turned: T::zero(),
             turns: 0,
@@ -117,6 +123,23 @@ impl<T: Real> Decided<T> {
         (self.turned, self.attempt) = (t, T::zero());
         self.burst = Burst::since(t);
         self.aim = None;
+        self.sizes = [Switch::default(); Sides::ROOM];
+    }
+
+    /// What switching functions and their rates are off by in any case, since they are sums of
+    /// terms as large as they have been.
+    pub(super) fn round_off(&self, index: usize) -> Switch<T> {
+        let part = T::EPSILON * T::from_f64(ROUND_OFF);
+        Switch {
+            value: self.sizes[index].value * part,
+            rate: self.sizes[index].rate * part,
+        }
+    }
+
+    /// Takes note of how large a switching function is, or its rate.
+    pub(super) fn take_note(&mut self, index: usize, Switch { value, rate }: Switch<T>) {
+        let size = &mut self.sizes[index];
+        (size.value, size.rate) = (size.value.max(value.abs()), size.rate.max(rate.abs()));
     }
 
     /// Holds the conditions as another motion did in its last step; where it has made

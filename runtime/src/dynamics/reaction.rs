@@ -120,8 +120,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         reaction
     }
 
-    /// By how much the power of the forces of a motion that slides differs, with the weights of
-    /// its forces, from what its state says.
+    /// By how much the power of the forces differs from what a state says of them, with their
+    /// conditions held, and the weights of those that the motion slides along.
     #[inline(never)]
     pub(super) fn held_power(
         &mut self,

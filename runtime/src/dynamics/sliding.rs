@@ -101,6 +101,16 @@ impl Slid {
 /// Conditions that make no difference of their own have no weight.
 #[inline(never)]
 fn solve<T: Real>(table: &mut [[T; ROOM + 1]; ROOM], count: usize) -> [T; ROOM] {
+    // What is left of equal rows is round-off.
+    for row in &mut table[..count] {
+        let size = row[..count]
+            .iter()
+            .fold(T::zero(), |most: T, x| most.max(x.abs()));
+        if size > T::zero() {
+            row.iter_mut().for_each(|entry| *entry /= size);
+        }
+    }
+    let least = T::EPSILON.sqrt();
     for k in 0..count {
         let size = |row: usize| table[row][k].abs();
         let pivot = (k..count).fold(
@@ -109,7 +119,7 @@ fn solve<T: Real>(table: &mut [[T; ROOM + 1]; ROOM], count: usize) -> [T; ROOM] 
         );
         table.swap(k, pivot);
         let head = table[k];
-        if head[k] == T::zero() {
+        if head[k].abs() <= least {
             continue;
         }
         for (i, row) in table[..count].iter_mut().enumerate() {
@@ -121,7 +131,7 @@ fn solve<T: Real>(table: &mut [[T; ROOM + 1]; ROOM], count: usize) -> [T; ROOM] 
             }
         }
     }
-    column(|k| match k < count && table[k][k] != T::zero() {
+    column(|k| match k < count && table[k][k].abs() > least {
         true => table[k][count] / table[k][k],
         false => T::zero(),
     })

@@ -169,9 +169,14 @@ impl<T: Real> dyn Motion<T> + '_ {
         let mut pushes = [T::zero(); 2];
         for (push, above) in pushes.iter_mut().zip([side > T::zero(), side < T::zero()]) {
             self.decided().sides.hold(place, above);
-            *push = self.rate(t, index)?.rate * side;
+            let found = self.rate(t, index)?;
+            self.decided().take_note(index, found);
+            *push = found.rate * side;
         }
-        let [leaves, returns] = [pushes[0] < T::zero(), pushes[1] > T::zero()];
+        // Where the motion slides along another function that vanishes with this one, neither
+        // side pushes.
+        let least = self.decided().round_off(index).rate;
+        let [leaves, returns] = [pushes[0] < -least, pushes[1] > least];
         if leaves && returns {
             self.decided().sliding |= 1 << index;
         }
@@ -209,53 +214,17 @@ impl<T: Real> dyn Motion<T> + '_ {
     /// The first condition that changes within a step, and when.
     fn first_change(&mut self) -> Result<Option<(usize, T)>, DynamicsError<T>> {
         let list = self.decided().list;
-        let ends = self.ends();
-        let times = nodes(ends);
+        let times = nodes(self.ends());
         let mut sampled = [[T::zero(); NODES]; AT_ONCE];
         let mut first: Option<(usize, T)> = None;
-        for (index, condition) in list.iter().enumerate() {
+        for index in 0..list.len() {
             if index % AT_ONCE == 0 {
                 self.sample(&times, index, &mut sampled);
             }
-            let found = if self.decided().slides(index) {
-                self.end_of_sliding(index)?
-            } else {
-                let decided = self.decided();
-                let (side, sides) = (decided.side(index), decided.sides);
-                let released = decided.released >> index & 1 == 1;
-                let quantity = Watched::Condition(condition.text);
-                let defined = |t, value: T| match value.partial_cmp(&T::zero()) {
-                    Some(_) => Ok(value),
-                    None => Err(DynamicsError::WatchedNotFinite { t, quantity }),
-                };
-                let mut value = |t| {
-                    let mut values = [Switch::default(); Sides::ROOM];
-                    self.values(t, &mut Switches::of(sides, &mut values[..=index]));
-                    defined(t, values[index].value)
-                };
-                let samples = Samples {
-                    times,
-                    values: sampled[index % AT_ONCE],
-                };
-                defined(ends.1, samples.values[NODES - 1])?;
-                // Cubics that join smoothly differ by the third power of the distance from the
-                // knot: what comes no farther beyond does not matter.
-                let noise = match condition.discontinuity {
-                    Discontinuity::Knot => self.noise().sqrt(),
-                    Discontinuity::Jump | Discontinuity::Kink => self.noise() * samples.size(),
-                };
-                let beyond = (-side * samples.values[0]).max(T::zero());
-                // One that has changed may still be on its other side by what a state that was put
-                // onto its sheet is off.
-                let margin = noise + beyond;
-                match earliest(&mut value, samples, side, margin)? {
-                    // Where it leaves zero the interpolant is as good as the step, no better.
-                    Some(t) if released && t < times[1] => {
-                        let samples = Samples::of(&mut value, (times[1], ends.1))?;
-                        earliest(&mut value, samples, side, margin)?
-                    }
-                    found => found,
-                }
+            let values = sampled[index % AT_ONCE];
+            let found = match self.decided().slides(index) {
+                true => self.end_of_sliding(index)?,
+                false => self.end_of_side(index, Samples { times, values })?,
             };
             if let Some(t) = found {
                 first = match first {
@@ -265,6 +234,51 @@ impl<T: Real> dyn Motion<T> + '_ {
             }
         }
         Ok(first)
+    }
+
+    /// When a sampled function leaves the side on which its condition is held.
+    fn end_of_side(
+        &mut self,
+        index: usize,
+        samples: Samples<T>,
+    ) -> Result<Option<T>, DynamicsError<T>> {
+        let ends = self.ends();
+        let (size, rate) = (samples.size(), T::zero());
+        let decided = self.decided();
+        decided.take_note(index, Switch { value: size, rate });
+        let round_off = decided.round_off(index).value;
+        let (side, sides) = (decided.side(index), decided.sides);
+        let released = decided.released >> index & 1 == 1;
+        let condition = &decided.list[index];
+        let quantity = Watched::Condition(condition.text);
+        let defined = |t, value: T| match value.partial_cmp(&T::zero()) {
+            Some(_) => Ok(value),
+            None => Err(DynamicsError::WatchedNotFinite { t, quantity }),
+        };
+        let mut value = |t| {
+            let mut values = [Switch::default(); Sides::ROOM];
+            self.values(t, &mut Switches::of(sides, &mut values[..=index]));
+            defined(t, values[index].value)
+        };
+        defined(ends.1, samples.values[NODES - 1])?;
+        // Cubics that join smoothly differ by the third power of the distance from the
+        // knot: what comes no farther beyond does not matter.
+        let noise = match condition.discontinuity {
+            Discontinuity::Knot => self.noise().sqrt(),
+            Discontinuity::Jump | Discontinuity::Kink => self.noise() * size + round_off,
+        };
+        let beyond = (-side * samples.values[0]).max(T::zero());
+        // One that has changed may still be on its other side by what a state that was put
+        // onto its sheet is off.
+        let margin = noise + beyond;
+        match earliest(&mut value, samples, side, margin)? {
+            // Where it leaves zero the interpolant is as good as the step, no better.
+            Some(t) if released && t < samples.times[1] => {
+                let samples = Samples::of(&mut value, (samples.times[1], ends.1))?;
+                earliest(&mut value, samples, side, margin)
+            }
+            found => Ok(found),
+        }
     }
 
     /// When one side no longer pushes back within a step that slides along a condition.

@@ -79,11 +79,11 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             self.session.chart = None;
             return self.verify_far(mechanism, start, end);
         }
-        let sliding = self.sliding_powers(mechanism, [start, end])?;
+        let held = self.held_powers(mechanism, [start, end])?;
         let Some(chart) = self.session.chart.take() else {
             return Ok(());
         };
-        let result = self.verify_near(mechanism, &chart, (start, end), sliding);
+        let result = self.verify_near(mechanism, &chart, (start, end), held);
         self.session.chart = Some(chart);
         result
     }
@@ -136,8 +136,8 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         // Where nothing keeps a motion on the constraints, its energy drifts as it does.
         match outruns_rate && self.settings.stabilisation == Stabilisation::Projection {
             true => {
-                let sliding = self.sliding_powers(mechanism, [start, end])?;
-                self.verify_energy(mechanism, (start, end), sliding)
+                let held = self.held_powers(mechanism, [start, end])?;
+                self.verify_energy(mechanism, (start, end), held)
             }
             false => Ok(()),
         }
@@ -215,7 +215,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         mechanism: &dyn Mechanism<T, N, R>,
         chart: &Chart<T, N, R>,
         (start, end): (&State<T, N>, &State<T, N>),
-        sliding: [T; 2],
+        held: [T; 2],
     ) -> Result<(), DynamicsError<T>> {
         self.session.trial.chart = None;
         self.verify_choice(mechanism, chart, start, end)?;
@@ -241,7 +241,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         if seeks && changes != Some(0) {
             self.verify_crossing(mechanism, chart, &start.towards(end, part))?;
         }
-        self.verify_energy(mechanism, (start, end), sliding)?;
+        self.verify_energy(mechanism, (start, end), held)?;
         let Some(placed) = self.session.trial.placed.take() else {
             return Ok(());
         };
@@ -384,21 +384,24 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         }
     }
 
-    /// By how much the power of forces that a motion slides along differs, at both ends of a step,
-    /// from what the states say.
+    /// By how much the power of forces with their conditions held, as they are in a step, differs at
+    /// both of its ends from what the states say.
     #[inline(never)]
-    fn sliding_powers(
+    fn held_powers(
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
         ends: [&State<T, N>; 2],
     ) -> Result<[T; 2], DynamicsError<T>> {
         let mut more = [T::zero(); 2];
-        if self.conditions.decided.sliding != 0 {
-            for (more, state) in more.iter_mut().zip(ends) {
+        if self.conditions.decided.list.is_empty() {
+            return Ok(more);
+        }
+        for (more, state) in more.iter_mut().zip(ends) {
+            if self.conditions.decided.sliding != 0 {
                 // The weights of the forces are those of this state.
                 self.sliding_acceleration(mechanism, state)?;
-                *more = self.held_power(mechanism, state);
             }
+            *more = self.held_power(mechanism, state);
         }
         Ok(more)
     }
@@ -411,7 +414,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
         &mut self,
         mechanism: &dyn Mechanism<T, N, R>,
         (start, end): (&State<T, N>, &State<T, N>),
-        sliding: [T; 2],
+        held: [T; 2],
     ) -> Result<(), DynamicsError<T>> {
         // A law of time may stop at either end.
         let still = mechanism.structure().scleronomic;
@@ -422,7 +425,7 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             }
         }
         let (mut before, mut after) = (mechanism.energy(start), mechanism.energy(end));
-        (before.power, after.power) = (before.power + sliding[0], after.power + sliding[1]);
+        (before.power, after.power) = (before.power + held[0], after.power + held[1]);
         let half = (end.t - start.t) * T::from_f64(0.5);
         // By the trapezoidal rule, whose error is less than what the power changes by.
         let supplied = half * (before.power + after.power);
@@ -434,7 +437,9 @@ impl<T: Real, const N: usize, const R: usize> Core<T, N, R> {
             Some(tolerance) => tolerance * T::from_f64(ENERGY),
             None => T::from_f64(ENERGY_OF_FIXED),
         };
-        let round_off = T::from_f64(ENERGY_ROUND_OFF) * T::EPSILON * (before.balance.abs() + size);
+        // Forces that hold a body do work one against the other.
+        let terms = before.balance.abs() + size + half * (held[0].abs() + held[1].abs());
+        let round_off = T::from_f64(ENERGY_ROUND_OFF) * T::EPSILON * terms;
         let change = (after.balance - before.balance - supplied).abs();
         // False for NaN, too.
         let kept = change <= part * size + uncertainty + round_off;
