@@ -56,7 +56,7 @@ impl Graph {
         switches.known[&root]
     }
 
-    /// The same for one node whose children are done.
+    /// Makes what jumps or kinks in one node depend on switching functions, after its children.
     fn hold_node(&mut self, e: ExprId, switches: &mut Switches) -> ExprId {
         let of = |x: &ExprId| switches.known[x];
         let zero = self.integer(0);

@@ -15,8 +15,9 @@ use std::collections::BTreeMap;
 /// word: about what rustc takes ten seconds for.
 pub const SWELL: usize = 10_000;
 
-/// The same for each coordinate and each constraint equation: with fewer a mechanism is large,
-/// and what it is made of comes again as loops of the generated code.
+/// The most distinct expressions for each coordinate and each constraint equation that pass without
+/// a word: with fewer a mechanism is large, and what it is made of comes again as loops of the
+/// generated code.
 const SWELL_EACH: usize = 200;
 
 /// How many contributors are named.

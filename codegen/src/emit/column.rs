@@ -91,7 +91,8 @@ impl Columns {
         }
     }
 
-    /// The same of a definition outside of all loops, if one of them needs it there.
+    /// The array of a definition's column and its place there, if it stands outside of all loops
+    /// and one of them reads it from its column.
     pub fn array_outside(&self, number: usize) -> Option<(&Ident, usize)> {
         let read = self.read_in_turns[number];
         read.then(|| self.array(number)).flatten()

@@ -16,8 +16,8 @@ use rustc_hash::FxHashMap;
 /// asked for: those of a row of 40 parallelograms. Beyond, loops are faster on all processors, and
 /// from 3,000 on on those that are not allowed to fuse products with sums (`docs/instructions.md`).
 const UNROLLED: usize = 8_000;
-/// The same of a function that no step of a run calls: whether anyone does or not, compilers look
-/// at all of it.
+/// The most operations without loops of a function that no step of a run calls: whether anyone
+/// calls it or not, compilers look at all of it.
 const UNROLLED_ON_REQUEST: usize = 1_000;
 
 /// When a function is called.

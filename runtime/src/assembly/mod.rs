@@ -70,7 +70,7 @@ where
     consistent(&mechanism, start, t)
 }
 
-/// The same, whatever the mechanism is besides its sizes.
+/// Assembles any mechanism of these sizes: compiled once for all of them.
 fn consistent<T: Real, const N: usize, const R: usize>(
     mechanism: &dyn Mechanism<T, N, R>,
     start: &Start<T, N>,

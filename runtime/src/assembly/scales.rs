@@ -99,7 +99,7 @@ impl<'a, T: Real> Scales<'a, T> {
         }
     }
 
-    /// The same with what is held taken out of the unknowns.
+    /// These scales with what is held taken out of the unknowns.
     pub(super) fn hold(self, held: &[bool], workspace: &Workspace<'a, T>) -> Self {
         let columns = workspace.numbers(held.len());
         for (j, column) in columns.iter_mut().enumerate().filter(|(j, _)| !held[*j]) {
@@ -108,7 +108,7 @@ impl<'a, T: Real> Scales<'a, T> {
         Self { columns, ..self }
     }
 
-    /// The same without the velocity constraints.
+    /// These scales with the velocity constraints taken out of the rows.
     pub(super) fn leave_out_velocities(
         self,
         constraints: &[ConstraintRow],

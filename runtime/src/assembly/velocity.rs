@@ -138,7 +138,7 @@ struct Branches<'b, 'a, T> {
     equations: &'b mut dyn Equations<T>,
     position: (T, &'b [T]),
     measured: Scales<'a, T>,
-    /// The same, with what is held taken out.
+    /// The scales `measured` with what is held taken out of the unknowns.
     scales: Scales<'a, T>,
     /// What the velocities that aren't held can do.
     free: &'b mut Decomposition<'a, T>,

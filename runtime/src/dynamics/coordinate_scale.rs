@@ -20,8 +20,8 @@ const SCALE_STEP: f64 = 1.125;
 pub(crate) struct CoordinateScale<T> {
     /// The largest length of the coordinates so far: what their round-off is relative to.
     pub(crate) size: T,
-    /// The same where angles of many turns count as one turn: constraints change over a
-    /// distance of about this length.
+    /// The largest length of the coordinates so far, where angles of many turns count as one turn:
+    /// constraints change over a distance of about this length.
     pub(crate) range: T,
 }
 

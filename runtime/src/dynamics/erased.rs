@@ -25,7 +25,7 @@ pub(crate) trait Constrained<T: Real>: Equations<T> {
     fn factorise_mass(&mut self) -> bool;
     /// What is known of the metric and the rows.
     fn known(&self) -> Known<'_, T>;
-    /// The same, to be changed.
+    /// What is known of the metric and the rows, to be changed.
     fn learn(&mut self) -> Learning<'_, T>;
     /// How far a state, at which the metric is factorised, is off the sheet with this tangent
     /// space; `None` where that can't be told.

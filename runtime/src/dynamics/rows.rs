@@ -148,8 +148,9 @@ impl<T: Real, const R: usize> Rows<T, R> {
         (self.active_count == self.regular && self.regular > 0).then_some((self.active, count))
     }
 
-    /// The same, but of redundant rows those that are the most independent for a Jacobian, where
-    /// that can be told; by the factor of the metric.
+    /// An independent subset that spans all rows at regular positions, if one is known: of
+    /// redundant rows, those that are the most independent for a Jacobian, where that can be told
+    /// by the factor of the metric.
     pub(crate) fn most_independent(
         &self,
         factor: &[T],
@@ -183,7 +184,7 @@ impl<T: Real, const R: usize> Rows<T, R> {
         }
     }
 
-    /// The same over slices.
+    /// The rows over slices, to be changed.
     pub(crate) fn view(&mut self) -> RowsView<'_, T> {
         RowsView {
             size: &mut self.size,

@@ -41,7 +41,7 @@ type Kinds = &'static [Kind];
 const ANGLES: Kinds = &[Kind::Angle];
 /// Those that may be angles.
 const MAYBE_ANGLES: Kinds = &[Kind::Angle, Kind::Unknown];
-/// The same, and those of which a few belong together.
+/// Those that may be angles, and ratios, of which a few belong together.
 const MAYBE_ANGLES_AND_RATIOS: Kinds = &[Kind::Angle, Kind::Unknown, Kind::Ratio];
 /// All but ratios.
 const ANY: Kinds = &[Kind::Angle, Kind::Unknown, Kind::Length];

@@ -42,8 +42,9 @@ pub(crate) trait Motion<T> {
     fn noise(&self) -> T;
     /// Writes the values of switching functions at a time, as many as there is room for.
     fn values(&self, t: T, out: &mut Switches<'_, T>);
-    /// The same with their rates, with the conditions held as was decided. Without room, no
-    /// more than the weights of the conditions that are slid along.
+    /// Writes the values and the rates of switching functions at a time, with the conditions held
+    /// as was decided. Without room for them, only the weights of the conditions that are slid
+    /// along are found.
     fn rates(&mut self, t: T, values: &mut [Switch<T>]) -> Result<(), DynamicsError<T>>;
 }
 

@@ -36,7 +36,7 @@ pub struct Tolerance<T, const N: usize> {
     v: SVector<T, N>,
 }
 
-/// The same over slices.
+/// A [`Tolerance`] over slices.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scale<'a, T> {
     relative: T,
@@ -119,7 +119,7 @@ impl<T: Real, const N: usize> Tolerance<T, N> {
         self.scale().norm(error, (start.q, start.v), (end.q, end.v))
     }
 
-    /// The same over slices.
+    /// The tolerance over slices.
     pub(crate) fn scale(&self) -> Scale<'_, T> {
         Scale {
             relative: self.relative,
@@ -144,7 +144,7 @@ impl<T: Real> Scale<'_, T> {
         scale.mean(sum)
     }
 
-    /// The same for `n` coordinates, which all are, so that the compiler knows their number.
+    /// The scale of all `n` coordinates, in slices whose length the compiler sees to be `n`.
     #[inline(always)]
     pub(crate) fn first(&self, n: usize) -> Self {
         Self {

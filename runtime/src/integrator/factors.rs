@@ -40,7 +40,7 @@ impl<T: Real, const N: usize> FactorRoom<T, N> {
         }
     }
 
-    /// The same over slices, with room for two vectors for each complex eigenvalue.
+    /// The factors over slices, with room for two vectors for each complex eigenvalue.
     pub(super) fn factors<'a>(&'a mut self, across: &'a mut [Complex<T>]) -> Factors<'a, T> {
         Factors {
             real: self.real.as_flattened_mut(),

@@ -44,7 +44,8 @@ pub(super) struct Course<T> {
     pub(super) coefficients: Collocation<T>,
     /// What may be left of Newton's iteration, in units of the tolerance.
     pub(super) enough: T,
-    /// The same where nothing improves any more.
+    /// What may be left of Newton's iteration where it no longer improves, in units of the
+    /// tolerance.
     pub(super) tolerable: T,
     /// Whether there are derivatives.
     differentiated: bool,

@@ -148,7 +148,7 @@ pub(crate) fn lift_row<T: Real>(
     solve_upper(upper, lifted);
 }
 
-/// The same for some rows, one after the other, each multiplied by its scale.
+/// `U⁻¹aᵀ` for some rows `a` of a Jacobian, one after the other, each multiplied by its scale.
 pub(crate) fn lift_rows<T: Real>(
     upper: &[T],
     jacobian: &[T],

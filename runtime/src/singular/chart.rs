@@ -200,7 +200,7 @@ impl<T: Real, const N: usize, const R: usize> Chart<T, N, R> {
         &self.factors
     }
 
-    /// The same, to be changed.
+    /// What is known of its factors, to be changed.
     pub(crate) fn factors_mut(&mut self) -> &mut [Factor<T>; N] {
         &mut self.factors
     }

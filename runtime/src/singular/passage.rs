@@ -158,8 +158,8 @@ impl<T: Real> Sheet<'_, T> {
         }
     }
 
-    /// The same in the order of elimination of one position, which is compared with another;
-    /// `None` where that can't be eliminated so.
+    /// Searches between two positions in the order of elimination of the first; `None` where the
+    /// other can't be eliminated in it.
     fn search_in_order(
         &mut self,
         step: &Searched<'_, T>,

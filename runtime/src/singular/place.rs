@@ -223,7 +223,7 @@ impl<T: Real> Sheet<'_, T> {
         })
     }
 
-    /// The same along a direction.
+    /// Tries nodes along a direction.
     #[inline(never)]
     fn try_direction(
         &mut self,

@@ -69,7 +69,7 @@ impl<T: Real, const N: usize> Point<T, N> {
         smallest_sine(&self.met)
     }
 
-    /// The same over slices.
+    /// The point over slices, to be changed.
     pub(super) fn slices(&mut self) -> PointSlices<'_, T> {
         PointSlices {
             t: &mut self.state.t,

@@ -198,7 +198,7 @@ impl<'a, T: Real> Sheet<'a, T> {
         .map_err(|_| Obstacle::NotRegular)
     }
 
-    /// The same with all rows last that could turn within a step.
+    /// Eliminates the constraints at a position, with all rows last that could turn within a step.
     pub(super) fn eliminate_widely(&mut self, t: T, q: &[T]) -> Result<(), Obstacle> {
         self.load(t, q);
         let constraints = self.constraints();
@@ -352,7 +352,8 @@ impl<'a, T: Real> Sheet<'a, T> {
         self.project_from_here(t, q, like, shift)
     }
 
-    /// The same from one position to the sheet beside it, by way of a guess.
+    /// Moves a guess `q` onto the sheet as `project` does, and takes back what then leads there
+    /// from a position beside it along rows that restrict only velocities.
     pub(super) fn project_from(
         &mut self,
         from: &[T],
